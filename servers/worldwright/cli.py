@@ -1,0 +1,183 @@
+"""The command line: `worldwright <server> <verb> …`, and the few commands that span servers.
+
+A server's verbs are its tool functions. Only the group that is called is imported, so `--help` and a lint run start
+fast. Exit codes: 0 yes, 1 the answer is no (findings, refusal of a gate), 2 the call could not be answered.
+"""
+
+import inspect
+import json
+import sys
+import types
+import typing
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import click
+
+from . import expose
+from .model.errors import WorldwrightError
+
+COMMANDS = {
+    "build": ("worldwright.build", "Plan in, accepted world out: resolve, draft, lint, run, scan, review, stamp."),
+    "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
+    "doctor": ("worldwright.doctor", "Check Python, OpenGL, the sandbox and the servers; name a fix for each problem."),
+    "serve": ("worldwright.serve", "Run one MCP server over stdio or streamable HTTP."),
+}
+
+
+class Root(click.Group):
+    """Commands by name, imported when called."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """Every server and every spanning command."""
+        return [*COMMANDS, *expose.SERVERS]
+
+    def get_command(self, ctx: click.Context, name: str) -> click.Command | None:
+        """Import one command."""
+        if name in expose.SERVERS:
+            return Verbs(name)
+        if name in COMMANDS:
+            import importlib
+
+            return importlib.import_module(COMMANDS[name][0]).command
+        return None
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """List the commands without importing them."""
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, help_text) for name, (_, help_text) in COMMANDS.items()])
+        with formatter.section("Servers (each verb is also an MCP tool)"):
+            formatter.write_dl(list(expose.SERVERS.items()))
+
+    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+        """Name the known commands when an unknown one is typed."""
+        if args and args[0] not in self.list_commands(ctx) and not args[0].startswith("-"):
+            ctx.fail(f"there is no command '{args[0]}'; known: {', '.join(self.list_commands(ctx))}")
+        return super().resolve_command(ctx, args)
+
+
+class Verbs(click.Group):
+    """The verbs of one server."""
+
+    def __init__(self, server: str) -> None:
+        super().__init__(name=server, help=expose.SERVERS[server], no_args_is_help=True)
+        for function in expose.tools(server):
+            self.add_command(verb(function))
+
+
+def verb(function: Callable[..., Any]) -> click.Command:
+    """One tool function as a command."""
+    annotations = expose.hints(function)
+    listener = expose.progress_parameter(function)
+    parameters: list[click.Parameter] = []
+    for parameter in inspect.signature(function).parameters.values():
+        if parameter.name != listener:
+            parameters.append(_parameter(parameter, annotations[parameter.name]))
+    choices = click.Choice(["text", "json"])
+    parameters.append(click.Option(["--format", "_format"], type=choices, default="text", help="How to print."))
+
+    def run(_format: str, **values: Any) -> None:
+        arguments = {name: _value(annotations[name], value) for name, value in values.items() if value is not None}
+        result = report_errors(lambda: _call(function, arguments, listener is not None), _format)
+        show(result, _format)
+        sys.exit(expose.exit_code(result))
+
+    return click.Command(
+        function.__name__.replace("_", "-"), callback=run, params=parameters, help=expose.description(function)
+    )
+
+
+def _call(function: Callable[..., Any], arguments: dict[str, Any], listens: bool) -> Any:
+    if not (listens and sys.stderr.isatty()):
+        return expose.call(function, arguments)
+    from .report.progress import bar
+
+    with bar() as progress:
+        return expose.call(function, arguments, progress)
+
+
+def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
+    """Run `action`; a `WorldwrightError` is printed with its cause, place and next move, and ends with status 2."""
+    try:
+        return action()
+    except WorldwrightError as error:
+        if style == "json":
+            click.echo(json.dumps(error.to_dict(), ensure_ascii=False, indent=2))
+        else:
+            for finding in getattr(error, "findings", ()):
+                click.echo(str(finding), err=True)
+            click.echo(f"{error.code}: {error}", err=True)
+        sys.exit(2)
+    except KeyboardInterrupt:
+        click.echo("interrupted; what was finished is kept", err=True)
+        sys.exit(130)
+
+
+def show(result: Any, style: str) -> None:
+    """Print a result: JSON, or the model's own `text()` when it has one; pictures are written to files."""
+    if style == "json":
+        click.echo(expose.to_json(result))
+        return
+    data = getattr(result, "data", result)
+    click.echo(data.text() if hasattr(data, "text") else expose.to_json(data))
+
+
+def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter:
+    kind, help_text = _unwrap(annotation)
+    many = typing.get_origin(kind) in (list, tuple)
+    item = typing.get_args(kind)[0] if many else kind
+    required = parameter.default is inspect.Parameter.empty
+    default = None if required else parameter.default
+    if required:
+        return click.Argument([parameter.name], type=_click_type(item), nargs=-1 if many else 1, required=True)
+    flag = "--" + parameter.name.replace("_", "-")
+    if item is bool:
+        return click.Option([f"{flag}/--no-{flag[2:]}", parameter.name], default=default, help=help_text)
+    names = [flag, parameter.name] + (["-k"] if parameter.name == "k" else [])
+    if parameter.name == "k":
+        names = ["-k", "k"]
+    return click.Option(
+        names, type=_click_type(item), multiple=many, default=default, help=help_text, show_default=default is not None
+    )
+
+
+def _unwrap(annotation: Any) -> tuple[Any, str]:
+    """Strip `Annotated` and `| None`; returns the bare type and the field's description."""
+    help_text = ""
+    if typing.get_origin(annotation) is typing.Annotated:
+        annotation, *metadata = typing.get_args(annotation)
+        help_text = next((m.description or "" for m in metadata if hasattr(m, "description")), "")
+    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
+        annotation = next(a for a in typing.get_args(annotation) if a is not type(None))
+    return annotation, help_text
+
+
+def _click_type(kind: Any) -> click.ParamType:
+    if typing.get_origin(kind) is typing.Literal:
+        return click.Choice([str(value) for value in typing.get_args(kind)])
+    if kind is Path:
+        return click.Path(path_type=Path)
+    return {int: click.INT, float: click.FLOAT, bool: click.BOOL}.get(kind, click.STRING)
+
+
+def _value(annotation: Any, value: Any) -> Any:
+    """Turn what click parsed into what the function takes; models arrive as JSON text or as @file."""
+    from pydantic import TypeAdapter, ValidationError
+
+    kind, _ = _unwrap(annotation)
+    origin = typing.get_origin(kind)
+    structured = origin is dict or (inspect.isclass(kind) and issubclass(kind, expose.BaseModel))
+    if structured and isinstance(value, str):
+        try:
+            text = Path(value[1:]).read_text(encoding="utf-8") if value.startswith("@") else value
+            return TypeAdapter(kind).validate_json(text)
+        except (OSError, ValidationError) as cause:
+            raise click.BadParameter(f"{cause} (give JSON, or @file.json)") from cause
+    return list(value) if origin in (list, tuple) else value
+
+
+@click.group(cls=Root, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(package_name="worldwright")
+def main() -> None:
+    """Turn a sentence into a physically grounded, executable world."""

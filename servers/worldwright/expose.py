@@ -1,0 +1,169 @@
+"""One typed function becomes one MCP tool and one command-line verb.
+
+A server is a package `worldwright.<name>` whose `tools.py` lists its public functions in `TOOLS`. A function takes
+typed arguments (`Annotated[Path, Field(description=…)]`; a pydantic model arrives as JSON), may take a `Progress`, and
+returns a pydantic model, or `Illustrated` when it shows pictures. Failures are `WorldwrightError`s. Nothing here knows
+what any server does.
+
+Pictures are sent as a list of text and images without structured content: that is the one shape which every coding
+harness passes on to its model.
+"""
+
+import functools
+import importlib
+import inspect
+import os
+import sys
+import typing
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from pydantic import BaseModel
+
+from .model.errors import WorldwrightError
+from .model.picture import Illustrated
+from .model.progress import Progress, silent
+
+if TYPE_CHECKING:
+    from mcp.server import MCPServer
+
+SERVERS = {
+    "retrieve": "What do the installed simulator, its manual and the catalog say about this?",
+    "lint": "May this plan be committed; may this program run?",
+    "place": "Where does everything go, and why?",
+    "stage": "Run it: physics, stills, video.",
+    "scan": "Is the motion plausible, and does it do what the plan claims?",
+    "stamp": "What has been proven so far, and is it enough?",
+}
+
+
+def tools(server: str) -> tuple[Callable[..., Any], ...]:
+    """The public functions of a server, imported when asked for."""
+    return importlib.import_module(f"worldwright.{server}.tools").TOOLS
+
+
+def hints(function: Callable[..., Any]) -> dict[str, Any]:
+    """A function's annotations with their metadata."""
+    return typing.get_type_hints(function, include_extras=True)
+
+
+def progress_parameter(function: Callable[..., Any]) -> str | None:
+    """The name of the parameter that takes a `Progress`, if any."""
+    return next((name for name, kind in hints(function).items() if kind is Progress), None)
+
+
+def build_server(name: str) -> "MCPServer":
+    """An MCP server with one tool per function of `worldwright.<name>.tools`."""
+    from mcp.server import MCPServer
+    from mcp_types import ToolAnnotations
+
+    from . import __version__
+
+    server = MCPServer(f"worldwright-{name}", instructions=SERVERS[name], version=__version__, log_level="WARNING")
+    for function in tools(name):
+        read_only = bool(getattr(function, "read_only", False))
+        server.add_tool(
+            _as_tool(function),
+            name=function.__name__,
+            description=description(function),
+            annotations=ToolAnnotations(read_only_hint=read_only, open_world_hint=False, destructive_hint=False),
+        )
+    return server
+
+
+def reads(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Mark a tool that changes nothing, so that clients may call it without asking."""
+    function.read_only = True  # type: ignore[attr-defined]
+    return function
+
+
+def description(function: Callable[..., Any]) -> str:
+    """What an agent reads about a tool: its docstring, unwrapped."""
+    return inspect.cleandoc(function.__doc__ or "").strip()
+
+
+def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Wrap a plain function for MCP: progress in, pictures and errors out."""
+    from anyio import from_thread
+    from mcp.server.mcpserver import Context, Image
+    from mcp.server.mcpserver.exceptions import ToolError
+
+    listener = progress_parameter(function)
+    shows = hints(function).get("return") is Illustrated
+
+    @functools.wraps(function)
+    def tool(*args: Any, ctx: Context, **kwargs: Any) -> Any:
+        if listener:
+            kwargs[listener] = functools.partial(_report, from_thread, ctx)
+        try:
+            result = function(*args, **kwargs)
+        except WorldwrightError as error:
+            raise ToolError(_error_text(error)) from error
+        except Exception as error:  # a defect of ours must not look like an answer, nor end the server
+            raise ToolError(f"internal error in {function.__name__}: {type(error).__name__}: {error}") from error
+        if isinstance(result, Illustrated):
+            content: list[Any] = [result.data.model_dump_json(exclude_defaults=True)]
+            for picture in result.pictures:
+                content += [picture.caption, Image(data=picture.data, format=picture.format)]
+            return content
+        return result
+
+    signature = inspect.signature(function)
+    parameters = [p for p in signature.parameters.values() if p.name != listener]
+    context = inspect.Parameter("ctx", inspect.Parameter.KEYWORD_ONLY, annotation=Context)
+    annotations = {k: v for k, v in hints(function).items() if k != listener}
+    if shows:
+        annotations["return"] = list[str | Image]
+    annotations["ctx"] = Context
+    tool.__annotations__ = annotations
+    tool.__signature__ = signature.replace(  # type: ignore[attr-defined]
+        parameters=[*(p.replace(annotation=annotations[p.name]) for p in parameters), context],
+        return_annotation=annotations.get("return", inspect.Signature.empty),
+    )
+    del tool.__wrapped__  # or the SDK would read the original signature
+    return tool
+
+
+def _report(from_thread: Any, ctx: Any, done: float, total: float, message: str = "") -> None:
+    try:
+        from_thread.run(ctx.report_progress, done, total or None, message or None)
+    except Exception:  # a client that stopped listening must not stop the work
+        return
+
+
+def _error_text(error: WorldwrightError) -> str:
+    import json
+
+    return json.dumps(error.to_dict(), ensure_ascii=False)
+
+
+def serve(name: str, transport: str = "stdio", host: str = "127.0.0.1", port: int = 8000) -> None:
+    """Run one server until its client leaves."""
+    server = build_server(name)
+    if transport == "http":
+        server.run("streamable-http", host=host, port=port)
+        return
+    # Engines below us print to the process's standard output, which here is the protocol's wire: keep a private copy
+    # of the wire and let every stray print land on standard error.
+    wire = os.dup(1)
+    os.dup2(2, 1)
+    sys.stdout = os.fdopen(wire, "w", encoding="utf-8", buffering=1)
+    server.run("stdio")
+
+
+def call(function: Callable[..., Any], arguments: dict[str, Any], progress: Progress = silent) -> Any:
+    """Call a tool function as the command line does."""
+    listener = progress_parameter(function)
+    return function(**arguments, **({listener: progress} if listener else {}))
+
+
+def exit_code(result: Any) -> int:
+    """0 when the answer is yes: a result with `ok` false is 1."""
+    data = result.data if isinstance(result, Illustrated) else result
+    return 0 if getattr(data, "ok", True) else 1
+
+
+def to_json(result: Any) -> str:
+    """A result as JSON text."""
+    data = result.data if isinstance(result, Illustrated) else result
+    return data.model_dump_json(indent=2) if isinstance(data, BaseModel) else str(data)

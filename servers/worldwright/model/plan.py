@@ -1,0 +1,379 @@
+"""The committed plan: thirteen sections, the single source of truth of a run.
+
+Every number has one owner: sizes live in `scene_objects[].size` and `asset_dimensions`, poses are resolved from
+`topology.scene_predicates` and `geometry_relations`, physical constants live in `simulation_parameters`.
+
+Frame: z up, +X front, +Y left, metres, kilograms, seconds, degrees. Sizes are full extents, positions are centres of
+the axis-aligned bounding box. Source: the reference paper's appendix "Plan Format" and "Scene Coordinate System".
+"""
+
+from collections.abc import Iterator
+from enum import StrEnum
+from typing import Any, Literal
+
+from pydantic import Field, field_validator
+
+from .frozen import Frozen
+
+Vec3 = tuple[float, float, float]
+TO_CLARIFY = "TO_CLARIFY"
+Unresolved = Literal["TO_CLARIFY"]
+
+SECTIONS = (
+    "plan_type",
+    "simulation_parameters",
+    "objectives",
+    "implementation_steps",
+    "scene_objects",
+    "assets",
+    "asset_dimensions",
+    "layout_density",
+    "topology",
+    "visualization",
+    "recording_mode",
+    "clarifications_needed",
+    "geometry_relations",
+)
+
+
+class PlanType(StrEnum):
+    """The four kinds of plan."""
+
+    SCENE = "scene"
+    MBS = "mbs"
+    MBS_IN_SCENE = "mbs_in_scene"
+    FSI_IN_SCENE = "fsi_in_scene"
+
+
+class SurfaceConstants(Frozen):
+    """Physical constants of one material, referred to by objects as `material`."""
+
+    density: float | None = Field(None, gt=0)
+    """kg/m^3."""
+    friction: float = Field(0.5, ge=0)
+    """Sliding friction coefficient, unitless."""
+    torsional_friction: float = Field(0.005, ge=0)
+    """Metres (MuJoCo's convention: a coefficient times a contact radius)."""
+    rolling_friction: float = Field(0.0001, ge=0)
+    """Metres."""
+    restitution: float | None = Field(None, ge=0, le=1)
+    """Ratio of rebound to impact speed along the normal; None: the engine's default (nearly dead) contact."""
+    source: str = ""
+    """Where the constants come from."""
+
+
+class InitialMotion(Frozen):
+    """Velocity of a free body, or of a joint, at t = 0, in the world frame."""
+
+    linear: Vec3 = (0.0, 0.0, 0.0)
+    """m/s."""
+    angular: Vec3 = (0.0, 0.0, 0.0)
+    """rad/s."""
+    joint_position: float | None = None
+    """Starting coordinate of a hinge (degrees) or slide (m), when the name is a joint's."""
+    joint_velocity: float | None = None
+    """Starting speed of a hinge (rad/s) or slide (m/s)."""
+
+
+class Constant(Frozen):
+    """A named physical constant with its unit and source."""
+
+    value: float | tuple[float, ...]
+    unit: str
+    source: str
+
+
+class Intervention(Frozen):
+    """Something the plan means to do to the state besides the engine's own step."""
+
+    kind: Literal["force", "torque", "control", "pose", "velocity", "mocap", "constraint", "parameter", "solver"]
+    bodies: tuple[str, ...]
+    law: str
+    """The law in words or a formula."""
+    trigger: str = "always"
+    source: str
+    """Where its constants come from."""
+
+
+class SimulationParameters(Frozen):
+    """Section `simulation_parameters`: user-owned numbers and all physical constants."""
+
+    time_step: float | Unresolved
+    """s. User-owned, never silently defaulted."""
+    simulation_duration: float | Unresolved
+    """s. User-owned, never silently defaulted."""
+    gravity: float | Vec3 = -9.81
+    """m/s^2: a float is the acceleration along +z."""
+    integrator: Literal["euler", "implicit", "implicitfast", "rk4", "discrete"] = "implicitfast"
+    seed: int = 0
+    materials: dict[str, SurfaceConstants] = {}
+    masses: dict[str, float] = {}
+    """kg, by object name; overrides a material's density."""
+    initial_motion: dict[str, InitialMotion] = {}
+    """By object (free bodies) or joint name."""
+    constants: dict[str, Constant] = {}
+    interventions: tuple[Intervention, ...] = ()
+    inferred: tuple[str, ...] = ()
+    """Dotted names of values that the planner chose conservatively, for the user to audit."""
+
+    @field_validator("time_step", "simulation_duration")
+    @classmethod
+    def _positive(cls, value: float | str) -> float | str:
+        if not isinstance(value, str) and not 0 < value < float("inf"):
+            raise ValueError(f"must be a positive, finite number of seconds, got {value}")
+        return value
+
+    @property
+    def gravity_vector(self) -> Vec3:
+        """Gravity as a world-frame vector, m/s^2."""
+        return self.gravity if isinstance(self.gravity, tuple) else (0.0, 0.0, self.gravity)
+
+
+class Objective(Frozen):
+    """One claim about the world, with the measurements that would prove it."""
+
+    claim: str
+    expect: tuple[dict[str, Any], ...] = ()
+    """Expectations over recorded state: each a mapping with one key, the expectation's name, and its arguments."""
+    visual_only: str | None = None
+    """Why the claim cannot be measured, when it cannot."""
+
+
+class CameraRow(Frozen):
+    """A camera: a named view of its subjects, or an explicit position and target."""
+
+    name: str
+    view: str | None = None
+    """A camera template, e.g. `perspective`, `side_minus_y`, `top_down`."""
+    subjects: tuple[str, ...] = ()
+    """Objects to frame; empty: everything that moves."""
+    position: Vec3 | None = None
+    target: Vec3 | None = None
+    fovy: float = Field(40.0, gt=1, lt=170)
+    """Vertical field of view, degrees."""
+    follow: bool = False
+    """Keep the subjects centred as they move, instead of framing all the space they cross."""
+
+
+class Step(Frozen):
+    """One implementation step."""
+
+    description: str
+    assets: tuple[str, ...] = ()
+    scene_objects: tuple[str, ...] = ()
+    cameras: tuple[CameraRow | str, ...] = ()
+    """Cameras to review the step by; a plain string is a view template and names the camera too."""
+    motion_expectations: tuple[str, ...] = ()
+    """Objects that are expected to move."""
+
+
+Primitive = Literal["box", "sphere", "cylinder", "capsule", "ellipsoid", "plane", "box_container"]
+
+
+class SceneObject(Frozen):
+    """A procedural primitive or a generated boundary."""
+
+    name: str
+    role: str = ""
+    construction_source: Literal["procedural_primitive", "generated_boundary"] = "procedural_primitive"
+    primitive: Primitive
+    size: Vec3
+    """Full extents in metres along the object's own x, y, z (never half extents)."""
+    wall_thickness: float | None = Field(None, gt=0)
+    """Metres, for `box_container` only."""
+    fixed: bool = False
+    dynamic: bool = True
+    material: str | None = None
+    """Key into `simulation_parameters.materials`."""
+    look: str | None = None
+    """Name of a worldkit look, e.g. `wood_oak`; or `#rrggbb`."""
+    visual_only: str | None = None
+    """Why the object is drawn without being simulated, when it is."""
+    description: str = ""
+
+    @field_validator("size")
+    @classmethod
+    def _positive(cls, value: Vec3) -> Vec3:
+        if not all(0 < extent < float("inf") for extent in value):
+            raise ValueError(f"every extent must be a positive, finite number of metres, got {value}")
+        return value
+
+
+class AssetRow(Frozen):
+    """A catalog mesh or a simulator-native wrapper, `count` times."""
+
+    name: str
+    type: Literal["mesh", "mjcf", "urdf", "wrapper"] = "mesh"
+    filename: str
+    """The exact catalog key."""
+    count: int = Field(1, ge=1)
+    fixed: bool = False
+    is_dynamic: bool = True
+    material: str | None = None
+    """Key into `simulation_parameters.materials`; None: the catalog's own constants."""
+    look: str | None = None
+
+    @property
+    def instances(self) -> tuple[str, ...]:
+        """Object names: `name` alone, or `name_1` … `name_N`."""
+        return (self.name,) if self.count == 1 else tuple(f"{self.name}_{i + 1}" for i in range(self.count))
+
+
+class Position(Frozen):
+    """World-frame centre, metres."""
+
+    x: float
+    y: float
+    z: float
+
+    @property
+    def vector(self) -> Vec3:
+        """The centre as a tuple."""
+        return (self.x, self.y, self.z)
+
+
+class Orientation(Frozen):
+    """Yaw about world z, degrees counter-clockwise from +X."""
+
+    deg_z: float
+
+
+class PredicateRow(Frozen):
+    """One symbolic placement and the numeric pose it resolved to."""
+
+    subject: str
+    predicate: str
+    object: str | None = None
+    params: dict[str, Any] = {}
+    position: Position | Unresolved | None = None
+    """The subject's final centre; written by the resolver."""
+    orientation: Orientation | Unresolved | None = None
+    provenance: str | None = None
+    """The formula this row contributed, with its numbers; written by the resolver."""
+    description: str = ""
+
+
+class Joint(Frozen):
+    """A joint between two bodies (multibody plans)."""
+
+    name: str
+    type: Literal["hinge", "slide", "ball", "weld"]
+    parent: str = "world"
+    child: str
+    anchor: Vec3 | None = None
+    """World-frame metres; None: the child's centre."""
+    axis: Vec3 = (0.0, 0.0, 1.0)
+    """World-frame direction at the initial pose."""
+    range: tuple[float, float] | None = None
+    """Degrees for a hinge, metres for a slide."""
+    stiffness: float = Field(0.0, ge=0)
+    """N·m/rad or N/m."""
+    damping: float = Field(0.0, ge=0)
+    """N·m·s/rad or N·s/m."""
+    frictionloss: float = Field(0.0, ge=0)
+    """N·m or N."""
+    spring_rest: float = 0.0
+    """Degrees or metres."""
+
+
+class Topology(Frozen):
+    """Section `topology`: the frame, the joints and the placement rows."""
+
+    gravity_axis: Literal["-z"] = "-z"
+    working_plane: Literal["xy"] = "xy"
+    orientation_convention: Literal["z_up_native"] = "z_up_native"
+    reference_heights: tuple[float, ...] | dict[str, float] = ()
+    """Shared z layers, metres."""
+    body_positions: dict[str, Position | Unresolved] = {}
+    """Absolute centres (pure multibody plans)."""
+    joints: tuple[Joint, ...] = ()
+    scene_predicates: tuple[PredicateRow, ...] = ()
+
+
+class Visualization(Frozen):
+    """Section `visualization`: how the world is shown."""
+
+    mode: Literal["headless", "viewer"] = "headless"
+    setting: Literal["studio", "room", "outdoor", "dark"] = "studio"
+    """The sky, floor and light around the world."""
+    floor: str | None = None
+    """Look of the ground, e.g. `wood_planks`; None: the setting's own."""
+
+
+class RecordingMode(Frozen):
+    """Section `recording_mode`: what is filmed."""
+
+    mode: Literal["cameras", "none"] = "cameras"
+    fps: int = Field(24, ge=1, le=240)
+    size: tuple[int, int] = (1280, 720)
+    """Width and height in pixels, both even."""
+
+    @field_validator("size")
+    @classmethod
+    def _even(cls, value: tuple[int, int]) -> tuple[int, int]:
+        if not all(16 <= side <= 4096 and side % 2 == 0 for side in value):
+            raise ValueError(f"width and height must be even and between 16 and 4096 pixels, got {value}")
+        return value
+
+
+class RelationRow(Frozen):
+    """A named relation pattern binding a body (or a camera) to a reference."""
+
+    relation_name: str
+    body_a: str
+    body_b: str | None = None
+    parameters: dict[str, Any] | Unresolved = {}
+
+
+class Plan(Frozen):
+    """All thirteen sections."""
+
+    title: str = ""
+    """The document's level-one heading."""
+    plan_type: PlanType
+    simulation_parameters: SimulationParameters
+    objectives: tuple[Objective, ...] = Field(min_length=1)
+    implementation_steps: tuple[Step, ...] = ()
+    scene_objects: tuple[SceneObject, ...] = ()
+    assets: tuple[AssetRow, ...] = ()
+    asset_dimensions: dict[str, float] = {}
+    """Real-world height in metres by asset row name: the single source of metric scale."""
+    layout_density: dict[str, Any] = {}
+    topology: Topology = Topology()
+    visualization: Visualization = Visualization()
+    recording_mode: RecordingMode = RecordingMode()
+    clarifications_needed: tuple[str, ...] = ()
+    geometry_relations: tuple[RelationRow, ...] = ()
+
+    def object_names(self) -> tuple[str, ...]:
+        """Every placed thing: scene objects, then asset instances, in plan order."""
+        return tuple(o.name for o in self.scene_objects) + tuple(n for a in self.assets for n in a.instances)
+
+    def cameras(self) -> tuple[CameraRow, ...]:
+        """Every camera of every step, once, in plan order."""
+        seen: dict[str, CameraRow] = {}
+        for step in self.implementation_steps:
+            for camera in step.cameras:
+                row = CameraRow(name=camera, view=camera) if isinstance(camera, str) else camera
+                seen.setdefault(row.name, row)
+        return tuple(seen.values())
+
+    def movers(self) -> tuple[str, ...]:
+        """Objects that some step expects to move."""
+        return tuple(dict.fromkeys(n for step in self.implementation_steps for n in step.motion_expectations))
+
+    def unresolved(self) -> Iterator[str]:
+        """Everything still marked TO_CLARIFY, and every open clarification: each blocks code."""
+        yield from (f"clarifications_needed: {text}" for text in self.clarifications_needed)
+        for name in ("time_step", "simulation_duration"):
+            if getattr(self.simulation_parameters, name) == TO_CLARIFY:
+                yield f"simulation_parameters.{name}"
+        for body, position in self.topology.body_positions.items():
+            if position == TO_CLARIFY:
+                yield f"topology.body_positions.{body}"
+        for row in self.topology.scene_predicates:
+            if TO_CLARIFY in (row.position, row.orientation):
+                yield f"topology.scene_predicates: {row.subject} {row.predicate}"
+        for relation in self.geometry_relations:
+            if relation.parameters == TO_CLARIFY:
+                yield f"geometry_relations: {relation.relation_name} {relation.body_a}"

@@ -1,0 +1,13 @@
+"""How long work says how far it is, whatever transport listens."""
+
+from typing import Protocol
+
+
+class Progress(Protocol):
+    """Called with the amount done, the total (0 when unknown) and a short message."""
+
+    def __call__(self, done: float, total: float, message: str = "") -> None: ...
+
+
+def silent(done: float, total: float, message: str = "") -> None:
+    """Nobody is listening."""

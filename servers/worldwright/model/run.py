@@ -1,0 +1,145 @@
+"""The run folder: where a run's files live. State is derived from these files, never stored beside them."""
+
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from worldkit.files import write_json
+
+from .errors import NotFoundError
+from .evidence import EvidenceKey
+
+
+class Run:
+    """Paths, evidence keys and the journal of one run folder."""
+
+    def __init__(self, folder: Path | str) -> None:
+        self.folder = Path(folder).resolve()
+
+    @classmethod
+    def find(cls, name: Path | str) -> "Run":
+        """The run at a path (the folder, or its plan.md), or named under ./runs or ./examples."""
+        path = Path(name)
+        if path.name == "plan.md":
+            path = path.parent
+        for candidate in (path, Path("runs") / path, Path("examples") / path):
+            if (candidate / "plan.md").is_file():
+                return cls(candidate)
+        known = sorted(str(p.parent) for root in ("runs", "examples") for p in Path(root).glob("*/plan.md"))
+        raise NotFoundError(
+            f"there is no run '{name}' (a run is a folder with a plan.md)",
+            place=str(path),
+            next_move=f"name one of: {', '.join(known) or '(none yet)'}, or write {path}/plan.md",
+        )
+
+    def __repr__(self) -> str:
+        return f"Run({str(self.folder)!r})"
+
+    @property
+    def name(self) -> str:
+        """The run's slug."""
+        return self.folder.name
+
+    @property
+    def prompt(self) -> Path:
+        """What the user asked."""
+        return self.folder / "prompt.md"
+
+    @property
+    def plan(self) -> Path:
+        """The thirteen sections."""
+        return self.folder / "plan.md"
+
+    @property
+    def program(self) -> Path:
+        """The one program."""
+        return self.folder / "simulation.py"
+
+    @property
+    def journal(self) -> Path:
+        """Append-only: who did what, on which hashes."""
+        return self.folder / "journal.jsonl"
+
+    @property
+    def jobs(self) -> Path:
+        """Running and failed jobs, one folder each."""
+        return self.folder / "jobs"
+
+    @property
+    def accepted(self) -> Path:
+        """The stamped ending."""
+        return self.folder / "accepted"
+
+    @property
+    def blocked(self) -> Path:
+        """The other ending."""
+        return self.folder / "blocked.json"
+
+    @property
+    def report(self) -> Path:
+        """Everything, for eyes."""
+        return self.folder / "report.html"
+
+    def evidence(self, key: EvidenceKey | str) -> Path:
+        """The folder of evidence for one key."""
+        return self.folder / "evidence" / (key if isinstance(key, str) else key.key)
+
+    def evidence_key(self, environment_sha256: str) -> EvidenceKey:
+        """The key of the program and plan as they stand now (missing files are a `NotFoundError`)."""
+        for path, remedy in (
+            (self.plan, "write the plan first"),
+            (self.program, f"worldwright build {self.plan}"),
+        ):
+            if not path.is_file():
+                raise NotFoundError(f"there is no {path.name} in this run", place=str(path), next_move=remedy)
+        return EvidenceKey(
+            program_sha256=sha256_file(self.program),
+            plan_sha256=sha256_file(self.plan),
+            environment_sha256=environment_sha256,
+        )
+
+    def keep(self, key: EvidenceKey, name: str, report: Any) -> Path:
+        """Atomically store a report model as `evidence/<key>/<name>.json` (and `key.json` beside it)."""
+        folder = self.evidence(key)
+        write_json(folder / "key.json", key.model_dump(mode="json"))
+        path = folder / f"{name}.json"
+        write_json(path, report.model_dump(mode="json"))
+        return path
+
+    def log(self, actor: str, action: str, **facts: Any) -> None:
+        """Append one line to the journal (a single write, so concurrent writers do not mix)."""
+        entry = {
+            "time": datetime.now(UTC).isoformat(timespec="milliseconds"),
+            "actor": actor,
+            "action": action,
+            **facts,
+        }
+        line = (json.dumps(entry, ensure_ascii=False, default=str) + "\n").encode()
+        self.folder.mkdir(parents=True, exist_ok=True)
+        handle = os.open(self.journal, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
+        try:
+            os.write(handle, line)
+        finally:
+            os.close(handle)
+
+    def entries(self) -> Iterator[dict[str, Any]]:
+        """The journal, oldest first; a line torn by a crash is skipped."""
+        if not self.journal.is_file():
+            return
+        for line in self.journal.read_text(encoding="utf-8", errors="replace").splitlines():
+            try:
+                entry = json.loads(line)
+            except json.JSONDecodeError:
+                continue
+            if isinstance(entry, dict):
+                yield entry
+
+
+def sha256_file(path: Path | str) -> str:
+    """SHA-256 of a file's bytes, hexadecimal."""
+    with Path(path).open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

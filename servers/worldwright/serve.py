@@ -1,0 +1,15 @@
+"""`worldwright serve NAME`: one MCP server over stdio, or over streamable HTTP on the loopback interface."""
+
+import click
+
+from . import expose
+
+
+@click.command("serve")
+@click.argument("name", type=click.Choice(list(expose.SERVERS)))
+@click.option("--transport", type=click.Choice(["stdio", "http"]), default="stdio", show_default=True)
+@click.option("--host", default="127.0.0.1", show_default=True, help="Interface to bind (http).")
+@click.option("--port", type=int, default=8000, show_default=True, help="Port to bind (http).")
+def command(name: str, transport: str, host: str, port: int) -> None:
+    """Run one MCP server over stdio or streamable HTTP."""
+    expose.serve(name, transport, host, port)
