@@ -19,9 +19,15 @@ from . import expose
 from .model.errors import WorldwrightError
 
 COMMANDS = {
-    "build": ("worldwright.build", "Plan in, accepted world out: resolve, draft, lint, run, scan, review, stamp."),
+    "build": (
+        "worldwright.build",
+        "Plan in, accepted world out: resolve, draft, lint, run, scan, review, stamp.",
+    ),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
-    "doctor": ("worldwright.doctor", "Check Python, OpenGL, the sandbox and the servers; name a fix for each problem."),
+    "doctor": (
+        "worldwright.doctor",
+        "Check Python, OpenGL, the sandbox and the servers; name a fix for each problem.",
+    ),
     "serve": ("worldwright.serve", "Run one MCP server over stdio or streamable HTTP."),
 }
 
@@ -50,7 +56,9 @@ class Root(click.Group):
         with formatter.section("Servers (each verb is also an MCP tool)"):
             formatter.write_dl(list(expose.SERVERS.items()))
 
-    def resolve_command(self, ctx: click.Context, args: list[str]) -> tuple[str | None, click.Command | None, list[str]]:
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
         """Name the known commands when an unknown one is typed."""
         if args and args[0] not in self.list_commands(ctx) and not args[0].startswith("-"):
             ctx.fail(f"there is no command '{args[0]}'; known: {', '.join(self.list_commands(ctx))}")
@@ -70,10 +78,11 @@ def verb(function: Callable[..., Any]) -> click.Command:
     """One tool function as a command."""
     annotations = expose.hints(function)
     listener = expose.progress_parameter(function)
-    parameters: list[click.Parameter] = []
-    for parameter in inspect.signature(function).parameters.values():
-        if parameter.name != listener:
-            parameters.append(_parameter(parameter, annotations[parameter.name]))
+    parameters = [
+        _parameter(parameter, annotations[parameter.name])
+        for parameter in inspect.signature(function).parameters.values()
+        if parameter.name != listener
+    ]
     choices = click.Choice(["text", "json"])
     parameters.append(click.Option(["--format", "_format"], type=choices, default="text", help="How to print."))
 
@@ -84,7 +93,10 @@ def verb(function: Callable[..., Any]) -> click.Command:
         sys.exit(expose.exit_code(result))
 
     return click.Command(
-        function.__name__.replace("_", "-"), callback=run, params=parameters, help=expose.description(function)
+        function.__name__.replace("_", "-"),
+        callback=run,
+        params=parameters,
+        help=expose.description(function),
     )
 
 
@@ -131,14 +143,17 @@ def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter
     default = None if required else parameter.default
     if required:
         return click.Argument([parameter.name], type=_click_type(item), nargs=-1 if many else 1, required=True)
-    flag = "--" + parameter.name.replace("_", "-")
+    flag = ("--" if len(parameter.name) > 1 else "-") + parameter.name.replace("_", "-")
     if item is bool:
         return click.Option([f"{flag}/--no-{flag[2:]}", parameter.name], default=default, help=help_text)
-    names = [flag, parameter.name] + (["-k"] if parameter.name == "k" else [])
-    if parameter.name == "k":
-        names = ["-k", "k"]
+    names = [flag, parameter.name]
     return click.Option(
-        names, type=_click_type(item), multiple=many, default=default, help=help_text, show_default=default is not None
+        names,
+        type=_click_type(item),
+        multiple=many,
+        default=default,
+        help=help_text,
+        show_default=default is not None,
     )
 
 
@@ -153,7 +168,7 @@ def _unwrap(annotation: Any) -> tuple[Any, str]:
     return annotation, help_text
 
 
-def _click_type(kind: Any) -> click.ParamType:
+def _click_type(kind: Any) -> Any:
     if typing.get_origin(kind) is typing.Literal:
         return click.Choice([str(value) for value in typing.get_args(kind)])
     if kind is Path:
@@ -181,3 +196,7 @@ def _value(annotation: Any, value: Any) -> Any:
 @click.version_option(package_name="worldwright")
 def main() -> None:
     """Turn a sentence into a physically grounded, executable world."""
+
+
+if __name__ == "__main__":
+    main()

@@ -12,6 +12,7 @@ harness passes on to its model.
 import functools
 import importlib
 import inspect
+import logging
 import os
 import sys
 import typing
@@ -86,7 +87,6 @@ def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
     """Wrap a plain function for MCP: progress in, pictures and errors out."""
     from anyio import from_thread
     from mcp.server.mcpserver import Context, Image
-    from mcp.server.mcpserver.exceptions import ToolError
 
     listener = progress_parameter(function)
     shows = hints(function).get("return") is Illustrated
@@ -98,9 +98,10 @@ def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
         try:
             result = function(*args, **kwargs)
         except WorldwrightError as error:
-            raise ToolError(_error_text(error)) from error
+            return _refusal(error)
         except Exception as error:  # a defect of ours must not look like an answer, nor end the server
-            raise ToolError(f"internal error in {function.__name__}: {type(error).__name__}: {error}") from error
+            logging.getLogger(__name__).exception("%s failed", function.__name__)
+            return _refusal(_internal(function.__name__, error))
         if isinstance(result, Illustrated):
             content: list[Any] = [result.data.model_dump_json(exclude_defaults=True)]
             for picture in result.pictures:
@@ -131,10 +132,22 @@ def _report(from_thread: Any, ctx: Any, done: float, total: float, message: str 
         return
 
 
-def _error_text(error: WorldwrightError) -> str:
+def _internal(name: str, error: Exception) -> WorldwrightError:
+    return WorldwrightError(
+        f"{name} failed inside Worldwright: {type(error).__name__}: {error}",
+        next_move="this is a defect of ours, not of your input: report it with the traceback on standard error",
+    )
+
+
+def _refusal(error: WorldwrightError) -> Any:
+    """An error result. Clients read either the text or the structured content, so it stands in both."""
     import json
 
-    return json.dumps(error.to_dict(), ensure_ascii=False)
+    from mcp_types import CallToolResult, TextContent
+
+    facts = error.to_dict()
+    text = TextContent(type="text", text=json.dumps(facts, ensure_ascii=False))
+    return CallToolResult(content=[text], structured_content=facts, is_error=True)
 
 
 def serve(name: str, transport: str = "stdio", host: str = "127.0.0.1", port: int = 8000) -> None:

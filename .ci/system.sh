@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Bring the system libraries that wheels do not carry: installs what is missing when root, names the command otherwise.
+#   software OpenGL (EGL, OSMesa): rendering without a display       bubblewrap: the strongest sandbox level (optional)
+set -euo pipefail
+
+missing=()
+need() { ldconfig -p | grep -q "$1" || missing+=("$2"); }
+need libEGL.so.1 libegl1
+need libEGL_mesa.so.0 libegl-mesa0
+need libGL.so.1 libgl1
+need libOSMesa.so libosmesa6
+command -v bwrap >/dev/null || missing+=(bubblewrap)
+"${PYTHON:-python3}" -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3-venv)
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+if ! command -v apt-get >/dev/null; then
+  echo "Missing: ${missing[*]} (Debian names). Install their counterparts with this system's package manager." >&2
+  exit 1
+fi
+if [ "$(id -u)" -ne 0 ]; then
+  echo "Missing system packages. Run once:  sudo apt-get install -y ${missing[*]}" >&2
+  exit 1
+fi
+echo "Installing ${missing[*]} ..."
+export DEBIAN_FRONTEND=noninteractive
+apt-get update -qq
+for package in "${missing[@]}"; do
+  # libosmesa6 has left the newest distributions; EGL alone is enough there.
+  apt-get install -y -qq --no-install-recommends "$package" >/dev/null || {
+    [ "$package" = libosmesa6 ] || [ "$package" = bubblewrap ] || exit 1
+    echo "$package is not available here; going on without it"
+  }
+done

@@ -1,0 +1,57 @@
+# Two commands matter: `make demo` and `make test`. Everything else is listed by `make help`.
+PYTHON ?= python3
+BIN := .venv/bin
+JOBS ?= 2
+export PIP_DISABLE_PIP_VERSION_CHECK := 1
+export PIP_CONSTRAINT := $(CURDIR)/.ci/constraints.txt
+
+.PHONY: help demo test lint fmt bench examples test-inspector docs lock clean
+.DEFAULT_GOAL := help
+
+help: ## List the targets
+	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
+
+demo: .venv/.core ## Build and accept the billiards world from its plan, and say where its report is
+	$(BIN)/worldwright build examples/two-billiard-balls/plan.md --run runs/demo --approve --accept
+	@echo; echo "Open $(CURDIR)/runs/demo/report.html in a browser."
+
+test: .venv/.dev lint ## Everything that must hold, in under eight minutes on two cores
+	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal
+
+lint: .venv/.dev ## Format, lint and types
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+fmt: .venv/.dev ## Format and apply safe fixes
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: .venv/.dev ## Performance goals as ratios measured in one run
+	@for bench in tests/bench/*.py; do echo "== $$bench"; $(BIN)/python $$bench || exit 1; done
+
+examples: .venv/.dev ## Re-prove every accepted example
+	@for run in examples/*/; do $(BIN)/worldwright stamp verify $$run || exit 1; done
+
+test-inspector: .venv/.dev ## The MCP inspector's strict check on all six servers (needs npm)
+	$(BIN)/python -m pytest tests/inspector -p no:xdist
+
+lock: .venv/.dev ## Pin what is installed now
+	$(BIN)/pip list --format=freeze --exclude-editable | grep -viE '^(pip|setuptools|wheel)==' | LC_ALL=C sort -f > .ci/constraints.txt
+
+.venv/.base: .ci/system.sh
+	@PYTHON=$(PYTHON) bash .ci/system.sh
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "Python 3.11 or newer is needed: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; }
+	$(PYTHON) -m venv .venv
+	@touch $@
+
+.venv/.core: .venv/.base pyproject.toml .ci/constraints.txt
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view]'
+	@touch $@
+
+.venv/.dev: .venv/.core
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,hulls,dev]'
+	@touch $@
+
+clean: ## Remove the environment and caches; runs are kept
+	rm -rf .venv .mypy_cache .ruff_cache

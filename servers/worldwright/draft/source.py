@@ -1,0 +1,80 @@
+"""Python source as text: literals, calls and their wrapping, the way a formatter would leave them."""
+
+from typing import Any
+
+WIDTH = 120
+
+
+class Raw(str):
+    """Source text that is already an expression, such as a constant's name."""
+
+
+def literal(value: Any) -> str:
+    """A Python literal; floats keep the shortest text that reads back to the same number.
+
+    >>> literal((0, 0.5, -0.0))
+    '(0, 0.5, 0.0)'
+    >>> literal("it's")
+    '"it\\'s"'
+    """
+    if isinstance(value, Raw):
+        return str(value)
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"').replace("\n", "\\n") + '"'
+    if isinstance(value, float):
+        return repr(round(value, 9) + 0.0)
+    if isinstance(value, tuple | list):
+        inner = ", ".join(literal(item) for item in value)
+        return f"({inner},)" if len(value) == 1 else f"({inner})"
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{literal(k)}: {literal(v)}" for k, v in value.items()) + "}"
+    return repr(value)
+
+
+def call(function: str, *positional: Any, indent: int = 4, **keywords: Any) -> str:
+    """A call statement; one argument a line when it would not fit on one.
+
+    >>> print(call("f", "a", size=(1.0, 2.0), indent=0))
+    f("a", size=(1.0, 2.0))
+    """
+    parts = [literal(value) for value in positional]
+    parts += [f"{name}={literal(value)}" for name, value in keywords.items()]
+    pad = " " * indent
+    line = f"{pad}{function}({', '.join(parts)})"
+    if len(line) <= WIDTH:
+        return line
+    inner = pad + "    "
+    joined = ", ".join(parts)
+    if len(inner + joined) <= WIDTH:
+        return f"{pad}{function}(\n{inner}{joined}\n{pad})"
+    return f"{pad}{function}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{pad})"
+
+
+def comment(text: str, indent: int = 4) -> str:
+    """`text` as comment lines within the width."""
+    import textwrap
+
+    pad = " " * indent + "# "
+    return "\n".join(textwrap.wrap(" ".join(text.split()), WIDTH, initial_indent=pad, subsequent_indent=pad))
+
+
+def plain(text: str) -> str:
+    """Text that is safe inside a docstring: one line, no backslash, no triple quote."""
+    return " ".join(text.split()).replace("\\", "/").replace('"' * 3, "'")
+
+
+def bullet(text: str) -> str:
+    """`text` as a bullet of a docstring, within the width."""
+    import textwrap
+
+    return "\n".join(textwrap.wrap(plain(text), WIDTH, initial_indent="- ", subsequent_indent="  "))
+
+
+def constant_name(name: str) -> str:
+    """A module constant's name for a plan name.
+
+    >>> constant_name("ball-to-felt")
+    'BALL_TO_FELT'
+    """
+    cleaned = "".join(c if c.isalnum() else "_" for c in name).upper().strip("_") or "SURFACE"
+    return f"_{cleaned}" if cleaned[0].isdigit() else cleaned

@@ -1,0 +1,137 @@
+import ast
+import dataclasses
+
+import pytest
+
+from worldwright.draft import draft
+from worldwright.draft.source import Raw, call, constant_name, literal
+from worldwright.model.errors import PlanError
+from worldwright.model.plan import Plan
+from worldwright.model.scene import PlacedObject, Scene
+
+PENDULUM = {
+    "title": "A pendulum swings",
+    "plan_type": "mbs",
+    "simulation_parameters": {
+        "time_step": 0.002,
+        "simulation_duration": 2.0,
+        "materials": {"steel": {"density": 7850, "friction": 0.4, "restitution": 0.6, "source": "handbook"}},
+        "initial_motion": {"pivot": {"joint_position": 60.0}, "puck": {"linear": [1.0, 0, 0]}},
+        "masses": {"bob": 2.0},
+    },
+    "objectives": [{"claim": 'It swings "freely" \\ for a while'}],
+    "implementation_steps": [
+        {
+            "description": "swing",
+            "cameras": ["perspective", {"name": "side", "view": "side_minus_y", "subjects": ["bob"], "fovy": 30}],
+            "motion_expectations": ["bob"],
+        }
+    ],
+    "scene_objects": [
+        {"name": "bob", "primitive": "sphere", "size": [0.2, 0.2, 0.2], "material": "steel", "look": "brass"},
+        {"name": "arm", "primitive": "box", "size": [0.02, 0.02, 1.0], "material": "steel", "role": "rod"},
+        {"name": "puck", "primitive": "cylinder", "size": [0.1, 0.1, 0.03], "material": "steel"},
+    ],
+    "topology": {
+        "joints": [
+            {"name": "clamp", "type": "weld", "parent": "arm", "child": "bob"},
+            {"name": "pivot", "type": "hinge", "child": "arm", "anchor": [0, 0, 2], "axis": [0, 1, 0], "damping": 0.01},
+        ]
+    },
+}
+LAYOUT = Scene(
+    objects=tuple(
+        PlacedObject(name=name, kind="scene_object", size=size, position=position)
+        for name, size, position in (
+            ("bob", (0.2, 0.2, 0.2), (0, 0, 0.9)),
+            ("arm", (0.02, 0.02, 1.0), (0, 0, 1.5)),
+            ("puck", (0.1, 0.1, 0.03), (1, 0, 0.015)),
+        )
+    )
+)
+
+
+def plan(**changes) -> Plan:
+    return Plan.model_validate({**PENDULUM, **changes})
+
+
+def test_a_declarative_plan_is_drafted_whole_and_twice_the_same():
+    first, second = draft(plan(), LAYOUT, "pendulum"), draft(plan(), LAYOUT, "pendulum")
+    assert first == second
+    assert first.complete
+    ast.parse(first.source)
+
+
+def test_the_draft_compiles_to_the_plan(tmp_path):
+    pytest.importorskip("worldkit.materials")
+    import mujoco
+    import numpy as np
+
+    path = tmp_path / "simulation.py"
+    path.write_text(draft(plan(), LAYOUT, "pendulum").source)
+    names: dict = {"__name__": "drafted"}
+    exec(compile(path.read_text(), str(path), "exec"), names)
+    model = names["build"]().compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
+    mujoco.mj_forward(model, data)
+    assert model.opt.timestep == 0.002
+    assert model.body("bob").mass[0] == pytest.approx(2.0)
+    assert model.body("bob").parentid[0] == model.body("arm").id
+    assert np.degrees(data.joint("pivot").qpos[0]) == pytest.approx(60.0)
+    assert np.allclose(data.body("puck").cvel[3:], [1, 0, 0])
+    # swung by 60 degrees about +y, the bob hangs towards -x at 1.1 m below the pivot
+    assert np.allclose(data.body("bob").xpos, [-1.1 * np.sin(np.pi / 3), 0, 2 - 1.1 * np.cos(np.pi / 3)], atol=1e-6)
+    assert {model.camera(i).name for i in range(model.ncam)} == {"perspective", "side"}
+
+
+def test_a_child_is_written_after_its_parent():
+    source = draft(plan(), LAYOUT, "pendulum").source
+    assert source.index('"arm"') < source.index('"bob"')
+
+
+def test_what_cannot_be_drafted_is_left_to_the_author_by_name():
+    wind = {"kind": "force", "bodies": ["bob"], "law": "0.5 rho c A v^2", "source": "drag equation"}
+    parameters = {**PENDULUM["simulation_parameters"], "interventions": [wind]}
+    drafted = draft(plan(simulation_parameters=parameters, plan_type="fsi_in_scene"), LAYOUT, "pendulum")
+    assert not drafted.complete
+    assert len(drafted.open_places) == 2
+    assert drafted.source.count("AUTHOR:") == 2
+    assert "program.main(build, control" in drafted.source
+
+
+def test_open_questions_and_missing_poses_are_refused():
+    with pytest.raises(PlanError, match="time step of what"):
+        draft(plan(clarifications_needed=["time step of what?"]), LAYOUT, "pendulum")
+    with pytest.raises(PlanError, match="no pose was resolved for puck"):
+        draft(plan(), Scene(objects=LAYOUT.objects[:2]), "pendulum")
+
+
+def test_a_cycle_of_joints_is_refused():
+    joints = [
+        {"name": "a", "type": "hinge", "parent": "arm", "child": "bob"},
+        {"name": "b", "type": "hinge", "parent": "bob", "child": "arm"},
+    ]
+    with pytest.raises(PlanError, match="cycle"):
+        draft(plan(topology={"joints": joints}), LAYOUT, "pendulum")
+
+
+def test_source_text():
+    wide = "y" * 90
+    wrapped = f'bodies.cylinder(\n    x, "{wide}", size=(1.0,)\n)'
+    assert call("bodies.cylinder", Raw("x"), wide, size=(1.0,), indent=0) == wrapped
+    assert all(ast.literal_eval(literal(v)) == v for v in ("a\"b'c\n\\", (1, 2.5), {"k": (1,)}, -0.1, True, None))
+    assert constant_name("8-ball felt") == "_8_BALL_FELT"
+    assert dataclasses.is_dataclass(draft(plan(), LAYOUT, "x"))
+
+
+def test_the_draft_is_formatted_and_lints_clean(tmp_path):
+    import subprocess
+    import sys
+
+    path = tmp_path / "simulation.py"
+    path.write_text(draft(plan(), LAYOUT, "pendulum").source)
+    options = ["--line-length", "120", "--isolated"]
+    for command in (["format", "--check", "--diff"], ["check", "--select", "E,F,W"]):
+        done = subprocess.run([sys.executable, "-m", "ruff", *command, *options, path], capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout
