@@ -1,0 +1,1 @@
+"""The two shelves of lint rules: `program` (WL…) and `plan` (WP…)."""

@@ -1,0 +1,1 @@
+"""Rules over plans: one module each."""

@@ -1,0 +1,61 @@
+"""An object is expected to move, but nothing measures it.
+
+What it does: compares the steps' `motion_expectations` with the bodies named by expectations.
+
+Why is this bad: the claim that it moves rests on somebody's eyes alone; if it stays, nothing fails.
+
+Use instead: an expectation that names it: `moves`, `falls`, `reaches_speed`, `bounces`, `comes_to_rest` …
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+from ...case import Changes
+from ...plan_view import PlanView
+from ...problem import Problem
+
+CODE = "WP111"
+SEVERITY = "warning"
+GOOD: Changes = (
+    {},
+    {"objectives": [{"claim": "All rest.", "expect": [{"comes_to_rest": {"bodies": ["crate", "mug"]}}]}]},
+)
+BAD: Changes = (
+    {"objectives": [{"claim": "It stays.", "expect": [{"stays": {"body": "mug"}}]}]},
+    {
+        "implementation_steps": [
+            {"description": "b", "cameras": ["top_down", "perspective"], "motion_expectations": ["crate", "mug"]}
+        ]
+    },
+)
+
+
+def check(view: PlanView) -> Iterator[Problem]:
+    """Every mover that no expectation names; an expectation without bodies speaks of all of them."""
+    named: set[str] = set()
+    for objective in view.plan.objectives:
+        for row in objective.expect:
+            for name, arguments in row.items():
+                found = set(_strings(arguments))
+                if not found and name not in ("no_penetration", "conserves"):
+                    return
+                named |= found
+    for index, step in enumerate(view.plan.implementation_steps):
+        for number, mover in enumerate(step.motion_expectations):
+            described = view.rows.get(mover)
+            if mover not in named and (described is None or described.name not in named):
+                place = ("implementation_steps", index, "motion_expectations", number)
+                yield view.at(
+                    place, f"nothing measures that `{mover}` moves", f"expect e.g. `- moves: {{body: {mover}}}`"
+                )
+
+
+def _strings(value: Any) -> Iterator[str]:
+    if isinstance(value, str):
+        yield value
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from _strings(item)
+    elif isinstance(value, list | tuple):
+        for item in value:
+            yield from _strings(item)

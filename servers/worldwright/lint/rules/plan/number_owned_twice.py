@@ -1,0 +1,56 @@
+"""A number has two owners.
+
+What it does: finds sizes given a second time (in predicate parameters, or in `asset_dimensions` for a scene object),
+masses given for a row and its instances, and positions given both by `body_positions` and by predicates.
+
+Why is this bad: when they differ, nobody knows which one is meant, and an edit changes only one of them.
+
+Use instead: sizes in `scene_objects[].size` and `asset_dimensions`; masses once; one way of placing an object.
+"""
+
+from collections.abc import Iterator
+
+from ...case import Changes
+from ...plan_view import Place, PlanView
+from ...problem import Problem
+
+CODE = "WP112"
+SEVERITY = "error"
+ON = {"subject": "crate", "predicate": "PLACE-ON", "object": "ramp"}
+REST = [
+    {"subject": "ramp", "predicate": "PLACE-ON-BASE"},
+    {"subject": "mug", "predicate": "PLACE-ON", "object": "ramp"},
+]
+GOOD: Changes = ({}, {"topology": {"scene_predicates": [{**ON, "params": {"gap": 0.01}}, *REST]}})
+BAD: Changes = (
+    {"asset_dimensions": {"crate": 0.2}},
+    {"topology": {"scene_predicates": [{**ON, "params": {"size": [0.4, 0.3, 0.2]}}, *REST]}},
+    {"topology": {"body_positions": {"crate": {"x": 0, "y": 0, "z": 1}}}},
+    {
+        "assets": [{"name": "mug", "filename": "mug", "count": 2}],
+        "simulation_parameters": {"masses": {"mug": 0.3, "mug_1": 0.4}},
+    },
+)
+SIZES = frozenset({"size", "extents", "dimensions", "radius", "diameter", "width", "depth", "length"})
+
+
+def check(view: PlanView) -> Iterator[Problem]:
+    """Sizes, masses, positions."""
+    plan = view.plan
+    for name in plan.asset_dimensions:
+        if any(row.name == name for row in plan.scene_objects):
+            place: Place = ("asset_dimensions", name)
+            yield view.at(place, f"the size of scene object `{name}` is given twice", "keep `size` in scene_objects")
+    for index, row in enumerate(plan.topology.scene_predicates):
+        for key in SIZES & set(row.params):
+            place = ("topology", "scene_predicates", index, "params", key)
+            yield view.at(place, f"`{key}` of `{row.subject}` has its owner elsewhere", "sizes live with the object")
+        if row.subject in plan.topology.body_positions:
+            place = ("topology", "body_positions", row.subject)
+            yield view.at(place, f"`{row.subject}` is placed twice", "keep the predicates, or the absolute position")
+    masses = plan.simulation_parameters.masses
+    for asset in plan.assets:
+        if asset.count > 1 and asset.name in masses:
+            for name in set(asset.instances) & set(masses):
+                place = ("simulation_parameters", "masses", name)
+                yield view.at(place, f"the mass of `{name}` is also given for all `{asset.name}`", "give one of them")

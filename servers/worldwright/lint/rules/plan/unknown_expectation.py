@@ -1,0 +1,73 @@
+"""An expectation is not in the vocabulary, or names a body the plan does not have.
+
+What it does: compares the names under `expect` with the entries of the expectation shelf, and every `body`, `bodies`
+and `support` with the plan's objects.
+
+Why is this bad: an unknown expectation is never measured, so its objective stays unproved and the run cannot be
+accepted.
+
+Use instead: a listed name; `worldwright scan expect --help` and the shelf's pages say what each measures.
+"""
+
+from collections.abc import Iterator
+from difflib import get_close_matches
+from functools import cache
+from importlib.metadata import entry_points
+from pathlib import Path
+from typing import Any
+
+from ...case import Changes
+from ...plan_view import PlanView
+from ...problem import Problem
+
+CODE = "WP104"
+SEVERITY = "error"
+GOOD: Changes = (
+    {},
+    {"objectives": [{"claim": "It rests.", "expect": [{"supported_by": {"body": "crate", "support": "ramp"}}]}]},
+)
+BAD: Changes = (
+    {"objectives": [{"claim": "It flies.", "expect": [{"flies_gracefully": {"body": "crate"}}]}]},
+    {"objectives": [{"claim": "It moves.", "expect": [{"moves": {"body": "create"}}]}]},
+    {"objectives": [{"claim": "They stay.", "expect": [{"stays": {"bodies": ["ramp", "mugg"]}}]}]},
+)
+BODY_KEYS = ("body", "bodies", "support", "other", "others", "by", "on")
+SCENERY = ("ground", "world", "base", "floor")
+
+
+def check(view: PlanView) -> Iterator[Problem]:
+    """Names, then bodies."""
+    known = vocabulary()
+    objects = [*view.rows, *(joint.name for joint in view.plan.topology.joints), *SCENERY]
+    for index, objective in enumerate(view.plan.objectives):
+        for number, row in enumerate(objective.expect):
+            for name, arguments in row.items():
+                place = ("objectives", index, "expect", number)
+                if known and name not in known:
+                    near = get_close_matches(name, known, n=2, cutoff=0.5)
+                    fix = (f"did you mean {' or '.join(near)}? " if near else "") + f"known: {', '.join(known)}"
+                    yield view.at(place, f"there is no expectation `{name}`", fix)
+                for body in _bodies(arguments):
+                    if body not in objects:
+                        near = get_close_matches(body, objects, n=2, cutoff=0.5)
+                        fix = f"did you mean {' or '.join(near)}?" if near else "name an object of the plan"
+                        yield view.at(place, f"`{name}` names `{body}`, which the plan does not have", fix)
+
+
+@cache
+def vocabulary() -> tuple[str, ...]:
+    """The shelf's names: its files, read from disk (the engine that measures is another server's), and plug-ins."""
+    folder = Path(__file__).parents[3] / "scan" / "expectations"
+    names = {path.stem for path in folder.glob("*.py") if not path.stem.startswith("_")}
+    names |= {point.name for point in entry_points(group="worldwright.scan.expectations")}
+    return tuple(sorted(names))
+
+
+def _bodies(arguments: Any) -> Iterator[str]:
+    if not isinstance(arguments, dict):
+        return
+    for key in BODY_KEYS:
+        value = arguments.get(key)
+        for item in value if isinstance(value, list | tuple) else [value]:
+            if isinstance(item, str):
+                yield item

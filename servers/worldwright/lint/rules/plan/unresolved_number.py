@@ -1,0 +1,33 @@
+"""Something the user owns is still open.
+
+What it does: reports every `TO_CLARIFY` and every entry of `clarifications_needed`.
+
+Why is this bad: code for an open question answers it silently. Time step and duration in particular are never
+defaulted.
+
+Use instead: ask, write the answer into the section that owns it, and remove the clarification. In auto mode choose a
+conservative value and list its dotted name under `simulation_parameters.inferred`.
+"""
+
+from collections.abc import Iterator
+
+from ...case import Changes
+from ...plan_view import PlanView
+from ...problem import Problem
+
+CODE = "WP101"
+SEVERITY = "error"
+GOOD: Changes = ({}, {"simulation_parameters": {"inferred": ["time_step"]}})
+BAD: Changes = (
+    {"simulation_parameters": {"time_step": "TO_CLARIFY"}},
+    {"clarifications_needed": ["How heavy is the crate?"]},
+    {"topology": {"body_positions": {"crate": "TO_CLARIFY"}}},
+)
+
+
+def check(view: PlanView) -> Iterator[Problem]:
+    """Everything `Plan.unresolved` names."""
+    for what in view.plan.unresolved():
+        place, _, rest = what.partition(": ")
+        path = tuple(place.split("."))
+        yield view.at(path, f"{what} is still open", f"ask the user, then write the answer into `{rest or place}`")

@@ -1,0 +1,1 @@
+"""Rules over programs and MJCF: one module each."""

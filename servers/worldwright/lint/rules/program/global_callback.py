@@ -1,0 +1,30 @@
+"""A global simulator callback is installed.
+
+What it does: finds `mujoco.set_mjcb_*` calls.
+
+Why is this bad: a callback acts on every simulation in the process, from inside the step, where neither a reader nor
+the intervention ledger sees what it does; it also slows every step through the interpreter.
+
+Use instead: `control(model, data)`, which runs between the steps and is accounted for.
+"""
+
+from collections.abc import Iterator
+
+from ...problem import Problem, at
+from ...program import Program
+
+CODE = "WL132"
+SEVERITY = "error"
+SCOPE = "contract"
+GOOD = ("import mujoco\nfrom worldkit import program\nmujoco.get_mjcb_control()\n",)
+BAD = (
+    "import mujoco\nfrom worldkit import program\nmujoco.set_mjcb_passive(lambda m, d: None)\n",
+    "from mujoco import set_mjcb_control as install\nfrom worldkit import program\ninstall(None)\n",
+)
+
+
+def check(program: Program) -> Iterator[Problem]:
+    """Every installation of a callback."""
+    for full, call in program.calls("mujoco."):
+        if full.startswith("mujoco.set_mjcb_"):
+            yield at(call, f"{full.removeprefix('mujoco.')} installs a global callback", "use control(model, data)")

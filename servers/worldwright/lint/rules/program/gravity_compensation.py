@@ -1,0 +1,48 @@
+"""A body is relieved of its weight.
+
+What it does: finds `gravcomp` set to anything but zero, on a body in Python or in MJCF.
+
+Why is this bad: the body floats, or a boom holds itself up, by an invisible force that no contact and no actuator
+supplies.
+
+Use instead: support it by something. A balloon's buoyancy is a force to be declared as an intervention with its law, or
+the fluid model (`option density`, geom `fluidshape`).
+"""
+
+import ast
+from collections.abc import Iterator
+
+from ...problem import Problem, at
+from ...program import Program
+
+CODE = "WL134"
+SEVERITY = "error"
+SCOPE = "contract"
+HEAD = "from worldkit import scene\nspec = scene.new('a', time_step=0.001)\n"
+GOOD = (HEAD + "b = spec.worldbody.add_body(name='b', gravcomp=0)\n", HEAD + "weight = spec.worldbody.gravcomp\n")
+BAD = (
+    HEAD + "b = spec.worldbody.add_body(name='b', gravcomp=1)\n",
+    HEAD + "b = spec.worldbody.add_body(name='b')\nb.gravcomp = 0.5\n",
+    HEAD + "XML = '<mujoco><worldbody><body gravcomp=\"1\"/></worldbody></mujoco>'\n",
+)
+
+
+def check(program: Program) -> Iterator[Problem]:
+    """Keywords, assignments and attributes."""
+    fix = "let a support, an actuator or a declared force carry it"
+    for call in program.nodes(ast.Call):
+        for keyword in call.keywords:
+            if keyword.arg == "gravcomp" and program.value(keyword.value) != 0:
+                yield at(keyword.value, "gravcomp takes the weight off a body", fix)
+    for target, value, statement in program.stores():
+        if isinstance(target, ast.Subscript):
+            target = target.value
+        if (
+            isinstance(target, ast.Attribute)
+            and target.attr in ("gravcomp", "body_gravcomp")
+            and program.value(value) != 0
+        ):
+            yield at(statement, "gravcomp takes the weight off a body", fix)
+    for tag in program.tags():
+        if tag.attributes.get("gravcomp", "0").strip() not in ("0", "0.0"):
+            yield Problem("gravcomp takes the weight off a body", fix, tag.line)

@@ -1,0 +1,44 @@
+"""The program's time step is not the plan's.
+
+What it does: compares every time step the program sets (`scene.new(time_step=…)`, `spec.option.timestep`, MJCF) with
+`simulation_parameters.time_step`.
+
+Why is this bad: the time step is owned by the user. A program that quietly halves it to look stable proves something
+about another simulation than the one that was approved.
+
+Use instead: the plan's number. If it is unstable, say so and let the plan change.
+"""
+
+from collections.abc import Iterator
+from math import isclose
+
+from ... import stated
+from ...case import Case
+from ...problem import Problem
+from ...program import Program
+
+CODE = "WL120"
+SEVERITY = "error"
+SCOPE = "plan"
+HEAD = "from worldkit import scene\n"
+GOOD = (
+    HEAD + "STEP = 0.002\nspec = scene.new('a', time_step=STEP)\n",
+    HEAD + "spec = scene.new('a', time_step=1 / 500)\n",
+    Case("XML = '<mujoco><option timestep=\"2e-3\"/></mujoco>'\n"),
+)
+BAD = (
+    HEAD + "STEP = 0.001\nspec = scene.new('a', time_step=STEP)\n",
+    HEAD + "spec = scene.new('a', time_step=0.002)\nspec.option.timestep = 0.0005\n",
+    Case("XML = '<mujoco><option timestep=\"0.01\"/></mujoco>'\n"),
+)
+
+
+def check(program: Program) -> Iterator[Problem]:
+    """Every stated time step."""
+    planned = program.plan.simulation_parameters.time_step if program.plan else None
+    if not isinstance(planned, int | float):
+        return
+    for value, line, _ in stated.time_steps(program):
+        if isinstance(value, int | float) and not isclose(value, planned, rel_tol=1e-9):
+            fix = f"write {planned}, or change simulation_parameters.time_step and have the plan approved again"
+            yield Problem(f"the time step is {value:g} s, the plan says {planned:g} s", fix, line)

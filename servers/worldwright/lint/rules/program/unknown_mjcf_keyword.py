@@ -1,0 +1,58 @@
+"""An MJCF attribute has a value that is not one of its keywords.
+
+What it does: where the manual lists the keywords of an attribute (`type="box"`, `integrator="implicitfast"`), compares
+single-word values with the list.
+
+Why is this bad: the model does not compile ("invalid keyword"). Keywords are case-sensitive, and some are gone.
+
+Use instead: one of the listed keywords.
+"""
+
+import re
+from collections.abc import Iterator
+from difflib import get_close_matches
+
+from ....simulator import changelog, mjcf
+from ...case import Case
+from ...problem import Problem
+from ...program import Program
+
+CODE = "WL105"
+SEVERITY = "error"
+SCOPE = "any"
+GOOD = (
+    Case(
+        "<mujoco><option integrator='RK4'/><worldbody><geom type='box' size='1 1 1'/></worldbody></mujoco>",
+        path="a.xml",
+    ),
+    Case("<mujoco><visual><headlight active='1'/></visual></mujoco>", path="a.xml"),
+)
+BAD = (
+    Case("<mujoco><option integrator='rk4'/></mujoco>", path="a.xml"),
+    Case("<mujoco><worldbody><geom type='cube' size='1 1 1'/></worldbody></mujoco>", path="a.xml"),
+    "XML = '<mujoco><option cone=\"eliptic\"/></mujoco>'\n",
+)
+
+
+def check(program: Program) -> Iterator[Problem]:
+    """Every single-word value of an attribute with a list of keywords."""
+    if not program.documents:
+        return
+    anchors, keywords = mjcf.anchors(), mjcf.keywords()
+    for tag in program.tags():
+        for name, value in tag.attributes.items():
+            if not re.fullmatch(r"[A-Za-z]\w*", value):
+                continue
+            lists = [keywords[label] for label in anchors.get((tag.name, name), ()) if label in keywords]
+            if not lists or len(lists) < len(anchors.get((tag.name, name), ())) // 2:
+                continue
+            known = sorted({word for words in lists for word in words})
+            if value in known:
+                continue
+            became = changelog.advice(value)
+            near = get_close_matches(value.lower(), known, n=1, cutoff=0.6) or [
+                word for word in known if word.lower() == value.lower()
+            ]
+            hints = ([became] if became else []) + ([f"nearest: `{near[0]}`"] if near else [])
+            hints.append("known: " + ", ".join(known))
+            yield Problem(f"`{value}` is no keyword of {tag.name}/{name}", "; ".join(hints), tag.line)

@@ -1,0 +1,81 @@
+"""Reading a file nobody promised anything about: size, encoding and nesting are checked before it is parsed."""
+
+import ast
+import warnings
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from ..model.errors import NotFoundError
+from .problem import Problem
+
+MAX_BYTES = 512 * 1024
+"""About ten thousand lines: no program a person reads is larger, and parsing stays under a second."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """A file as far as it could be read; `problem` says why it could not be read further."""
+
+    path: str
+    text: str = ""
+    tree: ast.Module | None = None
+    problem: Problem | None = None
+    lines: tuple[str, ...] = field(default=(), repr=False)
+
+    @property
+    def is_mjcf(self) -> bool:
+        """The file is a bare model, not a program."""
+        return self.path.lower().endswith((".xml", ".mjcf"))
+
+
+def read(path: Path | str) -> Source:
+    """Read and parse a file; only a missing or unreadable file is an error, all else is a `Source` with a problem."""
+    path = Path(path)
+    try:
+        if not path.is_file():
+            raise FileNotFoundError(f"there is no file '{path}'")
+        size = path.stat().st_size
+        if size > MAX_BYTES:
+            text = f"the file has {size:,} bytes; the limit is {MAX_BYTES:,}"
+            return Source(str(path), problem=Problem(text, "move data into the catalog; a program is code to read", 1))
+        data = path.read_bytes()
+    except OSError as cause:
+        raise NotFoundError(
+            f"the program cannot be read: {cause}", place=str(path), next_move="name an existing file"
+        ) from cause
+    return decode(data, str(path))
+
+
+def decode(data: bytes, path: str = "simulation.py") -> Source:
+    """Decode and parse bytes."""
+    if b"\0" in data:
+        return Source(path, problem=Problem("the file is binary (it contains NUL bytes)", "give Python source text", 1))
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as cause:
+        line = data.count(b"\n", 0, cause.start) + 1
+        reason = f"the file is not UTF-8: byte 0x{data[cause.start]:02x} at offset {cause.start}"
+        return Source(path, problem=Problem(reason, "save it as UTF-8", line))
+    return parse(text, path)
+
+
+def parse(text: str, path: str = "simulation.py") -> Source:
+    """Parse program text."""
+    lines = tuple(text.splitlines())
+    if not text.strip():
+        return Source(path, text, None, Problem("the file is empty", "draft a program: worldwright build plan.md", 1))
+    if path.lower().endswith((".xml", ".mjcf")):
+        return Source(path, text, None, None, lines)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # e.g. invalid escapes: not about the simulation
+            tree = ast.parse(text, filename=path)
+    except SyntaxError as cause:
+        problem = Problem(f"not valid Python: {cause.msg}", "correct the syntax", cause.lineno or 1, cause.offset)
+        return Source(path, text, None, problem, lines)
+    except (RecursionError, MemoryError, ValueError) as cause:
+        what = (
+            "is nested too deeply to be parsed" if not isinstance(cause, ValueError) else f"cannot be parsed: {cause}"
+        )
+        return Source(path, text, None, Problem(f"the program {what}", "split it into statements", 1), lines)
+    return Source(path, text, tree, None, lines)

@@ -1,0 +1,46 @@
+"""`# worldwright: ignore[WL123] reason`: a finding someone looked at and answers for, kept visible as information."""
+
+import io
+import re
+import tokenize
+from dataclasses import dataclass
+
+from .problem import Problem
+
+PATTERN = re.compile(r"#\s*worldwright:\s*ignore\s*(?:\[([^\]]*)\])?\s*(.*)$")
+
+
+@dataclass(frozen=True)
+class Suppression:
+    """One comment."""
+
+    line: int
+    alone: bool
+    """The comment is a line of its own, so it speaks for the next line."""
+    codes: frozenset[str]
+    reason: str
+
+    def covers(self, code: str, problem: Problem) -> bool:
+        """Whether it answers for a problem: on one of its lines, or on the line above."""
+        if code not in self.codes or problem.line is None or not self.reason:
+            return False
+        place = self.line + 1 if self.alone else self.line
+        return problem.line <= place <= (problem.end_line or problem.line)
+
+
+def read(text: str) -> tuple[Suppression, ...]:
+    """Every suppression comment; the words inside strings do not count."""
+    if "worldwright:" not in text:
+        return ()
+    found = []
+    try:
+        for token in tokenize.generate_tokens(io.StringIO(text).readline):
+            match = PATTERN.search(token.string) if token.type == tokenize.COMMENT else None
+            if match is None:
+                continue
+            codes = frozenset(code.strip() for code in (match[1] or "").split(",") if code.strip())
+            alone = not token.line[: token.start[1]].strip()
+            found.append(Suppression(token.start[0], alone, codes, match[2].strip(" -:")))
+    except (tokenize.TokenError, IndentationError, SyntaxError):
+        pass  # the syntax rule reports what is wrong with the text
+    return tuple(found)

@@ -1,0 +1,156 @@
+"""The tools of the lint server."""
+
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from ..expose import reads
+from ..model.errors import NotFoundError, PlanError
+from ..model.evidence import EvidenceKey, LintReport
+from ..model.finding import Finding
+from ..model.plan import Plan
+from .report import RuleDoc, RuleList, RuleSummary, ShownReport, capped
+
+
+@reads
+def check_plan(plan: Annotated[Path, Field(description="Path of a plan.md")]) -> ShownReport:
+    """May this plan be committed? Checks all thirteen sections and every plan rule (WP…).
+
+    Findings name file, line, section, cause and fix. Numbers must have one owner, objectives need evidence, names must
+    exist, steps need complementary cameras. `explain CODE` says more about a rule.
+    """
+    from . import engine
+
+    committed, found, line_of = _read_plan(plan)
+    if committed is not None:
+        found += engine.check_plan_rules(committed, str(plan), line_of)
+    return ShownReport(findings=capped(found), rules=len(engine.plan_rules()))
+
+
+def check_program(
+    files: Annotated[list[Path], Field(description="Programs (.py) or bare MJCF models (.xml)")],
+    plan: Annotated[Path | None, Field(description="Plan to compare with; default: plan.md beside the program")] = None,
+) -> ShownReport:
+    """May these programs run? Reads them, never executes them.
+
+    Every name, keyword and MJCF element is resolved against the installed MuJoCo, with the nearest name and the
+    changelog's migration; the program is compared with its plan; staging (written poses, hidden forces, disabled
+    physics) and unrepeatable inputs are named. For a run's own simulation.py the report is kept as evidence, which the
+    physics pass needs. Answer for a finding with `# worldwright: ignore[WL123] reason`.
+    """
+    from . import engine
+
+    found: list[Finding] = []
+    kept = ""
+    for file in files:
+        if not file.exists():
+            raise NotFoundError("there is no such program", place=str(file), next_move="name an existing file")
+        beside = file.parent / "plan.md"
+        in_run = file.name == "simulation.py" and beside.is_file()
+        chosen = plan or (beside if in_run else None)
+        evidence = in_run and (plan is None or plan.resolve() == beside.resolve())
+        key = _key(file.parent) if evidence else None
+        committed, here = None, []
+        if chosen is not None:
+            committed, here, line_of = _read_plan(chosen)
+            if committed is not None:
+                faults = engine.check_plan_rules(committed, str(chosen), line_of)
+                here += [fault for fault in faults if fault.severity == "error"]
+        here += engine.check_program_file(file, committed, contract=True if chosen else None)
+        if key is not None and key == _key(file.parent):  # else it was edited meanwhile: these findings are of neither
+            kept = _keep(file.parent, key, here, len(engine.program_rules()))
+        found += here
+    return ShownReport(findings=capped(found), rules=len(engine.program_rules()), files=len(files), kept=kept)
+
+
+@reads
+def explain(code: Annotated[str, Field(description="Code or name of a rule, e.g. WL101")]) -> RuleDoc:
+    """What a lint rule does, why it matters, what to write instead, and its bad and good cases."""
+    from . import engine
+
+    shelf = engine.PLAN_RULES if code.upper().startswith("WP") else engine.PROGRAM_RULES
+    key = code.upper() if code.upper().startswith("W") else code
+    if key not in shelf and code in [rule.name for rule in engine.plan_rules()]:
+        shelf, key = engine.PLAN_RULES, code
+    rule = shelf.find(key)
+    return RuleDoc(
+        code=rule.code,
+        name=rule.name,
+        severity=rule.SEVERITY,
+        summary=rule.summary,
+        documentation=rule.doc,
+        bad=tuple(map(_case_text, rule.BAD)),
+        good=tuple(map(_case_text, rule.GOOD)),
+    )
+
+
+@reads
+def list_rules() -> RuleList:
+    """Every lint rule: code, name, severity and one sentence."""
+    from . import engine
+
+    return RuleList(
+        rules=tuple(
+            RuleSummary(code=rule.code, name=rule.name, severity=rule.SEVERITY, summary=rule.summary)
+            for rule in (*engine.program_rules(), *engine.plan_rules())
+        )
+    )
+
+
+def _read_plan(path: Path):
+    """The plan (None when it cannot be read as one), its findings, and its line look-up."""
+    from ..model.plan_text import read_plan
+
+    if not path.is_file():
+        raise NotFoundError("there is no such plan", place=str(path), next_move="name an existing plan.md")
+    try:
+        document = read_plan(path)
+    except PlanError as error:
+        found = list(error.findings) or [
+            Finding(
+                code="WP100",
+                name="unreadable_plan",
+                severity="error",
+                message=error.cause,
+                fix=error.next_move,
+                file=str(path),
+            )
+        ]
+        return None, found, None
+    plan: Plan = document.plan
+    return plan, [], document.line_of
+
+
+def _key(folder: Path) -> EvidenceKey:
+    """What a report on the run's program and plan, as they stand now, would vouch for."""
+    from ..model.environment import current
+    from ..model.run import Run
+
+    return Run(folder).evidence_key(current().sha256())
+
+
+def _keep(folder: Path, key: EvidenceKey, found: list[Finding], rules: int) -> str:
+    """Store the report as evidence of the run."""
+    from ..model.run import Run
+
+    run = Run(folder)
+    # Files are named relative to the run, so that the evidence says the same wherever the folder lies.
+    report = LintReport(
+        findings=tuple(f.model_copy(update={"file": Path(f.file).name if f.file else ""}) for f in capped(found)),
+        rules=rules,
+    )
+    path = run.keep(key, "lint", report)
+    run.log("lint", "lint", key=key.key, ok=report.ok, findings=len(report.findings))
+    return str(path.relative_to(run.folder))
+
+
+def _case_text(case: object) -> str:
+    if isinstance(case, dict):
+        import json
+
+        return json.dumps(case, indent=1)
+    return str(getattr(case, "source", case))
+
+
+TOOLS = (check_plan, check_program, explain, list_rules)

@@ -1,0 +1,9 @@
+"""retrieve: what do the installed simulator, its manual, our skills and our catalog say about this?
+
+Nothing here rests on memory: the corpus is what is installed, cut along its own structure, and every hit carries a
+citation that `read` opens. Full text today; `ranking.Ranker` is the seam for a second, semantic ranking.
+"""
+
+from .answers import Hit, SearchResult
+
+__all__ = ["Hit", "SearchResult"]

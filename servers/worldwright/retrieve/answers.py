@@ -1,0 +1,205 @@
+"""What the retrieve server answers."""
+
+from ..model.frozen import Frozen
+from ..simulator.changelog import Change
+
+
+class Hit(Frozen):
+    """One piece of the corpus that bears on a question."""
+
+    citation: str
+    """Stable name that `read` opens, e.g. `mujoco-4.0.0/doc/XMLreference.rst#body-geom-friction:L2957-L2965`."""
+    path: str
+    """File, relative to the package it comes from."""
+    title: str
+    """Headings above it."""
+    text: str
+    """Its words, or the part around the best match."""
+    score: float
+    """Larger is better; comparable within one answer only."""
+
+
+class SearchResult(Frozen):
+    """Hits, best first."""
+
+    question: str
+    hits: tuple[Hit, ...] = ()
+    note: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """Something was found."""
+        return bool(self.hits)
+
+    def text(self) -> str:
+        """Citations with excerpts."""
+        if not self.hits:
+            return self.note or "nothing found"
+        parts = []
+        for number, hit in enumerate(self.hits, 1):
+            body = "\n".join("    " + line for line in hit.text.splitlines()[:12])
+            parts.append(f"{number}. {hit.citation}\n   {hit.title}\n{body}")
+        return "\n\n".join(parts)
+
+
+class Passage(Frozen):
+    """An opened citation."""
+
+    citation: str
+    title: str = ""
+    content: str = ""
+    """The lines as they stand in the file."""
+    first: int = 1
+    last: int = 1
+    lines: int = 1
+    """How many lines the file has."""
+    next: str = ""
+    """Citation of what follows, when there is more."""
+    note: str = ""
+
+    def text(self) -> str:
+        """The lines."""
+        note = f"\n({self.note})" if self.note else ""
+        more = f"\n… next: {self.next}" if self.next else ""
+        return f"{self.citation}  {self.title}\n\n{self.content}{more}{note}"
+
+
+class Definition(Frozen):
+    """One thing a name stands for in the installed build."""
+
+    kind: str
+    """function, class, method, field, enum, enum value, constant, module, element or attribute."""
+    name: str
+    signature: str = ""
+    documentation: str = ""
+    members: tuple[str, ...] = ()
+    """Of a class, enum, module or element: names it holds."""
+    citations: tuple[str, ...] = ()
+
+
+class SymbolAnswer(Frozen):
+    """What the installed build says of a name."""
+
+    symbol: str
+    version: str
+    exists: bool
+    definitions: tuple[Definition, ...] = ()
+    nearest: tuple[str, ...] = ()
+    changes: tuple[Change, ...] = ()
+    """Changelog entries that rename, remove or reshape it."""
+
+    @property
+    def ok(self) -> bool:
+        """It exists."""
+        return self.exists
+
+    def text(self) -> str:
+        """Signature, documentation, and what became of it."""
+        lines = [f"{self.symbol}: {'exists' if self.exists else 'does not exist'} in MuJoCo {self.version}"]
+        for one in self.definitions:
+            lines += ["", f"{one.kind} {one.name}"]
+            lines += [f"    {line}" for line in one.signature.splitlines()]
+            lines += [f"    {line}" for line in one.documentation.splitlines()]
+            if one.members:
+                lines.append("    holds: " + ", ".join(one.members))
+            lines += [f"    see {citation}" for citation in one.citations]
+        if self.nearest:
+            lines += ["", "nearest: " + ", ".join(self.nearest)]
+        for change in self.changes:
+            lines += ["", *_change(change)]
+        return "\n".join(lines)
+
+
+class ChangeRow(Change):
+    """A row with its citation."""
+
+    cited: str
+
+
+class ChangeTable(Frozen):
+    """Rows of the breaking-changes table."""
+
+    name: str
+    changes: tuple[ChangeRow, ...] = ()
+    total: int = 0
+    """How many rows match; the first are shown."""
+
+    def text(self) -> str:
+        """One block a row."""
+        if not self.changes:
+            return f"the changelog does not mention `{self.name}`"
+        blocks = ["\n".join(_change(change)) for change in self.changes]
+        more = f"\n\n… {self.total - len(self.changes)} more" if self.total > len(self.changes) else ""
+        return "\n\n".join(blocks) + more
+
+
+class AssetHit(Frozen):
+    """A catalog entry."""
+
+    key: str
+    category: str
+    description: str
+    extents_m: tuple[float, float, float]
+    """At its usual height."""
+    height_m: float
+    mass_kg: float
+    thumbnail: str = ""
+    score: float = 0.0
+
+
+class AssetList(Frozen):
+    """Catalog entries, best first."""
+
+    query: str
+    assets: tuple[AssetHit, ...] = ()
+    known: tuple[str, ...] = ()
+    """Every key, when nothing fits."""
+
+    @property
+    def ok(self) -> bool:
+        """Something fits."""
+        return bool(self.assets)
+
+    def text(self) -> str:
+        """One asset a line."""
+        if not self.assets:
+            return f"no asset fits '{self.query}'; known: {', '.join(self.known) or '(none)'}"
+        return "\n".join(
+            f"{a.key:16} {a.height_m:g} m high, {a.mass_kg:.3g} kg  {a.category}: {a.description}" for a in self.assets
+        )
+
+
+class RetrieveStatus(Frozen):
+    """What is searched, and how."""
+
+    simulator: str
+    pieces: dict[str, int]
+    """Pieces of text by part of the corpus."""
+    documents: int
+    left_out: dict[str, str] = {}
+    """Files of the manual that are not searched, and why."""
+    index: str
+    rankings: tuple[str, ...]
+    changes: int
+    """Rows of the breaking-changes table."""
+    assets: int
+
+    def text(self) -> str:
+        """The numbers."""
+        parts = ", ".join(f"{count} of {part}" for part, count in self.pieces.items())
+        return (
+            f"MuJoCo {self.simulator}: {self.documents} documents, {sum(self.pieces.values())} pieces ({parts}); "
+            f"{self.changes} changelog rows; {self.assets} assets\n"
+            f"rankings: {', '.join(self.rankings)}; index: {self.index}"
+        )
+
+
+def _change(change: Change) -> list[str]:
+    head = f"{change.version} {change.section}{' (breaking)' if change.breaking else ''}"
+    lines = [head, *(f"    {line}" for line in change.text.splitlines())]
+    if change.migration:
+        lines += ["    migration:", *(f"      {line}" for line in change.migration.splitlines())]
+    if change.renamed:
+        lines.append("    renamed: " + ", ".join(f"{old} -> {new}" for old, new in change.renamed.items()))
+    lines.append(f"    see {change.citation}")
+    return lines

@@ -1,0 +1,162 @@
+"""The tools of the retrieve server."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from ..expose import reads
+from ..model.progress import Progress, silent
+from .answers import AssetList, ChangeRow, ChangeTable, Hit, Passage, RetrieveStatus, SearchResult, SymbolAnswer
+
+MAX_CHARACTERS = 18_000
+"""Of a table's JSON."""
+Part = Literal["all", "manual", "changelog", "skills", "rules"]
+EXCERPT = 700
+"""Characters of a hit that are shown; `read` opens the whole."""
+
+
+@reads
+def search(
+    question: Annotated[str, Field(description="A question, a symptom, an error message or a name")],
+    k: Annotated[int, Field(description="How many hits", ge=1, le=25)] = 8,
+    part: Annotated[Part, Field(description="Which part of the corpus to search")] = "all",
+    progress: Progress = silent,
+) -> SearchResult:
+    """Search what is installed: the simulator's manual and changelog, its skills, our skills and rules.
+
+    Each hit has a citation that `read` opens and that a repair must name. Ask in words or with names
+    ("objects fall through the floor", "solref restitution", "mj_ray normal"). For one exact name use `symbol`.
+    """
+    from .index import open_index
+    from .ranking import FullText, fuse
+
+    index = open_index(progress)
+    question = question[:2000]
+    ranked = fuse([ranker.rank(index, question, 200) for ranker in (FullText(),)], 200)
+    pieces = index.pieces([number for number, _ in ranked])
+    hits: list[Hit] = []
+    for number, score in ranked:
+        piece = pieces[number]
+        if part in ("all", piece.part) and len(hits) < max(1, min(k, 25)):
+            shown = _excerpt(piece.text, question)
+            hit = Hit(citation=piece.citation, path=piece.path, title=piece.title, text=shown, score=round(score, 4))
+            hits.append(hit)
+    note = "" if hits else "nothing found: use other words, or `symbol` for an exact name"
+    return SearchResult(question=question, hits=tuple(hits), note=note)
+
+
+@reads
+def read(
+    citation: Annotated[str, Field(description="As `search` prints it: package-version/path#anchor:Lfirst-Llast")],
+    around: Annotated[int, Field(description="Lines of context before and after", ge=0, le=200)] = 0,
+) -> Passage:
+    """Open a citation: the exact lines of the installed file.
+
+    Without lines the anchor's whole entry is shown, without an anchor the file from its start; `next` continues.
+    """
+    from . import citation as citations
+    from .index import open_index
+
+    return citations.read(open_index(), citation, max(0, min(around, 200)))
+
+
+@reads
+def symbol(
+    name: Annotated[str, Field(description="`mujoco.mj_ray`, `MjSpec.add_flex`, `mjGEOM_BOX`, `<geom surfacevel>` …")],
+) -> SymbolAnswer:
+    """Does this exist in the installed MuJoCo, and what is it?
+
+    Signature, documentation, members and citations; for a name that does not exist, the nearest ones and what the
+    changelog says became of it. Python names, fields, enum values, MJCF elements and attributes.
+    """
+    from .index import open_index
+    from .symbol import look_up
+
+    return look_up(open_index(), name[:300])
+
+
+@reads
+def breaking_changes(
+    name: Annotated[str, Field(description="A symbol, element, attribute or word, old or new; `all` for every row")],
+    version: Annotated[str | None, Field(description="Only this version, e.g. 4.0.0 or 3.16")] = None,
+    k: Annotated[int, Field(description="How many rows", ge=1, le=30)] = 8,
+) -> ChangeTable:
+    """What was renamed, removed or changed between versions, and how to migrate, from the shipped changelog."""
+    from ..simulator import changelog
+
+    rows = [row for row in changelog.load() if row.breaking] if name == "all" else changelog.find(name)
+    if version:
+        rows = [row for row in rows if row.version == version or row.version.startswith(version.rstrip(".") + ".")]
+    chosen: list[ChangeRow] = []
+    size = 0
+    for row in rows[: max(1, min(k, 30))]:
+        cited = ChangeRow(**row.model_dump(), cited=row.citation)
+        size += len(cited.model_dump_json(indent=2)) * 5 // 4  # nested deeper, it is indented more
+        if size > MAX_CHARACTERS and chosen:
+            break
+        chosen.append(cited)
+    return ChangeTable(name=name, changes=tuple(chosen), total=len(rows))
+
+
+@reads
+def find_asset(
+    query: Annotated[str, Field(description="What the object is, e.g. `coffee cup` or `something to sit on`")],
+    k: Annotated[int, Field(description="How many", ge=1, le=25)] = 5,
+) -> AssetList:
+    """Find a catalog asset by what it is; gives keys, real sizes and masses for the plan's `assets`."""
+    from .assets import find
+
+    return find(query[:300], max(1, min(k, 25)))
+
+
+@reads
+def status() -> RetrieveStatus:
+    """What is searched: versions, documents, pieces of text, rankings, and where the index lies."""
+    from ..simulator import changelog, installed
+    from . import corpus
+    from .assets import count
+    from .index import open_index
+
+    index = open_index()
+    return RetrieveStatus(
+        simulator=installed.version(),
+        pieces=index.counts(),
+        documents=len(corpus.documents()),
+        left_out=corpus.LEFT_OUT,
+        index=str(index.path),
+        rankings=("full text",),
+        changes=len(changelog.load()),
+        assets=count(),
+    )
+
+
+def _excerpt(text: str, question: str) -> str:
+    """The part of a text with most of the question's words, whole lines."""
+    if len(text) <= EXCERPT:
+        return text
+    from . import words
+
+    asked = [term.lower() for term in words.terms(question)]
+    lines = text.splitlines()
+    scores = [sum(term in line.lower() for term in asked) for line in lines]
+    best, best_score = 0, -1
+    for first in range(len(lines)):
+        size = total = 0
+        for line, score in zip(lines[first:], scores[first:], strict=False):
+            size += len(line) + 1
+            if size > EXCERPT:
+                break
+            total += score
+        if total > best_score:
+            best, best_score = first, total
+    shown: list[str] = []
+    size = 0
+    for line in lines[best:]:
+        size += len(line) + 1
+        if size > EXCERPT and shown:
+            break
+        shown.append(line[:EXCERPT])
+    return ("… " if best else "") + "\n".join(shown) + (" …" if best + len(shown) < len(lines) else "")
+
+
+TOOLS = (search, read, symbol, breaking_changes, find_asset, status)

@@ -1,0 +1,6 @@
+"""stage: run it. Physics, stills, video.
+
+Each pass is a job: a detached supervisor runs the program in the strongest sandbox the machine offers, enforces the
+limits, and on success moves the pass's files into the run's evidence in one step. A failed pass leaves earlier
+evidence untouched. Asking again for what has already succeeded costs nothing.
+"""

@@ -1,0 +1,53 @@
+"""What each pass needs before it may start, read from the run's files.
+
+Physics: this exact plan was approved and this exact program lints clean against it. Stills: physics succeeded on this
+key. Video: stills did.
+"""
+
+import json
+from typing import Any
+
+from ..model.errors import GateError
+from ..model.evidence import EvidenceKey, PassName
+from ..model.run import Run
+
+BEFORE: dict[PassName, PassName] = {"stills": "physics", "video": "stills"}
+
+
+def passed(run: Run, key: EvidenceKey, stage: PassName) -> dict[str, Any] | None:
+    """The result of a pass that succeeded on this key."""
+    result = _read(run, key, f"{stage}/result.json")
+    return result if result.get("ok") else None
+
+
+def require(run: Run, key: EvidenceKey, stage: PassName) -> None:
+    """Raise a `GateError` with the next command when the pass may not start."""
+    if stage in BEFORE:
+        if passed(run, key, BEFORE[stage]) is None:
+            raise GateError(
+                f"the {BEFORE[stage]} pass has not succeeded for this program and plan",
+                place=str(run.evidence(key)),
+                next_move=f"worldwright stage start {run.folder} --stage {BEFORE[stage]}",
+            )
+        return
+    if not any(e.get("action") == "approve" and e.get("plan_sha256") == key.plan_sha256 for e in run.entries()):
+        raise GateError(
+            "this plan is not approved",
+            place=str(run.plan),
+            next_move=f"read it, then `worldwright stamp approve {run.folder}`",
+        )
+    lint = _read(run, key, "lint.json")
+    if not lint or any(f.get("severity") == "error" for f in lint.get("findings", ())):
+        raise GateError(
+            "the program has lint errors" if lint else "the program is not linted against this plan",
+            place=str(run.program),
+            next_move=f"worldwright lint check-program {run.program} --plan {run.plan}",
+        )
+
+
+def _read(run: Run, key: EvidenceKey, name: str) -> dict[str, Any]:
+    try:
+        value = json.loads((run.evidence(key) / name).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return value if isinstance(value, dict) else {}

@@ -1,0 +1,173 @@
+"""A job on disk: its specification, its state, and how to tell a live one from one that was killed.
+
+`jobs/<id>/` holds `spec.json` (what to do, written once), `state.json` (written by the supervisor alone),
+`inputs/` (the snapshot that is run), `out/` (what the program writes), `log.txt`, `lock` (held by the live supervisor)
+and, once asked for, `cancel`.
+"""
+
+import fcntl
+import json
+import time
+from pathlib import Path
+from typing import Literal
+
+from pydantic import ValidationError
+
+from worldkit.files import write_atomic, write_json
+
+from ..model.errors import NotFoundError
+from ..model.evidence import EvidenceKey, PassName
+from ..model.frozen import Frozen
+from ..model.run import Run
+
+State = Literal["queued", "running", "succeeded", "failed", "cancelled", "lost"]
+START_GRACE_S = 15.0
+"""How long a supervisor may take to appear before its job counts as lost."""
+
+
+class Spec(Frozen):
+    """What a job does, fixed when it starts."""
+
+    job: str
+    run: str
+    stage: PassName
+    key: EvidenceKey
+    wall_s: float
+    memory_mb: int
+    output_mb: int
+    file_mb: int
+    force: bool = False
+    created: float
+    """Seconds since the epoch."""
+
+
+class JobStatus(Frozen):
+    """Where a job stands."""
+
+    job: str
+    stage: PassName
+    key: str
+    state: State
+    cached: bool = False
+    """Answered from evidence: nothing ran."""
+    code: str = "ok"
+    message: str = ""
+    place: str = ""
+    next_move: str = ""
+    done: float = 0
+    total: float = 0
+    unit: str = ""
+    wall_s: float = 0
+    eta_s: float | None = None
+    sandbox: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """It has not failed."""
+        return self.state in ("queued", "running", "succeeded")
+
+    @property
+    def ended(self) -> bool:
+        """It will not change any more."""
+        return self.state not in ("queued", "running")
+
+    def text(self) -> str:
+        """One line, and the cause when it failed."""
+        line = f"{self.stage} {self.state}" + (" (from its evidence)" if self.cached else "")
+        line += f" · job {self.job} · {self.wall_s:.1f} s" + (f" · sandbox {self.sandbox}" if self.sandbox else "")
+        if self.state == "running" and self.total:
+            line += f" · {self.done:g}/{self.total:g} {self.unit}"
+            line += f", about {self.eta_s:.0f} s left" if self.eta_s is not None else ""
+        if self.message:
+            line += f"\n{self.code}: {f'{self.place}: ' if self.place else ''}{self.message}"
+        return line + (f"\nnext: {self.next_move}" if self.next_move else "")
+
+
+class Job:
+    """One job folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.out = folder / "out"
+        self.inputs = folder / "inputs"
+        self.scratch = folder / "tmp"
+        self.log = folder / "log.txt"
+
+    @classmethod
+    def create(cls, run: Run, spec: Spec) -> "Job":
+        """Lay out a new job with a snapshot of the program and the plan, which are what will be vouched for."""
+        job = cls(run.jobs / spec.job)
+        for folder in (job.out, job.inputs, job.scratch):
+            folder.mkdir(parents=True)
+        for path in (run.program, run.plan):
+            write_atomic(job.inputs / path.name, path.read_bytes())
+        write_json(job.folder / "spec.json", spec.model_dump(mode="json"))
+        return job
+
+    @classmethod
+    def find(cls, run: Run, name: str | None) -> "Job":
+        """A job by id, or the latest; a `NotFoundError` lists the known ones."""
+        known = sorted(run.jobs.glob("*/spec.json"), key=lambda path: path.stat().st_mtime)
+        if name is None and known:
+            return cls(known[-1].parent)
+        for path in known:
+            if path.parent.name == name:
+                return cls(path.parent)
+        raise NotFoundError(
+            f"there is no job '{name}' in this run" if name else "no job was started in this run",
+            place=str(run.jobs),
+            next_move=f"known jobs: {', '.join(p.parent.name for p in known) or '(none)'}; "
+            f"start one with `worldwright stage start {run.folder}`",
+        )
+
+    @property
+    def spec(self) -> Spec:
+        """What the job does."""
+        try:
+            return Spec.model_validate_json((self.folder / "spec.json").read_text(encoding="utf-8"))
+        except (OSError, ValidationError) as cause:
+            raise NotFoundError(
+                f"the job's specification cannot be read: {cause}",
+                place=str(self.folder / "spec.json"),
+                next_move="start the pass again",
+            ) from cause
+
+    def write(self, state: JobStatus) -> None:
+        """Publish the state (the supervisor's call)."""
+        write_json(self.folder / "state.json", state.model_dump(mode="json"))
+
+    def read(self) -> JobStatus:
+        """The state now; a supervisor that died without a word leaves its job `lost`."""
+        spec = self.spec
+        try:
+            state = JobStatus.model_validate_json((self.folder / "state.json").read_text(encoding="utf-8"))
+        except (OSError, ValidationError):
+            state = JobStatus(job=spec.job, stage=spec.stage, key=spec.key.key, state="queued")
+        young = state.state == "queued" and time.time() - spec.created < START_GRACE_S
+        if state.ended or young or self.supervised():
+            return state
+        try:  # it may have ended between the two looks
+            again = json.loads((self.folder / "state.json").read_text(encoding="utf-8"))
+            if again.get("state") not in ("queued", "running"):
+                return JobStatus.model_validate(again)
+        except (OSError, ValueError):
+            pass
+        return state.model_copy(
+            update={
+                "state": "lost",
+                "code": "killed",
+                "message": "the job's supervisor was killed before it finished",
+                "next_move": f"start the {spec.stage} pass again; earlier evidence is untouched",
+            }
+        )
+
+    def supervised(self) -> bool:
+        """Whether a live supervisor holds the job's lock (a lock dies with its process, unlike a process number)."""
+        try:
+            with (self.folder / "lock").open("rb") as handle:
+                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return True
+        except OSError:
+            return False
+        return False

@@ -1,0 +1,272 @@
+"""The process that runs one job: `python -m worldwright.stage.supervisor JOB`.
+
+It is detached from whoever asked (own session), so a job outlives a restart of its server. It starts the program in
+the sandbox, keeps a capped log, watches time, memory, output and the number of processes, and publishes progress. Only
+when everything ended well are the files moved into the run's evidence, in one rename.
+"""
+
+import fcntl
+import json
+import os
+import subprocess
+import sys
+import threading
+import time
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from worldkit.files import write_json
+
+from ..model.evidence import PassResult
+from ..model.run import Run, sha256_file
+from . import family, sandbox
+from .job import Job, JobStatus, Spec
+from .sandbox.confinement import Confinement, environment
+
+LOG_BYTES = 1_000_000
+TICK_S = 0.1
+ADDRESS_SPACE_SLACK = 12 << 30
+"""Software OpenGL and its compiler reserve far more address space than they use; resident memory is the real limit."""
+OPTION = {"physics": "physics", "stills": "still", "video": "video"}
+MB = 1 << 20
+
+
+class Supervision:
+    """One job from start to end."""
+
+    def __init__(self, job: Job) -> None:
+        self.job = job
+        self.spec: Spec = job.spec
+        self.run = Run(self.spec.run)
+        self.started = time.monotonic()
+        self.started_at = datetime.now(UTC).isoformat(timespec="seconds")
+        self.level = ""
+        self.printed = 0
+
+    def state(self, name: Any, **more: Any) -> None:
+        """Publish where the job stands."""
+        wall = round(time.monotonic() - self.started, 3)
+        common = {"job": self.spec.job, "stage": self.spec.stage, "key": self.spec.key.key}
+        self.job.write(JobStatus(**common, state=name, wall_s=wall, sandbox=self.level, **more))
+
+    def call(self) -> list[str]:
+        """The program's command line for this pass."""
+        program = str(self.job.inputs / "simulation.py")
+        call = [sys.executable, "-s", program, "--pass", OPTION[self.spec.stage], "--out", str(self.job.out)]
+        return call if self.spec.stage == "physics" else [*call, "--from", str(self.recording)]
+
+    @property
+    def recording(self) -> Path:
+        """The physics pass's recording of the same key."""
+        return self.run.evidence(self.spec.key) / "physics" / "trajectory"
+
+    def supervise(self) -> None:
+        """Run the program, then settle how it ended."""
+        self.level = sandbox.level()
+        self.state("running")
+        scratch = self.job.scratch
+        reads = (self.job.inputs,) if self.spec.stage == "physics" else (self.job.inputs, self.recording)
+        confinement = Confinement(
+            out=self.job.out,
+            reads=reads,
+            scratch=scratch,
+            cpu_s=int(self.spec.wall_s * (os.cpu_count() or 1)) + 1,
+            file_bytes=self.spec.file_mb * MB,
+            memory_bytes=self.spec.memory_mb * MB + ADDRESS_SPACE_SLACK,
+            environment=environment(str(scratch)),
+        )
+        rung = sandbox.LADDER[self.level]
+        process = subprocess.Popen(
+            rung.command(self.call(), confinement),
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            cwd=self.job.out,
+            env=confinement.environment,
+            start_new_session=True,
+            preexec_fn=rung.before_exec(confinement),
+        )
+        reader = threading.Thread(target=self.keep_log, args=(process.stdout,), daemon=True)
+        reader.start()
+        stopped = self.watch(process)
+        family.end(process.pid)
+        process.wait()
+        reader.join(timeout=5)
+        self.settle(process.returncode, stopped)
+
+    def watch(self, process: "subprocess.Popen[bytes]") -> dict[str, str] | None:
+        """Wait for the end; returns why it was stopped, when a limit stopped it."""
+        published = 0.0
+        while process.poll() is None:
+            time.sleep(TICK_S)
+            elapsed = time.monotonic() - self.started
+            if (self.job.folder / "cancel").exists():
+                return {"code": "cancelled", "message": "cancelled on request"}
+            if elapsed > self.spec.wall_s:
+                return {
+                    "code": "timed_out",
+                    "message": f"still running after its limit of {self.spec.wall_s:g} s",
+                    "next_move": "look for a loop that never ends, or give it more time with --wall-s",
+                }
+            if self.printed > self.spec.output_mb * MB:
+                return {
+                    "code": "too_much_output",
+                    "message": f"it printed more than {self.spec.output_mb} MB",
+                    "next_move": "take the prints out of the loop: the recording holds every number",
+                }
+            processes = family.members(process.pid)
+            used = family.resident_bytes(processes)
+            if used > self.spec.memory_mb * MB:
+                return {
+                    "code": "out_of_memory",
+                    "message": f"it used {used / MB:.0f} MB, over its limit of {self.spec.memory_mb} MB",
+                    "next_move": "hold less in memory, or give it more with --memory-mb",
+                }
+            if len(processes) > 256:
+                return {"code": "refused", "message": "it started more than 256 processes", "next_move": "start none"}
+            if elapsed - published > 0.4:
+                published = elapsed
+                self.state("running", **self.progress(elapsed))
+        return None
+
+    def progress(self, elapsed: float) -> dict[str, Any]:
+        """What the program says of its progress, with an estimate of the time left."""
+        said = _json(self.job.out / "progress.json")
+        try:
+            done, total = float(said["done"]), float(said["total"])
+        except (KeyError, TypeError, ValueError):
+            return {}
+        left = elapsed * (total - done) / done if done > 0 and total > done else None
+        unit = str(said.get("unit", ""))[:40]
+        return {"done": done, "total": total, "unit": unit, "eta_s": None if left is None else round(left, 1)}
+
+    def keep_log(self, stream: Any) -> None:
+        """Copy the program's output into the log, up to the cap; go on counting and discarding beyond it."""
+        with self.job.log.open("wb") as log:
+            while chunk := stream.read1(65536):
+                room = LOG_BYTES - self.printed
+                self.printed += len(chunk)
+                if room > 0:
+                    log.write(chunk[:room])
+                    log.flush()
+                    if len(chunk) > room:
+                        log.write(b"\n[the log is cut here: its limit is 1 MB]\n")
+
+    def settle(self, status: int, stopped: dict[str, str] | None) -> None:
+        """Decide how the pass ended, write its result, and move a success into the evidence."""
+        out = self.job.out
+        summary = _json(out / "result.json")
+        error = _json(out / "error.json")
+        failure = stopped or self.failure(status, summary, error)
+        result = PassResult(
+            stage=self.spec.stage,
+            ok=failure is None,
+            started=self.started_at,
+            wall_s=round(time.monotonic() - self.started, 3),
+            sandbox=self.level,
+            job=self.spec.job,
+            summary=summary if isinstance(summary, dict) else {},
+            **(failure or {"code": "ok"}),
+        )
+        if failure is None:
+            for leftover in ("progress.json", "MUJOCO_LOG.TXT", "result.json"):
+                (out / leftover).unlink(missing_ok=True)
+            files = {
+                path.relative_to(out).as_posix(): sha256_file(path) for path in sorted(out.rglob("*")) if path.is_file()
+            }
+            result = result.model_copy(update={"files": files})
+            if self.job.log.is_file():
+                (out / "log.txt").write_bytes(self.job.log.read_bytes())
+            write_json(out / "result.json", result.model_dump(mode="json"))
+            result = self.commit(result)
+        else:
+            write_json(self.job.folder / "result.json", result.model_dump(mode="json"))
+        facts = {"key": self.spec.key.key, "stage": self.spec.stage, "ok": result.ok, "code": result.code}
+        self.run.log("stage", "stage", **facts, job=self.spec.job, wall_s=result.wall_s, sandbox=self.level)
+        name = "succeeded" if result.ok else "cancelled" if result.code == "cancelled" else "failed"
+        told = {k: getattr(result, k) for k in ("code", "message", "place", "next_move")}
+        self.state(name, **told)
+
+    def commit(self, result: PassResult) -> PassResult:
+        """One rename into the evidence; where evidence of this key already stands, compare and keep the first."""
+        folder = self.run.evidence(self.spec.key)
+        target = folder / self.spec.stage
+        write_json(folder / "key.json", self.spec.key.model_dump(mode="json"))
+        earlier = _json(target / "result.json")
+        if not earlier.get("ok"):
+            if target.exists():  # what an older, interrupted version left behind proves nothing
+                target.rename(self.job.folder / f"replaced-{self.spec.stage}")
+            self.job.out.rename(target)
+            return result
+        first = (earlier.get("summary") or {}).get("trajectory_sha256")
+        again = result.summary.get("trajectory_sha256")
+        if first == again:
+            return result.model_copy(update={"message": "the same result as before; the first evidence is kept"})
+        return result.model_copy(
+            update={
+                "ok": False,
+                "code": "not_repeatable",
+                "message": f"the trajectory differs from the first run's ({again} against {first})",
+                "next_move": "seed every random draw and take wall-clock and set order out of the program",
+            }
+        )
+
+    def failure(self, status: int, summary: Any, error: Any) -> dict[str, str] | None:
+        """How a program that ended by itself failed; None when it did not."""
+        if status == 0 and summary.get("ok"):
+            return None
+        log = f"worldwright stage log {self.run.folder}"
+        if error:
+            kind, line = str(error.get("type", "error")), error.get("line")
+            code = "out_of_memory" if kind == "MemoryError" else str(error.get("code") or "crashed")
+            file = Path(str(error.get("file") or "simulation.py")).name
+            return {
+                "code": code,
+                "message": f"{kind}: {error.get('message', '')}"[:2000],
+                "place": f"{file}:{line}" if line else file,
+                "next_move": str(error.get("next_move") or f"correct it there; the traceback is in `{log}`"),
+            }
+        if status in (-9, 137):
+            cause = "it was killed by a signal (SIGKILL): by itself, or by a limit of the kernel"
+            return {"code": "killed", "message": cause, "next_move": f"see its last words in `{log}`"}
+        if status < 0 or status > 128:
+            number = -status if status < 0 else status - 128
+            cause = f"it was ended by signal {number}" + (" (processor time limit)" if number == 24 else "")
+            cause += " (file size limit)" if number == 25 else ""
+            return {"code": "killed", "message": cause, "next_move": f"see its last words in `{log}`"}
+        if status == 0:
+            cause = "it ended without a result: does it hand its world to worldkit's program.main?"
+            return {"code": "no_result", "message": cause, "next_move": "end the file with program.main(build, …)"}
+        return {"code": "crashed", "message": f"it ended with status {status}", "next_move": f"read `{log}`"}
+
+
+def _json(path: Path) -> dict[str, Any]:
+    """A JSON object written by the confined program, or an empty one: its content is never trusted."""
+    try:
+        if path.is_symlink() or path.stat().st_size > 4 * MB:
+            return {}
+        value = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return value if isinstance(value, dict) else {}
+
+
+def main() -> int:
+    """Supervise the job whose folder is given."""
+    job = Job(Path(sys.argv[1]))
+    with (job.folder / "lock").open("wb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        supervision = Supervision(job)
+        try:
+            supervision.supervise()
+        except BaseException as defect:
+            supervision.state(
+                "failed", code="internal", message=f"the supervisor failed: {type(defect).__name__}: {defect}"
+            )
+            raise
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

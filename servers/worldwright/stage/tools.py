@@ -1,0 +1,200 @@
+"""The tools of `stage`: start a pass, follow it, look at what it shows."""
+
+import secrets
+import time
+from typing import Annotated
+
+from pydantic import Field
+
+from ..expose import reads
+from ..model.errors import NotFoundError
+from ..model.evidence import PASSES, PassName
+from ..model.frozen import Frozen
+from ..model.picture import Illustrated
+from ..model.progress import Progress, silent
+from ..model.run import Run
+from .job import Job, JobStatus, Spec
+
+RunName = Annotated[str, Field(description="Path of the run folder, or its name under runs/ or examples/.")]
+JobName = Annotated[str | None, Field(description="Job id; the latest job when left out.")]
+WALL_S: dict[PassName, float] = {"physics": 120.0, "stills": 120.0, "video": 600.0}
+PAGE = 16_000
+
+
+class RunStages(Frozen):
+    """The passes of the current program and plan, and the run's latest jobs."""
+
+    key: str
+    passed: tuple[PassName, ...]
+    jobs: tuple[JobStatus, ...]
+    """Newest first, at most ten."""
+
+    def text(self) -> str:
+        """One line a job."""
+        head = f"key {self.key}: {', '.join(self.passed) or 'no pass'} succeeded"
+        return "\n".join([head, *(job.text() for job in self.jobs)])
+
+
+class LogPage(Frozen):
+    """A stretch of a job's log."""
+
+    job: str
+    content: str
+    offset: int
+    next_offset: int | None
+    size: int
+
+    def text(self) -> str:
+        """The log itself."""
+        return self.content
+
+
+def start(
+    run: RunName,
+    stage: Annotated[PassName, Field(description="physics, then stills, then video.")] = "physics",
+    force: Annotated[bool, Field(description="Run again although it succeeded, and compare.")] = False,
+    wall_s: Annotated[float | None, Field(description="Wall-clock limit in seconds.", gt=0, le=86_400)] = None,
+    memory_mb: Annotated[int, Field(description="Resident memory limit.", ge=64)] = 4096,
+) -> JobStatus:
+    """Start one pass of the run's program in the sandbox and return at once with its job.
+
+    Needs an approved plan and a clean lint for physics, physics for stills, stills for video. A pass that already
+    succeeded for this exact program, plan and environment is answered from its evidence; one that is under way is
+    joined. Follow it with `wait`.
+    """
+    import subprocess
+    import sys
+
+    from ..model import environment
+    from . import gates
+
+    folder = Run.find(run)
+    key = folder.evidence_key(environment.current().sha256())
+    earlier = gates.passed(folder, key, stage)
+    if earlier is not None and not force:
+        return JobStatus(
+            job=earlier.get("job", ""),
+            stage=stage,
+            key=key.key,
+            state="succeeded",
+            cached=True,
+            wall_s=earlier.get("wall_s", 0.0),
+            sandbox=earlier.get("sandbox", ""),
+        )
+    gates.require(folder, key, stage)
+    for other in _jobs(folder):
+        spec = other.spec
+        if not force and (spec.stage, spec.key) == (stage, key) and not (state := other.read()).ended:
+            return state
+    spec = Spec(
+        job=f"{stage}-{secrets.token_hex(4)}",
+        run=str(folder.folder),
+        stage=stage,
+        key=key,
+        wall_s=wall_s or WALL_S[stage],
+        memory_mb=memory_mb,
+        output_mb=16,
+        file_mb=2048,
+        force=force,
+        created=time.time(),
+    )
+    job = Job.create(folder, spec)
+    with (job.folder / "supervisor.log").open("wb") as errors:
+        subprocess.Popen(
+            [sys.executable, "-m", "worldwright.stage.supervisor", str(job.folder)],
+            stdin=subprocess.DEVNULL,
+            stdout=errors,
+            stderr=errors,
+            start_new_session=True,
+        )
+    return job.read()
+
+
+@reads
+def wait(
+    run: RunName,
+    job: JobName = None,
+    timeout_s: Annotated[float, Field(description="Return after this long at the latest.", gt=0, le=40)] = 40,
+    progress: Progress = silent,
+) -> JobStatus:
+    """Wait until a job ends, or `timeout_s` has passed, reporting progress on the way; call again while it runs."""
+    found = Job.find(Run.find(run), job)
+    deadline = time.monotonic() + timeout_s
+    told = None
+    while True:
+        state = found.read()
+        left = f", about {state.eta_s:.0f} s left" if state.eta_s is not None else ""
+        if (state.done, state.eta_s) != told:
+            told = (state.done, state.eta_s)
+            progress(state.done, state.total, f"{state.stage} {state.done:g}/{state.total:g} {state.unit}{left}")
+        if state.ended or time.monotonic() > deadline:
+            return state
+        time.sleep(0.05)
+
+
+@reads
+def status(run: RunName) -> RunStages:
+    """Which passes have succeeded for the current program and plan, and how the latest jobs stand."""
+    from ..model import environment
+    from . import gates
+
+    folder = Run.find(run)
+    key = folder.evidence_key(environment.current().sha256())
+    passed = tuple(stage for stage in PASSES if gates.passed(folder, key, stage) is not None)
+    return RunStages(key=key.key, passed=passed, jobs=tuple(job.read() for job in _jobs(folder)[:10]))
+
+
+def cancel(run: RunName, job: JobName = None) -> JobStatus:
+    """Stop a running job and everything it started. Earlier evidence is untouched."""
+    found = Job.find(Run.find(run), job)
+    if not found.read().ended:
+        (found.folder / "cancel").touch()
+        deadline = time.monotonic() + 10
+        while not found.read().ended and time.monotonic() < deadline:
+            time.sleep(0.05)
+    return found.read()
+
+
+@reads
+def frames(
+    run: RunName,
+    camera: Annotated[str | None, Field(description="One camera; all of them when left out.")] = None,
+    count: Annotated[int, Field(description="Moments to show of each film.", ge=1, le=12)] = 4,
+) -> Illustrated:
+    """Show the pictures of the current program: the still of each camera, then moments of its film with their times."""
+    from ..model import environment
+    from .pictures import contact
+
+    folder = Run.find(run)
+    return contact(folder.evidence(folder.evidence_key(environment.current().sha256())), camera, count)
+
+
+@reads
+def log(
+    run: RunName,
+    job: JobName = None,
+    offset: Annotated[int, Field(description="Byte to start from.", ge=0)] = 0,
+) -> LogPage:
+    """Read what a job's program printed, a page at a time."""
+    found = Job.find(Run.find(run), job)
+    path = found.log
+    if not path.is_file():
+        raise NotFoundError("this job has printed nothing yet", place=str(path), next_move="wait for it")
+    size = path.stat().st_size
+    with path.open("rb") as stream:
+        stream.seek(offset)
+        content = stream.read(PAGE)
+    end = offset + len(content)
+    text = content.decode(errors="replace")
+    return LogPage(
+        job=found.folder.name, content=text, offset=offset, next_offset=end if end < size else None, size=size
+    )
+
+
+def _jobs(run: Run) -> list[Job]:
+    """Every readable job, newest first."""
+    known = sorted(run.jobs.glob("*/spec.json"), key=lambda path: path.stat().st_mtime, reverse=True)
+    return [Job(path.parent) for path in known]
+
+
+TOOLS = (start, wait, status, cancel, frames, log)

@@ -1,0 +1,86 @@
+"""Lint and retrieval against their goals: one run, ratios to the goal (below 1 is met).
+
+Lint: the AST rules on a 500-line program, warm; the command line, cold. Retrieve: a question, warm; the first answer
+of a process without any cache, index built on the way; the same with the cache.
+"""
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+GOALS_S = {
+    "lint 500 lines, warm": 0.050,
+    "lint command, cold": 0.70,
+    "search, warm": 0.040,
+    "search command, no cache": 2.0,
+    "search command, cached": 0.70,
+}
+
+BODY = """
+def part_{n}(spec, x):
+    body = spec.worldbody.add_body(name="part_{n}", pos=(x, {n} * 0.1, 0.5 + 0.01 * {n}))
+    body.add_freejoint(name="part_{n}_free")
+    size = (0.02 + 0.001 * {n}, 0.03, 0.04)
+    body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, mass=0.1 * {n} + 0.05, friction=(0.5, 0.005, 0.0001))
+    body.add_site(name="mark_{n}", pos=(0.0, math.cos({n} / 7) * 0.01, 0.0))
+    return body
+
+"""
+
+
+def program(lines: int) -> str:
+    """A clean program of at least so many lines."""
+    parts = ["import math\n\nimport mujoco\n\n\ndef base():\n    return mujoco.MjSpec()\n\n"]
+    while sum(part.count("\n") for part in parts) < lines:
+        parts.append(BODY.format(n=len(parts)))
+    return "".join(parts)
+
+
+def median(action: Callable[[], object], times: int = 15) -> float:
+    """Median seconds of an action."""
+    taken = []
+    for _ in range(times):
+        began = time.perf_counter()
+        action()
+        taken.append(time.perf_counter() - began)
+    return sorted(taken)[times // 2]
+
+
+def command(*arguments: str, **environment: str) -> None:
+    """Run the command line in a process of its own."""
+    call = [sys.executable, "-m", "worldwright.cli", *arguments]
+    subprocess.run(call, check=False, stdout=subprocess.DEVNULL, env={**os.environ, **environment})
+
+
+def main() -> int:
+    """Measure, print ratios, and fail when a goal is missed."""
+    from worldwright.lint import tools as lint
+    from worldwright.retrieve import tools as retrieve
+
+    measured = {}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "program.py"
+        path.write_text(program(500), encoding="utf-8")
+        assert lint.check_program([path]).findings == (), "the measured program must be clean"
+        measured["lint 500 lines, warm"] = median(lambda: lint.check_program([path]))
+        measured["lint command, cold"] = median(lambda: command("lint", "check-program", str(path)), 5)
+        questions = iter([f"sliding friction of geom {n} conveyor damping" for n in range(100)])
+        retrieve.search("warm up")
+        measured["search, warm"] = median(lambda: retrieve.search(next(questions)))
+        measured["search command, cached"] = median(lambda: command("retrieve", "search", "friction"), 5)
+        caches = iter(range(100))
+        fresh = lambda: command("retrieve", "search", "friction", WORLDWRIGHT_CACHE=f"{folder}/{next(caches)}")  # noqa: E731
+        measured["search command, no cache"] = median(fresh, 3)
+    missed = 0
+    for name, goal in GOALS_S.items():
+        missed += measured[name] > goal
+        print(f"{name:<26} {measured[name] * 1000:8.1f} ms, {measured[name] / goal:.2f} of the goal")
+    return 1 if missed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,85 @@
+"""Every rule proves itself: its GOOD cases are clean, its BAD cases are found, its page is complete."""
+
+import re
+
+import pytest
+
+from worldwright.lint import engine, source
+from worldwright.lint.case import SOUND_PLAN, Case, plan_with
+from worldwright.lint.plan_view import PlanView
+from worldwright.lint.program import Program
+
+HEADINGS = ("What it does:", "Why is this bad:", "Use instead:")
+
+
+def program_cases(kind):
+    for rule in engine.program_rules():
+        for index, case in enumerate(getattr(rule, kind)):
+            yield pytest.param(rule, case if isinstance(case, Case) else Case(case), id=f"{rule.code}-{index}")
+
+
+def plan_cases(kind):
+    for rule in engine.plan_rules():
+        for index, change in enumerate(getattr(rule, kind)):
+            yield pytest.param(rule, change, id=f"{rule.code}-{index}")
+
+
+def problems(rule, case):
+    planned = rule.SCOPE == "plan" or bool(case.plan)
+    plan = plan_with(case.plan or {}) if planned and case.plan is not None else None
+    return list(rule.check(Program(source.parse(case.source, case.path), plan, contract=True)))
+
+
+@pytest.mark.parametrize(("rule", "case"), [*program_cases("GOOD")])
+def test_good_programs_are_clean(rule, case):
+    assert problems(rule, case) == []
+
+
+@pytest.mark.parametrize(("rule", "case"), [*program_cases("BAD")])
+def test_bad_programs_are_found(rule, case):
+    found = problems(rule, case)
+    assert found
+    lines = case.source.count("\n") + 1
+    for problem in found:
+        assert problem.message and not problem.message.endswith(".")
+        assert problem.fix
+        assert problem.line is not None and 1 <= problem.line <= lines
+
+
+@pytest.mark.parametrize(("rule", "change"), [*plan_cases("GOOD")])
+def test_good_plans_are_clean(rule, change):
+    assert list(rule.check(PlanView(plan_with(change)))) == []
+
+
+@pytest.mark.parametrize(("rule", "change"), [*plan_cases("BAD")])
+def test_bad_plans_are_found(rule, change):
+    found = list(rule.check(PlanView(plan_with(change))))
+    assert found
+    assert all(problem.section and problem.message and problem.fix for problem in found)
+
+
+def test_the_sound_plan_is_clean_under_every_rule():
+    assert engine.check_plan_rules(plan_with({}), "plan.md") == []
+    assert SOUND_PLAN["title"]
+
+
+@pytest.mark.parametrize("rule", [*engine.program_rules(), *engine.plan_rules()], ids=lambda rule: rule.code)
+def test_pages_are_complete(rule):
+    place = -1
+    for heading in HEADINGS:
+        assert rule.doc.find(heading) > place, f"{rule.name}: '{heading}' is missing or out of order"
+        place = rule.doc.find(heading)
+    assert rule.summary.endswith(".") and len(rule.summary) < 140
+    assert rule.SEVERITY in ("error", "warning", "info")
+    assert len(rule.GOOD) >= 1 and len(rule.BAD) >= 1
+    prefix = "WL" if ".program." in rule.module.__name__ else "WP"
+    assert re.fullmatch(prefix + r"\d{3}", rule.code)
+    if prefix == "WL":
+        assert rule.SCOPE in engine.SCOPES
+
+
+def test_codes_are_unique_and_names_do_not_repeat():
+    rules = [*engine.program_rules(), *engine.plan_rules()]
+    assert len({rule.code for rule in rules}) == len(rules)
+    assert len({rule.name for rule in rules}) == len(rules)
+    assert len(engine.program_rules()) >= 12 and len(engine.plan_rules()) >= 6

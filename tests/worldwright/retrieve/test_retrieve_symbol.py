@@ -1,0 +1,86 @@
+"""What the installed build says of a name, and what the changelog says of the past."""
+
+import pytest
+from click.testing import CliRunner
+
+from worldwright import cli
+from worldwright.retrieve import tools
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "says"),
+    [
+        ("mujoco.mj_ray", "function", "normal"),
+        ("mj.mj_ray", "function", "normal"),
+        ("mj_ray(m, d)", "function", "normal"),
+        ("MjSpec.add_flex", "method", "stressyield"),
+        ("mjsGeom.surfacevel", "field", "float64[6, 1]"),
+        ("mjModel.geom_size", "field", "geom-specific size parameters"),
+        ("MjSpec.worldbody.add_geom", "method", "MjsGeom"),
+        ("mjtGeom.mjGEOM_BOX", "enum value", "6"),
+        ("mjGEOM_BOX", "enum value", "6"),
+        ("xfrc_applied", "field", "nbody x 6"),
+        ("<geom surfacevel>", "attribute", "Velocity of the geom's surface"),
+        ('<option integrator="discrete"/>', "attribute", "implicitfast"),
+        ("geom/surfacevel", "attribute", "Velocity"),
+        ("<flexcomp>", "element", "inside <body>"),
+        ("mujoco.viewer.launch_passive", "name", ""),
+    ],
+)
+def test_what_exists(name, kind, says):
+    answer = tools.symbol(name)
+    assert answer.exists and answer.definitions[0].kind == kind
+    assert says in answer.text()
+
+
+@pytest.mark.parametrize("name", ["mj_ray", "<geom surfacevel>", "MjData", "<body>", "mjtGeom", "<option timestep>"])
+def test_documented_names_are_cited(name):
+    citations = tools.symbol(name).definitions[0].citations
+    assert citations
+    assert tools.read(citations[0]).content
+
+
+@pytest.mark.parametrize(
+    ("name", "nearest", "version"),
+    [
+        ("mujoco.mju_rayFlex", "mujoco.mj_rayFlex", "3.5.0"),
+        ("<composite>", None, "4.0.0"),
+        ("MjOption.time_step", "MjOption.timestep", None),
+        ("<geom frction>", "<geom friction>", None),
+        ("mjGEOM_CUBE", None, None),
+        ("mjData.qM", None, "3.11.0"),
+    ],
+)
+def test_what_does_not_exist(name, nearest, version):
+    answer = tools.symbol(name)
+    assert not answer.exists and not answer.ok
+    if nearest:
+        assert nearest in answer.nearest
+    if version:
+        assert answer.changes[0].version == version
+
+
+@pytest.mark.parametrize("name", ["", " ", "<", "<>", "...", "a" * 5000, "mujoco.", "<geom", "é.ü", "mj_ray(", "%s"])
+def test_odd_names_are_answered(name):
+    assert tools.symbol(name).text()
+
+
+def test_breaking_changes_by_name_and_version():
+    table = tools.breaking_changes("flexvert")
+    assert table.changes[0].version == "4.0.0" and "discrete" in table.changes[0].migration
+    assert tools.read(table.changes[0].cited).content.lstrip().startswith("15.")
+    rows = tools.breaking_changes("all", version="4.0.0", k=30)
+    assert rows.total >= 12 and all(row.version == "4.0.0" for row in rows.changes)
+    assert tools.breaking_changes("no_such_name").text().startswith("the changelog does not mention")
+
+
+def test_the_command_line_answers_no_with_one():
+    run = lambda name: CliRunner().invoke(cli.main, ["retrieve", "symbol", name]).exit_code  # noqa: E731
+    assert run("mj_step") == 0 and run("mj_stepp") == 1
+
+
+def test_assets_are_found_by_what_they_are():
+    found = tools.find_asset("a coffee mug")
+    assert found.assets[0].key == "mug" and 0.05 < found.assets[0].height_m < 0.2
+    none = tools.find_asset("zeppelin")
+    assert not none.ok and "mug" in none.known

@@ -1,0 +1,227 @@
+"""Jobs with small real programs at every level of the sandbox that works here."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import textwrap
+import time
+from pathlib import Path
+
+import pytest
+
+from worldwright.model import environment
+from worldwright.model.errors import GateError, JobError, NotFoundError
+from worldwright.model.evidence import LintReport
+from worldwright.model.run import Run, sha256_file
+from worldwright.stage import sandbox
+from worldwright.stage.tools import cancel, log, start, status, wait
+
+GOOD = """
+import json, pathlib, sys
+out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+(out / "progress.json").write_text('{"done": 1, "total": 2, "unit": "steps"}')
+(out / "data.bin").write_bytes(b"x" * 10)
+(out / "result.json").write_text(json.dumps({"ok": True, "trajectory_sha256": "abc"}))
+print("said something")
+"""
+LEVELS = [name for name, module in sandbox.LADDER.items() if not module.unusable()]
+
+
+@pytest.fixture(params=LEVELS)
+def level(request, monkeypatch):
+    monkeypatch.setenv("WORLDWRIGHT_SANDBOX", request.param)
+    sandbox.level.cache_clear()
+    yield request.param
+    sandbox.level.cache_clear()
+
+
+@pytest.fixture
+def make(tmp_path):
+    """A run whose program is approved and counts as linted."""
+
+    def make(source: str, name: str = "world") -> Run:
+        run = Run(tmp_path / name)
+        run.folder.mkdir(exist_ok=True)
+        run.plan.write_text("a plan")
+        run.program.write_text(textwrap.dedent(source))
+        run.log("test", "approve", plan_sha256=sha256_file(run.plan))
+        run.keep(run.evidence_key(environment.current().sha256()), "lint", LintReport(rules=1))
+        return run
+
+    return make
+
+
+def finish(run: Run, **options):
+    job = start(str(run.folder), **options)
+    for _ in range(10):
+        if job.ended:
+            return job
+        job = wait(str(run.folder), job=job.job, timeout_s=10)
+    raise AssertionError(f"the job never ended: {job}")
+
+
+def evidence(run: Run) -> Path:
+    return run.evidence(run.evidence_key(environment.current().sha256()))
+
+
+def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, level):
+    run = make(GOOD)
+    job = finish(run)
+    assert (job.state, job.sandbox, job.cached) == ("succeeded", level, False), job.text()
+    result = json.loads((evidence(run) / "physics/result.json").read_text())
+    assert result["ok"]
+    assert result["sandbox"] == level
+    assert result["summary"]["trajectory_sha256"] == "abc"
+    assert set(result["files"]) == {"data.bin"}
+    assert log(str(run.folder)).content == "said something\n"
+    again = start(str(run.folder))
+    assert again.cached
+    assert again.job == job.job
+    assert len(list(run.jobs.iterdir())) == 1
+    run.program.write_text(GOOD + "\n# changed\n")
+    with pytest.raises(GateError, match="not linted"):
+        start(str(run.folder))
+
+
+@pytest.mark.parametrize(
+    ("source", "code", "options"),
+    [
+        ("raise ValueError('no')", "crashed", {}),
+        ("while True: pass", "timed_out", {"wall_s": 1.0}),
+        (
+            "import time; x = bytearray(600 << 20); x[::4096] = b'1' * len(x[::4096]); time.sleep(9)",
+            "out_of_memory",
+            {"memory_mb": 256},
+        ),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", "killed", {}),
+        ("import sys\nwhile True: sys.stdout.write('x' * 65536)", "too_much_output", {}),
+        ("print('nothing')", "no_result", {}),
+        ("import os, time\nfor _ in range(400):\n    if os.fork() == 0: time.sleep(30)\ntime.sleep(30)", "refused", {}),
+    ],
+)
+def test_every_way_to_fail_has_a_name_and_leaves_no_evidence(make, source, code, options):
+    run = make(source)
+    job = finish(run, **options)
+    assert job.state == "failed"
+    assert job.code == code, job.text()
+    assert job.message
+    assert job.next_move
+    assert not (evidence(run) / "physics").exists()
+    assert list(run.entries())[-1]["code"] == code
+
+
+def test_the_programs_own_error_is_named_with_its_line(make):
+    run = make(
+        """
+        import json, pathlib, sys
+        out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+        error = {"type": "KeyError", "message": "'cue'", "file": "/world/simulation.py", "line": 7, "code": "crashed"}
+        (out / "error.json").write_text(json.dumps(error))
+        sys.exit(1)
+        """
+    )
+    job = finish(run)
+    assert (job.code, job.place, job.message) == ("crashed", "simulation.py:7", "KeyError: 'cue'")
+
+
+def test_the_log_is_capped(make):
+    run = make("print('y' * 3_000_000)")
+    job = finish(run)
+    assert job.code == "no_result"
+    page = log(str(run.folder))
+    assert 1_000_000 <= page.size < 1_001_000
+    assert page.next_offset == len(page.content)
+
+
+def test_writing_outside_and_connecting_are_refused(make, level, tmp_path):
+    target = tmp_path / "outside.txt"
+    run = make(
+        f"""
+        import pathlib, socket
+        for attempt in (lambda: pathlib.Path({str(target)!r}).write_text("x"),
+                        lambda: pathlib.Path({str(tmp_path / "world" / "plan.md")!r}).write_text("x"),
+                        lambda: socket.create_connection(("127.0.0.1", 9), timeout=1)):
+            try:
+                attempt()
+                print("succeeded")
+            except OSError as refusal:
+                print(type(refusal).__name__)
+        """
+    )
+    finish(run)
+    words = log(str(run.folder)).content.split()
+    if level == "rlimits":
+        assert run.plan.read_text() == "x"  # the weakest level only limits resources, and says so in the evidence
+        return
+    assert "succeeded" not in words
+    assert not target.exists()
+    assert run.plan.read_text() == "a plan"
+
+
+def test_cancel_ends_the_whole_family(make):
+    run = make(
+        "import subprocess, sys, time\nsubprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60.25)'])\ntime.sleep(60)"
+    )
+    job = start(str(run.folder))
+    time.sleep(1.0)
+    assert cancel(str(run.folder), job.job).state == "cancelled"
+    commands = [p.read_bytes() for p in Path("/proc").glob("[0-9]*/cmdline") if p.exists()]
+    assert not any(b"time.sleep(60.25)" in command for command in commands)
+
+
+def test_a_killed_supervisor_leaves_a_lost_job_and_no_evidence(make):
+    run = make("import time; time.sleep(60)")
+    job = start(str(run.folder))
+    deadline = time.monotonic() + 10
+    while status(str(run.folder)).jobs[0].state != "running" and time.monotonic() < deadline:
+        time.sleep(0.05)
+    listed = subprocess.run(["pgrep", "-f", f"supervisor .*{job.job}"], capture_output=True, text=True, check=True)
+    for process in listed.stdout.split():
+        os.kill(int(process), signal.SIGKILL)
+    lost = wait(str(run.folder), job=job.job, timeout_s=10)
+    assert (lost.state, lost.code) == ("lost", "killed")
+    assert not (evidence(run) / "physics").exists()
+    assert start(str(run.folder)).job != job.job
+    cancel(str(run.folder))
+
+
+def test_a_job_survives_its_server(make):
+    run = make("import time; time.sleep(1.5)\n" + GOOD)
+    code = f"from worldwright.stage.tools import start; print(start({str(run.folder)!r}).job)"
+    job = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip()
+    assert wait(str(run.folder), job=job, timeout_s=20).state == "succeeded"
+
+
+def test_a_forced_rerun_that_differs_is_said_and_the_first_evidence_stays(make):
+    run = make(GOOD.replace('"abc"', "str(__import__('time').time())"))
+    assert finish(run).state == "succeeded"
+    before = (evidence(run) / "physics/result.json").read_bytes()
+    job = finish(run, force=True)
+    assert (job.state, job.code) == ("failed", "not_repeatable")
+    assert (evidence(run) / "physics/result.json").read_bytes() == before
+
+
+def test_gates_name_the_next_command(make):
+    run = make(GOOD)
+    with pytest.raises(GateError) as refusal:
+        start(str(run.folder), stage="video")
+    assert "--stage stills" in refusal.value.next_move
+    run.plan.write_text("another plan")
+    with pytest.raises(GateError, match="not approved"):
+        start(str(run.folder))
+
+
+def test_unknown_runs_jobs_and_levels_list_the_known(make, monkeypatch):
+    run = make(GOOD)
+    with pytest.raises(NotFoundError, match="no run"):
+        status("no-such-run")
+    with pytest.raises(NotFoundError, match="no job"):
+        wait(str(run.folder), job="physics-none")
+    monkeypatch.setenv("WORLDWRIGHT_SANDBOX", "moat")
+    sandbox.level.cache_clear()
+    with pytest.raises(JobError, match="moat"):
+        sandbox.level()
+    monkeypatch.undo()
+    sandbox.level.cache_clear()
