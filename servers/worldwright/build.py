@@ -22,6 +22,7 @@ from .model.errors import GateError, JobError, WorldwrightError
 from .model.evidence import PASSES
 from .model.progress import Progress
 from .model.run import Run, sha256_file
+from .model.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -106,7 +107,8 @@ def _draft(run: Run) -> str:
     from .model.plan_text import read_plan
     from .place.tools import resolve
 
-    drafted = draft(read_plan(run.plan).plan, resolve(run.plan, write=False), run.name)
+    layout = Scene(objects=resolve(run.plan, write=False).objects)
+    drafted = draft(read_plan(run.plan).plan, layout, run.name)
     if run.program.is_file():
         written = sha256_file(run.program)
         if not any(e.get("action") == "draft" and e.get("program_sha256") == written for e in run.entries()):

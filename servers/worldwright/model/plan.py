@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from enum import StrEnum
 from typing import Any, Literal
 
-from pydantic import Field, field_validator
+from pydantic import Field, field_validator, model_validator
 
 from .frozen import Frozen
 
@@ -198,6 +198,12 @@ class SceneObject(Frozen):
             raise ValueError(f"every extent must be a positive, finite number of metres, got {value}")
         return value
 
+    @model_validator(mode="after")
+    def _walled(self) -> "SceneObject":
+        if (self.primitive == "box_container") != (self.wall_thickness is not None):
+            raise ValueError("`wall_thickness` is needed by a box_container, and only by it")
+        return self
+
 
 class AssetRow(Frozen):
     """A catalog mesh or a simulator-native wrapper, `count` times."""
@@ -206,7 +212,7 @@ class AssetRow(Frozen):
     type: Literal["mesh", "mjcf", "urdf", "wrapper"] = "mesh"
     filename: str
     """The exact catalog key."""
-    count: int = Field(1, ge=1)
+    count: int = Field(1, ge=1, le=10_000)
     fixed: bool = False
     is_dynamic: bool = True
     material: str | None = None

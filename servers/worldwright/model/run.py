@@ -130,7 +130,7 @@ class Run:
         """The journal, oldest first; a line torn by a crash is skipped."""
         if not self.journal.is_file():
             return
-        for line in self.journal.read_text(encoding="utf-8", errors="replace").splitlines():
+        for line in self.journal.read_text(encoding="utf-8", errors="replace").split("\n"):
             try:
                 entry = json.loads(line)
             except json.JSONDecodeError:

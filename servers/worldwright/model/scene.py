@@ -17,6 +17,8 @@ class PlacedObject(Frozen):
     """Centre of its bounding box."""
     deg_z: float = 0.0
     """Yaw, degrees counter-clockwise from +X."""
+    round: bool = False
+    """Its extents do not change with yaw (spheres, upright cylinders)."""
     fixed: bool = False
     supported_by: str | None = None
     provenance: tuple[str, ...] = ()
@@ -26,7 +28,8 @@ class PlacedObject(Frozen):
         """The world AABB (min, max) of the yawed box, metres."""
         from math import cos, radians, sin
 
-        c, s = abs(cos(radians(self.deg_z))), abs(sin(radians(self.deg_z)))
+        yaw = 0.0 if self.round else radians(self.deg_z)
+        c, s = abs(cos(yaw)), abs(sin(yaw))
         half = (
             (self.size[0] * c + self.size[1] * s) / 2,
             (self.size[0] * s + self.size[1] * c) / 2,

@@ -161,9 +161,8 @@ def test_writing_outside_and_connecting_are_refused(make, level, tmp_path):
 
 
 def test_cancel_ends_the_whole_family(make):
-    run = make(
-        "import subprocess, sys, time\nsubprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60.25)'])\ntime.sleep(60)"
-    )
+    child = "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(60.25)'])"
+    run = make(f"import subprocess, sys, time\n{child}\ntime.sleep(60)")
     job = start(str(run.folder))
     time.sleep(1.0)
     assert cancel(str(run.folder), job.job).state == "cancelled"

@@ -1,0 +1,135 @@
+"""Raw engine numbers of some consecutive rows: preallocated, filled by plain copies, turned into columns later."""
+
+from typing import TYPE_CHECKING, Any
+
+from .columns import TABLES
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+PLAIN = (
+    "qpos", "qvel", "act", "ctrl", "eq_active", "mocap_pos", "mocap_quat", "plastic", "energy", "actuator_force",
+    "sensordata",
+)  # fmt: skip
+"""Arrays that are recorded as they are."""
+CONTACT_FIELDS = ("geom", "dist", "pos", "frame", "dim", "efc_address")
+
+
+class Batch:
+    """Buffers for `capacity` rows; B bodies without the world. `rows` counts the filled ones."""
+
+    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", capacity: int) -> None:
+        import mujoco
+        import numpy as np
+
+        self.capacity = capacity
+        self.rows = 0
+        self.first_row = 0
+        self.events: dict[str, list[Any]] = {name: [] for name in TABLES if name != "contacts"}
+        self.time = np.empty(capacity)
+        self.ncon = np.zeros(capacity, np.int32)
+        self.nefc = np.zeros(capacity, np.int32)
+        self.eq_residual = np.zeros((capacity, model.neq))
+        # Views into MjData stay valid for its lifetime, except those of the contact and constraint arena.
+        self.before: list[tuple[str, np.ndarray, np.ndarray]] = self._mirror(
+            {
+                **{name: getattr(data, name) for name in PLAIN if name not in ("actuator_force", "sensordata")},
+                "xpos": data.xpos[1:],
+                "xquat": data.xquat[1:],
+                "xipos": data.xipos[1:],
+                "cvel": data.cvel[1:],
+                "subtree_com": data.subtree_com,
+                "linvel": data.subtree_linvel[0],
+                "angmom": data.subtree_angmom[0],
+            }
+        )
+        self.after: list[tuple[str, np.ndarray, np.ndarray]] = self._mirror(
+            {
+                "actuator_force": data.actuator_force,
+                "sensordata": data.sensordata,
+                "solver_niter": data.solver_niter,
+            }
+        )
+        self.nisland = np.zeros(capacity, np.int32)
+        fields = (*CONTACT_FIELDS, "friction") if model.opt.cone == mujoco.mjtCone.mjCONE_PYRAMIDAL else CONTACT_FIELDS
+        self.contact_fields = fields
+        self.contact: dict[str, np.ndarray] = {}
+        self.contact_count = 0
+        self.efc_force = np.empty(4096)
+        self.efc_count = 0
+
+    def _mirror(self, sources: "dict[str, np.ndarray]") -> "list[tuple[str, np.ndarray, np.ndarray]]":
+        """(name, buffer, source) of every source that has numbers."""
+        import numpy as np
+
+        return [
+            (name, np.empty((self.capacity, *source.shape), source.dtype), source)
+            for name, source in sources.items()
+            if source.size
+        ]
+
+    def buffer(self, name: str) -> "np.ndarray | None":
+        """The filled rows of a mirrored array; None when it has no numbers."""
+        for key, buffer, _ in (*self.before, *self.after):
+            if key == name:
+                return buffer[: self.rows]
+        return None
+
+    def add_contacts(self, row: int, data: "mujoco.MjData") -> None:
+        """Append this step's contacts and constraint forces (strided copies, no loop over contacts)."""
+        count = data.ncon
+        self.ncon[row] = count
+        if not count:
+            self.nefc[row] = 0
+            return
+        contact = data.contact
+        start, end = self.contact_count, self.contact_count + count
+        buffers = self.contact
+        if not buffers or end > len(buffers["dist"]):
+            self._grow_contacts(contact, end)
+        for name in self.contact_fields:
+            buffers[name][start:end] = getattr(contact, name)
+        self.contact_count = end
+        forces = data.efc_force
+        start, end = self.efc_count, self.efc_count + len(forces)
+        if end >= len(self.efc_force):  # one more than needed, for the zero that `derive` reads
+            self.efc_force = _enlarged(self.efc_force, end + 1)
+        self.efc_force[start:end] = forces
+        self.nefc[row] = len(forces)
+        self.efc_count = end
+
+    def add_residuals(self, row: int, data: "mujoco.MjData") -> None:
+        """Norm of each equality constraint's violation; NaN while it is switched off."""
+        import numpy as np
+
+        count = data.ne
+        owners = data.efc_id[:count]
+        squares = np.bincount(owners, data.efc_pos[:count] ** 2, minlength=self.eq_residual.shape[1])
+        self.eq_residual[row] = np.where(data.eq_active, np.sqrt(squares), np.nan)
+
+    def _grow_contacts(self, contact: Any, needed: int) -> None:
+        import numpy as np
+
+        for name in self.contact_fields:
+            sample = getattr(contact, name)
+            old = self.contact.get(name)
+            if old is None:
+                old = np.empty((0, *sample.shape[1:]), sample.dtype)
+            self.contact[name] = _enlarged(old, needed)
+
+    def clear(self, first_row: int) -> None:
+        """Empty the buffers for reuse."""
+        self.rows = self.contact_count = self.efc_count = 0
+        self.first_row = first_row
+        for events in self.events.values():
+            events.clear()
+
+
+def _enlarged(old: "np.ndarray", needed: int) -> "np.ndarray":
+    """A copy with room for at least `needed` entries, doubling."""
+    import numpy as np
+
+    grown = np.empty((max(needed, 2 * len(old), 256), *old.shape[1:]), old.dtype)
+    grown[: len(old)] = old
+    return grown

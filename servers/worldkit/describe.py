@@ -1,0 +1,187 @@
+"""A model in words and numbers: what a recording's `meta.json` says about the world it was made of."""
+
+import hashlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import mujoco
+
+
+def fingerprint(model: "mujoco.MjModel") -> str:
+    """SHA-256 of the compiled model: every array, option and name."""
+    import mujoco
+    import numpy as np
+
+    buffer = np.empty(mujoco.mj_sizeModel(model), np.uint8)
+    mujoco.mj_saveModel(model, None, buffer)
+    return hashlib.sha256(buffer).hexdigest()
+
+
+def names(model: "mujoco.MjModel", kind: str, count: int) -> list[str]:
+    """Names of all objects of a kind (`body`, `geom`, …); a nameless one is called by its kind and id, `geom_7`."""
+    import mujoco
+
+    code = getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
+    return [mujoco.mj_id2name(model, code, i) or f"{kind}_{i}" for i in range(count)]
+
+
+def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict[str, Any]:
+    """The part of `meta.json` that depends on the model alone.
+
+    Args:
+        model: the compiled world.
+        visual_only: bodies declared to be drawn but not simulated.
+    """
+    import mujoco
+
+    bodies = names(model, "body", model.nbody)
+    pulled = pulled_bodies(model)
+    joint_types = [mujoco.mjtJoint(t).name.removeprefix("mjJNT_").lower() for t in model.jnt_type]
+    options = model.opt
+    return {
+        "simulator": {"name": "mujoco", "version": mujoco.__version__},
+        "model": {"name": _model_name(model), "fingerprint": fingerprint(model)},
+        "time_step": float(options.timestep),
+        "gravity": [float(g) for g in options.gravity],
+        "integrator": mujoco.mjtIntegrator(options.integrator).name.removeprefix("mjINT_").lower(),
+        "cone": mujoco.mjtCone(options.cone).name.removeprefix("mjCONE_").lower(),
+        "flags": {
+            "disabled": _flags(mujoco.mjtDisableBit, "mjDSBL_", options.disableflags),
+            "enabled": _flags(mujoco.mjtEnableBit, "mjENBL_", options.enableflags),
+        },
+        "sizes": {k: int(getattr(model, k)) for k in ("nq", "nv", "na", "nu", "nmocap", "neq", "nsensordata", "nplastic")},
+        "option": {
+            "density": float(options.density),
+            "viscosity": float(options.viscosity),
+            "wind": options.wind.tolist(),
+        },
+        "has_flex": bool(model.nflex),
+        "has_plugin": bool(model.nplugin),
+        "bodies": [_body(model, b, bodies, joint_types, visual_only) for b in range(1, model.nbody)],
+        "joints": [
+            {
+                "name": name,
+                "type": joint_types[j],
+                "body": bodies[model.jnt_bodyid[j]],
+                "qpos_address": int(model.jnt_qposadr[j]),
+                "dof_address": int(model.jnt_dofadr[j]),
+            }
+            for j, name in enumerate(names(model, "joint", model.njnt))
+        ],
+        "geoms": [_geom(model, g, name, bodies) for g, name in enumerate(names(model, "geom", model.ngeom))],
+        "tendons": [
+            {"name": name, "bodies": pulled["tendon"][t]}
+            for t, name in enumerate(names(model, "tendon", model.ntendon))
+        ],
+        "actuators": [
+            {"name": name, "bodies": pulled["actuator"][a]}
+            for a, name in enumerate(names(model, "actuator", model.nu))
+        ],
+        "sensors": [
+            {
+                "name": name,
+                "type": mujoco.mjtSensor(model.sensor_type[s]).name.removeprefix("mjSENS_").lower(),
+                "address": int(model.sensor_adr[s]),
+                "dim": int(model.sensor_dim[s]),
+            }
+            for s, name in enumerate(names(model, "sensor", model.nsensor))
+        ],
+        "cameras": names(model, "camera", model.ncam),
+        "equalities": [
+            {
+                "name": name,
+                "type": mujoco.mjtEq(model.eq_type[e]).name.removeprefix("mjEQ_").lower(),
+                "bodies": _tied(model, e, bodies),
+                "active": bool(model.eq_active0[e]),
+            }
+            for e, name in enumerate(names(model, "equality", model.neq))
+        ],
+    }
+
+
+def _body(
+    model: "mujoco.MjModel", b: int, bodies: list[str], joint_types: list[str], visual_only: tuple[str, ...]
+) -> dict[str, Any]:
+    """One body; `ipos` and `iquat` place its centre of mass and principal axes in its own frame."""
+    joints, first = int(model.body_jntnum[b]), int(model.body_jntadr[b])
+    dofs = slice(model.body_dofadr[b], model.body_dofadr[b] + model.body_dofnum[b])
+    return {
+        "name": bodies[b],
+        "parent": bodies[model.body_parentid[b]],
+        "mass": float(model.body_mass[b]),
+        "ipos": model.body_ipos[b].tolist(),
+        "iquat": model.body_iquat[b].tolist(),
+        "inertia": model.body_inertia[b].tolist(),
+        "joints": joint_types[first : first + joints] if joints else [],
+        "damping": float(abs(model.dof_damping[dofs]).max(initial=0.0)) if joints else 0.0,
+        "gravcomp": float(model.body_gravcomp[b]),
+        "dynamic": bool(model.body_treeid[b] >= 0),
+        "mocap": bool(model.body_mocapid[b] >= 0),
+        "visual_only": bodies[b] in visual_only,
+    }
+
+
+def _geom(model: "mujoco.MjModel", g: int, name: str, bodies: list[str]) -> dict[str, Any]:
+    """One geom; `aabb` is (centre, half extents) in its own frame, which `pos` and `quat` place in its body's."""
+    import mujoco
+
+    return {
+        "name": name,
+        "body": bodies[model.geom_bodyid[g]],
+        "type": mujoco.mjtGeom(model.geom_type[g]).name.removeprefix("mjGEOM_").lower(),
+        "size": model.geom_size[g].tolist(),
+        "aabb": model.geom_aabb[g].ravel().tolist(),
+        "pos": model.geom_pos[g].tolist(),
+        "quat": model.geom_quat[g].tolist(),
+        "contype": int(model.geom_contype[g]),
+        "conaffinity": int(model.geom_conaffinity[g]),
+        "group": int(model.geom_group[g]),
+        "friction": model.geom_friction[g].tolist(),
+        "surfacevel": bool(model.geom_surfacevel[g].any()),
+        "adhesion": bool(model.geom_adhesion[g].any()),
+    }
+
+
+def _tied(model: "mujoco.MjModel", e: int, bodies: list[str]) -> list[str]:
+    """The bodies that an equality ties together (its sites', joints' bodies); empty for tendons and flexes."""
+    import mujoco
+
+    kind, ends = mujoco.mjtEq(model.eq_type[e]), (int(model.eq_obj1id[e]), int(model.eq_obj2id[e]))
+    if kind in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD):
+        site = model.eq_objtype[e] == mujoco.mjtObj.mjOBJ_SITE
+        return [bodies[model.site_bodyid[i] if site else i] for i in ends if i >= 0]
+    if kind == mujoco.mjtEq.mjEQ_JOINT:
+        return [bodies[model.jnt_bodyid[i]] for i in ends if i >= 0]
+    return []
+
+
+def pulled_bodies(model: "mujoco.MjModel") -> dict[str, list[list[str]]]:
+    """Names of the bodies whose joints each `actuator` and `tendon` acts on, read off their Jacobians at qpos0."""
+    import mujoco
+    import numpy as np
+
+    if not model.nu and not model.ntendon:
+        return {"actuator": [], "tendon": []}
+    data = mujoco.MjData(model)
+    mujoco.mj_fwdPosition(model, data)
+    bodies = np.array(names(model, "body", model.nbody))[model.dof_bodyid]
+
+    def touched(address: Any, count: Any, column: Any) -> list[list[str]]:
+        return [sorted(set(bodies[column[a : a + n]])) for a, n in zip(address, count, strict=True)]
+
+    moment = (data.moment_rowadr, data.moment_rownnz, data.moment_colind)
+    tendon = (model.ten_J_rowadr, model.ten_J_rownnz, model.ten_J_colind)
+    return {
+        "actuator": touched(*moment) if model.nu else [],
+        "tendon": touched(*tendon) if model.ntendon else [],
+    }
+
+
+def _flags(enum: Any, prefix: str, bits: int) -> list[str]:
+    """Names of the bits that are set."""
+    return [name.removeprefix(prefix).lower() for name, bit in enum.__members__.items() if name.startswith(prefix) and bits & bit.value]
+
+
+def _model_name(model: "mujoco.MjModel") -> str:
+    """The model's name: the first entry of its name table."""
+    return bytes(model.names).split(b"\0", 1)[0].decode(errors="replace")

@@ -1,0 +1,35 @@
+"""Failures of the runtime that a user can act on: each names its cause, its place and the next move."""
+
+
+class WorldkitError(Exception):
+    """A failure of the runtime; `code` is stable, `next_move` is what to do about it."""
+
+    code = "error"
+
+    def __init__(self, cause: str, place: str = "", next_move: str = "") -> None:
+        super().__init__(cause)
+        self.cause = cause
+        self.place = place
+        self.next_move = next_move
+
+    def __str__(self) -> str:
+        text = f"{self.place}: {self.cause}" if self.place else self.cause
+        return f"{text}\n  next: {self.next_move}" if self.next_move else text
+
+
+class RecordingError(WorldkitError):
+    """A recording cannot be read, written, or replayed on this model."""
+
+    code = "recording"
+
+
+class ProgramError(WorldkitError):
+    """The program asks for something that cannot be simulated (a wrong world, duration, name, option)."""
+
+    code = "program"
+
+
+class DivergedError(WorldkitError):
+    """The simulation blew up: a position, velocity or acceleration stopped being a sane number."""
+
+    code = "diverged"

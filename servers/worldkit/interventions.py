@@ -1,0 +1,389 @@
+"""The ledger: whatever changes the state, or pushes on it, besides the engine's own step.
+
+Around the program's `control` (and the engine callbacks it installs) the ledger compares the state, the inputs and the
+model with what they were, and records per body and time only what changed or what pushes, with the work it did.
+
+Work, in joules, done on the system:
+    force, torque, control: force times the mean of the velocities at both ends of the step, times the step: exactly
+        the kinetic energy that a constant force hands to a body of constant mass.
+    pose, velocity: the jump in potential and in kinetic energy. Bodies that were only carried along count for the
+        nearest carrier whose own joint was written.
+    mocap: minus the force of the world on the mocap body times its displacement.
+    constraint, parameter, callback: 0; what they do shows in the motion, not in the ledger.
+"""
+
+from collections.abc import Callable
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from .columns import VALUES
+from .describe import names
+from .watch import Watch, owner_of
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+CALLBACKS = (
+    "control", "passive", "act_dyn", "act_gain", "act_bias", "sensor", "contactfilter",
+)  # fmt: skip
+"""Engine callbacks that can change the motion (`mjcb_…`)."""
+MOST_ELEMENTS = 64
+"""Elements listed of one model array edited at one instant."""
+
+Event = Callable[..., None]
+"""`Recorder.event`: table name, then values in the order of its columns."""
+
+
+class Ledger:
+    """Detects and records interventions of one simulation.
+
+    A step goes: `settle()` when velocities are computed, `watch()` before anything may interfere, the interference,
+    `compare()`, and `reacted()` when forces are computed. `settle()` once more at the end of the run.
+
+    Args:
+        model, data: the world.
+        event: where interventions and edits go.
+        row: tells the index of the row that is being recorded.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", event: Event, row: Callable[[], int]) -> None:
+        import mujoco
+        import numpy as np
+
+        self._model, self._data, self._event, self._row = model, data, event, row
+        bits = mujoco.mjtState
+        wanted = (
+            "TIME", "QPOS", "QVEL", "ACT", "CTRL", "QFRC_APPLIED", "XFRC_APPLIED", "EQ_ACTIVE", "MOCAP_POS",
+            "MOCAP_QUAT", "PLASTIC",
+        )  # fmt: skip
+        self._signature, offset = 0, 0
+        self._part: dict[str, slice] = {}
+        for name in wanted:
+            bit = int(getattr(bits, f"mjSTATE_{name}"))
+            self._signature |= bit
+            width = mujoco.mj_stateSize(model, bit)
+            self._part[name] = slice(offset, offset + width)
+            offset += width
+        self._old, self._new = np.zeros(offset), np.zeros(offset)
+        pushing = [self._part[name] for name in ("CTRL", "QFRC_APPLIED", "XFRC_APPLIED")]
+        self._inputs = slice(pushing[0].start, pushing[-1].stop)  # neighbours in the state vector
+        self._idle = np.zeros(self._inputs.stop - self._inputs.start).tobytes()
+        self._past: mujoco.MjData | None = None
+        self._watch = Watch(model)
+        self._bodies = names(model, "body", model.nbody)
+        self._joints = names(model, "joint", model.njnt)
+        self._equalities = names(model, "equality", model.neq)
+        self._actuators = self._actuator_targets()
+        self._callbacks: tuple[Any, ...] = (None,) * len(CALLBACKS)
+        self._pushes: list[tuple[float, str, str, int, np.ndarray, np.ndarray]] = []
+        self._joint_pushes: list[tuple[float, str, str, int, np.ndarray, np.ndarray]] = []
+        self._driven: tuple[float, np.ndarray, np.ndarray, np.ndarray] | None = None
+        self._carried: list[tuple[float, int, np.ndarray]] = []
+        self.check_callbacks()
+
+    # -- callbacks ---------------------------------------------------------------------------------------------------
+
+    def check_callbacks(self) -> bool:
+        """Record engine callbacks that are new; tells whether any is installed."""
+        found = installed_callbacks()
+        if found != self._callbacks:
+            for name, old, new in zip(CALLBACKS, self._callbacks, found, strict=True):
+                if new is not old and new is not None:
+                    self._record("callback", f"mjcb_{name}")
+            self._callbacks = found
+        return any(callback is not None for callback in found)
+
+    # -- around the interference -------------------------------------------------------------------------------------
+
+    def watch(self) -> None:
+        """Remember the state, before anything may interfere."""
+        import mujoco
+
+        mujoco.mj_getState(self._model, self._data, self._old, self._signature)
+
+    def compare(self) -> bool:
+        """Record what interfered, and bring derived quantities up to date with what it wrote.
+
+        Tells whether an engine callback is installed.
+        """
+        import mujoco
+
+        called_back = self.check_callbacks()
+        for edit in self._watch.changes():
+            self._parameters(edit)
+        mujoco.mj_getState(self._model, self._data, self._new, self._signature)
+        if self._old.tobytes() != self._new.tobytes():
+            self._state()
+        part = self._part
+        old, new = self._old[part["CTRL"]], self._new[part["CTRL"]]
+        if self._new[self._inputs].tobytes() == self._idle and not old.any():
+            return called_back
+        if self._new[part["XFRC_APPLIED"]].any():
+            self._external()
+        if self._new[part["QFRC_APPLIED"]].any():
+            self._generalised()
+        which = ((new != 0) | (new != old)).nonzero()[0]
+        if len(which):
+            self._driven = (self._data.time, which, new[which].copy(), self._data.actuator_velocity[which].copy())
+        return called_back
+
+    def _state(self) -> None:
+        """The state itself was written."""
+        import numpy as np
+
+        def changed(name: str) -> "np.ndarray":
+            part = self._part[name]
+            return np.flatnonzero(self._old[part] != self._new[part])
+
+        positions, velocities = changed("QPOS"), changed("QVEL")
+        poses, turns = changed("MOCAP_POS"), changed("MOCAP_QUAT")
+        switched = changed("EQ_ACTIVE")
+        deformed = changed("PLASTIC")
+        if len(positions) or len(velocities) or len(poses) or len(turns) or len(switched) or len(deformed):
+            refresh(self._model, self._data)
+            self._look_back()
+        if len(positions) or len(velocities):
+            self._written(positions, velocities)
+        for mocap in sorted({*(poses // 3), *(turns // 4)}):
+            body = int(np.flatnonzero(self._model.body_mocapid == mocap)[0])
+            moved = self._displacement(body)
+            self._carried.append((self._data.time, body, moved))
+        for equality in switched:
+            value = self._new[self._part["EQ_ACTIVE"]][equality]
+            self._record("constraint", self._equalities[equality], (value,))
+        for name, target in (("ACT", "act"), ("PLASTIC", "plastic"), ("TIME", "time")):
+            for index in changed(name)[:MOST_ELEMENTS]:
+                part = self._part[name]
+                self._record("parameter", f"{target}[{index}]", (self._new[part][index], self._old[part][index]))
+
+    def _look_back(self) -> None:
+        """Compute what derived from the state before it was written, in a data of its own."""
+        import mujoco
+
+        if self._past is None:
+            self._past = mujoco.MjData(self._model)
+        mujoco.mj_setState(self._model, self._past, self._old, self._signature)
+        mujoco.mj_fwdKinematics(self._model, self._past)
+        mujoco.mj_comVel(self._model, self._past)
+        mujoco.mj_energyPos(self._model, self._past)
+        mujoco.mj_energyVel(self._model, self._past)
+
+    def _written(self, positions: "np.ndarray", velocities: "np.ndarray") -> None:
+        """Poses and velocities of joints were written: displacement, change of velocity, jump in energy."""
+        import numpy as np
+
+        model, data, past = self._model, self._data, self._past
+        assert past is not None
+        moved = _owners(model.jnt_qposadr, positions)
+        pushed = _owners(model.jnt_dofadr, velocities)
+        written = sorted({*moved, *pushed})
+        carrier = np.full(model.nbody, -1)
+        for joint in written:
+            carrier[model.jnt_bodyid[joint]] = model.jnt_bodyid[joint]
+        for body in range(1, model.nbody):
+            if carrier[body] < 0:
+                carrier[body] = carrier[model.body_parentid[body]]
+        fallen = -model.body_mass * ((data.xipos - past.xipos) @ model.opt.gravity)
+        gained = kinetic(model, data) - kinetic(model, past)
+        alone = len(set(model.jnt_bodyid[written])) == 1
+        for body in dict.fromkeys(int(model.jnt_bodyid[joint]) for joint in written):
+            joints = [j for j in written if model.jnt_bodyid[j] == body]
+            share = carrier == body
+            potential, motion = float(fallen[share].sum()), float(gained[share].sum())
+            if alone:  # then springs count too
+                potential, motion = (float(x) for x in data.energy - past.energy)
+            target = self._bodies[body] if model.body_jntnum[body] == 1 else f"{self._bodies[body]}/{self._joints[joints[0]]}"
+            pose, speed = any(j in moved for j in joints), any(j in pushed for j in joints)
+            if pose:
+                self._record("pose", target, self._displacement(body), potential if speed else potential + motion)
+            if speed:
+                self._record("velocity", target, self._acceleration(body), motion)
+
+    def _displacement(self, body: int) -> "np.ndarray":
+        """(6,) translation of the body's origin and rotation vector, from the remembered pose to the present one."""
+        import mujoco
+        import numpy as np
+
+        past = self._past
+        assert past is not None
+        value, turn, back = np.zeros(VALUES), np.zeros(4), np.zeros(4)
+        value[:3] = self._data.xpos[body] - past.xpos[body]
+        mujoco.mju_negQuat(back, past.xquat[body])
+        mujoco.mju_mulQuat(turn, self._data.xquat[body], back)
+        mujoco.mju_quat2Vel(value[3:], turn, 1.0)
+        return value
+
+    def _acceleration(self, body: int) -> "np.ndarray":
+        """(6,) change of the linear velocity of the body's centre of mass and of its angular velocity."""
+        import numpy as np
+
+        assert self._past is not None
+        return np.asarray(_twist(self._model, self._data, body) - _twist(self._model, self._past, body))
+
+    def _parameters(self, edit: Any) -> None:
+        """A model array was edited: every value is kept for the replay; what touches the motion is an intervention."""
+        time, row = self._data.time, self._row()
+        for index, value in zip(edit.index, edit.values, strict=True):
+            self._event("edits", time, row, edit.array, int(index), float(value))
+        if not edit.looks_only:
+            for target, _, values in owner_of(self._model, edit)[:MOST_ELEMENTS]:
+                self._record("parameter", target, values)
+
+    # -- what pushes -------------------------------------------------------------------------------------------------
+
+    def _external(self) -> None:
+        """`xfrc_applied`: forces and torques on bodies, at their centres of mass, world frame."""
+        import numpy as np
+
+        model, data = self._model, self._data
+        wrench = data.xfrc_applied
+        for body in np.flatnonzero(wrench.any(axis=1)):
+            twist = _twist(model, data, body)
+            self._push(self._bodies[body], int(body), wrench[body], twist)
+
+    def _push(self, target: str, body: int, wrench: "np.ndarray", twist: "np.ndarray") -> None:
+        import numpy as np
+
+        for kind, part in (("force", slice(0, 3)), ("torque", slice(3, 6))):
+            if wrench[part].any():
+                value = np.zeros(VALUES)
+                value[part] = wrench[part]
+                self._pushes.append((self._data.time, kind, target, body, value, twist))
+
+    def _generalised(self) -> None:
+        """`qfrc_applied`: told as the force or torque on the body that owns the joint, world frame."""
+        import mujoco
+        import numpy as np
+
+        model, data = self._model, self._data
+        force = data.qfrc_applied
+        for joint in _owners(model.jnt_dofadr, np.flatnonzero(force)):
+            kind = mujoco.mjtJoint(model.jnt_type[joint])
+            body, first = int(model.jnt_bodyid[joint]), int(model.jnt_dofadr[joint])
+            rotation = data.xmat[body].reshape(3, 3)
+            target = self._bodies[body] if model.body_jntnum[body] == 1 else f"{self._bodies[body]}/{self._joints[joint]}"
+            parts: list[tuple[str, int, np.ndarray]] = []
+            if kind == mujoco.mjtJoint.mjJNT_FREE:
+                parts.append(("force", first, force[first : first + 3]))
+                parts.append(("torque", first + 3, rotation @ force[first + 3 : first + 6]))
+            elif kind == mujoco.mjtJoint.mjJNT_BALL:
+                parts.append(("torque", first, rotation @ force[first : first + 3]))
+            else:
+                word = "torque" if kind == mujoco.mjtJoint.mjJNT_HINGE else "force"
+                parts.append((word, first, data.xaxis[joint] * force[first]))
+            width = 1 if kind in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE) else 3
+            for word, dof, vector in parts:
+                if vector.any():
+                    value = np.zeros(VALUES)
+                    value[slice(0, 3) if word == "force" else slice(3, 6)] = vector
+                    dofs = slice(dof, dof + width)
+                    # Forces and velocities of joints are dual: their product is the power, whatever their frame.
+                    pair = np.stack((force[dofs], data.qvel[dofs]))
+                    self._joint_pushes.append((data.time, word, target, dof, value, pair))
+
+    def reacted(self) -> None:
+        """With forces computed: what the world does to the mocap bodies that were moved."""
+        import mujoco
+
+        if self._driven is not None:
+            time, which, control, speed = self._driven
+            self._driven_force = self._data.actuator_force[which].copy()
+        if not self._carried:
+            return
+        mujoco.mj_rnePostConstraint(self._model, self._data)
+        for time, body, moved in self._carried:
+            torque, force = self._data.cfrc_ext[body, :3], self._data.cfrc_ext[body, 3:]
+            work = -float(force @ moved[:3] + torque @ moved[3:])
+            self._event("interventions", time, "mocap", self._bodies[body], tuple(moved), work)
+        self._carried.clear()
+
+    def settle(self) -> None:
+        """With the next velocities computed: the work of what pushed during the step."""
+        import numpy as np
+
+        if not (self._pushes or self._joint_pushes or self._driven):
+            return
+        model, data = self._model, self._data
+        for time, kind, target, body, value, twist in self._pushes:
+            mean = (twist + _twist(model, data, body)) / 2
+            work = float(value @ mean) * (data.time - time)
+            self._event("interventions", time, kind, target, tuple(value), work)
+        for time, kind, target, dof, value, (force, speed) in self._joint_pushes:
+            mean = (speed + data.qvel[dof : dof + len(force)]) / 2
+            self._event("interventions", time, kind, target, tuple(value), float(force @ mean) * (data.time - time))
+        if self._driven is not None:
+            time, which, control, speed = self._driven
+            work = self._driven_force * (speed + data.actuator_velocity[which]) / 2 * (data.time - time)
+            for i, actuator in enumerate(which):
+                value = (float(control[i]), float(self._driven_force[i]), *(0.0,) * (VALUES - 2))
+                self._event("interventions", time, "control", self._actuators[actuator], value, float(work[i]))
+        self._pushes.clear()
+        self._joint_pushes.clear()
+        self._driven = None
+
+    # -- small things ------------------------------------------------------------------------------------------------
+
+    def _record(self, kind: str, target: str, value: Any = (), work: float = 0.0) -> None:
+        numbers = [float(v) for v in value][:VALUES]
+        numbers += [0.0] * (VALUES - len(numbers))
+        self._event("interventions", self._data.time, kind, target, tuple(numbers), work)
+
+    def _actuator_targets(self) -> list[str]:
+        """`body/actuator` for an actuator that moves one body's joint, else its own name."""
+        from .describe import pulled_bodies
+
+        own = names(self._model, "actuator", self._model.nu)
+        pulled = pulled_bodies(self._model)["actuator"]
+        return [f"{p[0]}/{n}" if len(p) == 1 else n for n, p in zip(own, pulled, strict=True)]
+
+
+def installed_callbacks() -> tuple[Any, ...]:
+    """The engine's callbacks in the order of `CALLBACKS`; None where none is installed."""
+    return tuple(ask() for ask in _askers())
+
+
+@cache
+def _askers() -> tuple[Callable[[], Any], ...]:
+    import mujoco
+
+    return tuple(getattr(mujoco, f"get_mjcb_{name}") for name in CALLBACKS)
+
+
+def refresh(model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
+    """Bring everything that derives from positions and velocities up to date, without calling anybody back."""
+    import mujoco
+
+    mujoco.mj_fwdPosition(model, data)
+    mujoco.mj_sensorPos(model, data)
+    mujoco.mj_energyPos(model, data)
+    mujoco.mj_fwdVelocity(model, data)
+    mujoco.mj_sensorVel(model, data)
+    mujoco.mj_energyVel(model, data)
+
+
+def kinetic(model: "mujoco.MjModel", data: "mujoco.MjData") -> "np.ndarray":
+    """(nbody,) kinetic energy of each body, J (without joint armature)."""
+    import numpy as np
+
+    from .derive import velocity_at
+
+    linear = velocity_at(data.xipos, data.cvel, data.subtree_com[model.body_rootid])
+    local = np.einsum("bji,bj->bi", data.ximat.reshape(-1, 3, 3), data.cvel[:, :3])
+    return np.asarray((model.body_mass * (linear**2).sum(axis=1) + (model.body_inertia * local**2).sum(axis=1)) / 2)
+
+
+def _twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndarray":
+    """(6,) linear velocity of a body's centre of mass and its angular velocity, world frame."""
+    import numpy as np
+
+    spin, linear = data.cvel[body, :3], data.cvel[body, 3:]
+    arm = data.xipos[body] - data.subtree_com[model.body_rootid[body]]
+    return np.concatenate((linear + np.cross(spin, arm), spin))
+
+
+def _owners(addresses: "np.ndarray", indices: "np.ndarray") -> list[int]:
+    """Which joints own these entries of qpos or qvel, given each joint's first address."""
+    import numpy as np
+
+    return [int(j) for j in np.unique(np.searchsorted(addresses, indices, side="right") - 1)]

@@ -1,0 +1,295 @@
+"""Recording a simulation into a folder, without slowing it down.
+
+Why Arrow IPC *streams*: a stream is a sequence of self-contained record batches, so whatever was flushed before a
+crash can be read, with no footer to lose; uncompressed batches are memory-mapped and become numpy arrays without a
+copy; the schema travels with the data, with no pickle and nothing to execute; it is written as it happens, in constant
+memory; and every language reads it.
+
+How it stays fast: a row is a dozen plain copies into preallocated buffers. Everything else (velocities of points,
+contact forces, momentum, hashing, writing) is done for a whole batch at once, by numpy, on a second thread that runs
+while the engine (which lets go of the interpreter) computes the next batch.
+
+Row semantics: row n holds the state at time n and the quantities derived from that same state. See `simulate`.
+"""
+
+import hashlib
+import queue
+import threading
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from . import derive
+from .batch import PLAIN, Batch
+from .columns import SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
+from .errors import RecordingError
+from .files import write_json
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+BATCH_BYTES = 3 << 20
+"""Raw size of a batch, which sets its number of rows."""
+FLUSH_S = 0.5
+"""A batch is flushed at the latest this long after its first row, wall-clock."""
+HASHED = ("time", "qpos", "qvel", "pos", "quat")
+"""Columns that identify a trajectory."""
+
+
+class Recorder:
+    """Writes one recording; a context manager. Leaving it by an exception keeps what was recorded, marked incomplete.
+
+    Args:
+        model, data: the world; `data` must be the one that is simulated.
+        folder: created; must not hold a recording yet.
+        meta: what `meta.json` says besides the columns (see `describe`).
+        batch_rows: rows in a batch; None chooses by size. The hash of the trajectory does not depend on it.
+
+    Call `before()` when positions and velocities are computed, `after()` when forces are, once for each row.
+    """
+
+    def __init__(
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        folder: Path,
+        meta: dict[str, Any],
+        batch_rows: int | None = None,
+    ) -> None:
+        import mujoco
+        import numpy as np
+
+        self._model, self._data, self._folder = model, data, Path(folder)
+        if (self._folder / "meta.json").exists():
+            raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
+        sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
+        self.columns = state_columns(sizes)
+        self._moving = model.body_treeid[1:] >= 0
+        self._mass = np.where(self._moving, model.body_mass[1:], 0.0)
+        self._root = model.body_rootid[1:]
+        self._momentum = mujoco.mj_subtreeVel
+        row_bytes = 8 * (model.nq + model.nv + 22 * model.nbody + 200)
+        self.batch_rows = batch_rows or max(8, min(1024, BATCH_BYTES // row_bytes))
+        batches = [Batch(model, data, self.batch_rows) for _ in range(3)]
+        self._batch = batches.pop()
+        self._free: queue.SimpleQueue[Batch] = queue.SimpleQueue()
+        for batch in batches:
+            self._free.put(batch)
+        self._full: queue.SimpleQueue[Batch | None] = queue.SimpleQueue()
+        self._failure: BaseException | None = None
+        self._started = 0.0
+        self.rows = 0
+        self.max_depth_m = 0.0
+        self.counts: dict[str, int] = {}
+        self.warnings: dict[str, int] = {}
+        self._hashes = {name: hashlib.sha256() for name in HASHED}
+        tables = {name: as_meta(columns) for name, columns in TABLES.items()}
+        self._folder.mkdir(parents=True, exist_ok=True)
+        write_json(
+            self._folder / "meta.json",
+            {"schema": SCHEMA_VERSION, **meta, "columns": {"state": as_meta(self.columns), **tables}},
+        )
+        self._streams = {
+            name: _Stream(self._folder / f"{name}.arrows", columns)
+            for name, columns in {"state": self.columns, **TABLES}.items()
+        }
+        self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
+        self._thread.start()
+
+    def __enter__(self) -> "Recorder":
+        return self
+
+    def __exit__(self, kind: Any, error: Any, trace: Any) -> None:
+        self.close(complete=kind is None)
+
+    @property
+    def recorded(self) -> int:
+        """Rows so far: the index of the next one."""
+        return self._batch.first_row + self._batch.rows
+
+    def before(self) -> None:
+        """Copy the state and what derives from positions and velocities (after `mj_step1`, before the step)."""
+        batch, row = self._batch, self._batch.rows
+        self._momentum(self._model, self._data)
+        batch.time[row] = self._data.time
+        for _, buffer, source in batch.before:
+            buffer[row] = source
+
+    def after(self) -> None:
+        """Copy what derives from forces (after `mj_step2`, or after `mj_forward`), and end the row."""
+        batch, row, data = self._batch, self._batch.rows, self._data
+        for _, buffer, source in batch.after:
+            buffer[row] = source
+        batch.nisland[row] = data.nisland
+        batch.add_contacts(row, data)
+        if batch.eq_residual.size:
+            batch.add_residuals(row, data)
+        batch.rows = row + 1
+        now = time.perf_counter()
+        if row == 0:
+            self._started = now
+        if batch.rows == batch.capacity or now - self._started > FLUSH_S:
+            self.flush()
+
+    def event(self, table: str, *values: Any) -> None:
+        """Add a row to `interventions`, `warnings` or `edits`, in the order of their columns."""
+        self._batch.events[table].append(values)
+        if table == "interventions":
+            self.counts[values[1]] = self.counts.get(values[1], 0) + 1
+        elif table == "warnings":
+            self.warnings[values[1]] = self.warnings.get(values[1], 0) + values[2]
+
+    def flush(self) -> None:
+        """Hand the current batch to the writer; waits only when the disk is two batches behind."""
+        self._raise_failure()
+        self._hand_over()
+
+    def _hand_over(self) -> None:
+        self.rows = self._batch.first_row + self._batch.rows
+        self._full.put(self._batch)
+        self._batch = self._free.get()
+        self._batch.clear(self.rows)
+
+    def close(self, complete: bool) -> str:
+        """Flush, and with `complete` write `complete.json`; returns the trajectory's SHA-256."""
+        if self._thread.is_alive():
+            self._hand_over()
+            self._full.put(None)
+            self._thread.join()
+        for stream in self._streams.values():
+            stream.close()
+        if complete:
+            self._raise_failure()
+            write_json(self._folder / "complete.json", {"rows": self.rows, "sha256": self.sha256()})
+        return self.sha256()
+
+    def sha256(self) -> str:
+        """Of the hashed columns' bytes; meaningful once closed. See `trajectory.digest`."""
+        return combine({name: digest.hexdigest() for name, digest in self._hashes.items()})
+
+    def _raise_failure(self) -> None:
+        if self._failure is not None:
+            raise RecordingError(
+                f"the recording cannot be written: {self._failure}",
+                str(self._folder),
+                "free some disk space, or raise the file size limit",
+            ) from self._failure
+
+    def _work(self) -> None:
+        """The writer thread: derive, hash, write, hand the buffers back."""
+        while (batch := self._full.get()) is not None:
+            if self._failure is None:
+                try:
+                    self._write(batch)
+                except BaseException as failure:  # reported to the simulating thread at its next flush
+                    self._failure = failure
+            self._free.put(batch)
+
+    def _write(self, batch: Batch) -> None:
+        if batch.rows:
+            columns = self._columns(batch)
+            for name in HASHED:
+                if columns.get(name) is not None:
+                    self._hashes[name].update(columns[name])
+            self._streams["state"].write(columns)
+            if batch.contact_count:
+                contacts = self._contacts(batch)
+                self.max_depth_m = max(self.max_depth_m, float(contacts["depth_m"].max()))
+                self._streams["contacts"].write(contacts)
+        for table, events in batch.events.items():
+            if events:
+                names = [column.name for column in TABLES[table]]
+                self._streams[table].write(dict(zip(names, zip(*events, strict=True), strict=True)))
+
+    def _columns(self, batch: Batch) -> "dict[str, np.ndarray]":
+        """The state columns of a batch, contiguous."""
+        import numpy as np
+
+        n = batch.rows
+        columns = {"time": batch.time[:n], "ncon": batch.ncon[:n], "eq_residual": batch.eq_residual[:n]}
+        for name in PLAIN:
+            columns[name] = batch.buffer(name)
+        iterations, islands = batch.buffer("solver_niter"), np.maximum(batch.nisland[:n], 1)
+        used = np.arange(iterations.shape[1]) < islands[:, None]
+        columns["solver_niter"] = np.where(used, iterations, 0).max(axis=1).astype(np.int32)
+        total = float(self._model.body_subtreemass[0])
+        columns["linmom"] = batch.buffer("linvel") * total
+        columns["angmom"] = batch.buffer("angmom")
+        pos, com, cvel = batch.buffer("xpos"), batch.buffer("xipos"), batch.buffer("cvel")
+        if pos is not None:
+            trees = batch.buffer("subtree_com")
+            centre = trees[:, self._root]
+            columns |= {"pos": pos, "quat": batch.buffer("xquat")}
+            columns["angvel"] = np.ascontiguousarray(cvel[..., :3])
+            columns["linvel"] = derive.velocity_at(pos, cvel, centre)
+            if moving := float(self._mass.sum()):
+                # The engine's angular momentum is about the centre of everything, scenery included.
+                own = np.einsum("nbi,b->ni", com, self._mass) / moving
+                columns["angmom"] = derive.angular_momentum(columns["angmom"], trees[:, 0], own, columns["linmom"])
+        return columns
+
+    def _contacts(self, batch: Batch) -> "dict[str, np.ndarray]":
+        """The contact columns of a batch."""
+        import numpy as np
+
+        n, count = batch.rows, batch.contact_count
+        raw = {name: buffer[:count] for name, buffer in batch.contact.items()}
+        per_row = batch.ncon[:n]
+        first = np.cumsum(batch.nefc[:n]) - batch.nefc[:n]
+        address = raw["efc_address"]
+        address = np.where(address >= 0, address + np.repeat(first, per_row), -1)
+        batch.efc_force[batch.efc_count] = 0.0
+        forces = batch.efc_force[: batch.efc_count + 1]
+        normal_force, force = derive.contact_forces(forces, address, raw["dim"], raw.get("friction"), raw["frame"])
+        return {
+            "row": np.repeat(np.arange(batch.first_row, batch.first_row + n, dtype=np.int32), per_row),
+            "geom1": np.ascontiguousarray(raw["geom"][:, 0]),
+            "geom2": np.ascontiguousarray(raw["geom"][:, 1]),
+            "depth_m": -raw["dist"],
+            "normal_force": normal_force,
+            "force": force,
+            "position": raw["pos"],
+            "normal": np.ascontiguousarray(raw["frame"][:, :3]),
+        }
+
+
+class _Stream:
+    """One Arrow IPC stream file: each batch reaches the operating system in one go."""
+
+    def __init__(self, path: Path, columns: tuple[Column, ...]) -> None:
+        import pyarrow as pa
+
+        self._columns = columns
+        self._schema = arrow_schema(columns)
+        self._sink = pa.OSFile(str(path), "wb")
+        self._writer = pa.ipc.new_stream(self._sink, self._schema)
+
+    def write(self, values: dict[str, Any]) -> None:
+        """Append one record batch."""
+        import numpy as np
+        import pyarrow as pa
+
+        arrays = []
+        for column, field in zip(self._columns, self._schema, strict=True):
+            value = values[column.name]
+            if column.dtype == "string":
+                arrays.append(pa.array(value, pa.string()))
+                continue
+            flat = pa.array(np.asarray(value, column.dtype).reshape(-1))
+            arrays.append(pa.FixedSizeListArray.from_arrays(flat, type=field.type) if column.shape else flat)
+        self._writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=self._schema))
+
+    def close(self) -> None:
+        """End the stream."""
+        if not self._sink.closed:
+            self._writer.close()
+            self._sink.close()
+
+
+def combine(digests: dict[str, str]) -> str:
+    """The trajectory's hash from those of its columns: SHA-256 over `name digest` lines in the order of `HASHED`."""
+    return hashlib.sha256("".join(f"{name} {digests[name]}\n" for name in HASHED).encode()).hexdigest()
+
+
+_SIZES = ("nq", "nv", "na", "nu", "nmocap", "neq", "nsensordata", "nplastic")

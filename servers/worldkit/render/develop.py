@@ -1,0 +1,72 @@
+"""From scene light to picture: bloom, exposure, vignette, film curve, smooth edges, dither."""
+
+from __future__ import annotations
+
+import numpy as np
+from OpenGL import GL
+
+from . import gl
+
+STEPS = 4
+BRIGHTEST = 16.0
+"""Scene light beyond this is white."""
+
+
+def film_curve(light: np.ndarray) -> np.ndarray:
+    """Display value (sRGB, 0..1) of scene light: a soft toe, a straight middle, a long shoulder.
+
+    After Lottes, "Advanced Techniques and Optimization of HDR Color Pipelines" (2016): 0.18 stays near middle grey.
+    """
+    contrast, shoulder, middle_in, middle_out, white = 1.20, 0.965, 0.18, 0.205, 10.0
+    ws, wd = white**contrast, white ** (contrast * shoulder)
+    ms, md = middle_in**contrast, middle_in ** (contrast * shoulder)
+    b = (-ms + ws * middle_out) / ((wd - md) * middle_out)
+    k = (wd * ms - ws * md * middle_out) / ((wd - md) * middle_out)
+    z = np.maximum(light, 0.0) ** contrast
+    linear = np.clip(z / (z**shoulder * b + k), 0.0, 1.0)
+    return np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * np.maximum(linear, 1e-6) ** (1 / 2.4) - 0.055)
+
+
+def _curve_texture() -> int:
+    root = np.linspace(0.0, 1.0, 1024)
+    values = np.ascontiguousarray(film_curve(BRIGHTEST * root**4), dtype=np.float32)[None, :]
+    handle = gl.texture(GL.GL_R32F, 1024, 1)
+    GL.glTexSubImage2D(GL.GL_TEXTURE_2D, 0, 0, 0, 1024, 1, GL.GL_RED, GL.GL_FLOAT, values)
+    return handle
+
+
+class Developer:
+    """Develops a floating-point picture of a fixed size into bytes."""
+
+    def __init__(self, width: int, height: int):
+        self.width, self.height = width, height
+        self._glow = gl.Program("screen.vert", "glow.frag")
+        self._film = gl.Program("screen.vert", "develop.frag")
+        self._edges = gl.Program("screen.vert", "edges.frag")
+        self._curve = _curve_texture()
+        self._halves = [gl.Target(max(width >> i, 1), max(height >> i, 1), GL.GL_RGBA16F) for i in range(1, STEPS + 1)]
+        self._developed = gl.Target(width, height, GL.GL_RGBA8)
+        self._out = gl.Target(width, height, GL.GL_RGBA8)
+
+    def draw(self, scene: int, exposure: float, vignette: float) -> np.ndarray:
+        """Develop the texture `scene`: uint8 (H, W, 3), row 0 the top."""
+        GL.glDisable(GL.GL_DEPTH_TEST)
+        GL.glDisable(GL.GL_BLEND)
+        source, size = scene, (self.width, self.height)
+        program = self._glow.use().set(depth=0.0)
+        for half in self._halves:
+            half.bind()
+            program.set(texel=(1.0 / size[0], 1.0 / size[1])).texture("from", 0, source)
+            GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+            source, size = half.colour, (half.width, half.height)
+        self._developed.bind()
+        program = self._film.use().set(depth=0.0, exposure=exposure, vignette=vignette)
+        program.texture("scene", 0, scene).texture("glow", 1, source).texture("curve", 2, self._curve)
+        GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+        self._out.bind()
+        program = self._edges.use().set(depth=0.0, texel=(1.0 / self.width, 1.0 / self.height))
+        program.texture("picture", 0, self._developed.colour)
+        GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
+        raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RGB, GL.GL_UNSIGNED_BYTE)
+        return np.frombuffer(raw, dtype=np.uint8).reshape(self.height, self.width, 3)[::-1]

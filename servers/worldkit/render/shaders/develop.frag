@@ -1,0 +1,22 @@
+// From scene light to a picture: bloom, exposure, vignette, film curve. The brightness for edge smoothing goes with it.
+in vec2 at;
+uniform sampler2D scene;
+uniform sampler2D glow;
+uniform sampler2D curve;  // film curve and display encoding over the fourth root of scene light
+uniform float exposure;
+uniform float vignette;
+out vec4 colour;
+
+float film(float x) { return textureLod(curve, vec2(sqrt(sqrt(x * (1.0 / 16.0))), 0.5), 0.0).r; }
+
+void main() {
+    vec3 c = mix(textureLod(scene, at, 0.0).rgb, textureLod(glow, at, 0.0).rgb, 0.045);
+    vec2 q = (at - 0.5) * vec2(1.0, 0.85);
+    c *= exposure * (1.0 - vignette * smoothstep(0.05, 0.62, dot(q, q) * 1.9));
+    // Strong light loses some of its colour, as on film.
+    float grey = dot(c, vec3(0.25, 0.6, 0.15));
+    c = mix(c, vec3(grey), 0.35 * smoothstep(1.0, 9.0, max(c.r, max(c.g, c.b))));
+    c = max(mix(vec3(grey), c, 1.07), 0.0);
+    c = vec3(film(c.r), film(c.g), film(c.b));
+    colour = vec4(c, dot(c, vec3(0.299, 0.587, 0.114)));
+}

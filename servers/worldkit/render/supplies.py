@@ -1,0 +1,81 @@
+"""Shapes and pictures on the graphics side, made when first needed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from OpenGL import GL
+
+from ..materials import paint
+from . import gl, shapes
+from .finish import Finish, model_pixels
+
+if TYPE_CHECKING:
+    import mujoco
+
+PICTURE_PIXELS = 512
+GROUND_PIXELS = 1024
+CUBE_PIXELS = 192
+NO_PAINT, SIDES, AROUND, BY_COORDINATES = range(4)
+
+
+def sectors(pixels: float) -> int:
+    """Around how many sectors a round thing of this radius on screen looks smooth."""
+    return 24 if pixels < 10 else 40 if pixels < 40 else 64 if pixels < 160 else 112
+
+
+class Supplies:
+    """Vertex arrays and textures by what they show."""
+
+    def __init__(self, model: mujoco.MjModel):
+        self.model = model
+        self._shapes: dict[tuple[str, int], gl.Shape] = {}
+        self._pictures: dict[object, int] = {}
+        self.black = gl.texture(GL.GL_RGBA8, 1, 1)
+
+    def shape(self, kind: str, index: int, pixels: float = 40.0) -> gl.Shape:
+        """A unit shape fine enough for a thing of this radius on screen, or a mesh or height field of the model."""
+        round_kinds = {"sphere": shapes.sphere, "capsule": shapes.capsule, "cylinder": shapes.cylinder}
+        if kind in round_kinds:
+            index = sectors(pixels)
+        key = (kind, index)
+        if key not in self._shapes:
+            if kind in round_kinds:
+                made = round_kinds[kind](index)
+            elif kind == "mesh":
+                made = shapes.mesh(self.model, index)
+            elif kind == "hfield":
+                made = shapes.height_field(self.model, index)
+            else:
+                made = {"box": shapes.box, "plane": shapes.quad, "disc": shapes.disc}[kind]()
+            self._shapes[key] = gl.Shape(*made)
+        return self._shapes[key]
+
+    @staticmethod
+    def paint_kind(finish: Finish, weave_mode: float) -> int:
+        """How the picture of a finish lies on a thing whose paint mode is `weave_mode`."""
+        if finish.texture < 0 and finish.look.paint is None:
+            return NO_PAINT
+        if finish.look.around:
+            return AROUND
+        return BY_COORDINATES if weave_mode >= 5.5 else SIDES
+
+    def picture(self, finish: Finish, wide: bool) -> int:
+        """The texture of a finish; `wide` ones are painted finer."""
+        key = (finish.look if finish.texture < 0 else None, finish.texture, wide)
+        if key not in self._pictures:
+            entry = finish.look
+            if finish.texture >= 0:
+                pixels = model_pixels(self.model, finish.texture)
+                if entry.around:
+                    side = pixels.shape[1]
+                    faces = pixels.reshape(-1, side, side, 4)
+                    self._pictures[key] = gl.cube_picture(faces if len(faces) == 6 else np.repeat(faces[:1], 6, axis=0))
+                else:
+                    self._pictures[key] = gl.picture(pixels)
+            elif entry.around:
+                self._pictures[key] = gl.cube_picture(paint.cube(entry, CUBE_PIXELS))
+            else:
+                self._pictures[key] = gl.picture(paint.tile(entry, GROUND_PIXELS if wide else PICTURE_PIXELS))
+        return self._pictures[key]

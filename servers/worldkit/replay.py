@@ -1,0 +1,105 @@
+"""Showing recorded states again: no physics is computed, only where everything is.
+
+A row of a recording holds the whole state, so a picture of it needs the position stage of the engine up to and
+including kinematics, cameras, lights, flexes and tendons (`mj_fwdKinematics`), and nothing beyond: no collision, no
+forces, no `mj_step`.
+"""
+
+from typing import TYPE_CHECKING
+
+from .errors import RecordingError
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from .trajectory import Recording
+
+STATE = ("qpos", "qvel", "act", "ctrl", "mocap_pos", "mocap_quat", "eq_active", "plastic")
+
+
+class Replay:
+    """Puts rows of a recording into a model and its data.
+
+    Args:
+        model: the same world, built again; its arrays follow the recorded edits (colours, sizes, …).
+        recording: what to show.
+
+    Raises:
+        RecordingError: the recording is of another world, or empty.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", recording: "Recording") -> None:
+        import mujoco
+
+        check_same_world(model, recording)
+        if not len(recording):
+            raise RecordingError("the recording has no rows", str(recording.folder), "run the physics pass again")
+        self.model, self.recording = model, recording
+        self.data = mujoco.MjData(model)
+        self.same_model = True
+        self._columns = [(getattr(self.data, name), getattr(recording, name)) for name in STATE]
+        self._edits = recording.edits
+        self._next_edit = 0
+        self._undo: list[tuple[str, int, float]] = []
+
+    def show(self, row: int) -> "mujoco.MjData":
+        """The data at a recorded row, ready to be drawn."""
+        import mujoco
+
+        self._apply_edits(row)
+        data = self.data
+        data.time = self.recording.time[row]
+        for live, recorded in self._columns:
+            live[...] = recorded[row]
+        mujoco.mj_fwdKinematics(self.model, data)
+        return data
+
+    def _apply_edits(self, row: int) -> None:
+        """Bring the model's arrays to what they were at this row."""
+        edits = self._edits
+        if not len(edits):
+            return
+        rows = edits.row
+        while self._next_edit > 0 and rows[self._next_edit - 1] > row:
+            self._next_edit -= 1
+            array, index, value = self._undo.pop()
+            getattr(self.model, array).reshape(-1)[index] = value
+        while self._next_edit < len(edits) and rows[self._next_edit] <= row:
+            name, index = str(edits.array[self._next_edit]), int(edits.index[self._next_edit])
+            # Options do not show, and gravity or a time step has no business in a replay.
+            if name.startswith("opt."):
+                name, index = "body_mass", 0
+                value = float(self.model.body_mass[0])
+            else:
+                value = float(edits.value[self._next_edit])
+            flat = getattr(self.model, name).reshape(-1)
+            self._undo.append((name, index, flat[index].item()))
+            flat[index] = value
+            self._next_edit += 1
+
+
+def check_same_world(model: "mujoco.MjModel", recording: "Recording") -> None:
+    """Raise `RecordingError` unless the recording fits the model: same bodies, same coordinates."""
+    from .describe import names
+
+    place = str(recording.folder)
+    remedy = "run the physics pass of this program first"
+    bodies = tuple(names(model, "body", model.nbody)[1:])
+    if bodies != recording.names:
+        odd = sorted(set(bodies) ^ set(recording.names)) or ["their order"]
+        raise RecordingError(f"the recording is of another world; they differ in {', '.join(odd[:5])}", place, remedy)
+    for name, size in recording.meta["sizes"].items():
+        if getattr(model, name) != size:
+            raise RecordingError(f"the recording has {name} = {size}, this world has {getattr(model, name)}", place, remedy)
+
+
+def frame_rows(time: "np.ndarray", fps: float) -> "np.ndarray":
+    """Rows to show: frame k is the row nearest to k / fps after the first; as many frames as the time they last."""
+    import numpy as np
+
+    duration = float(time[-1] - time[0])
+    wanted = time[0] + np.arange(max(1, round(duration * fps))) / fps
+    after = np.clip(np.searchsorted(time, wanted), 0, len(time) - 1)
+    before = np.maximum(after - 1, 0)
+    return np.where(np.abs(time[before] - wanted) <= np.abs(time[after] - wanted), before, after)

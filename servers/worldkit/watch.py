@@ -1,0 +1,171 @@
+"""Noticing edits of the model while it is simulated: one memory comparison a step, names only when something changed.
+
+All arrays of an MjModel lie in one allocation. The ones worth watching are compared as a few contiguous blocks; the
+few microseconds this takes do not depend on how many arrays there are.
+"""
+
+import operator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+BULKY = (
+    "mesh_", "tex_", "bvh_", "hfield_", "skin_", "oct_", "name", "text_", "path", "key_", "B_", "M_", "D_", "map",
+)  # fmt: skip
+"""Assets and look-ups that a simulation does not edit (prefixes); too large to compare every step."""
+LOOKS = ("_rgba", "_matid", "_group", "mat_", "light_", "cam_", "vis_", "_castshadow", "site_size", "_material")
+"""Parts of names of arrays that only change the picture."""
+OWNERS = {
+    "body": "body", "jnt": "joint", "dof": "dof", "geom": "geom", "site": "site", "cam": "camera", "light": "light",
+    "mat": "material", "pair": "pair", "eq": "equality", "tendon": "tendon", "actuator": "actuator", "sensor": "sensor",
+    "flex": "flex", "exclude": "exclude",
+}  # fmt: skip
+OPTIONS = (
+    "timestep", "impratio", "tolerance", "ls_tolerance", "noslip_tolerance", "ccd_tolerance", "sleep_tolerance",
+    "gravity", "wind", "magnetic", "density", "viscosity", "o_margin", "o_solref", "o_solimp", "o_friction",
+    "integrator", "cone", "jacobian", "solver", "iterations", "ls_iterations", "noslip_iterations", "ccd_iterations",
+    "disableflags", "enableflags", "disableactuator",
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Edit:
+    """One model array with what changed in it."""
+
+    array: str
+    index: "np.ndarray"
+    """Into the flattened array."""
+    values: "np.ndarray"
+    """New values at those places."""
+    looks_only: bool
+    """It changes the picture, not the motion."""
+
+
+class Watch:
+    """Remembers a model's arrays and options, and tells what differs from one `changes()` to the next."""
+
+    def __init__(self, model: "mujoco.MjModel") -> None:
+        import numpy as np
+
+        self._model = model
+        arrays = {
+            name: array
+            for name in dir(model)
+            if not name.startswith(("_", *BULKY)) and isinstance(array := getattr(model, name), np.ndarray)
+            if array.nbytes and array.flags.c_contiguous
+        }
+        self._blocks: list[tuple[np.ndarray, np.ndarray, list[tuple[str, np.ndarray, np.ndarray]]]] = []
+        run: list[tuple[str, np.ndarray]] = []
+        for name, array in sorted(arrays.items(), key=lambda item: _address(item[1])):
+            if run and not 0 <= _address(array) - _end(run[-1][1]) < 64:
+                self._add_block(run)
+                run = []
+            run.append((name, array))
+        if run:
+            self._add_block(run)
+        options = {name: getattr(model.opt, name) for name in OPTIONS if hasattr(model.opt, name)}
+        # Arrays are views into the model's options, which stay where they are; numbers are asked for anew.
+        self._option_arrays = {name: value for name, value in options.items() if isinstance(value, np.ndarray)}
+        self._option_numbers = tuple(name for name in options if name not in self._option_arrays)
+        self._ask = operator.attrgetter(*self._option_numbers)
+        self._options = self._read_options()
+
+    def changes(self) -> list[Edit]:
+        """What was edited since the last call (or the construction); remembered from now on."""
+        import numpy as np
+
+        edits: list[Edit] = []
+        for live, copy, arrays in self._blocks:
+            if live.tobytes() != copy.tobytes():
+                for name, array, old in arrays:
+                    # Compared as bytes, so that a NaN equals itself.
+                    different = (array.reshape(-1, 1).view(np.uint8) != old.reshape(-1, 1).view(np.uint8)).any(axis=1)
+                    if different.any():
+                        index = np.flatnonzero(different)
+                        looks = any(part in name for part in LOOKS)
+                        edits.append(Edit(name, index, array.reshape(-1)[index].astype(float), looks))
+                copy[:] = live
+        options = self._read_options()
+        if options != self._options:
+            for name in OPTIONS:
+                if options.get(name) != self._options.get(name):
+                    values = np.ravel(getattr(self._model.opt, name)).astype(float)
+                    edits.append(Edit(f"opt.{name}", np.arange(len(values)), values, looks_only=False))
+            self._options = options
+        return edits
+
+    def _read_options(self) -> dict[str, Any]:
+        options = dict(zip(self._option_numbers, self._ask(self._model.opt), strict=True))
+        for name, array in self._option_arrays.items():
+            options[name] = array.tobytes()
+        return options
+
+    def _add_block(self, run: "list[tuple[str, np.ndarray]]") -> None:
+        """Watch neighbouring arrays as one block of bytes, gaps between them (alignment) included."""
+        import numpy as np
+
+        start, end = _address(run[0][1]), _end(run[-1][1])
+        first = run[0][1].reshape(-1).view(np.uint8)
+        live = np.lib.stride_tricks.as_strided(first, shape=(end - start,), strides=(1,), writeable=False)
+        copy = live.copy()
+        arrays = []
+        for name, array in run:
+            offset = _address(array) - start
+            old = copy[offset : offset + array.nbytes].view(array.dtype).reshape(array.shape)
+            arrays.append((name, array, old))
+        if (end - start) % 8 == 0 and start % 8 == 0:
+            self._blocks.append((live.view(np.uint64), copy.view(np.uint64), arrays))
+        else:
+            whole = (end - start) // 8 * 8
+            self._blocks.append((live[:whole].view(np.uint64), copy[:whole].view(np.uint64), arrays))
+            self._blocks.append((live[whole:], copy[whole:], arrays))
+
+
+def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.ndarray"]]:
+    """(target, element, new values) of each element an edit touches, e.g. `ball.geom_friction[ball_skin]`.
+
+    Targets begin with the body that owns the element where there is one, else with the element or `opt`.
+    """
+    import numpy as np
+
+    from .describe import names
+
+    if edit.array.startswith("opt."):
+        return [(edit.array, edit.array, edit.values)]
+    array = getattr(model, edit.array)
+    prefix = edit.array.split("_")[0]
+    kind = OWNERS.get(prefix)
+    if kind is None or not array.ndim:
+        return [(edit.array, edit.array, edit.values)]
+    per_element = max(1, array.size // len(array))
+    elements = edit.index // per_element
+    bodies = names(model, "body", model.nbody)
+    if kind == "dof":
+        labels = [f"{bodies[b]}" for b in model.dof_bodyid]
+    elif kind in ("flex",):
+        labels = [f"{kind}_{i}" for i in range(len(array))]
+    else:
+        labels = names(model, kind, len(array))
+    body_of = {"body": None, "geom": "geom_bodyid", "joint": "jnt_bodyid", "dof": "dof_bodyid", "site": "site_bodyid"}
+    found = []
+    for element in np.unique(elements):
+        label = labels[element]
+        if kind == "body":
+            target = f"{label}.{edit.array}"
+        elif kind in body_of:
+            target = f"{bodies[getattr(model, body_of[kind])[element]]}.{edit.array}[{label}]"
+        else:
+            target = f"{label}.{edit.array}"
+        found.append((target, label, edit.values[elements == element]))
+    return found
+
+
+def _address(array: "np.ndarray") -> int:
+    return int(array.__array_interface__["data"][0])
+
+
+def _end(array: "np.ndarray") -> int:
+    return _address(array) + int(array.nbytes)

@@ -1,0 +1,332 @@
+"""What poses alone cannot tell about the bodies of a recording: size, mass, joints, what else acts on them.
+
+Read from a recording's `meta.json`, or from an MJCF model that lies beside foreign data. Every fact is optional: a
+check that needs a missing one says so instead of guessing.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray
+INFINITE_M = 1e6
+"""A half extent beyond this is a plane or a height field's: it bounds nothing."""
+
+
+@dataclass(frozen=True)
+class Mechanics:
+    """Facts about B bodies (the world is not one of them) and their G geoms; None where unknown."""
+
+    mass: Array | None = None
+    """(B,) kg."""
+    com: Array | None = None
+    """(B, 3) centre of mass in the body's own frame, m."""
+    inertia: Array | None = None
+    """(B, 3) principal moments, kg·m^2."""
+    inertia_quat: Array | None = None
+    """(B, 4) wxyz, principal axes in the body's own frame."""
+    center: Array | None = None
+    """(B, 3) centre of the bounding box of the body's geoms in the body's own frame, m; nan without geoms."""
+    half_extents: Array | None = None
+    """(B, 3) half extents of that box, m; nan without geoms."""
+    dynamic: Array | None = None
+    """(B,) bool: has at least one degree of freedom above it."""
+    free: Array | None = None
+    """(B,) bool: one loose rigid body: a free joint, no children that move, no tie to anything."""
+    unforced: Array | None = None
+    """(B,) bool: nothing but gravity and contact acts on it (no actuator, fluid, damping, gravity compensation …)."""
+    mocap: Array | None = None
+    """(B,) bool: posed by the program."""
+    visual_only: Array | None = None
+    """(B,) bool: drawn without being simulated."""
+    parent: Array | None = None
+    """(B,) index of the parent body, -1 for the world."""
+    geom_names: tuple[str, ...] = ()
+    geom_body: Array | None = None
+    """(G,) index of the body that owns each geom, -1 for the world."""
+    geom_half_extents: Array | None = None
+    """(G, 3) m, in the geom's own frame; inf for planes."""
+    ground_z: float | None = None
+    """Height of the world's highest level, collidable plane, m."""
+    gravity: Array | None = None
+    """(3,) m/s^2, world frame."""
+    drives: tuple[str, ...] = ()
+    """What can do work on the bodies besides gravity and contact: `actuators`, `fluid`, `surface velocity` …"""
+
+    @classmethod
+    def from_meta(cls, meta: Mapping[str, Any], names: Sequence[str]) -> "Mechanics":
+        """From a recording's `meta.json` (see `worldkit.record`): lists `bodies`, `geoms`, `equalities`, … by row."""
+        rows = _rows(meta.get("bodies"))
+        by_name = {row.get("name"): row for row in rows}
+        if not all(name in by_name for name in names):
+            return cls(gravity=_vector(meta, "gravity"))
+        bodies = [by_name[name] for name in names]
+        geoms = _Geoms(meta, names)
+        center, half = geoms.boxes(len(names))
+        parent = np.array([_index(row.get("parent"), names, rows) for row in bodies], dtype=int)
+        dynamic = _column(bodies, "dynamic", bool)
+        option = meta.get("option") or {}
+        drives = _drives(meta, option)
+        tied = _tied(meta, names, rows)
+        free, unforced = None, None
+        joints = [row.get("joints", row.get("joint_types")) for row in bodies]
+        if all(j is not None for j in joints) and dynamic is not None:
+            moving_child = {int(p) for p, d in zip(parent, dynamic, strict=True) if p >= 0 and d}
+            free = np.array([_is_free(j) and i not in moving_child for i, j in enumerate(joints)]) & ~tied["bound"]
+            still_air = not ({"fluid", "plugins", "flexes"} & set(drives))
+            quiet = np.array([not row.get("gravcomp") and not row.get("damping") for row in bodies])
+            unforced = free & quiet & ~tied["driven"] & still_air
+        return cls(
+            mass=_column(bodies, "mass", float),
+            com=_column(bodies, "ipos", float, "com"),
+            inertia=_column(bodies, "inertia", float),
+            inertia_quat=_column(bodies, "iquat", float, "inertia_quat"),
+            center=center,
+            half_extents=half,
+            dynamic=dynamic,
+            free=free,
+            unforced=unforced,
+            mocap=_column(bodies, "mocap", bool),
+            visual_only=_visual_only(meta, bodies, names),
+            parent=parent,
+            geom_names=geoms.names,
+            geom_body=geoms.body,
+            geom_half_extents=geoms.half,
+            ground_z=geoms.ground_z(),
+            gravity=_vector(meta, "gravity", option),
+            drives=drives,
+        )
+
+    @classmethod
+    def from_mjcf(cls, path: Path | str, names: Sequence[str]) -> "Mechanics":
+        """From the MJCF file that describes the bodies called `names`; raises ValueError when it does not load."""
+        import mujoco
+
+        return cls.from_meta(describe(mujoco.MjModel.from_xml_path(str(path))), names)
+
+    def half_thickness(self) -> Array | None:
+        """(B,) half the smallest extent of each body, m; nan without geoms."""
+        return None if self.half_extents is None else self.half_extents.min(axis=1)
+
+
+def describe(model: Any) -> dict[str, Any]:
+    """The facts of an `MjModel` in the layout of a recording's `meta.json`."""
+    import mujoco
+
+    def name(kind: Any, index: int) -> str:
+        return mujoco.mj_id2name(model, kind, index) or f"{kind.name[6:].lower()}_{index}"
+
+    obj = mujoco.mjtObj
+    body_names = [name(obj.mjOBJ_BODY, i) for i in range(model.nbody)]
+    joint_types = [mujoco.mjtJoint(t).name[6:].lower() for t in model.jnt_type]
+    bodies = []
+    for i in range(1, model.nbody):
+        first, count = model.body_jntadr[i], model.body_jntnum[i]
+        dofs = slice(model.body_dofadr[i], model.body_dofadr[i] + model.body_dofnum[i])
+        bodies.append(
+            {
+                "name": body_names[i],
+                "parent": body_names[model.body_parentid[i]],
+                "mass": float(model.body_mass[i]),
+                "ipos": model.body_ipos[i].tolist(),
+                "iquat": model.body_iquat[i].tolist(),
+                "inertia": model.body_inertia[i].tolist(),
+                "joints": joint_types[first : first + count] if count else [],
+                "damping": float(np.abs(model.dof_damping[dofs]).max(initial=0.0)) if count else 0.0,
+                "dynamic": bool(model.body_dofnum[model.body_weldid[i]] > 0),
+                "mocap": bool(model.body_mocapid[i] >= 0),
+                "gravcomp": float(model.body_gravcomp[i]),
+            }
+        )
+    geoms = [
+        {
+            "name": name(obj.mjOBJ_GEOM, g),
+            "body": body_names[model.geom_bodyid[g]],
+            "type": mujoco.mjtGeom(model.geom_type[g]).name[7:].lower(),
+            "aabb": model.geom_aabb[g].ravel().tolist(),
+            "pos": model.geom_pos[g].tolist(),
+            "quat": model.geom_quat[g].tolist(),
+            "contype": int(model.geom_contype[g]),
+            "conaffinity": int(model.geom_conaffinity[g]),
+            "surfacevel": bool(np.any(model.geom_surfacevel[g])),
+            "adhesion": bool(np.any(model.geom_adhesion[g])),
+        }
+        for g in range(model.ngeom)
+    ]
+    is_site = [mujoco.mjtObj(k) == obj.mjOBJ_SITE for k in model.eq_objtype]
+    ends = [
+        [
+            body_names[model.site_bodyid[i] if is_site[e] else i]
+            for i in (model.eq_obj1id[e], model.eq_obj2id[e])
+            if i >= 0
+        ]
+        for e in range(model.neq)
+        if model.eq_type[e] in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
+    ]
+    # What a tendon or an actuator pulls on is read off its Jacobian, whatever its transmission.
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    owner = [body_names[b] for b in model.dof_bodyid]
+    tendons = [{"bodies": _pulled(data, "ten", t, owner, model.nv)} for t in range(model.ntendon)]
+    actuators = [
+        {"name": name(obj.mjOBJ_ACTUATOR, a), "bodies": _pulled(data, "actuator", a, owner, model.nv)}
+        for a in range(model.nu)
+    ]
+    option = model.opt
+    return {
+        "bodies": bodies,
+        "geoms": geoms,
+        "equalities": [{"bodies": pair} for pair in ends],
+        "tendons": tendons,
+        "actuators": actuators,
+        "gravity": option.gravity.tolist(),
+        "time_step": float(option.timestep),
+        "option": {"density": option.density, "viscosity": option.viscosity, "wind": option.wind.tolist()},
+        "has_flex": bool(model.nflex),
+        "has_plugin": bool(model.nplugin),
+    }
+
+
+def _pulled(data: Any, kind: str, row: int, owner: Sequence[str], nv: int) -> list[str]:
+    """Bodies whose degrees of freedom a tendon or an actuator acts on; all of them when that cannot be read."""
+    if kind == "actuator":
+        start, count = int(data.moment_rowadr[row]), int(data.moment_rownnz[row])
+        columns = data.moment_colind[start : start + count]
+    else:
+        try:
+            start, count = int(data.model.ten_J_rowadr[row]), int(data.model.ten_J_rownnz[row])
+            columns = data.model.ten_J_colind[start : start + count]
+        except AttributeError:
+            columns = range(nv)
+    return sorted({owner[int(c)] for c in columns})
+
+
+class _Geoms:
+    """The geoms of a `meta.json` as arrays."""
+
+    def __init__(self, meta: Mapping[str, Any], names: Sequence[str]) -> None:
+        self.rows = _rows(meta.get("geoms"))
+        self.names = tuple(str(row.get("name", "")) for row in self.rows)
+        all_bodies = _rows(meta.get("bodies"))
+        self.body: Array | None = None
+        self.half: Array | None = None
+        if not self.rows:
+            return
+        self.body = np.array([_index(row.get("body"), names, all_bodies) for row in self.rows], dtype=int)
+        if all(row.get("aabb") is not None for row in self.rows):
+            box = np.array([np.ravel(row["aabb"]) for row in self.rows], dtype=float)
+            self.middle, self.half = box[:, :3], np.where(box[:, 3:] > INFINITE_M, np.inf, box[:, 3:])
+
+    def boxes(self, count: int) -> tuple[Array | None, Array | None]:
+        """Centre and half extents (count, 3) of each body's geoms in its own frame."""
+        if self.half is None or self.body is None:
+            return None, None
+        low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+        for g, row in enumerate(self.rows):
+            if self.body[g] < 0 or not np.all(np.isfinite(self.half[g])):
+                continue
+            turn = rotation(np.asarray(row.get("quat", (1, 0, 0, 0)), dtype=float))
+            middle = np.asarray(row.get("pos", (0, 0, 0)), dtype=float) + turn @ self.middle[g]
+            reach = np.abs(turn) @ self.half[g]
+            low[self.body[g]] = np.minimum(low[self.body[g]], middle - reach)
+            high[self.body[g]] = np.maximum(high[self.body[g]], middle + reach)
+        empty = ~np.all(np.isfinite(low), axis=1)
+        low[empty], high[empty] = np.nan, np.nan
+        return (low + high) / 2, (high - low) / 2
+
+    def ground_z(self) -> float | None:
+        """The highest level plane of the world that can be touched."""
+        heights = []
+        for g, row in enumerate(self.rows):
+            collides = row.get("contype", 1) or row.get("conaffinity", 1)
+            if self.body is None or row.get("type") != "plane" or self.body[g] >= 0 or not collides:
+                continue
+            if rotation(np.asarray(row.get("quat", (1, 0, 0, 0)), dtype=float))[2, 2] > 0.999:
+                heights.append(float(row.get("pos", (0, 0, 0))[2]))
+        return max(heights, default=None)
+
+
+def rotation(quat: Array) -> Array:
+    """Rotation matrices (..., 3, 3) of unit quaternions (..., 4) wxyz."""
+    w, x, y, z = np.moveaxis(np.asarray(quat, dtype=float), -1, 0)
+    rows = (
+        (1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)),
+        (2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)),
+        (2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)),
+    )
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def _rows(value: Any) -> list[dict[str, Any]]:
+    """A list of mappings, whatever a foreign file holds; plain names become rows."""
+    if not isinstance(value, (list, tuple)):
+        return []
+    return [row if isinstance(row, dict) else {"name": str(row)} for row in value]
+
+
+def _index(value: Any, names: Sequence[str], rows: list[dict[str, Any]]) -> int:
+    """The position in `names` of a body given by name, or by its row in MuJoCo's order (where 0 is the world)."""
+    if isinstance(value, str):
+        return names.index(value) if value in names else -1
+    if value is None or int(value) < 0:
+        return -1
+    has_world = bool(rows) and rows[0].get("name") == "world"
+    row = int(value) if has_world else int(value) - 1
+    return names.index(rows[row]["name"]) if 0 <= row < len(rows) and rows[row].get("name") in names else -1
+
+
+def _column(rows: list[dict[str, Any]], key: str, kind: type, other: str = "") -> Array | None:
+    values = [row.get(key, row.get(other)) for row in rows]
+    return None if not values or any(v is None for v in values) else np.array(values, dtype=kind)
+
+
+def _vector(meta: Mapping[str, Any], key: str, option: Mapping[str, Any] | None = None) -> Array | None:
+    value = meta.get(key, (option or {}).get(key))
+    return None if value is None else np.asarray(value, dtype=float)
+
+
+def _visual_only(meta: Mapping[str, Any], bodies: list[dict[str, Any]], names: Sequence[str]) -> Array:
+    listed = meta.get("visual_only") or ()
+    listed = listed if isinstance(listed, (list, tuple)) else ()
+    return np.array([bool(row.get("visual_only")) or name in listed for row, name in zip(bodies, names, strict=True)])
+
+
+def _is_free(joints: Sequence[Any]) -> bool:
+    return len(joints) == 1 and str(joints[0].get("type", "") if isinstance(joints[0], dict) else joints[0]) == "free"
+
+
+def _tied(meta: Mapping[str, Any], names: Sequence[str], rows: list[dict[str, Any]]) -> dict[str, Array]:
+    """Which bodies an equality or a tendon ties (`bound`), and which an actuator or a tendon pulls (`driven`)."""
+    found = {"bound": np.zeros(len(names), dtype=bool), "driven": np.zeros(len(names), dtype=bool)}
+    for key, mark in (("equalities", "bound"), ("tendons", "bound"), ("actuators", "driven")):
+        for row in _rows(meta.get(key)):
+            ends = row.get("bodies")
+            if ends is None:
+                # An end that cannot be told might be any body: calling none of them loose is the safe reading.
+                found[mark][:] = True
+                continue
+            for end in ends:
+                index = _index(end, names, rows)
+                if index >= 0:
+                    found[mark][index] = True
+    found["driven"] |= found["bound"]
+    return found
+
+
+def _drives(meta: Mapping[str, Any], option: Mapping[str, Any]) -> tuple[str, ...]:
+    geoms = _rows(meta.get("geoms"))
+    bodies = _rows(meta.get("bodies"))
+    present = {
+        "actuators": bool(_rows(meta.get("actuators"))),
+        "fluid": any(np.any(option.get(key, 0)) for key in ("density", "viscosity", "wind")),
+        "surface velocity": any(np.any(row.get("surfacevel") or 0) for row in geoms),
+        "adhesion": any(np.any(row.get("adhesion") or 0) for row in geoms),
+        "mocap": any(row.get("mocap") for row in bodies),
+        "gravity compensation": any(row.get("gravcomp") for row in bodies),
+        "plugins": bool(meta.get("has_plugin")),
+        "flexes": bool(meta.get("has_flex")),
+    }
+    return tuple(name for name, there in present.items() if there)

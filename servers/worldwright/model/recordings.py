@@ -1,0 +1,84 @@
+"""Reading recordings into a `Trajectory`: worldkit's folders, and the npz interchange.
+
+Whatever is wrong with a file ends in a `RecordingError` naming the file, the cause and the next move.
+"""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from .errors import RecordingError
+from .mechanics import Mechanics
+from .trajectory import OPTIONAL_SHAPES, SHAPES, Contacts, Interventions, Trajectory
+
+Array = np.ndarray
+
+
+def read_npz(path: Path, mjcf: Path | None = None) -> Trajectory:
+    """The interchange of `worldwright.model.trajectory`; keys that are missing, misshapen or pickled are named."""
+    try:
+        with np.load(path, allow_pickle=False) as archive:
+            found = {name: archive[name] for name in archive.files}
+    except FileNotFoundError as cause:
+        raise RecordingError("there is no such file", place=str(path), next_move="check the path") from cause
+    except Exception as cause:  # zip, pickle, header, truncated data, a directory: all of them are a bad file
+        raise RecordingError(
+            f"not a readable npz archive: {cause}",
+            place=str(path),
+            next_move="write it with numpy.savez, plain arrays only (no objects, no pickle)",
+        ) from cause
+    needed = ("t", "names", *SHAPES)
+    missing = [name for name in needed if name not in found]
+    if missing:
+        raise RecordingError(
+            f"the archive lacks {', '.join(missing)}; it holds {', '.join(sorted(found)) or 'nothing'}",
+            place=str(path),
+            next_move=f"needed: {', '.join(needed)}; optional: {', '.join(OPTIONAL_SHAPES)}",
+        )
+    names = tuple(str(name) for name in np.ravel(found.pop("names")))
+    mjcf = path.with_suffix(".xml") if mjcf is None and path.with_suffix(".xml").is_file() else mjcf
+    channels: dict[str, Array] = {}
+    for name in ("t", *SHAPES, *OPTIONAL_SHAPES):
+        if name not in found:
+            continue
+        if not np.issubdtype(found[name].dtype, np.number) or np.iscomplexobj(found[name]):
+            raise RecordingError(
+                f"{name} holds {found[name].dtype}, not numbers", place=str(path), next_move="store float64 arrays"
+            )
+        channels[name] = found[name].astype(float)
+    trajectory = Trajectory(names=names, mechanics=_mechanics(mjcf, names), meta={"source": path.name}, **channels)
+    trajectory.verify(str(path))
+    return trajectory
+
+
+def _mechanics(mjcf: Path | None, names: tuple[str, ...]) -> Mechanics:
+    if mjcf is None:
+        return Mechanics()
+    try:
+        return Mechanics.from_mjcf(mjcf, names)
+    except Exception as cause:  # MuJoCo raises several kinds for a model that does not load
+        raise RecordingError(
+            f"the MJCF beside the recording does not load: {cause}",
+            place=str(mjcf),
+            next_move="repair it, or move it away to scan poses alone",
+        ) from cause
+
+
+def read_recording(folder: Path) -> Trajectory:
+    """A recording folder that `worldkit` wrote, memory-mapped; a partial one reads up to its last whole batch."""
+    from worldkit import trajectory as recordings
+
+    try:
+        recording = recordings.open(folder)
+        return _from_recording(recording)
+    except recordings.RecordingError as cause:
+        raise RecordingError(
+            getattr(cause, "cause", str(cause)),
+            place=getattr(cause, "place", "") or str(folder),
+            next_move=getattr(cause, "next_move", ""),
+        ) from cause
+
+
+def _from_recording(recording: Any) -> Trajectory:
+    raise NotImplementedError

@@ -1,0 +1,261 @@
+"""The whole sheet: title, the view from above and the one from the side (on one scale), and what is wrong."""
+
+import math
+
+import numpy as np
+
+from ...model.finding import Finding
+from ...model.plan import Plan
+from ...model.scene import PlacedObject, Scene
+from ..anchors import cos_sin
+from ..checks import flagged
+from ..engine import Resolution
+from ..extents import fixed_objects
+from ..vocabulary import BASE
+from . import palette
+from .canvas import Canvas, Colour, text_width
+from .labels import Rect
+from .silhouettes import Silhouette, silhouette
+from .view import View, metres
+
+WIDTH = 1600
+_LEFT, _RIGHT, _HEAD, _BETWEEN = 76, 40, 138, 84
+_TALLEST = (900, 760)  # pixels: the two panels one above the other
+_ROOM = 78  # pixels around the objects, for names
+
+
+def sheet(plan: Plan, resolution: Resolution, findings: tuple[Finding, ...]) -> bytes:
+    """Draw a layout as PNG.
+
+    Args:
+        plan: the plan (titles, shapes, initial motion).
+        resolution: where everything is.
+        findings: what to mark: errors in red, warnings in amber.
+    """
+    scene = resolution.scene
+    shapes = {o.name: silhouette(plan, o) for o in scene.objects}
+    lines = _findings(findings, WIDTH - _LEFT - _RIGHT)
+    low, high = _bounds(scene)
+    span = (high[0] - low[0], high[1] - low[1], high[2] - low[2])
+    panels, scale = _panels(span)
+    bottom = max(panel[3] for panel in panels)
+    canvas = Canvas(WIDTH, round(bottom) + 88 + 24 * len(lines), palette.PAPER)
+    middle = tuple((a + b) / 2 for a, b in zip(low, high, strict=True))
+    top = View(canvas, panels[0], scale, (middle[0], middle[1]))
+    side = View(canvas, panels[1], scale, (middle[0], middle[2]))
+    marks = flagged(findings, [o.name for o in scene.objects])
+    _head(canvas, plan, scene)
+    unnamed = _above(top, plan, scene, shapes, marks)
+    unnamed = max(unnamed, _beside(side, plan, scene, shapes, marks, resolution))
+    if unnamed:
+        note = f"{unnamed} names left out for want of room"
+        canvas.text(note, (WIDTH - _RIGHT - text_width(note, 14), _HEAD - 38), 14, palette.QUIET)
+    _foot(canvas, bottom + 62, lines, scene, plan)
+    return canvas.png()
+
+
+def _panels(span: tuple[float, float, float]) -> tuple[tuple[Rect, Rect], float]:
+    """The two panels and their common scale: one above the other, or side by side when that shows things larger."""
+    inner = WIDTH - _LEFT - _RIGHT
+    stacked = min(
+        (inner - 2 * _ROOM) / span[0],
+        (_TALLEST[0] - 2 * _ROOM) / span[1],
+        (_TALLEST[1] - 2 * _ROOM) / span[2],
+    )
+    column = (inner - _BETWEEN) / 2
+    beside = min((column - 2 * _ROOM) / span[0], (960 - 2 * _ROOM) / max(span[1], span[2]))
+    if beside > 1.15 * stacked:
+        bottom = _HEAD + max(360, round(max(span[1], span[2]) * beside) + 2 * _ROOM)
+        middle = _LEFT + column
+        return ((_LEFT, _HEAD, middle, bottom), (middle + _BETWEEN, _HEAD, WIDTH - _RIGHT, bottom)), beside
+    tall = [max(260, round(extent * stacked) + 2 * _ROOM) for extent in span[1:]]
+    first, second = _HEAD + tall[0], _HEAD + tall[0] + _BETWEEN
+    return ((_LEFT, _HEAD, WIDTH - _RIGHT, first), (_LEFT, second, WIDTH - _RIGHT, second + tall[1])), stacked
+
+
+def _bounds(scene: Scene) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The space to show: every object, the ground, and never less than a few centimetres."""
+    boxes = [o.bounds() for o in scene.objects] or [((-0.5, -0.5, 0.0), (0.5, 0.5, 0.5))]
+    low = [min(b[0][i] for b in boxes) for i in range(3)]
+    high = [max(b[1][i] for b in boxes) for i in range(3)]
+    low[2] = min(low[2], 0.0)
+    for i in range(3):
+        short = max(0.05 - (high[i] - low[i]), 0.0)
+        low[i], high[i] = low[i] - short / 2, high[i] + short / 2
+    return tuple(low), tuple(high)
+
+
+def _colours(plan: Plan, scene: Scene) -> dict[str, tuple[Colour, Colour]]:
+    """Fill and outline by object: scenery is sand, things have colours of their own."""
+    fixed = set(fixed_objects(plan))
+    colours: dict[str, tuple[Colour, Colour]] = {}
+    count = 0
+    for placed in scene.objects:
+        if placed.name in fixed:
+            colours[placed.name] = (palette.SCENERY, palette.SCENERY_EDGE)
+        else:
+            colour = palette.THINGS[count % len(palette.THINGS)]
+            colours[placed.name] = (colour, palette.edge(colour))
+            count += 1
+    return colours
+
+
+def _head(canvas: Canvas, plan: Plan, scene: Scene) -> None:
+    title = plan.title or "Layout"
+    while text_width(title, 28, 700) > WIDTH - _LEFT - _RIGHT:
+        title = title[:-2].rstrip() + "…"
+    canvas.text(title, (_LEFT, 52), 28, palette.TEXT, 700)
+    (x0, y0, _), (x1, y1, z1) = _bounds(scene)
+    count = len(scene.objects)
+    words = f"{count} object{'s' * (count != 1)} in {x1 - x0:.2f} × {y1 - y0:.2f} × {z1:.2f} m"
+    canvas.text(words, (_LEFT, 78), 15, palette.QUIET)
+
+
+def _draw(
+    view: View,
+    items: list[PlacedObject],
+    polygons: dict[str, list[np.ndarray]],
+    plan: Plan,
+    scene: Scene,
+    marks: dict[str, str],
+    *,
+    fronts: bool = False,
+) -> None:
+    """Draw objects one over the other."""
+    colours = _colours(plan, scene)
+    for placed in items:
+        fill, outline = colours[placed.name]
+        mark = marks.get(placed.name)
+        if mark:
+            outline = palette.ERROR if mark == "error" else palette.WARNING
+        view.shape(polygons[placed.name], fill, outline, 0.88, 2.6 if mark else 1.4)
+        if fronts and not placed.round:
+            _front(view, placed)
+
+
+def _above(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str]) -> int:
+    """The view from above, with fronts and initial motion."""
+    view.paper("From above", ("x", "y"), ("front", "left"))
+    order = sorted(scene.objects, key=lambda o: (o.bounds()[1][2], o.name))
+    polygons = {name: s.top for name, s in shapes.items()}
+    _draw(view, order, polygons, plan, scene, marks, fronts=True)
+    taken = [view.scale_bar()]
+    taken += _motion(view, plan, scene)
+    boxes = {o.name: view.extent(polygons[o.name]) for o in order}
+    for name, mark in marks.items():
+        _badge(view, boxes[name], mark)
+    return view.names(boxes, taken, marks)
+
+
+def _front(view: View, placed: PlacedObject) -> None:
+    """An arrow to the middle of the object's front face."""
+    c, s = cos_sin(placed.deg_z)
+    reach = placed.size[0] / 2
+    length = min(max(0.5 * reach, 13 / view.scale), 30 / view.scale)
+    x, y, _ = placed.position
+    start = view.pixel(x + (reach - length) * c, y + (reach - length) * s)
+    end = view.pixel(x + reach * c, y + reach * s)
+    if placed.fixed:
+        view.canvas.arrow(start, end, palette.SCENERY_EDGE, 1.6, 9)
+        return
+    view.canvas.arrow(start, end, palette.PANEL, 3.4, 10)
+    view.canvas.arrow(start, end, palette.TEXT, 1.6, 8)
+
+
+def _motion(view: View, plan: Plan, scene: Scene) -> list[Rect]:
+    """Initial velocities as arrows with their speed; returns the space the numbers take."""
+    placed = {o.name: o for o in scene.objects}
+    starts = {n: m.linear for n, m in plan.simulation_parameters.initial_motion.items() if n in placed}
+    fastest = max((math.hypot(*v) for v in starts.values()), default=0.0)
+    taken: list[Rect] = []
+    for name, velocity in starts.items():
+        speed = math.hypot(*velocity)
+        if math.hypot(velocity[0], velocity[1]) < 1e-9:
+            continue
+        x, y, _ = placed[name].position
+        ux, uy = velocity[0] / speed, velocity[1] / speed
+        length = 40 + 70 * speed / fastest
+        a = view.pixel(x, y)
+        b = (a[0] + ux * length, a[1] - uy * length)
+        view.canvas.arrow(a, b, palette.MOTION, 2.2, 10)
+        words = f"{speed:.2g} m/s"
+        wide = text_width(words, 14, 500)
+        at = ((a[0] + b[0] - wide) / 2 + uy * 26, (a[1] + b[1]) / 2 - 8 + ux * 0)
+        view.canvas.text(words, at, 14, palette.MOTION, 500)
+        taken.append((at[0] - 3, at[1] - 14, at[0] + wide + 3, at[1] + 4))
+        taken.append((min(a[0], b[0]), min(a[1], b[1]) - 3, max(a[0], b[0]), max(a[1], b[1]) + 3))
+    return taken
+
+
+def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str],
+            resolution: Resolution) -> int:  # fmt: skip
+    """The view from the right side (-Y), with the ground and what will drop."""
+    view.paper("From the side (from −Y)", ("x", "z"), ("front", "up"))
+    x0, _, x1, y1 = view.panel
+    ground = view.pixel(0, 0)[1]
+    view.canvas.rectangle((x0, ground), (x1, y1), palette.GROUND)
+    view.canvas.line((x0, ground), (x1, ground), palette.SCENERY_EDGE, 1.6)
+    order = sorted(scene.objects, key=lambda o: (-o.bounds()[0][1], o.name))
+    polygons = {name: s.side for name, s in shapes.items()}
+    _draw(view, order, polygons, plan, scene, marks)
+    taken = [view.scale_bar()]
+    for row in resolution.statements:
+        drop = row.params.get("gap", 0.0) if row.code.startswith("PLACE-ON") else row.params.get("bottom", 0.0)
+        if drop and row.subject in shapes and (row.code != "HEIGHT" or row.reference == BASE):
+            taken += _drop(view, scene[row.subject], float(drop))
+    boxes = {o.name: view.extent(polygons[o.name]) for o in order}
+    for name, mark in marks.items():
+        _badge(view, boxes[name], mark)
+    return view.names(boxes, taken, marks)
+
+
+def _drop(view: View, placed: PlacedObject, drop: float) -> list[Rect]:
+    """A dashed arrow from the lowest point to where the fall ends; returns the space its number takes."""
+    low = placed.bounds()[0][2]
+    start, end = view.pixel(placed.position[0], low), view.pixel(placed.position[0], low - drop)
+    if end[1] - start[1] < 14:
+        return []
+    view.canvas.dashes(start, end, palette.MOTION, 1.6)
+    view.canvas.arrow((end[0], end[1] - 9), end, palette.MOTION, 1.6, 8)
+    if end[1] - start[1] < 40:  # no room for a number beside it
+        return []
+    words = f"{metres(drop, 0.01)} m"
+    x, y = start[0] + 8, (start[1] + end[1]) / 2 + 5
+    view.canvas.text(words, (x, y), 14, palette.MOTION, 500)
+    return [(x - 3, y - 14, x + text_width(words, 14, 500) + 3, y + 4)]
+
+
+def _badge(view: View, box: Rect, mark: str) -> None:
+    """An exclamation mark at the corner of what is wrong."""
+    colour = palette.ERROR if mark == "error" else palette.WARNING
+    view.canvas.dot((box[2], box[1]), 8.5, colour)
+    view.canvas.text("!", (box[2] - 2, box[1] + 5), 15, palette.PANEL, 800)
+
+
+def _findings(findings: tuple[Finding, ...], width: int) -> list[tuple[str, Colour, int]]:
+    """Lines of text for what is marked: at most eight findings, wrapped."""
+    told = sorted((f for f in findings if f.severity != "info"), key=lambda f: f.severity != "error")
+    lines: list[tuple[str, Colour, int]] = []
+    for finding in told[:8]:
+        colour = palette.ERROR if finding.severity == "error" else palette.WARNING
+        where = f"line {finding.line}: " if finding.line else ""
+        words = f"{finding.code} {where}{finding.message}".split()
+        line = ""
+        for word in words:
+            if line and text_width(f"{line} {word}", 15) > width:
+                lines.append((line, colour, 400))
+                line = "     " + word
+            else:
+                line = f"{line} {word}".lstrip() if not line.startswith("     ") else f"{line} {word}"
+        lines.append((line, colour, 400))
+    if len(told) > 8:
+        lines.append((f"… and {len(told) - 8} more: worldwright place check", palette.QUIET, 400))
+    return lines
+
+
+def _foot(canvas: Canvas, y: float, lines: list[tuple[str, Colour, int]], scene: Scene, plan: Plan) -> None:
+    if not lines:
+        rows = len(plan.topology.scene_predicates)
+        canvas.text(f"No problems: all {rows} rows hold", (_LEFT, y), 15, palette.GOOD, 500)
+    for index, (words, colour, weight) in enumerate(lines):
+        canvas.text(words, (_LEFT, y + 24 * index), 15, colour, weight)

@@ -1,0 +1,115 @@
+"""What an object looks like from above and from the side: convex polygons, in metres of the world.
+
+Assets are drawn by their collision pieces, so that a mug has its handle and a chair its back; primitives by their
+shape. Sideways means seen from -Y: x to the right, z up.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from ...model.plan import Plan, SceneObject
+from ...model.scene import PlacedObject
+from ..anchors import cos_sin
+
+
+@dataclass(frozen=True)
+class Silhouette:
+    """One object's outlines: polygons of (N, 2) points, from above (x, y) and from the side (x, z)."""
+
+    name: str
+    top: list[np.ndarray]
+    side: list[np.ndarray]
+
+
+def silhouette(plan: Plan, placed: PlacedObject) -> Silhouette:
+    """The outlines of a placed object; its box when the catalog cannot be read."""
+    row = next((row for row in plan.scene_objects if row.name == placed.name), None)
+    clouds = _primitive(row) if row is not None else _asset(placed)
+    c, s = cos_sin(placed.deg_z)
+    top, side = [], []
+    for cloud in clouds:
+        x = c * cloud[:, 0] - s * cloud[:, 1] + placed.position[0]
+        y = s * cloud[:, 0] + c * cloud[:, 1] + placed.position[1]
+        z = cloud[:, 2] + placed.position[2]
+        top.append(_hull(np.stack([x, y], axis=1)))
+        side.append(_hull(np.stack([x, z], axis=1)))
+    return Silhouette(placed.name, top, side)
+
+
+def _hull(points: np.ndarray) -> np.ndarray:
+    return cv2.convexHull(points.astype(np.float32)).reshape(-1, 2).astype(float)
+
+
+def _primitive(row: SceneObject) -> list[np.ndarray]:
+    x, y, z = (extent / 2 for extent in row.size)
+    if row.primitive in ("sphere", "ellipsoid"):
+        return [_ball(x, y, z)]
+    if row.primitive == "cylinder":
+        return [_tube(x, y, z)]
+    if row.primitive == "capsule":
+        straight = max(z - x, 0.0)
+        ball, shift = _ball(x, y, x), np.array([0.0, 0.0, straight])
+        return [np.concatenate([ball + shift, ball - shift])]
+    return [_box(x, y, z)]
+
+
+def _box(x: float, y: float, z: float) -> np.ndarray:
+    return np.array([(i * x, j * y, k * z) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
+
+
+def _ball(x: float, y: float, z: float) -> np.ndarray:
+    u, v = np.meshgrid(np.linspace(0, 2 * np.pi, 49), np.linspace(0, np.pi, 25))
+    return np.stack([x * np.cos(u) * np.sin(v), y * np.sin(u) * np.sin(v), z * np.cos(v)], axis=-1).reshape(-1, 3)
+
+
+def _tube(x: float, y: float, z: float) -> np.ndarray:
+    u = np.linspace(0, 2 * np.pi, 49)
+    ring = np.stack([x * np.cos(u), y * np.sin(u), np.full_like(u, z)], axis=1)
+    return np.concatenate([ring, ring * (1, 1, -1)])
+
+
+def _asset(placed: PlacedObject) -> list[np.ndarray]:
+    from worldkit import assets
+
+    box = _box(*(extent / 2 for extent in placed.size))
+    try:
+        entry = assets.find(placed.kind)
+    except (assets.UnknownAssetError, assets.AssetError, OSError):
+        return [box]
+    scale = entry.scale(placed.size[2])
+    clouds = []
+    for piece in entry.collision:
+        if piece.file is not None:
+            local = _vertices(piece.file)
+        elif piece.extents is not None:
+            local = _box(*(extent / 2 for extent in piece.extents))
+        else:
+            radius = (piece.diameter or 0.0) / 2
+            tall = piece.height is not None and piece.type in ("cylinder", "capsule")
+            local = _tube(radius, radius, (piece.height or 0.0) / 2) if tall else _ball(radius, radius, radius)
+        clouds.append((local @ _rotation(piece.quat).T + np.asarray(piece.pos)) * scale)
+    return clouds or [box]
+
+
+@lru_cache(maxsize=2048)
+def _vertices(file: Path) -> np.ndarray:
+    """The vertices of a Wavefront mesh, (N, 3)."""
+    lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
+    rows = [line.split()[1:4] for line in lines if line.startswith("v ")]
+    return np.asarray(rows, dtype=float).reshape(-1, 3)
+
+
+def _rotation(quat: tuple[float, float, float, float]) -> np.ndarray:
+    """Rotation matrix of a unit quaternion (w, x, y, z)."""
+    w, x, y, z = quat
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+        ]
+    )

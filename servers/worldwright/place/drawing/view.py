@@ -1,0 +1,114 @@
+"""One view of the layout: a panel of paper with a grid in metres, on which objects are drawn in order."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from . import palette
+from .canvas import Canvas, Colour, Point, text_width
+from .labels import Item, Rect, arrange
+
+
+@dataclass(frozen=True)
+class View:
+    """A panel and how metres become pixels on it: `(u, v)` are world (x, y) from above, (x, z) from the side."""
+
+    canvas: Canvas
+    panel: Rect
+    scale: float
+    """Pixels per metre."""
+    middle: Point
+    """The world point in the middle of the panel."""
+
+    def pixel(self, u: float, v: float) -> Point:
+        """Where a world point lies on the picture."""
+        x = (self.panel[0] + self.panel[2]) / 2 + (u - self.middle[0]) * self.scale
+        return x, (self.panel[1] + self.panel[3]) / 2 - (v - self.middle[1]) * self.scale
+
+    def pixels(self, polygons: list[np.ndarray]) -> list[np.ndarray]:
+        """Polygons in metres as polygons in pixels."""
+        return [np.stack(self.pixel(p[:, 0], p[:, 1]), axis=1) for p in polygons]  # type: ignore[arg-type]
+
+    def extent(self, polygons: list[np.ndarray]) -> Rect:
+        """The pixels that polygons (in metres) span."""
+        points = np.concatenate(self.pixels(polygons))
+        (x0, y0), (x1, y1) = points.min(axis=0), points.max(axis=0)
+        return (float(x0), float(y0), float(x1), float(y1))
+
+    def paper(self, title: str, axes: tuple[str, str], notes: tuple[str, str]) -> None:
+        """The panel, its grid with numbers, its title and its axes."""
+        x0, y0, x1, y1 = self.panel
+        canvas = self.canvas
+        canvas.rectangle((x0, y0), (x1, y1), palette.PANEL)
+        step = nice(80 / self.scale)
+        low = (self.middle[0] - (x1 - x0) / 2 / self.scale, self.middle[1] - (y1 - y0) / 2 / self.scale)
+        high = (self.middle[0] + (x1 - x0) / 2 / self.scale, self.middle[1] + (y1 - y0) / 2 / self.scale)
+        for n in range(math.ceil(low[0] / step), math.floor(high[0] / step) + 1):
+            x, _ = self.pixel(n * step, 0)
+            canvas.line((x, y0), (x, y1), palette.AXIS if n == 0 else palette.GRID)
+            label = metres(n * step, step)
+            if x0 + 30 < x < x1 - 30:
+                canvas.text(label, (x - text_width(label, 13) / 2, y1 + 17), 13, palette.QUIET)
+        for n in range(math.ceil(low[1] / step), math.floor(high[1] / step) + 1):
+            _, y = self.pixel(0, n * step)
+            canvas.line((x0, y), (x1, y), palette.AXIS if n == 0 else palette.GRID)
+            label = metres(n * step, step)
+            if y0 + 14 < y < y1 - 10:
+                canvas.text(label, (x0 - 8 - text_width(label, 13), y + 5), 13, palette.QUIET)
+        for a, b in (((x0, y0), (x1, y0)), ((x0, y1), (x1, y1)), ((x0, y0), (x0, y1)), ((x1, y0), (x1, y1))):
+            canvas.line(a, b, palette.AXIS)
+        canvas.text(title, (x0, y0 - 12), 17, palette.TEXT, 600)
+        note = f"{axes[0]} → {notes[0]}    {axes[1]} ↑ {notes[1]}    metres"
+        canvas.text(note, (x1 - text_width(note, 14), y0 - 12), 14, palette.QUIET)
+
+    def shape(self, polygons: list[np.ndarray], colour: Colour, outline: Colour, alpha: float, width: float) -> None:
+        """A filled object with its outline, never smaller than a visible dot."""
+        shapes = self.pixels(polygons)
+        x0, y0, x1, y1 = self.extent(polygons)
+        if max(x1 - x0, y1 - y0) < 5:
+            self.canvas.dot(((x0 + x1) / 2, (y0 + y1) / 2), 3.5, outline)
+            return
+        self.canvas.fill(shapes, colour, alpha)
+        self.canvas.outline(shapes, outline, width)
+
+    def scale_bar(self) -> Rect:
+        """A bar of a round length in the lower right corner; returns the space it takes."""
+        length = nice(110 / self.scale)
+        x1, y1 = self.panel[2] - 22, self.panel[3] - 20
+        x0 = x1 - length * self.scale
+        for a, b in (((x0, y1), (x1, y1)), ((x0, y1 - 5), (x0, y1 + 5)), ((x1, y1 - 5), (x1, y1 + 5))):
+            self.canvas.line(a, b, palette.TEXT, 1.6)
+        words = f"{metres(length, length)} m"
+        self.canvas.text(words, ((x0 + x1 - text_width(words, 14)) / 2, y1 - 9), 14, palette.TEXT, 500)
+        return (x0 - 6, y1 - 28, x1 + 6, y1 + 10)
+
+    def names(self, boxes: dict[str, Rect], taken: list[Rect], marks: dict[str, str]) -> int:
+        """Write the names of objects; returns for how many there was no room."""
+        size = 15 if len(boxes) <= 40 else 12
+        items = [Item(name, box, text_width(name, size, 500) + 8, size + 6) for name, box in boxes.items()]
+        x0, y0, x1, y1 = self.panel
+        labels, left = arrange(items, (x0 + 4, y0 + 4, x1 - 4, y1 - 4), taken)
+        for label in labels:
+            if label.leader is not None:
+                self.canvas.line(*label.leader, palette.QUIET, 1.0)
+                self.canvas.dot(label.leader[1], 2.4, palette.QUIET)
+        for label in labels:
+            a, b, c, d = label.box
+            colour = {"error": palette.ERROR, "warning": palette.WARNING}.get(marks.get(label.name, ""), palette.TEXT)
+            self.canvas.rectangle((a, b), (c, d), palette.PANEL, 0.72)
+            self.canvas.text(label.name, (a + 4, d - 6), size, colour, 500)
+        return len(left)
+
+
+def nice(least: float) -> float:
+    """The smallest of 1, 2, 5, 10 … (times a power of ten) that is at least this."""
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(m * power for m in (1, 2, 5, 10) if m * power >= least * 0.999)
+
+
+def metres(value: float, step: float) -> str:
+    """A coordinate with as many digits as the grid needs."""
+    digits = max(0, -math.floor(math.log10(step) + 1e-9))
+    text = f"{value:.{digits}f}"
+    return text.replace("-", "−") if float(text) else "0"

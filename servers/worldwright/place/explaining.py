@@ -1,0 +1,49 @@
+"""The chain of rows and formulas from the base to an object's numbers."""
+
+from ..model.plan import Plan
+from .engine import Resolution
+from .reports import Explained, Explanation
+from .vocabulary import BASE
+
+
+def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
+    """Everything that the pose of `name` rests on, in dependency order, the object itself last."""
+    needed: set[str] = set()
+    waiting = [name]
+    references: dict[str, set[str]] = {}
+    for row in resolution.statements:
+        if row.reference not in (None, BASE):
+            references.setdefault(row.subject, set()).add(str(row.reference))
+    while waiting:
+        current = waiting.pop()
+        if current not in needed:
+            needed.add(current)
+            waiting += references.get(current, ())
+    chain = [o for o in resolution.scene.objects if o.name in needed and o.name != name]
+    sources = _sizes(plan)
+    return Explanation(
+        object=name,
+        chain=tuple(
+            Explained(
+                name=o.name,
+                kind=o.kind,
+                size=o.size,
+                size_source=sources.get(o.name, ""),
+                position=o.position,
+                deg_z=o.deg_z,
+                formulas=o.provenance,
+            )
+            for o in (*chain, resolution.scene[name])
+        ),
+    )
+
+
+def _sizes(plan: Plan) -> dict[str, str]:
+    """Who owns each object's size."""
+    owners = {row.name: "size given in scene_objects" for row in plan.scene_objects}
+    for row in plan.assets:
+        height = plan.asset_dimensions.get(row.name)
+        owners |= dict.fromkeys(
+            row.instances, f"catalog `{row.filename}` scaled to {height:g} m height (asset_dimensions)"
+        )
+    return owners

@@ -1,0 +1,90 @@
+"""How big things are and where things rest on them: the one place that asks the catalog.
+
+Scene objects own their `size` (full extents). Assets are scaled uniformly from the catalog to the height that
+`asset_dimensions` gives them.
+"""
+
+from collections.abc import Iterator
+
+from ..model.plan import AssetRow, Plan, SceneObject
+from .anchors import Box, Surface
+
+Unsized = tuple[str, str, tuple[str | int, ...]]
+"""Why an object has no size: cause, fix, and the path in the plan."""
+
+
+def boxes(plan: Plan) -> tuple[dict[str, Box], dict[str, Unsized]]:
+    """Every object of the plan as an unplaced box, and those whose size cannot be known with the reason."""
+    found: dict[str, Box] = {}
+    unsized: dict[str, Unsized] = {}
+    for row in plan.scene_objects:
+        found.setdefault(row.name, _primitive(row))
+    for index, asset in enumerate(plan.assets):
+        try:
+            made = _asset(plan, asset)
+        except _UnknownSizeError as error:
+            unsized |= dict.fromkeys(asset.instances, (error.cause, error.fix, ("assets", index, *error.path)))
+            continue
+        for name in asset.instances:
+            found.setdefault(name, Box(name, made.size, round=made.round, surface=made.surface))
+    return found, unsized
+
+
+class _UnknownSizeError(Exception):
+    def __init__(self, cause: str, fix: str, *path: str) -> None:
+        super().__init__(cause)
+        self.cause = cause
+        self.fix = fix
+        self.path = path
+
+
+def _primitive(row: SceneObject) -> Box:
+    sx, sy, sz = row.size
+    ellipse = row.primitive in ("sphere", "cylinder", "capsule", "ellipsoid")
+    surfaces = [Surface("top", sz, (sx, sy), shape="ellipse" if ellipse else "rectangle")]
+    if row.wall_thickness is not None:
+        inner = (max(sx - 2 * row.wall_thickness, 0.0), max(sy - 2 * row.wall_thickness, 0.0))
+        surfaces.insert(0, Surface("inside", row.wall_thickness, inner))
+    known = {surface.name: surface for surface in surfaces}
+
+    def surface(name: str | None) -> Surface:
+        if name is None:
+            return surfaces[0]
+        if name not in known:
+            raise KeyError(f"{row.name} has no surface {name!r}; it has: {', '.join(known)}")
+        return known[name]
+
+    return Box(row.name, row.size, round=ellipse and sx == sy, surface=surface)
+
+
+def _asset(plan: Plan, row: AssetRow) -> Box:
+    from worldkit import assets
+
+    if row.name not in plan.asset_dimensions:
+        raise _UnknownSizeError(
+            f"asset `{row.name}` has no height", f"add `- {row.name}: <height in metres>` under asset_dimensions"
+        )
+    height = plan.asset_dimensions[row.name]
+    try:
+        entry = assets.find(row.filename)
+        size = entry.extents(height)
+    except (assets.UnknownAssetError, assets.AssetError, ValueError, OSError) as cause:
+        fix = "name a catalog key (`worldwright retrieve find-asset`), or use a scene object with a size"
+        raise _UnknownSizeError(str(cause), fix, "filename") from cause
+
+    def surface(name: str | None) -> Surface:
+        try:
+            support = entry.support(name, height=height)
+        except KeyError as cause:
+            raise KeyError(f"{row.name}: {cause.args[0]}") from cause
+        return Surface(support.name, support.z, support.extents, support.centre, support.shape)
+
+    pieces = entry.collision
+    ball = len(pieces) == 1 and pieces[0].type == "sphere"
+    return Box(row.name, size, round=ball, surface=surface)
+
+
+def fixed_objects(plan: Plan) -> Iterator[str]:
+    """Objects without a joint of their own to the world: scenery."""
+    yield from (row.name for row in plan.scene_objects if row.fixed or not row.dynamic or row.visual_only)
+    yield from (name for row in plan.assets if row.fixed or not row.is_dynamic for name in row.instances)

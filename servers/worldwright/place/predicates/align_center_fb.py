@@ -1,0 +1,38 @@
+"""Subject and reference have the same centre on the front-back (X) axis.
+
+    x = reference.center_x + offset
+
+`offset` is in metres along world +X and moves the subject away from being flush; omitted it is 0. Faces are those
+of the world AABBs (rotated extents). Source: paper, predicate algebra, 2-D alignment.
+"""
+
+from ..anchors import Box, Derivation
+from ..vocabulary import Case
+from . import _aligned
+
+CODE = "ALIGN-CENTER-FB"
+FAMILY = "Planar alignment"
+REFERENCE = "required"
+PARAMS = _aligned.PARAMS
+UNIT = "m"
+TABLE = {"name": "table", "size": (1.0, 2.0, 0.7), "x": 0.5, "y": 1.0, "z": 0.35, "yaw": 0}
+GOOD = (
+    Case({"size": (0.4, 0.6, 1)}, TABLE, {}, {"x": 0.5}),
+    Case({"size": (0.4, 0.6, 1)}, TABLE, {"offset": -0.25}, {"x": 0.25}),
+)
+BAD = (Case({"size": (0.4, 0.6, 1), "yaw": 0, "x": 0.6}, TABLE),)
+
+
+def pins(params: dict) -> dict[str, tuple[str, ...]]:
+    """The x coordinate."""
+    return _aligned.pins("x", 0)
+
+
+def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
+    """The aligned centre."""
+    return _aligned.resolve("x", 0, subject, reference, params)
+
+
+def holds(subject: Box, reference: Box, params: dict) -> float:
+    """How well the anchors meet, metres."""
+    return _aligned.holds("x", 0, subject, reference, params)

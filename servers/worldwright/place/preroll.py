@@ -1,0 +1,121 @@
+"""The physics behind `check` and `settle`, run as a process of its own: `python -m worldwright.place.preroll`.
+
+An engine error may end the process it happens in, and engines print; so the server never steps a world itself. The
+process reads one JSON request on standard input (`world.request`) and writes its answer to the file `out` named there.
+
+The world: a ground plane, every object with its real collision shapes at its resolved pose, and nothing else; no
+initial motion, no control.
+"""
+
+import json
+import math
+import sys
+from pathlib import Path
+from typing import Any
+
+
+def answer(request: dict[str, Any]) -> dict[str, Any]:
+    """Contacts at the start, and, when `duration_s` is positive, what each object does until then.
+
+    Returns:
+        `contacts`: [name, name, depth in metres] for each pair of objects that penetrate at the start, deepest first;
+        `objects`: for each, `start` and `end` position (m), `quat` (w, x, y, z) at the end, and `speed` (m/s).
+    """
+    import mujoco
+    import numpy as np
+
+    model = _build(request)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    deepest: dict[tuple[str, str], float] = {}
+    for geoms, distance in zip(data.contact.geom, data.contact.dist, strict=True):
+        first, second = sorted(_owner(model, geom) for geom in geoms)
+        if distance < 0 and first != second:
+            deepest[first, second] = max(deepest.get((first, second), 0.0), abs(float(distance)))
+    ids = {row["name"]: model.body(row["name"]).id for row in request["objects"]}
+    start = {name: data.xpos[i].copy() for name, i in ids.items()}
+    steps = math.ceil(request["duration_s"] / model.opt.timestep)
+    for _ in range(steps):
+        mujoco.mj_step(model, data)
+        if not np.isfinite(data.qpos).all():
+            raise FloatingPointError(f"the pre-roll diverged at t = {data.time:.3f} s")
+    if steps:
+        mujoco.mj_forward(model, data)
+    velocity = np.zeros(6)
+    objects = {}
+    for name, i in ids.items():
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, i, velocity, 0)
+        objects[name] = {
+            "start": start[name].tolist(),
+            "end": data.xpos[i].tolist(),
+            "quat": data.xquat[i].tolist(),
+            "speed": float(np.linalg.norm(velocity[3:])),
+        }
+    contacts = sorted(deepest.items(), key=lambda row: -row[1])
+    return {"contacts": [[a, b, depth] for (a, b), depth in contacts], "objects": objects}
+
+
+def _build(request: dict[str, Any]) -> Any:
+    import mujoco
+
+    from worldkit import assets, bodies, contacts
+
+    spec = mujoco.MjSpec()
+    spec.option.timestep = request["time_step"]
+    spec.option.gravity = request["gravity"]
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    if request["ground"] is not None:
+        ground = contacts.surface(**{k: v for k, v in request["ground"].items() if k != "density"})
+        plane = mujoco.mjtGeom.mjGEOM_PLANE
+        spec.worldbody.add_geom(name="ground", type=plane, size=(0, 0, 1), **ground)
+    for row in request["objects"]:
+        common: dict[str, Any] = {
+            "name": row["name"],
+            "pos": row["position"],
+            "yaw_deg": row["deg_z"],
+            "fixed": row["fixed"],
+            "surface": contacts.surface(**row["surface"]) if row["surface"] else None,
+            "mass": row["mass"],
+        }
+        if row["asset"]:
+            body = assets.add(spec, row["asset"], height=row["size"][2], **common)
+            for geom in [geom for geom in body.geoms if geom.contype == 0 and geom.conaffinity == 0]:
+                spec.delete(geom)
+        else:
+            _primitive(bodies, spec, row, common)
+    return spec.compile()
+
+
+def _primitive(bodies: Any, spec: Any, row: dict[str, Any], common: dict[str, Any]) -> None:
+    x, _, z = row["size"]
+    kind = row["primitive"]
+    if kind in ("cylinder", "capsule"):
+        getattr(bodies, kind)(spec, diameter=x, height=z, **common)
+    elif kind == "sphere":
+        bodies.sphere(spec, diameter=x, **common)
+    elif kind == "ellipsoid":
+        bodies.ellipsoid(spec, size=row["size"], **common)
+    elif kind == "box_container":
+        bodies.container(spec, size=row["size"], wall=row["wall"], **common)
+    else:
+        bodies.box(spec, size=row["size"], **common)
+
+
+def _owner(model: Any, geom: int) -> str:
+    body = int(model.geom_bodyid[geom])
+    return "ground" if body == 0 else str(model.body(body).name)
+
+
+def main() -> None:
+    """Read the request, answer it, and say on standard error what went wrong."""
+    request = json.load(sys.stdin)
+    try:
+        result = answer(request)
+    except Exception as error:  # told to the caller, who turns it into a finding
+        result = {"error": f"{type(error).__name__}: {error}"}
+    Path(request["out"]).write_text(json.dumps(result), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

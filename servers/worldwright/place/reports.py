@@ -1,0 +1,156 @@
+"""What the tools of this server answer: typed results that print themselves."""
+
+from ..model.finding import Finding
+from ..model.frozen import Frozen
+from ..model.plan import Vec3
+from ..model.scene import Scene
+
+
+class Layout(Scene):
+    """A resolved layout, as `resolve` answers it."""
+
+    plan: str = ""
+    written: bool = False
+    """Whether the plan file was changed."""
+
+    def text(self) -> str:
+        """A table of poses, then the findings."""
+        width = max((len(o.name) for o in self.objects), default=6)
+        lines = [f"{'object':<{width}}  {'x':>9} {'y':>9} {'z':>9}  {'deg_z':>8}  on"]
+        for o in self.objects:
+            x, y, z = o.position
+            lines.append(f"{o.name:<{width}}  {x:9.4f} {y:9.4f} {z:9.4f}  {o.deg_z:8.2f}  {o.supported_by or '-'}")
+        lines += [str(finding) for finding in self.findings]
+        ending = f"poses written to {self.plan}" if self.written else "nothing written"
+        return "\n".join([*lines, f"{len(self.objects)} objects placed; {ending}"])
+
+
+class RowMargin(Frozen):
+    """How well one row holds at the resolved poses."""
+
+    row: str
+    line: int | None = None
+    margin: float
+    """Positive: it holds by this much; negative: it is violated by this much."""
+    unit: str
+
+
+class CheckReport(Frozen):
+    """What the checks say about a layout."""
+
+    objects: int
+    rows: int
+    pairs_tested: int = 0
+    """Pairs whose boxes overlap, tested with their exact collision shapes."""
+    findings: tuple[Finding, ...] = ()
+    margins: tuple[RowMargin, ...] = ()
+    """Of the rows, tightest first; at most 40."""
+
+    @property
+    def ok(self) -> bool:
+        """No finding is an error."""
+        return not any(f.severity == "error" for f in self.findings)
+
+    def text(self) -> str:
+        """The findings, then the tightest rows."""
+        lines = [str(finding) for finding in self.findings]
+        lines += [f"{m.margin:+9.4f} {m.unit:<3} {m.row}" for m in self.margins[:8]]
+        verdict = "holds" if self.ok else "does not hold"
+        return "\n".join(
+            [*lines, f"{self.objects} objects, {self.rows} rows, {self.pairs_tested} close pairs: the layout {verdict}"]
+        )
+
+
+class Settled(Frozen):
+    """What one object did in the pre-roll."""
+
+    name: str
+    drop_m: float
+    """How far its centre went down."""
+    slide_m: float
+    """How far its centre went sideways."""
+    tilt_deg: float
+    """Angle between its up axis before and after."""
+    turn_deg: float
+    """Yaw it gained."""
+    speed_m_s: float
+    """At the end."""
+    position: Vec3
+    """Where it ended, metres."""
+
+
+class SettleReport(Frozen):
+    """What happens to the layout when it is let go, without initial motion and control."""
+
+    duration_s: float
+    objects: tuple[Settled, ...] = ()
+    """Those that moved most come first; at most 60."""
+    held: tuple[str, ...] = ()
+    """Not let go: on joints, or drawn only."""
+    findings: tuple[Finding, ...] = ()
+    deepest_m: float = 0.0
+    """Largest penetration at the start."""
+
+    @property
+    def ok(self) -> bool:
+        """Nothing that should stand toppled, slid or flew away."""
+        return not any(f.severity == "error" for f in self.findings)
+
+    def text(self) -> str:
+        """A table of displacements, then the findings."""
+        width = max((len(o.name) for o in self.objects), default=6)
+        lines = [f"{'object':<{width}}  {'drop m':>8} {'slide m':>8} {'tilt deg':>8} {'turn deg':>8} {'m/s':>7}"]
+        lines += [
+            f"{o.name:<{width}}  {o.drop_m:8.4f} {o.slide_m:8.4f} {o.tilt_deg:8.2f} {o.turn_deg:8.2f} "
+            f"{o.speed_m_s:7.3f}"
+            for o in self.objects
+        ]
+        lines += [str(finding) for finding in self.findings]
+        return "\n".join(
+            [*lines, f"after {self.duration_s:g} s: the layout {'settles' if self.ok else 'does not settle'}"]
+        )
+
+
+class Explained(Frozen):
+    """One object of a chain, with the formula behind each of its numbers."""
+
+    name: str
+    kind: str
+    size: Vec3
+    size_source: str
+    position: Vec3
+    deg_z: float
+    formulas: tuple[str, ...]
+
+
+class Explanation(Frozen):
+    """Why an object is where it is: from the base to its own numbers."""
+
+    object: str
+    chain: tuple[Explained, ...]
+    """What it depends on, in dependency order; the object itself comes last."""
+
+    def text(self) -> str:
+        """One paragraph for each object of the chain."""
+        lines = []
+        for link in self.chain:
+            sx, sy, sz = link.size
+            lines.append(f"{link.name} ({link.kind}) {sx:.4g} x {sy:.4g} x {sz:.4g} m: {link.size_source}")
+            lines += [f"  {formula}" for formula in link.formulas]
+        return "\n".join(lines)
+
+
+class Drawing(Frozen):
+    """A picture of the layout, and what it marks."""
+
+    out: str = ""
+    """The file it was written to, if any."""
+    objects: int
+    unplaced: tuple[str, ...] = ()
+    findings: tuple[Finding, ...] = ()
+    """What is marked in red (errors) and amber (warnings)."""
+
+    def text(self) -> str:
+        """Where the picture is."""
+        lines = [str(finding) for finding in self.findings]
+        return "\n".join([*lines, f"{self.objects} objects drawn" + (f" in {self.out}" if self.out else "")])

@@ -1,0 +1,95 @@
+"""Letting a layout go: who stays, who topples, who slides."""
+
+import math
+from typing import Any
+
+from ..model.plan import Plan
+from ..model.scene import Scene
+from .anchors import shown, wrap
+from .reports import Settled, SettleReport
+from .statements import Locate, Problems
+from .world import drawn_only, jointed, simulate
+
+SLIDE_M = 0.02
+TILT_DEG = 3.0
+SPEED_M_S = 0.05
+DEEP_M = 2e-3
+
+
+def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: float) -> SettleReport:
+    """Let go for `duration_s` seconds and report what each loose object did.
+
+    Objects named in motion_expectations may move as they like; any other that slides more than 2 cm, tilts more than
+    3 degrees or is still moving at 5 cm/s is a finding.
+
+    Raises:
+        JobError: the pre-roll failed.
+    """
+    problems = Problems(file, locate)
+    held = sorted((jointed(plan) | drawn_only(plan)) & {o.name for o in scene.objects})
+    result = simulate(plan, scene, duration_s=duration_s)
+    gaps = {
+        row.subject: float(row.params.get("gap", 0.0))
+        for row in plan.topology.scene_predicates
+        if isinstance(row.params.get("gap"), int | float) and row.predicate.startswith("PLACE-ON")
+    }
+    movers = set(plan.movers())
+    moved = []
+    for placed in scene.objects:
+        if placed.fixed or placed.name in held or placed.name not in result["objects"]:
+            continue
+        settled = _settled(placed.name, placed.deg_z, result["objects"][placed.name])
+        moved.append(settled)
+        if placed.name in movers:
+            continue
+        faults = []
+        if settled.tilt_deg > TILT_DEG:
+            faults.append(f"tilts by {settled.tilt_deg:.1f} deg")
+        if settled.slide_m > SLIDE_M:
+            faults.append(f"slides {settled.slide_m:.3f} m")
+        if settled.drop_m > gaps.get(placed.name, 0.0) + SLIDE_M:
+            faults.append(f"drops {settled.drop_m:.3f} m")
+        if settled.speed_m_s > SPEED_M_S:
+            faults.append(f"still moves at {settled.speed_m_s:.2f} m/s")
+        if faults:
+            index = next((i for i, r in enumerate(plan.topology.scene_predicates) if r.subject == placed.name), None)
+            problems.add(
+                "WP306",
+                "unstable",
+                f"`{placed.name}` does not stay: it {', '.join(faults)} within {duration_s:g} s",
+                "move its centre over its support, give it more room, or name it in motion_expectations",
+                ("topology",) if index is None else ("topology", "scene_predicates", index),
+            )
+    deepest = max((depth for _, _, depth in result["contacts"]), default=0.0)
+    if deepest > DEEP_M:
+        first, second, depth = result["contacts"][0]
+        problems.add(
+            "WP302",
+            "overlap",
+            f"`{first}` and `{second}` start {shown(depth)} m inside each other and are thrown apart",
+            "move them apart (`worldwright place check` names the rows)",
+        )
+    moved.sort(key=lambda o: -(abs(o.drop_m) + o.slide_m + math.radians(o.tilt_deg)))
+    return SettleReport(
+        duration_s=duration_s,
+        objects=tuple(moved[:60]),
+        held=tuple(held),
+        findings=tuple(problems.findings),
+        deepest_m=round(deepest, 6),
+    )
+
+
+def _settled(name: str, deg_z: float, row: dict[str, Any]) -> Settled:
+    (x0, y0, z0), (x1, y1, z1) = row["start"], row["end"]
+    w, x, y, z = row["quat"]
+    up_z = 1 - 2 * (x * x + y * y)  # z component of the rotated z axis
+    yaw = math.degrees(math.atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)))
+    return Settled(
+        name=name,
+        drop_m=round(z0 - z1, 6),
+        slide_m=round(math.hypot(x1 - x0, y1 - y0), 6),
+        tilt_deg=round(math.degrees(math.acos(max(-1.0, min(1.0, up_z)))), 4),
+        turn_deg=round(wrap(yaw - deg_z), 4),
+        speed_m_s=round(row["speed"], 6),
+        position=(round(x1, 6), round(y1, 6), round(z1, 6)),
+    )

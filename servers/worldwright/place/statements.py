@@ -1,0 +1,199 @@
+"""The placing statements of a plan, checked one by one: scene_predicates, geometry_relations and body_positions.
+
+A statement that names nothing known, or has parameters that make no sense, becomes a finding here and goes no further.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from typing import Any
+
+from ..model.finding import Finding
+from ..model.plan import TO_CLARIFY, Plan
+from ..shelf import Entry
+from .anchors import Box
+from .parameters import read
+from .vocabulary import BASE, CAMERA_TEMPLATES, PREDICATES, RELATIONS
+
+Path = tuple[str | int, ...]
+Locate = Callable[..., int | None]
+"""`PlanDocument.line_of`: line of a path, or None."""
+
+
+@dataclass(frozen=True)
+class Statement:
+    """One row, ready to be evaluated."""
+
+    path: Path
+    """Where it stands in the plan."""
+    line: int | None
+    subject: str
+    code: str
+    reference: str | None
+    params: dict[str, Any]
+    entry: Entry = field(repr=False, compare=False)
+    pins: dict[str, tuple[str, ...]] = field(repr=False)
+    """Coordinates it sets, with the names of what they are computed from."""
+
+    @property
+    def label(self) -> str:
+        """The row in words."""
+        return " ".join(part for part in (self.subject, self.code, self.reference) if part)
+
+    def __str__(self) -> str:
+        return f"{self.label} (line {self.line})" if self.line else self.label
+
+
+class Problems:
+    """Collects findings on a plan, each at its line."""
+
+    def __init__(self, file: str, locate: Locate) -> None:
+        self.file = file
+        self.locate = locate
+        self.findings: list[Finding] = []
+
+    def add(self, code: str, name: str, message: str, fix: str, path: Path = (), *, severity: Any = "error") -> None:
+        """Note one problem."""
+        self.findings.append(
+            Finding(
+                code=code,
+                name=name,
+                severity=severity,
+                message=message,
+                fix=fix,
+                file=self.file,
+                line=self.locate(*path) if path else None,
+                section=str(path[0]) if path else "topology",
+            )
+        )
+
+
+def statements(
+    plan: Plan, boxes: dict[str, Box], known: set[str], problems: Problems
+) -> tuple[list[Statement], set[str]]:
+    """Every statement that makes sense, and the objects that something wrong or unclear was said about.
+
+    Args:
+        plan: the plan.
+        boxes: objects whose size is known.
+        known: all objects of the plan.
+        problems: where the senseless ones are noted.
+    """
+    reader = _Reader(plan, boxes, known, problems)
+    found = list(reader.rows())
+    return found, reader.spoiled
+
+
+class _Reader:
+    def __init__(self, plan: Plan, boxes: dict[str, Box], known: set[str], problems: Problems) -> None:
+        self.plan = plan
+        self.boxes = boxes
+        self.known = known
+        self.problems = problems
+        self.spoiled: set[str] = set()
+        heights = plan.topology.reference_heights
+        self.heights = heights if isinstance(heights, dict) else {}
+
+    def rows(self) -> Iterator[Statement]:
+        for index, row in enumerate(self.plan.topology.scene_predicates):
+            path: Path = ("topology", "scene_predicates", index)
+            unclear = TO_CLARIFY in (row.position, row.orientation) or TO_CLARIFY in row.params.values()
+            if unclear:
+                self.unclear(row.subject, path)
+            elif self.exists(row.subject, path):
+                yield from self.statement(PREDICATES, path, row.subject, row.predicate, row.object, row.params)
+        for index, relation in enumerate(self.plan.geometry_relations):
+            path = ("geometry_relations", index)
+            if relation.relation_name in CAMERA_TEMPLATES or relation.body_a not in self.known:
+                continue  # a camera's relation; dangling names are told when the plan is read
+            if relation.parameters == TO_CLARIFY:
+                self.unclear(relation.body_a, path)
+            elif self.exists(relation.body_a, path):
+                given = relation.parameters if isinstance(relation.parameters, dict) else {}
+                yield from self.statement(
+                    RELATIONS, path, relation.body_a, relation.relation_name, relation.body_b, given
+                )
+        for body, position in self.plan.topology.body_positions.items():
+            path = ("topology", "body_positions", body)
+            if isinstance(position, str):
+                self.unclear(body, path)
+            elif self.exists(body, path):
+                params = {"position": list(position.vector)}
+                yield from self.statement(RELATIONS, path, body, "base", None, params)
+
+    def unclear(self, subject: str, path: Path) -> None:
+        self.spoiled.add(subject)
+        self.problems.add(
+            "WP210",
+            "to_clarify",
+            f"`{subject}` is marked {TO_CLARIFY}: nobody has said where it goes",
+            f"ask, then write the answer as predicates and remove {TO_CLARIFY}",
+            path,
+        )
+
+    def exists(self, subject: str, path: Path) -> bool:
+        if subject in self.boxes:
+            return True
+        self.spoiled.add(subject)
+        if subject not in self.known:
+            near = get_close_matches(subject, self.known, n=1, cutoff=0.6)
+            self.problems.add(
+                "WP203",
+                "unknown_object",
+                f"there is no object `{subject}`",
+                f"did you mean `{near[0]}`?" if near else f"known: {', '.join(sorted(self.known)) or '(none)'}",
+                path,
+            )
+        return False
+
+    def statement(
+        self, shelf: Any, path: Path, subject: str, code: str, reference: str | None, params: dict[str, Any]
+    ) -> Iterator[Statement]:
+        line = self.problems.locate(*path)
+        if code not in shelf.entries:
+            self.spoiled.add(subject)
+            near = get_close_matches(code.upper() if shelf is PREDICATES else code, shelf, n=1, cutoff=0.6)
+            word = "predicate" if shelf is PREDICATES else "relation"
+            self.problems.add(
+                "WP201" if shelf is PREDICATES else "WP211",
+                f"unknown_{word}",
+                f"`{code}` is not a {word}: the vocabulary is closed",
+                (f"did you mean `{near[0]}`? " if near else "") + f"known: {', '.join(shelf)}",
+                path,
+            )
+            return
+        entry = shelf.entries[code]
+        wrong = self.reference_problem(entry, subject, reference)
+        values, faults = read(params, entry.PARAMS, self.heights)
+        refuse = getattr(entry.module, "refuse", None)
+        if not wrong and not faults and refuse and (refused := refuse(values)):
+            faults = [refused]
+        for cause, fix in [*([wrong] if wrong else []), *faults]:
+            self.spoiled.add(subject)
+            place = (*path, "params") if path[0] != "geometry_relations" else (*path, "parameters")
+            self.problems.add("WP202", "bad_params", f"{subject} {code}: {cause}", fix, path if wrong else place)
+        if wrong or faults:
+            return
+        if entry.REFERENCE == "optional" and reference is None:
+            reference = BASE
+        yield Statement(path, line, subject, code, reference, values, entry, entry.pins(values))
+
+    def reference_problem(self, entry: Entry, subject: str, reference: str | None) -> tuple[str, str] | None:
+        if entry.REFERENCE == "none":
+            return None if reference in (None, BASE) else ("it takes no object", "remove `object`")
+        if reference is None:
+            if entry.REFERENCE == "optional":
+                return None
+            return (
+                "it needs an object to refer to",
+                f"add `object: <name>`, or `object: {BASE}` for the world's origin",
+            )
+        if reference == subject:
+            return ("it refers to itself", "name another object")
+        if reference == BASE or reference in self.known:
+            return None
+        near = get_close_matches(reference, self.known, n=1, cutoff=0.6)
+        return (
+            f"there is no object `{reference}`",
+            f"did you mean `{near[0]}`?" if near else f"known: {BASE}, {', '.join(sorted(self.known))}",
+        )

@@ -1,0 +1,140 @@
+"""Where does everything go, and why? The public functions of this server."""
+
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from worldkit.files import write_atomic
+
+from ..expose import reads
+from ..model.errors import NotFoundError, PlanError
+from ..model.picture import Illustrated, Picture
+from ..model.plan_text import PlanDocument, read_plan
+from ..model.run import Run, sha256_file
+from . import checks, engine, explaining, settling, writing
+from .reports import CheckReport, Drawing, Explanation, Layout, SettleReport
+
+PlanPath = Annotated[Path, Field(description="The plan.md, its run folder, or the run's name.")]
+
+
+def resolve(
+    plan: PlanPath,
+    write: Annotated[bool, Field(description="Write poses and provenance back into the plan's rows.")] = True,
+) -> Layout:
+    """Turn the plan's placement rows into numeric poses.
+
+    Applies scene_predicates, geometry_relations and body_positions in dependency order on bounding-box anchors: z up,
+    +X front, centres, metres, degrees. Nothing is assumed: an axis that no row sets, rows that disagree, cycles and
+    unknown names come back as findings with their line and the predicates that would fix them. When every object has
+    a pose, each row in plan.md gets `position`, `orientation` and `provenance`; nothing else in the file changes.
+    """
+    document = _read(plan)
+    resolution = _resolve(document)
+    text = document.text
+    if write and resolution.scene.ok:
+        text = document.edited(writing.changes(document, resolution))
+    written = text != document.text
+    if written:
+        path = Path(document.file)
+        write_atomic(path, text.encode())
+        if path.name == "plan.md":
+            Run(path.parent).log("place", "resolve", plan_sha256=sha256_file(path))
+    return Layout(
+        objects=resolution.scene.objects, findings=resolution.scene.findings, plan=document.file, written=written
+    )
+
+
+@reads
+def check(plan: PlanPath) -> CheckReport:
+    """Check that the resolved layout holds.
+
+    Measures every row (signed margin in metres or degrees), finds objects that penetrate each other (boxes first, then
+    the exact collision shapes), reach below the ground, start in mid-air, and poses in the plan that are older than
+    its rows. Changes nothing.
+    """
+    document = _read(plan)
+    return checks.check(document.plan, _resolve(document), file=document.file, locate=document.line_of)
+
+
+@reads
+def settle(
+    plan: PlanPath,
+    duration_s: Annotated[float, Field(gt=0, le=10, description="Simulated seconds to let go for.")] = 1.5,
+) -> SettleReport:
+    """Let the layout go in a short physics pre-roll and report how far each object drops, slides and tilts.
+
+    No initial motion, no control; objects on joints stay where they are. Objects that motion_expectations names may
+    move; any other that does not stay is a finding. Changes nothing.
+    """
+    document = _read(plan)
+    resolution = _resolve(document)
+    _need_all(document, resolution)
+    return settling.settle(
+        document.plan, resolution.scene, file=document.file, locate=document.line_of, duration_s=duration_s
+    )
+
+
+@reads
+def explain(
+    plan: PlanPath,
+    object: Annotated[str, Field(description="Name of the object to explain.")],
+) -> Explanation:
+    """Say why an object is where it is: the chain of rows and formulas, with numbers, from the base to the object."""
+    document = _read(plan)
+    resolution = _resolve(document)
+    if object not in resolution.boxes:
+        names = document.plan.object_names()
+        about = [f for f in resolution.scene.findings if object in f.message]
+        raise NotFoundError(
+            f"`{object}` has no pose" if object in names else f"there is no object `{object}`",
+            place=document.file,
+            next_move=about[0].fix if about else f"known: {', '.join(names)}",
+        )
+    return explaining.explain(document.plan, resolution, object)
+
+
+@reads
+def draw(
+    plan: PlanPath,
+    out: Annotated[Path | None, Field(description="PNG file to write the picture to.")] = None,
+) -> Illustrated:
+    """Draw the layout: seen from above and from the side on one scale, labelled, fronts as arrows, problems in red."""
+    from .drawing import sheet
+
+    document = _read(plan)
+    resolution = _resolve(document)
+    report = checks.check(document.plan, resolution, file=document.file, locate=document.line_of)
+    picture = sheet(document.plan, resolution, report.findings)
+    if out is not None:
+        write_atomic(out, picture)
+    placed = {o.name for o in resolution.scene.objects}
+    data = Drawing(
+        out=str(out or ""),
+        objects=len(placed),
+        unplaced=tuple(n for n in document.plan.object_names() if n not in placed),
+        findings=report.findings[:40],
+    )
+    return Illustrated(data, (Picture(picture, f"Layout of {document.plan.title or document.file}"),))
+
+
+def _read(plan: Path) -> PlanDocument:
+    path = Path(plan)
+    return read_plan(path if path.is_file() or path.suffix == ".md" else Run.find(path).plan)
+
+
+def _resolve(document: PlanDocument) -> engine.Resolution:
+    return engine.resolve(document.plan, file=document.file, locate=document.line_of)
+
+
+def _need_all(document: PlanDocument, resolution: engine.Resolution) -> None:
+    if not resolution.scene.ok:
+        raise PlanError(
+            "the layout cannot be resolved yet",
+            findings=resolution.scene.findings,
+            place=document.file,
+            next_move="fix what `worldwright place resolve` names",
+        )
+
+
+TOOLS = (resolve, check, settle, explain, draw)

@@ -1,0 +1,133 @@
+"""Asking the pre-roll process: which objects penetrate, and what happens when they are let go."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from ..model.errors import JobError
+from ..model.plan import AssetRow, Plan, SceneObject
+from ..model.scene import Scene
+
+LIMIT_S = 40.0
+
+
+def jointed(plan: Plan) -> set[str]:
+    """Objects that a joint holds, and their parents: the pre-roll leaves them where they are."""
+    return {name for joint in plan.topology.joints for name in (joint.parent, joint.child)} - {"world"}
+
+
+def drawn_only(plan: Plan) -> set[str]:
+    """Objects that are not simulated."""
+    return {row.name for row in plan.scene_objects if row.visual_only}
+
+
+def simulate(
+    plan: Plan, scene: Scene, *, only: set[str] | None = None, loose: bool = False, duration_s: float = 0.0
+) -> dict[str, Any]:
+    """Run the pre-roll on resolved objects (see `preroll.answer`).
+
+    Args:
+        plan: the plan, for materials, masses and gravity.
+        scene: its layout.
+        only: these objects alone; None for all that are simulated.
+        loose: give fixed things a free joint too, so that contacts between them are seen; there is then no ground.
+        duration_s: how long to let go.
+
+    Raises:
+        JobError: the process failed, diverged, or took longer than 40 s.
+    """
+    hidden = drawn_only(plan)
+    names = {o.name for o in scene.objects if o.name not in hidden and (only is None or o.name in only)}
+    request = _request(plan, scene, names, loose) | {"duration_s": duration_s}
+    with tempfile.TemporaryDirectory(prefix="worldwright-preroll-") as folder:
+        out = Path(folder) / "answer.json"
+        sources = str(Path(__file__).resolve().parents[2])
+        paths = os.pathsep.join(p for p in (sources, os.environ.get("PYTHONPATH", "")) if p)
+        try:
+            done = subprocess.run(
+                [sys.executable, "-m", "worldwright.place.preroll"],
+                input=json.dumps(request | {"out": str(out)}).encode(),
+                capture_output=True,
+                cwd=folder,  # the engine may leave a log file where it runs
+                env={**os.environ, "PYTHONPATH": paths},
+                timeout=LIMIT_S,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as cause:
+            raise JobError(
+                f"the pre-roll took longer than {LIMIT_S:g} s",
+                code="timed_out",
+                place="place.preroll",
+                next_move="settle for a shorter duration_s, or split the plan",
+            ) from cause
+        if not out.is_file():
+            last = done.stderr.decode(errors="replace").strip().splitlines()
+            raise JobError(
+                f"the pre-roll process ended with status {done.returncode}: {last[-1] if last else 'no message'}",
+                code="crashed",
+                place="place.preroll",
+                next_move="check the sizes and masses of the objects; `worldwright doctor` checks the simulator",
+            )
+        result: dict[str, Any] = json.loads(out.read_text(encoding="utf-8"))
+    if "error" in result:
+        raise JobError(
+            f"the pre-roll failed: {result['error']}",
+            code="crashed",
+            place="place.preroll",
+            next_move="check sizes, masses and materials of the objects it names",
+        )
+    return result
+
+
+def _request(plan: Plan, scene: Scene, names: set[str], loose: bool) -> dict[str, Any]:
+    parameters = plan.simulation_parameters
+    held = jointed(plan)
+    step = parameters.time_step
+    rows: dict[str, SceneObject | AssetRow] = {row.name: row for row in plan.scene_objects}
+    rows |= {name: row for row in plan.assets for name in row.instances}
+    ground = parameters.materials.get("ground")
+    objects = []
+    for placed in scene.objects:
+        if placed.name not in names:
+            continue
+        row = rows[placed.name]
+        surface = _surface(plan, row.material)
+        objects.append(
+            {
+                "name": placed.name,
+                "asset": row.filename if isinstance(row, AssetRow) else None,
+                "primitive": row.primitive if isinstance(row, SceneObject) else None,
+                "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
+                "size": placed.size,
+                "position": placed.position,
+                "deg_z": placed.deg_z,
+                "fixed": not loose and (placed.fixed or placed.name in held),
+                "surface": surface,
+                "mass": parameters.masses.get(placed.name, parameters.masses.get(row.name)),
+            }
+        )
+    return {
+        "objects": objects,
+        "gravity": parameters.gravity_vector,
+        "time_step": min(step if isinstance(step, float) else 0.002, 0.002),
+        "ground": None if loose else (_surface(plan, "ground") if ground else {}),
+    }
+
+
+def _surface(plan: Plan, material: str | None) -> dict[str, float] | None:
+    """Arguments of `worldkit.contacts.surface` for a material of the plan."""
+    constants = plan.simulation_parameters.materials.get(material or "")
+    if constants is None:
+        return None
+    values = {
+        "friction": constants.friction,
+        "torsional": constants.torsional_friction,
+        "rolling": constants.rolling_friction,
+        "restitution": constants.restitution,
+        "density": constants.density,
+    }
+    return {key: value for key, value in values.items() if value is not None}

@@ -1,0 +1,162 @@
+"""Everything a report shows, gathered from the run folder; what is not there is named, never fatal.
+
+The evidence of the current program, plan and environment comes first. Where there is none (a fresh clone of an
+accepted world, on another machine), the evidence that the accepted folder carries stands in.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
+
+from ..model.errors import WorldwrightError
+from ..model.evidence import ExpectReport, LintReport, PassResult, ScanReport, VisualDescription
+from ..model.plan import Plan
+from ..model.run import Run
+from ..model.verdict import Verdict
+from ..stamp.interventions import Acted, acted
+from ..stamp.kept import Kept
+from ..stamp.state import State
+from ..stamp.statement import Statement
+from ..stamp.status import Status, status
+from . import series
+
+T = TypeVar("T", bound=BaseModel)
+
+
+@dataclass
+class Material:
+    """The pieces of one report; None or empty where a piece is missing."""
+
+    run: Run
+    status: Status
+    origin: str
+    """Where the evidence comes from: `current`, `accepted` or `none`."""
+    plan: Plan | None = None
+    prompt: str = ""
+    plan_text: str = ""
+    program: str = ""
+    lint: LintReport | None = None
+    physics: PassResult | None = None
+    stills: dict[str, Path] = field(default_factory=dict)
+    videos: dict[str, Path] = field(default_factory=dict)
+    scan: ScanReport | None = None
+    expect: ExpectReport | None = None
+    visual: VisualDescription | None = None
+    review: Verdict | None = None
+    stamp: Statement | None = None
+    stamp_sha256: str = ""
+    motion: series.Motion | None = None
+    ledger: tuple[Acted, ...] | None = None
+    layout: bytes | None = None
+    """Top-down drawing, PNG."""
+    journal: tuple[dict[str, Any], ...] = ()
+    environment: dict[str, Any] = field(default_factory=dict)
+    missing: dict[str, str] = field(default_factory=dict)
+    """Why a piece is not here, by the piece's name."""
+
+
+def gather(run: Run) -> Material:
+    """Read what is there."""
+    state = State(run)
+    accepted = state.stamp.value
+    found = Material(run=run, status=status(state), origin="none")
+    found.plan, found.journal = state.plan, state.journal
+    found.prompt, found.plan_text, found.program = _text(run.prompt), _text(run.plan), _text(run.program)
+    if state.plan_problem:
+        found.missing["plan"] = state.plan_problem
+    if accepted and found.status.state == "accepted":
+        from ..stamp.bundle import STAMP, sha256_file
+
+        found.stamp, found.stamp_sha256 = accepted, sha256_file(run.accepted / STAMP)
+    if state.key and state.folder.is_dir():
+        found.origin = "current"
+        _evidence(found, state.folder, state.folder, "result.json")
+    elif found.stamp:
+        found.origin = "accepted"
+        _evidence(found, run.accepted / "evidence", run.accepted, "")
+    environment = found.stamp.predicate.environment if found.stamp else state.environment
+    if environment:
+        found.environment = environment.model_dump()
+        if found.stamp:
+            found.environment["cpu"] = found.stamp.predicate.cpu
+    _motion(found, state)
+    _layout(found)
+    return found
+
+
+def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
+    """Fill in the reports and the pictures."""
+
+    def read(name: str, model: type[T]) -> T | None:
+        path = reports / (f"{name}/{result}" if result and model is PassResult else f"{name}.json")
+        kept = Kept.read(path, model)
+        if kept.problem:
+            found.missing[name] = kept.problem
+        return kept.value
+
+    found.lint = read("lint", LintReport)
+    found.physics = read("physics", PassResult)
+    found.scan = read("scan", ScanReport)
+    found.expect = read("expect", ExpectReport)
+    found.visual = read("visual", VisualDescription)
+    found.review = read("review", Verdict)
+    found.stills = {p.stem: p for p in sorted((media / "stills").glob("*.png"))}
+    found.videos = {p.stem: p for p in sorted((media / "video").glob("*.mp4"))}
+    order = [camera.name for camera in found.plan.cameras()] if found.plan else []
+    for pictures in (found.stills, found.videos):
+        ranked = sorted(pictures.items(), key=lambda item: order.index(item[0]) if item[0] in order else len(order))
+        pictures.clear()
+        pictures.update(ranked)
+
+
+def _motion(found: Material, state: State) -> None:
+    """Fill in what the recording says: of this key, else of the key that was accepted, else the stamped samples."""
+    keys = [state.key.key] if state.key else []
+    keys += [found.stamp.predicate.source.key] if found.stamp else []
+    movers = found.plan.movers() if found.plan else ()
+    declared = found.plan.simulation_parameters.interventions if found.plan else ()
+    for key in keys:
+        recording = state.run.evidence(key) / "physics" / "trajectory"
+        if not recording.is_dir():
+            continue
+        try:
+            found.motion = series.read(recording, movers)
+            found.ledger = acted(recording, declared)
+            return
+        except WorldwrightError as error:
+            found.missing["motion"] = error.cause
+        except Exception as cause:  # a report must come out whatever a recording holds
+            found.missing["motion"] = f"the recording cannot be drawn: {type(cause).__name__}: {cause}"
+    if found.motion is None and found.stamp:
+        from ..stamp.digest import stamped_motion
+
+        try:
+            sampled = stamped_motion(state.run.accepted, found.stamp)
+        except (OSError, ValueError):
+            return
+        if sampled:
+            found.motion = series.from_samples(sampled, found.physics.summary if found.physics else {})
+
+
+def _layout(found: Material) -> None:
+    """Fill in the top-down drawing."""
+    if found.plan is None:
+        return
+    try:
+        from ..place import tools as place
+
+        drawn = place.draw(found.run.plan)
+        found.layout = drawn.pictures[0].data if drawn.pictures else None
+    except WorldwrightError as error:
+        found.missing["layout"] = error.cause
+    except Exception as cause:  # a report must come out whatever a plan holds
+        found.missing["layout"] = f"the layout cannot be drawn: {type(cause).__name__}: {cause}"
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return ""

@@ -1,0 +1,185 @@
+"""What the plots of a report show, taken from a recording: a few hundred points a line that keep every peak."""
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ..model.trajectory import Trajectory
+
+POINTS = 480
+"""Bins a line is reduced to; each keeps its lowest and highest value."""
+LINES = 8
+"""Bodies shown in one plot: those that move most."""
+PAIRS = 10
+"""Rows of the contact timeline: the pairs that touch longest."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One curve."""
+
+    name: str
+    x: list[float]
+    y: list[float]
+
+
+@dataclass(frozen=True)
+class Touch:
+    """One row of the contact timeline."""
+
+    name: str
+    spans: list[tuple[float, float]]
+    """Start and end of each contact, s."""
+    peak_n: float
+    """Largest normal force, N."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Everything the plots need."""
+
+    duration_s: float
+    rows: int
+    time_step: float
+    bodies: int
+    complete: bool
+    heights: list[Line] = field(default_factory=list)
+    speeds: list[Line] = field(default_factory=list)
+    energies: list[Line] = field(default_factory=list)
+    paths: list[Line] = field(default_factory=list)
+    """Seen from above: x right, y up, metres."""
+    contacts: list[Touch] = field(default_factory=list)
+    more_bodies: int = 0
+    """Moving bodies that are not shown."""
+    more_pairs: int = 0
+    sampled: bool = False
+    """Only the stamp's samples were there, not the recording."""
+
+
+def read(recording: Path, first: tuple[str, ...] = ()) -> Motion:
+    """Reduce a recording folder (see `of`). A broken recording is a `RecordingError`."""
+    from ..model.trajectory import Trajectory
+
+    return of(Trajectory.read(recording), first)
+
+
+def of(trajectory: "Trajectory", first: tuple[str, ...] = ()) -> Motion:
+    """Reduce a trajectory to what the plots show; bodies named in `first` come before those that move more."""
+    import numpy as np
+
+    t = np.asarray(trajectory.t, dtype=float)
+    finite = np.isfinite(trajectory.pos).all(axis=2)
+    travelled = np.where(finite[1:] & finite[:-1], np.linalg.norm(np.diff(trajectory.pos, axis=0), axis=2), 0).sum(
+        axis=0
+    )
+    turned = np.where(np.isfinite(trajectory.spin), trajectory.spin, 0).max(axis=0) if len(t) else travelled
+    moving = [i for i in range(len(trajectory.names)) if travelled[i] > 1e-4 or turned[i] > 1e-2]
+    moving.sort(key=lambda i: (trajectory.names[i] not in first, -travelled[i]))
+    shown = sorted(moving[:LINES])
+    names = trajectory.names
+    energies = []
+    if trajectory.energy is not None:
+        potential, kinetic = trajectory.energy[:, 0], trajectory.energy[:, 1]
+        lowest = np.nanmin(potential) if np.isfinite(potential).any() else 0.0
+        energies = [
+            Line("total", *reduce(t, potential - lowest + kinetic)),
+            Line("kinetic", *reduce(t, kinetic)),
+            Line("potential, above its lowest", *reduce(t, potential - lowest)),
+        ]
+    contacts, more_pairs = _contacts(trajectory)
+    return Motion(
+        duration_s=float(t[-1]) if len(t) else 0.0,
+        rows=len(t),
+        time_step=trajectory.time_step,
+        bodies=len(names),
+        complete=trajectory.complete,
+        heights=[Line(names[i], *reduce(t, trajectory.pos[:, i, 2])) for i in shown],
+        speeds=[Line(names[i], *reduce(t, trajectory.speed[:, i])) for i in shown],
+        energies=energies,
+        paths=[Line(names[i], *_path(trajectory.pos[:, i])) for i in shown],
+        contacts=contacts,
+        more_bodies=len(moving) - len(shown),
+        more_pairs=more_pairs,
+    )
+
+
+def reduce(t: Any, y: Any) -> tuple[list[float], list[float]]:
+    """At most 2 x `POINTS` points of a curve (T,), keeping the extremes of every bin; values that are no numbers go."""
+    import numpy as np
+
+    y = np.asarray(y, dtype=float)
+    keep = np.isfinite(y)
+    t, y = t[keep], y[keep]
+    if len(t) > 2 * POINTS:
+        edges = np.linspace(0, len(t), POINTS + 1).astype(int)
+        chosen = {0, len(t) - 1}
+        for start, end in pairwise(edges):
+            chosen |= {start + int(np.argmin(y[start:end])), start + int(np.argmax(y[start:end]))}
+        rows = np.array(sorted(chosen))
+        t, y = t[rows], y[rows]
+    return t.tolist(), y.tolist()
+
+
+def _path(pos: Any) -> tuple[list[float], list[float]]:
+    """A path seen from above, thinned to points that lie apart."""
+    import numpy as np
+
+    flat = pos[np.isfinite(pos).all(axis=1)][:, :2]
+    if len(flat) > POINTS:
+        flat = flat[np.unique(np.linspace(0, len(flat) - 1, POINTS).astype(int))]
+    return flat[:, 0].tolist(), flat[:, 1].tolist()
+
+
+def _contacts(trajectory: Any) -> tuple[list[Touch], int]:
+    """Who touched whom, when: gaps shorter than five recorded rows are bridged, so that chatter reads as one bar."""
+    import numpy as np
+
+    if trajectory.contacts is None or not len(trajectory.contacts.row):
+        return [], 0
+    found = trajectory.contacts.take(trajectory.contacts.live)
+    low, high = np.minimum(found.body1, found.body2), np.maximum(found.body1, found.body2)
+    pairs = np.stack([low, high], axis=1)
+    touches = []
+    t = trajectory.t
+    interval = trajectory.interval_s or 0.0
+    for one, other in np.unique(pairs, axis=0):
+        mask = (low == one) & (high == other)
+        rows = np.unique(found.row[mask])
+        breaks = np.flatnonzero(np.diff(rows) > 5)
+        starts, ends = rows[np.r_[0, breaks + 1]], rows[np.r_[breaks, len(rows) - 1]]
+        spans = [(float(t[a]), float(t[b]) + interval) for a, b in zip(starts, ends, strict=True)]
+        force = found.normal_force[mask]
+        peak = float(np.nanmax(force)) if np.isfinite(force).any() else 0.0
+        names = [_name(trajectory, int(i)) for i in (one, other)]
+        touches.append(Touch(" · ".join(sorted(names, key=lambda n: n == "world")), spans, peak))
+    touches.sort(key=lambda touch: -sum(end - start for start, end in touch.spans))
+    kept = touches[:PAIRS]
+    kept.sort(key=lambda touch: touch.spans[0][0])
+    return kept, max(0, len(touches) - PAIRS)
+
+
+def _name(trajectory: Any, index: int) -> str:
+    return "world" if index < 0 else str(trajectory.names[index])
+
+
+def from_samples(sampled: Any, summary: dict[str, Any]) -> Motion:
+    """What a stamp's few motion samples can still show when the recording itself is not here."""
+    import numpy as np
+
+    t = list(sampled.time_s)
+    position = np.asarray(sampled.position, dtype=float).reshape(len(t), len(sampled.bodies), 3)
+    travelled = np.asarray(sampled.travelled_m, dtype=float).reshape(len(t), len(sampled.bodies))
+    shown = sorted(np.argsort(-travelled[-1], kind="stable")[:LINES].tolist()) if len(t) else []
+    return Motion(
+        duration_s=t[-1] if t else 0.0,
+        rows=int(summary.get("rows") or len(t)),
+        time_step=float(summary.get("time_step") or 0.0),
+        bodies=len(sampled.bodies),
+        complete=True,
+        heights=[Line(sampled.bodies[i], t, position[:, i, 2].tolist()) for i in shown],
+        paths=[Line(sampled.bodies[i], *_path(position[:, i])) for i in shown],
+        more_bodies=len(sampled.bodies) - len(shown),
+        sampled=True,
+    )

@@ -1,0 +1,116 @@
+"""A body that should rest keeps jittering on its contact and does not calm down.
+
+What it means: a contact too stiff or too elastic for the step, or two constraints that fight. It shows as buzzing in
+the pictures and feeds energy into everything stacked above. Bouncing decays, and rolling or sliding goes somewhere.
+
+Formula: over windows of 0.5 s, the body stays within a tenth of r (and turns less than 0.2 rad) while its vertical
+velocity (or its angular velocity times r) changes sign more than 10 times with contact in between; u is its rms there.
+Chatter when at least 1 s of such windows has u > 0.02 sqrt(g r) and the last third keeps 0.6 of the first third's u.
+Threshold: 0.02 sqrt(g r) is a hop of r / 5000, about what a picture begins to show; 0.2 sqrt(g r) blocks.
+Source: the reference paper's scanner; the manual on contact stiffness against the time step.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...model.trajectory import Trajectory
+from .. import analytic
+from ..sign import Case, Context, Sign, sliding_sum, spans
+
+CODE = "WS106"
+NEEDS = ("linvel", "touching")
+WINDOW_S = 0.5
+MINIMUM_S = 1.0
+REVERSALS = 10
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield the bodies that chatter."""
+    rows = round(WINDOW_S / trajectory.interval_s)
+    touching = trajectory.touching
+    if touching is None or rows < 4 or len(trajectory.t) < 2 * rows:
+        return
+    lively = trajectory.moves_freely & touching.any(axis=0)
+    for b in np.flatnonzero(lively):
+        size, scale = trajectory.size_m[b], trajectory.speed_scale[b]
+        parts = np.concatenate((trajectory.linvel[:, b, 2:], size * trajectory.angvel[:, b]), axis=1)
+        if np.abs(parts).max() < 0.02 * scale:
+            continue
+        loud, rms = _jitter(trajectory, b, parts, touching[:, b], rows)
+        for start, stop in spans(loud, bridge=rows // 4):
+            stop = min(stop + rows - 1, len(rms) - 1)
+            seconds = trajectory.t[stop] - trajectory.t[start]
+            if seconds < MINIMUM_S:
+                continue
+            third = (stop - start) // 3
+            first = np.sqrt(np.mean(rms[start : start + third] ** 2))
+            last = np.sqrt(np.mean(rms[stop - third : stop] ** 2))
+            if last < 0.6 * first or last < 0.02 * scale:
+                continue
+            name = trajectory.names[b]
+            driven = context.acts_on(name, ("force", "torque", "control", "mocap"))
+            severity = "info" if driven else "blocking" if last > 0.2 * scale else "warn"
+            message = f"{name} jitters on its contact at {last:.3g} m/s for {seconds:.2g} s without calming down"
+            yield Sign(name, (trajectory.t[start], trajectory.t[stop]), last, 0.02 * scale, "m/s", severity, message)
+            break
+
+
+def _jitter(
+    trajectory: Trajectory, b: int, parts: np.ndarray, touching: np.ndarray, rows: int
+) -> tuple[np.ndarray, np.ndarray]:
+    """(W,) windows that look like chatter, and (T,) the magnitude of the swinging part of the velocity."""
+    size = trajectory.size_m[b]
+    mean = np.repeat(parts.mean(axis=0, keepdims=True), len(parts), axis=0)
+    mean[rows // 2 : rows // 2 + len(parts) - rows + 1] = sliding_sum(parts, rows) / rows
+    swing = parts - mean
+    magnitude = np.sqrt((swing**2).sum(axis=1))
+    # Only reversals between real speeds count: the last digits of a resting body change sign all the time.
+    floor = 0.005 * trajectory.speed_scale[b]
+    signs = np.where(np.abs(swing) > floor, np.sign(swing), 0.0)
+    reversals = np.zeros(len(parts))
+    for column in range(signs.shape[1]):
+        known = np.flatnonzero(signs[:, column])
+        flips = known[1:][np.diff(signs[known, column]) != 0]
+        count = np.zeros(len(parts))
+        count[flips] = 1
+        reversals = np.maximum(reversals, _padded(sliding_sum(count, rows), len(parts)))
+    windows = len(parts) - rows + 1
+    drift = np.abs(trajectory.pos[rows - 1 :, b] - trajectory.pos[:windows, b]).max(axis=1)
+    height = trajectory.pos[:, b, 2]
+    half = rows // 2
+    wobble = np.abs(height[half : half + windows] - sliding_sum(height, rows) / rows)
+    turned = np.abs(sliding_sum(trajectory.angvel[:, b], rows) * trajectory.interval_s).max(axis=1)
+    held = sliding_sum(touching.astype(float), rows) > 0.02 * rows
+    loud = (
+        (reversals[:windows] > REVERSALS)
+        & (drift < 0.1 * size)
+        & (wobble < 0.1 * size)
+        & (turned < 0.2)
+        & held
+        & (np.sqrt(sliding_sum(magnitude**2, rows) / rows) > 0.02 * trajectory.speed_scale[b])
+    )
+    return loud, magnitude
+
+
+def _padded(values: np.ndarray, length: int) -> np.ndarray:
+    return np.concatenate((values, np.zeros(length - len(values))))
+
+
+def _buzzing(decay: float) -> Case:
+    still = analytic.resting(3.0)
+    pos, speed = still.pos.copy(), still.linvel.copy()
+    rate, size = 2 * np.pi * 40, 0.001 * np.exp(-decay * still.t)
+    pos[:, 0, 2] += size * np.abs(np.sin(rate * still.t / 2))
+    speed[:, 0, 2] = np.gradient(pos[:, 0, 2], still.t)
+    return Case("a box buzzing at 40 Hz", replace(still, pos=pos, linvel=speed))
+
+
+GOOD = (
+    lambda: Case("a body at rest", analytic.resting()),
+    lambda: Case("a bouncing ball coming to rest", analytic.bouncing()),
+    lambda: Case("a rolling ball", analytic.rolling()),
+    lambda: _buzzing(decay=6.0),
+)
+BAD = (lambda: _buzzing(decay=0.0),)

@@ -1,0 +1,93 @@
+"""Two bodies overlap far more than a contact should let them.
+
+What it means: the contact is too soft for the load or the speed, the bodies were placed inside each other, or the step
+is too long for how fast they meet. It looks like clipping, and overlaps at the start burst apart.
+
+Formula: depth / t, with t the half-thickness of the thinner geom that moves (half the smallest extent).
+Threshold: a tenth for 0.1 s or 0.3 at any moment warns; 0.3 for 0.1 s, or 1 at any moment (half of the body is
+inside), blocks.
+Source: the manual on soft contacts and `solref`, `solimp`; the reference paper's checks on clipping.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...model.trajectory import Trajectory
+from .. import analytic
+from ..sign import Case, Context, Sign, sliding_sum
+
+CODE = "WS110"
+NEEDS = ("contacts", "mechanics.half_extents")
+SUSTAINED_S = 0.1
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield the worst pair of each body that overlaps too much."""
+    contacts = trajectory.contacts
+    if contacts is None or not len(contacts.row):
+        return
+    ratio = contacts.depth_m / _half_thickness(trajectory)
+    held = max(1, round(SUSTAINED_S / trajectory.interval_s))
+    suspicious = ratio > 0.1
+    pairs = np.unique(np.stack([contacts.body1, contacts.body2], axis=1)[suspicious], axis=0)
+    for one, other in pairs:
+        rows = contacts.of_pair(one, other) & suspicious
+        worst = np.zeros(len(trajectory.t))
+        np.maximum.at(worst, contacts.row[rows], ratio[rows])
+        lasting = _lasting(worst, held)
+        if worst.max() < 0.3 and lasting < 0.1:
+            continue
+        severity = "blocking" if worst.max() > 1.0 or lasting > 0.3 else "warn"
+        threshold = 0.3 if worst.max() >= 0.3 else 0.1
+        n = int(np.argmax(worst))
+        depth = float(contacts.depth_m[rows & (contacts.row == n)].max())
+        names = " and ".join(trajectory.names[i] if i >= 0 else "world" for i in sorted((one, other), reverse=True))
+        inside = np.flatnonzero(worst > 0.1)
+        window = (trajectory.t[inside[0]], trajectory.t[inside[-1]])
+        message = f"{names} overlap by up to {depth:.3g} m, {worst.max():.0%} of the thinner one's half-thickness"
+        yield Sign(names, window, worst.max(), threshold, "of the half-thickness", severity, message)
+
+
+def _half_thickness(trajectory: Trajectory) -> np.ndarray:
+    """(N,) m: of the thinner moving geom of each contact; what does not move counts in full."""
+    contacts, facts = trajectory.contacts, trajectory.mechanics
+    assert contacts is not None
+    thin = facts.half_thickness()
+    assert thin is not None
+    best = np.full(len(contacts.row), np.inf)
+    for body, geom in ((contacts.body1, contacts.geom1), (contacts.body2, contacts.geom2)):
+        inside = body >= 0
+        own = np.where(inside, thin[body], np.inf)
+        if geom is not None and facts.geom_half_extents is not None:
+            own = np.where(inside, facts.geom_half_extents[geom].min(axis=1), np.inf)
+        still = inside & ~np.where(inside, trajectory.moves_freely[body], False)
+        own = np.where(still, 2 * own, own)
+        best = np.fmin(best, np.where(np.isnan(own), np.inf, own))
+    return best
+
+
+def _lasting(values: np.ndarray, rows: int) -> float:
+    """The level exceeded on average over the worst window of `rows`, or 0 for a shorter recording."""
+    if len(values) < rows:
+        return 0.0
+    return float((sliding_sum(values, rows) / rows).max())
+
+
+def _overlapping(depth: float, seconds: float) -> Trajectory:
+    still = analytic.resting()
+    assert still.contacts is not None
+    deep = np.where(still.t < seconds, depth, 1e-5)
+    return replace(still, contacts=replace(still.contacts, depth_m=deep))
+
+
+GOOD = (
+    lambda: Case("a body at rest", analytic.resting()),
+    lambda: Case("a soft landing, 1 cm for 10 ms", _overlapping(0.01, 0.01)),
+)
+BAD = (
+    lambda: Case("2 cm of 5 for half a second", _overlapping(0.02, 0.5), severity="blocking"),
+    lambda: Case("1 cm of 5 for half a second", _overlapping(0.01, 0.5), severity="warn"),
+    lambda: Case("more than half way in, once", _overlapping(0.06, 0.004), severity="blocking"),
+)

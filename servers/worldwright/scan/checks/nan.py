@@ -1,0 +1,66 @@
+"""A recorded value is not a number, or is infinite.
+
+What it means: the solver diverged (a step too large for a stiffness, an inertia of nearly zero, a body starting deep
+inside another), and everything after the first such row is meaningless.
+
+Formula: not isfinite(x) for any of position, orientation, velocity or energy; also an orientation whose norm is not 1.
+Threshold: none for nan; a quaternion's norm may stray by 1e-3, far beyond rounding and far below anything intended.
+Source: the reference paper's scanner; IEEE 754.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...model.trajectory import Trajectory
+from .. import analytic
+from ..sign import Case, Context, Sign
+
+CODE = "WS101"
+NEEDS = ("pos",)
+NORM_TOLERANCE = 1e-3
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield the bodies (or the system) whose numbers are not."""
+    bad = np.zeros(trajectory.pos.shape[:2], dtype=bool)
+    for channel in (trajectory.pos, trajectory.quat, trajectory.linvel, trajectory.angvel):
+        # A sum is not finite as soon as one of its terms is not.
+        bad |= ~np.isfinite(np.einsum("tbi->tb", channel))
+    yield from _signs(trajectory, bad, trajectory.names, "is not a number")
+    if trajectory.energy is not None:
+        yield from _signs(trajectory, ~np.isfinite(trajectory.energy).all(axis=1)[:, None], ("energy",), "is not a number")
+    norm = np.einsum("tbi,tbi->tb", trajectory.quat, trajectory.quat)
+    off = ~bad & (np.abs(norm - 1) > 2 * NORM_TOLERANCE)
+    yield from _signs(trajectory, off, trajectory.names, "has an orientation that is no rotation (its norm is not 1)")
+
+
+def _signs(trajectory: Trajectory, bad: np.ndarray, names: tuple[str, ...], what: str) -> Iterator[Sign]:
+    for b in np.flatnonzero(bad.any(axis=0)):
+        rows = np.flatnonzero(bad[:, b])
+        window = (trajectory.t[rows[0]], trajectory.t[rows[-1]])
+        yield Sign(names[b], window, len(rows), 0, "rows", "blocking", f"the state of {names[b]} {what}")
+
+
+def _diverged() -> Case:
+    still = analytic.resting()
+    pos = still.pos.copy()
+    pos[500:] = np.nan
+    return Case("positions turn into nan half way", replace(still, pos=pos), severity="blocking")
+
+
+def _infinite_speed() -> Case:
+    still = analytic.resting()
+    speed = still.linvel.copy()
+    speed[700, 0, 2] = np.inf
+    return Case("one infinite velocity", replace(still, linvel=speed), severity="blocking")
+
+
+def _stretched() -> Case:
+    still = analytic.resting()
+    return Case("quaternions of norm two", replace(still, quat=2 * still.quat), severity="blocking")
+
+
+GOOD = (lambda: Case("a body at rest", analytic.resting()),)
+BAD = (_diverged, _infinite_speed, _stretched)

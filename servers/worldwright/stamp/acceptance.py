@@ -1,0 +1,214 @@
+"""Accepting: strip, prove, assemble, publish. Nothing appears under `accepted/` before all of it is on disk."""
+
+import shutil
+from collections import Counter
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Literal
+
+from worldkit.files import write_atomic
+
+from ..model.errors import GateError
+from ..model.frozen import Frozen
+from ..model.progress import Progress, silent
+from . import bundle, digest, gates, machine
+from .proof import Proved, prove
+from .state import State
+from .statement import (
+    Acceptance,
+    Approval,
+    Digest,
+    ExpectationVerdict,
+    ObjectiveOutcome,
+    Proof,
+    Source,
+    Statement,
+)
+from .steps import steps
+from .strip import Stripped, strip
+
+REPORTS = ("key", "lint", "scan", "expect", "visual", "review")
+
+
+class Accepted(Frozen):
+    """The answer of `accept`."""
+
+    state: Literal["accepted", "proving"]
+    """`proving`: the proof run needs longer than this call may take; it goes on by itself."""
+    run: str
+    folder: str = ""
+    stamp_sha256: str = ""
+    trajectory_sha256: str = ""
+    stripped_lines: int = 0
+    files: tuple[str, ...] = ()
+    already: bool = False
+    """This exact program and plan had been accepted before."""
+    next_move: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """It is stamped."""
+        return self.state == "accepted"
+
+    def text(self) -> str:
+        """What a person reads."""
+        if not self.ok:
+            return f"{self.run}: the proof run goes on\n  next: {self.next_move}"
+        stripped = f", {self.stripped_lines} lines of instrumentation taken out" if self.stripped_lines else ""
+        return (
+            f"{self.run}: {'already ' * self.already}accepted in {self.folder} ({len(self.files)} files{stripped})\n"
+            f"  stamp sha256       {self.stamp_sha256}\n"
+            f"  trajectory sha256  {self.trajectory_sha256}\n"
+            f"  next: {self.next_move}"
+        )
+
+
+def accept(state: State, timeout_s: float, progress: Progress = silent) -> Accepted:
+    """Accept the run, or say (as a `GateError`) why not; callable again after `proving` or a crash."""
+    with bundle.only_one(state.run):
+        if steps(state)["accepted"].holds:
+            return _again(state)
+        gates.pass_through("accept", state)
+        stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
+        program, plan = stripped.source.encode(), state.plan_bytes or b""
+        folder = state.run.folder / "proof" / (state.key.key if state.key else "")
+        proved = prove(
+            folder, program, plan, reason=f"copied from {state.run.name}", timeout_s=timeout_s, progress=progress
+        )
+        if proved is None:
+            return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
+        _same(state, stripped, proved)
+        folder = bundle.draft_folder(state.run)
+        try:
+            statement = _assemble(state, stripped, proved, folder)
+            stamp_sha256 = bundle.seal(folder, statement)
+            bundle.publish(folder, state.run)
+        finally:
+            shutil.rmtree(folder, ignore_errors=True)
+        _log(state, stamp_sha256)
+        state.run.blocked.unlink(missing_ok=True)
+        shutil.rmtree(state.run.folder / "proof", ignore_errors=True)
+    return _answer(state, statement, stamp_sha256)
+
+
+def _same(state: State, stripped: Stripped, proved: Proved) -> None:
+    """Refuse a program whose proof run moves differently."""
+    if proved.trajectory_sha256 and proved.trajectory_sha256 == state.trajectory_sha256:
+        return
+    changed = digest.compare(
+        digest.motion(state.folder / "physics" / "trajectory"), digest.motion(proved.recording)
+    ).message
+    shutil.rmtree(proved.run.folder, ignore_errors=True)  # or the next call would be answered from it
+    cause = (
+        f"without its {len(stripped.removed)} lines of instrumentation the program moves differently"
+        if stripped.removed
+        else "run a second time, the program moves differently"
+    )
+    raise GateError(
+        f"{cause}: trajectory {proved.trajectory_sha256[:16]} instead of {state.trajectory_sha256[:16]}; {changed}",
+        place=f"{state.place}/simulation.py",
+        next_move="instrumentation must only watch; seed every random draw and read no clock, then run again",
+    )
+
+
+def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) -> Statement:
+    """Fill the draft folder and say what is in it."""
+    write_atomic(folder / "simulation.py", stripped.source.encode())
+    write_atomic(folder / "plan.md", state.plan_bytes or b"")
+    if state.run.prompt.is_file():
+        write_atomic(folder / "prompt.md", state.run.prompt.read_bytes())
+    write_atomic(folder / digest.NAME, digest.motion(proved.recording).model_dump_json() + "\n")
+    kept = {f"{name}.json": state.folder / f"{name}.json" for name in REPORTS}
+    kept |= {f"{name}.json": state.folder / name / "result.json" for name in state.passes}
+    evidence = {}
+    for name, path in kept.items():
+        if path.is_file():
+            write_atomic(folder / "evidence" / name, path.read_bytes())
+            evidence[str(path.relative_to(state.folder))] = Digest(sha256=bundle.sha256_file(path))
+    for stage, pattern in (("stills", "*.png"), ("video", "*.mp4")):
+        for path in sorted((state.folder / stage).glob(pattern)):
+            write_atomic(folder / stage / path.name, path.read_bytes())
+    return Statement(subject=bundle.subjects(folder), predicate=_predicate(state, stripped, proved, evidence))
+
+
+def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[str, Digest]) -> Acceptance:
+    from .. import __version__
+
+    plan, key, environment = state.plan, state.key, state.environment
+    scan, expect, review, visual = state.scan.value, state.expect.value, state.review.value, state.visual.value
+    if not (plan and key and environment and scan and expect and review and visual):
+        raise GateError("the run changed while it was being accepted", place=state.place, next_move="accept it again")
+    bound = {o.index: o.evidence for o in review.objectives}
+    approval = state.approval or {}
+    return Acceptance(
+        run=state.run.name,
+        accepted_at=datetime.now(UTC).isoformat(timespec="seconds"),
+        worldwright=__version__,
+        source=Source(
+            key=key.key,
+            program_sha256=key.program_sha256,
+            plan_sha256=key.plan_sha256,
+            prompt_sha256=bundle.sha256_file(state.run.prompt) if state.run.prompt.is_file() else "",
+            stripped_lines=stripped.removed,
+        ),
+        proof=Proof(
+            trajectory_sha256=proved.trajectory_sha256,
+            rows=proved.physics.summary.get("rows"),
+            simulated_s=proved.physics.summary.get("final_time"),
+            wall_s=proved.physics.wall_s,
+            sandbox=proved.physics.sandbox,
+        ),
+        environment=environment,
+        cpu=machine.cpu(),
+        evidence=evidence,
+        checks=sum(c.status != "skipped" for c in scan.checks),
+        anomalies=dict(Counter(a.severity for a in scan.anomalies)),
+        objectives=tuple(
+            ObjectiveOutcome(index=o.index, claim=o.claim, status=o.status, evidence=bound.get(o.index, ()))
+            for o in expect.objectives
+        ),
+        expectations=tuple(
+            ExpectationVerdict(
+                objective=o.index, name=e.name, status=e.status, measured=e.measured, margin=e.margin, unit=e.unit
+            )
+            for o in expect.objectives
+            for e in o.expectations
+        ),
+        declared_interventions=tuple(
+            f"{row.kind} on {', '.join(row.bodies)}: {row.law} (trigger: {row.trigger}; source: {row.source})"
+            for row in plan.simulation_parameters.interventions
+        ),
+        reviewer=review.reviewer,
+        described_by=visual.author,
+        approval=Approval(
+            by=str(approval.get("by", "")), time=str(approval.get("time", "")), auto=bool(approval.get("auto"))
+        ),
+    )
+
+
+def _again(state: State) -> Accepted:
+    """The earlier acceptance of this exact program and plan; its journal entry is added if a crash ate it."""
+    stamp_sha256 = bundle.sha256_file(state.run.accepted / bundle.STAMP)
+    if not any(e.get("action") == "accept" and e.get("stamp_sha256") == stamp_sha256 for e in state.journal):
+        _log(state, stamp_sha256)
+    if state.stamp.value is None:  # it held a moment ago
+        raise GateError("the accepted folder changed meanwhile", place=state.place, next_move="accept it again")
+    return _answer(state, state.stamp.value, stamp_sha256, already=True)
+
+
+def _log(state: State, stamp_sha256: str) -> None:
+    state.run.log("stamp", "accept", key=state.key.key if state.key else "", stamp_sha256=stamp_sha256)
+
+
+def _answer(state: State, statement: Statement, stamp_sha256: str, already: bool = False) -> Accepted:
+    return Accepted(
+        state="accepted",
+        run=state.run.name,
+        folder=f"{state.place}/accepted",
+        stamp_sha256=stamp_sha256,
+        trajectory_sha256=statement.predicate.proof.trajectory_sha256,
+        stripped_lines=len(statement.predicate.source.stripped_lines),
+        files=tuple(s.name for s in statement.subject),
+        already=already,
+        next_move=f"worldwright stamp verify {state.place}",
+    )

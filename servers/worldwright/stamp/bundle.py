@@ -1,0 +1,122 @@
+"""The accepted folder: written whole or not at all, and checkable by anyone with `sha256sum -c SHA256SUMS`."""
+
+import fcntl
+import hashlib
+import os
+import shutil
+import uuid
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from worldkit.files import write_atomic
+
+from ..model.errors import GateError
+from ..model.run import Run, sha256_file
+from .statement import Digest, Statement, Subject
+
+STAMP = "stamp.json"
+SUMS = "SHA256SUMS"
+PREFIX = ".accepting-"
+
+
+@contextmanager
+def only_one(run: Run) -> Iterator[None]:
+    """Hold the run's acceptance lock (released by the kernel when the process dies)."""
+    handle = os.open(run.folder / ".accept.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError as cause:
+            raise GateError(
+                "another process is accepting this run",
+                place=str(run.folder),
+                next_move=f"wait for it, then `worldwright stamp status {run.folder}`",
+            ) from cause
+        yield
+    finally:
+        os.close(handle)
+
+
+def files_in(folder: Path) -> list[str]:
+    """Every file below `folder`, relative, sorted."""
+    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+
+
+def subjects(folder: Path) -> tuple[Subject, ...]:
+    """Every file of a bundle with its hash; the stamp and the sums do not list themselves."""
+    return tuple(
+        Subject(name=name, digest=Digest(sha256=sha256_file(folder / name)))
+        for name in files_in(folder)
+        if name not in (STAMP, SUMS)
+    )
+
+
+def seal(folder: Path, statement: Statement) -> str:
+    """Write the stamp and the sums into a finished bundle; returns the stamp's SHA-256."""
+    text = statement.to_json()
+    write_atomic(folder / STAMP, text)
+    stamp_sha256 = hashlib.sha256(text.encode()).hexdigest()
+    lines = [f"{s.digest.sha256}  {s.name}\n" for s in statement.subject] + [f"{stamp_sha256}  {STAMP}\n"]
+    write_atomic(folder / SUMS, "".join(lines))
+    return stamp_sha256
+
+
+def draft_folder(run: Run) -> Path:
+    """A new empty folder to assemble a bundle in; leftovers of killed attempts are removed (call under the lock)."""
+    for leftover in run.folder.glob(f"{PREFIX}*"):
+        shutil.rmtree(leftover, ignore_errors=True)
+    folder = run.folder / f"{PREFIX}{uuid.uuid4().hex[:8]}"
+    folder.mkdir()
+    return folder
+
+
+def publish(folder: Path, run: Run) -> None:
+    """Make a finished bundle the run's accepted folder: one rename, after everything is on disk."""
+    for name in files_in(folder):
+        _sync(folder / name)
+    for path in (*(p for p in folder.rglob("*") if p.is_dir()), folder):
+        _sync(path)
+    if run.accepted.exists():
+        # the older acceptance is moved aside first: a rename cannot replace a folder that has files in it
+        run.accepted.rename(run.folder / f"{PREFIX}older-{uuid.uuid4().hex[:8]}")
+    folder.rename(run.accepted)
+    _sync(run.folder)
+    for older in run.folder.glob(f"{PREFIX}older-*"):
+        shutil.rmtree(older, ignore_errors=True)
+
+
+def damage(folder: Path, statement: Statement) -> list[str]:
+    """What differs between an accepted folder and its stamp; empty when every byte is as stamped."""
+    found: list[str] = []
+    listed = {s.name: s.digest.sha256 for s in statement.subject}
+    for name, wanted in listed.items():
+        path = folder / name
+        if not _inside(path, folder):
+            found.append(f"{name} leads outside the folder")
+            continue
+        try:
+            if sha256_file(path) != wanted:
+                found.append(f"{name} was changed after it was stamped")
+        except OSError as cause:
+            found.append(f"{name} cannot be read ({cause.strerror or cause})")
+    try:
+        extra = [name for name in files_in(folder) if name not in listed and name not in (STAMP, SUMS)]
+        found += [f"{name} is not in the stamp" for name in extra]
+        if f"{sha256_file(folder / STAMP)}  {STAMP}" not in (folder / SUMS).read_text(encoding="utf-8").split("\n"):
+            found.append(f"{STAMP} does not match {SUMS}")
+    except (OSError, UnicodeDecodeError) as cause:
+        found.append(f"{SUMS} cannot be read ({cause})")
+    return found
+
+
+def _inside(path: Path, folder: Path) -> bool:
+    return path.resolve().is_relative_to(folder.resolve())
+
+
+def _sync(path: Path) -> None:
+    handle = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(handle)
+    finally:
+        os.close(handle)

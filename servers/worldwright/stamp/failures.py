@@ -1,0 +1,38 @@
+"""How the newest job of a pass ended, for a person who asks what is missing."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+
+def newest_failure(jobs: Path, stage: str, key: str) -> str:
+    """`code: message` of the newest job of this pass and key when it did not succeed; empty otherwise."""
+    newest: dict[str, Any] = {}
+    try:
+        folders = list(jobs.iterdir())
+    except OSError:
+        return ""
+    for folder in folders:
+        spec, state = _read(folder / "spec.json"), _read(folder / "state.json")
+        if state.get("stage") == stage and state.get("key") == key:
+            newest = max(newest, {**state, "_at": _number(spec.get("created"))}, key=lambda j: j.get("_at", -1.0))
+    state = newest.get("state", "")
+    if state in ("queued", "running"):
+        return f"job {newest.get('job', '')} is {state}"
+    if state not in ("failed", "cancelled", "lost"):
+        return ""
+    place = newest.get("place") or ""
+    message = newest.get("message") or "it gave no message"
+    return f"the last try ended with {newest.get('code') or state}{f' at {place}' if place else ''}: {message}"
+
+
+def _read(path: Path) -> dict[str, Any]:
+    try:
+        value = json.loads(path.read_bytes())
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return value if isinstance(value, dict) else {}
+
+
+def _number(value: Any) -> float:
+    return float(value) if isinstance(value, int | float) else 0.0

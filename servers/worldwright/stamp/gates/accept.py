@@ -1,0 +1,89 @@
+"""The world may be accepted: everything holds for this exact program, plan and environment.
+
+Needed: an approved and unchanged plan, a clean lint, all passes, no blocking anomaly, no refuted or unproved objective,
+a passing review whose evidence still exists, evidence files as the passes left them, and no undeclared intervention.
+
+Why: an accepted world is one that a stranger can trust without having watched it being made.
+"""
+
+from collections.abc import Iterator
+
+from ...model.errors import WorldwrightError
+from ...model.run import sha256_file
+from .. import bindings, interventions
+from ..needs import held
+from ..refusal import Refusal
+from ..state import State
+
+CODE = "WG070"
+
+
+def check(state: State) -> Iterator[Refusal]:
+    """Refusals for whatever is missing, refuted, changed or undeclared."""
+    missing = list(
+        held(
+            state,
+            "planned",
+            "validated",
+            "approved",
+            "program",
+            "lint",
+            "physics",
+            "stills",
+            "video",
+            "scan",
+            "expect",
+            "visual",
+            "review",
+        )
+    )
+    yield from missing
+    if missing:
+        return
+    yield from _blocked(state)
+    if state.review.value is not None:
+        yield from bindings.problems(state, state.review.value)
+    yield from _changed(state)
+    yield from _undeclared(state)
+
+
+def _blocked(state: State) -> Iterator[Refusal]:
+    ending = state.blocked.value
+    same = (state.program_sha256, state.plan_sha256)
+    if ending is not None and (ending.program_sha256, ending.plan_sha256) == same:
+        yield Refusal(
+            cause=f"this program and plan are blocked: {ending.cause}",
+            next_move=f"change the program or the plan, or remove {state.place}/blocked.json",
+        )
+
+
+def _changed(state: State) -> Iterator[Refusal]:
+    """Evidence files that no longer are what their pass wrote."""
+    for stage, kept in state.passes.items():
+        for name, wanted in (kept.value.files if kept.value else {}).items():
+            try:
+                same = sha256_file(state.folder / stage / name) == wanted
+            except OSError:
+                same = False
+            if not same:
+                yield Refusal(
+                    cause=f"{stage}/{name} is not what the {stage} pass wrote",
+                    next_move=f"remove {state.folder / stage} and run `worldwright stage start {state.place} "
+                    f"--stage {stage}` again",
+                )
+
+
+def _undeclared(state: State) -> Iterator[Refusal]:
+    declared = state.plan.simulation_parameters.interventions if state.plan else ()
+    try:
+        ledger = interventions.acted(state.folder / "physics" / "trajectory", declared)
+    except WorldwrightError as error:
+        yield Refusal(cause=error.cause, next_move=error.next_move)
+        return
+    for entry in ledger:
+        if not entry.declared:
+            yield Refusal(
+                cause=f"undeclared intervention: {entry}",
+                next_move=f"take it out of {state.place}/simulation.py, or declare it under "
+                "simulation_parameters.interventions (law, bodies, source) and have the plan approved again",
+            )

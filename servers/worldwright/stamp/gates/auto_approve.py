@@ -1,0 +1,88 @@
+"""The plan may be approved without a person: every value that a planner chose is marked as inferred.
+
+A value needs no mark when the prompt states it or when it names its source. This covers what changes the outcome: the
+time step, the duration, masses, starting motion, non-standard gravity, and material constants. Each mark must name a
+value that exists.
+
+Why: in auto mode nobody reads the plan before the code is written, so what was assumed must be readable afterwards.
+"""
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from ...model.plan import Plan
+from ..refusal import Refusal
+from ..state import State
+
+CODE = "WG011"
+SECTION = "simulation_parameters."
+STANDARD_GRAVITY = {-9.81, -9.80665, -9.8}
+
+
+def check(state: State) -> Iterator[Refusal]:
+    """Refusals for values that have neither a source, nor the prompt's word, nor a mark; and for empty marks."""
+    if state.plan is None:
+        return
+    marks = tuple(mark.removeprefix(SECTION) for mark in state.plan.simulation_parameters.inferred)
+    parameters = state.plan.simulation_parameters.model_dump()
+    for mark in marks:
+        if not _exists(parameters, mark) and not _exists(state.plan.model_dump(), mark):
+            yield Refusal(
+                cause=f"`inferred` marks {mark}, which is not in the plan",
+                next_move=f"correct the name in {state.place}/plan.md",
+            )
+    said = _numbers(state)
+    for name, values in _chosen(state.plan):
+        marked = any(name == mark or name.startswith(mark + ".") for mark in marks)
+        if not marked and not all(any(abs(v - s) <= 1e-9 * max(1, abs(s)) for s in said) for v in values):
+            yield Refusal(
+                cause=f"{SECTION}{name} was chosen by the planner and is not marked",
+                next_move=f"add `{name}` to {SECTION}inferred in {state.place}/plan.md, or give its source",
+            )
+
+
+def _chosen(plan: Plan) -> Iterator[tuple[str, list[float]]]:
+    """Values that need a mark unless the prompt states them: (dotted name, numbers)."""
+    parameters = plan.simulation_parameters
+    for name in ("time_step", "simulation_duration"):
+        value = getattr(parameters, name)
+        if not isinstance(value, str):
+            yield name, [value]
+    if parameters.gravity_vector[2] not in STANDARD_GRAVITY or any(parameters.gravity_vector[:2]):
+        yield "gravity", [abs(v) for v in parameters.gravity_vector if v]
+    for name, mass in parameters.masses.items():
+        yield f"masses.{name}", [mass]
+    for name, motion in parameters.initial_motion.items():
+        numbers = [*motion.linear, *motion.angular, motion.joint_position or 0.0, motion.joint_velocity or 0.0]
+        if any(numbers):
+            yield f"initial_motion.{name}", [abs(v) for v in numbers if v]
+    for name, material in parameters.materials.items():
+        if not material.source:
+            yield f"materials.{name}", [float("nan")]
+
+
+def _numbers(state: State) -> set[float]:
+    """Every number that the prompt states."""
+    try:
+        text = state.run.prompt.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return set()
+    return {float(number) for number in re.findall(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?", text)}
+
+
+def _exists(tree: Any, dotted: str) -> bool:
+    """Whether a dotted name leads somewhere (keys may themselves hold dots)."""
+    if not dotted:
+        return True
+    if isinstance(tree, dict):
+        return any(
+            dotted == key or (dotted.startswith(f"{key}.") and _exists(value, dotted[len(str(key)) + 1 :]))
+            for key, value in tree.items()
+        )
+    if isinstance(tree, list | tuple):
+        head, _, rest = dotted.partition(".")
+        named = [v for v in tree if isinstance(v, dict) and v.get("name") == head]
+        index = [tree[int(head)]] if head.isdigit() and int(head) < len(tree) else []
+        return any(_exists(value, rest) for value in [*named, *index])
+    return False

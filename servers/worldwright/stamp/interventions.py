@@ -1,0 +1,78 @@
+"""What acted on the state besides the engine's own step, against what the plan declares.
+
+Declared: a row of `simulation_parameters.interventions` has the same kind and names the target (or the body inside the
+target). Everything else is undeclared and blocks acceptance, whatever it did.
+"""
+
+from pathlib import Path
+
+from ..model.errors import RecordingError
+from ..model.frozen import Frozen
+from ..model.plan import Intervention
+
+BY_SOLVER = ("force", "torque", "callback", "velocity", "pose")
+
+
+class Acted(Frozen):
+    """One kind of intervention on one target, over the whole recording."""
+
+    kind: str
+    target: str
+    count: int
+    """Recorded steps in which it acted."""
+    first_s: float
+    last_s: float
+    work_j: float
+    """Net work, joules (0 when the ledger cannot attribute any)."""
+    declared: bool
+    law: str = ""
+    """The plan's law, when declared."""
+
+    def __str__(self) -> str:
+        return f"{self.kind} on {self.target}, {self.count} steps, {self.first_s:.3f}-{self.last_s:.3f} s"
+
+
+def acted(recording: Path, declared: tuple[Intervention, ...]) -> tuple[Acted, ...]:
+    """The ledger of a recording folder, grouped by kind and target, each compared with the plan.
+
+    A recording that cannot be read, or that carries no ledger, is a `RecordingError`.
+    """
+    from ..model.trajectory import Trajectory
+
+    ledger = Trajectory.read(recording).interventions
+    if ledger is None:
+        raise RecordingError(
+            "the recording has no ledger of interventions",
+            place=str(recording),
+            next_move="run the physics pass again with this version of worldkit",
+        )
+    groups: dict[tuple[str, str], list[tuple[float, float]]] = {}
+    for kind, target, time, work in zip(ledger.kind, ledger.target, ledger.time, ledger.work_j, strict=True):
+        groups.setdefault((str(kind), str(target)), []).append((float(time), float(work)))
+    found = []
+    for (kind, target), events in sorted(groups.items()):
+        row = declaration(kind, target, declared)
+        found.append(
+            Acted(
+                kind=kind,
+                target=target,
+                count=len(events),
+                first_s=min(time for time, _ in events),
+                last_s=max(time for time, _ in events),
+                work_j=sum(work for _, work in events),
+                declared=row is not None,
+                law=row.law if row else "",
+            )
+        )
+    return tuple(found)
+
+
+def declaration(kind: str, target: str, declared: tuple[Intervention, ...]) -> Intervention | None:
+    """The plan's row that declares this kind on this target.
+
+    A declared `solver` (an engine outside MuJoCo) covers the forces, poses and velocities it writes and the callbacks
+    it installs. A target such as `gate.pos` or `gate/hinge` is its body's. The anomaly check WS108 has the same rule.
+    """
+    kinds = {kind, "solver"} if kind in BY_SOLVER else {kind}
+    owner = target.replace("/", ".").replace("[", ".").split(".")[0]
+    return next((row for row in declared if row.kind in kinds and {target, owner}.intersection(row.bodies)), None)

@@ -1,0 +1,23 @@
+"""Refusals for steps that a gate needs and that do not hold."""
+
+from collections.abc import Iterator
+
+from .refusal import Refusal
+from .state import State
+from .steps import StepName, steps
+
+
+def held(state: State, *names: StepName) -> Iterator[Refusal]:
+    """One refusal for each named step that does not hold."""
+    found = steps(state)
+    for name in names:
+        if not found[name].holds:
+            yield Refusal(cause=f"{name}: {found[name].detail}", next_move=found[name].next_move)
+
+
+def answered(state: State, *names: StepName) -> Iterator[Refusal]:
+    """One refusal for each named step that has not been answered, well or badly, for this key."""
+    found = steps(state)
+    for name in names:
+        if not found[name].done:
+            yield Refusal(cause=f"{name}: {found[name].detail}", next_move=found[name].next_move)

@@ -1,0 +1,94 @@
+"""The proof run: a program and its plan, alone in a new folder, linted and simulated again in the sandbox.
+
+Nothing of the original run is there to be answered from, so its result is new evidence. The folder may be met again by
+a later call while its job is still running, or after a crash: it is addressed by what it proves.
+"""
+
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from worldkit.files import write_atomic
+
+from ..model.errors import GateError
+from ..model.evidence import LintReport, PassResult
+from ..model.progress import Progress, silent
+from ..model.run import Run
+from .kept import Kept
+
+POLL_S = 20.0
+
+
+@dataclass(frozen=True)
+class Proved:
+    """What the proof run gave."""
+
+    run: Run
+    physics: PassResult
+    lint: LintReport
+    recording: Path
+
+    @property
+    def trajectory_sha256(self) -> str:
+        """Hash of the new trajectory."""
+        return str(self.physics.summary.get("trajectory_sha256", ""))
+
+
+def prove(
+    folder: Path, program: bytes, plan: bytes, *, reason: str, timeout_s: float, progress: Progress = silent
+) -> Proved | None:
+    """Lint and simulate `program` against `plan` in `folder`; None when the job needs more than `timeout_s`.
+
+    A lint error or a failed pass is a `GateError`.
+    """
+    from ..lint import tools as lint
+    from ..stage import tools as stage
+
+    deadline = time.monotonic() + timeout_s
+    run = Run(folder)
+    if _bytes(run.program) != program or _bytes(run.plan) != plan:
+        write_atomic(run.program, program)
+        write_atomic(run.plan, plan)
+    key = run.evidence_key(_environment_sha256())
+    if not any(e.get("action") == "approve" and e.get("plan_sha256") == key.plan_sha256 for e in run.entries()):
+        run.log("stamp", "approve", plan_sha256=key.plan_sha256, by=reason)
+    report = lint.check_program([run.program], plan=run.plan)
+    errors = [f for f in report.findings if f.severity == "error"]
+    if errors:
+        raise GateError(
+            f"the program does not lint clean: {errors[0].code} {errors[0].message} ({len(errors)} error(s))",
+            place=f"{run.program.name}:{errors[0].line or 1}",
+            next_move=errors[0].fix or "correct it and run it again",
+        )
+    job = stage.start(str(folder), stage="physics")
+    while job.state in ("queued", "running"):
+        left = deadline - time.monotonic()
+        if left <= 0:
+            return None
+        job = stage.wait(str(folder), job=job.job, timeout_s=min(POLL_S, max(left, 0.1)), progress=progress)
+    result = Kept.read(run.evidence(key) / "physics" / "result.json", PassResult)
+    if job.state != "succeeded" or result.value is None or not result.value.ok:
+        raise GateError(
+            f"the program does not run again: {job.code}: {job.message or result.problem or job.state}",
+            place=job.place,
+            next_move=job.next_move or "run it again; a program that runs once must run twice",
+        )
+    return Proved(
+        run=run,
+        physics=result.value,
+        lint=LintReport(findings=tuple(report.findings), rules=report.rules),
+        recording=run.evidence(key) / "physics" / "trajectory",
+    )
+
+
+def _environment_sha256() -> str:
+    from ..model import environment
+
+    return environment.current().sha256()
+
+
+def _bytes(path: Path) -> bytes | None:
+    try:
+        return path.read_bytes()
+    except OSError:
+        return None

@@ -1,0 +1,249 @@
+"""What the files of a run folder say, read once and never raising: the ground that steps and gates stand on."""
+
+import hashlib
+from functools import cached_property
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import BaseModel
+
+from ..model.errors import NotFoundError, PlanError, WorldwrightError
+from ..model.evidence import (
+    Environment,
+    EvidenceKey,
+    ExpectReport,
+    LintReport,
+    PassName,
+    PassResult,
+    ScanReport,
+    VisualDescription,
+)
+from ..model.frozen import Frozen
+from ..model.plan import Plan
+from ..model.run import Run
+from ..model.verdict import Verdict
+from .kept import Kept
+from .statement import Statement
+
+T = TypeVar("T", bound=BaseModel)
+
+
+class Blocked(Frozen):
+    """Why a run ended without a world (`blocked.json`)."""
+
+    cause: str
+    time: str
+    program_sha256: str = ""
+    plan_sha256: str = ""
+    key: str = ""
+
+
+class State:
+    """One run folder as it stands; each part is read when first asked for."""
+
+    def __init__(self, run: Run) -> None:
+        self.run = run
+
+    @classmethod
+    def find(cls, name: str) -> "State":
+        """The run at a path or of that name; a damaged folder that has lost its plan is still found."""
+        try:
+            return cls(Run.find(name))
+        except NotFoundError:
+            run = Run(name)
+            remains = (run.journal, run.program, run.accepted, run.blocked, run.folder / "evidence", run.prompt)
+            if run.folder.is_dir() and any(path.exists() for path in remains):
+                return cls(run)
+            raise
+
+    @cached_property
+    def place(self) -> str:
+        """The folder as a person would type it."""
+        try:
+            return str(self.run.folder.relative_to(Path.cwd()))
+        except (ValueError, OSError):
+            return str(self.run.folder)
+
+    @cached_property
+    def plan_bytes(self) -> bytes | None:
+        """The plan's bytes as they were when first asked for; None when it cannot be read."""
+        return _bytes(self.run.plan)
+
+    @cached_property
+    def program_bytes(self) -> bytes | None:
+        """The program's bytes as they were when first asked for; None when it cannot be read."""
+        return _bytes(self.run.program)
+
+    @cached_property
+    def plan_sha256(self) -> str:
+        """Hash of the plan's bytes; empty when it cannot be read."""
+        return "" if self.plan_bytes is None else hashlib.sha256(self.plan_bytes).hexdigest()
+
+    @cached_property
+    def program_sha256(self) -> str:
+        """Hash of the program's bytes; empty when it cannot be read."""
+        return "" if self.program_bytes is None else hashlib.sha256(self.program_bytes).hexdigest()
+
+    @cached_property
+    def _plan(self) -> tuple[Plan | None, str]:
+        from ..model.plan_text import read_plan
+
+        try:
+            return read_plan(self.run.plan).plan, ""
+        except PlanError as error:
+            count = len(error.findings)
+            first = f": {error.findings[0]}" if count else ""
+            return None, f"plan.md has {count} problem(s){first}" if count else error.cause
+        except (WorldwrightError, OSError, ValueError, RecursionError) as cause:
+            return None, f"plan.md cannot be read: {getattr(cause, 'cause', None) or cause}"
+
+    @property
+    def plan(self) -> Plan | None:
+        """The plan, when it can be read as one."""
+        return self._plan[0]
+
+    @property
+    def plan_problem(self) -> str:
+        """Why the plan cannot be read; empty when it can."""
+        return self._plan[1]
+
+    @cached_property
+    def validation(self) -> LintReport | None:
+        """What the plan's lint says; None when the plan is absent."""
+        from ..lint import tools as lint
+
+        try:
+            report = lint.check_plan(self.run.plan)
+        except (WorldwrightError, OSError, ValueError):
+            return None
+        return LintReport(findings=tuple(report.findings), rules=getattr(report, "rules", 0))
+
+    @cached_property
+    def program_problem(self) -> str:
+        """Why the program cannot run at all; empty when it parses."""
+        import ast
+
+        if self.program_bytes is None:
+            return "there is no readable simulation.py"
+        try:
+            ast.parse(self.program_bytes)
+        except (SyntaxError, ValueError, RecursionError, MemoryError) as cause:
+            return f"simulation.py is not valid Python: {cause}"
+        return ""
+
+    @cached_property
+    def environment(self) -> Environment | None:
+        """What this machine would run it with."""
+        from ..model import environment
+
+        try:
+            return environment.current()
+        except (WorldwrightError, OSError, ValueError):
+            return None
+
+    @cached_property
+    def key(self) -> EvidenceKey | None:
+        """The key of the current program, plan and environment; None while one of them is missing."""
+        if not (self.plan_sha256 and self.program_sha256 and self.environment):
+            return None
+        return EvidenceKey(
+            program_sha256=self.program_sha256,
+            plan_sha256=self.plan_sha256,
+            environment_sha256=self.environment.sha256(),
+        )
+
+    @property
+    def folder(self) -> Path:
+        """The evidence folder of the current key (it need not exist)."""
+        return self.run.evidence(self.key or "none")
+
+    def _read(self, name: str, model: type[T]) -> Kept[T]:
+        return Kept.read(self.folder / name, model) if self.key else Kept(self.folder / name)
+
+    @cached_property
+    def lint(self) -> Kept[LintReport]:
+        """The program's lint of this key."""
+        return self._read("lint.json", LintReport)
+
+    @cached_property
+    def passes(self) -> dict[PassName, Kept[PassResult]]:
+        """The results of the three passes of this key."""
+        names: tuple[PassName, ...] = ("physics", "stills", "video")
+        return {name: self._read(f"{name}/result.json", PassResult) for name in names}
+
+    @cached_property
+    def scan(self) -> Kept[ScanReport]:
+        """The anomaly scan of this key."""
+        return self._read("scan.json", ScanReport)
+
+    @cached_property
+    def expect(self) -> Kept[ExpectReport]:
+        """The measured objectives of this key."""
+        return self._read("expect.json", ExpectReport)
+
+    @cached_property
+    def visual(self) -> Kept[VisualDescription]:
+        """The visual description of this key."""
+        return self._read("visual.json", VisualDescription)
+
+    @cached_property
+    def review(self) -> Kept[Verdict]:
+        """The review of this key."""
+        return self._read("review.json", Verdict)
+
+    @cached_property
+    def stamp(self) -> Kept[Statement]:
+        """The stamp of an accepted world, whichever program it is for."""
+        return Kept.read(self.run.accepted / "stamp.json", Statement)
+
+    @cached_property
+    def blocked(self) -> Kept[Blocked]:
+        """The other ending, whichever program it is for."""
+        return Kept.read(self.run.blocked, Blocked)
+
+    @cached_property
+    def journal(self) -> tuple[dict[str, Any], ...]:
+        """The journal, oldest first; what cannot be read is skipped."""
+        try:
+            return tuple(self.run.entries())
+        except (OSError, ValueError, RecursionError):
+            return ()
+
+    @property
+    def approval(self) -> dict[str, Any] | None:
+        """The latest approval of exactly this plan."""
+        wanted = self.plan_sha256
+        found = [e for e in self.journal if e.get("action") == "approve" and e.get("plan_sha256") == wanted]
+        return found[-1] if wanted and found else None
+
+    @property
+    def trajectory_sha256(self) -> str:
+        """What the physics pass of this key reported; empty without one."""
+        physics = self.passes["physics"].value
+        return str(physics.summary.get("trajectory_sha256", "")) if physics and physics.ok else ""
+
+    @cached_property
+    def other_keys(self) -> tuple[str, ...]:
+        """Evidence folders of earlier programs, plans or environments."""
+        try:
+            folders = [p.name for p in (self.run.folder / "evidence").iterdir() if p.is_dir()]
+        except OSError:
+            return ()
+        return tuple(sorted(name for name in folders if not self.key or name != self.key.key))
+
+    def earlier(self, name: str) -> bool:
+        """Whether evidence of this name exists for another key."""
+        return any((self.run.evidence(key) / name).exists() for key in self.other_keys)
+
+    def failure(self, stage: PassName) -> str:
+        """What the newest failed job of this pass and key said; empty when none failed."""
+        from .failures import newest_failure
+
+        return newest_failure(self.run.jobs, stage, self.key.key) if self.key else ""
+
+
+def _bytes(path: Path) -> bytes | None:
+    try:
+        return path.read_bytes()
+    except OSError:
+        return None

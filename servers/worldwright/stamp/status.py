@@ -1,0 +1,83 @@
+"""The answer of `status`: every step, the outcome, and one next command."""
+
+from typing import Literal
+
+from ..model.frozen import Frozen
+from . import bundle
+from .state import State
+from .steps import Step, StepName, steps
+
+MARKS = {"holds": "✓", "fails": "✗", "missing": "·", "damaged": "!", "not_needed": "–"}
+RELEASED: tuple[StepName, ...] = ("planned", "validated", "approved", "program")
+
+
+class Status(Frozen):
+    """What has been proven so far."""
+
+    run: str
+    state: Literal["open", "accepted", "blocked"]
+    key: str = ""
+    """Evidence key of the current program, plan and environment; empty while one is missing."""
+    steps: tuple[Step, ...]
+    cause: str = ""
+    """Why it is blocked."""
+    next_move: str = ""
+    """The one command to run now."""
+    notes: tuple[str, ...] = ()
+
+    @property
+    def ok(self) -> bool:
+        """It is enough: this program and plan are accepted."""
+        return self.state == "accepted"
+
+    def text(self) -> str:
+        """What a person reads."""
+        lines = [f"{self.run}: {self.state}" + (f" (key {self.key})" if self.key else "")]
+        lines += [f"  {MARKS[s.status]} {s.name:<10}{s.detail}" for s in self.steps]
+        lines += [f"  blocked: {self.cause}"] if self.cause else []
+        lines += [f"  note: {note}" for note in self.notes]
+        return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
+
+
+def status(state: State) -> Status:
+    """Derive the status from the files; never raises for what the files hold."""
+    found = steps(state)
+    ending = state.blocked.value
+    same = ending is not None and (ending.program_sha256, ending.plan_sha256) == (
+        state.program_sha256,
+        state.plan_sha256,
+    )
+    outcome: Literal["open", "accepted", "blocked"] = "open"
+    next_move = next((step.next_move for step in found.values() if not step.holds), "")
+    if found["accepted"].holds:
+        outcome, next_move = "accepted", f"worldwright stamp verify {state.place}"
+    elif same:
+        outcome, next_move = "blocked", f"change {state.place}/plan.md or {state.place}/simulation.py"
+    return Status(
+        run=state.run.name,
+        state=outcome,
+        key=state.key.key if state.key else "",
+        steps=tuple(found.values()),
+        cause=ending.cause if ending and same and outcome == "blocked" else "",
+        next_move=next_move,
+        notes=tuple(_notes(state, found, outcome, bool(ending and not same))),
+    )
+
+
+def _notes(state: State, found: dict[StepName, Step], outcome: str, older_block: bool) -> list[str]:
+    notes = []
+    if state.blocked.problem:
+        notes.append(state.blocked.problem)
+    if older_block:
+        notes.append("blocked.json is about an earlier program or plan")
+    stamp = state.stamp.value
+    if outcome == "accepted" and stamp and state.environment and stamp.predicate.environment != state.environment:
+        notes.append("it was accepted in another environment; verify says whether it holds in this one")
+    if state.environment is None:
+        notes.append("this machine's environment cannot be read, so no evidence can be addressed: worldwright doctor")
+    leftovers = list(state.run.folder.glob(f"{bundle.PREFIX}*"))
+    if leftovers:
+        notes.append(f"{len(leftovers)} unfinished acceptance(s) were left by a crash; the next accept removes them")
+    if outcome == "open" and state.other_keys and not any(found[n].holds for n in found if n not in RELEASED):
+        notes.append(f"evidence of {len(state.other_keys)} earlier key(s) is kept and does not count")
+    return notes

@@ -1,0 +1,259 @@
+"""The state machine, derived: which steps hold for the current key, what is missing, and the exact next command."""
+
+from collections.abc import Callable
+from typing import Literal
+
+from ..model.frozen import Frozen
+from .bundle import damage
+from .state import State
+
+StepName = Literal[
+    "planned",
+    "validated",
+    "approved",
+    "program",
+    "lint",
+    "physics",
+    "stills",
+    "video",
+    "scan",
+    "expect",
+    "visual",
+    "review",
+    "accepted",
+]
+Holding = Literal["holds", "fails", "missing", "damaged", "not_needed"]
+
+
+class Step(Frozen):
+    """One step of the way to an accepted world."""
+
+    name: StepName
+    status: Holding
+    """`fails`: done, and the answer is no. `damaged`: its file exists and cannot be used."""
+    detail: str = ""
+    next_move: str = ""
+    """The command to run, when the step does not hold."""
+
+    @property
+    def done(self) -> bool:
+        """It has been answered for this key, well or badly."""
+        return self.status in ("holds", "fails", "not_needed")
+
+    @property
+    def holds(self) -> bool:
+        """It has been answered well, or is not asked for."""
+        return self.status in ("holds", "not_needed")
+
+
+def steps(state: State) -> dict[StepName, Step]:
+    """Every step, in order."""
+    found: dict[StepName, Step] = {}
+    for name, derive in DERIVED.items():
+        status, detail, command = derive(state)
+        found[name] = Step(
+            name=name, status=status, detail=detail, next_move="" if status in ("holds", "not_needed") else command
+        )
+    return found
+
+
+Answer = tuple[Holding, str, str]
+
+
+def _planned(state: State) -> Answer:
+    if not state.run.plan.is_file():
+        return "missing", "there is no plan.md", f"write {state.place}/plan.md"
+    if state.plan is None:
+        return "damaged", state.plan_problem, f"worldwright lint check-plan {state.place}/plan.md"
+    return "holds", state.plan.title or state.plan.plan_type, ""
+
+
+def _validated(state: State) -> Answer:
+    command = f"worldwright lint check-plan {state.place}/plan.md"
+    if state.plan is None:
+        return "missing", "the plan cannot be read", command
+    report = state.validation
+    if report is None:
+        return "missing", "the plan could not be checked", command
+    errors = [f for f in report.findings if f.severity == "error"]
+    if errors:
+        return "fails", f"{len(errors)} error(s), first: {errors[0].code} {errors[0].message}", command
+    open_points = list(state.plan.unresolved())
+    if open_points:
+        return (
+            "fails",
+            f"{len(open_points)} open point(s): {'; '.join(open_points[:3])}",
+            (
+                f"worldwright place resolve {state.place}/plan.md"
+                if any("scene_predicates" in p for p in open_points)
+                else f"answer them in {state.place}/plan.md"
+            ),
+        )
+    return "holds", f"{report.rules} rules, no error" if report.rules else "no error", ""
+
+
+def _approved(state: State) -> Answer:
+    command = f"worldwright stamp approve {state.place}"
+    if not state.plan_sha256:
+        return "missing", "there is no plan to approve", f"write {state.place}/plan.md"
+    if state.approval:
+        auto = ", in auto mode" if state.approval.get("auto") else ""
+        return "holds", f"by {state.approval.get('by', 'unknown')}{auto}, {state.approval.get('time', '')}", ""
+    if any(entry.get("action") == "approve" for entry in state.journal):
+        return "missing", "the plan was changed after it was approved", command
+    return "missing", "nobody has approved the plan", command
+
+
+def _program(state: State) -> Answer:
+    if state.program_problem:
+        missing = not state.run.program.exists()
+        command = f"worldwright build {state.place}/plan.md" if missing else f"correct {state.place}/simulation.py"
+        return "missing" if missing else "damaged", state.program_problem, command
+    return "holds", f"sha256 {state.program_sha256[:16]}", ""
+
+
+def _lint(state: State) -> Answer:
+    command = f"worldwright lint check-program {state.place}/simulation.py"
+    report = state.lint.value
+    if report is None:
+        return _absent(state, state.lint.problem, "lint.json", command)
+    errors = [f for f in report.findings if f.severity == "error"]
+    if errors:
+        return "fails", f"{len(errors)} error(s), first: {errors[0].code} {errors[0].message}", command
+    return "holds", f"{report.rules} rules, no error" if report.rules else "no error", ""
+
+
+def _physics(state: State) -> Answer:
+    command = f"worldwright stage start {state.place} --stage physics"
+    status, detail, _ = _pass(state, "physics", command)
+    if status != "holds":
+        return status, detail, command
+    trajectory = state.folder / "physics" / "trajectory"
+    if not (trajectory / "complete.json").is_file():
+        return "missing", "the result is here but the recording is not", f"rm -r {state.folder}/physics && {command}"
+    return "holds", detail, ""
+
+
+def _stills(state: State) -> Answer:
+    return _pass(state, "stills", f"worldwright stage start {state.place} --stage stills")
+
+
+def _video(state: State) -> Answer:
+    if state.plan is not None and state.plan.recording_mode.mode == "none":
+        return "not_needed", "the plan films nothing", ""
+    return _pass(state, "video", f"worldwright stage start {state.place} --stage video")
+
+
+def _pass(state: State, stage: Literal["physics", "stills", "video"], command: str) -> Answer:
+    kept = state.passes[stage]
+    if kept.value is None:
+        status, detail, command = _absent(state, kept.problem, f"{stage}/result.json", command)
+        failure = state.failure(stage)
+        return (status, failure or detail, command) if status == "missing" else (status, detail, command)
+    if not kept.value.ok:
+        where = f" at {kept.value.place}" if kept.value.place else ""
+        return "fails", f"{kept.value.code}{where}: {kept.value.message}", kept.value.next_move or command
+    return "holds", f"{kept.value.wall_s:.1f} s in the {kept.value.sandbox or 'unknown'} sandbox", ""
+
+
+def _scan(state: State) -> Answer:
+    command = f"worldwright scan scan {state.place}"
+    report = state.scan.value
+    if report is None:
+        return _absent(state, state.scan.problem, "scan.json", command)
+    if report.trajectory_sha256 != state.trajectory_sha256:
+        return "missing", "the scan is of another recording", command
+    blocking = [a for a in report.anomalies if a.severity == "blocking"]
+    if blocking:
+        return (
+            "fails",
+            f"{len(blocking)} blocking anomaly(ies), first: {blocking[0]}",
+            (f"correct {state.place}/simulation.py, one patch"),
+        )
+    others = f", {len(report.anomalies)} not blocking" if report.anomalies else ""
+    return "holds", f"{len(report.checks)} checks{others}", ""
+
+
+def _expect(state: State) -> Answer:
+    command = f"worldwright scan expect {state.place}"
+    report = state.expect.value
+    if report is None:
+        return _absent(state, state.expect.problem, "expect.json", command)
+    if report.trajectory_sha256 != state.trajectory_sha256:
+        return "missing", "the expectations are of another recording", command
+    count = len(report.objectives)
+    proved = sum(o.status == "proved" for o in report.objectives)
+    if not report.ok:
+        first = next(o for o in report.objectives if o.status not in ("proved", "visual_only"))
+        return (
+            "fails",
+            f"{proved} of {count} proved; objective {first.index} is {first.status}: {first.claim}",
+            (f"correct {state.place}/simulation.py, one patch"),
+        )
+    return "holds", f"{proved} of {count} objectives proved, {count - proved} visual only", ""
+
+
+def _visual(state: State) -> Answer:
+    command = f"worldwright stamp describe {state.place} @description.json"
+    if state.visual.value is None:
+        return _absent(state, state.visual.problem, "visual.json", command)
+    return "holds", f"by {state.visual.value.author}", ""
+
+
+def _review(state: State) -> Answer:
+    command = f"worldwright stamp review {state.place} @verdict.json"
+    verdict = state.review.value
+    if verdict is None:
+        return _absent(state, state.review.problem, "review.json", command)
+    if verdict.outcome == "pass":
+        return "holds", f"passed by {verdict.reviewer}", ""
+    if verdict.outcome == "repair":
+        return (
+            "fails",
+            f"repair {verdict.repair_target}: {verdict.repair}",
+            (f"correct {state.place}/simulation.py, one patch"),
+        )
+    return "fails", "the reviewer calls it blocked", f'worldwright stamp block {state.place} "CAUSE"'
+
+
+def _accepted(state: State) -> Answer:
+    command = f"worldwright stamp accept {state.place}"
+    stamp = state.stamp.value
+    if stamp is None:
+        if state.stamp.problem or state.run.accepted.exists():
+            return "damaged", state.stamp.problem or "accepted/ has no stamp.json", command
+        return "missing", "not accepted", command
+    broken = damage(state.run.accepted, stamp)
+    if broken:
+        return "damaged", f"accepted/: {broken[0]}", command
+    source = stamp.predicate.source
+    if source.plan_sha256 != state.plan_sha256:
+        return "missing", "accepted/ is for an earlier plan", command
+    if state.program_sha256 not in (source.program_sha256, stamp.digest_of("simulation.py")):
+        return "missing", "accepted/ is for an earlier program", command
+    return "holds", f"accepted {stamp.predicate.accepted_at}", ""
+
+
+def _absent(state: State, problem: str, name: str, command: str) -> Answer:
+    if problem:
+        return "damaged", problem, command
+    if state.earlier(name):
+        return "missing", "holds only for an earlier program, plan or environment", command
+    return "missing", "not done for this program, plan and environment", command
+
+
+DERIVED: dict[StepName, Callable[[State], Answer]] = {
+    "planned": _planned,
+    "validated": _validated,
+    "approved": _approved,
+    "program": _program,
+    "lint": _lint,
+    "physics": _physics,
+    "stills": _stills,
+    "video": _video,
+    "scan": _scan,
+    "expect": _expect,
+    "visual": _visual,
+    "review": _review,
+    "accepted": _accepted,
+}

@@ -1,0 +1,110 @@
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from worldkit import bodies, cameras
+from worldkit.cameras.framing import frame
+
+coordinate = st.floats(-4, 4)
+
+
+def project(model, camera, points):
+    """Normalised image coordinates (N, 2), -1 to 1 inside the frame, of a 16:9 picture."""
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_camlight(model, data)
+    number = model.camera(camera).id
+    local = (points - data.cam_xpos[number]) @ data.cam_xmat[number].reshape(3, 3)
+    slope = np.tan(np.radians(model.cam_fovy[number]) / 2)
+    depth = -local[:, 2]
+    assert (depth > 0).all()
+    return np.column_stack([local[:, 0] / depth / slope / (16 / 9), local[:, 1] / depth / slope])
+
+
+def world(path, view, **options):
+    spec = mujoco.MjSpec()
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1))
+    bodies.sphere(spec, "ball", diameter=0.2, pos=tuple(path[0]))
+    bodies.box(spec, "crate", size=(0.5, 0.5, 0.5), pos=(9, 9, 0.25), fixed=True)
+    cameras.add(spec, "eye", view=view, subjects=("ball",), **options)
+    model = spec.compile()
+    positions = np.zeros((len(path), 2, 3))
+    positions[:, 0], positions[:, 1] = path, (9, 9, 0.25)
+    return model, positions
+
+
+@pytest.mark.parametrize("view", cameras.VIEWS)
+@given(st.lists(st.tuples(coordinate, coordinate, st.floats(0.1, 4)), min_size=1, max_size=6))
+@settings(max_examples=8, deadline=None)
+def test_every_view_frames_the_whole_path_from_above_the_ground(view, path):
+    path = np.array(path)
+    model, positions = world(path, view)
+    cameras.aim(model, positions)
+    seen = project(model, "eye", path)
+    assert np.abs(seen).max() < 0.99
+    assert model.camera("eye").pos[2] > 0.05
+
+
+def test_the_frame_is_filled_not_wasted():
+    model, positions = world(np.array([[-1.0, 0, 0.1], [1.0, 0, 0.1]]), "side_minus_y")
+    cameras.aim(model, positions)
+    assert np.abs(project(model, "eye", positions[:, 0])[:, 0]).max() > 0.55
+
+
+def test_a_wall_in_the_way_turns_the_camera_aside():
+    spec = mujoco.MjSpec()
+    bodies.sphere(spec, "ball", diameter=0.2, pos=(0, 0, 0.1))
+    bodies.box(spec, "wall", size=(0.6, 0.05, 0.8), pos=(0, -0.3, 0.4), fixed=True)
+    cameras.add(spec, "eye", view="side_minus_y", subjects=("ball",))
+    model = spec.compile()
+    cameras.aim(model)
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    place = model.camera("eye").pos
+    ray = np.array([0, 0, 0.16]) - place
+    number = np.zeros(1, np.int32)
+    mujoco.mj_ray(model, data, place, ray / np.linalg.norm(ray), None, 1, -1, number, None)
+    assert model.geom(number[0]).name == "ball"
+
+
+def test_a_following_camera_keeps_its_subject_centred():
+    model, positions = world(np.array([[0.0, 0, 1.0], [0, 0, 0.1]]), "close_up", follow=True)
+    cameras.aim(model, positions)
+    data = mujoco.MjData(model)
+    data.qpos[2] = 0.1
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_camlight(model, data)
+    before = data.cam_xpos[0].copy()
+    cameras.track(model, data)
+    assert np.allclose(data.cam_xpos[0] - before, [0, 0, -0.9])
+
+
+def test_explicit_cameras_stay_where_they_are_put():
+    spec = mujoco.MjSpec()
+    bodies.sphere(spec, "ball", diameter=0.2, pos=(1, 0, 0.1))
+    cameras.add(spec, "eye", position=(0, -3, 2), target=(0, 0, 0))
+    model = spec.compile()
+    cameras.aim(model)
+    assert np.allclose(model.camera("eye").pos, [0, -3, 2])
+    assert np.allclose(project(model, "eye", np.zeros((1, 3))), 0, atol=1e-9)
+
+
+def test_unknown_views_and_subjects_list_the_known():
+    spec = mujoco.MjSpec()
+    bodies.sphere(spec, "ball", diameter=0.2, pos=(1, 0, 0.1))
+    with pytest.raises(ValueError, match=r"no view 'sideways'.*perspective"):
+        cameras.add(spec, "eye", view="sideways")
+    with pytest.raises(ValueError, match=r"no body cube; known: ball"):
+        cameras.add(spec, "eye", subjects=("cube",))
+
+
+@given(st.lists(st.tuples(coordinate, coordinate, coordinate), min_size=1, max_size=5), st.floats(20, 80))
+@settings(max_examples=30, deadline=None)
+def test_the_distance_is_the_least_that_holds_every_ball(points, fovy):
+    points = np.array(points)
+    radii = np.full(len(points), 0.1)
+    near, target = frame(points, radii, (0.0, -1.0, 0.0), fovy, 1.0)
+    far, _ = frame(points, radii, (0.0, -1.0, 0.0), fovy, 1.5)
+    assert np.linalg.norm(far - target) >= np.linalg.norm(near - target) - 1e-6

@@ -1,0 +1,193 @@
+"""A tiny world that really goes through every gate, made once a session and copied for each test that changes it."""
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+os.environ.setdefault("MUJOCO_GL", "egl")
+
+PLAN = """# A dropped ball
+
+A ball falls from a hand's height onto the floor.
+
+## plan_type
+
+mbs
+
+## simulation_parameters
+
+```yaml
+time_step: 0.002
+simulation_duration: 0.5
+gravity: -9.81
+masses:
+  ball: 0.2
+materials:
+  rubber: {friction: 0.6, restitution: 0.7, source: "made up for a test"}
+inferred: [time_step, simulation_duration, masses.ball]
+```
+
+## objectives
+
+```yaml
+- claim: The ball falls to the floor.
+  expect:
+    - falls: {body: ball, min_m: 0.3}
+- claim: The ball looks like a red ball.
+  visual_only: how a picture looks is judged by eye
+```
+
+## implementation_steps
+
+```yaml
+- description: Let the ball go.
+  scene_objects: [ball]
+  cameras:
+    - {name: overview, view: perspective, subjects: [ball]}
+    - {name: side, view: side_minus_y, subjects: [ball]}
+  motion_expectations: [ball]
+```
+
+## scene_objects
+
+```yaml
+- name: ball
+  role: the dropped body
+  primitive: sphere
+  size: [0.1, 0.1, 0.1]
+  material: rubber
+  look: "#b3261e"
+```
+
+## assets
+
+None.
+
+## asset_dimensions
+
+None.
+
+## layout_density
+
+One ball on an empty floor.
+
+## topology
+
+```yaml
+scene_predicates:
+  - {subject: ball, predicate: HEIGHT, object: base, params: {bottom: 0.45}}
+  - {subject: ball, predicate: ALIGN-CENTER-LR, object: base}
+  - {subject: ball, predicate: ALIGN-CENTER-FB, object: base}
+```
+
+## visualization
+
+```yaml
+mode: headless
+setting: studio
+```
+
+## recording_mode
+
+```yaml
+mode: cameras
+fps: 12
+size: [160, 96]
+```
+
+## clarifications_needed
+
+- none
+
+## geometry_relations
+
+None.
+"""
+
+
+@pytest.fixture(scope="session")
+def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run with a resolved plan and a drafted program, not yet approved."""
+    from worldwright.draft import draft
+    from worldwright.model.plan_text import read_plan
+    from worldwright.place.tools import resolve
+
+    folder = tmp_path_factory.mktemp("worlds") / "dropped-ball"
+    folder.mkdir()
+    (folder / "plan.md").write_text(PLAN, encoding="utf-8")
+    (folder / "prompt.md").write_text("Drop a ball.\n", encoding="utf-8")
+    scene = resolve(folder / "plan.md")
+    assert scene.ok, scene.findings
+    drafted = draft(read_plan(folder / "plan.md").plan, resolve(folder / "plan.md", write=False), folder.name)
+    (folder / "simulation.py").write_text(drafted.source, encoding="utf-8")
+    return folder
+
+
+def _stage(folder: Path, *passes: str) -> None:
+    """Run passes to their end."""
+    from worldwright.stage import tools
+
+    for name in passes:
+        job = tools.start(str(folder), stage=name)  # type: ignore[arg-type]
+        while not job.ended:
+            job = tools.wait(str(folder), job=job.job, timeout_s=30)
+        assert job.state == "succeeded", job.text()
+
+
+@pytest.fixture(scope="session")
+def prepare() -> Callable[[Path], None]:
+    """Brings a planned run up to its review, measured."""
+    return _prepare
+
+
+def _prepare(folder: Path) -> None:
+    """Bring a planned run up to its review, measured."""
+    from worldwright.lint import tools as lint
+    from worldwright.model.run import Run
+    from worldwright.scan import tools as scan
+    from worldwright.stamp import measured
+    from worldwright.stamp import tools as stamp
+
+    stamp.approve(str(folder), by="tester")
+    report = lint.check_program([folder / "simulation.py"])
+    assert not [f for f in report.findings if f.severity == "error"], report.text()
+    _stage(folder, "physics", "stills", "video")
+    scan.scan(str(folder))
+    scan.expect(str(folder))
+    stamp.describe(str(folder), measured.describe(Run(folder)))
+    stamp.review(str(folder), measured.review(Run(folder)))
+
+
+@pytest.fixture(scope="session")
+def reviewed(planned: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run that passed its measured review."""
+    folder = tmp_path_factory.mktemp("reviewed") / planned.name
+    shutil.copytree(planned, folder)
+    _prepare(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def accepted(reviewed: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An accepted run."""
+    from worldwright.stamp import tools as stamp
+
+    folder = tmp_path_factory.mktemp("accepted") / reviewed.name
+    shutil.copytree(reviewed, folder)
+    assert stamp.accept(str(folder), timeout_s=60).ok
+    return folder
+
+
+@pytest.fixture
+def copy(tmp_path: Path) -> Iterator[Callable[[Path], Path]]:
+    """Make a copy of a run that a test may spoil."""
+
+    def make(folder: Path) -> Path:
+        target = tmp_path / folder.name
+        shutil.copytree(folder, target)
+        return target
+
+    yield make

@@ -1,0 +1,99 @@
+"""Reading plans: every accepted way of writing a section, strictness, and where things stand."""
+
+from pathlib import Path
+
+import pytest
+
+from worldwright.model.errors import PlanError
+from worldwright.model.plan_text import parse_plan, read_plan
+from worldwright.model.plan_write import write_plan
+
+GOOD = (Path(__file__).parent / "good_plan.md").read_text(encoding="utf-8")
+EXAMPLES = sorted((Path(__file__).parents[3] / "examples").glob("*/plan.md"))
+
+
+def test_there_are_examples():
+    assert len(EXAMPLES) >= 3
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda p: p.parent.name)
+def test_examples_read_and_their_canonical_form_means_the_same(path):
+    document = read_plan(path)
+    assert document.text.encode() == path.read_bytes()
+    canonical = write_plan(document.plan)
+    assert parse_plan(canonical).plan == document.plan
+    assert write_plan(parse_plan(canonical).plan) == canonical
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda t: t.replace("\n", "\r\n"),
+        lambda t: "\ufeff" + t,
+        lambda t: t.replace("## plan_type", "## 1. Plan Type"),
+        lambda t: t.replace("\nmbs\n", "\n`mbs`\n"),
+        lambda t: t.replace("\nmbs\n", "\n```yaml\nplan_type: mbs\n```\n"),
+        lambda t: t.replace("\nheadless\n", "\n```yaml\nmode: headless\n```\n"),
+        lambda t: t.replace("```yaml\ntime_step", "~~~~ yaml\ntime_step").replace("handbook}\n```", "handbook}\n~~~~"),
+        lambda t: t.replace("- The ball stays on the box.", "```yaml\n- claim: The ball stays on the box.\n```"),
+        lambda t: t.replace("- The ball stays on the box.", "- The ball stays\n  on the box."),
+        lambda t: t.replace("## assets\n", "## assets\n\nNone: just primitives.\n"),
+        lambda t: t.replace("## assets\n", "<!-- ## objectives\n- name: x -->\n## assets\n"),
+        lambda t: t.replace("## assets\n", "### A remark\n\n```python\n# title\n## plan_type\n```\n\n## assets\n"),
+        lambda t: t.replace("time_step: 0.002", "time_step: 2e-3"),
+        lambda t: t.replace("scene_predicates:\n", "topology:\n  scene_predicates:\n").replace(
+            "  - {sub", "    - {sub"
+        ),
+    ],
+)
+def test_other_ways_to_write_the_same_plan(change):
+    text = change(GOOD)
+    assert text != GOOD
+    assert parse_plan(text).plan == parse_plan(GOOD).plan
+
+
+def test_dimensions_as_bullets_a_list_or_a_mapping():
+    assets = "## assets\n\n```yaml\n- {name: table, filename: table}\n- {name: lamp, filename: lamp}\n```\n"
+    base = GOOD.replace("## assets\n", assets)
+    for written in (
+        "- table: 0.75   # metres\n- lamp: 0.5\n",
+        "```yaml\n- table: 0.75\n- lamp: 0.5\n```\n",
+        "```yaml\ntable: 0.75\nlamp: 0.5\n```\n",
+    ):
+        document = parse_plan(base.replace("## asset_dimensions\n", f"## asset_dimensions\n\n{written}"))
+        assert document.plan.asset_dimensions == {"table": 0.75, "lamp": 0.5}
+        line = document.line_of("asset_dimensions", "lamp")
+        assert "lamp: 0.5" in document.text.splitlines()[line - 1]
+
+
+def test_yaml_1_2_scalars():
+    text = GOOD.replace("source: handbook", 'source: "no"').replace("name: ball", "name: no").replace("ball", "no")
+    assert parse_plan(text).plan.object_names() == ("box", "no")
+
+
+def test_line_of_points_at_values_and_falls_back_to_what_is_around_them():
+    document = parse_plan(GOOD)
+    lines = GOOD.splitlines()
+    at = document.line_of("topology", "scene_predicates", 1, "params", "offset")
+    assert "subject: ball" in lines[at - 1]
+    assert document.line_of("topology", "scene_predicates", 1, "position") == at
+    assert lines[document.line_of("simulation_parameters", "time_step") - 1].startswith("time_step")
+    assert lines[document.line_of("assets", 3, "name") - 1] == "## assets"
+    assert document.line_of("nonsense") is None
+
+
+def test_lines_are_counted_the_same_with_any_line_end():
+    for end in ("\n", "\r\n", "\r"):
+        broken = GOOD.replace("time_step: 0.002", "time_step: fast").replace("\n", end)
+        with pytest.raises(PlanError) as refusal:
+            parse_plan(broken)
+        assert [f.line for f in refusal.value.findings] == [10]
+
+
+def test_the_error_shows_the_first_problem_and_holds_all(tmp_path):
+    broken = GOOD.replace("time_step: 0.002", "time_step: fast").replace("size: [1, 1, 0.5]", "size: 3")
+    with pytest.raises(PlanError) as refusal:
+        parse_plan(broken, "somewhere/plan.md")
+    assert len(refusal.value.findings) == 2
+    assert "2 problems" in str(refusal.value)
+    assert "somewhere/plan.md" in str(refusal.value)

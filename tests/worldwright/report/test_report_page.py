@@ -1,0 +1,179 @@
+"""The page comes out whatever is there, holds what is there, and never asks anybody for anything."""
+
+import json
+import random
+import re
+import shutil
+from collections.abc import Callable
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from worldwright import report
+from worldwright.cli import main
+from worldwright.model.errors import WorldwrightError
+from worldwright.model.run import Run
+from worldwright.stamp import tools as stamp
+
+Copy = Callable[[Path], Path]
+VOID = {"meta", "img", "br", "hr", "link", "input", "line", "polyline", "circle", "path"}
+
+
+class Page(HTMLParser):
+    """Checks nesting and collects text, ids and addresses."""
+
+    def __init__(self, html: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.problems: list[str] = []
+        self.text: list[str] = []
+        self.ids: list[str] = []
+        self.addresses: list[str] = []
+        self.tags: list[str] = []
+        self.feed(html)
+        self.close()
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        values = dict(attributes)
+        self.ids += [values["id"]] if values.get("id") else []
+        self.addresses += [values[n] or "" for n in ("src", "href", "poster") if n in values]
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag in VOID:
+            return
+        if not self.open or self.open[-1] != tag:
+            self.problems.append(f"</{tag}> closes {self.open[-1:]} at {self.getpos()}")
+            if tag not in self.open:
+                return
+            while self.open[-1] != tag:
+                self.open.pop()
+        self.open.pop()
+
+    def handle_data(self, data: str) -> None:
+        if not self.open or self.open[-1] not in ("script", "style"):
+            self.text.append(data)
+
+
+def read(folder: Path) -> tuple[Page, str]:
+    path = report.write(Run(folder))
+    assert path == folder / "report.html"
+    html = path.read_text(encoding="utf-8")
+    page = Page(html)
+    assert page.problems == []
+    assert page.open == []
+    assert len(page.ids) == len(set(page.ids))
+    for address in page.addresses:
+        assert address.startswith(("data:", "#")), address[:80]
+    assert "default-src 'none'" in html
+    assert not re.search(r"url\(|@import|fetch\(|XMLHttpRequest|//[a-z]+\.[a-z]", re.sub(r"data:[^\"]+", "", html))
+    return page, " ".join(" ".join(page.text).split())
+
+
+def test_a_half_finished_run_says_what_is_missing(planned: Path, copy: Copy) -> None:
+    _, text = read(copy(planned))
+    assert "Not accepted yet" in text
+    assert "A dropped ball" in text
+    assert "“Drop a ball.”" in text
+    assert "worldwright stamp approve" in text
+    assert "No picture yet." in text
+    assert "not measured yet" in text
+    assert "The motion has not been scanned yet." in text
+
+
+def test_a_plan_that_is_none_still_gets_a_page(tmp_path: Path) -> None:
+    folder = tmp_path / "broken"
+    folder.mkdir()
+    (folder / "plan.md").write_text("# <script>alert('hm')</script>\n\n## plan_type\n\nnonsense\n", encoding="utf-8")
+    (folder / "journal.jsonl").write_text('{"action": "<b>x</b>", "time": 7}\nnot json\n', encoding="utf-8")
+    page, text = read(folder)
+    assert page.tags.count("script") == 1
+    assert "cannot be read as a plan" in text
+
+
+def test_a_blocked_run_shows_its_cause(planned: Path, copy: Copy) -> None:
+    folder = copy(planned)
+    stamp.block(str(folder), cause="balls do not fall <upwards>")
+    _, text = read(folder)
+    assert "Blocked" in text
+    assert "balls do not fall <upwards>" in text
+
+
+def test_an_accepted_run_shows_everything(accepted: Path, copy: Copy) -> None:
+    page, text = read(copy(accepted))
+    assert "Accepted" in text
+    assert "worldwright stamp verify" in text
+    for words in ("The ball falls to the floor.", "proved", "by eye", "Height", "Speed", "Energy", "Contacts"):
+        assert words in text
+    assert "nothing but the engine's own step acted on this world" in text
+    assert page.tags.count("video") == 2
+    assert page.tags.count("polyline") >= 6
+    for heading in ("Stamp", "Files", "Environment", "Journal", "The program", "The plan"):
+        assert heading in text
+
+
+def test_a_fresh_clone_shows_what_the_stamp_carries(accepted: Path, tmp_path: Path) -> None:
+    clone = tmp_path / "clone"
+    clone.mkdir()
+    for name in ("plan.md", "prompt.md", "simulation.py", "journal.jsonl"):
+        shutil.copy(accepted / name, clone / name)
+    shutil.copytree(accepted / "accepted", clone / "accepted")
+    page, text = read(clone)
+    assert "Accepted" in text
+    assert page.tags.count("video") == 2
+    assert "Height" in text
+    assert "only the stamp's samples" in text
+    assert "acceptance allows no other" in text
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_spoiled_run_still_gets_a_page(accepted: Path, copy: Copy, seed: int) -> None:
+    folder = copy(accepted)
+    choices = random.Random(seed)
+    for _ in range(4):
+        path = choices.choice([p for p in folder.rglob("*") if p.is_file()])
+        data = path.read_bytes()
+        path.write_bytes(choices.choice([b"", data[: len(data) // 2], choices.randbytes(200), b"null", b'{"a": []}']))
+    try:
+        found = stamp.status(str(folder))
+    except WorldwrightError:  # nothing that makes it a run is left
+        return
+    read(folder)
+    assert found.run == folder.name
+
+
+def test_the_command_writes_the_page_and_a_recording(accepted: Path, copy: Copy) -> None:
+    folder = copy(accepted)
+    result = CliRunner().invoke(main, ["report", str(folder)])
+    assert (result.exit_code, result.output.strip()) == (0, str(folder / "report.html"))
+    pytest.importorskip("rerun")
+    result = CliRunner().invoke(main, ["report", str(folder), "--rerun"])
+    assert result.exit_code == 0, result.output
+    assert (folder / "recording.rrd").stat().st_size > 10_000
+    result = CliRunner().invoke(main, ["report", str(folder / "nowhere")])
+    assert result.exit_code == 2
+
+
+def test_a_page_of_a_recording_is_reasonably_small(accepted: Path, copy: Copy) -> None:
+    folder = copy(accepted)
+    read(folder)
+    videos = sum(p.stat().st_size for p in (folder / "accepted" / "video").iterdir())
+    page = (folder / "report.html").stat().st_size
+    assert page < 1.4 * videos + 700_000
+
+
+def test_objectives_of_a_refuted_run_are_red(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    path = Run(folder).evidence(stamp.status(str(folder)).key) / "expect.json"
+    told = json.loads(path.read_text())
+    told["objectives"][0]["status"] = "refuted"
+    told["objectives"][0]["expectations"][0] |= {"status": "fails", "margin": -0.2, "message": "it hung in the air"}
+    path.write_text(json.dumps(told))
+    _, text = read(folder)
+    assert "refuted" in text
+    assert "it hung in the air" in text
+    assert "−0.2" in text

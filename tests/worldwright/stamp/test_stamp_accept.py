@@ -1,0 +1,242 @@
+"""Acceptance and its proof: what is stamped can be proven again, and nothing else is ever stamped."""
+
+import contextlib
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from worldwright.model.errors import GateError
+from worldwright.model.run import Run, sha256_file
+from worldwright.stamp import bundle, digest
+from worldwright.stamp import tools as stamp
+from worldwright.stamp.statement import Statement
+from worldwright.stamp.strip import BEGIN, END
+
+Copy = Callable[[Path], Path]
+Prepare = Callable[[Path], None]
+
+
+def tree(folder: Path) -> dict[str, str]:
+    return {name: sha256_file(folder / name) for name in bundle.files_in(folder)}
+
+
+def test_the_accepted_folder_is_complete_and_checks_out(accepted: Path) -> None:
+    folder = accepted / "accepted"
+    assert {
+        "SHA256SUMS", "stamp.json", "simulation.py", "plan.md", "prompt.md", "motion.json",
+        "evidence/expect.json", "evidence/physics.json", "stills/overview.png", "video/side.mp4",
+    } <= set(bundle.files_in(folder))  # fmt: skip
+    statement = Statement.model_validate_json((folder / "stamp.json").read_bytes())
+    assert statement.type == "https://in-toto.io/Statement/v1"
+    assert json.loads((folder / "stamp.json").read_text())["predicateType"].startswith("urn:worldwright:")
+    assert statement.digest_of("plan.md") == sha256_file(accepted / "plan.md")
+    assert statement.predicate.proof.sandbox
+    assert [o.status for o in statement.predicate.objectives] == ["proved", "visual_only"]
+    assert bundle.damage(folder, statement) == []
+    command = ["sha256sum", "--check", "--quiet", "SHA256SUMS"]
+    check = subprocess.run(command, cwd=folder, capture_output=True, check=False)
+    assert check.returncode == 0, check.stdout
+    assert stamp.status(str(accepted)).state == "accepted"
+    assert not list(accepted.glob(f"{bundle.PREFIX}*"))
+    assert not (accepted / "proof").exists()
+
+
+def test_accepting_twice_answers_from_the_stamp(accepted: Path) -> None:
+    before = tree(accepted / "accepted")
+    again = stamp.accept(str(accepted))
+    assert (again.ok, again.already) == (True, True)
+    assert tree(accepted / "accepted") == before
+
+
+def test_verify_proves_it_again_and_touches_nothing(accepted: Path) -> None:
+    before = tree(accepted)
+    result = stamp.verify(str(accepted), timeout_s=60)
+    assert result.ok, result.text()
+    assert (result.state, result.mode) == ("proved", "bitwise")
+    assert tree(accepted) == before
+
+
+def test_verify_works_in_a_fresh_clone(accepted: Path, tmp_path: Path) -> None:
+    """Only what version control keeps: no evidence, no jobs, a read-only accepted folder, found by its own path."""
+    clone = tmp_path / "clone"
+    shutil.copytree(accepted / "accepted", clone / "accepted")
+    for path in (clone / "accepted").rglob("*"):
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    (clone / "accepted").chmod(0o555)
+    for name in (clone / "accepted", clone):
+        result = stamp.verify(str(name), timeout_s=60)
+        assert result.ok, result.text()
+    (clone / "accepted").chmod(0o755)
+
+
+@pytest.mark.parametrize(
+    "name", ["simulation.py", "plan.md", "prompt.md", "stamp.json", "motion.json", "video/side.mp4"]
+)
+def test_one_changed_byte_is_refused_without_running_anything(accepted: Path, copy: Copy, name: str) -> None:
+    folder = copy(accepted)
+    path = folder / "accepted" / name
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 1
+    path.write_bytes(bytes(data))
+    result = stamp.verify(str(folder))
+    assert (result.ok, result.state) == (False, "refuted")
+    assert not any(check.name == "trajectory" for check in result.checks)
+    assert stamp.status(str(folder)).state == "open"
+
+
+def test_a_file_smuggled_in_is_refused(accepted: Path, copy: Copy) -> None:
+    folder = copy(accepted)
+    (folder / "accepted" / "extra.txt").write_text("hello")
+    assert "extra.txt is not in the stamp" in stamp.verify(str(folder)).text()
+
+
+def test_another_program_under_a_resealed_stamp_is_refuted_by_its_run(accepted: Path, copy: Copy) -> None:
+    """Somebody who can rewrite every hash still cannot make another program move the same way."""
+    folder = copy(accepted)
+    inner = folder / "accepted"
+    program = (inner / "simulation.py").read_text(encoding="utf-8")
+    moved = program.replace("pos=(0.0, 0.0, 0.5)", "pos=(0.0, 0.0, 0.4999)")
+    assert moved != program
+    (inner / "simulation.py").write_text(moved, encoding="utf-8")
+    statement = Statement.model_validate_json((inner / "stamp.json").read_bytes())
+    bundle.seal(inner, statement.model_copy(update={"subject": bundle.subjects(inner)}))
+    (folder / "journal.jsonl").unlink()
+    result = stamp.verify(str(folder), timeout_s=60)
+    assert not result.ok
+    failed = {check.name for check in result.checks if not check.ok}
+    assert failed & {"trajectory", "run"}, result.text()
+
+
+def test_instrumentation_is_taken_out_of_what_is_accepted(planned: Path, copy: Copy, prepare: Prepare) -> None:
+    folder = copy(planned)
+    program = folder / "simulation.py"
+    source = program.read_text(encoding="utf-8")
+    watched = source.replace(
+        'if __name__ == "__main__":', f'{BEGIN}\nNOTE = "for the reviewer"\n{END}\n\n\nif __name__ == "__main__":'
+    )
+    program.write_text(watched, encoding="utf-8")
+    prepare(folder)
+    result = stamp.accept(str(folder), timeout_s=60)
+    assert result.stripped_lines == 3
+    kept = (folder / "accepted" / "simulation.py").read_text(encoding="utf-8")
+    assert "instrumentation" not in kept
+    assert kept.replace("\n", "") == source.replace("\n", "")
+    assert program.read_text(encoding="utf-8") == watched
+    assert stamp.status(str(folder)).state == "accepted"
+
+
+def test_instrumentation_that_changes_the_motion_is_refused(planned: Path, copy: Copy, prepare: Prepare) -> None:
+    folder = copy(planned)
+    program = folder / "simulation.py"
+    source = program.read_text(encoding="utf-8")
+    push = f"    {BEGIN}\n    spec.option.gravity = (0.0, 0.0, -9.80)\n    {END}\n    return spec"
+    pushed = source.replace("    return spec", push)
+    program.write_text(pushed, encoding="utf-8")
+    try:
+        prepare(folder)
+    except AssertionError:
+        pytest.skip("the linter already refuses this program")
+    with pytest.raises(GateError, match="moves differently"):
+        stamp.accept(str(folder), timeout_s=60)
+    assert not (folder / "accepted").exists()
+
+
+def test_changed_evidence_is_refused(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    film = Run(folder).evidence(stamp.status(str(folder)).key) / "video" / "side.mp4"
+    film.write_bytes(film.read_bytes()[:-1] + b"x")
+    with pytest.raises(GateError, match=r"video/side\.mp4 is not what the video pass wrote"):
+        stamp.accept(str(folder))
+
+
+def test_an_undeclared_intervention_is_refused(planned: Path, copy: Copy, prepare: Prepare) -> None:
+    folder = copy(planned)
+    program = folder / "simulation.py"
+    source = program.read_text(encoding="utf-8")
+    push = "def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:\n    data.xfrc_applied[1, 2] = 0.01\n\n\n"
+    source = source.replace('if __name__ == "__main__":', push + 'if __name__ == "__main__":')
+    program.write_text(source.replace("program.main(build,", "program.main(build, control,"), encoding="utf-8")
+    with contextlib.suppress(AssertionError, GateError):  # the linter or the scan may refuse it first
+        prepare(folder)
+    with pytest.raises(GateError):
+        stamp.accept(str(folder), timeout_s=60)
+    assert not (folder / "accepted").exists()
+
+
+def test_kill_during_accept_leaves_nothing_or_everything(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    call = f"from worldwright.stamp import tools; tools.accept({str(folder)!r}, timeout_s=60)"
+    whole = None
+    for delay in (0.3, 0.6, 0.9, 1.2, 1.5, 2.0):
+        process = subprocess.Popen([sys.executable, "-c", call], start_new_session=True, stderr=subprocess.DEVNULL)
+        time.sleep(delay)
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        status = stamp.status(str(folder))
+        if (folder / "accepted").exists():
+            assert status.state == "accepted", status.text()
+            whole = tree(folder / "accepted")
+            break
+        assert status.state == "open"
+    assert stamp.accept(str(folder), timeout_s=60).ok
+    assert whole is None or tree(folder / "accepted") == whole
+    assert stamp.verify(str(folder), timeout_s=60).ok
+    assert not list(folder.glob(f"{bundle.PREFIX}*"))
+
+
+def test_two_processes_accept_at_once_and_one_world_results(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    with bundle.only_one(Run(folder)), pytest.raises(GateError, match="another process"):
+        stamp.accept(str(folder))
+    call = f"from worldwright.stamp import tools; tools.accept({str(folder)!r}, timeout_s=60)"
+    both = [subprocess.Popen([sys.executable, "-c", call], stderr=subprocess.PIPE) for _ in range(2)]
+    assert 0 in [process.wait() for process in both]
+    for process in both:
+        process.communicate()
+    assert stamp.verify(str(folder), timeout_s=60).ok
+
+
+def test_a_proof_that_needs_longer_goes_on_by_itself(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    first = stamp.accept(str(folder), timeout_s=0.01)
+    assert (first.ok, first.state) == (False, "proving")
+    assert not (folder / "accepted").exists()
+    assert stamp.accept(str(folder), timeout_s=60).ok
+
+
+def test_another_machine_is_compared_within_a_tolerance(accepted: Path, copy: Copy) -> None:
+    """The same world stamped on a machine whose last bits differ: proved by tolerance, and what differs is named."""
+    folder = copy(accepted)
+    inner = folder / "accepted"
+    statement = Statement.model_validate_json((inner / "stamp.json").read_bytes())
+    predicate = statement.predicate
+    elsewhere = predicate.model_copy(
+        update={
+            "cpu": "some other processor",
+            "proof": predicate.proof.model_copy(update={"trajectory_sha256": "0" * 64}),
+        }
+    )
+    bundle.seal(inner, statement.model_copy(update={"predicate": elsewhere}))
+    (folder / "journal.jsonl").unlink()
+    result = stamp.verify(str(folder), timeout_s=60)
+    assert result.ok, result.text()
+    assert result.mode == "tolerance"
+    assert any("some other processor" in text for text in result.environment_differences)
+
+    motion = digest.Motion.model_validate_json((inner / "motion.json").read_bytes())
+    moved = motion.model_dump()
+    moved["position"][-1][0][0] += 0.05
+    (inner / "motion.json").write_text(json.dumps(moved), encoding="utf-8")
+    bundle.seal(inner, statement.model_copy(update={"predicate": elsewhere, "subject": bundle.subjects(inner)}))
+    result = stamp.verify(str(folder), timeout_s=60)
+    assert not result.ok
+    assert "outside the tolerance" in result.text()
+    assert "ball at 0.500 s" in result.text()

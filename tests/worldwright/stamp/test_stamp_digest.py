@@ -1,0 +1,55 @@
+"""Holding one motion against another."""
+
+import math
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from worldwright.stamp.digest import Motion, compare
+
+
+def motion(x: float = 0.0, turn_deg: float = 0.0, travelled: float = 0.0, turned: float = 0.0) -> Motion:
+    half = math.radians(turn_deg) / 2
+    return Motion(
+        bodies=("ball",),
+        time_s=(0.0, 1.0),
+        position=(((0.0, 0.0, 0.0),), ((x, 0.0, 0.0),)),
+        quaternion=(((1.0, 0.0, 0.0, 0.0),), ((math.cos(half), 0.0, 0.0, math.sin(half)),)),
+        travelled_m=((0.0,), (travelled,)),
+        turned_deg=((0.0,), (turned,)),
+    )
+
+
+def test_identical_motion_is_within() -> None:
+    assert compare(motion(), motion()).within
+
+
+def test_what_is_off_is_named_with_its_numbers() -> None:
+    found = compare(motion(), motion(x=0.002))
+    assert not found.within
+    assert (found.body, found.time_s) == ("ball", 1.0)
+    assert abs(found.position_m - 0.002) < 1e-12
+    assert "allowed 1.00e-03 m" in found.message
+
+
+def test_a_body_that_went_far_may_differ_more() -> None:
+    assert compare(motion(travelled=1.0), motion(x=0.009)).within
+    assert not compare(motion(travelled=1.0), motion(x=0.012)).within
+
+
+@given(st.floats(0.01, 179.0))
+def test_the_angle_between_rotations_is_measured(angle: float) -> None:
+    found = compare(motion(), motion(turn_deg=angle))
+    assert abs(found.turn_deg - angle) < 1e-6
+    assert found.within == (angle <= 1.0)
+
+
+def test_other_bodies_or_another_length_never_match() -> None:
+    other = motion().model_copy(update={"bodies": ("cube",)})
+    assert "other bodies" in compare(motion(), other).message
+    longer = motion().model_copy(update={"time_s": (0.0, 2.0)})
+    assert not compare(motion(), longer).within
+
+
+def test_nan_never_matches() -> None:
+    assert not compare(motion(), motion(x=math.nan)).within

@@ -1,0 +1,234 @@
+"""Gates and tools on a run that really went through its passes."""
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from worldwright.model.errors import GateError, NotFoundError
+from worldwright.model.evidence import ExpectReport, VisualDescription
+from worldwright.model.run import Run
+from worldwright.model.verdict import CrossCheck, ObjectiveVerdict, Verdict
+from worldwright.stamp import gates, measured
+from worldwright.stamp import tools as stamp
+
+Copy = Callable[[Path], Path]
+
+
+def verdict(**changes: object) -> Verdict:
+    """A passing verdict on the tiny world."""
+    fields: dict = {
+        "reviewer": "tester",
+        "outcome": "pass",
+        "numeric": "falls holds",
+        "visual": "a red ball",
+        "plan": "both met",
+        "objectives": (
+            ObjectiveVerdict(index=0, met=True, evidence=("expect:falls", "scan:clean")),
+            ObjectiveVerdict(index=1, met=True, evidence=("still:overview", "visual:ball", "physics:rows")),
+        ),
+    }
+    return Verdict(**{**fields, **changes})
+
+
+def evidence(folder: Path) -> Path:
+    return Run(folder).evidence(stamp.status(str(folder)).key)
+
+
+def test_every_gate_is_documented_and_on_the_shelf() -> None:
+    names = {entry.name for entry in gates.shelf().values()}
+    assert names == {
+        "approve", "auto_approve", "physics", "stills", "video", "describe", "review", "accept", "block",
+    }  # fmt: skip
+    for entry in gates.shelf().values():
+        assert "Why:" in entry.doc, f"{entry.name} does not say why"
+
+
+def test_a_planned_run_is_open_and_names_the_next_command(planned: Path) -> None:
+    status = stamp.status(str(planned))
+    assert (status.state, status.ok) == ("open", False)
+    assert [s.name for s in status.steps if s.holds] == ["planned", "validated", "program"]
+    assert status.next_move == f"worldwright stamp approve {planned}"
+    assert "✓ planned" in status.text()
+
+
+def test_nothing_can_be_skipped(planned: Path, copy: Copy) -> None:
+    folder = copy(planned)
+    for call in (
+        lambda: stamp.describe(str(folder), VisualDescription(author="me", summary="nothing")),
+        lambda: stamp.review(str(folder), verdict()),
+        lambda: stamp.accept(str(folder)),
+    ):
+        with pytest.raises(GateError) as caught:
+            call()
+        assert caught.value.next_move
+    assert not (folder / "accepted").exists()
+    assert not (folder / "evidence").exists()
+
+
+def test_approval_needs_a_finished_plan(planned: Path, copy: Copy) -> None:
+    folder = copy(planned)
+    plan = folder / "plan.md"
+    whole = plan.read_text(encoding="utf-8")
+    plan.write_text(whole.replace("time_step: 0.002", "time_step: TO_CLARIFY"), encoding="utf-8")
+    with pytest.raises(GateError, match="time_step"):
+        stamp.approve(str(folder))
+    plan.write_text(whole.replace("## topology", "## topologie"), encoding="utf-8")
+    with pytest.raises(GateError, match=r"plan\.md"):
+        stamp.approve(str(folder))
+    plan.write_text(whole, encoding="utf-8")
+    assert stamp.approve(str(folder)).run == folder.name
+    assert [e["by"] for e in Run(folder).entries() if e["action"] == "approve"] == ["user"]
+
+
+def test_auto_approval_needs_every_chosen_value_marked(planned: Path, copy: Copy) -> None:
+    folder = copy(planned)
+    plan = folder / "plan.md"
+    whole = plan.read_text(encoding="utf-8")
+    plan.write_text(whole.replace(", masses.ball]", "]"), encoding="utf-8")
+    with pytest.raises(GateError, match=r"masses\.ball was chosen"):
+        stamp.approve(str(folder), auto=True)
+    plan.write_text(whole.replace("masses.ball]", "masses.cube]"), encoding="utf-8")
+    with pytest.raises(GateError, match=r"marks masses\.cube"):
+        stamp.approve(str(folder), auto=True)
+    (folder / "prompt.md").write_text("Drop a ball of 0.2 kg.", encoding="utf-8")
+    plan.write_text(whole.replace(", masses.ball]", "]"), encoding="utf-8")
+    assert "auto" in stamp.approve(str(folder), auto=True).what
+
+
+def test_a_reviewed_run_holds_every_step_but_the_last(reviewed: Path) -> None:
+    status = stamp.status(str(reviewed))
+    assert {s.name: s.status for s in status.steps if not s.holds} == {"accepted": "missing"}
+    assert status.next_move == f"worldwright stamp accept {reviewed}"
+
+
+@pytest.mark.parametrize(
+    ("changes", "says"),
+    [
+        ({"objectives": verdict().objectives[:1]}, "objective 1 has no verdict"),
+        ({"objectives": (*verdict().objectives, verdict().objectives[0])}, "objective 0 is judged twice"),
+        (
+            {"objectives": (*verdict().objectives, ObjectiveVerdict(index=7, met=True, evidence=("scan:clean",)))},
+            "objective 7 is not in the plan",
+        ),
+        (
+            {"objectives": (verdict().objectives[0], ObjectiveVerdict(index=1, met=True, evidence=("still:moon",)))},
+            "'still:moon', which does not exist",
+        ),
+        (
+            {"objectives": (verdict().objectives[0], ObjectiveVerdict(index=1, met=True, evidence=("I saw it",)))},
+            "'I saw it', which does not exist",
+        ),
+        ({"outcome": "repair", "repair_target": "scale", "repair": "halve it"}, "one channel's word"),
+    ],
+)
+def test_a_verdict_is_bound_to_evidence_that_exists(reviewed: Path, copy: Copy, changes: dict, says: str) -> None:
+    folder = copy(reviewed)
+    before = (evidence(folder) / "review.json").read_bytes()
+    with pytest.raises(GateError, match=says):
+        stamp.review(str(folder), verdict(**changes))
+    assert (evidence(folder) / "review.json").read_bytes() == before
+
+
+def test_a_verdict_that_stands_is_kept_and_journaled(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    stamp.review(str(folder), verdict())
+    assert json.loads((evidence(folder) / "review.json").read_text())["reviewer"] == "tester"
+    repair = verdict(
+        outcome="repair",
+        repair_target="camera_placement",
+        repair="move the side camera back",
+        cross_checks=(CrossCheck(claim="cut", channel="visual", tested_in="numeric", confirmed=True),),
+    )
+    stamp.review(str(folder), repair)
+    assert next(s for s in stamp.status(str(folder)).steps if s.name == "review").status == "fails"
+    with pytest.raises(GateError, match="camera_placement"):
+        stamp.accept(str(folder))
+    assert [e["outcome"] for e in Run(folder).entries() if e["action"] == "review"] == ["pass", "pass", "repair"]
+
+
+def test_a_refuted_objective_cannot_be_passed(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    path = evidence(folder) / "expect.json"
+    report = ExpectReport.model_validate_json(path.read_bytes()).model_dump(mode="json")
+    report["objectives"][0]["status"] = "refuted"
+    path.write_text(json.dumps(report), encoding="utf-8")
+    with pytest.raises(GateError, match="objective 0 is called met, but measurement says refuted"):
+        stamp.review(str(folder), verdict())
+    measured_verdict = measured.review(Run(folder))
+    assert (measured_verdict.outcome, measured_verdict.objectives[0].met) == ("repair", False)
+    with pytest.raises(GateError, match="expect"):
+        stamp.accept(str(folder))
+
+
+def test_the_measured_review_says_that_nobody_looked(reviewed: Path) -> None:
+    described = measured.describe(Run(reviewed))
+    assert described.author == "measured"
+    assert "Nobody judged" in described.summary
+    assert set(described.cameras) == {"overview", "side"}
+    assert "%" in described.objects["ball"]
+    verdict = measured.review(Run(reviewed))
+    assert verdict.outcome == "pass"
+    assert "not judged" in verdict.objectives[1].note
+
+
+def test_an_object_in_no_picture_is_a_concern_and_fails_its_objective(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    path = evidence(folder) / "stills" / "visibility.json"
+    seen = json.loads(path.read_text())
+    for shown in seen.values():
+        del shown["ball"]
+    path.write_text(json.dumps(seen), encoding="utf-8")
+    described = measured.describe(Run(folder))
+    assert "ball is in no picture" in described.concerns
+    stamp.describe(str(folder), described)
+    verdict = measured.review(Run(folder))
+    assert (verdict.outcome, verdict.repair_target) == ("repair", "camera_placement")
+
+
+def test_a_black_still_is_a_concern(reviewed: Path, copy: Copy) -> None:
+    import cv2
+    import numpy as np
+
+    folder = copy(reviewed)
+    cv2.imwrite(str(evidence(folder) / "stills" / "side.png"), np.zeros((96, 160, 3), np.uint8))
+    described = measured.describe(Run(folder))
+    assert any("side: the picture is black" in concern for concern in described.concerns)
+    stamp.describe(str(folder), described)
+    assert measured.review(Run(folder)).outcome == "repair"
+
+
+def test_block_ends_a_run_until_it_changes(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    stamp.block(str(folder), cause="the floor cannot be lava")
+    status = stamp.status(str(folder))
+    assert (status.state, status.cause) == ("blocked", "the floor cannot be lava")
+    with pytest.raises(GateError, match="blocked"):
+        stamp.accept(str(folder))
+    with (folder / "simulation.py").open("a", encoding="utf-8") as program:
+        program.write("# another try\n")
+    status = stamp.status(str(folder))
+    assert status.state == "open"
+    assert any("earlier program" in note for note in status.notes)
+
+
+def test_evidence_of_an_older_program_does_not_count(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    with (folder / "simulation.py").open("a", encoding="utf-8") as program:
+        program.write("# patched\n")
+    steps = {s.name: s for s in stamp.status(str(folder)).steps}
+    for name in ("lint", "physics", "stills", "video", "scan", "expect", "visual", "review"):
+        assert steps[name].status == "missing"
+        assert "earlier" in steps[name].detail
+    assert steps["approved"].holds
+
+
+def test_an_unknown_run_lists_the_known_ones(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, planned: Path) -> None:
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(planned, tmp_path / "runs" / "drop")
+    with pytest.raises(NotFoundError, match="no run") as caught:
+        stamp.status("drip")
+    assert "runs/drop" in caught.value.next_move
+    assert stamp.status("drop").next_move == "worldwright stamp approve runs/drop"
