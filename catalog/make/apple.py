@@ -53,7 +53,9 @@ def _flesh(rings: int = 34, segments: int = 56) -> Surface:
 
 
 def _stem() -> Surface:
-    path = shapes.curve([(0, 0, 0.0545), (0.0008, 0.0002, 0.062), (0.0028, 0.0008, 0.071), (0.0065, 0.0018, 0.0785)], 12)
+    path = shapes.curve(
+        [(0, 0, 0.0545), (0.0008, 0.0002, 0.062), (0.0028, 0.0008, 0.071), (0.0065, 0.0018, 0.0785)], 12
+    )
     thickness = np.interp(np.linspace(0, 1, 12), [0, 0.2, 0.75, 1], [1.3, 0.95, 1.0, 1.75])
     return shapes.sweep(path, shapes.arc((0, 0), 0.00135, 0, 360, 11)[:-1], side=(0, 1, 0), scale=thickness)
 
@@ -66,7 +68,7 @@ def _skin() -> np.ndarray:
     streak = texture.noise((height, width), 41, slope=0.9, stretch=(1, 12)) * 0.8
     streak += texture.noise((height, width), 42, slope=0.5, stretch=(1, 30)) * 0.5
     broad = texture.noise((height, width), 43, slope=2.2)
-    shaded = np.exp(-(((u - 0.62 + 0.5) % 1 - 0.5) / 0.16) ** 2) * np.exp(-(((v - 0.55) / 0.3) ** 2))
+    shaded = np.exp(-((((u - 0.62 + 0.5) % 1 - 0.5) / 0.16) ** 2)) * np.exp(-(((v - 0.55) / 0.3) ** 2))
     red = 0.80 + 0.10 * streak + 0.09 * broad - 0.38 * shaded
     red -= 0.95 * np.exp(-(((v - 1.0) / 0.105) ** 2)) + 0.30 * np.exp(-(((v - 0.0) / 0.10) ** 2))
     picture = texture.ramp(red, ["#8d9440", "#c9b84a", "#d8863a", "#c5362a", "#a81c20", "#86121a"])

@@ -51,7 +51,9 @@ def _leather() -> np.ndarray:
     for row in range(rows):  # pebbles in rings of equal spacing, so that the poles are not stretched
         latitude = (row + 0.5) / rows * np.pi - np.pi / 2
         count = max(6, int(2 * rows * np.cos(latitude)))
-        band = slice(int(height * (0.5 - latitude / np.pi - 0.5 / rows)), int(height * (0.5 - latitude / np.pi + 0.5 / rows)) + 1)
+        band = slice(
+            int(height * (0.5 - latitude / np.pi - 0.5 / rows)), int(height * (0.5 - latitude / np.pi + 0.5 / rows)) + 1
+        )
         along = (np.arange(width) + 0.5) / width * count + 0.5 * (row % 2)
         pebble[band] = np.maximum(pebble[band], np.abs(np.sin(np.pi * along))[None])
     tone = texture.noise((height, width), 5, slope=1.4)

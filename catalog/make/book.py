@@ -45,24 +45,48 @@ def _cover() -> Surface:
     """A U-shaped section (spine at -Y, slightly rounded, with a hinge groove) carried along x."""
     h, w, b = HEIGHT / 2, WIDTH / 2, BOARD
     r = 0.0009
-    outer = [(w - r, h), (-w + 0.0135, h), (-w + 0.0115, h - 0.0010), (-w + 0.0085, h - 0.0010), (-w + 0.0065, h - 0.0002)]
+    outer = [
+        (w - r, h),
+        (-w + 0.0135, h),
+        (-w + 0.0115, h - 0.0010),
+        (-w + 0.0085, h - 0.0010),
+        (-w + 0.0065, h - 0.0002),
+    ]
     spine = shapes.arc((-w + 0.0065, 0), 1.0, 90, 270, 17)
     spine = np.column_stack([-w + 0.0065 + 0.0065 * (spine[:, 0] + w - 0.0065), (h - 0.0002) * spine[:, 1]])
     lower = [(y, -z) for y, z in outer[::-1]]
-    inner_spine = np.column_stack([-w + 0.0085 + 0.0055 * np.cos(np.radians(np.linspace(250, 110, 9))), (h - b) * np.sin(np.radians(np.linspace(250, 110, 9))) / np.sin(np.radians(110))])
+    inner_spine = np.column_stack(
+        [
+            -w + 0.0085 + 0.0055 * np.cos(np.radians(np.linspace(250, 110, 9))),
+            (h - b) * np.sin(np.radians(np.linspace(250, 110, 9))) / np.sin(np.radians(110)),
+        ]
+    )
     section = np.concatenate(
-        [outer, spine[1:-1], lower, [(w, -h + r), (w, -h + b - r), (w - r, -h + b)], inner_spine, [(w - r, h - b), (w, h - b + r), (w, h - r)]]
+        [
+            outer,
+            spine[1:-1],
+            lower,
+            [(w, -h + r), (w, -h + b - r), (w - r, -h + b)],
+            inner_spine,
+            [(w - r, h - b), (w, h - b + r), (w, h - r)],
+        ]
     )
     if np.sum(section[:, 0] * np.roll(section[:, 1], -1) - section[:, 1] * np.roll(section[:, 0], -1)) < 0:
         section = section[::-1]
     x = LENGTH / 2
-    body = shapes.sweep(np.array([(-x, 0, 0), (-x + 0.0008, 0, 0), (x - 0.0008, 0, 0), (x, 0, 0)]), section, side=(0, 1, 0))
+    body = shapes.sweep(
+        np.array([(-x, 0, 0), (-x + 0.0008, 0, 0), (x - 0.0008, 0, 0), (x, 0, 0)]), section, side=(0, 1, 0)
+    )
     corner, face = body.corners(), np.repeat(_face_normals(body), 3, axis=0)
     across, along = corner[:, 1] / WIDTH + 0.5, 0.5 - corner[:, 0] / LENGTH
     # the picture holds the front in its right half, spine and plain cloth in its left half
     front = (face[:, 2] > 0.5) & (corner[:, 2] > h - 0.002)
     spine_side = (face[:, 1] < -0.4) & (corner[:, 1] < -w + 0.007)
-    u = np.where(front, 0.5 + 0.5 * across, np.where(spine_side, 0.02 + 0.10 * (corner[:, 2] / HEIGHT + 0.5), 0.16 + 0.3 * across))
+    u = np.where(
+        front,
+        0.5 + 0.5 * across,
+        np.where(spine_side, 0.02 + 0.10 * (corner[:, 2] / HEIGHT + 0.5), 0.16 + 0.3 * across),
+    )
     return body.with_uv(np.column_stack([u, along]))
 
 

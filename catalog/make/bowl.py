@@ -14,7 +14,17 @@ def make() -> Recipe:
     """The bowl, hollow: its collision wall is two rings of convex sectors around a floor."""
     inner, outer = shapes.curve(INNER, 26), shapes.curve(OUTER, 22)
     lip = shapes.arc((0.0775, 0.0675), 0.0025, 150, 10, 8)
-    foot = np.array([(0.0345, 0.0050), (0.0340, 0.0010), (0.0332, 0.0), (0.0295, 0.0), (0.0287, 0.0010), (0.0280, 0.0035), (0, 0.0040)])
+    foot = np.array(
+        [
+            (0.0345, 0.0050),
+            (0.0340, 0.0010),
+            (0.0332, 0.0),
+            (0.0295, 0.0),
+            (0.0287, 0.0010),
+            (0.0280, 0.0035),
+            (0, 0.0040),
+        ]
+    )
     profile = np.concatenate([inner, lip, outer, foot])[::-1]
     profile[[0, -1], 0] = 0
     along = np.r_[0, np.cumsum(np.linalg.norm(np.diff(profile, axis=0), axis=1))]
@@ -64,5 +74,7 @@ def _glaze(profile: np.ndarray, v: np.ndarray) -> np.ndarray:
     cream = texture.blend(cream, "#6b4a2c", 0.75 * speck)
     picture = np.where(outside[..., None], teal, cream)
     foot = texture.edge(row[:, None] - 0.155 + 0.006 * run, 0.01)
-    picture = texture.blend(picture, np.broadcast_to(texture.colour("#b08b66"), picture.shape) + 0.02 * fine[..., None], foot * outside)
+    picture = texture.blend(
+        picture, np.broadcast_to(texture.colour("#b08b66"), picture.shape) + 0.02 * fine[..., None], foot * outside
+    )
     return texture.blend(picture, "#7a4524", 0.9 * texture.edge(from_rim - 0.016 - 0.004 * run, 0.02))

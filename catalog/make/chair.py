@@ -18,14 +18,19 @@ def make() -> Recipe:
     crest = _rail(0.815, 0.075, 0.022)
     slats = [_rail(z, 0.034, 0.014) for z in (0.735, 0.665, 0.595)]
     fronts = [
-        shapes.tapered_box((0.028, 0.028), (0.042, 0.042), (0.0, 0.425), 0.005).moved(FRONT, s * WIDE).box_uv(TILE, "z", (0.2 * s, 0.37))
+        shapes.tapered_box((0.028, 0.028), (0.042, 0.042), (0.0, 0.425), 0.005)
+        .moved(FRONT, s * WIDE)
+        .box_uv(TILE, "z", (0.2 * s, 0.37))
         for s in (1, -1)
     ]
     frame = [
         _beam((FRONT, -WIDE, 0.395), (FRONT, WIDE, 0.395), 0.06, 0.022),
         _beam((BACK, -NARROW, 0.395), (BACK, NARROW, 0.395), 0.06, 0.022),
         *[_beam((BACK, s * NARROW, 0.395), (FRONT, s * WIDE, 0.395), 0.06, 0.022) for s in (1, -1)],
-        *[_beam((BACK - 0.012, s * (NARROW + 0.002), 0.17), (FRONT, s * (WIDE + 0.0), 0.17), 0.026, 0.016) for s in (1, -1)],
+        *[
+            _beam((BACK - 0.012, s * (NARROW + 0.002), 0.17), (FRONT, s * (WIDE + 0.0), 0.17), 0.026, 0.016)
+            for s in (1, -1)
+        ],
         _beam((0.0, -0.195, 0.17), (0.0, 0.195, 0.17), 0.026, 0.016),
     ]
     seat = _seat()
@@ -57,7 +62,9 @@ def make() -> Recipe:
         },
         texture_levels={"walnut.png": 64, "fabric.png": 64},
         collision=[
-            hulls.box((FRONT - BACK + 0.05, 2 * WIDE + 0.03, 0.055), (0.007, 0, SEAT - 0.0275), name="seat", friction=0.6),
+            hulls.box(
+                (FRONT - BACK + 0.05, 2 * WIDE + 0.03, 0.055), (0.007, 0, SEAT - 0.0275), name="seat", friction=0.6
+            ),
             *[_box_under(s) for s in (1, -1)],
             *[piece for post in posts for piece in hulls.decomposed(post, threshold=0.08)],
             *hulls.decomposed(crest, threshold=0.08),
@@ -71,16 +78,22 @@ def make() -> Recipe:
 
 def _box_under(side: int) -> hulls.Hull:
     points = [(x * s / 2, y * s / 2, z) for s, z in ((0.026, 0.0), (0.042, 0.425)) for x in (-1, 1) for y in (-1, 1)]
-    return hulls.Hull(shapes.hull(np.array(points)).moved(FRONT, side * WIDE), name=f"leg_front_{'left' if side > 0 else 'right'}")
+    return hulls.Hull(
+        shapes.hull(np.array(points)).moved(FRONT, side * WIDE), name=f"leg_front_{'left' if side > 0 else 'right'}"
+    )
 
 
 def _post(side: int) -> Surface:
     """Back leg and backrest post in one bent piece; it starts flat on the floor."""
-    line = shapes.curve([(-0.225, 0.0), (-0.198, 0.2), (BACK - 0.004, 0.42), (-0.196, 0.62), (-0.245, HEIGHT - 0.012)], 20)
+    line = shapes.curve(
+        [(-0.225, 0.0), (-0.198, 0.2), (BACK - 0.004, 0.42), (-0.196, 0.62), (-0.245, HEIGHT - 0.012)], 20
+    )
     line[0, 1], line[1, 0] = 0.0, line[1, 0]
     path = np.column_stack([line[:, 0], np.full(len(line), side * NARROW), line[:, 1]])
     scale = np.interp(np.linspace(0, 1, 20), [0, 0.5, 1], [0.78, 1.0, 0.72])
-    body = shapes.sweep(path, shapes.rounded_section(0.030, 0.040, 0.008), side=(0, 1, 0), scale=scale, tile=(TILE, TILE))
+    body = shapes.sweep(
+        path, shapes.rounded_section(0.030, 0.040, 0.008), side=(0, 1, 0), scale=scale, tile=(TILE, TILE)
+    )
     floor = np.where(np.arange(len(body.vertices)) < 12, 0.0, body.vertices[:, 2])  # the first ring lies in the floor
     return body.mapped(np.column_stack([body.vertices[:, :2], floor]))
 
@@ -104,7 +117,9 @@ def _beam(start: tuple[float, float, float], end: tuple[float, float, float], ta
 def _seat() -> Surface:
     """A pad with a soft crown: a rounded trapezoid whose rings shrink towards the top."""
     outline = [(FRONT + 0.035, WIDE + 0.022), (BACK - 0.012, NARROW + 0.006)]
-    quad = np.array([(x, y * s) for (x, y), s in ((outline[0], 1), (outline[1], 1), (outline[1], -1), (outline[0], -1))])
+    quad = np.array(
+        [(x, y * s) for (x, y), s in ((outline[0], 1), (outline[1], 1), (outline[1], -1), (outline[0], -1))]
+    )
     r, loop = 0.045, []
     for k in range(4):
         before, here, after = quad[k - 1], quad[k], quad[(k + 1) % 4]
@@ -113,7 +128,17 @@ def _seat() -> Surface:
         loop.append((1 - t) ** 2 * (here + a * r) + 2 * t * (1 - t) * here + t**2 * (here + b * r))
     ring = np.concatenate(loop)
     middle = quad.mean(axis=0)
-    steps = [(0.97, 0.422), (1.0, 0.428), (1.005, 0.436), (0.995, 0.445), (0.97, 0.4515), (0.92, 0.4555), (0.8, 0.4588), (0.6, 0.46), (0.3, 0.46)]
+    steps = [
+        (0.97, 0.422),
+        (1.0, 0.428),
+        (1.005, 0.436),
+        (0.995, 0.445),
+        (0.97, 0.4515),
+        (0.92, 0.4555),
+        (0.8, 0.4588),
+        (0.6, 0.46),
+        (0.3, 0.46),
+    ]
     rows = [np.column_stack([middle + (ring - middle) * s, np.full(len(ring), z)]) for s, z in steps]
     n = len(ring)
     vertices = np.concatenate([*rows, [[*middle, 0.46], [*middle, 0.422]]])

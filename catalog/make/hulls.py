@@ -65,7 +65,9 @@ def sphere(diameter: float, pos: Vec3 = (0.0, 0.0, 0.0)) -> Primitive:
     return Primitive("sphere", pos, diameter=diameter)
 
 
-def wall(diameter: float, thickness: float, low: float, high: float, count: int, *, x: float = 0.0, y: float = 0.0) -> list[Primitive]:
+def wall(
+    diameter: float, thickness: float, low: float, high: float, count: int, *, x: float = 0.0, y: float = 0.0
+) -> list[Primitive]:
     """A straight tube wall of inner `diameter` as a ring of `count` boxes."""
     inner = diameter / 2
     half = (inner + thickness) * np.tan(np.pi / count)

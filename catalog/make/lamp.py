@@ -8,26 +8,96 @@ from .surface import Surface
 
 HEIGHT = 0.52  # m
 SHADE_LOW, SHADE_HIGH, R_LOW, R_HIGH = 0.285, 0.495, 0.160, 0.112  # m
-GOURD = [(0.052, 0.018), (0.070, 0.034), (0.083, 0.070), (0.080, 0.110), (0.058, 0.150), (0.036, 0.180), (0.031, 0.205), (0.036, 0.228), (0.033, 0.244), (0.018, 0.252)]
+GOURD = [
+    (0.052, 0.018),
+    (0.070, 0.034),
+    (0.083, 0.070),
+    (0.080, 0.110),
+    (0.058, 0.150),
+    (0.036, 0.180),
+    (0.031, 0.205),
+    (0.036, 0.228),
+    (0.033, 0.244),
+    (0.018, 0.252),
+]
 
 
 def make() -> Recipe:
     """The lamp; the shade is a thin open ring, so things can fall through it."""
-    foot = np.array([(0, 0), (0.076, 0.0), (0.0785, 0.0015), (0.079, 0.004), (0.078, 0.0075), (0.074, 0.0105), (0.060, 0.0130), (0.056, 0.0150), (0.054, 0.0180), (0.0, 0.0185)])
+    foot = np.array(
+        [
+            (0, 0),
+            (0.076, 0.0),
+            (0.0785, 0.0015),
+            (0.079, 0.004),
+            (0.078, 0.0075),
+            (0.074, 0.0105),
+            (0.060, 0.0130),
+            (0.056, 0.0150),
+            (0.054, 0.0180),
+            (0.0, 0.0185),
+        ]
+    )
     body = np.concatenate([[(0, 0.017)], shapes.curve(GOURD, 40), [(0, 0.2525)]])
-    neck = np.array([(0, 0.251), (0.0165, 0.251), (0.017, 0.2535), (0.0155, 0.256), (0.009, 0.258), (0.0075, 0.262), (0.0075, 0.288), (0.0125, 0.291), (0.0150, 0.295), (0.0150, 0.325), (0.0135, 0.329), (0, 0.330)])
-    bulb = np.concatenate([[(0, 0.328)], shapes.curve([(0.012, 0.329), (0.014, 0.342), (0.024, 0.365), (0.030, 0.388), (0.025, 0.410), (0.012, 0.420)], 16), [(0, 0.4215)]])
-    rod = np.array([(0, 0.42), (0.002, 0.42), (0.002, 0.488), (0.0065, 0.489), (0.0075, 0.492), (0.0065, 0.495), (0.004, 0.497), (0.0035, 0.500), (0.0085, 0.506), (0.0095, 0.511), (0.0075, 0.517), (0.003, 0.5196), (0, HEIGHT)])
+    neck = np.array(
+        [
+            (0, 0.251),
+            (0.0165, 0.251),
+            (0.017, 0.2535),
+            (0.0155, 0.256),
+            (0.009, 0.258),
+            (0.0075, 0.262),
+            (0.0075, 0.288),
+            (0.0125, 0.291),
+            (0.0150, 0.295),
+            (0.0150, 0.325),
+            (0.0135, 0.329),
+            (0, 0.330),
+        ]
+    )
+    bulb = np.concatenate(
+        [
+            [(0, 0.328)],
+            shapes.curve(
+                [(0.012, 0.329), (0.014, 0.342), (0.024, 0.365), (0.030, 0.388), (0.025, 0.410), (0.012, 0.420)], 16
+            ),
+            [(0, 0.4215)],
+        ]
+    )
+    rod = np.array(
+        [
+            (0, 0.42),
+            (0.002, 0.42),
+            (0.002, 0.488),
+            (0.0065, 0.489),
+            (0.0075, 0.492),
+            (0.0065, 0.495),
+            (0.004, 0.497),
+            (0.0035, 0.500),
+            (0.0085, 0.506),
+            (0.0095, 0.511),
+            (0.0075, 0.517),
+            (0.003, 0.5196),
+            (0, HEIGHT),
+        ]
+    )
     spokes = [
         shapes.sweep(
-            np.array([(0.003 * np.cos(a), 0.003 * np.sin(a), 0.486), ((R_HIGH - 0.001) * np.cos(a), (R_HIGH - 0.001) * np.sin(a), 0.490)]),
+            np.array(
+                [
+                    (0.003 * np.cos(a), 0.003 * np.sin(a), 0.486),
+                    ((R_HIGH - 0.001) * np.cos(a), (R_HIGH - 0.001) * np.sin(a), 0.490),
+                ]
+            ),
             shapes.arc((0, 0), 0.0016, 0, 360, 9)[:-1],
             side=(0, 0, 1),
         )
         for a in np.radians([90, 210, 330])
     ]
     slope = (R_HIGH - R_LOW) / (SHADE_HIGH - SHADE_LOW)
-    band = np.array([(R_LOW - 0.004, SHADE_LOW), (R_LOW, SHADE_LOW), (R_HIGH, SHADE_HIGH), (R_HIGH - 0.004, SHADE_HIGH)])
+    band = np.array(
+        [(R_LOW - 0.004, SHADE_LOW), (R_LOW, SHADE_LOW), (R_HIGH, SHADE_HIGH), (R_HIGH - 0.004, SHADE_HIGH)]
+    )
     brass = {"rgba": [0.80, 0.62, 0.32, 1.0], "specular": 0.9, "shininess": 0.65, "metallic": 1.0, "roughness": 0.25}
     assert slope < 0
     return Recipe(
@@ -88,7 +158,9 @@ def _shade() -> Surface:
     v = (closed[:, 1] - SHADE_LOW) / (SHADE_HIGH - SHADE_LOW)
     band = shapes.lathe(closed, 72, repeat=3, v=v)
     weld = len(band.vertices) - 72  # the last ring repeats the first
-    return Surface(band.vertices[:weld], np.where(band.faces >= weld, band.faces - weld, band.faces), band.uv, band.uv_faces)
+    return Surface(
+        band.vertices[:weld], np.where(band.faces >= weld, band.faces - weld, band.faces), band.uv, band.uv_faces
+    )
 
 
 def _glaze() -> np.ndarray:
@@ -109,4 +181,6 @@ def _linen() -> np.ndarray:
     warm = np.stack([glow**0.5, glow**0.85, glow**1.5], axis=-1)
     picture = cloth * warm
     hem = texture.edge(np.minimum(v, 1 - v) - 0.032, 0.006)
-    return texture.blend(picture, np.broadcast_to(texture.colour("#c9a468"), picture.shape) * 0.9, np.broadcast_to(hem, (size, size)))
+    return texture.blend(
+        picture, np.broadcast_to(texture.colour("#c9a468"), picture.shape) * 0.9, np.broadcast_to(hem, (size, size))
+    )

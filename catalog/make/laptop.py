@@ -26,7 +26,11 @@ def make() -> Recipe:
     lid, bezel, screen = _lid()
     base = _slab(DEEP, WIDE, THICK, 0.010).moved(0, 0, THICK / 2 + 0.0015)
     deck = THICK + 0.0015
-    feet = [shapes.lathe(np.array([(0, 0), (0.006, 0), (0.0068, 0.0008), (0.0068, 0.0018), (0, 0.0018)]), 16).moved(x, y) for x in (-0.09, 0.09) for y in (-0.13, 0.13)]
+    feet = [
+        shapes.lathe(np.array([(0, 0), (0.006, 0), (0.0068, 0.0008), (0.0068, 0.0018), (0, 0.0018)]), 16).moved(x, y)
+        for x in (-0.09, 0.09)
+        for y in (-0.13, 0.13)
+    ]
     well = _panel(BOARD_X[0], BOARD_X[1], BOARD_Y, deck + 0.0001)
     pad = _panel(0.030, 0.101, 0.056, deck + 0.0002)
     turn = rotation("y", 90 - OPEN)
@@ -52,7 +56,13 @@ def make() -> Recipe:
             Part("trackpad", pad, "trackpad", density=0),
         ],
         materials={
-            "aluminium": {"rgba": [0.70, 0.71, 0.73, 1.0], "specular": 0.55, "shininess": 0.35, "metallic": 1.0, "roughness": 0.35},
+            "aluminium": {
+                "rgba": [0.70, 0.71, 0.73, 1.0],
+                "specular": 0.55,
+                "shininess": 0.35,
+                "metallic": 1.0,
+                "roughness": 0.35,
+            },
             "rubber": {"rgba": [0.10, 0.10, 0.11, 1.0], "specular": 0.1, "shininess": 0.1},
             "black": {"rgba": [0.055, 0.055, 0.062, 1.0], "specular": 0.3, "shininess": 0.5, "roughness": 0.3},
             "screen": {"texture": "screen.png", "emission": 0.85, "specular": 0.1, "shininess": 0.6, "roughness": 0.1},
@@ -83,7 +93,9 @@ def _slab(x: float, y: float, z: float, corner: float) -> Surface:
 
 def _panel(back: float, front: float, half_width: float, z: float) -> Surface:
     """A thin flat inlay seen from above; u to the right, v to the back (for someone in front of it)."""
-    vertices = np.array([(front, -half_width, z), (front, half_width, z), (back, half_width, z), (back, -half_width, z)])
+    vertices = np.array(
+        [(front, -half_width, z), (front, half_width, z), (back, half_width, z), (back, -half_width, z)]
+    )
     faces = np.array([(0, 1, 2), (0, 2, 3)])
     return Surface(vertices, faces, np.array([(0, 0), (1, 0), (1, 1), (0, 1)], float), faces)
 
@@ -126,7 +138,10 @@ def _keys() -> tuple[Surface, np.ndarray]:
             w, middle = weight * unit, y + weight * unit / 2
             y += w
             half = np.array([(PITCH - GAP) / 2, (w - GAP) / 2])
-            rings = [np.column_stack([shapes.rounded_section(*(2 * (half - d)), 0.0018 - d, 3), np.full(12, z)]) for d, z in ((0, 0.0), (0, 0.0010), (0.0006, 0.0014))]
+            rings = [
+                np.column_stack([shapes.rounded_section(*(2 * (half - d)), 0.0018 - d, 3), np.full(12, z)])
+                for d, z in ((0, 0.0), (0, 0.0010), (0.0006, 0.0014))
+            ]
             caps.append(shapes.hull(np.concatenate(rings)).moved(x, middle, THICK + 0.0015))
             text = label.split("*")[0]
             size = 24 if len(text) == 1 else 13
@@ -153,7 +168,11 @@ def _legend(picture: np.ndarray, text: str, at: tuple[float, float], size: int) 
 def _landscape() -> np.ndarray:
     """A dawn sky over five ridges that fade with distance, and a dock of icons."""
     height, width = 400, 640
-    y, x = np.mgrid[0:height, 0:width] / (height, width) if False else np.meshgrid(np.arange(height) / height, np.arange(width) / width, indexing="ij")
+    y, x = (
+        np.mgrid[0:height, 0:width] / (height, width)
+        if False
+        else np.meshgrid(np.arange(height) / height, np.arange(width) / width, indexing="ij")
+    )
     picture = texture.ramp(y / 0.72, ["#22366f", "#5a5fa6", "#c77fa2", "#f4a878", "#ffd9a0"])
     sun = np.hypot((x - 0.64) * width / height, y - 0.50)
     picture = picture + np.exp(-((sun / 0.16) ** 2))[..., None] * np.array([0.30, 0.20, 0.08])
@@ -163,7 +182,9 @@ def _landscape() -> np.ndarray:
         line = texture.noise((1, 1024), 90 + k, slope=1.35)[0, :width]
         level = 0.55 + 0.085 * k - (0.060 - 0.004 * k) * line
         cover = texture.edge((level[None] - y) * height, 1.5)
-        haze = texture.colour(ink)[None, None] + 0.16 * np.clip((y - level[None]) / 0.2, 0, 1)[..., None] * (0.25 if k < 4 else 0.0)
+        haze = texture.colour(ink)[None, None] + 0.16 * np.clip((y - level[None]) / 0.2, 0, 1)[..., None] * (
+            0.25 if k < 4 else 0.0
+        )
         picture = texture.blend(picture, haze, cover)
     dock = _pill(x * width, y * height, width / 2, height - 25, 148, 17, 9)
     picture = texture.blend(picture, "#dfe3ee", 0.45 * texture.edge(dock, 1.5))

@@ -12,15 +12,17 @@ RADIUS, HEIGHT, WALL, FLOOR = 0.041, 0.095, 0.0042, 0.007  # m
 def make() -> Recipe:
     """The mug: wall and floor in one lathe, a swept handle sunk into the wall."""
     inner = RADIUS - WALL
-    rise = np.concatenate([
-        [(0, FLOOR)],
-        shapes.arc((inner - 0.008, FLOOR + 0.008), 0.008, -90, 0, 8),
-        np.column_stack([np.full(5, inner), np.linspace(0.02, 0.088, 5)]),
-        shapes.arc((RADIUS - WALL / 2, HEIGHT - WALL / 2), WALL / 2, 180, 0, 9),
-        np.column_stack([np.full(6, RADIUS), np.linspace(0.088, 0.012, 6)]),
-        shapes.arc((RADIUS - 0.006, 0.0075), 0.006, 0, -60, 7),
-        [(0.0355, 0.0010), (0.0345, 0.0), (0.0315, 0.0), (0.0305, 0.0010), (0.0300, 0.0025), (0, 0.0028)],
-    ])
+    rise = np.concatenate(
+        [
+            [(0, FLOOR)],
+            shapes.arc((inner - 0.008, FLOOR + 0.008), 0.008, -90, 0, 8),
+            np.column_stack([np.full(5, inner), np.linspace(0.02, 0.088, 5)]),
+            shapes.arc((RADIUS - WALL / 2, HEIGHT - WALL / 2), WALL / 2, 180, 0, 9),
+            np.column_stack([np.full(6, RADIUS), np.linspace(0.088, 0.012, 6)]),
+            shapes.arc((RADIUS - 0.006, 0.0075), 0.006, 0, -60, 7),
+            [(0.0355, 0.0010), (0.0345, 0.0), (0.0315, 0.0), (0.0305, 0.0010), (0.0300, 0.0025), (0, 0.0028)],
+        ]
+    )
     profile = rise[::-1]
     profile[[0, -1], 0] = 0
     along = np.r_[0, np.cumsum(np.linalg.norm(np.diff(profile, axis=0), axis=1))]
@@ -57,7 +59,18 @@ def make() -> Recipe:
 
 
 def _handle() -> Surface:
-    path = shapes.curve([(0.0385, 0.079), (0.050, 0.0805), (0.0635, 0.0745), (0.0695, 0.058), (0.0660, 0.040), (0.0540, 0.0265), (0.0390, 0.0225)], 28)
+    path = shapes.curve(
+        [
+            (0.0385, 0.079),
+            (0.050, 0.0805),
+            (0.0635, 0.0745),
+            (0.0695, 0.058),
+            (0.0660, 0.040),
+            (0.0540, 0.0265),
+            (0.0390, 0.0225),
+        ],
+        28,
+    )
     points = np.column_stack([np.zeros(len(path)), path])
     widen = np.interp(np.linspace(0, 1, len(path)), [0, 0.14, 0.5, 0.86, 1], [1.3, 1.0, 0.92, 0.95, 1.25])
     section = shapes.arc((0, 0), 1.0, 0, 360, 17)[:-1] * [0.0068, 0.0044]

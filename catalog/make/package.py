@@ -37,7 +37,10 @@ def files(recipe: Recipe) -> dict[str, bytes]:
         if piece.pos == (0.0, 0.0, 0.0) and id(piece.surface) not in shared:  # a lone piece is stored where it belongs
             vertices, pose = piece.surface.vertices - centre, {}
         else:
-            vertices, pose = piece.surface.vertices, {"pos": _rounded(np.array(piece.pos) - centre), "quat": _rounded(piece.quat, 6)}
+            vertices, pose = (
+                piece.surface.vertices,
+                {"pos": _rounded(np.array(piece.pos) - centre), "quat": _rounded(piece.quat, 6)},
+            )
         name = written.setdefault(id(piece.surface), f"hulls/{len(written):02d}.obj")
         out[name] = hull_text(vertices, piece.surface.faces).encode()
         collision.append({"type": "hull", **_named(piece), "file": name, **pose, **piece.contact})
@@ -78,7 +81,9 @@ def files(recipe: Recipe) -> dict[str, bytes]:
         "thumbnail": "thumbnail.png",
     }
     facts = {key: value for key, value in facts.items() if value not in ([], {}, None)}
-    header = f"# Written by `python -m catalog.make {recipe.key}`: change catalog/make/{recipe.key}.py, not this file.\n"
+    header = (
+        f"# Written by `python -m catalog.make {recipe.key}`: change catalog/make/{recipe.key}.py, not this file.\n"
+    )
     text = yaml.dump(facts, sort_keys=False, allow_unicode=True, width=120, Dumper=_Flat)
     out["asset.yaml"] = (header + text).encode()
     return out
@@ -137,5 +142,7 @@ def _mass_properties(parts: list[Part]) -> tuple[float, np.ndarray, np.ndarray]:
 def _solid(surface: Surface, name: str) -> trimesh.Trimesh:
     body = trimesh.Trimesh(surface.vertices, surface.faces, process=True)
     if not body.is_watertight or body.volume <= 0:
-        raise ValueError(f"part {name!r} has a density but is not a closed, outward surface (volume {body.volume:.3g} m^3)")
+        raise ValueError(
+            f"part {name!r} has a density but is not a closed, outward surface (volume {body.volume:.3g} m^3)"
+        )
     return body

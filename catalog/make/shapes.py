@@ -181,7 +181,10 @@ def plate(outline: manifold3d.CrossSection, low: float, high: float, bevel: floa
     flat, miter = np.concatenate(loops), np.concatenate(inward)
     count = len(flat)
     following = np.concatenate(
-        [s + (np.arange(len(p)) + 1) % len(p) for s, p in zip(np.cumsum([0] + [len(p) for p in loops[:-1]]), loops, strict=True)]
+        [
+            s + (np.arange(len(p)) + 1) % len(p)
+            for s, p in zip(np.cumsum([0] + [len(p) for p in loops[:-1]]), loops, strict=True)
+        ]
     )
     rings = [(0.0, low)]
     rings += [(bevel * (1 - np.cos(t)), high - bevel * (1 - np.sin(t))) for t in np.linspace(0, np.pi / 2, steps + 1)]

@@ -25,10 +25,14 @@ def make() -> Recipe:
         for sy in (-1, 1)
     ]
     apron = [
-        shapes.rounded_box((2 * LEG_AT[0] - LEG + 0.01, 0.022, 0.09), 0.002, 1).moved(0, s * (LEG_AT[1] + 0.012), under - 0.045).box_uv(TILE, "x", (0, 0.2 * s))
+        shapes.rounded_box((2 * LEG_AT[0] - LEG + 0.01, 0.022, 0.09), 0.002, 1)
+        .moved(0, s * (LEG_AT[1] + 0.012), under - 0.045)
+        .box_uv(TILE, "x", (0, 0.2 * s))
         for s in (-1, 1)
     ] + [
-        shapes.rounded_box((0.022, 2 * LEG_AT[1] - LEG + 0.01, 0.09), 0.002, 1).moved(s * (LEG_AT[0] + 0.012), 0, under - 0.045).box_uv(TILE, "y", (0, 0.3 * s))
+        shapes.rounded_box((0.022, 2 * LEG_AT[1] - LEG + 0.01, 0.09), 0.002, 1)
+        .moved(s * (LEG_AT[0] + 0.012), 0, under - 0.045)
+        .box_uv(TILE, "y", (0, 0.3 * s))
         for s in (-1, 1)
     ]
     return Recipe(
@@ -52,8 +56,14 @@ def make() -> Recipe:
         texture_levels={"oak.png": 64},
         collision=[
             hulls.box((LENGTH, WIDTH, TOP), (0, 0, HEIGHT - TOP / 2), name="top"),
-            *[hulls.box((2 * LEG_AT[0], 0.022, 0.09), (0, s * (LEG_AT[1] + 0.012), under - 0.045), name=n) for s, n in ((1, "apron_left"), (-1, "apron_right"))],
-            *[hulls.box((0.022, 2 * LEG_AT[1], 0.09), (s * (LEG_AT[0] + 0.012), 0, under - 0.045), name=n) for s, n in ((1, "apron_front"), (-1, "apron_back"))],
+            *[
+                hulls.box((2 * LEG_AT[0], 0.022, 0.09), (0, s * (LEG_AT[1] + 0.012), under - 0.045), name=n)
+                for s, n in ((1, "apron_left"), (-1, "apron_right"))
+            ],
+            *[
+                hulls.box((0.022, 2 * LEG_AT[1], 0.09), (s * (LEG_AT[0] + 0.012), 0, under - 0.045), name=n)
+                for s, n in ((1, "apron_front"), (-1, "apron_back"))
+            ],
             *[_leg(sx, sy, under) for sx in (1, -1) for sy in (1, -1)],
         ],
         supports=[Support("top", HEIGHT, (LENGTH - 0.04, WIDTH - 0.04), default=True)],

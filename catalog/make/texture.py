@@ -14,7 +14,9 @@ def colour(code: str) -> np.ndarray:
     return np.array([int(code[i : i + 2], 16) for i in (1, 3, 5)]) / 255
 
 
-def noise(shape: tuple[int, int], seed: int, *, slope: float = 1.0, stretch: tuple[float, float] = (1, 1)) -> np.ndarray:
+def noise(
+    shape: tuple[int, int], seed: int, *, slope: float = 1.0, stretch: tuple[float, float] = (1, 1)
+) -> np.ndarray:
     """Seamless noise (H, W), zero mean and unit deviation, with spectrum 1 / f^slope.
 
     `stretch` (across, along rows) makes features longer: (8, 1) gives horizontal streaks.
@@ -44,7 +46,9 @@ def wood(size: int, seed: int, stops: list[str], *, rings: int = 9, waviness: fl
     """Flat-sawn wood with the grain along u, seamless; `rings` growth lines across the tile."""
     shape = (size, size)
     y = np.arange(size)[:, None] / size
-    bend = noise(shape, seed, slope=2.0, stretch=(5, 1)) * 0.16 + noise(shape, seed + 1, slope=1.6, stretch=(14, 1)) * 0.03
+    bend = (
+        noise(shape, seed, slope=2.0, stretch=(5, 1)) * 0.16 + noise(shape, seed + 1, slope=1.6, stretch=(14, 1)) * 0.03
+    )
     phase = (y * rings + waviness * rings * 0.5 * bend) % 1.0
     growth = np.where(phase < 0.82, phase / 0.82, 1 - (phase - 0.82) / 0.18) ** 1.6
     fibre = noise(shape, seed + 2, slope=0.55, stretch=(40, 1))
@@ -66,11 +70,15 @@ def weave(size: int, seed: int, threads: int, stops: list[str]) -> np.ndarray:
     over = (np.floor(x) + np.floor(y)) % 2
     fx, fy = np.abs(np.sin(np.pi * x)), np.abs(np.sin(np.pi * y))
     height = np.where(over == 0, fy * (0.6 + 0.4 * fx), fx * (0.6 + 0.4 * fy))
-    slub = noise((size, size), seed, slope=0.8, stretch=(6, 1)) + noise((size, size), seed + 1, slope=0.8, stretch=(1, 6))
+    slub = noise((size, size), seed, slope=0.8, stretch=(6, 1)) + noise(
+        (size, size), seed + 1, slope=0.8, stretch=(1, 6)
+    )
     return ramp(0.25 + 0.5 * height + 0.06 * slub, stops)
 
 
-def lettering(picture: np.ndarray, text: str, centre: tuple[float, float], size: float, ink: str, weight: int = 700) -> np.ndarray:
+def lettering(
+    picture: np.ndarray, text: str, centre: tuple[float, float], size: float, ink: str, weight: int = 700
+) -> np.ndarray:
     """A copy with `text` set in the bundled sans face, centred at pixel (x, y), `size` pixels high, four times sampled."""
     height, width = picture.shape[:2]
     k = 4
@@ -102,7 +110,8 @@ def sphere_directions(height: int, width: int) -> np.ndarray:
     longitude = (np.arange(width) + 0.5) / width * 2 * np.pi
     c = np.cos(latitude)[:, None]
     return np.stack(
-        [c * np.cos(longitude), c * np.sin(longitude), np.broadcast_to(np.sin(latitude)[:, None], (height, width))], axis=-1
+        [c * np.cos(longitude), c * np.sin(longitude), np.broadcast_to(np.sin(latitude)[:, None], (height, width))],
+        axis=-1,
     )
 
 

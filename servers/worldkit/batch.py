@@ -32,7 +32,8 @@ class Batch:
         self.nefc = np.zeros(capacity, np.int32)
         self.eq_residual = np.zeros((capacity, model.neq))
         # Views into MjData stay valid for its lifetime, except those of the contact and constraint arena.
-        self.before: list[tuple[str, np.ndarray, np.ndarray]] = self._mirror(
+        self._buffers: dict[str, np.ndarray] = {}
+        self.before = self._mirror(
             {
                 **{name: getattr(data, name) for name in PLAIN if name not in ("actuator_force", "sensordata")},
                 "xpos": data.xpos[1:],
@@ -44,7 +45,7 @@ class Batch:
                 "angmom": data.subtree_angmom[0],
             }
         )
-        self.after: list[tuple[str, np.ndarray, np.ndarray]] = self._mirror(
+        self.after = self._mirror(
             {
                 "actuator_force": data.actuator_force,
                 "sensordata": data.sensordata,
@@ -59,22 +60,20 @@ class Batch:
         self.efc_force = np.empty(4096)
         self.efc_count = 0
 
-    def _mirror(self, sources: "dict[str, np.ndarray]") -> "list[tuple[str, np.ndarray, np.ndarray]]":
-        """(name, buffer, source) of every source that has numbers."""
+    def _mirror(self, sources: "dict[str, np.ndarray]") -> "list[tuple[np.ndarray, np.ndarray]]":
+        """(buffer, source) of every source that has numbers; all buffers become known by name."""
         import numpy as np
 
-        return [
-            (name, np.empty((self.capacity, *source.shape), source.dtype), source)
-            for name, source in sources.items()
-            if source.size
-        ]
+        pairs = []
+        for name, source in sources.items():
+            self._buffers[name] = np.empty((self.capacity, *source.shape), source.dtype)
+            if source.size:
+                pairs.append((self._buffers[name], source))
+        return pairs
 
-    def buffer(self, name: str) -> "np.ndarray | None":
-        """The filled rows of a mirrored array; None when it has no numbers."""
-        for key, buffer, _ in (*self.before, *self.after):
-            if key == name:
-                return buffer[: self.rows]
-        return None
+    def buffer(self, name: str) -> "np.ndarray":
+        """The filled rows of a mirrored array."""
+        return self._buffers[name][: self.rows]
 
     def add_contacts(self, row: int, data: "mujoco.MjData") -> None:
         """Append this step's contacts and constraint forces (strided copies, no loop over contacts)."""

@@ -15,7 +15,10 @@ How two surfaces mix, by MuJoCo's rules for geoms of equal priority (manual, "Co
 
 How long a contact lasts and how deep it gets is set by `time_constant` (1 / sqrt(k)): a body arriving at speed `v`
 dips in by about `v * time_constant` and leaves after about `3 * time_constant`. The default suits time steps up to
-2 ms; `time_constant=2 * TIME_STEP` is the stiffest contact that a time step resolves (rebound within about 3 %).
+2 ms; `time_constant=2 * TIME_STEP` is the stiffest contact that a time step resolves. Where within a step a body
+arrives is chance, and the fewer steps a contact lasts, the more it matters: over all arrivals the rebound was within
+0.04 of the stated ratio at eight steps to a time constant, 0.05 at four, 0.11 at two, and within 0.015, 0.03 and 0.07
+for restitutions above 0.7. Four is a good choice: `time_constant=4 * TIME_STEP`.
 
 What to know:
     The `discrete` integrator damps the contact spring itself: rebounds come out lower than asked for (measured with a

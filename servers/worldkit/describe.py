@@ -14,7 +14,7 @@ def fingerprint(model: "mujoco.MjModel") -> str:
 
     buffer = np.empty(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, buffer)
-    return hashlib.sha256(buffer).hexdigest()
+    return hashlib.sha256(buffer.data).hexdigest()
 
 
 def names(model: "mujoco.MjModel", kind: str, count: int) -> list[str]:
@@ -49,7 +49,9 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             "disabled": _flags(mujoco.mjtDisableBit, "mjDSBL_", options.disableflags),
             "enabled": _flags(mujoco.mjtEnableBit, "mjENBL_", options.enableflags),
         },
-        "sizes": {k: int(getattr(model, k)) for k in ("nq", "nv", "na", "nu", "nmocap", "neq", "nsensordata", "nplastic")},
+        "sizes": {
+            k: int(getattr(model, k)) for k in ("nq", "nv", "na", "nu", "nmocap", "neq", "nsensordata", "nplastic")
+        },
         "option": {
             "density": float(options.density),
             "viscosity": float(options.viscosity),
@@ -74,8 +76,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             for t, name in enumerate(names(model, "tendon", model.ntendon))
         ],
         "actuators": [
-            {"name": name, "bodies": pulled["actuator"][a]}
-            for a, name in enumerate(names(model, "actuator", model.nu))
+            {"name": name, "bodies": pulled["actuator"][a]} for a, name in enumerate(names(model, "actuator", model.nu))
         ],
         "sensors": [
             {
@@ -179,7 +180,11 @@ def pulled_bodies(model: "mujoco.MjModel") -> dict[str, list[list[str]]]:
 
 def _flags(enum: Any, prefix: str, bits: int) -> list[str]:
     """Names of the bits that are set."""
-    return [name.removeprefix(prefix).lower() for name, bit in enum.__members__.items() if name.startswith(prefix) and bits & bit.value]
+    return [
+        name.removeprefix(prefix).lower()
+        for name, bit in enum.__members__.items()
+        if name.startswith(prefix) and bits & bit.value
+    ]
 
 
 def _model_name(model: "mujoco.MjModel") -> str:

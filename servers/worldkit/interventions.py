@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from .columns import VALUES
 from .describe import names
+from .pushes import Event, Pushes, owners, twist
 from .watch import Watch, owner_of
 
 if TYPE_CHECKING:
@@ -30,9 +31,6 @@ CALLBACKS = (
 """Engine callbacks that can change the motion (`mjcb_…`)."""
 MOST_ELEMENTS = 64
 """Elements listed of one model array edited at one instant."""
-
-Event = Callable[..., None]
-"""`Recorder.event`: table name, then values in the order of its columns."""
 
 
 class Ledger:
@@ -74,12 +72,8 @@ class Ledger:
         self._bodies = names(model, "body", model.nbody)
         self._joints = names(model, "joint", model.njnt)
         self._equalities = names(model, "equality", model.neq)
-        self._actuators = self._actuator_targets()
+        self._pushes = Pushes(model, data, event)
         self._callbacks: tuple[Any, ...] = (None,) * len(CALLBACKS)
-        self._pushes: list[tuple[float, str, str, int, np.ndarray, np.ndarray]] = []
-        self._joint_pushes: list[tuple[float, str, str, int, np.ndarray, np.ndarray]] = []
-        self._driven: tuple[float, np.ndarray, np.ndarray, np.ndarray] | None = None
-        self._carried: list[tuple[float, int, np.ndarray]] = []
         self.check_callbacks()
 
     # -- callbacks ---------------------------------------------------------------------------------------------------
@@ -120,12 +114,10 @@ class Ledger:
         if self._new[self._inputs].tobytes() == self._idle and not old.any():
             return called_back
         if self._new[part["XFRC_APPLIED"]].any():
-            self._external()
+            self._pushes.external()
         if self._new[part["QFRC_APPLIED"]].any():
-            self._generalised()
-        which = ((new != 0) | (new != old)).nonzero()[0]
-        if len(which):
-            self._driven = (self._data.time, which, new[which].copy(), self._data.actuator_velocity[which].copy())
+            self._pushes.generalised()
+        self._pushes.controls(((new != 0) | (new != old)).nonzero()[0])
         return called_back
 
     def _state(self) -> None:
@@ -148,7 +140,7 @@ class Ledger:
         for mocap in sorted({*(poses // 3), *(turns // 4)}):
             body = int(np.flatnonzero(self._model.body_mocapid == mocap)[0])
             moved = self._displacement(body)
-            self._carried.append((self._data.time, body, moved))
+            self._pushes.carried(body, moved)
         for equality in switched:
             value = self._new[self._part["EQ_ACTIVE"]][equality]
             self._record("constraint", self._equalities[equality], (value,))
@@ -165,6 +157,7 @@ class Ledger:
             self._past = mujoco.MjData(self._model)
         mujoco.mj_setState(self._model, self._past, self._old, self._signature)
         mujoco.mj_fwdKinematics(self._model, self._past)
+        mujoco.mj_makeM(self._model, self._past)
         mujoco.mj_comVel(self._model, self._past)
         mujoco.mj_energyPos(self._model, self._past)
         mujoco.mj_energyVel(self._model, self._past)
@@ -175,8 +168,8 @@ class Ledger:
 
         model, data, past = self._model, self._data, self._past
         assert past is not None
-        moved = _owners(model.jnt_qposadr, positions)
-        pushed = _owners(model.jnt_dofadr, velocities)
+        moved = owners(model.jnt_qposadr, positions)
+        pushed = owners(model.jnt_dofadr, velocities)
         written = sorted({*moved, *pushed})
         carrier = np.full(model.nbody, -1)
         for joint in written:
@@ -193,7 +186,8 @@ class Ledger:
             potential, motion = float(fallen[share].sum()), float(gained[share].sum())
             if alone:  # then springs count too
                 potential, motion = (float(x) for x in data.energy - past.energy)
-            target = self._bodies[body] if model.body_jntnum[body] == 1 else f"{self._bodies[body]}/{self._joints[joints[0]]}"
+            own = self._bodies[body]
+            target = own if model.body_jntnum[body] == 1 else f"{own}/{self._joints[joints[0]]}"
             pose, speed = any(j in moved for j in joints), any(j in pushed for j in joints)
             if pose:
                 self._record("pose", target, self._displacement(body), potential if speed else potential + motion)
@@ -219,7 +213,7 @@ class Ledger:
         import numpy as np
 
         assert self._past is not None
-        return np.asarray(_twist(self._model, self._data, body) - _twist(self._model, self._past, body))
+        return np.asarray(twist(self._model, self._data, body) - twist(self._model, self._past, body))
 
     def _parameters(self, edit: Any) -> None:
         """A model array was edited: every value is kept for the replay; what touches the motion is an intervention."""
@@ -230,112 +224,18 @@ class Ledger:
             for target, _, values in owner_of(self._model, edit)[:MOST_ELEMENTS]:
                 self._record("parameter", target, values)
 
-    # -- what pushes -------------------------------------------------------------------------------------------------
-
-    def _external(self) -> None:
-        """`xfrc_applied`: forces and torques on bodies, at their centres of mass, world frame."""
-        import numpy as np
-
-        model, data = self._model, self._data
-        wrench = data.xfrc_applied
-        for body in np.flatnonzero(wrench.any(axis=1)):
-            twist = _twist(model, data, body)
-            self._push(self._bodies[body], int(body), wrench[body], twist)
-
-    def _push(self, target: str, body: int, wrench: "np.ndarray", twist: "np.ndarray") -> None:
-        import numpy as np
-
-        for kind, part in (("force", slice(0, 3)), ("torque", slice(3, 6))):
-            if wrench[part].any():
-                value = np.zeros(VALUES)
-                value[part] = wrench[part]
-                self._pushes.append((self._data.time, kind, target, body, value, twist))
-
-    def _generalised(self) -> None:
-        """`qfrc_applied`: told as the force or torque on the body that owns the joint, world frame."""
-        import mujoco
-        import numpy as np
-
-        model, data = self._model, self._data
-        force = data.qfrc_applied
-        for joint in _owners(model.jnt_dofadr, np.flatnonzero(force)):
-            kind = mujoco.mjtJoint(model.jnt_type[joint])
-            body, first = int(model.jnt_bodyid[joint]), int(model.jnt_dofadr[joint])
-            rotation = data.xmat[body].reshape(3, 3)
-            target = self._bodies[body] if model.body_jntnum[body] == 1 else f"{self._bodies[body]}/{self._joints[joint]}"
-            parts: list[tuple[str, int, np.ndarray]] = []
-            if kind == mujoco.mjtJoint.mjJNT_FREE:
-                parts.append(("force", first, force[first : first + 3]))
-                parts.append(("torque", first + 3, rotation @ force[first + 3 : first + 6]))
-            elif kind == mujoco.mjtJoint.mjJNT_BALL:
-                parts.append(("torque", first, rotation @ force[first : first + 3]))
-            else:
-                word = "torque" if kind == mujoco.mjtJoint.mjJNT_HINGE else "force"
-                parts.append((word, first, data.xaxis[joint] * force[first]))
-            width = 1 if kind in (mujoco.mjtJoint.mjJNT_HINGE, mujoco.mjtJoint.mjJNT_SLIDE) else 3
-            for word, dof, vector in parts:
-                if vector.any():
-                    value = np.zeros(VALUES)
-                    value[slice(0, 3) if word == "force" else slice(3, 6)] = vector
-                    dofs = slice(dof, dof + width)
-                    # Forces and velocities of joints are dual: their product is the power, whatever their frame.
-                    pair = np.stack((force[dofs], data.qvel[dofs]))
-                    self._joint_pushes.append((data.time, word, target, dof, value, pair))
-
     def reacted(self) -> None:
-        """With forces computed: what the world does to the mocap bodies that were moved."""
-        import mujoco
-
-        if self._driven is not None:
-            time, which, control, speed = self._driven
-            self._driven_force = self._data.actuator_force[which].copy()
-        if not self._carried:
-            return
-        mujoco.mj_rnePostConstraint(self._model, self._data)
-        for time, body, moved in self._carried:
-            torque, force = self._data.cfrc_ext[body, :3], self._data.cfrc_ext[body, 3:]
-            work = -float(force @ moved[:3] + torque @ moved[3:])
-            self._event("interventions", time, "mocap", self._bodies[body], tuple(moved), work)
-        self._carried.clear()
+        """Forces are computed: see `Pushes.reacted`."""
+        self._pushes.reacted()
 
     def settle(self) -> None:
-        """With the next velocities computed: the work of what pushed during the step."""
-        import numpy as np
-
-        if not (self._pushes or self._joint_pushes or self._driven):
-            return
-        model, data = self._model, self._data
-        for time, kind, target, body, value, twist in self._pushes:
-            mean = (twist + _twist(model, data, body)) / 2
-            work = float(value @ mean) * (data.time - time)
-            self._event("interventions", time, kind, target, tuple(value), work)
-        for time, kind, target, dof, value, (force, speed) in self._joint_pushes:
-            mean = (speed + data.qvel[dof : dof + len(force)]) / 2
-            self._event("interventions", time, kind, target, tuple(value), float(force @ mean) * (data.time - time))
-        if self._driven is not None:
-            time, which, control, speed = self._driven
-            work = self._driven_force * (speed + data.actuator_velocity[which]) / 2 * (data.time - time)
-            for i, actuator in enumerate(which):
-                value = (float(control[i]), float(self._driven_force[i]), *(0.0,) * (VALUES - 2))
-                self._event("interventions", time, "control", self._actuators[actuator], value, float(work[i]))
-        self._pushes.clear()
-        self._joint_pushes.clear()
-        self._driven = None
-
-    # -- small things ------------------------------------------------------------------------------------------------
+        """The next velocities are computed: see `Pushes.settle`."""
+        self._pushes.settle()
 
     def _record(self, kind: str, target: str, value: Any = (), work: float = 0.0) -> None:
         numbers = [float(v) for v in value][:VALUES]
         numbers += [0.0] * (VALUES - len(numbers))
         self._event("interventions", self._data.time, kind, target, tuple(numbers), work)
-
-    def _actuator_targets(self) -> list[str]:
-        """`body/actuator` for an actuator that moves one body's joint, else its own name."""
-        from .describe import pulled_bodies
-
-        own = names(self._model, "actuator", self._model.nu)
-        pulled = pulled_bodies(self._model)["actuator"]
-        return [f"{p[0]}/{n}" if len(p) == 1 else n for n, p in zip(own, pulled, strict=True)]
 
 
 def installed_callbacks() -> tuple[Any, ...]:
@@ -371,19 +271,3 @@ def kinetic(model: "mujoco.MjModel", data: "mujoco.MjData") -> "np.ndarray":
     linear = velocity_at(data.xipos, data.cvel, data.subtree_com[model.body_rootid])
     local = np.einsum("bji,bj->bi", data.ximat.reshape(-1, 3, 3), data.cvel[:, :3])
     return np.asarray((model.body_mass * (linear**2).sum(axis=1) + (model.body_inertia * local**2).sum(axis=1)) / 2)
-
-
-def _twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndarray":
-    """(6,) linear velocity of a body's centre of mass and its angular velocity, world frame."""
-    import numpy as np
-
-    spin, linear = data.cvel[body, :3], data.cvel[body, 3:]
-    arm = data.xipos[body] - data.subtree_com[model.body_rootid[body]]
-    return np.concatenate((linear + np.cross(spin, arm), spin))
-
-
-def _owners(addresses: "np.ndarray", indices: "np.ndarray") -> list[int]:
-    """Which joints own these entries of qpos or qvel, given each joint's first address."""
-    import numpy as np
-
-    return [int(j) for j in np.unique(np.searchsorted(addresses, indices, side="right") - 1)]

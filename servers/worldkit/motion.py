@@ -90,7 +90,9 @@ def _joint(model: "mujoco.MjModel", name: str) -> int:
         cause = f"body {name!r} has {has}"
     else:
         cause = f"there is no body or joint {name!r}"
-    raise ValueError(f"motion.launch: {cause}; bodies: {', '.join(free) or 'none'}; joints: {', '.join(joints) or 'none'}")
+    raise ValueError(
+        f"motion.launch: {cause}; bodies: {', '.join(free) or 'none'}; joints: {', '.join(joints) or 'none'}"
+    )
 
 
 def _check(name: str, motion: Launch, kind: "mujoco.mjtJoint") -> None:

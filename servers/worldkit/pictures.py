@@ -21,14 +21,19 @@ Ticker = Callable[[int, int], object]
 
 
 def stills(
-    model: "mujoco.MjModel", recording: "Recording", names: Sequence[str], out: Path, size: tuple[int, int], tick: Ticker
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    names: Sequence[str],
+    out: Path,
+    size: tuple[int, int],
+    tick: Ticker,
 ) -> dict[str, Any]:
     """`<camera>.png` of the first recorded row, and `visibility.json`: what each camera sees of each body."""
     from . import cameras, render
 
     names = choose_cameras(model, names)
     replay = Replay(model, recording)
-    cameras.aim(model, recording.pos)
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     visibility = {}
     with render.Frames(model, *size) as frames:
         data = replay.show(0)
@@ -55,7 +60,7 @@ def video(
 
     names = choose_cameras(model, names)
     replay = Replay(model, recording)
-    cameras.aim(model, recording.pos)
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     rows = frame_rows(recording.time, fps)
     total = len(rows) * len(names)
     with ExitStack() as stack:

@@ -65,8 +65,7 @@ class Recorder:
             raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
         sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
         self.columns = state_columns(sizes)
-        self._moving = model.body_treeid[1:] >= 0
-        self._mass = np.where(self._moving, model.body_mass[1:], 0.0)
+        self._mass = np.where(model.body_treeid[1:] >= 0, model.body_mass[1:], 0.0)
         self._root = model.body_rootid[1:]
         self._momentum = mujoco.mj_subtreeVel
         row_bytes = 8 * (model.nq + model.nv + 22 * model.nbody + 200)
@@ -113,13 +112,13 @@ class Recorder:
         batch, row = self._batch, self._batch.rows
         self._momentum(self._model, self._data)
         batch.time[row] = self._data.time
-        for _, buffer, source in batch.before:
+        for buffer, source in batch.before:
             buffer[row] = source
 
     def after(self) -> None:
         """Copy what derives from forces (after `mj_step2`, or after `mj_forward`), and end the row."""
         batch, row, data = self._batch, self._batch.rows, self._data
-        for _, buffer, source in batch.after:
+        for buffer, source in batch.after:
             buffer[row] = source
         batch.nisland[row] = data.nisland
         batch.add_contacts(row, data)
@@ -190,8 +189,7 @@ class Recorder:
         if batch.rows:
             columns = self._columns(batch)
             for name in HASHED:
-                if columns.get(name) is not None:
-                    self._hashes[name].update(columns[name])
+                self._hashes[name].update(columns[name].data)
             self._streams["state"].write(columns)
             if batch.contact_count:
                 contacts = self._contacts(batch)
@@ -207,26 +205,22 @@ class Recorder:
         import numpy as np
 
         n = batch.rows
-        columns = {"time": batch.time[:n], "ncon": batch.ncon[:n], "eq_residual": batch.eq_residual[:n]}
-        for name in PLAIN:
-            columns[name] = batch.buffer(name)
+        columns = {name: batch.buffer(name) for name in PLAIN}
+        columns |= {"time": batch.time[:n], "ncon": batch.ncon[:n], "eq_residual": batch.eq_residual[:n]}
         iterations, islands = batch.buffer("solver_niter"), np.maximum(batch.nisland[:n], 1)
         used = np.arange(iterations.shape[1]) < islands[:, None]
         columns["solver_niter"] = np.where(used, iterations, 0).max(axis=1).astype(np.int32)
-        total = float(self._model.body_subtreemass[0])
-        columns["linmom"] = batch.buffer("linvel") * total
-        columns["angmom"] = batch.buffer("angmom")
-        pos, com, cvel = batch.buffer("xpos"), batch.buffer("xipos"), batch.buffer("cvel")
-        if pos is not None:
-            trees = batch.buffer("subtree_com")
-            centre = trees[:, self._root]
-            columns |= {"pos": pos, "quat": batch.buffer("xquat")}
+        momentum = batch.buffer("linvel") * float(self._model.body_subtreemass[0])
+        columns |= {"linmom": momentum, "angmom": batch.buffer("angmom")}
+        columns |= {"pos": batch.buffer("xpos"), "quat": batch.buffer("xquat")}
+        if len(self._root):
+            cvel, trees = batch.buffer("cvel"), batch.buffer("subtree_com")
             columns["angvel"] = np.ascontiguousarray(cvel[..., :3])
-            columns["linvel"] = derive.velocity_at(pos, cvel, centre)
+            columns["linvel"] = derive.velocity_at(columns["pos"], cvel, trees[:, self._root])
             if moving := float(self._mass.sum()):
                 # The engine's angular momentum is about the centre of everything, scenery included.
-                own = np.einsum("nbi,b->ni", com, self._mass) / moving
-                columns["angmom"] = derive.angular_momentum(columns["angmom"], trees[:, 0], own, columns["linmom"])
+                own = np.einsum("nbi,b->ni", batch.buffer("xipos"), self._mass) / moving
+                columns["angmom"] = derive.angular_momentum(columns["angmom"], trees[:, 0], own, momentum)
         return columns
 
     def _contacts(self, batch: Batch) -> "dict[str, np.ndarray]":

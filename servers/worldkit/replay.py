@@ -37,11 +37,15 @@ class Replay:
             raise RecordingError("the recording has no rows", str(recording.folder), "run the physics pass again")
         self.model, self.recording = model, recording
         self.data = mujoco.MjData(model)
-        self.same_model = True
         self._columns = [(getattr(self.data, name), getattr(recording, name)) for name in STATE]
-        self._edits = recording.edits
-        self._next_edit = 0
-        self._undo: list[tuple[str, int, float]] = []
+        edits = recording.edits
+        # Options do not show: gravity or a time step has no business in a replay.
+        self._edits = [
+            (int(row), str(array), int(index), float(value))
+            for row, array, index, value in zip(edits.row, edits.array, edits.index, edits.value, strict=True)
+            if not array.startswith("opt.")
+        ]
+        self._applied: list[tuple[np.ndarray, int, float]] = []
 
     def show(self, row: int) -> "mujoco.MjData":
         """The data at a recorded row, ready to be drawn."""
@@ -56,27 +60,15 @@ class Replay:
         return data
 
     def _apply_edits(self, row: int) -> None:
-        """Bring the model's arrays to what they were at this row."""
-        edits = self._edits
-        if not len(edits):
-            return
-        rows = edits.row
-        while self._next_edit > 0 and rows[self._next_edit - 1] > row:
-            self._next_edit -= 1
-            array, index, value = self._undo.pop()
-            getattr(self.model, array).reshape(-1)[index] = value
-        while self._next_edit < len(edits) and rows[self._next_edit] <= row:
-            name, index = str(edits.array[self._next_edit]), int(edits.index[self._next_edit])
-            # Options do not show, and gravity or a time step has no business in a replay.
-            if name.startswith("opt."):
-                name, index = "body_mass", 0
-                value = float(self.model.body_mass[0])
-            else:
-                value = float(edits.value[self._next_edit])
-            flat = getattr(self.model, name).reshape(-1)
-            self._undo.append((name, index, flat[index].item()))
+        """Bring the model's arrays to what they were at this row, forwards or backwards."""
+        while self._applied and self._edits[len(self._applied) - 1][0] > row:
+            flat, index, old = self._applied.pop()
+            flat[index] = old
+        while len(self._applied) < len(self._edits) and self._edits[len(self._applied)][0] <= row:
+            _, array, index, value = self._edits[len(self._applied)]
+            flat = getattr(self.model, array).reshape(-1)
+            self._applied.append((flat, index, flat[index].item()))
             flat[index] = value
-            self._next_edit += 1
 
 
 def check_same_world(model: "mujoco.MjModel", recording: "Recording") -> None:
@@ -91,7 +83,9 @@ def check_same_world(model: "mujoco.MjModel", recording: "Recording") -> None:
         raise RecordingError(f"the recording is of another world; they differ in {', '.join(odd[:5])}", place, remedy)
     for name, size in recording.meta["sizes"].items():
         if getattr(model, name) != size:
-            raise RecordingError(f"the recording has {name} = {size}, this world has {getattr(model, name)}", place, remedy)
+            raise RecordingError(
+                f"the recording has {name} = {size}, this world has {getattr(model, name)}", place, remedy
+            )
 
 
 def frame_rows(time: "np.ndarray", fps: float) -> "np.ndarray":

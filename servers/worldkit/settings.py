@@ -55,26 +55,26 @@ class Setting:
 
 STUDIO = Setting(
     name="studio", index=0, floor="backdrop",
-    key=Light(-52.0, 52.0, (2.35, 2.20, 2.00)), key_spread=0.15,
-    fills=(Light(-165.0, 28.0, (0.20, 0.24, 0.30)), Light(75.0, 34.0, (0.52, 0.50, 0.50))),
+    key=Light(-122.0, 50.0, (2.35, 2.20, 2.00)), key_spread=0.15,
+    fills=(Light(10.0, 26.0, (0.24, 0.27, 0.31)), Light(128.0, 34.0, (0.52, 0.50, 0.50))),
     sky=1.0, exposure=0.86, fade=(2.6, 7.5), pool=(1.6, 4.5), haze_m=0.0, vignette=0.26, key_in_sky=True,
 )  # fmt: skip
 ROOM = Setting(
     name="room", index=1, floor="wood_planks",
-    key=Light(-38.0, 46.0, (2.30, 2.12, 1.86)), key_spread=0.12,
-    fills=(Light(150.0, 35.0, (0.20, 0.22, 0.25)),),
+    key=Light(-118.0, 46.0, (2.30, 2.12, 1.86)), key_spread=0.12,
+    fills=(Light(20.0, 32.0, (0.24, 0.26, 0.29)),),
     sky=1.0, exposure=0.92, fade=(1e6, 2e6), pool=(1e6, 2e6), haze_m=0.0, vignette=0.24, key_in_sky=False,
 )  # fmt: skip
 OUTDOOR = Setting(
     name="outdoor", index=2, floor="grass",
-    key=Light(-58.0, 43.0, (3.1, 2.85, 2.45)), key_spread=0.03,
+    key=Light(-128.0, 42.0, (3.1, 2.85, 2.45)), key_spread=0.03,
     fills=(),
-    sky=1.0, exposure=0.78, fade=(1e6, 2e6), pool=(1e6, 2e6), haze_m=170.0, vignette=0.14, key_in_sky=False,
+    sky=1.0, exposure=0.78, fade=(1e6, 2e6), pool=(1e6, 2e6), haze_m=300.0, vignette=0.14, key_in_sky=False,
 )  # fmt: skip
 DARK = Setting(
     name="dark", index=3, floor="slate",
-    key=Light(-55.0, 50.0, (1.35, 1.42, 1.60)), key_spread=0.07,
-    fills=(Light(110.0, 24.0, (0.60, 0.42, 0.28)), Light(-150.0, 20.0, (0.10, 0.16, 0.32))),
+    key=Light(-125.0, 48.0, (1.35, 1.42, 1.60)), key_spread=0.07,
+    fills=(Light(95.0, 24.0, (0.60, 0.42, 0.28)), Light(10.0, 20.0, (0.12, 0.17, 0.32))),
     sky=1.0, exposure=1.0, fade=(2.0, 7.0), pool=(1.2, 3.6), haze_m=0.0, vignette=0.40, key_in_sky=False,
 )  # fmt: skip
 

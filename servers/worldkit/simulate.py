@@ -8,9 +8,9 @@ computes forces and advances the state, leaving poses, velocities of bodies, con
 implicitfast, discrete); recording changes nothing.
 
 RK4 has no such halves (`mj_step2` would silently take an Euler step), and it leaves the last stage's contacts behind.
-There the forces of the row are computed at the row's own state, and a whole `mj_step` follows from the same state, again
-bit for bit. `control` is asked once a step and held over its stages; a law that must be asked at every stage belongs
-into an engine callback.
+There the forces of the row are computed at the row's own state, and a whole `mj_step` follows from the same state,
+again bit for bit. `control` is asked once a step and held over its stages; a law that must be asked at every stage
+belongs into an engine callback.
 
 Sleeping islands: contacts inside an island that sleeps are not computed by the engine, so they are not in the row.
 Speculative contacts: their depth is the solver's stand-in, not a measured overlap, and mostly negative.
@@ -76,8 +76,8 @@ def simulate(
 
     for step in range(steps):
         row = every == 1 or step % every == 0
-        watched = called_back and ledger is not None
-        if watched:
+        watched = called_back
+        if ledger is not None and watched:
             ledger.watch()  # a callback acts inside mj_step1
         step1(model, data)
         if ledger is not None:
@@ -144,12 +144,15 @@ def _blow_up(model: "mujoco.MjModel", data: "mujoco.MjData") -> DivergedError:
             sick[dof] = True
     severity = np.where(sick, np.nan_to_num(np.abs(data.qacc), nan=np.inf), -1.0)
     dof = int(np.argmax(severity))
-    body = mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, int(model.dof_bodyid[dof])) or f"body {model.dof_bodyid[dof]}"
+    body = (
+        mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_BODY, int(model.dof_bodyid[dof]))
+        or f"body {model.dof_bodyid[dof]}"
+    )
     others = len(set(model.dof_bodyid[sick])) - 1
     also = f" (and {others} more)" if others > 0 else ""
     return DivergedError(
         f"the simulation blew up at t = {data.time:.4f} s: {body}{also} has an acceleration of {data.qacc[dof]:.3g}",
         body,
-        "look at the last recorded rows of that body: halve the time step, soften or separate what it touches, or check "
-        "the forces and velocities that act on it",
+        "look at the last recorded rows of that body: halve the time step, soften or separate what it touches, or "
+        "check the forces and velocities that act on it",
     )

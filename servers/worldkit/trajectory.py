@@ -13,7 +13,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .columns import SCHEMA_VERSION, TABLES, Column, from_meta
+from .columns import SCHEMA_VERSION, Column, from_meta
 from .derive import cross
 from .errors import RecordingError
 from .record import HASHED, combine
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     import numpy as np
     import pyarrow as pa
 
+RECORD = "record with `python simulation.py --pass physics --out DIR`"
 __all__ = ["Recording", "RecordingError", "Table", "digest", "open"]
 
 
@@ -85,7 +86,9 @@ class Recording:
 
     def __init__(self, folder: Path | str) -> None:
         self.folder = Path(folder)
-        self.meta: dict[str, Any] = _json(self.folder / "meta.json", "this is not a recording, or it ended before it began")
+        self.meta: dict[str, Any] = _json(
+            self.folder / "meta.json", "this is not a recording, or it ended before it began"
+        )
         if self.meta.get("schema") != SCHEMA_VERSION:
             raise RecordingError(
                 f"the recording has schema {self.meta.get('schema')!r}, this version reads {SCHEMA_VERSION}",
@@ -196,7 +199,7 @@ class Recording:
         return known.index(name)
 
 
-def open(folder: Path | str) -> Recording:  # noqa: A001 (reads as trajectory.open)
+def open(folder: Path | str) -> Recording:
     """Open a recording folder; raises `RecordingError` when it is missing, foreign or damaged."""
     return Recording(folder)
 
@@ -210,7 +213,7 @@ def digest(recording: Recording) -> str:
     import numpy as np
 
     def column(name: str) -> str:
-        return hashlib.sha256(np.ascontiguousarray(getattr(recording, name))).hexdigest()
+        return hashlib.sha256(np.ascontiguousarray(getattr(recording, name)).data).hexdigest()
 
     return combine({name: column(name) for name in HASHED})
 
@@ -243,7 +246,7 @@ def _json(path: Path, meaning: str) -> dict[str, Any]:
     try:
         value = json.loads(path.read_bytes())
     except (OSError, ValueError) as failure:
-        raise RecordingError(f"{meaning} ({failure})", str(path), "record with `python simulation.py --pass physics`") from failure
+        raise RecordingError(f"{meaning} ({failure})", str(path), RECORD) from failure
     if not isinstance(value, dict):
-        raise RecordingError(meaning, str(path), "record with `python simulation.py --pass physics`")
+        raise RecordingError(meaning, str(path), RECORD)
     return value

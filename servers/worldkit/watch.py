@@ -6,6 +6,7 @@ few microseconds this takes do not depend on how many arrays there are.
 
 import operator
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -68,9 +69,11 @@ class Watch:
             self._add_block(run)
         options = {name: getattr(model.opt, name) for name in OPTIONS if hasattr(model.opt, name)}
         # Arrays are views into the model's options, which stay where they are; numbers are asked for anew.
-        self._option_arrays = {name: value for name, value in options.items() if isinstance(value, np.ndarray)}
-        self._option_numbers = tuple(name for name in options if name not in self._option_arrays)
-        self._ask = operator.attrgetter(*self._option_numbers)
+        arrays_of_options = {name: value for name, value in options.items() if isinstance(value, np.ndarray)}
+        numbers = tuple(name for name in options if name not in arrays_of_options)
+        self._option_names = (*numbers, *arrays_of_options)
+        self._option_arrays = list(arrays_of_options.values())
+        self._ask = operator.attrgetter(*numbers)
         self._options = self._read_options()
 
     def changes(self) -> list[Edit]:
@@ -79,7 +82,7 @@ class Watch:
 
         edits: list[Edit] = []
         for live, copy, arrays in self._blocks:
-            if live.tobytes() != copy.tobytes():
+            if different_bytes(live, copy):
                 for name, array, old in arrays:
                     # Compared as bytes, so that a NaN equals itself.
                     different = (array.reshape(-1, 1).view(np.uint8) != old.reshape(-1, 1).view(np.uint8)).any(axis=1)
@@ -90,18 +93,15 @@ class Watch:
                 copy[:] = live
         options = self._read_options()
         if options != self._options:
-            for name in OPTIONS:
-                if options.get(name) != self._options.get(name):
+            for name, old_value, new_value in zip(self._option_names, self._options, options, strict=True):
+                if old_value != new_value:
                     values = np.ravel(getattr(self._model.opt, name)).astype(float)
                     edits.append(Edit(f"opt.{name}", np.arange(len(values)), values, looks_only=False))
             self._options = options
         return edits
 
-    def _read_options(self) -> dict[str, Any]:
-        options = dict(zip(self._option_numbers, self._ask(self._model.opt), strict=True))
-        for name, array in self._option_arrays.items():
-            options[name] = array.tobytes()
-        return options
+    def _read_options(self) -> tuple[Any, ...]:
+        return (*self._ask(self._model.opt), *[array.tobytes() for array in self._option_arrays])
 
     def _add_block(self, run: "list[tuple[str, np.ndarray]]") -> None:
         """Watch neighbouring arrays as one block of bytes, gaps between them (alignment) included."""
@@ -149,7 +149,7 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.nd
         labels = [f"{kind}_{i}" for i in range(len(array))]
     else:
         labels = names(model, kind, len(array))
-    body_of = {"body": None, "geom": "geom_bodyid", "joint": "jnt_bodyid", "dof": "dof_bodyid", "site": "site_bodyid"}
+    body_of = {"geom": "geom_bodyid", "joint": "jnt_bodyid", "dof": "dof_bodyid", "site": "site_bodyid"}
     found = []
     for element in np.unique(elements):
         label = labels[element]
@@ -161,6 +161,28 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.nd
             target = f"{label}.{edit.array}"
         found.append((target, label, edit.values[elements == element]))
     return found
+
+
+def different_bytes(one: "np.ndarray", other: "np.ndarray") -> bool:
+    """Whether two contiguous arrays of the same size differ in memory, as fast as the C library can tell."""
+    compare = _memcmp()
+    if compare is None:
+        return one.tobytes() != other.tobytes()
+    return bool(compare(_address(one), _address(other), one.nbytes))
+
+
+@cache
+def _memcmp() -> Any:
+    """The C library's `memcmp`, called without letting go of the interpreter; None where it cannot be found."""
+    import ctypes
+
+    try:
+        function = ctypes.PyDLL(None).memcmp
+    except (AttributeError, OSError, TypeError):  # not on Windows
+        return None
+    function.argtypes = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t)
+    function.restype = ctypes.c_int
+    return function
 
 
 def _address(array: "np.ndarray") -> int:

@@ -108,7 +108,7 @@ def _draft(run: Run) -> str:
     from .place.tools import resolve
 
     layout = Scene(objects=resolve(run.plan, write=False).objects)
-    drafted = draft(read_plan(run.plan).plan, layout, run.name)
+    drafted = draft(read_plan(run.plan).plan, layout)
     if run.program.is_file():
         written = sha256_file(run.program)
         if not any(e.get("action") == "draft" and e.get("program_sha256") == written for e in run.entries()):

@@ -1,11 +1,13 @@
 """The command line: `worldwright <server> <verb> …`, and the few commands that span servers.
 
 A server's verbs are its tool functions. Only the group that is called is imported, so `--help` and a lint run start
-fast. Exit codes: 0 yes, 1 the answer is no (findings, refusal of a gate), 2 the call could not be answered.
+fast. Exit codes: 0 yes, 1 the answer is no (findings, a failed pass), 2 the call could
+not be answered (its cause and the next move are printed), 3 a defect of ours.
 """
 
 import inspect
 import json
+import os
 import sys
 import types
 import typing
@@ -121,6 +123,14 @@ def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
                 click.echo(str(finding), err=True)
             click.echo(f"{error.code}: {error}", err=True)
         sys.exit(2)
+    except Exception as error:  # a defect of ours: say so, keep the traceback for those who ask
+        if os.environ.get("WORLDWRIGHT_DEBUG"):
+            raise
+        click.echo(f"internal: {type(error).__name__}: {error}", err=True)
+        click.echo(
+            "  next: this is a defect of ours; WORLDWRIGHT_DEBUG=1 shows where. Your files are untouched.", err=True
+        )
+        sys.exit(3)
     except KeyboardInterrupt:
         click.echo("interrupted; what was finished is kept", err=True)
         sys.exit(130)

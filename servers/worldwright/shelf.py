@@ -109,7 +109,7 @@ class Shelf(Mapping[str, Entry]):
                 f"'{key}' is not on the shelf {self.package}",
                 next_move=("did you mean " + ", ".join(near) + "? " if near else "")
                 + "known: "
-                + ", ".join(self.entries),
+                + ", ".join(f"{e.name} ({e.code})" for e in self.entries.values()),
             ) from None
 
     def __iter__(self) -> Iterator[str]:

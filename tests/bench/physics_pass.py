@@ -18,6 +18,7 @@ sys.path.insert(0, str(Path(__file__).parents[2] / "servers"))
 
 import mujoco
 import numpy as np
+
 from worldkit import describe, record, simulate
 
 GOAL = 1.15
@@ -31,7 +32,9 @@ def scene(bodies: int) -> mujoco.MjSpec:
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1))
     for i in range(bodies):
-        body = spec.worldbody.add_body(name=f"body_{i}", pos=(0.24 * (i % 5), 0.24 * (i // 5 % 5), 0.15 + 0.25 * (i // 25)))
+        body = spec.worldbody.add_body(
+            name=f"body_{i}", pos=(0.24 * (i % 5), 0.24 * (i // 5 % 5), 0.15 + 0.25 * (i // 25))
+        )
         body.add_freejoint()
         if i % 2:
             body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.1, 0.08, 0.06))

@@ -121,7 +121,7 @@ def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "prompt.md").write_text("Drop a ball.\n", encoding="utf-8")
     scene = resolve(folder / "plan.md")
     assert scene.ok, scene.findings
-    drafted = draft(read_plan(folder / "plan.md").plan, resolve(folder / "plan.md", write=False), folder.name)
+    drafted = draft(read_plan(folder / "plan.md").plan, resolve(folder / "plan.md", write=False))
     (folder / "simulation.py").write_text(drafted.source, encoding="utf-8")
     return folder
 
@@ -154,7 +154,8 @@ def _prepare(folder: Path) -> None:
     stamp.approve(str(folder), by="tester")
     report = lint.check_program([folder / "simulation.py"])
     assert not [f for f in report.findings if f.severity == "error"], report.text()
-    _stage(folder, "physics", "stills", "video")
+    films = "mode: none" not in (folder / "plan.md").read_text(encoding="utf-8")
+    _stage(folder, "physics", "stills", *(["video"] if films else []))
     scan.scan(str(folder))
     scan.expect(str(folder))
     stamp.describe(str(folder), measured.describe(Run(folder)))

@@ -139,7 +139,9 @@ def _materials(spec: "mujoco.MjSpec", asset: Asset, look: str | None) -> dict[st
         try:
             painted = materials.add(spec, own)
         except ValueError as error:
-            raise ValueError(f"asset {asset.key} has no look {own!r} ({', '.join(asset.looks) or 'none'}); {error}") from error
+            raise ValueError(
+                f"asset {asset.key} has no look {own!r} ({', '.join(asset.looks) or 'none'}); {error}"
+            ) from error
         main = asset.recolour or (asset.visual[0][1],)
         return {name: painted if name in main else _material(spec, asset, name, None) for name in asset.materials}
     return {name: _material(spec, asset, name, own) for name in asset.materials}

@@ -10,10 +10,27 @@ import yaml
 from .entry import Asset, Piece, Support
 
 REQUIRED = ("category", "description", "source", "licence", "native_extents", "metric_height", "friction", "visual")
-OPTIONAL = (
-    "key metric_height_source mass mass_source density solid_volume inertia restitution torsional rolling "
-    "contact_source facing materials recolour looks default_look collision supports thumbnail"
-).split()
+OPTIONAL = [
+    "key",
+    "metric_height_source",
+    "mass",
+    "mass_source",
+    "density",
+    "solid_volume",
+    "inertia",
+    "restitution",
+    "torsional",
+    "rolling",
+    "contact_source",
+    "facing",
+    "materials",
+    "recolour",
+    "looks",
+    "default_look",
+    "collision",
+    "supports",
+    "thumbnail",
+]
 CONTACT = ("friction", "restitution", "torsional", "rolling")
 MATERIAL = ("texture", "rgba", "specular", "shininess", "reflectance", "metallic", "roughness", "emission")
 SHAPES = {

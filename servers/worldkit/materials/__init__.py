@@ -37,10 +37,14 @@ def look(name: str) -> Look:
     if re.fullmatch(r"#[0-9a-fA-F]{6}", name):
         red, green, blue = (int(name[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
         return Look(f"Satin plastic, {name}", rgba=(red, green, blue, 1.0), roughness=0.36, coat=0.08, mark=True)
-    words = [known for known in LIBRARY if any(word in known for word in re.split(r"[_\W]+", name.lower()) if len(word) > 2)]
+    words = [
+        known for known in LIBRARY if any(word in known for word in re.split(r"[_\W]+", name.lower()) if len(word) > 2)
+    ]
     near = list(dict.fromkeys(difflib.get_close_matches(name, LIBRARY, n=4, cutoff=0.55) + words))[:6]
     hint = f"Nearest: {', '.join(near)}. " if near else ""
-    raise ValueError(f"no look is called {name!r}. {hint}Use one of: {', '.join(sorted(LIBRARY))}; or a colour such as '#3a7bd5'.")
+    raise ValueError(
+        f"no look is called {name!r}. {hint}Use one of: {', '.join(sorted(LIBRARY))}; or a colour such as '#3a7bd5'."
+    )
 
 
 def add(spec: mujoco.MjSpec, look_name: str) -> str:
@@ -70,7 +74,11 @@ def add(spec: mujoco.MjSpec, look_name: str) -> str:
         if entry.around:
             faces = paint.cube(entry, CUBE_PIXELS)[..., :3]
             texture = spec.add_texture(
-                name=look_name, type=mujoco.mjtTexture.mjTEXTURE_CUBE, width=CUBE_PIXELS, height=6 * CUBE_PIXELS, nchannel=3
+                name=look_name,
+                type=mujoco.mjtTexture.mjTEXTURE_CUBE,
+                width=CUBE_PIXELS,
+                height=6 * CUBE_PIXELS,
+                nchannel=3,
             )
             texture.data = faces.tobytes()
         else:

@@ -18,7 +18,9 @@ def _wood(description: str, name: str, tones: tuple, rings: float = 7.0, pore: f
 
 
 def _pool(description: str, tone: tuple[float, float, float], number: str, striped: bool = False) -> Look:
-    return Look(description, paint="around.pool", arguments=(tone, number, striped), around=True, roughness=0.09, coat=0.6)
+    return Look(
+        description, paint="around.pool", arguments=(tone, number, striped), around=True, roughness=0.09, coat=0.6
+    )
 
 
 def _plastic(description: str, rgb: tuple[float, float, float]) -> Look:
@@ -26,7 +28,9 @@ def _plastic(description: str, rgb: tuple[float, float, float]) -> Look:
 
 
 def _ceramic(description: str, rgb: tuple[float, float, float]) -> Look:
-    return Look(description, paint="fibre.worn", arguments=(f"ceramic{rgb}", rgb, 0.35), tile_m=0.25, roughness=0.16, coat=0.7)
+    return Look(
+        description, paint="fibre.worn", arguments=(f"ceramic{rgb}", rgb, 0.35), tile_m=0.25, roughness=0.16, coat=0.7
+    )
 
 
 def _metal(description: str, rgb: tuple[float, float, float], roughness: float) -> Look:
@@ -71,8 +75,8 @@ LIBRARY: dict[str, Look] = {
         tile_m=2.0, roughness=0.42, coat=0.15, relief_m=0.0016, vary=0.10,
     ),
     "wood_court": Look(
-        "Glossy maple sports floor", paint="wood.planks", arguments=("court", (0.80, 0.67, 0.49), (0.735, 0.585, 0.405), (0.62, 0.46, 0.29), 28, 0.6, 0.03), tile_m=1.8,
-        roughness=0.22, coat=0.55, relief_m=0.0006, vary=0.06,
+        "Glossy maple sports floor", paint="wood.planks", arguments=("court", (0.74, 0.59, 0.40), (0.665, 0.50, 0.32), (0.54, 0.375, 0.22), 28, 0.6, 0.03), tile_m=1.8,
+        roughness=0.26, coat=0.40, relief_m=0.0006, vary=0.06,
     ),
     "felt_green": _felt("Green billiard cloth", (0.028, 0.265, 0.150)),
     "felt_blue": _felt("Blue tournament billiard cloth", (0.045, 0.215, 0.42)),
@@ -113,7 +117,7 @@ LIBRARY: dict[str, Look] = {
     "concrete": Look("Smooth trowelled concrete", paint="stone.concrete", arguments=("concrete", (0.63, 0.62, 0.60)), tile_m=1.8, roughness=0.60, relief_m=0.0012, vary=0.10),
     "plaster": Look("Warm white wall plaster", paint="stone.concrete", arguments=("plaster", (0.90, 0.885, 0.86), 0.12), tile_m=1.6, roughness=0.9, relief_m=0.0006),
     "backdrop": Look("Seamless warm grey studio floor", paint="stone.concrete", arguments=("backdrop", (0.71, 0.685, 0.655), 0.22), tile_m=2.4, roughness=0.48, coat=0.10, vary=0.04),
-    "stone": Look("Irregular sandstone paving", paint="stone.slabs", arguments=("stone", (0.74, 0.69, 0.60), (0.50, 0.46, 0.40), (0.33, 0.31, 0.28)), tile_m=1.8, roughness=0.8, relief_m=0.010, vary=0.12),
+    "stone": Look("Irregular sandstone paving", paint="stone.slabs", arguments=("stone", (0.74, 0.69, 0.60), (0.50, 0.46, 0.40), (0.40, 0.38, 0.34)), tile_m=1.8, roughness=0.8, relief_m=0.010, vary=0.12),
     "asphalt": Look("Road asphalt", paint="stone.asphalt", arguments=("asphalt", (0.27, 0.27, 0.275)), tile_m=0.6, roughness=0.85, relief_m=0.003, vary=0.2),
     "brick": Look("Red brick in running bond", paint="masonry.bricks", arguments=("brick", (0.66, 0.33, 0.23), (0.43, 0.19, 0.135), (0.66, 0.62, 0.56)), tile_m=0.66, roughness=0.85, relief_m=0.006),
     "sand": Look("Pale beach sand", paint="stone.sand", arguments=("sand", (0.90, 0.79, 0.60), (0.70, 0.57, 0.39)), tile_m=1.3, roughness=0.95, relief_m=0.008, vary=0.15),

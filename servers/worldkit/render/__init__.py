@@ -23,7 +23,9 @@ def _camera_index(model: mujoco.MjModel, camera: str | int) -> int:
     index = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_CAMERA, camera) if isinstance(camera, str) else -1
     if index < 0:
         names = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_CAMERA, i) for i in range(model.ncam)]
-        raise ValueError(f"no camera is called {camera!r}. Use one of: {', '.join(map(str, names)) or '(the model has none)'}.")
+        raise ValueError(
+            f"no camera is called {camera!r}. Use one of: {', '.join(map(str, names)) or '(the model has none)'}."
+        )
     return index
 
 
@@ -71,9 +73,7 @@ class Frames:
 
             self._classic = Classic(model, width, height)
 
-    def image(
-        self, data: mujoco.MjData, camera: str | int, quality: Literal["still", "video"] = "video"
-    ) -> np.ndarray:
+    def image(self, data: mujoco.MjData, camera: str | int, quality: Literal["still", "video"] = "video") -> np.ndarray:
         """The picture of `data` through a camera of the model: uint8 (height, width, 3), RGB, row 0 the top.
 
         `data` needs positions and cameras up to date (`mj_kinematics`, `mj_comPos`, `mj_camlight`, or `mj_forward`).

@@ -7,7 +7,8 @@ from OpenGL import GL
 
 from . import gl
 
-STEPS = 4
+STEPS = (2, 3, 4)
+"""Powers of two by which the glow is smaller than the picture."""
 BRIGHTEST = 16.0
 """Scene light beyond this is white."""
 
@@ -41,10 +42,11 @@ class Developer:
     def __init__(self, width: int, height: int):
         self.width, self.height = width, height
         self._glow = gl.Program("screen.vert", "glow.frag")
+        self._quarter = gl.Program("screen.vert", "quarter.frag")
         self._film = gl.Program("screen.vert", "develop.frag")
         self._edges = gl.Program("screen.vert", "edges.frag")
         self._curve = _curve_texture()
-        self._halves = [gl.Target(max(width >> i, 1), max(height >> i, 1), GL.GL_RGBA16F) for i in range(1, STEPS + 1)]
+        self._halves = [gl.Target(max(width >> i, 1), max(height >> i, 1), GL.GL_RGBA16F) for i in STEPS]
         self._developed = gl.Target(width, height, GL.GL_RGBA8)
         self._out = gl.Target(width, height, GL.GL_RGBA8)
 
@@ -53,10 +55,10 @@ class Developer:
         GL.glDisable(GL.GL_DEPTH_TEST)
         GL.glDisable(GL.GL_BLEND)
         source, size = scene, (self.width, self.height)
-        program = self._glow.use().set(depth=0.0)
-        for half in self._halves:
+        for number, half in enumerate(self._halves):
             half.bind()
-            program.set(texel=(1.0 / size[0], 1.0 / size[1])).texture("from", 0, source)
+            program = (self._glow if number else self._quarter).use()
+            program.set(depth=0.0, texel=(1.0 / size[0], 1.0 / size[1])).texture("from", 0, source)
             GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
             source, size = half.colour, (half.width, half.height)
         self._developed.bind()

@@ -96,4 +96,6 @@ def of_material(model: mujoco.MjModel, material: int) -> Finish:
         mean = mean * linear(pixels[::step, ::step, :3].reshape(-1, 3) / 255.0).mean(axis=0)
         entry = replace(entry, around=bool(model.tex_type[texture] == mujoco.mjtTexture.mjTEXTURE_CUBE))
     repeat = model.mat_texrepeat[material]
-    return Finish(entry, texture, (float(repeat[0]), float(repeat[1])), bool(model.mat_texuniform[material]), tuple(mean))
+    return Finish(
+        entry, texture, (float(repeat[0]), float(repeat[1])), bool(model.mat_texuniform[material]), tuple(mean)
+    )

@@ -23,7 +23,7 @@ def source(name: str, defines: dict[str, object]) -> str:
     for line in _text(name).splitlines():
         lines.append(_text(line.split('"')[1]) if line.startswith("#include") else line)
     head = "".join(f"#define {key} {value}\n" for key, value in defines.items())
-    return "#version 330 core\n" + head + "\n".join(lines) + "\n"
+    return "#version 400 core\n" + head + "\n".join(lines) + "\n"
 
 
 class Program:
@@ -93,7 +93,6 @@ def texture(
     linear: bool = True,
     repeat: bool = False,
     levels: int = 1,
-    compare: bool = False,
 ) -> int:
     """An empty 2D texture with immutable storage."""
     handle = GL.glGenTextures(1)
@@ -109,9 +108,6 @@ def texture(
         (GL.GL_TEXTURE_WRAP_T, wrap),
     ):
         GL.glTexParameteri(GL.GL_TEXTURE_2D, name, value)
-    if compare:
-        GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_COMPARE_MODE, GL.GL_COMPARE_REF_TO_TEXTURE)
-        GL.glTexParameteri(GL.GL_TEXTURE_2D, GL.GL_TEXTURE_COMPARE_FUNC, GL.GL_LEQUAL)
     return handle
 
 
@@ -153,7 +149,7 @@ def cube_picture(faces: np.ndarray) -> int:
 
 
 class Target:
-    """A framebuffer of `width` x `height` with one colour attachment (a texture unless multisampled) and maybe depth."""
+    """A framebuffer of `width` x `height` with one colour texture, if any, and maybe a depth texture."""
 
     def __init__(
         self,
@@ -162,30 +158,21 @@ class Target:
         colour: int | None,
         *,
         depth: bool = False,
-        samples: int = 0,
         linear: bool = True,
         levels: int = 1,
-        depth_compare: bool = False,
     ):
         self.width, self.height = width, height
         self.handle = GL.glGenFramebuffers(1)
         self.colour = self.depth = 0
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.handle)
-        if samples:
-            for attachment, internal in ((GL.GL_COLOR_ATTACHMENT0, colour), (GL.GL_DEPTH_ATTACHMENT, GL.GL_DEPTH_COMPONENT32F)):
-                buffer = GL.glGenRenderbuffers(1)
-                GL.glBindRenderbuffer(GL.GL_RENDERBUFFER, buffer)
-                GL.glRenderbufferStorageMultisample(GL.GL_RENDERBUFFER, samples, internal, width, height)
-                GL.glFramebufferRenderbuffer(GL.GL_FRAMEBUFFER, attachment, GL.GL_RENDERBUFFER, buffer)
+        if colour is not None:
+            self.colour = texture(colour, width, height, linear=linear, levels=levels)
+            GL.glFramebufferTexture2D(GL.GL_FRAMEBUFFER, GL.GL_COLOR_ATTACHMENT0, GL.GL_TEXTURE_2D, self.colour, 0)
         else:
-            if colour is not None:
-                self.colour = texture(colour, width, height, linear=linear, levels=levels)
-                GL.glFramebufferTexture2D(GL.GL_FRAMEBUFFER, GL.GL_COLOR_ATTACHMENT0, GL.GL_TEXTURE_2D, self.colour, 0)
-            else:
-                GL.glDrawBuffer(GL.GL_NONE)
-            if depth:
-                self.depth = texture(GL.GL_DEPTH_COMPONENT32F, width, height, linear=depth_compare, compare=depth_compare)
-                GL.glFramebufferTexture2D(GL.GL_FRAMEBUFFER, GL.GL_DEPTH_ATTACHMENT, GL.GL_TEXTURE_2D, self.depth, 0)
+            GL.glDrawBuffer(GL.GL_NONE)
+        if depth:
+            self.depth = texture(GL.GL_DEPTH_COMPONENT32F, width, height, linear=False)
+            GL.glFramebufferTexture2D(GL.GL_FRAMEBUFFER, GL.GL_DEPTH_ATTACHMENT, GL.GL_TEXTURE_2D, self.depth, 0)
         status = GL.glCheckFramebufferStatus(GL.GL_FRAMEBUFFER)
         if status != GL.GL_FRAMEBUFFER_COMPLETE:
             raise RuntimeError(f"the graphics driver refuses a {width}x{height} render target (status {status:#x})")
@@ -195,13 +182,12 @@ class Target:
         GL.glBindFramebuffer(GL.GL_FRAMEBUFFER, self.handle)
         GL.glViewport(0, 0, self.width, self.height)
 
-    def blit_to(self, other: Target) -> None:
-        """Copy (resolving samples) the colour to `other` of the same size."""
+    def blit_to(self, other: Target, depth: bool = False) -> None:
+        """Copy the colour, and the depth if asked, to `other` of the same size."""
         GL.glBindFramebuffer(GL.GL_READ_FRAMEBUFFER, self.handle)
         GL.glBindFramebuffer(GL.GL_DRAW_FRAMEBUFFER, other.handle)
-        GL.glBlitFramebuffer(
-            0, 0, self.width, self.height, 0, 0, other.width, other.height, GL.GL_COLOR_BUFFER_BIT, GL.GL_NEAREST
-        )
+        what = GL.GL_COLOR_BUFFER_BIT | (GL.GL_DEPTH_BUFFER_BIT if depth else 0)
+        GL.glBlitFramebuffer(0, 0, self.width, self.height, 0, 0, other.width, other.height, what, GL.GL_NEAREST)
 
 
 class Shape:

@@ -37,8 +37,12 @@ class Occlusion:
         GL.glDisable(GL.GL_DEPTH_TEST)
         self.result.bind()
         self._gather.use().set(
-            depth=0.0, lens=(*view.tangents, self.width, self.height), to_view=view.rotation(), reach=reach,
-            taps=self._taps, strength=self._strength,
+            depth=0.0,
+            lens=(*view.tangents, self.width, self.height),
+            to_view=view.rotation(),
+            reach=reach,
+            taps=self._taps,
+            strength=self._strength,
         ).texture(  # fmt: skip
             "guide", 0, self.guide.colour
         )

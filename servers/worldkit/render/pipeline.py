@@ -20,7 +20,7 @@ from . import gl, room
 from .develop import Developer
 from .finish import Finish, linear
 from .occlusion import Occlusion
-from .scenery import light_rows, own_lights, setting_of, space_slot
+from .scenery import light_rows, own_lights, setting_of, space_of
 from .shadows import ShadowMap
 from .soft import Soft
 from .supplies import Supplies
@@ -46,10 +46,12 @@ class Quality:
     filters: int
     occlusion_divisor: int
     occlusion_taps: int
+    march: int
+    """Steps of a mirror's ray through the picture."""
 
 
-VIDEO = Quality(1, 2048, 10, 20, 2, 14)
-STILL = Quality(2, 4096, 24, 64, 2, 40)
+VIDEO = Quality(1, 2048, 8, 18, 3, 14, 9)
+STILL = Quality(2, 4096, 24, 64, 3, 36, 22)
 QUALITIES = {"video": VIDEO, "still": STILL}
 
 
@@ -85,10 +87,9 @@ class Pipeline:
         self.things = Things(model)
         self.things.update(rest)
         low, high = self.things.bounds(rest)
-        slot = space_slot(model)
-        if slot is not None and np.any(model.numeric_data[slot]):
-            space = model.numeric_data[slot]
-            low, high = np.minimum(low, space[:3]), np.maximum(high, space[3:])
+        space = space_of(model)
+        if space is not None:
+            low, high = np.minimum(low, space[0]), np.maximum(high, space[1])
         self.low, self.high = low, high
         self.centre = 0.5 * (low + high)
         self.radius = max(float(np.linalg.norm(high - low)) / 2.0, 1e-3)
@@ -124,7 +125,10 @@ class Pipeline:
         import mujoco
 
         for light in self.lights:
-            if self.model.light_type[light] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL and rest.light_xdir[light][2] < -0.2:
+            if (
+                self.model.light_type[light] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
+                and rest.light_xdir[light][2] < -0.2
+            ):
                 x, y, z = -rest.light_xdir[light]
                 elevation = float(np.degrees(np.arcsin(np.clip(z, -1, 1))))
                 key = Light(float(np.degrees(np.arctan2(y, x))), min(elevation, 75.0), self.setting.key.colour)
@@ -153,7 +157,7 @@ class Pipeline:
                 row[24:28] = 1.0 / entry.tile_m, entry.relief_m, SIDE_MODE, 0.0
                 row[28:32] = -1.0, 4.5 if name == "window_light" else 0.0, 0.0, 0.004
                 row[32:36] = *self.ground_mean(), self.floor_z
-                row[36:40] = 0.0, 0.0, 0.0, 2.0
+                row[36:40] = 0.0, 0.0, 1e3, 0.0
                 rows.append(row)
                 batch.rows.append(batch.first + len(batch.rows))
             self._walls.append(batch)
@@ -208,7 +212,18 @@ class Pipeline:
                 program.set(first=start + first)
                 (shape or self._supplies.shape("capsule", -1)).draw(count)
 
-    def _shade(self, batch: Batch, uniforms: dict[str, object], stage: Stage, shape: gl.Shape, count: int, *, simple: bool = False, reflecting: bool = False, mirror: bool = False) -> None:
+    def _shade(
+        self,
+        batch: Batch,
+        uniforms: dict[str, object],
+        stage: Stage,
+        shape: gl.Shape,
+        count: int,
+        *,
+        simple: bool = False,
+        reflecting: bool = False,
+        mirror: bool = False,
+    ) -> None:
         """Draw `count` things from the batch's first with its own variant of the surface shader."""
         kind = self._supplies.paint_kind(batch.finish, float(self._rows[batch.first, 26]))
         wanted = features(batch, self.setting.index, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind)
@@ -221,8 +236,11 @@ class Pipeline:
             program.texture("around", 4, self._around.map)
             program.texture("shade", 8, stage.occlusion.result.colour)
             program.texture("guide", 11, stage.occlusion.guide.colour)
+            program.texture("behind_depth", 12, stage.behind.depth if stage.behind else self._supplies.black)
             program.texture("behind", 9, stage.behind.colour if stage.behind else self._supplies.black)
-            program.texture("reflection", 10, stage.mirror.colour if stage.mirror and reflecting else self._supplies.black)
+            program.texture(
+                "reflection", 10, stage.mirror.colour if stage.mirror and reflecting else self._supplies.black
+            )
             stage.shadow.bind(program)
         if kind:
             wide = batch.shape[0] == "disc" or batch.finish.look.tile_m > 1.0
@@ -231,7 +249,9 @@ class Pipeline:
         program.set(first=batch.first)
         shape.draw(count)
 
-    def _shade_all(self, stage: Stage, view: View, uniforms: dict[str, object], *, simple: bool, reflecting: bool, ground: bool) -> None:
+    def _shade_all(
+        self, stage: Stage, view: View, uniforms: dict[str, object], *, simple: bool, reflecting: bool, ground: bool
+    ) -> None:
         """Draw everything opaque with its own material."""
         self._prepared.clear()
         for batch in self._batches(ground=ground):
@@ -240,7 +260,15 @@ class Pipeline:
         start = len(self.things.rows) + len(self._wall_rows)
         for soft, first, count, finish in self.soft.draws():
             batch = Batch(("capsule", -1) if soft is None else ("mesh", -1), finish, False, first=start + first)
-            self._shade(batch, uniforms, stage, soft or self._supplies.shape("capsule", -1), count, simple=simple, reflecting=reflecting)
+            self._shade(
+                batch,
+                uniforms,
+                stage,
+                soft or self._supplies.shape("capsule", -1),
+                count,
+                simple=simple,
+                reflecting=reflecting,
+            )
 
     def _uniforms(self, stage: Stage, view: View, data: mujoco.MjData, size: tuple[int, int]) -> dict[str, object]:
         setting = self.setting
@@ -249,11 +277,12 @@ class Pipeline:
         return {
             **self._sky_uniforms, "view_projection": view.matrix(), "to_clip": view.matrix(), "eye": view.eye,
             "forward": view.forward, "pixels": (float(size[0]), float(size[1])), "harmonics": self._around.harmonics,
-            "ground_light": self._ground_light, "key_sharp": 0.0 if setting.key_in_sky else 1.0,
+            "ground_light": self._ground_light, "ground_mean": self.ground_mean(), "key_sharp": 0.0 if setting.key_in_sky else 1.0,
             "key_spread": setting.key_spread, "lights": rows, "light_aims": aims, "light_count": count,
             "haze_m": setting.haze_m, "mirror_z": self.floor_z, "rank_step": RANK_STEP, "mirrored": 0, "things": 2,
             "fade": (self.centre[0], self.centre[1], setting.fade[0] * span, setting.fade[1] * span),
             "pool": (self.centre[0], self.centre[1], setting.pool[0] * self.radius, setting.pool[1] * self.radius),
+            "near_m": view.near_m, "march": stage.quality.march, "stride": 1.0 + 4.4 / stage.quality.march,
             "blockers": stage.quality.blockers, "filters": stage.quality.filters,
         }  # fmt: skip
 
@@ -285,7 +314,11 @@ class Pipeline:
         GL.glColorMask(False, False, False, False)
         mirrored = bool(which.pop("mirrored", False))
         self._depth_program.use().set(
-            view_projection=view.matrix(), eye=view.eye, rank_step=RANK_STEP, mirrored=int(mirrored), mirror_z=self.floor_z
+            view_projection=view.matrix(),
+            eye=view.eye,
+            rank_step=RANK_STEP,
+            mirrored=int(mirrored),
+            mirror_z=self.floor_z,
         )
         self._draw(self._depth_program, view, **which)
         GL.glColorMask(True, True, True, True)
@@ -336,7 +369,7 @@ class Pipeline:
     def _reflect(self, stage: Stage, view: View, data: mujoco.MjData) -> None:
         """The world mirrored at the ground, with coarser copies for duller floors."""
         if stage.mirror is None:
-            w, h = stage.width // (2 * stage.quality.scale), stage.height // (2 * stage.quality.scale)
+            w, h = stage.width // 3, stage.height // 3
             stage.mirror = gl.Target(max(w, 1), max(h, 1), GL.GL_RGBA16F, depth=True, levels=6)
         stage.mirror.bind()
         GL.glEnable(GL.GL_CLIP_DISTANCE0)
@@ -361,8 +394,8 @@ class Pipeline:
     def _copy(self, stage: Stage) -> None:
         """Keep the picture so far for mirrors and glass to look at."""
         if stage.behind is None:
-            stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F)
-        stage.picture.blit_to(stage.behind)
+            stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F, depth=True)
+        stage.picture.blit_to(stage.behind, depth=True)
         stage.picture.bind()
 
     def _glass(self, stage: Stage, view: View, uniforms: dict[str, object]) -> None:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import json
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..model_text import numbers, read
 from ..settings import SETTINGS, STUDIO, Setting
 
 if TYPE_CHECKING:
@@ -19,39 +19,18 @@ LIGHT_GAIN = 1.5
 """MuJoCo's lights are sized for displays that clip at 1; ours for a film curve."""
 
 
-def text(model: mujoco.MjModel, name: str) -> dict[str, Any] | None:
-    """The JSON object stored in the model's text `name`, or None."""
-    import mujoco
-
-    index = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_TEXT, name)
-    if index < 0:
-        return None
-    start = int(model.text_adr[index])
-    raw = bytes(model.text_data[start : start + int(model.text_size[index])]) if not isinstance(
-        model.text_data, bytes
-    ) else model.text_data[start : start + int(model.text_size[index])]  # fmt: skip
-    try:
-        value = json.loads(raw.rstrip(b"\0").decode())
-    except (ValueError, UnicodeDecodeError):
-        return None
-    return value if isinstance(value, dict) else None
-
-
 def setting_of(model: mujoco.MjModel) -> Setting | None:
     """The setting that `worldkit.scene` wrote into the model, or None for a model from elsewhere."""
-    value = text(model, SETTING_TEXT)
+    value = read(model, SETTING_TEXT)
     return SETTINGS.get(str(value.get("setting")), STUDIO) if value else None
 
 
-def space_slot(model: mujoco.MjModel) -> slice | None:
-    """Where the model keeps the corners of the space its subjects cross (6 numbers of `numeric_data`), or None."""
-    import mujoco
-
-    index = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_NUMERIC, SPACE_NUMERIC)
-    if index < 0 or int(model.numeric_size[index]) != 6:
+def space_of(model: mujoco.MjModel) -> tuple[np.ndarray, np.ndarray] | None:
+    """Corners of the space that the model's subjects cross, as `worldkit.cameras.aim` found it, or None."""
+    space = numbers(model, SPACE_NUMERIC)
+    if space is None or len(space) != 6 or not np.any(space):
         return None
-    start = int(model.numeric_adr[index])
-    return slice(start, start + 6)
+    return np.array(space[:3]), np.array(space[3:])
 
 
 def own_lights(model: mujoco.MjModel) -> list[int]:

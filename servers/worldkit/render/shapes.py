@@ -15,7 +15,9 @@ if TYPE_CHECKING:
 Vertices = tuple[np.ndarray, np.ndarray]
 
 
-def _pack(corner: np.ndarray, normal: np.ndarray, uv: np.ndarray | None = None, side: np.ndarray | float = 0.0) -> np.ndarray:
+def _pack(
+    corner: np.ndarray, normal: np.ndarray, uv: np.ndarray | None = None, side: np.ndarray | float = 0.0
+) -> np.ndarray:
     out = np.zeros((len(corner), 9), dtype=np.float32)
     out[:, 0:3], out[:, 3], out[:, 4:7] = corner, side, normal
     if uv is not None:
@@ -36,7 +38,9 @@ def sphere(sectors: int = 48) -> Vertices:
     rows = sectors // 2
     theta = np.linspace(0.0, np.pi, rows + 1)[:, None]
     phi = np.linspace(0.0, 2.0 * np.pi, sectors + 1)[None, :]
-    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta) + 0 * phi], -1).reshape(-1, 3)
+    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta) + 0 * phi], -1).reshape(
+        -1, 3
+    )
     uv = np.stack(np.broadcast_arrays(phi / (2 * np.pi), 1.0 - theta / np.pi), -1).reshape(-1, 2)
     return _pack(points, points, uv), _strips(rows, sectors)
 
@@ -47,7 +51,8 @@ def capsule(sectors: int = 32) -> Vertices:
     theta = np.concatenate([np.linspace(0.0, np.pi / 2, half + 1), np.linspace(np.pi / 2, np.pi, half + 1)])
     phi = np.linspace(0.0, 2.0 * np.pi, sectors + 1)[None, :]
     points = np.stack(
-        [np.sin(theta)[:, None] * np.cos(phi), np.sin(theta)[:, None] * np.sin(phi), np.cos(theta)[:, None] + 0 * phi], -1
+        [np.sin(theta)[:, None] * np.cos(phi), np.sin(theta)[:, None] * np.sin(phi), np.cos(theta)[:, None] + 0 * phi],
+        -1,
     ).reshape(-1, 3)
     side = np.repeat(np.concatenate([np.ones(half + 1), -np.ones(half + 1)]), sectors + 1)
     return _pack(points, points, None, side), _strips(2 * half + 1, sectors)
@@ -88,14 +93,18 @@ def box() -> Vertices:
 def quad() -> Vertices:
     """The square from -1 to 1 in the plane z = 0, facing up."""
     corner = np.array([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], dtype=float)
-    return _pack(corner, np.broadcast_to([0, 0, 1.0], (4, 3)), corner[:, :2] * 0.5 + 0.5), np.array([[0, 1, 2], [0, 2, 3]])
+    return _pack(corner, np.broadcast_to([0, 0, 1.0], (4, 3)), corner[:, :2] * 0.5 + 0.5), np.array(
+        [[0, 1, 2], [0, 2, 3]]
+    )
 
 
 def disc(sectors: int = 48) -> Vertices:
     """A disc of radius 1 in rings that double in radius, so that a vast one is still precise near its centre."""
     radii = np.concatenate([[0.0], 2.0 ** np.arange(-13, 1)])
     phi = np.linspace(0.0, 2.0 * np.pi, sectors + 1)[None, :]
-    points = np.stack([radii[:, None] * np.cos(phi), radii[:, None] * np.sin(phi), 0.0 * radii[:, None] * phi], -1).reshape(-1, 3)
+    points = np.stack(
+        [radii[:, None] * np.cos(phi), radii[:, None] * np.sin(phi), 0.0 * radii[:, None] * phi], -1
+    ).reshape(-1, 3)
     return _pack(points, np.broadcast_to([0, 0, 1.0], points.shape)), _strips(len(radii) - 1, sectors)
 
 
@@ -106,7 +115,9 @@ def mesh(model: mujoco.MjModel, index: int) -> Vertices:
     vertex = model.mesh_face[faces].astype(np.int64).ravel()
     normal = model.mesh_facenormal[faces].astype(np.int64).ravel()
     first_uv, count_uv = model.mesh_texcoordadr[index], model.mesh_texcoordnum[index]
-    uv_index = model.mesh_facetexcoord[faces].astype(np.int64).ravel() if first_uv >= 0 and count_uv else np.zeros_like(vertex)
+    uv_index = (
+        model.mesh_facetexcoord[faces].astype(np.int64).ravel() if first_uv >= 0 and count_uv else np.zeros_like(vertex)
+    )
     key = (vertex * (normal.max(initial=0) + 1) + normal) * (uv_index.max(initial=0) + 1) + uv_index
     _, chosen, inverse = np.unique(key, return_index=True, return_inverse=True)
     corner = model.mesh_vert[model.mesh_vertadr[index] + vertex[chosen]]
@@ -130,7 +141,12 @@ def height_field(model: mujoco.MjModel, index: int) -> Vertices:
     vertices = [_pack(points.reshape(-1, 3), normal.reshape(-1, 3), uv.reshape(-1, 2))]
     triangles = [_strips(rows - 1, columns - 1)[:, ::-1]]
     used = rows * columns
-    edges = ((points[0], (0, -1, 0)), (points[-1, ::-1], (0, 1, 0)), (points[::-1, 0], (-1, 0, 0)), (points[:, -1], (1, 0, 0)))
+    edges = (
+        (points[0], (0, -1, 0)),
+        (points[-1, ::-1], (0, 1, 0)),
+        (points[::-1, 0], (-1, 0, 0)),
+        (points[:, -1], (1, 0, 0)),
+    )
     for edge, direction in edges:
         low = edge.copy()
         low[:, 2] = -base

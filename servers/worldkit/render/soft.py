@@ -24,6 +24,7 @@ def _row(finish: Finish, rgba: np.ndarray, number: float = -1.0) -> np.ndarray:
     row[24:28] = 1.0 / entry.tile_m, entry.relief_m, SIDE_MODE, 0.0
     row[28:32] = number, entry.emission, 1.0, 0.0
     row[32:36] = 0.18, 0.18, 0.18, -1e3
+    row[38] = 1e3
     return row
 
 
@@ -77,7 +78,10 @@ class Soft:
         for i in range(scene.ngeom):
             geom = scene.geoms[i]
             kind = geom.type
-            if geom.objtype == mujoco.mjtObj.mjOBJ_TENDON and kind in (mujoco.mjtGeom.mjGEOM_CAPSULE, mujoco.mjtGeom.mjGEOM_CYLINDER):
+            if geom.objtype == mujoco.mjtObj.mjOBJ_TENDON and kind in (
+                mujoco.mjtGeom.mjGEOM_CAPSULE,
+                mujoco.mjtGeom.mjGEOM_CYLINDER,
+            ):
                 finish, rgba = self._finish(geom.matid, geom.rgba)
                 row = _row(finish, rgba)
                 frame = row[:12].reshape(3, 4)
@@ -89,7 +93,9 @@ class Soft:
                 points = np.array(scene.flexface).reshape(-1, 9)[start : start + count].reshape(-1, 3)
                 normals = np.array(scene.flexnormal).reshape(-1, 9)[start : start + count].reshape(-1, 3)
                 finish, rgba = self._finish(geom.matid, geom.rgba)
-                self._draws.append((self._triangle_shape("flex", int(geom.objid), points, normals), len(rows), 1, finish))
+                self._draws.append(
+                    (self._triangle_shape("flex", int(geom.objid), points, normals), len(rows), 1, finish)
+                )
                 rows.append(_row(finish, rgba))
             elif kind == mujoco.mjtGeom.mjGEOM_SKIN:
                 skin = int(geom.objid)

@@ -83,7 +83,9 @@ class Things:
             finish, rgba = self.finish(geom), self._rgba(geom)
             clear = finish.look.clear > 0 or rgba[3] < 0.997
             self._fill(row, int(geom), kind, finish, rgba, endless)
-            picture = (finish.look, finish.texture) if finish.texture >= 0 or finish.look.paint else _traits(finish.look)
+            picture = (
+                (finish.look, finish.texture) if finish.texture >= 0 or finish.look.paint else _traits(finish.look)
+            )
             batch = groups.setdefault((shape, picture, clear), Batch(shape, finish, clear))
             batch.rows.append(row)
         self.batches = sorted(groups.values(), key=lambda b: b.shape[0] == "disc")
@@ -142,10 +144,17 @@ class Things:
             bevel = float(np.clip(0.035 * full.min(), 0.0004, 0.008))
         out[28:32] = geom, entry.emission, 0.0, bevel
         out[30] = geom / max(self.model.ngeom, 1)
-        shapes = {kinds.mjGEOM_SPHERE: 1.0, kinds.mjGEOM_ELLIPSOID: 1.0, kinds.mjGEOM_BOX: 2.0, kinds.mjGEOM_CYLINDER: 3.0}
+        shapes = {
+            kinds.mjGEOM_SPHERE: 1.0,
+            kinds.mjGEOM_ELLIPSOID: 1.0,
+            kinds.mjGEOM_BOX: 2.0,
+            kinds.mjGEOM_CYLINDER: 3.0,
+        }
         out[36:40] = entry.vary, entry.clear, float(entry.mark), 4.0 if endless else shapes.get(kind, 0.0)
 
-    def _weave(self, geom: int, finish: Finish, extents: np.ndarray, endless: bool) -> tuple[float, float, float, float]:
+    def _weave(
+        self, geom: int, finish: Finish, extents: np.ndarray, endless: bool
+    ) -> tuple[float, float, float, float]:
         """Repeats per metre, relief, paint mode and a phase of its own for each geom."""
         import mujoco
 
@@ -192,6 +201,8 @@ class Things:
             mean = self.finish(int(hit[0])).mean if distance >= 0 else (0.18, 0.18, 0.18)
             self.rows[row, 32:35] = mean
             self.rows[row, 35] = start[2] - distance if distance >= 0 else start[2] - 1e3
+            wide = distance >= 0 and self.model.geom_rbound[hit[0]] > 0
+            self.rows[row, 38] = max(float(self.model.geom_aabb[hit[0], 3:].max()), 1e-3) if wide else 1e3
         self._supports_of_fixed = True
 
     def bounds(self, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:

@@ -34,9 +34,7 @@ class Features:
     """Without relief, contact shadows and fine glints, for mirror images."""
 
 
-def features(
-    batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirror: bool, paint: int
-) -> Features:
+def features(batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirror: bool, paint: int) -> Features:
     """The features that a batch needs."""
     look, kind = batch.finish.look, batch.shape[0]
     ground = (2 if reflecting else 1) if kind == "disc" else 0

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ..model.errors import PlanError
 from ..model.plan import AssetRow, Joint, Plan, SceneObject
 from ..model.scene import PlacedObject, Scene
-from .source import Raw, bullet, call, comment, constant_name, literal, plain
+from .source import Raw, bullet, call, comment, constant_name, literal, plain, slug
 
 
 @dataclass(frozen=True)
@@ -26,13 +26,12 @@ class Draft:
         return not self.open_places
 
 
-def draft(plan: Plan, scene: Scene, name: str) -> Draft:
+def draft(plan: Plan, scene: Scene) -> Draft:
     """Draft the program of a plan.
 
     Args:
         plan: a valid plan with nothing left to clarify.
         scene: its resolved layout.
-        name: the run's slug, which becomes the model's name.
 
     Raises:
         PlanError: something is still TO_CLARIFY, or an object has no resolved pose.
@@ -47,17 +46,17 @@ def draft(plan: Plan, scene: Scene, name: str) -> Draft:
             f"no pose was resolved for {', '.join(missing)}",
             next_move="add rows for them under topology.scene_predicates, then `worldwright place resolve`",
         )
-    writer = _Writer(plan, scene, name)
+    writer = _Writer(plan, scene)
     return Draft(writer.program(), tuple(writer.open_places))
 
 
 class _Writer:
     """Writes one program; collects what it had to leave open."""
 
-    def __init__(self, plan: Plan, scene: Scene, name: str) -> None:
+    def __init__(self, plan: Plan, scene: Scene) -> None:
         self.plan = plan
         self.scene = scene
-        self.name = name
+        self.name = slug(plan.title) or "world"
         self.open_places: list[str] = []
         self.modules = {"program", "scene"}
         self.parameters = plan.simulation_parameters

@@ -70,6 +70,15 @@ def bullet(text: str) -> str:
     return "\n".join(textwrap.wrap(plain(text), WIDTH, initial_indent="- ", subsequent_indent="  "))
 
 
+def slug(text: str) -> str:
+    """A short name of lower-case words joined by dashes.
+
+    >>> slug("Two billiard balls collide!")
+    'two-billiard-balls-collide'
+    """
+    return "-".join("".join(c if c.isalnum() else " " for c in text.lower()).split())[:60]
+
+
 def constant_name(name: str) -> str:
     """A module constant's name for a plan name.
 

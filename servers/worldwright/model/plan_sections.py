@@ -151,7 +151,8 @@ class _Outline:
                 if self._closes(line.text, opened[1]):
                     self._fence(opened, content, line.start, True)
                     opened = None
-                elif self._is_section(line.text):  # an unclosed fence must not swallow the rest of the plan
+                elif self._is_section(line.text) and not self._closed_later(match.end(), opened[1]):
+                    # an unclosed fence must not swallow the rest of the plan
                     self._fence(opened, content, line.start, False)
                     opened = None
                     self._heading(line)
@@ -171,6 +172,16 @@ class _Outline:
     def _closes(text: str, mark: str) -> bool:
         stripped = text.strip()
         return len(stripped) >= len(mark) and set(stripped) == {mark[0]} and len(text) - len(text.lstrip(" ")) <= 3
+
+    def _closed_later(self, start: int, mark: str) -> bool:
+        """Whether the next fence line closes the open block, rather than opening another."""
+        for match in _LINE.finditer(self.text, start):
+            text = match.group().rstrip("\r\n")
+            if self._closes(text, mark):
+                return True
+            if match.end() == match.start() or _FENCE.match(text):
+                return False
+        return False
 
     @staticmethod
     def _is_section(text: str) -> bool:

@@ -329,7 +329,7 @@ class _Reader:
         plan = None
         try:
             if not problems:
-                plan = _validate({"title": title, **self.data})
+                plan = _validate({"title": " ".join(title.split()), **self.data})
         except ValidationError as error:
             problems += value_problems(error, self.nodes)
         problems += reference_problems(self.data, [n for n in SECTIONS if n in self.broken or n not in self.sections])

@@ -81,4 +81,54 @@ def read_recording(folder: Path) -> Trajectory:
 
 
 def _from_recording(recording: Any) -> Trajectory:
-    raise NotImplementedError
+    names = tuple(recording.names)
+    mechanics = Mechanics.from_meta(recording.meta, names)
+    owner = {name: index for index, name in enumerate(names)}
+    # A geom number of -1 is a flex's, which belongs to no rigid body: like the world, it has no index of its own.
+    geom_body = np.array([owner.get(row["body"], -1) for row in recording.meta["geoms"]] + [-1], dtype=int)
+    touches = recording.contacts
+    contacts = Contacts(
+        row=touches.row,
+        body1=geom_body[touches.geom1],
+        body2=geom_body[touches.geom2],
+        depth_m=touches.depth_m,
+        normal_force=touches.normal_force,
+        force=touches.force,
+        position=touches.position,
+        normal=touches.normal,
+        geom1=touches.geom1,
+        geom2=touches.geom2,
+    )
+    acts = recording.interventions
+    warned = recording.warnings
+    found = Trajectory(
+        t=recording.time,
+        names=names,
+        pos=recording.pos,
+        quat=recording.quat,
+        linvel=recording.linvel,
+        angvel=recording.angvel,
+        energy=recording.energy,
+        linmom=recording.linmom,
+        angmom=recording.angmom,
+        ncon=recording.ncon,
+        contacts=contacts,
+        interventions=Interventions(
+            time=acts.time,
+            kind=[str(kind) for kind in acts.kind],
+            target=[str(target) for target in acts.target],
+            value=acts.value,
+            work_j=acts.work_j,
+        ),
+        warnings=tuple(
+            (float(time), str(name), int(count))
+            for time, name, count in zip(warned.time, warned.warning, warned.count, strict=True)
+        ),
+        mechanics=mechanics,
+        meta=recording.meta,
+        time_step=float(recording.time_step),
+        complete=bool(recording.complete),
+        recorded_sha256=recording.sha256 or "",
+    )
+    found.verify(str(recording.folder))
+    return found

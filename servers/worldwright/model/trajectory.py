@@ -142,7 +142,15 @@ class Trajectory:
 
     @classmethod
     def from_arrays(
-        cls, t: Any, names: Sequence[str], pos: Any, *, quat: Any = None, linvel: Any = None, angvel: Any = None, **more: Any
+        cls,
+        t: Any,
+        names: Sequence[str],
+        pos: Any,
+        *,
+        quat: Any = None,
+        linvel: Any = None,
+        angvel: Any = None,
+        **more: Any,
     ) -> "Trajectory":
         """From arrays; missing rotations are the identity, missing velocities the derivatives of the poses.
 

@@ -91,6 +91,8 @@ def timeline(touches: list[Touch], end: float) -> list[Row]:
             left, right = _percent(start, 0, end), _percent(min(stop, end), 0, end)
             bars.append(Bar(left, max(0.0, right - left), f"{start:.3f} to {stop:.3f} s"))
         times = "once" if len(bars) == 1 else f"{len(bars)} times"
+        if touch.lasts(0.01 * end, 0.99 * end):
+            times = "throughout"
         rows.append(Row(touch.name, f"{times}, up to {quantity(touch.peak_n)} N", bars))
     return rows
 
@@ -105,6 +107,12 @@ def ticks(low: float, high: float, count: int = 5) -> list[float]:
     step = next(power * m for m in (1, 2, 2.5, 5, 10) if power * m >= raw * 0.999)
     first = math.ceil(low / step - 1e-9)
     return [i * step for i in range(first, math.floor(high / step + 1e-9) + 1)]
+
+
+def axis(low: float, high: float, count: int) -> list[Tick]:
+    """Labelled ticks of an axis."""
+    values = ticks(low, high, count)
+    return [Tick(_percent(v, low, high), _label(v, values)) for v in values]
 
 
 def quantity(value: float) -> str:
@@ -149,7 +157,6 @@ def _chart(
         )
         for i, line in enumerate(lines)
     ]
-    x_ticks, y_ticks = ticks(x0, x1, 6), ticks(y0, y1, 4)
     return Chart(
         title,
         unit,
@@ -157,8 +164,8 @@ def _chart(
         x1,
         y0,
         y1,
-        [Tick(_percent(v, x0, x1), _label(v, x_ticks)) for v in x_ticks],
-        [Tick(_percent(v, y0, y1), _label(v, y_ticks)) for v in y_ticks],
+        axis(x0, x1, 6),
+        axis(y0, y1, 4),
         curves,
         note,
     )

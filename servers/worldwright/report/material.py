@@ -32,7 +32,7 @@ class Material:
     run: Run
     status: Status
     origin: str
-    """Where the evidence comes from: `current`, `accepted` or `none`."""
+    """Where the evidence comes from: `current`, `accepted`, `earlier` (it does not count any more) or `none`."""
     plan: Plan | None = None
     prompt: str = ""
     plan_text: str = ""
@@ -53,6 +53,8 @@ class Material:
     """Top-down drawing, PNG."""
     journal: tuple[dict[str, Any], ...] = ()
     environment: dict[str, Any] = field(default_factory=dict)
+    shown_key: str = ""
+    """Key of the evidence that is shown."""
     missing: dict[str, str] = field(default_factory=dict)
     """Why a piece is not here, by the piece's name."""
 
@@ -73,9 +75,15 @@ def gather(run: Run) -> Material:
     if state.key and state.folder.is_dir():
         found.origin = "current"
         _evidence(found, state.folder, state.folder, "result.json")
+        found.shown_key = state.key.key
     elif found.stamp:
         found.origin = "accepted"
+        found.shown_key = found.stamp.predicate.source.key
         _evidence(found, run.accepted / "evidence", run.accepted, "")
+    elif earlier := _newest(state):
+        found.origin = "earlier"
+        found.shown_key = earlier.name
+        _evidence(found, earlier, earlier, "result.json")
     environment = found.stamp.predicate.environment if found.stamp else state.environment
     if environment:
         found.environment = environment.model_dump()
@@ -84,6 +92,14 @@ def gather(run: Run) -> Material:
     _motion(found, state)
     _layout(found)
     return found
+
+
+def _newest(state: State) -> Path | None:
+    """The evidence folder of the earlier key that was worked on last."""
+    folders = [state.run.evidence(key) for key in state.other_keys]
+    results = [folder / "physics" / "result.json" for folder in folders]
+    kept = [path for path in results if path.is_file()]
+    return max(kept, key=lambda path: path.stat().st_mtime).parents[1] if kept else None
 
 
 def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
@@ -112,19 +128,14 @@ def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
 
 
 def _motion(found: Material, state: State) -> None:
-    """Fill in what the recording says: of this key, else of the key that was accepted, else the stamped samples."""
-    keys = [state.key.key] if state.key else []
-    keys += [found.stamp.predicate.source.key] if found.stamp else []
+    """Fill in what the recording of the shown key says, else the stamp's samples."""
     movers = found.plan.movers() if found.plan else ()
     declared = found.plan.simulation_parameters.interventions if found.plan else ()
-    for key in keys:
-        recording = state.run.evidence(key) / "physics" / "trajectory"
-        if not recording.is_dir():
-            continue
+    recording = state.run.evidence(found.shown_key or "none") / "physics" / "trajectory"
+    if recording.is_dir():
         try:
             found.motion = series.read(recording, movers)
             found.ledger = acted(recording, declared)
-            return
         except WorldwrightError as error:
             found.missing["motion"] = error.cause
         except Exception as cause:  # a report must come out whatever a recording holds

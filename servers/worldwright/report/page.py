@@ -83,7 +83,7 @@ def _charts(material: Material) -> dict[str, Any] | None:
         "above": above,
         "aspect": aspect,
         "end": end,
-        "ticks": [chart.Tick(100 * v / (end or 1.0), f"{v:g}") for v in chart.ticks(0, end or 1.0, 6)],
+        "ticks": chart.axis(0.0, end or 1.0, 6),
     }
 
 

@@ -142,11 +142,23 @@ def _catalog_meshes(plan: Plan) -> dict[str, list[dict[str, Any]]]:
                 mesh: Any = trimesh.load(path, force="mesh", process=False)
                 look = asset.materials.get(material, {})
                 part = {"vertex_positions": mesh.vertices * scale, "triangle_indices": mesh.faces}
-                parts.append({**part, "vertex_normals": mesh.vertex_normals, **_look(mesh, look, asset.folder)})
+                parts.append({**part, "vertex_normals": _normals(mesh), **_look(mesh, look, asset.folder)})
         except (KeyError, OSError, ValueError):
             continue  # without its mesh the body is drawn from its geoms
         found |= dict.fromkeys(row.instances, parts)
     return found
+
+
+def _normals(mesh: Any) -> Any:
+    """Unit normals (V, 3), weighted by the area of the faces around each vertex (no SciPy needed)."""
+    import numpy as np
+
+    corners = np.asarray(mesh.vertices)[mesh.faces]
+    across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    summed = np.zeros((len(mesh.vertices), 3))
+    for corner in range(3):
+        np.add.at(summed, mesh.faces[:, corner], across)
+    return summed / np.maximum(np.linalg.norm(summed, axis=1, keepdims=True), 1e-12)
 
 
 def _look(mesh: Any, look: Any, folder: Path) -> dict[str, Any]:

@@ -13,7 +13,11 @@ POINTS = 480
 LINES = 8
 """Bodies shown in one plot: those that move most."""
 PAIRS = 10
-"""Rows of the contact timeline: the pairs that touch longest."""
+"""Rows of the contact timeline: first the pairs whose contact begins, ends or is broken, then the lasting ones."""
+MOVED_M, TURNED_RAD = 2e-3, 0.05
+"""A body that travelled or turned less than this is not drawn as moving."""
+WENT_M = 0.05
+"""Paths from above are drawn when some body went at least this far."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,10 @@ class Touch:
     """Start and end of each contact, s."""
     peak_n: float
     """Largest normal force, N."""
+
+    def lasts(self, start: float, end: float) -> bool:
+        """Whether it is one contact from `start` or earlier to `end` or later."""
+        return len(self.spans) == 1 and self.spans[0][0] <= start and self.spans[0][1] >= end
 
 
 @dataclass(frozen=True)
@@ -70,13 +78,10 @@ def of(trajectory: "Trajectory", first: tuple[str, ...] = ()) -> Motion:
     import numpy as np
 
     t = np.asarray(trajectory.t, dtype=float)
-    finite = np.isfinite(trajectory.pos).all(axis=2)
-    travelled = np.where(finite[1:] & finite[:-1], np.linalg.norm(np.diff(trajectory.pos, axis=0), axis=2), 0).sum(
-        axis=0
-    )
-    turned = np.where(np.isfinite(trajectory.spin), trajectory.spin, 0).max(axis=0) if len(t) else travelled
-    moving = [i for i in range(len(trajectory.names)) if travelled[i] > 1e-4 or turned[i] > 1e-2]
-    moving.sort(key=lambda i: (trajectory.names[i] not in first, -travelled[i]))
+    went, turned = _extent_m(trajectory.pos), _turn_rad(trajectory.quat)
+    named = [name in first for name in trajectory.names]
+    moving = [i for i, name in enumerate(named) if name or went[i] > MOVED_M or turned[i] > TURNED_RAD]
+    moving.sort(key=lambda i: (not named[i], -went[i]))
     shown = sorted(moving[:LINES])
     names = trajectory.names
     energies = []
@@ -98,11 +103,29 @@ def of(trajectory: "Trajectory", first: tuple[str, ...] = ()) -> Motion:
         heights=[Line(names[i], *reduce(t, trajectory.pos[:, i, 2])) for i in shown],
         speeds=[Line(names[i], *reduce(t, trajectory.speed[:, i])) for i in shown],
         energies=energies,
-        paths=[Line(names[i], *_path(trajectory.pos[:, i])) for i in shown],
+        paths=_paths([Line(names[i], *_path(trajectory.pos[:, i])) for i in shown]),
         contacts=contacts,
         more_bodies=len(moving) - len(shown),
         more_pairs=more_pairs,
     )
+
+
+def _extent_m(pos: Any) -> Any:
+    """(B,) diagonal of the box that each body's origin (T, B, 3) stays in; jitter at rest does not add up."""
+    import numpy as np
+
+    values = np.where(np.isfinite(pos), pos, np.nan)
+    with np.errstate(all="ignore"):
+        sides = np.fmax.reduce(values, axis=0) - np.fmin.reduce(values, axis=0)
+    return np.nan_to_num(np.linalg.norm(sides, axis=1))
+
+
+def _turn_rad(quat: Any) -> Any:
+    """(B,) largest angle from the first orientation (T, B, 4)."""
+    import numpy as np
+
+    alike = np.abs(np.einsum("tbi,bi->tb", quat, quat[0]))
+    return np.nan_to_num(2 * np.arccos(np.clip(np.nanmin(np.nan_to_num(alike, nan=1.0), axis=0), 0, 1)))
 
 
 def reduce(t: Any, y: Any) -> tuple[list[float], list[float]]:
@@ -120,6 +143,12 @@ def reduce(t: Any, y: Any) -> tuple[list[float], list[float]]:
         rows = np.array(sorted(chosen))
         t, y = t[rows], y[rows]
     return t.tolist(), y.tolist()
+
+
+def _paths(lines: list[Line]) -> list[Line]:
+    """The paths, when one of them leads anywhere."""
+    spans = [max(max(line.x) - min(line.x), max(line.y) - min(line.y)) for line in lines if line.x]
+    return lines if max(spans, default=0.0) >= WENT_M else []
 
 
 def _path(pos: Any) -> tuple[list[float], list[float]]:
@@ -154,7 +183,8 @@ def _contacts(trajectory: Any) -> tuple[list[Touch], int]:
         peak = float(np.nanmax(force)) if np.isfinite(force).any() else 0.0
         names = [_name(trajectory, int(i)) for i in (one, other)]
         touches.append(Touch(" · ".join(sorted(names, key=lambda n: n == "world")), spans, peak))
-    touches.sort(key=lambda touch: -sum(end - start for start, end in touch.spans))
+    first, last = float(t[0]) + 2 * interval, float(t[-1])
+    touches.sort(key=lambda h: (h.lasts(first, last), -sum(end - start for start, end in h.spans)))
     kept = touches[:PAIRS]
     kept.sort(key=lambda touch: touch.spans[0][0])
     return kept, max(0, len(touches) - PAIRS)
@@ -179,7 +209,7 @@ def from_samples(sampled: Any, summary: dict[str, Any]) -> Motion:
         bodies=len(sampled.bodies),
         complete=True,
         heights=[Line(sampled.bodies[i], t, position[:, i, 2].tolist()) for i in shown],
-        paths=[Line(sampled.bodies[i], *_path(position[:, i])) for i in shown],
+        paths=_paths([Line(sampled.bodies[i], *_path(position[:, i])) for i in shown]),
         more_bodies=len(sampled.bodies) - len(shown),
         sampled=True,
     )

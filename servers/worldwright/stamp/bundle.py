@@ -57,9 +57,13 @@ def seal(folder: Path, statement: Statement) -> str:
     text = statement.to_json()
     write_atomic(folder / STAMP, text)
     stamp_sha256 = hashlib.sha256(text.encode()).hexdigest()
-    lines = [f"{s.digest.sha256}  {s.name}\n" for s in statement.subject] + [f"{stamp_sha256}  {STAMP}\n"]
-    write_atomic(folder / SUMS, "".join(lines))
+    write_atomic(folder / SUMS, _sums(statement, stamp_sha256))
     return stamp_sha256
+
+
+def _sums(statement: Statement, stamp_sha256: str) -> str:
+    lines = [f"{s.digest.sha256}  {s.name}\n" for s in statement.subject]
+    return "".join([*lines, f"{stamp_sha256}  {STAMP}\n"])
 
 
 def draft_folder(run: Run) -> Path:
@@ -103,9 +107,9 @@ def damage(folder: Path, statement: Statement) -> list[str]:
     try:
         extra = [name for name in files_in(folder) if name not in listed and name not in (STAMP, SUMS)]
         found += [f"{name} is not in the stamp" for name in extra]
-        if f"{sha256_file(folder / STAMP)}  {STAMP}" not in (folder / SUMS).read_text(encoding="utf-8").split("\n"):
-            found.append(f"{STAMP} does not match {SUMS}")
-    except (OSError, UnicodeDecodeError) as cause:
+        if (folder / SUMS).read_bytes() != _sums(statement, sha256_file(folder / STAMP)).encode():
+            found.append(f"{SUMS} and {STAMP} do not match")
+    except OSError as cause:
         found.append(f"{SUMS} cannot be read ({cause})")
     return found
 

@@ -35,7 +35,7 @@ def describe(run: Run) -> VisualDescription:
         sizes[camera], tones[camera] = _picture(state.folder / "stills" / f"{camera}.png")
     names = state.plan.object_names() if state.plan else ()
     wanted = [n for n in names if not _hidden_on_purpose(state.plan, n)]
-    bodies = {body for shown in seen.values() for body in shown}
+    bodies = {body for shown in seen.values() for body in shown} - {"world"}
     shares = {name: {c: _share(shown, name) for c, shown in seen.items()} for name in dict.fromkeys(wanted)}
     concerns = [f"{camera}: {text}" for camera, text in tones.items() if text]
     concerns += list(_concerns(shares, seen, sizes))
@@ -251,7 +251,8 @@ def _object_text(by_camera: dict[str, float]) -> str:
 
 def _camera_text(shown: dict[str, dict[str, Any]]) -> str:
     ranked = sorted(((float(v.get("fraction", 0) or 0), body) for body, v in shown.items()), reverse=True)
-    return ", ".join(f"{body} {share:.2%}" for share, body in ranked[:12] if share > 0) or "nothing"
+    named = ((share, "surroundings" if body == "world" else body) for share, body in ranked[:12] if share > 0)
+    return ", ".join(f"{body} {share:.2%}" for share, body in named) or "nothing"
 
 
 def _visible(claim: str, shares: dict[str, dict[str, float]]) -> list[str]:

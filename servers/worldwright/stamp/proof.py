@@ -73,12 +73,31 @@ def prove(
             place=job.place,
             next_move=job.next_move or "run it again; a program that runs once must run twice",
         )
-    return Proved(
+    recording = run.evidence(key) / "physics" / "trajectory"
+    proved = Proved(
         run=run,
         physics=result.value,
         lint=LintReport(findings=tuple(report.findings), rules=report.rules),
-        recording=run.evidence(key) / "physics" / "trajectory",
+        recording=recording,
     )
+    recorded = _recorded_sha256(recording)
+    if recorded != proved.trajectory_sha256:
+        raise GateError(
+            f"the program reports trajectory {proved.trajectory_sha256[:16]}, but what it recorded is {recorded[:16]}",
+            place=str(recording),
+            next_move="let worldkit record the run and write its result; change neither",
+        )
+    return proved
+
+
+def _recorded_sha256(recording: Path) -> str:
+    """The trajectory's hash computed here, from the recorded rows: the program's own word is not evidence."""
+    from worldkit import trajectory
+
+    try:
+        return trajectory.digest(trajectory.open(recording))
+    except trajectory.RecordingError as error:
+        raise GateError(f"the recording cannot be read: {error}", place=str(recording)) from error
 
 
 def _environment_sha256() -> str:

@@ -3,7 +3,7 @@
 from typing import Literal
 
 from ..model.frozen import Frozen
-from . import bundle
+from . import bundle, gates
 from .state import State
 from .steps import Step, StepName, steps
 
@@ -78,6 +78,8 @@ def _notes(state: State, found: dict[StepName, Step], outcome: str, older_block:
     leftovers = list(state.run.folder.glob(f"{bundle.PREFIX}*"))
     if leftovers:
         notes.append(f"{len(leftovers)} unfinished acceptance(s) were left by a crash; the next accept removes them")
+    if outcome == "open" and any(step.status == "fails" for step in found.values()):
+        notes += [f"repair: {refusal.cause}; {refusal.next_move}" for refusal in gates.refusals("repair", state)]
     if outcome == "open" and state.other_keys and not any(found[n].holds for n in found if n not in RELEASED):
         notes.append(f"evidence of {len(state.other_keys)} earlier key(s) is kept and does not count")
     return notes

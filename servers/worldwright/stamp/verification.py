@@ -62,12 +62,8 @@ class Verification(Frozen):
 def verify(name: str, timeout_s: float, progress: Progress = silent) -> Verification:
     """Check and re-run an accepted world: a run folder that holds `accepted/`, or an accepted folder itself."""
     run, folder = _locate(name)
-    kept = Kept.read(folder / bundle.STAMP, Statement)
-    if kept.value is None:
-        return _refuted(run, [Check(name="stamp", ok=False, detail=kept.problem or "there is no stamp.json")])
-    statement = kept.value
-    checks = list(_static(run, folder, statement))
-    if not all(c.ok for c in checks):
+    checks, statement = static(run, folder), Kept.read(folder / bundle.STAMP, Statement).value
+    if statement is None or not all(c.ok for c in checks):
         return _refuted(run, checks)
     here = _here()
     differences = tuple(environment_differences(statement.predicate.environment, statement.predicate.cpu, here))
@@ -137,8 +133,15 @@ def _locate(name: str) -> tuple[Run, Path]:
     return run, run.accepted
 
 
+def static(run: Run, folder: Path) -> list[Check]:
+    """What can be checked of an accepted folder without running anything."""
+    kept = Kept.read(folder / bundle.STAMP, Statement)
+    if kept.value is None:
+        return [Check(name="stamp", ok=False, detail=kept.problem or "there is no stamp.json")]
+    return list(_static(run, folder, kept.value))
+
+
 def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
-    """Bytes and hashes, without running anything."""
     broken = bundle.damage(folder, statement)
     count = len(statement.subject)
     yield Check(name="checksums", ok=not broken, detail="; ".join(broken[:5]) or f"{count} files as stamped")
@@ -198,7 +201,7 @@ def _objectives(statement: Statement, proved: Proved) -> Iterator[Check]:
         if before.get(o.index) != o.status
     ]
     yield Check(
-        name="expectations", ok=not changed, detail="; ".join(changed[:5]) or f"{len(stamped)} verdicts as stamped"
+        name="expectations", ok=not changed, detail="; ".join(changed[:5]) or f"all as stamped ({len(stamped)})"
     )
     blocking = [a for a in scanned.anomalies if a.severity == "blocking"]
     checks = sum(c.status != "skipped" for c in scanned.checks)

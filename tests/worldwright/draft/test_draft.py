@@ -56,7 +56,7 @@ def plan(**changes) -> Plan:
 
 
 def test_a_declarative_plan_is_drafted_whole_and_twice_the_same():
-    first, second = draft(plan(), LAYOUT, "pendulum"), draft(plan(), LAYOUT, "pendulum")
+    first, second = draft(plan(), LAYOUT), draft(plan(), LAYOUT)
     assert first == second
     assert first.complete
     ast.parse(first.source)
@@ -68,7 +68,7 @@ def test_the_draft_compiles_to_the_plan(tmp_path):
     import numpy as np
 
     path = tmp_path / "simulation.py"
-    path.write_text(draft(plan(), LAYOUT, "pendulum").source)
+    path.write_text(draft(plan(), LAYOUT).source)
     names: dict = {"__name__": "drafted"}
     exec(compile(path.read_text(), str(path), "exec"), names)
     model = names["build"]().compile()
@@ -86,14 +86,14 @@ def test_the_draft_compiles_to_the_plan(tmp_path):
 
 
 def test_a_child_is_written_after_its_parent():
-    source = draft(plan(), LAYOUT, "pendulum").source
+    source = draft(plan(), LAYOUT).source
     assert source.index('"arm"') < source.index('"bob"')
 
 
 def test_what_cannot_be_drafted_is_left_to_the_author_by_name():
     wind = {"kind": "force", "bodies": ["bob"], "law": "0.5 rho c A v^2", "source": "drag equation"}
     parameters = {**PENDULUM["simulation_parameters"], "interventions": [wind]}
-    drafted = draft(plan(simulation_parameters=parameters, plan_type="fsi_in_scene"), LAYOUT, "pendulum")
+    drafted = draft(plan(simulation_parameters=parameters, plan_type="fsi_in_scene"), LAYOUT)
     assert not drafted.complete
     assert len(drafted.open_places) == 2
     assert drafted.source.count("AUTHOR:") == 2
@@ -102,9 +102,9 @@ def test_what_cannot_be_drafted_is_left_to_the_author_by_name():
 
 def test_open_questions_and_missing_poses_are_refused():
     with pytest.raises(PlanError, match="time step of what"):
-        draft(plan(clarifications_needed=["time step of what?"]), LAYOUT, "pendulum")
+        draft(plan(clarifications_needed=["time step of what?"]), LAYOUT)
     with pytest.raises(PlanError, match="no pose was resolved for puck"):
-        draft(plan(), Scene(objects=LAYOUT.objects[:2]), "pendulum")
+        draft(plan(), Scene(objects=LAYOUT.objects[:2]))
 
 
 def test_a_cycle_of_joints_is_refused():
@@ -113,7 +113,7 @@ def test_a_cycle_of_joints_is_refused():
         {"name": "b", "type": "hinge", "parent": "bob", "child": "arm"},
     ]
     with pytest.raises(PlanError, match="cycle"):
-        draft(plan(topology={"joints": joints}), LAYOUT, "pendulum")
+        draft(plan(topology={"joints": joints}), LAYOUT)
 
 
 def test_source_text():
@@ -122,7 +122,7 @@ def test_source_text():
     assert call("bodies.cylinder", Raw("x"), wide, size=(1.0,), indent=0) == wrapped
     assert all(ast.literal_eval(literal(v)) == v for v in ("a\"b'c\n\\", (1, 2.5), {"k": (1,)}, -0.1, True, None))
     assert constant_name("8-ball felt") == "_8_BALL_FELT"
-    assert dataclasses.is_dataclass(draft(plan(), LAYOUT, "x"))
+    assert dataclasses.is_dataclass(draft(plan(), LAYOUT))
 
 
 def test_the_draft_is_formatted_and_lints_clean(tmp_path):
@@ -130,7 +130,7 @@ def test_the_draft_is_formatted_and_lints_clean(tmp_path):
     import sys
 
     path = tmp_path / "simulation.py"
-    path.write_text(draft(plan(), LAYOUT, "pendulum").source)
+    path.write_text(draft(plan(), LAYOUT).source)
     options = ["--line-length", "120", "--isolated"]
     for command in (["format", "--check", "--diff"], ["check", "--select", "E,F,W"]):
         done = subprocess.run([sys.executable, "-m", "ruff", *command, *options, path], capture_output=True, text=True)

@@ -40,3 +40,20 @@ def test_a_huge_file_is_refused_without_reading_it_all(tmp_path):
         stream.truncate(MAX_BYTES * 4)
     with pytest.raises(PlanError, match="larger than"):
         read_plan(path)
+
+
+@pytest.mark.parametrize(
+    ("data", "line", "words"),
+    [
+        (b"\x89PNG\r\n\x1a\n\x00\x00\x00\rIHDR", 1, "binary"),
+        ("# Tisch\n\nEin B\xe4llchen\n".encode("latin-1"), 3, "byte 0xe4 is not UTF-8"),
+        (b"# a\n\x00\n", 2, "binary"),
+    ],
+)
+def test_what_is_not_utf8_text_is_refused_at_its_line(tmp_path, data, line, words):
+    path = tmp_path / "plan.md"
+    path.write_bytes(data)
+    with pytest.raises(PlanError, match=words) as refusal:
+        read_plan(path)
+    assert [(f.code, f.line) for f in refusal.value.findings] == [("WP001", line)]
+    assert path.read_bytes() == data

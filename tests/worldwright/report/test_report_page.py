@@ -111,7 +111,7 @@ def test_an_accepted_run_shows_everything(accepted: Path, copy: Copy) -> None:
         assert words in text
     assert "nothing but the engine's own step acted on this world" in text
     assert page.tags.count("video") == 2
-    assert page.tags.count("polyline") >= 6
+    assert page.tags.count("polyline") >= 5
     for heading in ("Stamp", "Files", "Environment", "Journal", "The program", "The plan"):
         assert heading in text
 

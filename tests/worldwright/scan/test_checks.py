@@ -1,6 +1,7 @@
 """Every check on its own cases: found where planted, silent where not."""
 
 import pytest
+
 from worldwright.scan.engine import CHECKS, ORDER, run_check
 
 CASES = [

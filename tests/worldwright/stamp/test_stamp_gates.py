@@ -40,7 +40,7 @@ def evidence(folder: Path) -> Path:
 def test_every_gate_is_documented_and_on_the_shelf() -> None:
     names = {entry.name for entry in gates.shelf().values()}
     assert names == {
-        "approve", "auto_approve", "physics", "stills", "video", "describe", "review", "accept", "block",
+        "approve", "auto_approve", "physics", "stills", "video", "describe", "review", "repair", "accept", "block",
     }  # fmt: skip
     for entry in gates.shelf().values():
         assert "Why:" in entry.doc, f"{entry.name} does not say why"
@@ -232,3 +232,26 @@ def test_an_unknown_run_lists_the_known_ones(tmp_path: Path, monkeypatch: pytest
         stamp.status("drip")
     assert "runs/drop" in caught.value.next_move
     assert stamp.status("drop").next_move == "worldwright stamp approve runs/drop"
+
+
+def test_repairs_are_capped_and_symbols_are_looked_up_first(planned: Path, copy: Copy) -> None:
+    from worldwright.lint import tools as lint
+
+    folder = copy(planned)
+    program = folder / "simulation.py"
+    whole = program.read_text(encoding="utf-8")
+    program.write_text(
+        whole.replace("    return spec", "    mujoco.mj_flyToTheMoon(spec)\n    return spec"), encoding="utf-8"
+    )
+    lint.check_program([program])
+    run = Run(folder)
+
+    def notes() -> str:
+        return " ".join(note for note in stamp.status(str(folder)).notes if note.startswith("repair:"))
+
+    assert "mj_flyToTheMoon" in notes()
+    run.log("retrieve", "cite", source="APIreference")
+    assert notes() == ""
+    for i in range(12):
+        run.log("tester", "review", key=f"key{i}", outcome="repair")
+    assert "12 repairs were ordered already" in notes()

@@ -36,6 +36,7 @@ def tile(look: Look, size: int) -> np.ndarray:
     return np.concatenate([_bytes(painted.rgb), _bytes(painted.height)[..., None]], axis=-1)
 
 
+@lru_cache(maxsize=4)
 def cube_directions(size: int) -> np.ndarray:
     """Unit directions of the texels of a cube map: (6, size, size, 3), faces +x -x +y -y +z -z in OpenGL's layout."""
     axis = (np.arange(size) + 0.5) / size * 2.0 - 1.0
@@ -51,7 +52,7 @@ def cube_directions(size: int) -> np.ndarray:
             np.stack([-s, -t, -one], -1),
         ]
     )
-    return faces / np.linalg.norm(faces, axis=-1, keepdims=True)
+    return (faces / np.linalg.norm(faces, axis=-1, keepdims=True)).astype(np.float32)
 
 
 @lru_cache(maxsize=96)

@@ -10,42 +10,49 @@ from .noise import cells, mix, random, smooth
 Rgb = tuple[float, float, float]
 IVORY = (0.955, 0.935, 0.875)
 
-# Five by seven strokes per digit, one string per row.
-_DIGITS = {
-    "0": "01110 10001 10001 10001 10001 10001 01110",
-    "1": "00100 01100 00100 00100 00100 00100 01110",
-    "2": "01110 10001 00001 00110 01000 10000 11111",
-    "3": "01110 10001 00001 00110 00001 10001 01110",
-    "4": "00010 00110 01010 10010 11111 00010 00010",
-    "5": "11111 10000 11110 00001 00001 10001 01110",
-    "6": "01110 10000 10000 11110 10001 10001 01110",
-    "7": "11111 00001 00010 00100 00100 01000 01000",
-    "8": "01110 10001 10001 01110 10001 10001 01110",
-    "9": "01110 10001 10001 01111 00001 00001 01110",
+# Strokes of the digits in a cell 0.6 wide and 1 high about the origin: lines (x0, y0, x1, y1), and arcs (centre x, y, radii,
+# from and to in degrees counter-clockwise from +x).
+_LINES: dict[str, tuple[tuple[float, float, float, float], ...]] = {
+    "1": ((-0.14, 0.26, 0.02, 0.42), (0.02, 0.42, 0.02, -0.42)),
+    "2": ((0.21, 0.08, -0.24, -0.42), (-0.24, -0.42, 0.26, -0.42)),
+    "4": ((0.10, 0.42, -0.26, -0.16), (-0.26, -0.16, 0.27, -0.16), (0.10, 0.42, 0.10, -0.42)),
+    "5": ((0.20, 0.42, -0.18, 0.42), (-0.18, 0.42, -0.21, 0.06)),
+    "6": ((-0.235, -0.16, 0.08, 0.42),),
+    "7": ((-0.25, 0.42, 0.25, 0.42), (0.25, 0.42, -0.08, -0.42)),
+    "9": ((0.235, 0.16, -0.08, -0.42),),
+}
+_ARCS: dict[str, tuple[tuple[float, float, float, float, float, float], ...]] = {
+    "0": ((0.0, 0.0, 0.24, 0.42, 0.0, 360.0),),
+    "2": ((0.0, 0.19, 0.24, 0.23, -28.0, 170.0),),
+    "3": ((-0.01, 0.215, 0.21, 0.205, -90.0, 150.0), (-0.01, -0.205, 0.245, 0.215, -150.0, 90.0)),
+    "5": ((-0.01, -0.15, 0.245, 0.265, -150.0, 135.0),),
+    "6": ((0.0, -0.17, 0.24, 0.25, 0.0, 360.0),),
+    "8": ((0.0, 0.22, 0.20, 0.20, 0.0, 360.0), (0.0, -0.20, 0.24, 0.22, 0.0, 360.0)),
+    "9": ((0.0, 0.17, 0.24, 0.25, 0.0, 360.0),),
 }
 
 
+def _segments(digit: str) -> np.ndarray:
+    """Straight pieces (N, 4) of a digit's strokes."""
+    pieces = [np.array(line) for line in _LINES.get(digit, ())]
+    for x, y, rx, ry, start, end in _ARCS.get(digit, ()):
+        angle = np.radians(np.linspace(start, end, 22))
+        points = np.stack([x + rx * np.cos(angle), y + ry * np.sin(angle)], -1)
+        pieces.extend(np.concatenate([points[:-1], points[1:]], axis=1))
+    return np.array(pieces)
+
+
 def _glyphs(text: str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Coverage 0..1 of `text` centred at the origin, one unit high, y up."""
-    pitch = 0.86
-    width = pitch * len(text)
-    ink = np.zeros_like(x)
+    """Coverage 0..1 of `text` centred at the origin, one unit high, y up, at points (N,)."""
+    pitch, nearest = 0.68, np.full(x.shape, 9.0)
     for place, digit in enumerate(text):
-        bitmap = np.array([[float(c) for c in row] for row in _DIGITS[digit].split()])
-        bitmap = np.pad(bitmap, 2)
-        column = (x + 0.5 * width - pitch * (place + 0.5)) * 7.0 + 4.0
-        row = (0.5 - y) * 7.0 + 1.5
-        c, r = np.clip(column, 0.0, 7.999), np.clip(row, 0.0, 9.999)
-        c0, r0 = np.minimum(c.astype(int), 7), np.minimum(r.astype(int), 9)
-        fc, fr = c - c0, r - r0
-        value = (
-            bitmap[r0, c0] * (1 - fc) * (1 - fr)
-            + bitmap[r0, np.minimum(c0 + 1, 8)] * fc * (1 - fr)
-            + bitmap[np.minimum(r0 + 1, 10), c0] * (1 - fc) * fr
-            + bitmap[np.minimum(r0 + 1, 10), np.minimum(c0 + 1, 8)] * fc * fr
-        )
-        ink = np.maximum(ink, value)
-    return smooth(0.40, 0.62, ink)
+        centre = pitch * (place - 0.5 * (len(text) - 1))
+        for x0, y0, x1, y1 in _segments(digit):
+            dx, dy = x1 - x0, y1 - y0
+            px, py = x - centre - x0, y - y0
+            along = np.clip((px * dx + py * dy) / max(dx * dx + dy * dy, 1e-9), 0.0, 1.0)
+            nearest = np.minimum(nearest, np.hypot(px - along * dx, py - along * dy))
+    return 1.0 - smooth(0.055, 0.095, nearest)
 
 
 def _flat(direction: np.ndarray) -> np.ndarray:
@@ -55,17 +62,18 @@ def _flat(direction: np.ndarray) -> np.ndarray:
 def pool(direction: np.ndarray, tone: Rgb, number: str, striped: bool) -> tuple[np.ndarray, np.ndarray]:
     """A pool ball: colour (or ivory with a coloured band) and its number in an ivory disc on two opposite sides."""
     x, y, z = np.moveaxis(direction, -1, 0)
-    rgb = np.broadcast_to(np.asarray(tone), direction.shape)
+    rgb = np.array(np.broadcast_to(np.asarray(tone, dtype=direction.dtype), direction.shape))
     if striped:
-        rgb = mix(rgb, IVORY, smooth(0.50, 0.53, np.abs(z)))
-    for side in (1.0, -1.0):
-        facing = side * x
-        across = np.where(facing > 0, side * y, 9.0)
-        up = np.where(facing > 0, z, 9.0)
-        disc = 1.0 - smooth(0.325, 0.35, np.hypot(across, up))
-        rgb = mix(rgb, IVORY, disc)
-        height = 0.36 if len(number) == 1 else 0.30
-        rgb = mix(rgb, (0.06, 0.06, 0.07), disc * _glyphs(number, across / height, up / height))
+        rgb = mix(rgb, np.asarray(IVORY), smooth(0.50, 0.53, np.abs(z)))
+    # The discs cover little of the ball: paint only there.
+    near = np.flatnonzero(np.abs(x).ravel() > 0.93)
+    side = np.sign(x.ravel()[near])
+    across, up = side * y.ravel()[near], z.ravel()[near]
+    disc = 1.0 - smooth(0.325, 0.345, np.hypot(across, up))
+    height = 0.36 if len(number) == 1 else 0.31
+    patch = mix(rgb.reshape(-1, 3)[near], np.asarray(IVORY), disc)
+    patch = mix(patch, np.array((0.06, 0.06, 0.07)), disc * _glyphs(number, across / height, up / height))
+    rgb.reshape(-1, 3)[near] = patch
     return rgb, _flat(direction)
 
 
@@ -127,7 +135,10 @@ def tennis(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Yellow-green nap with the single wandering seam."""
     x, y, z = np.moveaxis(direction, -1, 0)
     longitude = np.arctan2(y, x)
-    seam = np.abs(np.arcsin(np.clip(z, -1, 1)) - 0.75 * np.sin(2.0 * longitude)) * np.cos(0.75 * np.sin(2 * longitude)) ** 0.5
+    seam = (
+        np.abs(np.arcsin(np.clip(z, -1, 1)) - 0.75 * np.sin(2.0 * longitude))
+        * np.cos(0.75 * np.sin(2 * longitude)) ** 0.5
+    )
     line = 1.0 - smooth(0.05, 0.07, seam / np.sqrt(1.0 + (1.2 * np.cos(2.0 * longitude)) ** 2) * 1.3)
     nap = random("tennis").normal(0.0, 0.05, direction.shape[:-1])
     rgb = np.asarray((0.80, 0.90, 0.22)) * (1.0 + nap)[..., None]
@@ -136,7 +147,16 @@ def tennis(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 def beach(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Six coloured gores and white caps."""
-    colours = np.array([(0.86, 0.12, 0.13), (0.96, 0.96, 0.94), (0.10, 0.35, 0.75), (0.97, 0.78, 0.10), (0.95, 0.95, 0.93), (0.10, 0.60, 0.32)])
+    colours = np.array(
+        [
+            (0.86, 0.12, 0.13),
+            (0.96, 0.96, 0.94),
+            (0.10, 0.35, 0.75),
+            (0.97, 0.78, 0.10),
+            (0.95, 0.95, 0.93),
+            (0.10, 0.60, 0.32),
+        ]
+    )
     gore = np.floor((np.arctan2(direction[..., 1], direction[..., 0]) / (2 * np.pi) + 0.5) * 6).astype(int) % 6
     cap = smooth(0.962, 0.968, np.abs(direction[..., 2]))
     return mix(colours[gore], (0.96, 0.96, 0.95), cap), _flat(direction)

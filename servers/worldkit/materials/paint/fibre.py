@@ -11,7 +11,8 @@ Rgb = tuple[float, float, float]
 def felt(size: int, name: str, tone: Rgb) -> Painted:
     """Napped wool: short tangled hairs and a faint nap."""
     hairs = np.maximum(
-        spectral(size, 0.5, name + "a", stretch=(1.0, 3.0), low=10.0), spectral(size, 0.5, name + "b", stretch=(3.0, 1.0), low=10.0)
+        spectral(size, 0.5, name + "a", stretch=(1.0, 3.0), low=10.0),
+        spectral(size, 0.5, name + "b", stretch=(3.0, 1.0), low=10.0),
     )
     nap = spectral(size, 1.8, name + "nap")
     value = 1.0 + 0.075 * (hairs - 0.6) + 0.022 * nap

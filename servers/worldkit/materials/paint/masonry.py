@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import Painted
-from .noise import mix, random, ramp, smooth, spectral
+from .noise import mix, ramp, random, smooth, spectral
 
 Rgb = tuple[float, float, float]
 

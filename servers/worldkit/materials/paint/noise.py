@@ -10,22 +10,26 @@ def random(name: str) -> np.random.Generator:
     return np.random.default_rng(zlib.crc32(name.encode()))
 
 
-def spectral(size: int, slope: float, name: str, stretch: tuple[float, float] = (1.0, 1.0), low: float = 0.0) -> np.ndarray:
+def spectral(
+    size: int, slope: float, name: str, stretch: tuple[float, float] = (1.0, 1.0), low: float = 0.0
+) -> np.ndarray:
     """Tileable noise whose amplitude falls as frequency**-slope: (size, size), mean 0, deviation 1.
 
     `stretch` (x, y) elongates the features along an axis; frequencies below `low` cycles per tile are left out.
     """
     # The lowest 64 x 64 random numbers do not depend on the size, so that a small and a large picture agree.
     half = size // 2
-    fy = np.fft.fftfreq(size, 1.0 / size)[:, None]
-    fx = np.arange(half + 1)[None, :]
+    fy = np.fft.fftfreq(size, 1.0 / size).astype(np.float32)[:, None]
+    fx = np.arange(half + 1, dtype=np.float32)[None, :]
     radius = np.hypot(fx * stretch[0], fy * stretch[1])
     generator = random(name)
-    coefficients = np.zeros((size, half + 1), dtype=complex)
+    coefficients = np.zeros((size, half + 1), dtype=np.complex64)
     block = 32
     while True:
         reach = min(block, half - 1)
-        ring = generator.standard_normal((2 * reach + 1, reach + 1)) + 1j * generator.standard_normal((2 * reach + 1, reach + 1))
+        ring = generator.standard_normal((2 * reach + 1, reach + 1)) + 1j * generator.standard_normal(
+            (2 * reach + 1, reach + 1)
+        )
         rows = np.arange(-reach, reach + 1)
         target = coefficients[rows % size, : reach + 1]
         coefficients[rows % size, : reach + 1] = np.where(target == 0, ring, target)
@@ -33,7 +37,7 @@ def spectral(size: int, slope: float, name: str, stretch: tuple[float, float] = 
             break
         block *= 2
     with np.errstate(divide="ignore"):
-        amplitude = np.where(radius > max(low, 0.5), radius**-slope, 0.0)
+        amplitude = np.where(radius > max(low, 0.5), radius ** np.float32(-slope), np.float32(0.0))
     field = np.fft.irfft2(coefficients * amplitude, s=(size, size))
     return field / (field.std() + 1e-12)
 

@@ -55,7 +55,7 @@ def slabs(size: int, name: str, light: Rgb, dark: Rgb, joint: Rgb, count: int = 
     """Irregular paving stones with mortar joints."""
     near, far, number = cells(size, count, name)
     rough = spectral(size, 1.2, name + "rough", low=3.0)
-    inside = smooth(0.05, 0.13, far - near + 0.012 * rough)
+    inside = smooth(0.03, 0.09, far - near + 0.006 * rough)
     tone = np.clip(0.25 + 0.5 * number + 0.10 * rough, 0.0, 1.0)
     rgb = mix(joint, ramp([(0.0, dark), (1.0, light)], tone), inside)
     return Painted(rgb, np.clip(inside * (0.75 + 0.06 * rough), 0.0, 1.0))
@@ -90,7 +90,9 @@ def grass(size: int, name: str, light: Rgb, middle: Rgb, dark: Rgb) -> Painted:
             spectral(size, 0.25, name + "a", stretch=(1.0, 4.5), low=14.0),
             spectral(size, 0.25, name + "b", stretch=(4.5, 1.0), low=14.0),
         ),
-        np.maximum(spectral(size, 0.35, name + "c", low=18.0), spectral(size, 0.3, name + "d", stretch=(1.0, 2.5), low=10.0)),
+        np.maximum(
+            spectral(size, 0.35, name + "c", low=18.0), spectral(size, 0.3, name + "d", stretch=(1.0, 2.5), low=10.0)
+        ),
     )
     blades = (blades - 1.0) / 0.75
     patch = spectral(size, 1.7, name + "patch")

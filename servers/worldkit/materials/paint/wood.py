@@ -3,7 +3,7 @@
 import numpy as np
 
 from . import Painted
-from .noise import mix, random, ramp, smooth, spectral, unit
+from .noise import mix, ramp, random, smooth, spectral, unit
 
 Rgb = tuple[float, float, float]
 
@@ -32,7 +32,14 @@ def solid(size: int, name: str, light: Rgb, middle: Rgb, dark: Rgb, rings: float
 
 
 def planks(
-    size: int, name: str, light: Rgb, middle: Rgb, dark: Rgb, rows: int = 10, contrast: float = 1.0, gap_width: float = 0.018
+    size: int,
+    name: str,
+    light: Rgb,
+    middle: Rgb,
+    dark: Rgb,
+    rows: int = 10,
+    contrast: float = 1.0,
+    gap_width: float = 0.018,
 ) -> Painted:
     """Floor boards along x: `rows` boards per tile, staggered joints, every board of its own tone and figure."""
     generator = random(name)

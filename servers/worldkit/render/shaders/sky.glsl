@@ -29,8 +29,8 @@ vec3 studio(vec3 d, bool lamp) {
     if (lamp) {
         c = c * 0.9 + vec3(0.30, 0.30, 0.31);
         c += vec3(6.5, 6.2, 5.8) * panel(d, key_direction, vec2(0.42, 0.30), 0.03);
-        c += vec3(2.1, 2.2, 2.4) * panel(d, normalize(vec3(-0.75, -0.35, 0.38)), vec2(0.16, 0.60), 0.04);
-        c += vec3(2.4, 2.3, 2.2) * panel(d, normalize(vec3(0.35, 0.85, 0.55)), vec2(0.75, 0.14), 0.04);
+        c += vec3(2.1, 2.2, 2.4) * panel(d, normalize(vec3(0.80, -0.10, 0.40)), vec2(0.16, 0.60), 0.04);
+        c += vec3(2.4, 2.3, 2.2) * panel(d, normalize(vec3(-0.45, 0.80, 0.55)), vec2(0.75, 0.14), 0.04);
     }
     return c;
 }
@@ -43,29 +43,29 @@ float ridge(float azimuth, float seed) {
 
 vec3 outdoor(vec3 d, bool lamp) {
     float h = d.z;
-    vec3 zenith = vec3(0.13, 0.30, 0.68), middle = vec3(0.33, 0.55, 0.86), low = vec3(0.78, 0.86, 0.93);
+    vec3 zenith = vec3(0.12, 0.29, 0.70), middle = vec3(0.28, 0.52, 0.90), low = vec3(0.62, 0.77, 0.95);
     float up = max(h, 0.0);
-    vec3 c = mix(low, middle, smoothstep(0.0, 0.30, up));
+    vec3 c = mix(low, middle, smoothstep(0.0, 0.24, up));
     c = mix(c, zenith, smoothstep(0.18, 0.95, up));
     float toward = max(dot(d, key_direction), 0.0);
     c += key_colour * (0.10 * pow(toward, 6.0) + 0.22 * pow(toward, 48.0)) * (1.0 - 0.5 * up);
     if (up > 0.0) {
         vec2 p = d.xy / (up + 0.22);
         float body = cloud(p * 0.085 + 0.21);
-        float cover = smoothstep(0.50, 0.70, body) * smoothstep(0.02, 0.22, up);
+        float cover = smoothstep(0.47, 0.66, body) * smoothstep(0.01, 0.16, up);
         float thick = smoothstep(0.52, 0.80, cloud(p * 0.085 + 0.21 + key_direction.xy * 0.012));
         vec3 white = mix(vec3(1.12, 1.09, 1.05), vec3(0.70, 0.75, 0.83), 0.75 * thick);
         c = mix(c, white, 0.86 * cover);
     }
     float azimuth = atan(d.y, d.x);
-    float far = 0.020 + 0.060 * ridge(azimuth, 0.21), near = 0.004 + 0.036 * ridge(azimuth + 1.0, 0.63);
-    vec3 haze = vec3(0.70, 0.79, 0.87);
+    float far = 0.016 + 0.060 * ridge(azimuth, 0.21), near = 0.008 + 0.030 * ridge(azimuth + 1.0, 0.63);
+    vec3 haze = vec3(0.60, 0.72, 0.86);
     float edge = lamp ? 0.02 : 0.0012;
-    c = mix(c, mix(haze, vec3(0.36, 0.47, 0.58), 0.62), 1.0 - smoothstep(far - edge, far + edge, h));
+    c = mix(c, mix(haze, vec3(0.22, 0.34, 0.46), 0.62), 1.0 - smoothstep(far - edge, far + edge, h));
     float leaf = textureLod(noise_map, vec2(azimuth * 9.0, h * 26.0), 0.0).r;
     vec3 trees = mix(vec3(0.10, 0.17, 0.085), vec3(0.20, 0.28, 0.12), leaf);
-    c = mix(c, mix(haze, trees, 0.66), 1.0 - smoothstep(near - edge, near + edge, h));
-    if (h < 0.0) c = mix(c, vec3(0.36, 0.44, 0.30), smoothstep(0.0, -0.02, h));
+    c = mix(c, mix(haze, trees, 0.80), 1.0 - smoothstep(near - edge, near + edge, h));
+    c = mix(c, vec3(0.36, 0.44, 0.30), 1.0 - smoothstep(-0.02, 0.0, h));
     return c;
 }
 

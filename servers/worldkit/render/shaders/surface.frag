@@ -11,7 +11,7 @@ flat in vec4 finish;   // roughness, metallic, coat, sheen
 flat in vec4 weave;    // repeats per metre, relief, mode, seed
 flat in vec4 misc;     // number, emission, rank, bevel
 flat in vec4 support;  // colour and height of what lies below
-flat in vec4 more;     // vary, clear
+flat in vec4 more;     // vary, clear, distance to the edge of what lies below
 in vec3 world;
 in vec3 local;
 in vec3 local_normal;
@@ -21,13 +21,16 @@ out vec4 colour;
 uniform sampler2D around;        // the surroundings; coarser levels for rougher surfaces
 uniform sampler2D shade;         // ambient occlusion and distance, at lower resolution
 uniform sampler2D behind;        // the picture so far: behind glass, and around mirrors
-uniform sampler2D guide;         // normal and distance of what is seen, at lower resolution
+uniform sampler2D guide;         // normal of what is seen, at lower resolution
+uniform sampler2D behind_depth;  // depth that goes with `behind`
+uniform float near_m;
 uniform vec4 pool;               // centre x and y, start and end radius of the key light's pool on the floor
 uniform sampler2D reflection;    // the world mirrored at the ground
 uniform vec3 eye;
 uniform vec3 forward;
 uniform vec2 pixels;
 uniform vec3 harmonics[9];       // irradiance of the upper surroundings over pi
+uniform vec3 ground_mean;        // mean colour of the ground
 uniform vec3 ground_light;       // light that falls on level ground, over pi
 uniform float key_sharp;         // 0 where the surroundings show the key light themselves
 uniform float key_spread;
@@ -52,45 +55,51 @@ vec3 surroundings(vec3 d, float roughness) {
     return textureLod(around, vec2(p.x + p.y, p.x - p.y) * 0.5 + 0.5, sqrt(roughness) * 6.0).rgb;
 }
 
-// The surroundings above, and below what the thing stands over, darker where the thing itself is in the way.
+// The surroundings above, and below what the thing stands over (the ground beyond its edge), darker where the thing itself
+// is in the way.
 vec3 mirrored_light(vec3 d, float roughness, vec4 support, vec3 p, float size) {
     float t = max(p.z - support.w, 0.0) / max(-d.z, 0.02);
     float open = mix(0.25, 1.0, smoothstep(0.0, 2.5 * size, t));
     float down = 1.0 - smoothstep(-0.10 - 0.5 * roughness, 0.10 + 0.5 * roughness, d.z);
-    vec3 low = support.rgb * ground_light * open;
-    return mix(surroundings(normalize(vec3(d.xy, max(d.z, 0.0))), roughness), low, down);
+    vec3 below = mix(support.rgb, ground_mean, smoothstep(0.7, 1.3, t * length(d.xy) / more.z));
+    return mix(surroundings(normalize(vec3(d.xy, max(d.z, 0.0))), roughness), below * ground_light * open, down);
 }
 
 #if MIRROR
+uniform int march;
+uniform float stride;
+
 // What a mirror shows of the picture itself: marches along the ray until it passes behind something seen.
 vec4 seen_along(vec3 p, vec3 d, float size) {
-    float t = 0.06 * size, last = 0.0;
+    float t = 0.30 * size, last = 0.22 * size;
     float hit = 0.0;
-    int turns = 16;
+    int turns = march;
     for (int i = 0; i < turns; i++) {
         vec4 clip = to_clip * vec4(p + d * t, 1.0);
         vec2 q = clip.xy / clip.w * 0.5 + 0.5;
-        float behind_by = clip.w - textureLod(guide, q, 0.0).w;
+        float behind_by = clip.w - near_m / max(textureLod(behind_depth, q, 0.0).r, 1e-7);
         bool inside = clip.w > 0.0 && q == clamp(q, 0.0, 1.0);
-        bool found = inside && behind_by > 0.0 && behind_by < 1.3 * (t - last) + 0.10 * size;
+        bool found = inside && dot(textureLod(guide, q, 0.0).xyz, d) < 0.0 && behind_by > 0.0 && behind_by < 1.3 * (t - last) + 0.10 * size;
         hit = found ? t : hit;
         turns = found || !inside ? 0 : turns;
         last = found ? last : t;
-        t = t * 1.32 + 0.035 * size;
+        t = t * stride + 0.035 * size;
     }
     float low = last, high = hit;
-    int refine = hit > 0.0 ? 4 : 0;
+    int refine = hit > 0.0 ? 5 : 0;
     for (int i = 0; i < refine; i++) {
         float middle = 0.5 * (low + high);
         vec4 clip = to_clip * vec4(p + d * middle, 1.0);
-        bool deep = clip.w > textureLod(guide, clip.xy / clip.w * 0.5 + 0.5, 0.0).w;
+        bool deep = clip.w > near_m / max(textureLod(behind_depth, clip.xy / clip.w * 0.5 + 0.5, 0.0).r, 1e-7);
         high = deep ? middle : high;
         low = deep ? low : middle;
     }
     vec4 clip = to_clip * vec4(p + d * high, 1.0);
     vec2 q = clip.xy / clip.w * 0.5 + 0.5;
     vec2 margin = smoothstep(vec2(0.0), vec2(0.08), q) * smoothstep(vec2(0.0), vec2(0.08), 1.0 - q);
-    return vec4(textureLod(behind, q, 0.0).rgb, hit > 0.0 ? margin.x * margin.y : 0.0);
+    // A picture knows nothing of the far sides of things: rays toward the eye, and glancing hits, are not to be trusted.
+    float trust = smoothstep(-0.25, 0.25, dot(d, forward)) * smoothstep(0.0, 0.35, -dot(textureLod(guide, q, 0.0).xyz, d));
+    return vec4(textureLod(behind, q, 0.0).rgb, hit > 0.0 ? margin.x * margin.y * trust : 0.0);
 }
 #endif
 
@@ -113,21 +122,13 @@ float glint(float nl, float nv, float nh, float roughness) {
 
 float fifth(float x) { float y = x * x; return y * y * x; }
 
+// The four nearest texels, each as far as it lies at the same distance: coarse shade without halos around things.
 float occlusion(vec2 at, float distance_m) {
-    vec2 size = vec2(textureSize(shade, 0));
-    vec2 p = at * size - 0.5;
-    ivec2 base = ivec2(floor(p)), last = ivec2(size) - 1;
-    vec2 f = p - vec2(base);
-    float sum = 0.0, weight = 0.0;
-    for (int i = 0; i < 4; i++) {
-        ivec2 o = ivec2(i & 1, i >> 1);
-        vec2 v = texelFetch(shade, clamp(base + o, ivec2(0), last), 0).rg;
-        vec2 g = mix(1.0 - f, f, vec2(o));
-        float w = (g.x * g.y + 1e-3) / (1e-3 + abs(v.g - distance_m) / distance_m);
-        sum += w * v.r;
-        weight += w;
-    }
-    return sum / weight;
+    vec2 f = fract(at * vec2(textureSize(shade, 0)) - 0.5);
+    vec4 shades = textureGather(shade, at, 0), distances = textureGather(shade, at, 1);
+    vec4 w = vec4((1.0 - f.x) * f.y, f.x * f.y, f.x * (1.0 - f.y), (1.0 - f.x) * (1.0 - f.y)) + 1e-3;
+    w /= 1e-3 + abs(distances / distance_m - 1.0);
+    return dot(w, shades) / dot(w, vec4(1.0));
 }
 
 void main() {
@@ -295,7 +296,7 @@ void main() {
 #endif
 
 #if SETTING == 2
-    c = mix(c, vec3(0.66, 0.75, 0.82), 0.96 * (1.0 - exp(-max(range - 4.0, 0.0) / haze_m)));
+    c = mix(c, vec3(0.46, 0.57, 0.56), 0.9 * (1.0 - exp(-max(range - 4.0, 0.0) / haze_m)));
 #endif
 #if GROUND && SETTING != 1 && SETTING != 2
     c = mix(c, sky(normalize(vec3(-v.xy, 0.0)), false), smoothstep(fade.z, fade.w, length(world.xy - fade.xy)));

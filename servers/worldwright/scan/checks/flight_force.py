@@ -1,7 +1,7 @@
 """A body in free flight does not fall with gravity: it floats, hovers, brakes or is pushed by nothing.
 
-What it means: an invisible force, a pose or velocity that is written, an undeclared gravity compensation, or a body left
-hanging without support. Touching nothing and tied to nothing, only gravity may act.
+What it means: an invisible force, a pose or velocity that is written, an undeclared gravity compensation, or a body
+left hanging without support. Touching nothing and tied to nothing, only gravity may act.
 
 Formula: for a loose body in rows without contact, a = dv/dt of its centre of mass; |a - g| > 0.1 max(|g|, 1) over at
 least three rows whose sum |sum (a - g) dt| exceeds 0.1 sqrt(g r); or, when every step was recorded, one single step

@@ -49,9 +49,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         yield from _judge(trajectory, context, b, rows[start], rows[stop], fallen)
 
 
-def _judge(
-    trajectory: Trajectory, context: Context, b: int, start: int, stop: int, fallen: float
-) -> Iterator[Sign]:
+def _judge(trajectory: Trajectory, context: Context, b: int, start: int, stop: int, fallen: float) -> Iterator[Sign]:
     name, size = trajectory.names[b], trajectory.size_m[b]
     window = (trajectory.t[start], trajectory.t[stop])
     depth = _depth(trajectory, b)
@@ -68,7 +66,8 @@ def _judge(
             yield Sign(name, window, fallen, 0.05 * size, "m", severity, message)
     elif fallen > 0.5 * size:
         severity = "blocking" if name in context.rests or name in context.fixed else "warn"
-        yield Sign(name, window, fallen, 0.5 * size, "m", severity, f"{name} goes down {fallen:.3g} m, slowly and steadily")
+        message = f"{name} goes down {fallen:.3g} m, slowly and steadily"
+        yield Sign(name, window, fallen, 0.5 * size, "m", severity, message)
 
 
 def _depth(trajectory: Trajectory, b: int) -> np.ndarray | None:
@@ -85,7 +84,8 @@ def _sinking() -> Case:
     speed[:, 0, 2] = -0.02
     assert still.contacts is not None
     touch = replace(still.contacts, depth_m=0.02 * still.t)
-    return Case("a box sinks into the floor", replace(still, pos=pos, linvel=speed, contacts=touch), severity="blocking")
+    sinking = replace(still, pos=pos, linvel=speed, contacts=touch)
+    return Case("a box sinks into the floor", sinking, severity="blocking")
 
 
 def _poses_alone() -> Case:
@@ -108,5 +108,10 @@ def _slope() -> Case:
     return Case("a body slides slowly down a slope", replace(slide, pos=pos, mechanics=slope))
 
 
-GOOD = (lambda: Case("a body at rest", analytic.resting(3.0)), lambda: Case("free fall", analytic.falling()), _lift, _slope)
+GOOD = (
+    lambda: Case("a body at rest", analytic.resting(3.0)),
+    lambda: Case("free fall", analytic.falling()),
+    _lift,
+    _slope,
+)
 BAD = (_sinking, _poses_alone)

@@ -30,7 +30,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         bad |= ~np.isfinite(np.einsum("tbi->tb", channel))
     yield from _signs(trajectory, bad, trajectory.names, "is not a number")
     if trajectory.energy is not None:
-        yield from _signs(trajectory, ~np.isfinite(trajectory.energy).all(axis=1)[:, None], ("energy",), "is not a number")
+        odd = ~np.isfinite(trajectory.energy).all(axis=1)[:, None]
+        yield from _signs(trajectory, odd, ("energy",), "is not a number")
     norm = np.einsum("tbi,tbi->tb", trajectory.quat, trajectory.quat)
     off = ~bad & (np.abs(norm - 1) > 2 * NORM_TOLERANCE)
     yield from _signs(trajectory, off, trajectory.names, "has an orientation that is no rotation (its norm is not 1)")

@@ -37,7 +37,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         moved, turned = travel(trajectory, b)
         limit = SIZE_FRACTION * float(trajectory.size_m[b])
         if moved < limit and turned < TURN_RAD:
-            message = f"the plan expects {name} to move, but it moves {moved:.3g} m and turns {np.degrees(turned):.2g} degrees"
+            turns = f"{np.degrees(turned):.2g} degrees"
+            message = f"the plan expects {name} to move, but it moves {moved:.3g} m and turns {turns}"
             yield Sign(name, whole, moved, limit, "m", "blocking", message)
 
 

@@ -1,0 +1,125 @@
+"""From a program's `build` to a compiled world with a checked clock, cast and seed."""
+
+import inspect
+import math
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+from .errors import ProgramError
+from .motion import START
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+MOST_STEPS = 100_000_000
+STATE_BYTES = 1 << 30
+"""Beyond this size of state rows, not every step is recorded."""
+
+
+def seeded(seed: int) -> "tuple[np.random.Generator, np.random.Generator]":
+    """Independent random generators for `build` and for `control`; the global ones are seeded too."""
+    import random
+
+    import numpy as np
+
+    if seed < 0:
+        raise ProgramError(f"the seed must be zero or positive, got {seed}", "--seed", "use any non-negative integer")
+    random.seed(seed)
+    np.random.seed(seed % 2**32)  # for programs that draw from numpy's global generator all the same
+    first, second = np.random.SeedSequence(seed).spawn(2)
+    return np.random.default_rng(first), np.random.default_rng(second)
+
+
+def make(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjModel":
+    """Call `build()` or `build(rng)` and compile what it returns: an MjSpec, or an MjModel that is compiled already."""
+    import mujoco
+
+    made = build(rng) if _positional(build) else build()
+    if isinstance(made, mujoco.MjModel):
+        return made
+    name = getattr(build, "__name__", "build")
+    if not isinstance(made, mujoco.MjSpec):
+        end = " (end it with `return spec`)" if made is None else ""
+        raise ProgramError(
+            f"{name}() returned {type(made).__name__}, not a world{end}", f"{name}()", "return a mujoco.MjSpec"
+        )
+    try:
+        return made.compile()
+    except ValueError as failure:
+        raise ProgramError(
+            f"the world does not compile: {failure}", f"{name}()", "repair what the compiler names"
+        ) from failure
+
+
+def controller(control: Callable[..., Any] | None, rng: "np.random.Generator") -> Callable[..., Any] | None:
+    """`control(model, data)`, whether the program's takes two arguments or a generator as the third."""
+    if control is None:
+        return None
+    if not callable(control):
+        raise ProgramError(f"control is {control!r}, not a function", "program.main", "pass a function, or nothing")
+    if _positional(control) >= 3:
+        return lambda model, data: control(model, data, rng)
+    return control
+
+
+def start(model: "mujoco.MjModel") -> "mujoco.MjData":
+    """Data at keyframe "start" when there is one, else at the model's initial state."""
+    import mujoco
+
+    data = mujoco.MjData(model)
+    key = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, START)
+    if key >= 0:
+        mujoco.mj_resetDataKeyframe(model, data, key)
+    return data
+
+
+def steps_of(model: "mujoco.MjModel", duration: float) -> int:
+    """How many steps the duration (s) takes; a `ProgramError` when either is nonsense."""
+    step = float(model.opt.timestep)
+    if not (math.isfinite(step) and step > 0):
+        raise ProgramError(f"the time step is {step} s", "build()", "set spec.option.timestep to a positive number")
+    if not (isinstance(duration, (int, float)) and math.isfinite(duration) and duration > 0):
+        raise ProgramError(f"the duration is {duration!r}", "duration", "give a positive, finite number of seconds")
+    steps = round(duration / step)
+    if steps < 1:
+        raise ProgramError(
+            f"a duration of {duration} s is shorter than one time step of {step} s", "duration", "simulate longer"
+        )
+    if steps > MOST_STEPS:
+        raise ProgramError(
+            f"{duration} s in steps of {step} s are {steps} steps", "duration", f"stay under {MOST_STEPS} steps"
+        )
+    return steps
+
+
+def record_every(model: "mujoco.MjModel", steps: int) -> int:
+    """Steps from one recorded row to the next: 1, unless the state rows would outgrow `STATE_BYTES`."""
+    row = 8 * (16 * model.nbody + model.nq + model.nv + model.nsensordata + model.nplastic + 3 * model.nu)
+    return max(1, math.ceil(row * steps / STATE_BYTES))
+
+
+def check_cast(model: "mujoco.MjModel", movers: Iterable[str], visual_only: Iterable[str]) -> None:
+    """The named bodies must exist; the message lists the ones that do."""
+    from .describe import names
+
+    bodies = names(model, "body", model.nbody)[1:]
+    geoms = names(model, "geom", model.ngeom)
+    for role, wanted, known in (("movers", movers, bodies), ("visual_only", visual_only, [*bodies, *geoms])):
+        if isinstance(wanted, str):
+            raise ProgramError(f"{role} is the text {wanted!r}", "program.main", f'write {role}=("{wanted}",)')
+        if unknown := [name for name in wanted if name not in known]:
+            raise ProgramError(
+                f"{role} names {', '.join(unknown)}, which is not in the world",
+                "program.main",
+                f"name some of: {', '.join(bodies) or '(the world has no bodies)'}",
+            )
+
+
+def _positional(function: Callable[..., Any]) -> int:
+    """How many positional arguments a function can take at most (a `*args` counts as none)."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return 0
+    return sum(p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD) for p in parameters)

@@ -1,0 +1,42 @@
+"""A ball or wheel rolls without slipping.
+
+The contact point of a body of radius r is at rest when v = omega x r, with r pointing from the ground to the centre:
+slip = |v_horizontal - (omega x r z)| / |v|. Measures the mean slip over the rows after `after_s` in which it moves.
+Source: rigid-body kinematics, rolling constraint.
+"""
+
+import numpy as np
+from pydantic import Field
+
+from ...model.trajectory import Trajectory
+from ..analytic import rolling
+from ..measured import Measured, OfBody, UnknowableError, body_index
+
+CODE = "WE110"
+
+
+class Given(OfBody):
+    """radius_m; tolerance: allowed slip relative to the speed; after_s: when rolling must have set in."""
+
+    radius_m: float = Field(gt=0)
+    tolerance: float = Field(gt=0)
+    after_s: float = 0.0
+
+
+def measure(trajectory: Trajectory, given: Given) -> Measured:
+    """The mean relative slip."""
+    body = body_index(trajectory, given.body)
+    rows = trajectory.rows(given.after_s, given.window_s[1] if given.window_s else None)
+    v, omega = trajectory.linvel[rows, body, :2], trajectory.angvel[rows, body]
+    rim = np.stack([omega[:, 1], -omega[:, 0]], axis=1) * given.radius_m
+    speed = np.linalg.norm(v, axis=1)
+    moving = speed > 0.02 * max(float(trajectory.speed[:, body].max()), 1e-9)
+    if not moving.any():
+        raise UnknowableError(f"{given.body} does not move after {given.after_s:g} s")
+    slip = float((np.linalg.norm(v - rim, axis=1)[moving] / speed[moving]).mean())
+    message = f"{given.body} slips by {slip:.2%} of its speed"
+    return Measured(slip, f"at most {given.tolerance:.2%}", given.tolerance - slip, "1", message)
+
+
+GOOD = ((lambda: rolling(1.0, 0.1), {"body": "ball", "radius_m": 0.1, "tolerance": 0.01}),)
+BAD = ((lambda: rolling(1.0, 0.1, slip=0.3), {"body": "ball", "radius_m": 0.1, "tolerance": 0.1}),)

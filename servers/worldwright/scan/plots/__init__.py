@@ -1,0 +1,5 @@
+"""Plots of a recording as PNG: clean axes with units, one colour a body, contacts marked along the time axis."""
+
+from .draw import QUANTITIES, Quantity, draw
+
+__all__ = ["QUANTITIES", "Quantity", "draw"]

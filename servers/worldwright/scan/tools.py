@@ -1,0 +1,199 @@
+"""The tools of `scan`: plausibility, expectations, cross-check questions, plots, comparison."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from pydantic import Field
+
+from ..expose import reads
+from ..model.errors import NotFoundError
+from ..model.evidence import EvidenceKey, ExpectReport, ScanReport
+from ..model.frozen import Frozen
+from ..model.picture import Illustrated, Picture
+from ..model.run import Run
+from .answers import Answer
+
+if TYPE_CHECKING:
+    from ..model.plan import Plan
+    from ..model.trajectory import Trajectory
+
+RunName = Annotated[
+    str, Field(description="A run folder or its name; or a recording: a trajectory folder or .npz file.")
+]
+Window = Annotated[str, Field(description="Seconds, as `START:END`; empty: all of it.")]
+
+
+class Scanned(ScanReport):
+    """A scan report with a readable text."""
+
+    def text(self) -> str:
+        """Anomalies first, then what could not be checked."""
+        looked = sum(check.status != "skipped" for check in self.checks)
+        lines = [str(anomaly) for anomaly in self.anomalies]
+        lines += [f"skipped {c.code} {c.name}: {c.reason}" for c in self.checks if c.status == "skipped"]
+        blocking = sum(a.severity == "blocking" for a in self.anomalies)
+        verdict = "plausible" if self.ok else "not plausible"
+        lines.append(f"{looked} checks: {verdict}, {blocking} blocking, {len(self.anomalies) - blocking} other")
+        return "\n".join(lines)
+
+
+class Expected(ExpectReport):
+    """An expectation report with a readable text."""
+
+    def text(self) -> str:
+        """One objective a paragraph, with what was measured."""
+        lines = []
+        for objective in self.objectives:
+            lines.append(f"{objective.status.replace('_', ' '):<11} {objective.index}. {objective.claim}")
+            for result in objective.expectations:
+                margin = f" (margin {result.margin:+.3g} {result.unit})" if result.margin is not None else ""
+                lines.append(f"            {result.status:<7} {result.name}: {result.message}{margin}")
+            if objective.status in ("visual_only", "unproved"):
+                lines.append(f"            {objective.reason}")
+        return "\n".join(lines)
+
+
+class Comparison(Frozen):
+    """Two iterations of a run, the better one named."""
+
+    better: Literal["first", "second", "equal"]
+    first: str
+    second: str
+    improved: tuple[str, ...] = ()
+    """What the second does better."""
+    worsened: tuple[str, ...] = ()
+
+    def text(self) -> str:
+        """The verdict and its reasons."""
+        head = {"first": f"{self.first} is better", "second": f"{self.second} is better", "equal": "neither is better"}
+        return "\n".join([head[self.better], *(f"+ {t}" for t in self.improved), *(f"- {t}" for t in self.worsened)])
+
+
+class PlotFacts(Frozen):
+    """What a plot shows."""
+
+    quantity: str
+    bodies: tuple[str, ...]
+    window_s: tuple[float, float] | None
+
+    def text(self) -> str:
+        """One line."""
+        return f"{self.quantity} of {', '.join(self.bodies) or 'the bodies that move most'}"
+
+
+def scan(run: RunName) -> Scanned:
+    """Look for motion that cannot be: jumps, sinking, energy from nowhere, undeclared pushes, bodies that never settle.
+
+    Reads the recording of the current program and plan and keeps the report as evidence. Each anomaly names its body,
+    its time window, what was measured and the threshold; `blocking` ones stand in the way of acceptance. Checks whose
+    channels were not recorded say so.
+    """
+    from . import engine
+    from .sign import Context
+
+    folder, key, plan, trajectory = _subject(run)
+    report = engine.scan(trajectory, Context.of(plan))
+    if folder is not None and key is not None:
+        folder.keep(key, "scan", report)
+        folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
+    return Scanned.model_validate(report.model_dump())
+
+
+def expect(run: RunName) -> Expected:
+    """Measure every objective of the plan on the recording: proved, refuted, visual only, or unproved.
+
+    Each expectation reports what was measured, what was expected and the signed margin between them. The report is
+    kept as evidence of the current program and plan.
+    """
+    from . import expecting
+
+    folder, key, plan, trajectory = _subject(run)
+    if plan is None or folder is None or key is None:
+        raise NotFoundError("there is no plan beside this recording", place=run, next_move="name a run folder instead")
+    report = expecting.expect(trajectory, plan)
+    folder.keep(key, "expect", report)
+    folder.log("scan", "expect", key=key.key, ok=report.ok)
+    return Expected.model_validate(report.model_dump())
+
+
+@reads
+def query(
+    run: RunName,
+    body: Annotated[str, Field(description="A body's name; `ground` is the world.")],
+    window: Window = "",
+) -> Answer:
+    """Ask what one body did: how far and how fast it moved, when it came to rest, what it touched and with which force.
+
+    Use it to test a visual claim ("the scene is frozen", "the ball went through the wall") against the numbers.
+    """
+    from .questions import answer
+
+    return answer(_subject(run)[3], body, _window(window))
+
+
+@reads
+def plot(
+    run: RunName,
+    quantity: Annotated[
+        Literal["height", "speed", "spin", "position", "energy", "contact_force", "penetration"],
+        Field(description="What to plot over time."),
+    ] = "height",
+    bodies: Annotated[list[str], Field(description="Bodies; empty: those that move most.")] = [],  # noqa: B006
+    window: Window = "",
+) -> Illustrated:
+    """Plot a quantity over time as a picture, with the beginnings of contacts marked."""
+    from .plots import draw
+
+    picture = draw(_subject(run)[3], quantity, tuple(bodies), _window(window))
+    facts = PlotFacts(quantity=quantity, bodies=tuple(bodies), window_s=_window(window))
+    return Illustrated(facts, (Picture(picture, f"{quantity} over time"),))
+
+
+@reads
+def compare(
+    run: Annotated[str, Field(description="The run folder or its name.")],
+    first: Annotated[str, Field(description="Evidence key of one iteration.")],
+    second: Annotated[str, Field(description="Evidence key of the other.")],
+) -> Comparison:
+    """Say which of two iterations is better, and what got better or worse, by anomalies and measured margins."""
+    from .comparing import compare_reports
+
+    folder = Run.find(run)
+    return compare_reports(folder, first, second)
+
+
+def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Trajectory]":
+    """The recording meant, with the run, key and plan it belongs to, when it belongs to one."""
+    from ..model.trajectory import Trajectory
+
+    path = Path(run)
+    if path.suffix == ".npz" or (path / "meta.json").is_file():
+        return None, None, None, Trajectory.read(path)
+    from ..model import environment
+    from ..model.plan_text import read_plan
+
+    folder = Run.find(run)
+    key = folder.evidence_key(environment.current().sha256())
+    recording = folder.evidence(key) / "physics" / "trajectory"
+    if not recording.is_dir():
+        raise NotFoundError(
+            "there is no recording of this program and plan",
+            place=str(recording.parent),
+            next_move=f"worldwright stage start {folder.folder} --stage physics",
+        )
+    return folder, key, read_plan(folder.plan).plan, Trajectory.read(recording)
+
+
+def _window(text: str) -> tuple[float, float] | None:
+    if not text.strip():
+        return None
+    try:
+        start, end = (float(part) for part in text.split(":"))
+    except ValueError:
+        raise NotFoundError(
+            f"'{text}' is no window", next_move="write it as START:END in seconds, e.g. 0.5:1.2"
+        ) from None
+    return start, end
+
+
+TOOLS = (scan, expect, query, plot, compare)

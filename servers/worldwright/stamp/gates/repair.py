@@ -1,0 +1,50 @@
+"""The program may be patched: there is something to repair, repairs still help, and symbols are looked up first.
+
+Needed: fewer than 12 reviews have ordered a repair so far; and when the installed simulator does not know a name that
+the program uses (WL101 to WL105, or an AttributeError of a pass), the journal has a citation newer than the error.
+
+Why: patching from memory repeats the memory's mistake, and a thirteenth patch of the same world is a sign that the plan
+is wrong. Then the honest ending is `blocked`, with the cause.
+"""
+
+from collections.abc import Iterator
+
+from ..refusal import Refusal
+from ..state import State
+
+CODE = "WG065"
+CAP = 12
+SYMBOLS = ("WL101", "WL102", "WL103", "WL104", "WL105")
+
+
+def check(state: State) -> Iterator[Refusal]:
+    """Refusals for too many repairs, or for a simulator symbol that nobody looked up."""
+    repaired = {e.get("key") for e in state.journal if e.get("action") == "review" and e.get("outcome") == "repair"}
+    if len(repaired) >= CAP:
+        yield Refusal(
+            cause=f"{len(repaired)} repairs were ordered already (the cap is {CAP})",
+            next_move=f'worldwright stamp block {state.place} "CAUSE"',
+        )
+    unknown = _unknown_symbol(state)
+    if unknown and not _cited_since_failure(state):
+        yield Refusal(
+            cause=f"the simulator does not know a name that the program uses ({unknown}) and nothing was looked up",
+            next_move="worldwright retrieve symbol NAME, then cite what it says in the journal",
+        )
+
+
+def _unknown_symbol(state: State) -> str:
+    report = state.lint.value
+    for finding in report.findings if report else ():
+        if finding.code in SYMBOLS and finding.severity == "error":
+            return f"{finding.code}: {finding.message}"
+    failure = state.failure("physics")
+    return failure if "AttributeError" in failure and "mujoco" in failure else ""
+
+
+def _cited_since_failure(state: State) -> bool:
+    """Whether something was cited after the error was first seen on this key."""
+    key = state.key.key if state.key else ""
+    seen = [i for i, e in enumerate(state.journal) if e.get("action") in ("lint", "stage") and e.get("key") == key]
+    cited = [i for i, e in enumerate(state.journal) if e.get("action") == "cite"]
+    return bool(cited) and cited[-1] > (seen[0] if seen else -1)

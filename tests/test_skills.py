@@ -1,0 +1,123 @@
+"""Skills are short, their examples work, and everything they cite exists."""
+
+import importlib
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+from worldwright import expose
+from worldwright.cli import COMMANDS
+from worldwright.model.plan import SECTIONS, Plan
+from worldwright.model.plan_text import parse_plan
+from worldwright.place.engine import resolve
+from worldwright.place.vocabulary import PREDICATES
+
+REPO = Path(__file__).parents[1]
+SKILLS = sorted((REPO / "skills").glob("*/SKILL.md"))
+PLANNING = [p for p in SKILLS if p.parent.name in ("plan-format", "coordinates")]
+by_name = pytest.mark.parametrize("path", SKILLS, ids=lambda p: p.parent.name)
+
+
+def text_of(path: Path) -> str:
+    return path.read_text(encoding="utf-8")
+
+
+def front(path: Path) -> dict:
+    _, header, _ = text_of(path).split("---\n", 2)
+    return yaml.safe_load(header)
+
+
+def test_the_planning_skills_are_there():
+    assert len(PLANNING) == 2
+    assert all(front(path)["metadata"]["tier"] == "planning" for path in PLANNING)
+
+
+@by_name
+def test_a_skill_introduces_itself_and_is_short(path):
+    header = front(path)
+    assert header["name"] == path.parent.name
+    assert "Use when" in header["description"]
+    assert header["metadata"]["tier"] in ("baseline", "feature", "planning")
+    assert len(text_of(path).splitlines()) < 200
+    assert max(map(len, text_of(path).split("---\n", 2)[2].splitlines())) <= 140
+
+
+@by_name
+def test_every_command_a_skill_names_exists(path):
+    found = re.findall(r"`(?:\S*/)?worldwright ([a-z]+)(?: ([a-z][a-z-]+))?\b", text_of(path))
+    for server, verb in found:
+        assert server in (*expose.SERVERS, *COMMANDS), server
+        if server in expose.SERVERS and verb:
+            names = {function.__name__.replace("_", "-") for function in expose.tools(server)}
+            assert verb in names, f"worldwright {server} {verb}"
+
+
+@by_name
+def test_every_path_a_skill_names_exists(path):
+    tops = ("servers", "skills", "catalog", "examples", "tests", "commands")
+    for cited in re.findall(rf"`((?:{'|'.join(tops)})/[\w./-]+)`", text_of(path)):
+        assert (REPO / cited).exists(), cited
+
+
+@by_name
+def test_every_code_a_skill_names_is_used(path):
+    sources = "".join(p.read_text(encoding="utf-8") for p in (REPO / "servers").rglob("*.py"))
+    for code in re.findall(r"\bW[LPS]\d{3}\b", text_of(path)):
+        assert f'"{code}"' in sources, code
+
+
+@pytest.mark.parametrize("path", PLANNING, ids=lambda p: p.parent.name)
+def test_every_predicate_a_planning_skill_names_is_in_the_vocabulary(path):
+    for name in re.findall(r"`((?:[A-Z]+-)+[A-Z]+)`|predicate: ([A-Z-]+)", text_of(path)):
+        assert (name[0] or name[1]) in PREDICATES, name
+
+
+def test_the_coordinates_skill_tells_every_predicate_and_parameter():
+    text = text_of(REPO / "skills/coordinates/SKILL.md")
+    for code, entry in PREDICATES.items():
+        assert f"`{code}`" in text, code
+        assert all(f"`{name}" in text for name in entry.PARAMS), code
+
+
+def test_the_plan_skill_tells_every_section():
+    text = text_of(REPO / "skills/plan-format/SKILL.md")
+    for section in SECTIONS:
+        assert section in text
+
+
+def test_the_plan_of_the_plan_skill_reads_and_resolves():
+    text = text_of(REPO / "skills/plan-format/SKILL.md")
+    (block,) = re.findall(r"^~~~~markdown\n(.*?)^~~~~$", text, re.M | re.S)
+    plan = parse_plan(block).plan
+    scene = resolve(plan).scene
+    assert scene.ok, scene.findings
+    assert scene["ball"].position == (0, 0, 0.55)
+    looks = importlib.import_module("worldkit.materials").LOOKS
+    assert all(row.look in looks for row in plan.scene_objects)
+
+
+def test_the_recipes_of_the_coordinates_skill_resolve():
+    text = text_of(REPO / "skills/coordinates/SKILL.md")
+    recipes = [yaml.safe_load(block) for block in re.findall(r"^```yaml\n(.*?)^```$", text, re.M | re.S)]
+    assert len(recipes) == 3
+    layouts = []
+    for rows in recipes:
+        names = list(dict.fromkeys(row["subject"] for row in rows))
+        size = [0.6, 0.3, 0.2]
+        plan = Plan.model_validate(
+            {
+                "plan_type": "scene",
+                "simulation_parameters": {"time_step": 0.001, "simulation_duration": 1},
+                "objectives": [{"claim": "it stands"}],
+                "scene_objects": [{"name": name, "primitive": "box", "size": size} for name in names],
+                "topology": {"scene_predicates": rows},
+            }
+        )
+        scene = resolve(plan).scene
+        assert scene.ok, scene.findings
+        layouts.append(scene)
+    assert layouts[0]["laptop"].deg_z == pytest.approx(180)
+    assert layouts[1]["box_3"].position[0] == pytest.approx(1.24)
+    assert layouts[2]["ball"].position == (0, 0, 1.9)

@@ -1,0 +1,136 @@
+import mujoco
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from small_worlds import ball, empty, floor
+
+from worldkit import contacts
+
+
+def rebound(restitution, time_step, speed=2.0, radius=0.1, mass=1.0, integrator="IMPLICITFAST", ground=None, **more):
+    """Speed ratio of a ball thrown at a floor without gravity."""
+    spec = empty(time_step, integrator, gravity=0.0)
+    floor(spec, **(ground or {}))
+    ball(spec, "ball", (0, 0, radius + 0.0101), radius, mass, **contacts.surface(restitution=restitution, **more))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[2] = -speed
+    while data.time < 0.15:
+        mujoco.mj_step(model, data)
+    return data.qvel[2] / speed
+
+
+@settings(max_examples=25, deadline=None)
+@given(
+    restitution=st.floats(0.2, 1.0),
+    time_step=st.sampled_from((0.0005, 0.001, 0.002)),
+    radius=st.floats(0.02, 0.5),
+    mass=st.floats(0.01, 50.0),
+    speed=st.floats(0.5, 5.0),
+)
+def test_a_ball_rebounds_as_stated_whatever_its_mass_size_and_time_step(restitution, time_step, radius, mass, speed):
+    # the longer the step, the more it matters where within it the ball arrives
+    allowed = {0.0005: 0.05, 0.001: 0.06, 0.002: 0.12}[time_step]
+    assert rebound(restitution, time_step, speed, radius, mass) == pytest.approx(restitution, abs=allowed)
+
+
+@pytest.mark.parametrize("restitution", [0.3, 0.8, 0.95])
+def test_runge_kutta_rebounds_as_stated_too(restitution):
+    assert rebound(restitution, 0.001, integrator="RK4") == pytest.approx(restitution, abs=0.04)
+
+
+def test_zero_restitution_is_nearly_dead_and_stable():
+    for time_step in (0.0005, 0.001, 0.002):
+        assert 0 <= rebound(0.0, time_step) < 0.06
+
+
+def test_the_naive_formula_would_not_do():
+    naive = -np.log(0.5) / np.sqrt(np.pi**2 + np.log(0.5) ** 2)
+    assert contacts.restitution_of(naive) == pytest.approx(0.56, abs=0.01)
+
+
+def test_damping_ratio_inverts_the_restitution():
+    for restitution in (0.05, 0.2, 0.2079, 0.5, 0.9, 1.0):
+        assert contacts.restitution_of(contacts.damping_ratio(restitution)) == pytest.approx(restitution, abs=1e-6)
+
+
+def collide(first, second, masses=(1.0, 1.0)):
+    """Two balls head on without gravity: velocities before and after, along the line."""
+    spec = empty(gravity=0.0)
+    ball(spec, "a", (-0.3, 0, 0), 0.1, masses[0], **first)
+    ball(spec, "b", (0.0, 0, 0), 0.06, masses[1], **second)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = 2.0
+    while data.time < 0.25:
+        mujoco.mj_step(model, data)
+    return data.qvel[0], data.qvel[6]
+
+
+@pytest.mark.parametrize("masses", [(1.0, 1.0), (0.17, 3.0), (5.0, 0.2)])
+def test_two_balls_of_any_masses_part_at_the_stated_ratio_and_keep_their_momentum(masses):
+    same = contacts.surface(restitution=0.8)
+    a, b = collide(same, same, masses)
+    assert (b - a) / 2.0 == pytest.approx(0.8, abs=0.03)
+    assert masses[0] * a + masses[1] * b == pytest.approx(2.0 * masses[0], rel=1e-6)
+
+
+def test_the_less_bouncy_surface_counts_and_an_unstated_one_has_no_say():
+    lively, dull, silent = (contacts.surface(restitution=e) for e in (0.9, 0.4, None))
+    for first, second, expected in ((lively, dull, 0.4), (dull, lively, 0.4), (lively, silent, 0.9), (dull, {}, 0.4)):
+        a, b = collide(first, second)
+        assert (b - a) / 2.0 == pytest.approx(expected, abs=0.03)
+    assert rebound(0.9, 0.001, ground=dull) == pytest.approx(0.4, abs=0.05)
+
+
+def test_condim_is_the_least_that_says_it_all():
+    assert contacts.surface()["condim"] == 6
+    assert contacts.surface(rolling=0.0)["condim"] == 4
+    assert contacts.surface(rolling=0.0, torsional=0.0)["condim"] == 3
+    assert contacts.surface(friction=0.0, rolling=0.0, torsional=0.0)["condim"] == 1
+    assert contacts.surface(density=700.0)["density"] == 700.0
+    assert "solref" not in contacts.surface()
+    assert contacts.surface(time_constant=0.05)["solref"] == (0.05, 1.0)
+
+
+def test_a_sliding_ball_comes_to_roll_without_slipping():
+    """A ball that starts sliding at v ends up rolling at 5/7 v, however large the friction (textbook)."""
+    spec = empty()
+    surface = contacts.surface(friction=0.3, rolling=1e-6, restitution=0.5, time_constant=0.002)
+    floor(spec, **surface)
+    ball(spec, "ball", (0, 0, 0.0999), 0.1, 0.5, **surface)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = 2.0
+    while data.time < 1.5:
+        mujoco.mj_step(model, data)
+    speed, spin = data.qvel[0], data.qvel[4]
+    assert speed == pytest.approx(2.0 * 5 / 7, rel=0.01)
+    assert speed - 0.1 * spin == pytest.approx(0.0, abs=0.005)
+
+
+def test_rolling_resistance_stops_a_ball_and_without_it_the_ball_rolls_on():
+    speeds = []
+    for rolling in (0.0, 0.01):
+        spec = empty()
+        floor(spec)
+        ball(spec, "ball", (0, 0, 0.0999), 0.1, 0.5, **contacts.surface(rolling=rolling))
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        data.qvel[0], data.qvel[4] = 1.0, 10.0
+        while data.time < 2.0:
+            mujoco.mj_step(model, data)
+        speeds.append(data.qvel[0])
+    # the floor's own coefficients (0.0001 m) count where the ball states less
+    assert speeds[0] > 0.95
+    assert speeds[1] < 0.01
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"friction": -1}, {"restitution": 1.1}, {"restitution": -0.1}, {"time_constant": 0}, {"rolling": float("nan")}],
+)
+def test_numbers_outside_their_range_are_refused(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        contacts.surface(**wrong)
