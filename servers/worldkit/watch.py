@@ -5,9 +5,10 @@ few microseconds this takes do not depend on how many arrays there are.
 """
 
 import operator
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     import mujoco
@@ -30,6 +31,10 @@ OPTIONS = (
     "integrator", "cone", "jacobian", "solver", "iterations", "ls_iterations", "noslip_iterations", "ccd_iterations",
     "disableflags", "enableflags", "disableactuator",
 )  # fmt: skip
+
+
+_Block: TypeAlias = "tuple[Callable[[], bool], np.ndarray, np.ndarray, list[tuple[str, np.ndarray, np.ndarray]]]"
+"""Whether it differs, the live memory, its copy, and the arrays in it: name, live array, view into the copy."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +63,7 @@ class Watch:
             if not name.startswith(("_", *BULKY)) and isinstance(array := getattr(model, name), np.ndarray)
             if array.nbytes and array.flags.c_contiguous
         }
-        self._blocks: list[tuple[np.ndarray, np.ndarray, list[tuple[str, np.ndarray, np.ndarray]]]] = []
+        self._blocks: list[_Block] = []
         run: list[tuple[str, np.ndarray]] = []
         for name, array in sorted(arrays.items(), key=lambda item: _address(item[1])):
             if run and not 0 <= _address(array) - _end(run[-1][1]) < 64:
@@ -81,8 +86,8 @@ class Watch:
         import numpy as np
 
         edits: list[Edit] = []
-        for live, copy, arrays in self._blocks:
-            if different_bytes(live, copy):
+        for differ, live, copy, arrays in self._blocks:
+            if differ():
                 for name, array, old in arrays:
                     # Compared as bytes, so that a NaN equals itself.
                     different = (array.reshape(-1, 1).view(np.uint8) != old.reshape(-1, 1).view(np.uint8)).any(axis=1)
@@ -116,12 +121,7 @@ class Watch:
             offset = _address(array) - start
             old = copy[offset : offset + array.nbytes].view(array.dtype).reshape(array.shape)
             arrays.append((name, array, old))
-        if (end - start) % 8 == 0 and start % 8 == 0:
-            self._blocks.append((live.view(np.uint64), copy.view(np.uint64), arrays))
-        else:
-            whole = (end - start) // 8 * 8
-            self._blocks.append((live[:whole].view(np.uint64), copy[:whole].view(np.uint64), arrays))
-            self._blocks.append((live[whole:], copy[whole:], arrays))
+        self._blocks.append((comparison(live, copy), live, copy, arrays))
 
 
 def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.ndarray"]]:
@@ -163,12 +163,16 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.nd
     return found
 
 
-def different_bytes(one: "np.ndarray", other: "np.ndarray") -> bool:
-    """Whether two contiguous arrays of the same size differ in memory, as fast as the C library can tell."""
+def comparison(one: "np.ndarray", other: "np.ndarray") -> Callable[[], bool]:
+    """A function that tells whether two contiguous arrays of one size differ in memory, as fast as the C library can.
+
+    The arrays must stay where they are.
+    """
     compare = _memcmp()
     if compare is None:
-        return one.tobytes() != other.tobytes()
-    return bool(compare(_address(one), _address(other), one.nbytes))
+        return lambda: one.tobytes() != other.tobytes()
+    first, second, size = _address(one), _address(other), one.nbytes
+    return lambda: bool(compare(first, second, size))
 
 
 @cache

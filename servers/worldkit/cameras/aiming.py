@@ -21,7 +21,7 @@ LEGIBLE = 0.055
 SUPPORT_STRETCH = 1.9
 """How much farther the camera may stand to show all of a support."""
 HIDDEN_LIMIT = 0.15
-OUTDOOR_LOWER_DEG = 6.0
+OUTDOOR_LOWER_DEG = 12.0
 
 
 def _nudges(view: View) -> Iterator[tuple[float, float]]:

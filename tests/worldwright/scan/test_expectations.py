@@ -42,7 +42,7 @@ def test_known_answers():
 
 def test_a_bounce_is_as_high_as_the_restitution_says():
     result = measure(bouncing(1.0, 0.8), "bounces", {"body": "ball", "min_count": 3, "decays": True})
-    assert "0.64" in result.message
+    assert "up to 0.639" in result.message  # e^2 = 0.64, sampled every millisecond
 
 
 def test_unknown_names_and_arguments_list_the_known():

@@ -57,7 +57,6 @@ def cube_directions(size: int) -> np.ndarray:
 
 @lru_cache(maxsize=96)
 def cube(look: Look, size: int) -> np.ndarray:
-    """The texture of `look` around a centre: uint8 (6, size, size, 4), sRGB and relief height, averaged over 2x2."""
-    rgb, height = _painter(look)(cube_directions(2 * size), *look.arguments)
-    both = np.concatenate([rgb, height[..., None]], axis=-1)
-    return _bytes(both.reshape(6, size, 2, size, 2, 4).mean(axis=(2, 4)))
+    """The texture of `look` around a centre: uint8 (6, size, size, 4), sRGB and relief height."""
+    rgb, height = _painter(look)(cube_directions(size), *look.arguments)
+    return np.concatenate([_bytes(rgb), _bytes(height)[..., None]], axis=-1)

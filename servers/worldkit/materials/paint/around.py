@@ -121,10 +121,10 @@ def football(direction: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     more = np.array([(0, s / golden, t * golden) for s in (1, -1) for t in (1, -1)], dtype=float)
     faces = np.concatenate([faces] + [np.roll(more, k, axis=1) for k in range(3)]) / 3.0**0.5
     # Face planes of the solid with unit edge: pentagons lie at 2.327, hexagons at 2.267 from the centre.
-    pentagon = direction @ corners.T / 2.3274
-    hexagon = direction @ faces.T / 2.2673
+    pentagon = direction @ (corners.T / 2.3274).astype(direction.dtype)
+    hexagon = direction @ (faces.T / 2.2673).astype(direction.dtype)
     both = np.concatenate([pentagon, hexagon], axis=-1)
-    top = np.sort(both, axis=-1)[..., -2:]
+    top = np.partition(both, -2, axis=-1)[..., -2:]
     seam = 1.0 - smooth(0.002, 0.009, top[..., 1] - top[..., 0])
     black = pentagon.max(axis=-1) > hexagon.max(axis=-1)
     rgb = np.where(black[..., None], (0.05, 0.05, 0.06), (0.94, 0.94, 0.93))

@@ -48,14 +48,14 @@ def cells(size: int, count: int, name: str) -> tuple[np.ndarray, np.ndarray, np.
     Distances are in units of a cell's side; the numbers are uniform in 0..1 per cell.
     """
     generator = random(name)
-    seeds = generator.random((count, count, 2))
-    numbers = generator.random((count, count))
-    axis = (np.arange(size) + 0.5) / size * count
+    seeds = generator.random((count, count, 2), dtype=np.float32)
+    numbers = generator.random((count, count), dtype=np.float32)
+    axis = ((np.arange(size) + 0.5) / size * count).astype(np.float32)
     x, y = np.meshgrid(axis, axis)
     column, row = x.astype(int), y.astype(int)
-    first = np.full((size, size), 9.0)
+    first = np.full((size, size), 9.0, dtype=np.float32)
     second = first.copy()
-    number = np.zeros((size, size))
+    number = np.zeros((size, size), dtype=np.float32)
     for dy in (-1, 0, 1):
         for dx in (-1, 0, 1):
             c, r = column + dx, row + dy

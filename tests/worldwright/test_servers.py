@@ -1,0 +1,153 @@
+"""Every tool of every server, called by a real client over stdio against a world that was really built."""
+
+import json
+import shutil
+import sys
+from pathlib import Path
+
+import anyio
+import mcp
+import pytest
+from click.testing import CliRunner
+from mcp import StdioServerParameters
+
+from worldwright import expose
+from worldwright.cli import main
+from worldwright.report import write as write_report
+from worldwright.stamp import measured
+
+WORLD = Path(__file__).parent / "world"
+
+
+@pytest.fixture(scope="module")
+def world(tmp_path_factory) -> Path:
+    """A small world, built and accepted by the command line."""
+    folder = tmp_path_factory.mktemp("servers") / "world"
+    built = CliRunner().invoke(main, ["build", str(WORLD / "plan.md"), "--run", str(folder), "--approve", "--accept"])
+    assert built.exit_code == 0, built.output
+    return folder
+
+
+def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
+    """Arguments for every tool of a server; `copy` is a run that may be changed."""
+    from worldwright.model import environment
+    from worldwright.model.run import Run
+
+    run, plan = str(world), str(world / "plan.md")
+    key = Run(world).evidence_key(environment.current().sha256()).key
+    copied = Run(copy)
+    return {
+        "retrieve": {
+            "search": {"question": "how does restitution follow from solref", "k": 3},
+            "read": {"citation": None},
+            "symbol": {"name": "mujoco.mj_step"},
+            "breaking_changes": {"name": "composite"},
+            "find_asset": {"query": "mug"},
+            "status": {},
+        },
+        "lint": {
+            "check_plan": {"plan": plan},
+            "check_program": {"files": [str(world / "simulation.py")], "plan": plan},
+            "explain": {"code": "WL101"},
+            "list_rules": {},
+        },
+        "place": {
+            "resolve": {"plan": plan, "write": False},
+            "check": {"plan": plan},
+            "settle": {"plan": plan},
+            "explain": {"plan": plan, "object": "ball"},
+            "draw": {"plan": plan},
+        },
+        "stage": {
+            "start": {"run": run, "stage": "physics"},
+            "wait": {"run": run},
+            "status": {"run": run},
+            "frames": {"run": run, "count": 2},
+            "log": {"run": run},
+            "cancel": {"run": run},
+        },
+        "scan": {
+            "scan": {"run": run},
+            "expect": {"run": run},
+            "query": {"run": run, "body": "ball", "window": "0:0.5"},
+            "plot": {"run": run, "quantity": "height"},
+            "compare": {"run": run, "first": key, "second": key},
+        },
+        "stamp": {
+            "status": {"run": str(copy)},
+            "approve": {"run": str(copy)},
+            "describe": {"run": str(copy), "description": measured.describe(copied).model_dump(mode="json")},
+            "review": {"run": str(copy), "verdict": measured.review(copied).model_dump(mode="json")},
+            "accept": {"run": str(copy)},
+            "verify": {"run": run},
+            "block": {"run": f"{copy}-other", "cause": "a test of the other ending"},
+        },
+    }[server]
+
+
+async def talk(server: str, table: dict[str, dict]) -> dict:
+    """Call every tool of the table in its order; returns the results by name."""
+    parameters = StdioServerParameters(command=sys.executable, args=["-m", "worldwright.cli", "serve", server])
+    results = {}
+    async with mcp.Client(parameters) as client:
+        listed = {tool.name: tool for tool in (await client.list_tools()).tools}
+        assert set(listed) == set(table)
+        for tool in listed.values():
+            assert tool.description
+            assert len(tool.description.split()) < 120
+        for name, arguments in table.items():
+            if name == "read":
+                hits = results["search"].structured_content["hits"]
+                arguments = {"citation": hits[0]["citation"]}
+            results[name] = await client.call_tool(name, arguments)
+        wrong = await client.call_tool(next(iter(table)), {"no_such_argument": 1})
+        assert wrong.is_error or set(table[next(iter(table))]) == set()
+        assert (await client.list_tools()).tools  # and it goes on serving
+    return results
+
+
+@pytest.mark.parametrize("server", expose.SERVERS)
+def test_every_tool_answers(server, world, tmp_path):
+    copy = tmp_path / "copy"
+    shutil.copytree(world, copy, symlinks=True)
+    shutil.rmtree(copy / "accepted")
+    shutil.copytree(copy, f"{copy}-other", symlinks=True)  # for the other ending
+    results = anyio.run(talk, server, calls(server, world, copy))
+    for name, result in results.items():
+        text = "".join(part.text for part in result.content if part.type == "text")
+        assert not result.is_error, f"{server} {name}: {text}"
+        assert len(text) < 20_000, f"{server} {name} answers {len(text)} characters"
+        if any(part.type == "image" for part in result.content):
+            assert result.structured_content is None
+            assert sum(len(part.data) for part in result.content if part.type == "image") < 1_000_000
+        else:
+            assert json.loads(json.dumps(result.structured_content)) == result.structured_content
+
+
+def test_a_broken_run_is_an_answer_not_an_end(tmp_path):
+    plan = tmp_path / "plan.md"
+    plan.write_bytes(b"\xff\xfe\x00 not a plan")
+
+    async def ask():
+        parameters = StdioServerParameters(command=sys.executable, args=["-m", "worldwright.cli", "serve", "stamp"])
+        async with mcp.Client(parameters) as client:
+            first = await client.call_tool("approve", {"run": str(tmp_path)})
+            second = await client.call_tool("status", {"run": str(tmp_path / "nowhere")})
+            third = await client.call_tool("status", {"run": str(tmp_path)})
+            return first, second, third
+
+    refused, unknown, status = anyio.run(ask)
+    assert refused.is_error
+    assert unknown.is_error
+    assert json.loads(unknown.content[0].text)["next"]
+    assert not status.is_error
+
+
+def test_the_report_is_one_file_and_asks_the_network_for_nothing(world):
+    from worldwright.model.run import Run
+
+    page = write_report(Run(world)).read_text(encoding="utf-8")
+    assert "data:video/mp4;base64," in page
+    assert 'src="http' not in page
+    assert "url(http" not in page
+    assert "A ball falls beside a block" in page
