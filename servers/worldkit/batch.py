@@ -13,6 +13,8 @@ PLAIN = (
     "sensordata",
 )  # fmt: skip
 """Arrays that are recorded as they are."""
+FAR_M = 1e3
+"""Distances beyond this are not looked for."""
 CONTACT_FIELDS = ("geom", "dist", "pos", "frame", "dim", "efc_address")
 
 
@@ -24,6 +26,8 @@ class Batch:
         import numpy as np
 
         self.capacity = capacity
+        self._model = model
+        self._speculative = bool(model.opt.enableflags & int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE))
         self.rows = 0
         self.first_row = 0
         self.events: dict[str, list[Any]] = {name: [] for name in TABLES if name != "contacts"}
@@ -89,6 +93,8 @@ class Batch:
             self._grow_contacts(contact, end)
         for name in self.contact_fields:
             buffers[name][start:end] = getattr(contact, name)
+        if self._speculative:
+            buffers["dist"][start:end] = true_distances(self._model, data, contact)
         self.contact_count = end
         forces = data.efc_force
         start, end = self.efc_count, self.efc_count + len(forces)
@@ -123,6 +129,34 @@ class Batch:
         self.first_row = first_row
         for events in self.events.values():
             events.clear()
+
+
+def true_distances(model: "mujoco.MjModel", data: "mujoco.MjData", contact: Any) -> "np.ndarray":
+    """(C,) distances between geoms where the engine's own are the solver's stand-ins.
+
+    A speculative contact is made before the geoms touch, with a distance that makes the solver stop them in time (manual,
+    "Effective contact distance"): it would read as a deep penetration. Only geoms that travel further in a step than
+    they are thick can have one; if such a pair does not overlap, its distance is measured.
+    """
+    import mujoco
+    import numpy as np
+
+    from .derive import velocity_at
+
+    distance, pairs = contact.dist.copy(), contact.geom
+    known = pairs >= 0
+    geoms = np.unique(pairs[known])
+    body = model.geom_bodyid[geoms]
+    cvel = data.cvel[body]
+    speed = velocity_at(data.geom_xpos[geoms], cvel, data.subtree_com[model.body_rootid[body]])
+    reach = np.linalg.norm(speed, axis=1) + np.linalg.norm(cvel[:, :3], axis=1) * model.geom_rbound[geoms]
+    fast = np.zeros(model.ngeom, bool)
+    fast[geoms] = reach * model.opt.timestep > model.geom_aabb.reshape(-1, 6)[geoms, 3:].min(axis=1)
+    for i in np.flatnonzero((known & fast[np.maximum(pairs, 0)]).any(axis=1) & known.all(axis=1)):
+        gap = mujoco.mj_geomDistance(model, data, int(pairs[i, 0]), int(pairs[i, 1]), FAR_M, None)
+        if gap > 0:
+            distance[i] = gap
+    return distance
 
 
 def _enlarged(old: "np.ndarray", needed: int) -> "np.ndarray":

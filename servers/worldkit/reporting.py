@@ -40,7 +40,7 @@ class Progress:
 
 
 def failure(error: BaseException, program: str, caller_line: int | None) -> dict[str, Any]:
-    """An exception as `error.json`: type, message, file, line, code, next, source.
+    """An exception as `error.json`: type, message, file, line, code, place, next_move, source.
 
     Args:
         error: what was raised.
@@ -53,7 +53,7 @@ def failure(error: BaseException, program: str, caller_line: int | None) -> dict
         line = error.lineno
     known = isinstance(error, WorldkitError)
     kind = type(error).__name__
-    code = error.code if isinstance(error, WorldkitError) else "engine" if kind == "FatalError" else "raised"
+    code = error.code if isinstance(error, WorldkitError) else "engine" if kind == "FatalError" else "crashed"
     return {
         "type": code if known and code == "diverged" else kind,
         "message": error.cause if isinstance(error, WorldkitError) else str(error) or kind,
@@ -61,7 +61,7 @@ def failure(error: BaseException, program: str, caller_line: int | None) -> dict
         "line": line,
         "code": code,
         "place": error.place if isinstance(error, WorldkitError) else "",
-        "next": error.next_move if isinstance(error, WorldkitError) else "",
+        "next_move": error.next_move if isinstance(error, WorldkitError) else "",
         "source": linecache.getline(program, line).strip() if line else "",
     }
 

@@ -13,7 +13,7 @@ again bit for bit. `control` is asked once a step and held over its stages; a la
 belongs into an engine callback.
 
 Sleeping islands: contacts inside an island that sleeps are not computed by the engine, so they are not in the row.
-Speculative contacts: their depth is the solver's stand-in, not a measured overlap, and mostly negative.
+Speculative contacts: the engine's distance is a stand-in that steers its solver; the row holds the true one.
 """
 
 from collections.abc import Callable

@@ -131,7 +131,7 @@ def test_what_cannot_be_simulated_is_said_clearly(settings, message, tmp_path, c
     assert run(tmp_path, **settings) == 1
     facts = error(tmp_path)
     assert facts["code"] == "program"
-    assert facts["next"]
+    assert facts["next_move"]
     import re
 
     assert re.search(message.replace("(", r"\(").replace(")", r"\)"), facts["message"]), facts["message"]
@@ -193,7 +193,7 @@ def test_pictures_need_a_recording_of_this_world(tmp_path):
     assert program.main(other, argv=arguments, duration=1) == 1
     assert "another world; they differ in second" in error(tmp_path)["message"]
     assert program.main(build, argv=[*arguments, "--camera", "side"], duration=1) == 1
-    assert "name one of: overview" in error(tmp_path)["next"]
+    assert "name one of: overview" in error(tmp_path)["next_move"]
 
 
 PROGRAM = """

@@ -200,3 +200,22 @@ def test_nan_in_the_state_is_a_blow_up_too(tmp_path):
 
     with pytest.raises(DivergedError, match="ball"):
         record(spec, tmp_path / "t", 100, control)
+
+
+def test_speculative_contacts_are_recorded_with_their_true_distance(tmp_path):
+    """The engine's own is a stand-in for its solver: 0.3 m of penetration at 2 mm of air."""
+    spec = empty(time_step=0.002, gravity=0.0)
+    spec.option.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SPECULATIVE)
+    spec.worldbody.add_geom(name="sheet", type=mujoco.mjtGeom.mjGEOM_BOX, size=(1, 1, 0.002), pos=(0, 0, 0.5))
+    ball(spec, "shot", (0, 0, 1), radius=0.01, solref=(-(250**2), -20))
+
+    def shoot(model, data):
+        data.qvel[2] = -50.0
+
+    recording = record(spec, tmp_path / "t", 30, before=shoot)
+    contacts = recording.contacts
+    assert len(contacts) > 0
+    height = recording.pos[contacts.row, 0, 2]
+    np.testing.assert_allclose(contacts.depth_m, -(height - 0.502 - 0.01), atol=1e-6)
+    assert contacts.depth_m.max() < 0.01
+    assert recording.pos[:, 0, 2].min() > 0.5  # it did not tunnel

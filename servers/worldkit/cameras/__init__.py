@@ -188,7 +188,7 @@ def aim(
         if slot is not None:
             slot[:] = 0.0
             if any(shot.follow):
-                bodies = list(resolve(model, tuple(intent["subjects"])))
+                members = list(resolve(model, tuple(intent["subjects"])))
                 first = model.nbody - 1 if positions is None else positions.shape[1]
                 start = (
                     _rest(model).xpos
@@ -196,7 +196,7 @@ def aim(
                     else np.concatenate([np.zeros((model.nbody - first, 3)), positions[0]])
                 )
                 slot[0:3] = shot.follow
-                slot[3:6] = pose.eye - start[bodies].mean(axis=0)
+                slot[3:6] = pose.eye - start[members].mean(axis=0)
                 slot[6:9] = pose.eye
 
 

@@ -29,7 +29,7 @@ def _plastic(description: str, rgb: tuple[float, float, float]) -> Look:
 
 def _ceramic(description: str, rgb: tuple[float, float, float]) -> Look:
     return Look(
-        description, paint="fibre.worn", arguments=(f"ceramic{rgb}", rgb, 0.35), tile_m=0.25, roughness=0.16, coat=0.7
+        description, paint="fibre.worn", arguments=(f"ceramic{rgb}", rgb, 0.12), tile_m=0.25, roughness=0.16, coat=0.7
     )
 
 

@@ -69,9 +69,16 @@ class Frames:
                 self.reason = f"{type(error).__name__}: {error}"
                 self._free_context()
         if self._pipeline is None:
-            from .classic import Classic
+            self._fall_back()
 
-            self._classic = Classic(model, width, height)
+    def _fall_back(self) -> None:
+        """Let MuJoCo's own renderer draw from now on."""
+        from .classic import Classic
+
+        self._pipeline = None
+        self._free_context()
+        self.engine = "classic"
+        self._classic = Classic(self.model, self.width, self.height)
 
     def image(self, data: mujoco.MjData, camera: str | int, quality: Literal["still", "video"] = "video") -> np.ndarray:
         """The picture of `data` through a camera of the model: uint8 (height, width, 3), RGB, row 0 the top.
@@ -87,7 +94,13 @@ class Frames:
         if self._pipeline is None or self._context is None:
             raise RuntimeError("these Frames are closed; make new ones")
         self._context.make_current()
-        picture = self._pipeline.image(data, index, quality)
+        try:
+            picture = self._pipeline.image(data, index, quality)
+        except RuntimeError as error:
+            # Programs are compiled when first used, so a driver may give up only here.
+            self.reason = f"{type(error).__name__}: {error}"
+            self._fall_back()
+            return self.image(data, index, quality)
         if picture.shape[0] != self.height:
             import cv2
 

@@ -80,7 +80,7 @@ def of_material(model: mujoco.MjModel, material: int) -> Finish:
     rough, metal = float(model.mat_roughness[material]), float(model.mat_metallic[material])
     entry = Look(
         "",
-        rgba=rgba,  # type: ignore[arg-type]
+        rgba=rgba,
         roughness=rough if rough >= 0 else float(np.clip(0.85 - 0.7 * shininess, 0.06, 1.0)),
         metallic=max(metal, 0.0),
         coat=float(np.clip(0.5 * model.mat_specular[material] * shininess + model.mat_reflectance[material], 0.0, 1.0)),

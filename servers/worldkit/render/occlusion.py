@@ -43,9 +43,7 @@ class Occlusion:
             reach=reach,
             taps=self._taps,
             strength=self._strength,
-        ).texture(  # fmt: skip
-            "guide", 0, self.guide.colour
-        )
+        ).texture("guide", 0, self.guide.colour)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
         for source, target, step in (
             (self.result, self._raw, (1.0 / self.width, 0.0)),

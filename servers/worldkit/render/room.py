@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 Vector = tuple[float, float, float]
+Rgba = tuple[float, float, float, float]
 
 
 class Panel(NamedTuple):
@@ -18,7 +19,7 @@ class Panel(NamedTuple):
     centre: Vector
     half: Vector
     look: str
-    rgba: tuple[float, float, float, float]
+    rgba: Rgba
 
 
 WALL = (0.835, 0.815, 0.775, 1.0)
@@ -51,7 +52,7 @@ def panels(low: np.ndarray, high: np.ndarray, floor_z: float, window_azimuth_deg
     x0, y0, _ = (float(v) for v in low)
     x1, y1, z1 = (float(v) for v in high)
     z0 = floor_z
-    mx, my, mz = (x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2
+    mx, my = (x0 + x1) / 2, (y0 + y1) / 2
     hx, hy, hz = (x1 - x0) / 2, (y1 - y0) / 2, (z1 - z0) / 2
     t = 0.05
     out: list[Panel] = [Panel((mx, my, z1 + t), (hx + t, hy + t, t), "plaster", CEILING)]
@@ -59,18 +60,24 @@ def panels(low: np.ndarray, high: np.ndarray, floor_z: float, window_azimuth_deg
     for axis, sign in ((0, 1), (0, -1), (1, 1), (1, -1)):
         edge = (x1 if sign > 0 else x0) if axis == 0 else (y1 if sign > 0 else y0)
 
-        def slab(out_m: float, low_z: float, high_z: float, axis: int = axis, sign: int = sign, edge: float = edge):
+        def slab(
+            out_m: float, low_z: float, high_z: float, axis: int = axis, sign: int = sign, edge: float = edge
+        ) -> tuple[Vector, Vector]:
             # A box whose inner face stands `out_m` in front of the wall.
             place = edge + sign * (t - out_m)
             centre = (place, my, (low_z + high_z) / 2) if axis == 0 else (mx, place, (low_z + high_z) / 2)
             half = (t, hy + t, (high_z - low_z) / 2) if axis == 0 else (hx + t, t, (high_z - low_z) / 2)
             return centre, half
 
-        out.append(Panel(*slab(0.0, z0, z1), "plaster", WALL))
-        out.append(Panel(*slab(0.008, z0, z0 + dado), "plaster", DADO))
-        out.append(Panel(*slab(0.026, z0 + dado, z0 + dado + 0.045), "plastic_white", TRIM))
-        out.append(Panel(*slab(0.020, z0, z0 + 0.13), "plastic_white", TRIM))
-        out.append(Panel(*slab(0.045, z1 - 0.09, z1), "plastic_white", TRIM))
+        for out_m, low_z, high_z, look, colour in (
+            (0.0, z0, z1, "plaster", WALL),
+            (0.008, z0, z0 + dado, "plaster", DADO),
+            (0.026, z0 + dado, z0 + dado + 0.045, "plastic_white", TRIM),
+            (0.020, z0, z0 + 0.13, "plastic_white", TRIM),
+            (0.045, z1 - 0.09, z1, "plastic_white", TRIM),
+        ):
+            centre, half = slab(out_m, low_z, high_z)
+            out.append(Panel(centre, half, look, colour))
     angle = np.radians(window_azimuth_deg)
     axis = 0 if abs(np.cos(angle)) > abs(np.sin(angle)) else 1
     sign = 1.0 if (np.cos(angle), np.sin(angle))[axis] > 0 else -1.0
@@ -78,7 +85,7 @@ def panels(low: np.ndarray, high: np.ndarray, floor_z: float, window_azimuth_deg
     wide, tall = min(0.75, 0.5 * (hy, hx)[axis]), min(0.62, 0.3 * hz * 2)
     middle_z = z0 + dado + 0.12 + tall
 
-    def pane(along: float, up: float, half_along: float, half_up: float, depth: float, look: str, rgba) -> Panel:
+    def pane(along: float, up: float, half_along: float, half_up: float, depth: float, look: str, rgba: Rgba) -> Panel:
         place = edge - sign * depth / 2
         if axis == 0:
             return Panel((place, my + along, middle_z + up), (depth / 2, half_along, half_up), look, rgba)

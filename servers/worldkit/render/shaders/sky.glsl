@@ -43,9 +43,9 @@ float ridge(float azimuth, float seed) {
 
 vec3 outdoor(vec3 d, bool lamp) {
     float h = d.z;
-    vec3 zenith = vec3(0.12, 0.29, 0.70), middle = vec3(0.28, 0.52, 0.90), low = vec3(0.62, 0.77, 0.95);
+    vec3 zenith = vec3(0.12, 0.29, 0.70), middle = vec3(0.28, 0.52, 0.90), low = vec3(0.55, 0.73, 0.96);
     float up = max(h, 0.0);
-    vec3 c = mix(low, middle, smoothstep(0.0, 0.24, up));
+    vec3 c = mix(low, middle, smoothstep(0.0, 0.20, up));
     c = mix(c, zenith, smoothstep(0.18, 0.95, up));
     float toward = max(dot(d, key_direction), 0.0);
     c += key_colour * (0.10 * pow(toward, 6.0) + 0.22 * pow(toward, 48.0)) * (1.0 - 0.5 * up);

@@ -26,6 +26,8 @@ uniform sampler2D behind_depth;  // depth that goes with `behind`
 uniform float near_m;
 uniform vec4 pool;               // centre x and y, start and end radius of the key light's pool on the floor
 uniform sampler2D reflection;    // the world mirrored at the ground
+uniform int march;
+uniform float stride;
 uniform vec3 eye;
 uniform vec3 forward;
 uniform vec2 pixels;
@@ -66,19 +68,20 @@ vec3 mirrored_light(vec3 d, float roughness, vec4 support, vec3 p, float size) {
 }
 
 #if MIRROR
-uniform int march;
-uniform float stride;
 
-// What a mirror shows of the picture itself: marches along the ray until it passes behind something seen.
-vec4 seen_along(vec3 p, vec3 d, float size) {
-    float t = 0.30 * size, last = 0.22 * size;
-    float hit = 0.0;
+float distance_at(vec2 q) { return near_m / max(textureLod(behind_depth, q, 0.0).r, 1e-7); }
+
+// What a mirror shows of the picture itself: the nearest thing that the ray passes behind, or else the place where it meets
+// the surface below. Alpha says how far that can be trusted; a picture knows nothing of the far sides of things.
+vec4 seen_along(vec3 p, vec3 d, vec4 support, float size) {
+    float floor_t = d.z < -1e-4 ? max(p.z - support.w, 0.0) / -d.z : 1e6;
+    float t = 0.30 * size, last = 0.22 * size, hit = 0.0;
     int turns = march;
     for (int i = 0; i < turns; i++) {
         vec4 clip = to_clip * vec4(p + d * t, 1.0);
         vec2 q = clip.xy / clip.w * 0.5 + 0.5;
-        float behind_by = clip.w - near_m / max(textureLod(behind_depth, q, 0.0).r, 1e-7);
-        bool inside = clip.w > 0.0 && q == clamp(q, 0.0, 1.0);
+        float behind_by = clip.w - distance_at(q);
+        bool inside = clip.w > 0.0 && q == clamp(q, 0.0, 1.0) && t < 0.97 * floor_t;
         bool found = inside && dot(textureLod(guide, q, 0.0).xyz, d) < 0.0 && behind_by > 0.0 && behind_by < 1.3 * (t - last) + 0.10 * size;
         hit = found ? t : hit;
         turns = found || !inside ? 0 : turns;
@@ -90,16 +93,19 @@ vec4 seen_along(vec3 p, vec3 d, float size) {
     for (int i = 0; i < refine; i++) {
         float middle = 0.5 * (low + high);
         vec4 clip = to_clip * vec4(p + d * middle, 1.0);
-        bool deep = clip.w > near_m / max(textureLod(behind_depth, clip.xy / clip.w * 0.5 + 0.5, 0.0).r, 1e-7);
+        vec2 q = clip.xy / clip.w * 0.5 + 0.5;
+        bool deep = clip.w > distance_at(q) && dot(textureLod(guide, q, 0.0).xyz, d) < 0.0;
         high = deep ? middle : high;
         low = deep ? low : middle;
     }
-    vec4 clip = to_clip * vec4(p + d * high, 1.0);
+    bool on_thing = hit > 0.0;
+    vec4 clip = to_clip * vec4(p + d * (on_thing ? high : min(floor_t, 1e3)), 1.0);
     vec2 q = clip.xy / clip.w * 0.5 + 0.5;
     vec2 margin = smoothstep(vec2(0.0), vec2(0.08), q) * smoothstep(vec2(0.0), vec2(0.08), 1.0 - q);
-    // A picture knows nothing of the far sides of things: rays toward the eye, and glancing hits, are not to be trusted.
-    float trust = smoothstep(-0.25, 0.25, dot(d, forward)) * smoothstep(0.0, 0.35, -dot(textureLod(guide, q, 0.0).xyz, d));
-    return vec4(textureLod(behind, q, 0.0).rgb, hit > 0.0 ? margin.x * margin.y * trust : 0.0);
+    float open = 1.0 - smoothstep(0.01, 0.03, abs(distance_at(q) / max(clip.w, 1e-6) - 1.0));
+    float facing = smoothstep(-0.25, 0.25, dot(d, forward)) * smoothstep(0.0, 0.35, -dot(textureLod(guide, q, 0.0).xyz, d));
+    float trust = on_thing ? facing : floor_t < 1e5 && clip.w > 0.0 ? open : 0.0;
+    return vec4(textureLod(behind, clamp(q, 0.0, 1.0), 0.0).rgb, margin.x * margin.y * trust);
 }
 #endif
 
@@ -255,7 +261,7 @@ void main() {
     vec3 mirror = mirrored_light(reflect(-v, n), roughness, support, world, extent);
 #endif
 #if MIRROR
-    vec4 seen = seen_along(world, reflect(-v, n), extent);
+    vec4 seen = seen_along(world, reflect(-v, n), support, extent);
     seen.a *= 1.0 - smoothstep(0.15, 0.40, roughness);
     mirror = mix(mirror, seen.rgb, seen.a);
 #endif
