@@ -17,11 +17,13 @@ if TYPE_CHECKING:
     import mujoco
 
 LEGIBLE = 0.055
-"""A subject smaller than this share of the frame's height cannot be read; the camera then follows instead."""
+"""A subject of less than than this share of the frame's height cannot be read; the camera then follows instead."""
 SUPPORT_STRETCH = 1.9
 """How much farther the camera may stand to show all of a support."""
 HIDDEN_LIMIT = 0.15
 OUTDOOR_LOWER_DEG = 12.0
+FOLLOW_ROOM = 5.0
+"""Half the width shown around what a camera follows, in its radii."""
 
 
 def _nudges(view: View) -> Iterator[tuple[float, float]]:
@@ -140,7 +142,7 @@ def choose(
     points, want = _context(model, data, crossing, view)
     marks = samples(crossing)
     follows = (False, False, False)
-    legible_at = 2.0 * float(np.median(crossing.radii)) / (LEGIBLE * 2.0 * np.tan(np.radians(fovy_deg) / 2.0))
+    widest_m = float(np.median(crossing.radii)) / LEGIBLE
     if view.wall:
         return Shot(
             _settle_wall(_at_wall(model, data, view, points, crossing, fovy_deg, aspect), points, view, aspect, floor_z)
@@ -148,9 +150,9 @@ def choose(
     whole = fit(points, view.backward(), fovy_deg, aspect, view.margin)
     span = np.ptp(crossing.centres, axis=0)
     if follow or (
-        whole.distance_m > legible_at and not view.whole_scene and span.max() > 6.0 * float(crossing.radii.max())
+        whole.half_height_m > widest_m and not view.whole_scene and span.max() > 6.0 * float(crossing.radii.max())
     ):
-        points, follows = _cluster(crossing, points, span, follow, legible_at, fovy_deg)
+        points, follows = _cluster(crossing, points, span, follow, widest_m)
         want = np.zeros((0, 3))
         marks = crossing.centres[:1]
     turn = broadside_deg(points, view.azimuth_deg) if view.broadside else 0.0
@@ -166,7 +168,7 @@ def choose(
         pose = fit(points, backward, fovy_deg, aspect, view.margin)
         if len(want):
             wider = fit(np.concatenate([points, want]), backward, fovy_deg, aspect, 0.5 * view.margin)
-            if wider.distance_m < SUPPORT_STRETCH * pose.distance_m and wider.distance_m < 1.1 * legible_at:
+            if wider.half_height_m < SUPPORT_STRETCH * pose.half_height_m and wider.half_height_m < 1.1 * widest_m:
                 pose = wider
         pose = _settle(pose, points, view, fovy_deg, aspect, floor_z)
         hidden = hidden_share(model, data, pose.eye, marks, crossing.bodies)
@@ -185,11 +187,11 @@ def _settle_wall(pose: Pose, points: np.ndarray, view: View, aspect: float, floo
 
 
 def _cluster(
-    crossing: Crossing, points: np.ndarray, span: np.ndarray, always: bool, legible_at: float, fovy_deg: float
+    crossing: Crossing, points: np.ndarray, span: np.ndarray, always: bool, widest_m: float
 ) -> tuple[np.ndarray, tuple[bool, bool, bool]]:
     """Points around the first moment that hold the subjects whenever the camera moves along with their middle."""
     # Axes along which the subjects hardly leave a legible frame stay still: a bouncing ball need not shake the picture.
-    room = legible_at * 2.0 * np.tan(np.radians(fovy_deg) / 2.0) * 0.55
+    room = 1.1 * widest_m
     moves = [bool(length > (0.02 if always else room)) for length in span]
     if always and span[2] < 0.6 * room:
         moves[2] = False
@@ -202,6 +204,6 @@ def _cluster(
     reach = crossing.radii[None, :, None, None]
     ends = np.concatenate([np.eye(3), -np.eye(3)])[None, None]
     around = (local[:, :, None] + reach * ends).reshape(-1, 3)
-    least = 2.6 * float(crossing.radii.max())
+    least = FOLLOW_ROOM * float(crossing.radii.max())
     middle = 0.5 * (around.min(axis=0) + around.max(axis=0))
-    return np.concatenate([around, middle + least * ends.reshape(-1, 3) * np.array([1.0, 1.0, 0.5])]), follows
+    return np.concatenate([around, middle + least * ends.reshape(-1, 3) * np.array([1.0, 1.0, 0.7])]), follows

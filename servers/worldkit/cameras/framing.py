@@ -10,7 +10,7 @@ import numpy as np
 from .views import axes
 
 NEAREST_M = 0.06
-LOOMING = 0.9
+LOOMING = 0.6
 """Least distance to the nearest point, in depths of what is framed."""
 NARROWEST_DEG = 8.0
 
@@ -28,6 +28,11 @@ class Pose:
     def target(self) -> np.ndarray:
         """The point looked at."""
         return self.eye - self.axes[:, 2] * self.distance_m
+
+    @property
+    def half_height_m(self) -> float:
+        """Half the height of what the frame holds at the target's distance."""
+        return self.distance_m * tan(radians(self.fovy_deg) / 2.0)
 
 
 @dataclass(frozen=True)

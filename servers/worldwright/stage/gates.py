@@ -15,7 +15,9 @@ BEFORE: dict[PassName, PassName] = {"stills": "physics", "video": "stills"}
 
 
 def passed(run: Run, key: EvidenceKey, stage: PassName) -> dict[str, Any] | None:
-    """The result of a pass that succeeded on this key."""
+    """The result of a pass that succeeded on this key; physics without its recording (a fresh clone) has not."""
+    if stage == "physics" and not (run.evidence(key) / "physics" / "trajectory" / "complete.json").is_file():
+        return None
     result = _read(run, key, f"{stage}/result.json")
     return result if result.get("ok") else None
 

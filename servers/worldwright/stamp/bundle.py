@@ -22,8 +22,8 @@ PREFIX = ".accepting-"
 
 @contextmanager
 def only_one(run: Run) -> Iterator[None]:
-    """Hold the run's acceptance lock (released by the kernel when the process dies)."""
-    handle = os.open(run.folder / ".accept.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
+    """Hold a lock on the run folder itself (no lock file to leave behind; the kernel lets go when the process dies)."""
+    handle = os.open(run.folder, os.O_RDONLY | os.O_CLOEXEC)
     try:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

@@ -94,7 +94,7 @@ def verify(name: str, timeout_s: float, progress: Progress = silent) -> Verifica
         mode, found = _motion(folder, statement, proved, differences)
         checks += found
         checks += _objectives(statement, proved)
-        shutil.rmtree(proof, ignore_errors=True)
+    shutil.rmtree(scratch, ignore_errors=True)
     if not all(c.ok for c in checks):
         return _refuted(run, checks, differences, mode)
     return Verification(
@@ -160,7 +160,9 @@ def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
         yield Check(name="journal", ok=known, detail=detail)
 
 
-def _motion(folder: Path, statement: Statement, proved: Proved, differences: tuple[str, ...]) -> tuple:
+def _motion(
+    folder: Path, statement: Statement, proved: Proved, differences: tuple[str, ...]
+) -> tuple[Literal["bitwise", "tolerance"], list[Check]]:
     """How the motions compare: (mode, checks)."""
     wanted, got = statement.predicate.proof.trajectory_sha256, proved.trajectory_sha256
     if wanted == got:

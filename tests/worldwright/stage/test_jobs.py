@@ -23,6 +23,8 @@ import json, pathlib, sys
 out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
 (out / "progress.json").write_text('{"done": 1, "total": 2, "unit": "steps"}')
 (out / "data.bin").write_bytes(b"x" * 10)
+(out / "trajectory").mkdir()
+(out / "trajectory" / "complete.json").write_text("{}")
 (out / "result.json").write_text(json.dumps({"ok": True, "trajectory_sha256": "abc"}))
 print("said something")
 """
@@ -74,7 +76,7 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
     assert result["ok"]
     assert result["sandbox"] == level
     assert result["summary"]["trajectory_sha256"] == "abc"
-    assert set(result["files"]) == {"data.bin"}
+    assert set(result["files"]) == {"data.bin", "trajectory/complete.json"}
     assert log(str(run.folder)).content == "said something\n"
     again = start(str(run.folder))
     assert again.cached

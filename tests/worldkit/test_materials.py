@@ -1,0 +1,52 @@
+import subprocess
+import sys
+
+import mujoco
+import numpy as np
+import pytest
+
+from worldkit import materials
+from worldkit.materials import LOOKS, look, paint
+
+FLAT = [name for name in LOOKS if look(name).paint and not look(name).around]
+AROUND = [name for name in LOOKS if look(name).around]
+
+
+def test_naming_looks_loads_no_simulator():
+    code = "import sys, worldkit.materials; sys.exit('mujoco' in sys.modules or 'cv2' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize("name", FLAT)
+def test_a_flat_texture_repeats_without_a_seam(name):
+    pixels = paint.tile(look(name), 128)[..., :3].astype(float)
+    for axis in (0, 1):
+        inside = np.abs(np.diff(pixels, axis=axis)).mean(axis=(1 - axis, 2))
+        seam = np.abs(pixels.take(0, axis) - pixels.take(-1, axis)).mean()
+        assert seam <= 1.5 * inside.max() + 1.0
+
+
+@pytest.mark.parametrize("name", AROUND)
+def test_a_ball_shows_its_turning(name):
+    faces = paint.cube(look(name), 48)[..., :3].astype(float)
+    assert faces.reshape(-1, 3).std(axis=0).max() > 3.0
+    # Neighbouring faces meet: the last column of +x is the first of -z.
+    across = np.abs(faces[0][:, -1] - faces[5][:, 0]).mean()
+    assert across < 40.0
+
+
+def test_paint_is_the_same_every_time():
+    entry = look("wood_planks")
+    first = paint.tile(entry, 128).copy()
+    paint.tile.cache_clear()
+    assert np.array_equal(first, paint.tile(entry, 128))
+
+
+def test_every_look_compiles_into_a_model():
+    spec = mujoco.MjSpec()
+    for number, name in enumerate(LOOKS):
+        spec.worldbody.add_geom(size=(0.1, 0, 0), pos=(number, 0, 0), material=materials.add(spec, name))
+    model = spec.compile()
+    assert model.nmat == len(LOOKS) and model.ntex == len(FLAT) + len(AROUND)
+    names = [model.mat(int(m)).name for m in model.geom_matid]
+    assert names == list(LOOKS)
