@@ -71,7 +71,7 @@ CONTACT_COLUMNS = (
     Column("row", (), "1", "index of the state row", "int32"),
     Column("geom1", (), "1", "first geom, index into meta.geoms; -1 for a flex", "int32"),
     Column("geom2", (), "1", "second geom, index into meta.geoms; -1 for a flex", "int32"),
-    Column("depth_m", (), "m", "penetration depth, positive when the geoms overlap"),
+    Column("depth_m", (), "m", "penetration depth, positive when the geoms overlap; minus the gap otherwise"),
     Column("normal_force", (), "N", "force along the normal, pushing the geoms apart"),
     Column("force", (3,), "N", "total contact force on the second geom's body"),
     Column("position", (3,), "m", "contact point, midway between the surfaces"),

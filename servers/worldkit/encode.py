@@ -50,7 +50,7 @@ class Video:
         # Say which colours these are: players guess otherwise, and guess by size. 1 is BT.709 in all three, and
         # `color_range` 1 is the studio swing that the conversion below writes.
         codec.color_primaries = codec.color_trc = codec.colorspace = codec.color_range = 1
-        codec.thread_count = min(4, os.cpu_count() or 1)
+        codec.thread_count = min(2, os.cpu_count() or 1)  # the renderer needs the others more
         self._stream = stream
         self._frames: queue.Queue[np.ndarray | None] = queue.Queue(maxsize=4)
         self._failure: BaseException | None = None

@@ -67,6 +67,7 @@ def main(
     try:
         out = _prepare(options)
         settings.check(movers, visual_only)
+        log_to_console()
         _PASSES[options.run](settings, options, out)
     except KeyboardInterrupt:
         sys.stderr.write("interrupted; what was recorded until now can be read\n")
@@ -151,8 +152,6 @@ def _prepare(options: argparse.Namespace) -> Path | None:
 
 
 def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> None:
-    import mujoco
-
     from . import world
     from .describe import describe
     from .files import write_json
@@ -160,7 +159,6 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
     from .reporting import Progress
     from .simulate import prepare, simulate
 
-    mujoco.set_mju_user_warning(lambda text: sys.stderr.write(f"MuJoCo warns: {text}\n"))
     seed = settings.seed if options.seed is None else options.seed
     duration = settings.duration if options.duration is None else options.duration
     build_rng, control_rng = world.seeded(seed)
@@ -274,6 +272,15 @@ def _view(settings: _Settings, options: argparse.Namespace, out: Path | None) ->
 def has_display() -> bool:
     """Whether a window could be opened."""
     return sys.platform in ("darwin", "win32") or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def log_to_console() -> None:
+    """Keep the engine's warnings on standard error, and its log file out of the working directory."""
+    import mujoco
+
+    config = mujoco.MjLogConfig.get()
+    config.logto_file = False
+    config.set()
 
 
 def headless_gl() -> None:

@@ -59,7 +59,7 @@ def bare(recording: trajectory.Recording, out: Path, size: tuple[int, int]) -> f
         options = {"crf": encode.QUALITY, "preset": encode.PRESET}
         stream = container.add_stream("libx264", rate=FPS, options=options)
         stream.width, stream.height, stream.pix_fmt = *size, "yuv420p"
-        stream.codec_context.thread_count = min(4, os.cpu_count() or 1)
+        stream.codec_context.thread_count = min(2, os.cpu_count() or 1)
         for state in states:
             data.qpos[:] = state
             mujoco.mj_fwdKinematics(model, data)

@@ -54,7 +54,7 @@ def corners(centres, half):
 )
 @settings(max_examples=8, deadline=None)
 def test_every_view_frames_its_subject_with_a_margin_from_above_the_ground(view, path, radius, others):
-    path = np.array(path) + (0, 0, radius)
+    path = np.add(path, (0, 0, radius))
     spec = mujoco.MjSpec()
     spec.worldbody.add_geom(type=PLANE, size=(0, 0, 1))
     add(spec, "ball", SPHERE, (radius, 0, 0), path[0])

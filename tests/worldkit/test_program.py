@@ -138,7 +138,9 @@ def test_what_cannot_be_simulated_is_said_clearly(settings, message, tmp_path, c
     assert "Traceback" not in capsys.readouterr().err
 
 
-def test_a_blow_up_has_its_own_type(tmp_path):
+def test_a_blow_up_has_its_own_type(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
     def control(model, data):
         data.xfrc_applied[1, 0] = 1e15
 
@@ -147,6 +149,7 @@ def test_a_blow_up_has_its_own_type(tmp_path):
     assert facts["type"] == facts["code"] == "diverged"
     assert "ball" in facts["message"]
     assert (tmp_path / "trajectory" / "state.arrows").exists()
+    assert not (tmp_path / "MUJOCO_LOG.TXT").exists()
 
 
 def test_an_error_of_the_engine_keeps_what_was_recorded(tmp_path):

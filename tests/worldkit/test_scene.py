@@ -69,11 +69,12 @@ def test_an_unknown_look_names_the_nearest(wrong, right):
 
 
 def test_the_library_is_described_and_complete():
-    asked = (
-        "wood_oak wood_walnut wood_planks felt_green felt_blue phenolic_white phenolic_red phenolic_yellow phenolic_black "
-        "rubber_black rubber_orange ceramic_white ceramic_blue marble_white steel_brushed chrome brass copper glass_clear "
-        "plastic_red plastic_blue plastic_white leather_brown fabric_linen paper cardboard concrete brick grass sand asphalt "
-        "stone ice apple_red"
-    ).split()
+    asked = """
+        wood_oak wood_walnut wood_planks felt_green felt_blue phenolic_white phenolic_red phenolic_yellow phenolic_black
+        rubber_black rubber_orange ceramic_white ceramic_blue marble_white steel_brushed chrome brass copper glass_clear
+        plastic_red plastic_blue plastic_white leather_brown fabric_linen paper cardboard concrete brick grass sand asphalt
+        stone ice apple_red
+    """
+    asked = asked.split()
     assert set(asked) <= set(LOOKS)
     assert all(8 <= len(description) <= 80 for description in LOOKS.values())

@@ -16,8 +16,10 @@ from .views import VIEWS, View
 if TYPE_CHECKING:
     import mujoco
 
-LEGIBLE = 0.055
-"""A subject of less than than this share of the frame's height cannot be read; the camera then follows instead."""
+LEGIBLE = 0.032
+"""A subject of less than this share of the frame's height cannot be read; the camera then follows instead."""
+CLEAR = 0.045
+"""A subject should keep this share of the frame's height when all of its support is shown."""
 SUPPORT_STRETCH = 1.9
 """How much farther the camera may stand to show all of a support."""
 HIDDEN_LIMIT = 0.15
@@ -168,7 +170,10 @@ def choose(
         pose = fit(points, backward, fovy_deg, aspect, view.margin)
         if len(want):
             wider = fit(np.concatenate([points, want]), backward, fovy_deg, aspect, 0.5 * view.margin)
-            if wider.half_height_m < SUPPORT_STRETCH * pose.half_height_m and wider.half_height_m < 1.1 * widest_m:
+            if (
+                wider.half_height_m < SUPPORT_STRETCH * pose.half_height_m
+                and wider.half_height_m < widest_m * LEGIBLE / CLEAR
+            ):
                 pose = wider
         pose = _settle(pose, points, view, fovy_deg, aspect, floor_z)
         hidden = hidden_share(model, data, pose.eye, marks, crossing.bodies)

@@ -10,6 +10,8 @@ import numpy as np
 from OpenGL import GL
 
 SHADERS = Path(__file__).parent / "shaders"
+SCRATCH_UNIT = GL.GL_TEXTURE15
+"""Where textures are made, so that making one never takes the place of one in use."""
 
 
 @cache
@@ -96,6 +98,7 @@ def texture(
 ) -> int:
     """An empty 2D texture with immutable storage."""
     handle = GL.glGenTextures(1)
+    GL.glActiveTexture(SCRATCH_UNIT)
     GL.glBindTexture(GL.GL_TEXTURE_2D, handle)
     GL.glTexStorage2D(GL.GL_TEXTURE_2D, levels, internal, width, height)
     magnify = GL.GL_LINEAR if linear else GL.GL_NEAREST
@@ -127,6 +130,7 @@ def cube_picture(faces: np.ndarray) -> int:
     """A mipmapped cube map from uint8 (6, N, N, 4)."""
     size = faces.shape[1]
     handle = GL.glGenTextures(1)
+    GL.glActiveTexture(SCRATCH_UNIT)
     GL.glBindTexture(GL.GL_TEXTURE_CUBE_MAP, handle)
     GL.glTexStorage2D(GL.GL_TEXTURE_CUBE_MAP, int(np.log2(size)) + 1, GL.GL_SRGB8_ALPHA8, size, size)
     GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)

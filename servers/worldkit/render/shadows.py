@@ -10,6 +10,8 @@ from OpenGL import GL
 from . import gl
 
 BLOCK = 16
+WIDEST = 6.0 * 16 / 2048
+"""Radius of the widest penumbra, as a share of the map."""
 
 
 def frame_of(direction: np.ndarray) -> np.ndarray:
@@ -28,8 +30,9 @@ def steady(radius: float) -> float:
 class ShadowMap:
     """Depth seen from the key light over a disc of the scene."""
 
-    def __init__(self, size: int, reach: int = 4):
-        self.size, self.reach = size, reach
+    def __init__(self, size: int):
+        # The widest penumbra is the same share of the scene at every size of map.
+        self.size, self.reach = size, max(1, round(WIDEST * size / BLOCK))
         self.map = gl.Target(size, size, None, depth=True)
         self._blocks = gl.Target(size // BLOCK, size // BLOCK, GL.GL_RG32F, linear=False)
         self.bounds = gl.Target(size // BLOCK, size // BLOCK, GL.GL_RG32F, linear=False)

@@ -123,6 +123,8 @@ def mesh(model: mujoco.MjModel, index: int) -> Vertices:
     corner = model.mesh_vert[model.mesh_vertadr[index] + vertex[chosen]]
     normals = model.mesh_normal[model.mesh_normaladr[index] + normal[chosen]]
     uv = model.mesh_texcoord[first_uv + uv_index[chosen]] if first_uv >= 0 and count_uv else None
+    if uv is not None:
+        uv = np.column_stack([uv[:, 0], 1.0 - uv[:, 1]])  # a model's v runs down its textures' rows, ours up
     return _pack(corner, normals, uv), inverse.reshape(-1, 3)
 
 

@@ -135,9 +135,11 @@ class _Writer:
         for name, m in self.parameters.materials.items():
             if m.source:
                 lines.append(comment(f"{name}: {m.source}", 0))
-            keywords = {"friction": m.friction, "torsional": m.torsional_friction, "rolling": m.rolling_friction}
+            keywords: dict = {"friction": m.friction, "torsional": m.torsional_friction, "rolling": m.rolling_friction}
             if m.restitution is not None:
                 keywords["restitution"] = m.restitution
+                # The stiffest contact this time step resolves: the least overlap, the firmest grip.
+                keywords["time_constant"] = Raw("2 * TIME_STEP")
             if m.density is not None:
                 keywords["density"] = m.density
             target = f"{constant_name(name)} = contacts.surface"

@@ -26,7 +26,8 @@ class Given(OfBody):
 def measure(trajectory: Trajectory, given: Given) -> Measured:
     """The mean relative slip."""
     body = body_index(trajectory, given.body)
-    rows = trajectory.rows(given.after_s, given.window_s[1] if given.window_s else None)
+    start, end = given.window_s or (given.after_s, None)
+    rows = trajectory.rows(max(start, given.after_s), end)
     v, omega = trajectory.linvel[rows, body, :2], trajectory.angvel[rows, body]
     rim = np.stack([omega[:, 1], -omega[:, 0]], axis=1) * given.radius_m
     speed = np.linalg.norm(v, axis=1)

@@ -111,4 +111,4 @@ def _mark_contacts(axes: object, trajectory: Trajectory, rows: slice) -> None:
     begins = begins[(begins >= rows.start) & (begins < rows.stop)]
     if 0 < len(begins) <= 60:
         for row in begins:
-            axes.axvline(trajectory.t[row], color=GRID, linewidth=1.2, zorder=0)  # type: ignore[attr-defined]
+            axes.axvline(trajectory.t[row], color=GRID, linewidth=1.2, zorder=0)
