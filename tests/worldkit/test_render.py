@@ -325,34 +325,6 @@ def test_a_driver_that_gives_up_leads_to_the_plain_renderer(monkeypatch, stage):
         assert frames.engine == "classic" and "no such extension" in frames.reason
 
 
-def test_osmesa_draws_the_same_picture(tmp_path):
-    """The software back end without EGL gives the picture too, and leaves without an error."""
-    code = (
-        "import sys; sys.path[:0] = sys.argv[2:]\n"
-        "import numpy as np; from test_render import still_life, SIZE; from worldkit import render\n"
-        "model, data = still_life()\n"
-        "with render.Frames(model, *SIZE) as frames:\n"
-        "    np.save(sys.argv[1], frames.image(data, 'eye')); assert frames.engine == 'worldkit', frames.reason\n"
-    )
-    import os
-    from pathlib import Path
-
-    out = tmp_path / "osmesa.npy"
-    paths = [str(Path(__file__).parent), str(Path(render.__file__).parents[2])]
-    done = subprocess.run(
-        [sys.executable, "-c", code, str(out), *paths],
-        env={k: v for k, v in os.environ.items() if k != "PYOPENGL_PLATFORM"} | {"MUJOCO_GL": "osmesa"},
-        capture_output=True,
-        text=True,
-    )
-    if "OSMesa" in done.stderr and not out.exists():
-        pytest.skip("OSMesa is not installed")
-    assert done.returncode == 0, done.stderr
-    model, data = still_life()
-    with render.Frames(model, *SIZE) as frames:
-        assert np.abs(np.load(out).astype(int) - frames.image(data, "eye")).mean() < 1.0
-
-
 @given(st.floats(0, 20), st.floats(0, 20))
 def test_the_film_curve_rises_and_stays_in_range(a, b):
     low, high = sorted((a, b))

@@ -1,15 +1,20 @@
 """A shelf module (a lint rule, a check, a predicate …) as one piece: its docstring is its page."""
 
 import ast
+import threading
 from collections.abc import Iterator
 
 from .chunk import Chunk
+
+_ONE_AT_A_TIME = threading.Lock()
+"""The parser of some Python versions loses count of its depth when threads parse side by side."""
 
 
 def chunks(text: str, name: str) -> Iterator[Chunk]:
     """The module's docstring, under its CODE when it has one; read, never imported."""
     try:
-        tree = ast.parse(text)
+        with _ONE_AT_A_TIME:
+            tree = ast.parse(text)
     except (SyntaxError, ValueError, RecursionError):
         return
     doc = ast.get_docstring(tree)
