@@ -51,6 +51,10 @@ class PassResult(Frozen):
     """What one staged pass did (`evidence/<key>/<pass>/result.json`)."""
 
     stage: PassName
+    variant: str = ""
+    """Name of a re-run with a difference (`physics@<variant>/`); empty for the pass itself."""
+    arguments: tuple[str, ...] = ()
+    """What a variant had on its command line besides the pass."""
     ok: bool
     code: str = "ok"
     """`ok`, or how it failed: crashed, timed_out, out_of_memory, too_much_output, killed, cancelled, refused."""

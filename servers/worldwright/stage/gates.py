@@ -14,22 +14,29 @@ from ..model.run import Run
 BEFORE: dict[PassName, PassName] = {"stills": "physics", "video": "stills"}
 
 
-def passed(run: Run, key: EvidenceKey, stage: PassName) -> dict[str, Any] | None:
+def folder_name(stage: PassName, variant: str = "") -> str:
+    """Name of a pass's folder under `evidence/<key>/`."""
+    return f"{stage}@{variant}" if variant else stage
+
+
+def passed(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> dict[str, Any] | None:
     """The result of a pass that succeeded on this key; physics without its recording (a fresh clone) has not."""
-    if stage == "physics" and not (run.evidence(key) / "physics" / "trajectory" / "complete.json").is_file():
+    name = folder_name(stage, variant)
+    if stage == "physics" and not (run.evidence(key) / name / "trajectory" / "complete.json").is_file():
         return None
-    result = _read(run, key, f"{stage}/result.json")
+    result = _read(run, key, f"{name}/result.json")
     return result if result.get("ok") else None
 
 
-def require(run: Run, key: EvidenceKey, stage: PassName) -> None:
-    """Raise a `GateError` with the next command when the pass may not start."""
-    if stage in BEFORE:
-        if passed(run, key, BEFORE[stage]) is None:
+def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> None:
+    """Raise a `GateError` with the next command when the pass may not start; a variant needs the pass it varies."""
+    before = stage if variant else BEFORE.get(stage)
+    if before:
+        if passed(run, key, before) is None:
             raise GateError(
-                f"the {BEFORE[stage]} pass has not succeeded for this program and plan",
+                f"the {before} pass has not succeeded for this program and plan",
                 place=str(run.evidence(key)),
-                next_move=f"worldwright stage start {run.folder} --stage {BEFORE[stage]}",
+                next_move=f"worldwright stage start {run.folder} --stage {before}",
             )
         return
     if not any(e.get("action") == "approve" and e.get("plan_sha256") == key.plan_sha256 for e in run.entries()):

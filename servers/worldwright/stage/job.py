@@ -7,7 +7,6 @@ and, once asked for, `cancel`.
 
 import fcntl
 import json
-import time
 from pathlib import Path
 from typing import Literal
 
@@ -19,10 +18,9 @@ from ..model.errors import NotFoundError
 from ..model.evidence import EvidenceKey, PassName
 from ..model.frozen import Frozen
 from ..model.run import Run
+from .gates import folder_name
 
 State = Literal["queued", "running", "succeeded", "failed", "cancelled", "lost"]
-START_GRACE_S = 15.0
-"""How long a supervisor may take to appear before its job counts as lost."""
 
 
 class Spec(Frozen):
@@ -31,6 +29,10 @@ class Spec(Frozen):
     job: str
     run: str
     stage: PassName
+    variant: str = ""
+    """Name of a re-run beside the pass's evidence; empty for the pass itself."""
+    arguments: tuple[str, ...] = ()
+    """More words on the program's command line."""
     key: EvidenceKey
     wall_s: float
     memory_mb: int
@@ -46,6 +48,7 @@ class JobStatus(Frozen):
 
     job: str
     stage: PassName
+    variant: str = ""
     key: str
     state: State
     cached: bool = False
@@ -62,6 +65,11 @@ class JobStatus(Frozen):
     sandbox: str = ""
 
     @property
+    def name(self) -> str:
+        """The pass, and its variant if it is one."""
+        return folder_name(self.stage, self.variant)
+
+    @property
     def ok(self) -> bool:
         """It has not failed."""
         return self.state in ("queued", "running", "succeeded")
@@ -73,7 +81,7 @@ class JobStatus(Frozen):
 
     def text(self) -> str:
         """One line, and the cause when it failed."""
-        line = f"{self.stage} {self.state}" + (" (from its evidence)" if self.cached else "")
+        line = f"{self.name} {self.state}" + (" (from its evidence)" if self.cached else "")
         line += f" · job {self.job} · {self.wall_s:.1f} s" + (f" · sandbox {self.sandbox}" if self.sandbox else "")
         if self.state == "running" and self.total:
             line += f" · {self.done:g}/{self.total:g} {self.unit}"
@@ -142,9 +150,8 @@ class Job:
         try:
             state = JobStatus.model_validate_json((self.folder / "state.json").read_text(encoding="utf-8"))
         except (OSError, ValidationError):
-            state = JobStatus(job=spec.job, stage=spec.stage, key=spec.key.key, state="queued")
-        young = state.state == "queued" and time.time() - spec.created < START_GRACE_S
-        if state.ended or young or self.supervised():
+            state = JobStatus(job=spec.job, stage=spec.stage, variant=spec.variant, key=spec.key.key, state="queued")
+        if state.ended or self.supervised():
             return state
         try:  # it may have ended between the two looks
             again = json.loads((self.folder / "state.json").read_text(encoding="utf-8"))

@@ -5,7 +5,6 @@ the sandbox, keeps a capped log, watches time, memory, output and the number of 
 when everything ended well are the files moved into the run's evidence, in one rename.
 """
 
-import fcntl
 import json
 import os
 import subprocess
@@ -21,6 +20,7 @@ from worldkit.files import write_json
 from ..model.evidence import PassResult
 from ..model.run import Run, sha256_file
 from . import family, sandbox
+from .gates import folder_name
 from .job import Job, JobStatus, Spec
 from .sandbox.confinement import Confinement, environment
 
@@ -47,14 +47,19 @@ class Supervision:
     def state(self, name: Any, **more: Any) -> None:
         """Publish where the job stands."""
         wall = round(time.monotonic() - self.started, 3)
-        common = {"job": self.spec.job, "stage": self.spec.stage, "key": self.spec.key.key}
+        common = {
+            "job": self.spec.job,
+            "stage": self.spec.stage,
+            "key": self.spec.key.key,
+            "variant": self.spec.variant,
+        }
         self.job.write(JobStatus(**common, state=name, wall_s=wall, sandbox=self.level, **more))
 
     def call(self) -> list[str]:
         """The program's command line for this pass."""
         program = str(self.job.inputs / "simulation.py")
         call = [sys.executable, "-s", program, "--pass", OPTION[self.spec.stage], "--out", str(self.job.out)]
-        return call if self.spec.stage == "physics" else [*call, "--from", str(self.recording)]
+        return [*call, *(() if self.spec.stage == "physics" else ("--from", str(self.recording))), *self.spec.arguments]
 
     @property
     def recording(self) -> Path:
@@ -161,6 +166,8 @@ class Supervision:
         failure = stopped or self.failure(status, summary, error)
         result = PassResult(
             stage=self.spec.stage,
+            variant=self.spec.variant,
+            arguments=self.spec.arguments,
             ok=failure is None,
             started=self.started_at,
             wall_s=round(time.monotonic() - self.started, 3),
@@ -182,7 +189,12 @@ class Supervision:
             result = self.commit(result)
         else:
             write_json(self.job.folder / "result.json", result.model_dump(mode="json"))
-        facts = {"key": self.spec.key.key, "stage": self.spec.stage, "ok": result.ok, "code": result.code}
+        facts = {
+            "key": self.spec.key.key,
+            "stage": folder_name(self.spec.stage, self.spec.variant),
+            "ok": result.ok,
+            "code": result.code,
+        }
         self.run.log("stage", "stage", **facts, job=self.spec.job, wall_s=result.wall_s, sandbox=self.level)
         name = "succeeded" if result.ok else "cancelled" if result.code == "cancelled" else "failed"
         told = {k: getattr(result, k) for k in ("code", "message", "place", "next_move")}
@@ -191,12 +203,12 @@ class Supervision:
     def commit(self, result: PassResult) -> PassResult:
         """One rename into the evidence; where evidence of this key already stands, compare and keep the first."""
         folder = self.run.evidence(self.spec.key)
-        target = folder / self.spec.stage
+        target = folder / folder_name(self.spec.stage, self.spec.variant)
         write_json(folder / "key.json", self.spec.key.model_dump(mode="json"))
         earlier = _json(target / "result.json")
         if not earlier.get("ok"):
             if target.exists():  # what an older, interrupted version left behind proves nothing
-                target.rename(self.job.folder / f"replaced-{self.spec.stage}")
+                target.rename(self.job.folder / f"replaced-{target.name}")
             self.job.out.rename(target)
             return result
         first = (earlier.get("summary") or {}).get("trajectory_sha256")
@@ -255,16 +267,16 @@ def _json(path: Path) -> dict[str, Any]:
 def main() -> int:
     """Supervise the job whose folder is given."""
     job = Job(Path(sys.argv[1]))
-    with (job.folder / "lock").open("wb") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        supervision = Supervision(job)
-        try:
-            supervision.supervise()
-        except BaseException as defect:
-            supervision.state(
-                "failed", code="internal", message=f"the supervisor failed: {type(defect).__name__}: {defect}"
-            )
-            raise
+    # The launcher took the lock and left it to us; the kernel drops it when this process ends, however it ends.
+    os.set_inheritable(int(sys.argv[2]), False)
+    supervision = Supervision(job)
+    try:
+        supervision.supervise()
+    except BaseException as defect:
+        supervision.state(
+            "failed", code="internal", message=f"the supervisor failed: {type(defect).__name__}: {defect}"
+        )
+        raise
     return 0
 
 

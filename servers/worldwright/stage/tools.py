@@ -1,7 +1,7 @@
 """The tools of `stage`: start a pass, follow it, look at what it shows."""
 
-import secrets
 import time
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
@@ -13,11 +13,10 @@ from ..model.frozen import Frozen
 from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
 from ..model.run import Run
-from .job import Job, JobStatus, Spec
+from .job import Job, JobStatus
 
 RunName = Annotated[str, Field(description="Path of the run folder, or its name under runs/ or examples/.")]
 JobName = Annotated[str | None, Field(description="Job id; the latest job when left out.")]
-WALL_S: dict[PassName, float] = {"physics": 120.0, "stills": 120.0, "video": 600.0}
 PAGE = 16_000
 
 
@@ -62,52 +61,12 @@ def start(
     succeeded for this exact program, plan and environment is answered from its evidence; one that is under way is
     joined. Follow it with `wait`.
     """
-    import subprocess
-    import sys
-
     from ..model import environment
-    from . import gates
+    from .launch import launch
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
-    earlier = gates.passed(folder, key, stage)
-    if earlier is not None and not force:
-        return JobStatus(
-            job=earlier.get("job", ""),
-            stage=stage,
-            key=key.key,
-            state="succeeded",
-            cached=True,
-            wall_s=earlier.get("wall_s", 0.0),
-            sandbox=earlier.get("sandbox", ""),
-        )
-    gates.require(folder, key, stage)
-    for other in _jobs(folder):
-        spec = other.spec
-        if not force and (spec.stage, spec.key) == (stage, key) and not (state := other.read()).ended:
-            return state
-    spec = Spec(
-        job=f"{stage}-{secrets.token_hex(4)}",
-        run=str(folder.folder),
-        stage=stage,
-        key=key,
-        wall_s=wall_s or WALL_S[stage],
-        memory_mb=memory_mb,
-        output_mb=16,
-        file_mb=2048,
-        force=force,
-        created=time.time(),
-    )
-    job = Job.create(folder, spec)
-    with (job.folder / "supervisor.log").open("wb") as errors:
-        subprocess.Popen(
-            [sys.executable, "-m", "worldwright.stage.supervisor", str(job.folder)],
-            stdin=subprocess.DEVNULL,
-            stdout=errors,
-            stderr=errors,
-            start_new_session=True,
-        )
-    return job.read()
+    return launch(folder, key, stage, force=force, wall_s=wall_s, memory_mb=memory_mb)
 
 
 @reads
@@ -118,18 +77,9 @@ def wait(
     progress: Progress = silent,
 ) -> JobStatus:
     """Wait until a job ends, or `timeout_s` has passed, reporting progress on the way; call again while it runs."""
-    found = Job.find(Run.find(run), job)
-    deadline = time.monotonic() + timeout_s
-    told = None
-    while True:
-        state = found.read()
-        left = f", about {state.eta_s:.0f} s left" if state.eta_s is not None else ""
-        if (state.done, state.eta_s) != told:
-            told = (state.done, state.eta_s)
-            progress(state.done, state.total, f"{state.stage} {state.done:g}/{state.total:g} {state.unit}{left}")
-        if state.ended or time.monotonic() > deadline:
-            return state
-        time.sleep(0.05)
+    from .variants import follow
+
+    return follow(Job.find(Run.find(run), job), timeout_s, progress)
 
 
 @reads
@@ -137,11 +87,12 @@ def status(run: RunName) -> RunStages:
     """Which passes have succeeded for the current program and plan, and how the latest jobs stand."""
     from ..model import environment
     from . import gates
+    from .launch import jobs
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
     passed = tuple(stage for stage in PASSES if gates.passed(folder, key, stage) is not None)
-    return RunStages(key=key.key, passed=passed, jobs=tuple(job.read() for job in _jobs(folder)[:10]))
+    return RunStages(key=key.key, passed=passed, jobs=tuple(job.read() for job in jobs(folder)[:10]))
 
 
 def cancel(run: RunName, job: JobName = None) -> JobStatus:
@@ -191,10 +142,20 @@ def log(
     )
 
 
-def _jobs(run: Run) -> list[Job]:
-    """Every readable job, newest first."""
-    known = sorted(run.jobs.glob("*/spec.json"), key=lambda path: path.stat().st_mtime, reverse=True)
-    return [Job(path.parent) for path in known]
+def run_variant(
+    run: Run, variant: str, arguments: tuple[str, ...], *, timeout_s: float = 40, progress: Progress = silent
+) -> JobStatus:
+    """For the audits of other servers (no tool): see `stage.variants.run`."""
+    from . import variants
+
+    return variants.run(run, variant, arguments, timeout_s=timeout_s, progress=progress)
+
+
+def variant_folder(run: Run, variant: str) -> Path | None:
+    """For the audits of other servers (no tool): see `stage.variants.folder`."""
+    from . import variants
+
+    return variants.folder(run, variant)
 
 
 TOOLS = (start, wait, status, cancel, frames, log)

@@ -5,16 +5,12 @@ import os
 import signal
 import subprocess
 import sys
-import textwrap
 import time
 from pathlib import Path
 
 import pytest
 
-from worldwright.model import environment
 from worldwright.model.errors import GateError, JobError, NotFoundError
-from worldwright.model.evidence import LintReport
-from worldwright.model.run import Run, sha256_file
 from worldwright.stage import sandbox
 from worldwright.stage.tools import cancel, log, start, status, wait
 
@@ -28,47 +24,9 @@ out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
 (out / "result.json").write_text(json.dumps({"ok": True, "trajectory_sha256": "abc"}))
 print("said something")
 """
-LEVELS = [name for name, module in sandbox.LADDER.items() if not module.unusable()]
 
 
-@pytest.fixture(params=LEVELS)
-def level(request, monkeypatch):
-    monkeypatch.setenv("WORLDWRIGHT_SANDBOX", request.param)
-    sandbox.level.cache_clear()
-    yield request.param
-    sandbox.level.cache_clear()
-
-
-@pytest.fixture
-def make(tmp_path):
-    """A run whose program is approved and counts as linted."""
-
-    def make(source: str, name: str = "world") -> Run:
-        run = Run(tmp_path / name)
-        run.folder.mkdir(exist_ok=True)
-        run.plan.write_text("a plan")
-        run.program.write_text(textwrap.dedent(source))
-        run.log("test", "approve", plan_sha256=sha256_file(run.plan))
-        run.keep(run.evidence_key(environment.current().sha256()), "lint", LintReport(rules=1))
-        return run
-
-    return make
-
-
-def finish(run: Run, **options):
-    job = start(str(run.folder), **options)
-    for _ in range(10):
-        if job.ended:
-            return job
-        job = wait(str(run.folder), job=job.job, timeout_s=10)
-    raise AssertionError(f"the job never ended: {job}")
-
-
-def evidence(run: Run) -> Path:
-    return run.evidence(run.evidence_key(environment.current().sha256()))
-
-
-def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, level):
+def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, level, finish, evidence):
     run = make(GOOD)
     job = finish(run)
     assert (job.state, job.sandbox, job.cached) == ("succeeded", level, False), job.text()
@@ -103,7 +61,7 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
         ("import os, time\nfor _ in range(400):\n    if os.fork() == 0: time.sleep(30)\ntime.sleep(30)", "refused", {}),
     ],
 )
-def test_every_way_to_fail_has_a_name_and_leaves_no_evidence(make, source, code, options):
+def test_every_way_to_fail_has_a_name_and_leaves_no_evidence(make, source, code, options, finish, evidence):
     run = make(source)
     job = finish(run, **options)
     assert job.state == "failed"
@@ -114,7 +72,7 @@ def test_every_way_to_fail_has_a_name_and_leaves_no_evidence(make, source, code,
     assert list(run.entries())[-1]["code"] == code
 
 
-def test_the_programs_own_error_is_named_with_its_line(make):
+def test_the_programs_own_error_is_named_with_its_line(make, finish):
     run = make(
         """
         import json, pathlib, sys
@@ -128,7 +86,7 @@ def test_the_programs_own_error_is_named_with_its_line(make):
     assert (job.code, job.place, job.message) == ("crashed", "simulation.py:7", "KeyError: 'cue'")
 
 
-def test_the_log_is_capped(make):
+def test_the_log_is_capped(make, finish):
     run = make("print('y' * 3_000_000)")
     job = finish(run)
     assert job.code == "no_result"
@@ -137,7 +95,7 @@ def test_the_log_is_capped(make):
     assert page.next_offset == len(page.content)
 
 
-def test_writing_outside_and_connecting_are_refused(make, level, tmp_path):
+def test_writing_outside_and_connecting_are_refused(make, level, tmp_path, finish):
     target = tmp_path / "outside.txt"
     run = make(
         f"""
@@ -172,7 +130,7 @@ def test_cancel_ends_the_whole_family(make):
     assert not any(b"time.sleep(60.25)" in command for command in commands)
 
 
-def test_a_killed_supervisor_leaves_a_lost_job_and_no_evidence(make):
+def test_a_killed_supervisor_leaves_a_lost_job_and_no_evidence(make, evidence):
     run = make("import time; time.sleep(60)")
     job = start(str(run.folder))
     deadline = time.monotonic() + 10
@@ -195,7 +153,7 @@ def test_a_job_survives_its_server(make):
     assert wait(str(run.folder), job=job, timeout_s=20).state == "succeeded"
 
 
-def test_a_forced_rerun_that_differs_is_said_and_the_first_evidence_stays(make):
+def test_a_forced_rerun_that_differs_is_said_and_the_first_evidence_stays(make, finish, evidence):
     run = make(GOOD.replace('"abc"', "str(__import__('time').time())"))
     assert finish(run).state == "succeeded"
     before = (evidence(run) / "physics/result.json").read_bytes()

@@ -32,6 +32,8 @@ def runtime_paths() -> tuple[Path, ...]:
 
     paths = [Path(sys.prefix), Path(sys.base_prefix), Path(sysconfig.get_path("purelib"))]
     paths += [Path(sys.executable).resolve().parent.parent]
+    # An environment may borrow another's packages (a .pth file, or the system's).
+    paths += [path for path in map(Path, sys.path) if path.name in ("site-packages", "dist-packages")]
     paths += [Path(next(iter(worldkit.__path__))), Path(assets.catalog_root())]
     return tuple(dict.fromkeys(p.absolute() for p in paths if p.exists()))
 

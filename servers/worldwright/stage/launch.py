@@ -1,0 +1,129 @@
+"""Starting a job: answered from evidence, joined when it is under way already, or handed to a detached supervisor.
+
+The launcher takes the job's lock before the supervisor exists and passes it on, so a job has a live owner from its
+first moment: no grace period, and no clock that could jump.
+"""
+
+import fcntl
+import os
+import secrets
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from ..model.errors import JobError
+from ..model.evidence import EvidenceKey, PassName
+from ..model.run import Run
+from . import gates
+from .job import Job, JobStatus, Spec
+
+WALL_S: dict[PassName, float] = {"physics": 120.0, "stills": 120.0, "video": 600.0}
+MEMORY_MB = 4096
+
+
+def launch(
+    run: Run,
+    key: EvidenceKey,
+    stage: PassName,
+    *,
+    variant: str = "",
+    arguments: Sequence[str] = (),
+    force: bool = False,
+    wall_s: float | None = None,
+    memory_mb: int = MEMORY_MB,
+) -> JobStatus:
+    """Start one pass, or answer with what already stands.
+
+    Args:
+        run: the run folder.
+        key: of its program, plan and environment.
+        stage: which pass.
+        variant: name of a re-run beside the pass's own evidence; empty for the pass itself.
+        arguments: more words on the program's command line.
+        force: run although it succeeded, and compare.
+        wall_s: wall-clock limit, s; the pass's default when None.
+        memory_mb: resident memory limit, MiB.
+
+    Raises:
+        GateError: something the pass needs has not been proven yet.
+        JobError: a variant of this name stands already, made with other arguments.
+    """
+    with _one_at_a_time(run):
+        earlier = gates.passed(run, key, stage, variant)
+        if earlier is not None and tuple(earlier.get("arguments", ())) != tuple(arguments):
+            raise JobError(
+                f"'{stage}@{variant}' stands already, made with {list(earlier.get('arguments', ()))}",
+                code="refused",
+                place=str(run.evidence(key) / gates.folder_name(stage, variant)),
+                next_move="give a variant with other arguments another name",
+            )
+        if earlier is not None and not force:
+            return JobStatus(
+                job=earlier.get("job", ""),
+                stage=stage,
+                variant=variant,
+                key=key.key,
+                state="succeeded",
+                cached=True,
+                wall_s=earlier.get("wall_s", 0.0),
+                sandbox=earlier.get("sandbox", ""),
+            )
+        gates.require(run, key, stage, variant)
+        wanted = (stage, variant, tuple(arguments), key)
+        for other in jobs(run):
+            spec = other.spec
+            if force or (spec.stage, spec.variant, spec.arguments, spec.key) != wanted:
+                continue
+            if not (state := other.read()).ended:
+                return state
+        spec = Spec(
+            job=f"{gates.folder_name(stage, variant)}-{secrets.token_hex(4)}",
+            run=str(run.folder),
+            stage=stage,
+            variant=variant,
+            arguments=tuple(arguments),
+            key=key,
+            wall_s=wall_s or WALL_S[stage],
+            memory_mb=memory_mb,
+            output_mb=16,
+            file_mb=2048,
+            force=force,
+            created=time.time(),
+        )
+        job = Job.create(run, spec)
+        _detach(job)
+        return job.read()
+
+
+def jobs(run: Run) -> list[Job]:
+    """Every readable job, newest first."""
+    known = sorted(run.jobs.glob("*/spec.json"), key=lambda path: path.stat().st_mtime, reverse=True)
+    return [Job(path.parent) for path in known]
+
+
+def _detach(job: Job) -> None:
+    """Start the supervisor in a session of its own, holding the job's lock already."""
+    with (job.folder / "supervisor.log").open("wb") as errors, (job.folder / "lock").open("wb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        subprocess.Popen(
+            [sys.executable, "-m", "worldwright.stage.supervisor", str(job.folder), str(lock.fileno())],
+            stdin=subprocess.DEVNULL,
+            stdout=errors,
+            stderr=errors,
+            start_new_session=True,
+            pass_fds=(lock.fileno(),),
+        )
+
+
+@contextmanager
+def _one_at_a_time(run: Run) -> Iterator[None]:
+    """Two callers who ask at once get one job."""
+    run.jobs.mkdir(parents=True, exist_ok=True)
+    folder = os.open(run.jobs, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        fcntl.flock(folder, fcntl.LOCK_EX)
+        yield
+    finally:
+        os.close(folder)

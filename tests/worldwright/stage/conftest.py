@@ -1,0 +1,63 @@
+"""Runs with small real programs, at every level of the sandbox that works here."""
+
+import textwrap
+from pathlib import Path
+
+import pytest
+
+from worldwright.model import environment
+from worldwright.model.evidence import LintReport
+from worldwright.model.run import Run, sha256_file
+from worldwright.stage import sandbox
+from worldwright.stage.tools import start, wait
+
+LEVELS = [name for name, module in sandbox.LADDER.items() if not module.unusable()]
+
+
+@pytest.fixture(params=LEVELS)
+def level(request, monkeypatch):
+    monkeypatch.setenv("WORLDWRIGHT_SANDBOX", request.param)
+    sandbox.level.cache_clear()
+    yield request.param
+    sandbox.level.cache_clear()
+
+
+@pytest.fixture
+def make(tmp_path):
+    """A run whose program is approved and counts as linted."""
+
+    def make(source: str, name: str = "world") -> Run:
+        run = Run(tmp_path / name)
+        run.folder.mkdir(exist_ok=True)
+        run.plan.write_text("a plan")
+        run.program.write_text(textwrap.dedent(source))
+        run.log("test", "approve", plan_sha256=sha256_file(run.plan))
+        run.keep(run.evidence_key(environment.current().sha256()), "lint", LintReport(rules=1))
+        return run
+
+    return make
+
+
+@pytest.fixture
+def finish():
+    """Start a pass and wait for its end."""
+
+    def finish(run: Run, **options):
+        job = start(str(run.folder), **options)
+        for _ in range(10):
+            if job.ended:
+                return job
+            job = wait(str(run.folder), job=job.job, timeout_s=10)
+        raise AssertionError(f"the job never ended: {job}")
+
+    return finish
+
+
+@pytest.fixture
+def evidence():
+    """The evidence folder of a run as it stands."""
+
+    def evidence(run: Run) -> Path:
+        return run.evidence(run.evidence_key(environment.current().sha256()))
+
+    return evidence
