@@ -92,7 +92,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             {
                 "name": name,
                 "type": mujoco.mjtEq(model.eq_type[e]).name.removeprefix("mjEQ_").lower(),
-                "bodies": _tied(model, e, bodies),
+                "bodies": tied_bodies(model, e, bodies),
                 "active": bool(model.eq_active0[e]),
             }
             for e, name in enumerate(names(model, "equality", model.neq))
@@ -143,7 +143,7 @@ def _geom(model: "mujoco.MjModel", g: int, name: str, bodies: list[str]) -> dict
     }
 
 
-def _tied(model: "mujoco.MjModel", e: int, bodies: list[str]) -> list[str]:
+def tied_bodies(model: "mujoco.MjModel", e: int, bodies: list[str]) -> list[str]:
     """The bodies that an equality ties together (its sites', joints' bodies); empty for tendons and flexes."""
     import mujoco
 

@@ -2,6 +2,7 @@
 
     simulation.py --pass physics|still|video|view [--out DIR] [--from RECORDING]
                   [--seed N] [--camera NAME]… [--duration S]
+                  [--time-step-factor 0.5] [--without NAME]… [--weaken NAME=FACTOR]…
 
 physics simulates and records into `DIR/trajectory`; still and video draw recorded states (`--from`) and never step the
 physics; view opens a window. Every pass leaves `progress.json` while it runs, then `result.json`, or `error.json` and
@@ -122,6 +123,10 @@ def _parse(argv: Sequence[str], name: str) -> argparse.Namespace:
     parser.add_argument("--seed", type=int, help="seed of every random draw")
     parser.add_argument("--camera", dest="cameras", action="append", default=[], help="only this camera; repeatable")
     parser.add_argument("--duration", type=float, help="simulated seconds")
+    changed = parser.add_argument_group("the same world with one thing changed (physics; see worldkit.variants)")
+    changed.add_argument("--time-step-factor", type=float, metavar="F", help="simulate in finer steps, e.g. 0.5")
+    changed.add_argument("--without", action="append", default=[], metavar="NAME", help="take it away; repeatable")
+    changed.add_argument("--weaken", action="append", default=[], metavar="NAME=FACTOR", help="repeatable")
     options = parser.parse_args(argv)
     options.plain = options.run is None
     if options.run is None:
@@ -152,21 +157,25 @@ def _prepare(options: argparse.Namespace) -> Path | None:
 
 
 def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> None:
-    from . import world
+    from . import variants, world
     from .describe import describe
     from .files import write_json
     from .record import Recorder
     from .reporting import Progress
     from .simulate import prepare, simulate
 
+    variant = variants.Variant.parse(options.time_step_factor, options.without, options.weaken)
     seed = settings.seed if options.seed is None else options.seed
     duration = settings.duration if options.duration is None else options.duration
     build_rng, control_rng = world.seeded(seed)
     model = world.make(settings.build, build_rng)
     control = world.controller(settings.control, control_rng)
     world.check_cast(model, settings.movers, settings.visual_only)
+    # At a finer step the recorded instants stay the same, so that expectations measure the same thing.
+    every = world.record_every(model, world.steps_of(model, duration)) * variant.steps_per_step
+    if variant:
+        control = variants.apply(model, variant, control)
     steps = world.steps_of(model, duration)
-    every = world.record_every(model, steps)
     meta = {
         **describe(model, settings.visual_only),
         "movers": list(settings.movers),
@@ -175,6 +184,7 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
         "duration": duration,
         "fps": settings.fps,
         "record_every": every,
+        **({"variant": variant.as_meta()} if variant else {}),
     }
     prepare(model)
     data = world.start(model)
@@ -198,6 +208,7 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
         "max_penetration_m": recorder.max_depth_m,
         "final_time": float(data.time),
         "wall_s": round(wall, 3),
+        **({"variant": variant.as_meta()} if variant else {}),
     }
     write_json(out / "result.json", result)
     sys.stdout.write(

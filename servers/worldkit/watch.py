@@ -105,6 +105,13 @@ class Watch:
             self._options = options
         return edits
 
+    def values(self) -> "dict[str, np.ndarray]":
+        """Copies of everything watched, flat, by the names that edits have."""
+        import numpy as np
+
+        found = {name: np.array(array).reshape(-1) for *_, arrays in self._blocks for name, array, _ in arrays}
+        return found | {f"opt.{n}": np.array(getattr(self._model.opt, n)).reshape(-1) for n in self._option_names}
+
     def _read_options(self) -> tuple[Any, ...]:
         return (*self._ask(self._model.opt), *[array.tobytes() for array in self._option_arrays])
 
@@ -124,8 +131,8 @@ class Watch:
         self._blocks.append((comparison(live, copy), live, copy, arrays))
 
 
-def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.ndarray"]]:
-    """(target, element, new values) of each element an edit touches, e.g. `ball.geom_friction[ball_skin]`.
+def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, "np.ndarray", "np.ndarray"]]:
+    """(target, flat indices, new values) of each element an edit touches, e.g. `ball.geom_friction[ball_skin]`.
 
     Targets begin with the body that owns the element where there is one, else with the element or `opt`.
     """
@@ -134,12 +141,12 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.nd
     from .describe import names
 
     if edit.array.startswith("opt."):
-        return [(edit.array, edit.array, edit.values)]
+        return [(edit.array, edit.index, edit.values)]
     array = getattr(model, edit.array)
     prefix = edit.array.split("_")[0]
     kind = OWNERS.get(prefix)
     if kind is None or not array.ndim:
-        return [(edit.array, edit.array, edit.values)]
+        return [(edit.array, edit.index, edit.values)]
     per_element = max(1, array.size // len(array))
     elements = edit.index // per_element
     bodies = names(model, "body", model.nbody)
@@ -159,7 +166,8 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, str, "np.nd
             target = f"{bodies[getattr(model, body_of[kind])[element]]}.{edit.array}[{label}]"
         else:
             target = f"{label}.{edit.array}"
-        found.append((target, label, edit.values[elements == element]))
+        mine = elements == element
+        found.append((target, edit.index[mine], edit.values[mine]))
     return found
 
 
