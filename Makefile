@@ -5,7 +5,7 @@ JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := $(CURDIR)/.ci/constraints.txt
 
-.PHONY: help demo test lint fmt bench examples test-inspector docs lock clean
+.PHONY: help demo test lint fmt bench examples test-inspector test-semantic docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -36,6 +36,9 @@ examples: .venv/.dev ## Re-prove every accepted example
 test-inspector: .venv/.dev ## The MCP inspector's strict check on all six servers (needs npm)
 	$(BIN)/python -m pytest tests/inspector -p no:xdist
 
+test-semantic: .venv/.semantic ## Ranking by meaning: the quality of search with the packaged model
+	$(BIN)/python -m pytest tests/worldwright/retrieve -p no:xdist
+
 lock: .venv/.dev ## Pin what is installed now
 	$(BIN)/pip list --format=freeze --exclude-editable | grep -viE '^(pip|setuptools|wheel)==' | LC_ALL=C sort -f > .ci/constraints.txt
 
@@ -51,6 +54,10 @@ lock: .venv/.dev ## Pin what is installed now
 
 .venv/.dev: .venv/.core
 	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,hulls,dev]'
+	@touch $@
+
+.venv/.semantic: .venv/.dev
+	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,hulls,semantic,dev]'
 	@touch $@
 
 clean: ## Remove the environment and caches; runs are kept

@@ -30,6 +30,14 @@ COMMANDS = {
         "worldwright.doctor",
         "Check Python, OpenGL, the sandbox and the servers; name a fix for each problem.",
     ),
+    "index": (
+        "worldwright.retrieve.command",
+        "Build what `retrieve` searches ahead of time; add folders and forum exports of yours.",
+    ),
+    "export-forum": (
+        "worldwright.retrieve.forum_export",
+        "Write a repository's issues and discussions to a file that `index --add` makes searchable.",
+    ),
     "serve": ("worldwright.serve", "Run one MCP server over stdio or streamable HTTP."),
 }
 
@@ -85,11 +93,21 @@ def verb(function: Callable[..., Any]) -> click.Command:
         for parameter in inspect.signature(function).parameters.values()
         if parameter.name != listener
     ]
+    batch = getattr(function, "batch", None)
+    if batch:
+        next(p for p in parameters if p.name == batch[0]).required = False
+        kind = click.Path(path_type=Path, allow_dash=True)
+        text = f"A file with one {batch[0]} a line (- is standard input); prints one JSON line each."
+        parameters.append(click.Option(["--batch", "_batch"], type=kind, help=text))
     choices = click.Choice(["text", "json"])
     parameters.append(click.Option(["--format", "_format"], type=choices, default="text", help="How to print."))
 
-    def run(_format: str, **values: Any) -> None:
+    def run(_format: str, _batch: Path | None = None, **values: Any) -> None:
         arguments = {name: _value(annotations[name], value) for name, value in values.items() if value is not None}
+        if _batch is not None:
+            sys.exit(report_errors(lambda: _each(function, _batch, arguments), _format))
+        if batch and batch[0] not in arguments:
+            raise click.UsageError(f"give a {batch[0]}, or --batch FILE with one a line")
         result = report_errors(lambda: _call(function, arguments, listener is not None), _format)
         show(result, _format)
         sys.exit(expose.exit_code(result))
@@ -109,6 +127,29 @@ def _call(function: Callable[..., Any], arguments: dict[str, Any], listens: bool
 
     with bar() as progress:
         return expose.call(function, arguments, progress)
+
+
+def _each(function: Callable[..., Any], lines: Path, arguments: dict[str, Any]) -> int:
+    """Call a tool for every line of a file; the exit code is the worst of the answers'."""
+    from .report.progress import bar
+
+    parameter, before = function.batch  # type: ignore[attr-defined]
+    try:
+        with click.open_file(str(lines), encoding="utf-8", errors="replace") as handle:
+            values = [line.strip() for line in handle if line.strip()]
+    except OSError as cause:
+        raise WorldwrightError(
+            f"the batch cannot be read: {cause.strerror}", place=str(lines), next_move="name a text file"
+        ) from cause
+    if before is not None:
+        with bar() as progress:
+            before(progress)
+    worst = 0
+    for value in values:
+        result = expose.call(function, {**arguments, parameter: value})
+        worst = max(worst, expose.exit_code(result))
+        click.echo(json.dumps(json.loads(expose.to_json(result)), ensure_ascii=False, separators=(",", ":")))
+    return worst
 
 
 def report_errors(action: Callable[[], Any], style: str = "text") -> Any:

@@ -78,6 +78,21 @@ def reads(function: Callable[..., Any]) -> Callable[..., Any]:
     return function
 
 
+def batched(parameter: str, before: Callable[[Progress], None] | None = None) -> Callable[..., Any]:
+    """Give a tool's command `--batch FILE`: one value of `parameter` a line, one JSON result a line.
+
+    Args:
+        parameter: the tool's argument that each line fills.
+        before: called once ahead of the first line.
+    """
+
+    def mark(function: Callable[..., Any]) -> Callable[..., Any]:
+        function.batch = (parameter, before)  # type: ignore[attr-defined]
+        return function
+
+    return mark
+
+
 def description(function: Callable[..., Any]) -> str:
     """What an agent reads about a tool: its docstring, unwrapped."""
     return inspect.cleandoc(function.__doc__ or "").strip()

@@ -12,4 +12,8 @@ from . import expose
 @click.option("--port", type=int, default=8000, show_default=True, help="Port to bind (http).")
 def command(name: str, transport: str, host: str, port: int) -> None:
     """Run one MCP server over stdio or streamable HTTP."""
+    if name == "retrieve":  # a server lives long enough for loading the model of meanings to pay
+        from .retrieve.semantic.ranker import BACKGROUND
+
+        BACKGROUND.enabled = True
     expose.serve(name, transport, host, port)

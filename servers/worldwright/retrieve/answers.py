@@ -24,6 +24,8 @@ class SearchResult(Frozen):
 
     question: str
     hits: tuple[Hit, ...] = ()
+    ranking: str = "full_text"
+    """What ordered them: `hybrid` once the model of meanings is loaded."""
     note: str = ""
 
     @property
@@ -183,6 +185,8 @@ class RetrieveStatus(Frozen):
     changes: int
     """Rows of the breaking-changes table."""
     assets: int
+    sources: tuple[str, ...] = ()
+    """The user's own folders and exports."""
 
     def text(self) -> str:
         """The numbers."""
@@ -191,6 +195,7 @@ class RetrieveStatus(Frozen):
             f"MuJoCo {self.simulator}: {self.documents} documents, {sum(self.pieces.values())} pieces ({parts}); "
             f"{self.changes} changelog rows; {self.assets} assets\n"
             f"rankings: {', '.join(self.rankings)}; index: {self.index}"
+            + "".join(f"\nyours: {root}" for root in self.sources)
         )
 
 

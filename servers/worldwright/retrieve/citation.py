@@ -10,7 +10,7 @@ from .answers import Passage
 from .index import Index
 
 _FORM = re.compile(
-    r"^(?:(?P<root>(?:mujoco|worldwright)-[\w.+]+)/)?(?P<path>[^#]+?)(?:#(?P<anchor>[^#]*?))?(?::?L(?P<first>\d+)(?:-L?(?P<last>\d+))?)?$"
+    r"^(?:(?P<root>(?:mujoco|worldwright)-[\w.+]+|[\w-]+-local)/)?(?P<path>[^#]+?)(?:#(?P<anchor>[^#]*?))?(?::?L(?P<first>\d+)(?:-L?(?P<last>\d+))?)?$"
 )
 PAGE = 200
 """Lines shown when a citation names a whole document."""

@@ -8,15 +8,41 @@ from pathlib import Path
 
 from .. import __version__
 from ..simulator import installed
-from . import markdown_chunks, rst_chunks, rule_chunks
+from . import (
+    c_chunks,
+    forum_chunks,
+    introspect_chunks,
+    markdown_chunks,
+    python_chunks,
+    rst_chunks,
+    rule_chunks,
+    sources,
+    xml_chunks,
+    yaml_chunks,
+)
 from .chunk import Chunk
 
+PARTS = {
+    "manual": "the simulator's manual",
+    "changelog": "its changelog, entry by entry",
+    "skills": "how-to texts: the simulator's and ours",
+    "rules": "our lint rules, checks, expectations, predicates and relations",
+    "api": "its C headers and its own description of its functions, structs and enums",
+    "python": "its Python modules, and the runtime that programs import",
+    "examples": "accepted worlds: plans and programs",
+    "catalog": "assets",
+    "sources": "what the user added: a checkout, other repositories, forum history",
+}
 LEFT_OUT = {
     "XMLschema.rst": "a table of names without words; `symbol` answers from it",
     "XMLunits.rst": "a table of units without words; the attributes' own entries say them",
     "functions_override.rst": "the same text stands in functions.rst",
+    "mjxmacro.h": "lists of names for the preprocessor; the structs have them with words",
+    "mjspecmacro.h": "lists of names for the preprocessor; the structs have them with words",
 }
-SHELVES = ("lint/rules", "scan/checks", "scan/expectations", "place/predicates", "place/relations")
+SHELVES = ("lint/rules", "scan/checks", "scan/expectations", "place/predicates", "place/relations", "scan/audits")
+INTROSPECT = ("functions.py", "structs.py", "enums.py")
+RUNTIME_LEFT_OUT = frozenset({"_catalog"})
 
 
 @dataclass(frozen=True)
@@ -29,7 +55,7 @@ class Document:
     """Relative to the package, e.g. `doc/XMLreference.rst`."""
     file: Path
     part: str
-    """`manual`, `changelog`, `skills` or `rules`."""
+    """One of `PARTS`."""
 
     @property
     def key(self) -> str:
@@ -41,22 +67,35 @@ class Document:
         return self.file.read_text(encoding="utf-8", errors="replace")
 
     def chunks(self) -> Iterator[Chunk]:
-        """Its pieces."""
-        text = self.read()
-        if self.file.suffix == ".rst":
-            yield from rst_chunks.chunks(text, entries=self.part == "changelog")
-        elif self.file.suffix == ".md":
-            yield from markdown_chunks.chunks(text)
-        else:
-            yield from rule_chunks.chunks(text, self.file.stem)
+        """Its pieces, cut along the structure of its kind."""
+        text, name = self.read(), self.path.removesuffix(self.file.suffix).replace("/", ".")
+        match self.file.suffix:
+            case ".rst":
+                yield from rst_chunks.chunks(text, entries=self.part == "changelog")
+            case ".md":
+                yield from markdown_chunks.chunks(text)
+            case ".py" if self.part == "rules":
+                yield from rule_chunks.chunks(text, self.file.stem)
+            case ".py" if self.path.startswith("introspect/"):
+                yield from introspect_chunks.chunks(text, self.file.stem)
+            case ".py":
+                yield from python_chunks.chunks(text, name, source=self.part in ("examples", "sources"))
+            case ".yaml":
+                yield from yaml_chunks.chunks(text)
+            case ".jsonl":
+                yield from forum_chunks.chunks(text)
+            case ".xml":
+                yield from xml_chunks.chunks(text, self.file.stem)
+            case _:
+                yield from c_chunks.chunks(text)
 
 
 def documents() -> list[Document]:
     """Every document there is, in a fixed order."""
-    return [*_manual(), *_ours()]
+    return [*_simulator(), *_ours(), *_users()]
 
 
-def _manual() -> Iterator[Document]:
+def _simulator() -> Iterator[Document]:
     root = f"mujoco-{installed.version()}"
     folder = installed.manual_folder()
     for file in sorted((*folder.rglob("*.rst"), *folder.rglob("*.md"))):
@@ -65,6 +104,21 @@ def _manual() -> Iterator[Document]:
             continue
         part = "changelog" if file.name == "changelog.rst" else "skills" if "skills" in path.parts else "manual"
         yield Document(root, f"doc/{path.as_posix()}", file, part)
+    package = installed.package_folder()
+    for file in sorted((package / "include").rglob("*.h")):
+        if file.name not in LEFT_OUT:
+            yield Document(root, file.relative_to(package).as_posix(), file, "api")
+    for name in INTROSPECT:
+        if (file := package / "introspect" / name).is_file():
+            yield Document(root, f"introspect/{name}", file, "api")
+    for file in sorted(package.rglob("*.py")):
+        path = file.relative_to(package)
+        if (
+            path.parts[0] not in ("introspect", "testdata")
+            and not file.stem.endswith("_test")
+            and "tests" not in path.parts
+        ):
+            yield Document(root, path.as_posix(), file, "python")
 
 
 def _ours() -> Iterator[Document]:
@@ -74,17 +128,37 @@ def _ours() -> Iterator[Document]:
         for file in sorted((package / shelf).rglob("*.py")):
             if not file.name.startswith("_"):
                 yield Document(root, file.relative_to(package).as_posix(), file, "rules")
-    skills = package.parents[1] / "skills"  # beside servers/ in a checkout
-    for file in sorted(skills.rglob("*.md")) if skills.is_dir() else ():
-        yield Document(root, "skills/" + file.relative_to(skills).as_posix(), file, "skills")
+    runtime = package.parent / "worldkit"
+    for file in sorted(runtime.rglob("*.py")):
+        if not RUNTIME_LEFT_OUT.intersection(file.parts):
+            yield Document(root, f"worldkit/{file.relative_to(runtime).as_posix()}", file, "python")
+    checkout = package.parents[1]  # skills/, examples/ and catalog/ stand beside servers/ in a checkout
+    for folder, pattern, part in (
+        ("skills", "**/*.md", "skills"),
+        ("examples", "*/plan.md", "examples"),
+        ("examples", "*/simulation.py", "examples"),
+        ("catalog", "*/asset.yaml", "catalog"),
+    ):
+        for file in sorted((checkout / folder).glob(pattern)):
+            yield Document(root, file.relative_to(checkout).as_posix(), file, part)
+
+
+def _users() -> Iterator[Document]:
+    for top in sources.roots():
+        for file in sources.files(top):
+            path = file.name if top.is_file() else file.relative_to(top).as_posix()
+            yield Document(sources.name(top), path, file, "sources")
 
 
 def fingerprint(found: list[Document]) -> str:
-    """SHA-256 over every document's name and content."""
+    """SHA-256 over every document's name and content (of the user's own files: their times and sizes)."""
     total = hashlib.sha256()
     for document in found:
         stat = document.file.stat()
-        digest = _digest(document.file, stat.st_mtime_ns, stat.st_size)
+        if document.part == "sources":
+            digest = f"{document.file}:{stat.st_mtime_ns}:{stat.st_size}"
+        else:
+            digest = _digest(document.file, stat.st_mtime_ns, stat.st_size)
         total.update(f"{document.key}\0{document.part}\0{digest}\n".encode())
     return total.hexdigest()
 

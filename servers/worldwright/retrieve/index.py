@@ -19,7 +19,7 @@ from ..model.progress import Progress, silent
 from ..simulator.cache import cache_folder
 from . import corpus, words
 
-FORMAT = "1"
+FORMAT = "2"
 """Part of the index's name: changes when its tables or the cutting do."""
 WEIGHTS = "5.0, 2.5, 1.0"
 """BM25 weights of the columns title, names, body."""
@@ -94,6 +94,12 @@ class Index:
         with self.reading() as db:
             rows = db.execute(f"SELECT * FROM piece WHERE id IN ({marks})", ids).fetchall()
         return {row[0]: Piece(*row) for row in rows}
+
+    def every(self) -> Iterator[Piece]:
+        """Every stored chunk, in order."""
+        with self.reading() as db:
+            for row in db.execute("SELECT * FROM piece ORDER BY id"):
+                yield Piece(*row)
 
     def labelled(self, *names: str) -> list[Piece]:
         """Pieces a label leads to, exact spelling first, then any case."""

@@ -1,18 +1,36 @@
-"""From rankings to an answer: full text, sharpened by structure; more rankings are fused by reciprocal rank.
+"""From rankings to an answer: each is sharpened by structure, then they are fused by reciprocal rank.
 
-A `Ranker` gives (piece id, score) for a question. Today there is one; a semantic one joins by being listed.
+A `Ranker` gives (piece id, score) for a question: full text always, vectors when the `semantic` extra is there.
 """
 
 from collections.abc import Sequence
 from typing import Protocol
 
 from ..simulator import changelog, installed
-from . import words
+from . import thesaurus, words
 from .index import Index, Piece
 
-FUSION_CONSTANT = 60
-"""Reciprocal rank fusion's k (Cormack, Clarke and Büttcher 2009)."""
+FUSION_CONSTANT = 10
+"""Reciprocal rank fusion's k (Cormack, Clarke and Büttcher 2009 use 60, for many rankings; two good ones want a steeper one)."""
+PART_WEIGHT = {"rules": 0.7, "api": 0.6, "python": 0.55, "examples": 0.5, "catalog": 0.8, "sources": 0.9}
+"""The manual explains what declarations and code only show."""
+MEANING_WEIGHT = 0.5
+"""Of the vectors' ranks beside full text's, chosen on the tuning half of the question set."""
 CANDIDATES = 80
+MEANT_WEIGHT = 0.7
+"""Of the thesaurus' words beside the question's own."""
+ASIDE = {
+    "doc/mjwarp/": frozenset({"warp", "mjwarp", "gpu", "cuda"}),
+    "doc/mjx": frozenset({"mjx", "jax", "gpu", "tpu"}),
+    "doc/unity": frozenset({"unity"}),
+    "doc/OpenUSD/": frozenset({"usd", "openusd"}),
+    "doc/studio/": frozenset({"studio", "viewer", "plugin", "web"}),
+    "doc/skills/gui/": frozenset({"imgui", "gui", "implot"}),
+    "doc/skills/studio/": frozenset({"studio", "viewer", "plugin", "web"}),
+    "doc/skills/parity/": frozenset({"parity", "warp", "mjwarp", "mjx", "gpu"}),
+    "doc/skills/accelerated/": frozenset({"warp", "mjwarp", "mjx", "gpu", "jax", "cuda"}),
+}
+"""Pages about something else than the engine itself, and the words that ask for them."""
 NEWEST = "version-" + installed.version().split(".")[0] + "-"
 """Changelog entries of the installed major version say what is true now."""
 _HISTORY_WORDS = """
@@ -35,13 +53,21 @@ class FullText:
 
     def rank(self, index: Index, question: str, limit: int) -> list[tuple[int, float]]:
         """Score the best candidates again by what their structure says."""
-        found = index.search(words.match(question), CANDIDATES)
-        pieces = index.pieces([number for number, _ in found])
-        asked = words.terms(question)
-        history = bool({term.lower() for term in asked} & HISTORY)
-        told = _changelog_lines(asked) if history else frozenset()
-        scored = [(number, score * _structure(pieces[number], asked, history, told)) for number, score in found]
-        return sorted(scored, key=lambda row: (-row[1], row[0]))[:limit]
+        found = dict(index.search(words.match(question), CANDIDATES))
+        meant = " ".join(thesaurus.expand(question))
+        for number, score in index.search(words.match(meant), CANDIDATES) if meant else ():
+            found[number] = found.get(number, 0.0) + MEANT_WEIGHT * score
+        return sharpen(index, f"{question} {meant}", list(found.items()))[:limit]
+
+
+def sharpen(index: Index, question: str, found: list[tuple[int, float]]) -> list[tuple[int, float]]:
+    """A ranking again, each score times what the piece's structure says of the question."""
+    pieces = index.pieces([number for number, _ in found])
+    asked = words.terms(question)
+    history = bool({term.lower() for term in asked} & HISTORY)
+    told = _changelog_lines(asked) if history else frozenset()
+    scored = [(number, score * _structure(pieces[number], asked, history, told)) for number, score in found]
+    return sorted(scored, key=lambda row: (-row[1], row[0]))
 
 
 def _changelog_lines(asked: list[str]) -> frozenset[int]:
@@ -74,8 +100,10 @@ def _structure(piece: Piece, asked: list[str], history: bool, told: frozenset[in
         factor *= 1.0 if history else 0.7
         factor *= 1.3 if anchor.startswith(NEWEST) else 1.0
         factor *= 2.5 if piece.first in told else 1.0
-    if piece.part == "rules":
-        factor *= 0.85
+    factor *= PART_WEIGHT.get(piece.part, 1.0)
+    for place, called in ASIDE.items():
+        if piece.path.startswith(place) and not called & {term.lower() for term in asked}:
+            factor *= 0.6
     if anchor.startswith("default-"):
         factor *= 0.6  # only points to the attribute's own entry
     return factor
@@ -92,12 +120,27 @@ def _stem(term: str) -> str:
     return lowered
 
 
-def fuse(rankings: Sequence[list[tuple[int, float]]], limit: int) -> list[tuple[int, float]]:
-    """One ranking as it is; several by reciprocal rank."""
+def fuse(
+    rankings: Sequence[list[tuple[int, float]]], limit: int, weights: Sequence[float] = ()
+) -> list[tuple[int, float]]:
+    """One ranking as it is; several by weighted reciprocal rank."""
     if len(rankings) == 1:
         return rankings[0][:limit]
     total: dict[int, float] = {}
-    for ranking in rankings:
+    for ranking, weight in zip(rankings, weights or [1.0] * len(rankings), strict=True):
         for place, (number, _) in enumerate(ranking):
-            total[number] = total.get(number, 0.0) + 1 / (FUSION_CONSTANT + place + 1)
+            total[number] = total.get(number, 0.0) + weight / (FUSION_CONSTANT + place + 1)
     return sorted(total.items(), key=lambda row: (-row[1], row[0]))[:limit]
+
+
+def collapse(ranked: list[tuple[int, float]], pieces: dict[int, Piece]) -> list[tuple[int, float]]:
+    """Without the declaration of something that a better place has already answered."""
+    seen: set[str] = set()
+    kept = []
+    for number, score in ranked:
+        piece = pieces[number]
+        if piece.part == "api" and piece.anchor in seen:
+            continue
+        seen.add(piece.anchor)
+        kept.append((number, score))
+    return kept

@@ -10,12 +10,19 @@ _ONE_AT_A_TIME = threading.Lock()
 """The parser of some Python versions loses count of its depth when threads parse side by side."""
 
 
-def chunks(text: str, name: str) -> Iterator[Chunk]:
-    """The module's docstring, under its CODE when it has one; read, never imported."""
+def parse(text: str) -> ast.Module | None:
+    """The module's syntax tree, or None when it is not Python."""
     try:
         with _ONE_AT_A_TIME:
-            tree = ast.parse(text)
-    except (SyntaxError, ValueError, RecursionError):
+            return ast.parse(text)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return None
+
+
+def chunks(text: str, name: str) -> Iterator[Chunk]:
+    """The module's docstring, under its CODE when it has one; read, never imported."""
+    tree = parse(text)
+    if tree is None:
         return
     doc = ast.get_docstring(tree)
     if not doc:

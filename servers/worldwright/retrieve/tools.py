@@ -1,39 +1,61 @@
 """The tools of the retrieve server."""
 
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field
 
-from ..expose import reads
+from ..expose import batched, reads
 from ..model.progress import Progress, silent
+from ..model.run import Run
 from .answers import AssetList, ChangeRow, ChangeTable, Hit, Passage, RetrieveStatus, SearchResult, SymbolAnswer
+
+if TYPE_CHECKING:
+    from .index import Index
 
 MAX_CHARACTERS = 18_000
 """Of a table's JSON."""
-Part = Literal["all", "manual", "changelog", "skills", "rules"]
+Part = Literal["all", "manual", "changelog", "skills", "rules", "api", "python", "examples", "catalog", "sources"]
+Ranking = Literal["auto", "hybrid", "full_text", "vectors"]
+DEPTH = 80
+"""Pieces each ranking contributes."""
 EXCERPT = 700
 """Characters of a hit that are shown; `read` opens the whole."""
 
 
+def _ready_for_many(progress: Progress) -> None:
+    """Before a batch: many questions are worth the model's few seconds, and its first build."""
+    from . import semantic
+
+    if semantic.installed():
+        from .index import open_index
+        from .semantic import ranker
+
+        ranker.BACKGROUND.adopt(ranker.wait(progress), open_index())
+
+
+@batched("question", before=_ready_for_many)
 @reads
 def search(
     question: Annotated[str, Field(description="A question, a symptom, an error message or a name")],
     k: Annotated[int, Field(description="How many hits", ge=1, le=25)] = 8,
     part: Annotated[Part, Field(description="Which part of the corpus to search")] = "all",
+    ranking: Annotated[Ranking, Field(description="auto joins meaning to full text once its model is loaded")] = "auto",
     progress: Progress = silent,
 ) -> SearchResult:
-    """Search what is installed: the simulator's manual and changelog, its skills, our skills and rules.
+    """Search what is installed: the simulator's manual, changelog, headers and modules; our skills, rules and examples.
 
     Each hit has a citation that `read` opens and that a repair must name. Ask in words or with names
     ("objects fall through the floor", "solref restitution", "mj_ray normal"). For one exact name use `symbol`.
     """
     from .index import open_index
-    from .ranking import FullText, fuse
+    from .ranking import collapse
 
     index = open_index(progress)
     question = question[:2000]
-    ranked = fuse([ranker.rank(index, question, 200) for ranker in (FullText(),)], 200)
+    ranked, used = _rank(index, question, ranking, progress)
     pieces = index.pieces([number for number, _ in ranked])
+    if part == "all":
+        ranked = collapse(ranked, pieces)
     hits: list[Hit] = []
     for number, score in ranked:
         piece = pieces[number]
@@ -42,27 +64,57 @@ def search(
             hit = Hit(citation=piece.citation, path=piece.path, title=piece.title, text=shown, score=round(score, 4))
             hits.append(hit)
     note = "" if hits else "nothing found: use other words, or `symbol` for an exact name"
-    return SearchResult(question=question, hits=tuple(hits), note=note)
+    return SearchResult(question=question, hits=tuple(hits), ranking=used, note=note)
 
 
-@reads
+def _rank(index: "Index", question: str, ranking: Ranking, progress: Progress) -> tuple[list[tuple[int, float]], str]:
+    """The order of the pieces, and the ranking that was used."""
+    from .ranking import MEANING_WEIGHT, FullText, fuse, sharpen
+
+    meaning = None
+    if ranking in ("hybrid", "vectors"):
+        from .semantic import ranker
+
+        meaning = ranker.BACKGROUND.get(index) or ranker.wait(progress)
+        ranker.BACKGROUND.adopt(meaning, index)
+    elif ranking == "auto":
+        from . import semantic
+
+        if semantic.installed():
+            from .semantic import ranker
+
+            meaning = ranker.BACKGROUND.get(index)
+    if ranking == "vectors" and meaning is not None:
+        return meaning.rank(index, question, DEPTH), "vectors"
+    full = FullText().rank(index, question, DEPTH)
+    if meaning is None:
+        return full, "full_text"
+    near = sharpen(index, question, meaning.rank(index, question, DEPTH))
+    return fuse([full, near], 2 * DEPTH, (1.0, MEANING_WEIGHT)), "hybrid"
+
+
 def read(
     citation: Annotated[str, Field(description="As `search` prints it: package-version/path#anchor:Lfirst-Llast")],
     around: Annotated[int, Field(description="Lines of context before and after", ge=0, le=200)] = 0,
+    run: Annotated[str | None, Field(description="The run this is read for: its journal then cites it")] = None,
 ) -> Passage:
     """Open a citation: the exact lines of the installed file.
 
-    Without lines the anchor's whole entry is shown, without an anchor the file from its start; `next` continues.
+    Without lines the anchor's whole entry is shown, without an anchor the file from its start; `next` continues. Name the
+    `run` you repair: after an unknown simulator symbol its repair is refused until something was read for it.
     """
     from . import citation as citations
     from .index import open_index
 
-    return citations.read(open_index(), citation, max(0, min(around, 200)))
+    passage = citations.read(open_index(), citation, max(0, min(around, 200)))
+    if run is not None:
+        Run.find(run).log("retrieve", "cite", citation=passage.citation)
+    return passage
 
 
-@reads
 def symbol(
     name: Annotated[str, Field(description="`mujoco.mj_ray`, `MjSpec.add_flex`, `mjGEOM_BOX`, `<geom surfacevel>` …")],
+    run: Annotated[str | None, Field(description="The run this is looked up for: its journal then cites it")] = None,
 ) -> SymbolAnswer:
     """Does this exist in the installed MuJoCo, and what is it?
 
@@ -72,7 +124,11 @@ def symbol(
     from .index import open_index
     from .symbol import look_up
 
-    return look_up(open_index(), name[:300])
+    answer = look_up(open_index(), name[:300])
+    if run is not None:
+        cited = [citation for one in answer.definitions for citation in one.citations[:1]]
+        Run.find(run).log("retrieve", "cite", symbol=answer.symbol, exists=answer.exists, citations=cited[:5])
+    return answer
 
 
 @reads
@@ -113,7 +169,7 @@ def find_asset(
 def status() -> RetrieveStatus:
     """What is searched: versions, documents, pieces of text, rankings, and where the index lies."""
     from ..simulator import changelog, installed
-    from . import corpus
+    from . import corpus, sources
     from .assets import count
     from .index import open_index
 
@@ -124,10 +180,23 @@ def status() -> RetrieveStatus:
         documents=len(corpus.documents()),
         left_out=corpus.LEFT_OUT,
         index=str(index.path),
-        rankings=("full text",),
+        rankings=_rankings(),
+        sources=tuple(str(root) for root in sources.roots()),
         changes=len(changelog.load()),
         assets=count(),
     )
+
+
+def _rankings() -> tuple[str, ...]:
+    """What answers now; meaning counts only once every text has its vector."""
+    from . import semantic
+
+    if not semantic.installed():
+        return ("full text", "meaning: not installed (the `semantic` extra)")
+    from .semantic import preparing
+
+    left = len(preparing.missing(preparing.open_index()))
+    return ("full text", f"meaning: {left} texts to embed (`worldwright index`)" if left else "meaning")
 
 
 def _excerpt(text: str, question: str) -> str:

@@ -29,7 +29,7 @@ def check(state: State) -> Iterator[Refusal]:
     if unknown and not _cited_since_failure(state):
         yield Refusal(
             cause=f"the simulator does not know a name that the program uses ({unknown}) and nothing was looked up",
-            next_move="worldwright retrieve symbol NAME, then cite what it says in the journal",
+            next_move=f"worldwright retrieve symbol NAME --run {state.place} (or `retrieve read CITATION --run …`) journals what was read",
         )
 
 
