@@ -28,7 +28,13 @@ class Space:
     """(N,) piece ids."""
     vectors: "np.ndarray"
     """(N, 384) float32, unit length."""
-    complete: bool
+    share: float
+    """Of the windows, those that have a vector."""
+
+    @property
+    def enough(self) -> bool:
+        """Whether the ranking is worth joining."""
+        return self.share >= ENOUGH
 
 
 @dataclass(frozen=True)
@@ -62,7 +68,7 @@ def _space(path: str, stamp: float) -> Space:
 
     owners, found = preparing.texts(Index(Path(path)))
     rows, vectors = store.load([digest(text) for text in found])
-    return Space(np.array(owners, dtype=np.int64)[rows], vectors, len(rows) >= ENOUGH * max(1, len(found)))
+    return Space(np.array(owners, dtype=np.int64)[rows], vectors, len(rows) / max(1, len(found)))
 
 
 def space(index: Index) -> Space:
@@ -76,7 +82,7 @@ def wait(progress: Progress = silent) -> Vectors:
     index = open_index(progress)
     found = space(index)
     deadline = time.monotonic() + 900
-    while not found.complete and time.monotonic() < deadline:
+    while found.share < 1.0 and time.monotonic() < deadline:
         if preparing.prepare(index, progress) == 0:
             time.sleep(1.0)  # another process is at it
         found = space(index)
@@ -109,9 +115,9 @@ class Background:
 
     def _load(self, index: Index) -> None:
         found = space(index)
-        if not found.complete:
+        if found.share < 1.0:
             preparing.prepare_beside()
-            while not found.complete:
+            while not found.enough:
                 time.sleep(2.0)
                 found = space(index)
         encode(["warm"])
