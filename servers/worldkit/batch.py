@@ -15,6 +15,8 @@ PLAIN = (
 """Arrays that are recorded as they are."""
 FAR_M = 1e3
 """Distances beyond this are not looked for."""
+LIMIT_TENDON = 4
+"""mjCNSTR_LIMIT_TENDON."""
 CONTACT_FIELDS = ("geom", "dist", "pos", "frame", "dim", "efc_address")
 
 
@@ -35,6 +37,9 @@ class Batch:
         self.ncon = np.zeros(capacity, np.int32)
         self.nefc = np.zeros(capacity, np.int32)
         self.eq_residual = np.zeros((capacity, model.neq))
+        self.eq_force = np.zeros((capacity, model.neq))
+        self.tendon_limit = np.zeros((capacity, model.ntendon))
+        self.carries = bool(model.neq or model.ntendon)
         # Views into MjData stay valid for its lifetime, except those of the contact and constraint arena.
         self._buffers: dict[str, np.ndarray] = {}
         self.before = self._mirror(
@@ -45,6 +50,8 @@ class Batch:
                 "xipos": data.xipos[1:],
                 "cvel": data.cvel[1:],
                 "subtree_com": data.subtree_com,
+                "ten_length": data.ten_length,
+                "ten_velocity": data.ten_velocity,
                 "linvel": data.subtree_linvel[0],
                 "angmom": data.subtree_angmom[0],
             }
@@ -104,14 +111,21 @@ class Batch:
         self.nefc[row] = len(forces)
         self.efc_count = end
 
-    def add_residuals(self, row: int, data: "mujoco.MjData") -> None:
-        """Norm of each equality constraint's violation; NaN while it is switched off."""
+    def add_loads(self, row: int, data: "mujoco.MjData") -> None:
+        """Each equality's violation (NaN while it is switched off) and force, and the force of each tendon's limit."""
         import numpy as np
 
-        count = data.ne
-        owners = data.efc_id[:count]
-        squares = np.bincount(owners, data.efc_pos[:count] ** 2, minlength=self.eq_residual.shape[1])
-        self.eq_residual[row] = np.where(data.eq_active, np.sqrt(squares), np.nan)
+        count, equalities, tendons = data.ne, self.eq_residual.shape[1], self.tendon_limit.shape[1]
+        force = data.efc_force
+        if equalities:
+            owners = data.efc_id[:count]
+            squares = np.bincount(owners, data.efc_pos[:count] ** 2, minlength=equalities)
+            self.eq_residual[row] = np.where(data.eq_active, np.sqrt(squares), np.nan)
+            self.eq_force[row] = np.sqrt(np.bincount(owners, force[:count] ** 2, minlength=equalities))
+        if tendons:
+            limits = slice(count + data.nf, count + data.nf + data.nl)
+            mine = data.efc_type[limits] == LIMIT_TENDON
+            self.tendon_limit[row] = np.bincount(data.efc_id[limits][mine], force[limits][mine], minlength=tendons)
 
     def _grow_contacts(self, contact: Any, needed: int) -> None:
         import numpy as np

@@ -35,7 +35,8 @@ def state_columns(sizes: Mapping[str, int], empty: bool = False) -> tuple[Column
     """Columns of `state.arrows`: row n holds the state at time n and what derives from that same state.
 
     Args:
-        sizes: `bodies` (all but the world), and MuJoCo's nq, nv, na, nu, nmocap, neq, nsensordata, nplastic.
+        sizes: `bodies` (all but the world), and MuJoCo's nq, nv, na, nu, nmocap, neq, ntendon, nsensordata,
+            nplastic.
         empty: also those without numbers.
 
     Columns without numbers (no actuators, say) are left out of the file; the reader returns them with zero width.
@@ -56,6 +57,9 @@ def state_columns(sizes: Mapping[str, int], empty: bool = False) -> tuple[Column
         Column("mocap_quat", (sizes["nmocap"], 4), "1", "mocap orientations, w x y z"),
         Column("eq_active", (sizes["neq"],), "bool", "equality constraints switched on", "uint8"),
         Column("eq_residual", (sizes["neq"],), "m, rad", "norm of the constraint's violation; NaN while switched off"),
+        Column("eq_force", (sizes["neq"],), "N, N m", "norm of the constraint's force; 0 while switched off"),
+        Column("tendon_length", (sizes.get("ntendon", 0),), "m, rad", "tendon lengths"),
+        Column("tendon_force", (sizes.get("ntendon", 0),), "N, N m", "tension by spring, damper and limit, no motors"),
         Column("plastic", (sizes["nplastic"],), "spring's", "plastic deformation state"),
         Column("sensordata", (sizes["nsensordata"],), "sensor's", "sensor readings"),
         Column("energy", (2,), "J", "potential (gravity and springs) and kinetic energy"),

@@ -6,6 +6,7 @@ N rows, B bodies (without the world), C contacts. Everything is in the world fra
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import mujoco
     import numpy as np
 
 PYRAMID_EDGES = 10
@@ -77,3 +78,33 @@ def angular_momentum(
 ) -> "np.ndarray":
     """Angular momentum (N, 3) about `centre`, from that about `reference` and the linear momentum, kg m^2/s."""
     return about_reference - cross(centre - reference, momentum)
+
+
+def tension(model: "mujoco.MjModel", length: "np.ndarray", velocity: "np.ndarray", limit: "np.ndarray") -> "np.ndarray":
+    """Tension (N, tendons) of each tendon by its spring, its damper and its limit; positive when it pulls.
+
+    Args:
+        model: for stiffness, damping and rest lengths.
+        length, velocity: (N, tendons) of the tendons, m and m/s.
+        limit: (N, tendons) force of the limit, N.
+
+    Source: MuJoCo manual, "Polynomial forces": a spring's force is a x + b x^2 + c x^3 of its stretch x, which is 0
+    within the range of its rest lengths.
+    """
+    import numpy as np
+
+    if not model.ntendon:
+        return np.zeros((len(length), 0))
+    low, high = model.tendon_lengthspring.reshape(-1, 2).T
+    stretch = length - np.clip(length, low, high)
+
+    def polynomial(first: "np.ndarray", others: "np.ndarray", x: "np.ndarray") -> "np.ndarray":
+        total = first * x
+        for power, coefficient in enumerate(others.reshape(len(first), -1).T, start=2):
+            total = total + coefficient * x**power
+        return np.asarray(total)
+
+    spring = polynomial(model.tendon_stiffness, model.tendon_stiffnesspoly, stretch)
+    damper = polynomial(model.tendon_damping, model.tendon_dampingpoly, velocity)
+    too_long = length > model.tendon_range.reshape(-1, 2).mean(axis=1)
+    return spring + damper + np.where(too_long, limit, -limit)

@@ -3,6 +3,8 @@
 import hashlib
 from typing import TYPE_CHECKING, Any
 
+from .overlaps import visible
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -38,6 +40,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
     pulled = pulled_bodies(model)
     joint_types = [mujoco.mjtJoint(t).name.removeprefix("mjJNT_").lower() for t in model.jnt_type]
     options = model.opt
+    shown = visible(model)
     return {
         "simulator": {"name": "mujoco", "version": mujoco.__version__},
         "model": {"name": _model_name(model), "fingerprint": fingerprint(model)},
@@ -50,7 +53,8 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             "enabled": _flags(mujoco.mjtEnableBit, "mjENBL_", options.enableflags),
         },
         "sizes": {
-            k: int(getattr(model, k)) for k in ("nq", "nv", "na", "nu", "nmocap", "neq", "nsensordata", "nplastic")
+            k: int(getattr(model, k))
+            for k in ("nq", "nv", "na", "nu", "nmocap", "neq", "ntendon", "nsensordata", "nplastic")
         },
         "option": {
             "density": float(options.density),
@@ -70,9 +74,12 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             }
             for j, name in enumerate(names(model, "joint", model.njnt))
         ],
-        "geoms": [_geom(model, g, name, bodies) for g, name in enumerate(names(model, "geom", model.ngeom))],
+        "geoms": [
+            {**_geom(model, g, name, bodies), "visible": bool(shown[g])}
+            for g, name in enumerate(names(model, "geom", model.ngeom))
+        ],
         "tendons": [
-            {"name": name, "bodies": pulled["tendon"][t]}
+            {"name": name, "bodies": pulled["tendon"][t], "limited": bool(model.tendon_limited[t])}
             for t, name in enumerate(names(model, "tendon", model.ntendon))
         ],
         "actuators": [
@@ -87,6 +94,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             }
             for s, name in enumerate(names(model, "sensor", model.nsensor))
         ],
+        "excludes": [[bodies[int(s) >> 16], bodies[int(s) & 0xFFFF]] for s in model.exclude_signature],
         "cameras": names(model, "camera", model.ncam),
         "equalities": [
             {

@@ -12,6 +12,7 @@ Importing a program runs nothing: `build()` alone gives the complete world, init
 """
 
 import argparse
+import copy
 import os
 import sys
 import time
@@ -157,7 +158,7 @@ def _prepare(options: argparse.Namespace) -> Path | None:
 
 
 def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> None:
-    from . import variants, world
+    from . import overlaps, trajectory, variants, world
     from .describe import describe
     from .files import write_json
     from .record import Recorder
@@ -186,6 +187,7 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
         "record_every": every,
         **({"variant": variant.as_meta()} if variant else {}),
     }
+    as_built = copy.copy(model)  # the program may edit the one that is simulated
     prepare(model)
     data = world.start(model)
     progress = Progress(out, steps, "steps")
@@ -193,6 +195,8 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
     with Recorder(model, data, out / TRAJECTORY, meta) as recorder:
         simulate(model, data, recorder, steps, control, every, progress)
     wall = time.perf_counter() - started
+    if not variant:
+        overlaps.write(as_built, trajectory.open(out / TRAJECTORY), out / TRAJECTORY)
     result = {
         "ok": True,
         "pass": "physics",

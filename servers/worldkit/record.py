@@ -122,8 +122,8 @@ class Recorder:
             buffer[row] = source
         batch.nisland[row] = data.nisland
         batch.add_contacts(row, data)
-        if batch.eq_residual.size:
-            batch.add_residuals(row, data)
+        if batch.carries:
+            batch.add_loads(row, data)
         batch.rows = row + 1
         now = time.perf_counter()
         if row == 0:
@@ -207,6 +207,10 @@ class Recorder:
         n = batch.rows
         columns = {name: batch.buffer(name) for name in PLAIN}
         columns |= {"time": batch.time[:n], "ncon": batch.ncon[:n], "eq_residual": batch.eq_residual[:n]}
+        columns |= {"eq_force": batch.eq_force[:n], "tendon_length": batch.buffer("ten_length")}
+        columns["tendon_force"] = derive.tension(
+            self._model, columns["tendon_length"], batch.buffer("ten_velocity"), batch.tendon_limit[:n]
+        )
         iterations, islands = batch.buffer("solver_niter"), np.maximum(batch.nisland[:n], 1)
         used = np.arange(iterations.shape[1]) < islands[:, None]
         columns["solver_niter"] = np.where(used, iterations, 0).max(axis=1).astype(np.int32)
@@ -286,4 +290,4 @@ def combine(digests: dict[str, str]) -> str:
     return hashlib.sha256("".join(f"{name} {digests[name]}\n" for name in HASHED).encode()).hexdigest()
 
 
-_SIZES = ("nq", "nv", "na", "nu", "nmocap", "neq", "nsensordata", "nplastic")
+_SIZES = ("nq", "nv", "na", "nu", "nmocap", "neq", "ntendon", "nsensordata", "nplastic")

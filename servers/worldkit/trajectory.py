@@ -154,6 +154,14 @@ class Recording:
         return self._table("edits")
 
     @cached_property
+    def overlaps(self) -> list[dict[str, Any]] | None:
+        """Visible geoms seen to overlap though they cannot collide (see `overlaps`); None when nobody looked."""
+        from .overlaps import FILE
+
+        path = self.folder / FILE
+        return list(_json(path, "the list of overlaps is damaged")["pairs"]) if path.exists() else None
+
+    @cached_property
     def com(self) -> "np.ndarray":
         """(T, B, 3) centres of mass of the single bodies, m: from the poses and `meta`'s offset of each (`ipos`)."""
         return self.pos + self._com_offset
