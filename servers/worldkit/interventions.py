@@ -17,9 +17,10 @@ from functools import cache
 from typing import TYPE_CHECKING, Any
 
 from .columns import VALUES
+from .derived import Derived
 from .describe import names
 from .pushes import Event, Pushes, owners, twist
-from .watch import Watch, owner_of
+from .watch import Watch, comparison, owner_of
 
 if TYPE_CHECKING:
     import mujoco
@@ -29,6 +30,9 @@ CALLBACKS = (
     "control", "passive", "act_dyn", "act_gain", "act_bias", "sensor", "contactfilter",
 )  # fmt: skip
 """Engine callbacks that can change the motion (`mjcb_…`)."""
+BULK_EVERY = 256
+"""Steps from one look at the bulky assets to the next."""
+NO_CALLBACKS = (None,) * len(CALLBACKS)
 MOST_ELEMENTS = 64
 """Elements listed of one model array edited at one instant."""
 
@@ -36,8 +40,8 @@ MOST_ELEMENTS = 64
 class Ledger:
     """Detects and records interventions of one simulation.
 
-    A step goes: `settle()` when velocities are computed, `watch()` before anything may interfere, the interference,
-    `compare()`, and `reacted()` when forces are computed. `settle()` once more at the end of the run.
+    A step goes: `settle()` when velocities are computed, `watch()` before anything may interfere, `watch_derived()`
+    before `control`, the interference, `compare()`, and `reacted()` when forces are computed. `settle()` once more at the end of the run.
 
     Args:
         model, data: the world.
@@ -50,6 +54,7 @@ class Ledger:
         import numpy as np
 
         self._model, self._data, self._event, self._row = model, data, event, row
+        self._get_state = mujoco.mj_getState
         bits = mujoco.mjtState
         wanted = (
             "TIME", "QPOS", "QVEL", "ACT", "CTRL", "QFRC_APPLIED", "XFRC_APPLIED", "EQ_ACTIVE", "MOCAP_POS",
@@ -66,14 +71,20 @@ class Ledger:
         self._old, self._new = np.zeros(offset), np.zeros(offset)
         pushing = [self._part[name] for name in ("CTRL", "QFRC_APPLIED", "XFRC_APPLIED")]
         self._inputs = slice(pushing[0].start, pushing[-1].stop)  # neighbours in the state vector
-        self._idle = np.zeros(self._inputs.stop - self._inputs.start).tobytes()
+        idle = np.zeros(self._inputs.stop - self._inputs.start)
+        self._written_to = comparison(self._old, self._new) if offset else bool
+        self._was_pushing = comparison(self._old[self._inputs], idle) if len(idle) else bool
+        self._is_pushing = comparison(self._new[self._inputs], idle) if len(idle) else bool
+        self._derived = Derived(model, data)
+        self._bulk = Watch(model, bulky=True)
+        self._steps = 0
         self._past: mujoco.MjData | None = None
         self._watch = Watch(model)
         self._bodies = names(model, "body", model.nbody)
         self._joints = names(model, "joint", model.njnt)
         self._equalities = names(model, "equality", model.neq)
         self._pushes = Pushes(model, data, event)
-        self._callbacks: tuple[Any, ...] = (None,) * len(CALLBACKS)
+        self._callbacks: tuple[Any, ...] = NO_CALLBACKS
         self.check_callbacks()
 
     # -- callbacks ---------------------------------------------------------------------------------------------------
@@ -86,39 +97,57 @@ class Ledger:
                 if new is not old and new is not None:
                     self._record("callback", f"mjcb_{name}")
             self._callbacks = found
-        return any(callback is not None for callback in found)
+        return found != NO_CALLBACKS
 
     # -- around the interference -------------------------------------------------------------------------------------
 
     def watch(self) -> None:
         """Remember the state, before anything may interfere."""
-        import mujoco
+        self._get_state(self._model, self._data, self._old, self._signature)
 
-        mujoco.mj_getState(self._model, self._data, self._old, self._signature)
+    def watch_derived(self) -> None:
+        """Remember what derives from the state, before `control` may write to it."""
+        self._derived.remember()
 
     def compare(self) -> bool:
         """Record what interfered, and bring derived quantities up to date with what it wrote.
 
         Tells whether an engine callback is installed.
         """
-        import mujoco
-
         called_back = self.check_callbacks()
         for edit in self._watch.changes():
             self._parameters(edit)
-        mujoco.mj_getState(self._model, self._data, self._new, self._signature)
-        if self._old.tobytes() != self._new.tobytes():
+        if self._steps % BULK_EVERY == 0:
+            self.check_bulk()
+        self._steps += 1
+        self._get_state(self._model, self._data, self._new, self._signature)
+        slipped = self._derived.force()
+        edited = self._derived.others()
+        if called_back and self._callbacks[CALLBACKS.index("passive")] is not None:
+            hidden = self._derived.called_back()
+            slipped = hidden if slipped is None else slipped if hidden is None else slipped + hidden
+        if self._written_to():
+            edited = []  # what derives from the state was rightly computed anew, or will be
             self._state()
+        for name, values in edited:
+            self._record("parameter", f"data.{name}", values)
+        if slipped is not None:
+            self._pushes.generalised(slipped)
+        if not (self._is_pushing() or self._was_pushing()):
+            return called_back
         part = self._part
         old, new = self._old[part["CTRL"]], self._new[part["CTRL"]]
-        if self._new[self._inputs].tobytes() == self._idle and not old.any():
-            return called_back
         if self._new[part["XFRC_APPLIED"]].any():
             self._pushes.external()
         if self._new[part["QFRC_APPLIED"]].any():
-            self._pushes.generalised()
+            self._pushes.generalised(self._data.qfrc_applied)
         self._pushes.controls(((new != 0) | (new != old)).nonzero()[0])
         return called_back
+
+    def check_bulk(self) -> None:
+        """Record edits of assets that shape the motion (meshes, height fields); looked at now and then, and at the end."""
+        for edit in self._bulk.changes():
+            self._record("parameter", edit.array, edit.values)
 
     def _state(self) -> None:
         """The state itself was written."""
@@ -240,7 +269,7 @@ class Ledger:
 
 def installed_callbacks() -> tuple[Any, ...]:
     """The engine's callbacks in the order of `CALLBACKS`; None where none is installed."""
-    return tuple(ask() for ask in _askers())
+    return tuple([ask() for ask in _askers()])
 
 
 @cache

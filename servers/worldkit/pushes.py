@@ -53,14 +53,13 @@ class Pushes:
                     value[part] = wrench[body, part]
                     self._on_bodies.append((kind, int(body), value, motion))
 
-    def generalised(self) -> None:
-        """`qfrc_applied`: told as the force or torque on the body that owns the joint, world frame."""
+    def generalised(self, force: "np.ndarray") -> None:
+        """A force (nv,) on the joints, told as force or torque on the bodies that own them, world frame."""
         import mujoco
         import numpy as np
 
         model, data = self._model, self._data
         self._time = data.time
-        force = data.qfrc_applied
         for joint in owners(model.jnt_dofadr, np.flatnonzero(force)):
             kind = mujoco.mjtJoint(model.jnt_type[joint])
             body, first = int(model.jnt_bodyid[joint]), int(model.jnt_dofadr[joint])

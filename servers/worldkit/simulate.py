@@ -84,6 +84,7 @@ def simulate(
             ledger.settle()
             if not watched:
                 ledger.watch()
+            ledger.watch_derived()
             if control is not None:
                 control(model, data)
             called_back = ledger.compare()
@@ -106,6 +107,7 @@ def simulate(
     mujoco.mj_forward(model, data)
     if ledger is not None:
         ledger.settle()
+        ledger.check_bulk()
     before()
     after()
     if warned.tolist() != seen:

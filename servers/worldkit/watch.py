@@ -4,7 +4,6 @@ All arrays of an MjModel lie in one allocation. The ones worth watching are comp
 few microseconds this takes do not depend on how many arrays there are.
 """
 
-import operator
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
@@ -18,6 +17,8 @@ BULKY = (
     "mesh_", "tex_", "bvh_", "hfield_", "skin_", "oct_", "name", "text_", "path", "key_", "B_", "M_", "D_", "map",
 )  # fmt: skip
 """Assets and look-ups that a simulation does not edit (prefixes); too large to compare every step."""
+SHAPES = ("mesh_vert", "mesh_normal", "mesh_graph", "mesh_polyvert", "mesh_polynormal", "hfield_data", "hfield_size")
+"""Bulky assets that collisions read."""
 LOOKS = ("_rgba", "_matid", "_group", "mat_", "light_", "cam_", "vis_", "_castshadow", "site_size", "_material")
 """Parts of names of arrays that only change the picture."""
 OWNERS = {
@@ -53,14 +54,16 @@ class Edit:
 class Watch:
     """Remembers a model's arrays and options, and tells what differs from one `changes()` to the next."""
 
-    def __init__(self, model: "mujoco.MjModel") -> None:
+    def __init__(self, model: "mujoco.MjModel", bulky: bool = False) -> None:
+        """With `bulky`, watch the large assets that shape the motion instead of everything else."""
         import numpy as np
 
         self._model = model
         arrays = {
             name: array
             for name in dir(model)
-            if not name.startswith(("_", *BULKY)) and isinstance(array := getattr(model, name), np.ndarray)
+            if (name in SHAPES if bulky else not name.startswith(("_", *BULKY)))
+            and isinstance(array := getattr(model, name), np.ndarray)
             if array.nbytes and array.flags.c_contiguous
         }
         self._blocks: list[_Block] = []
@@ -72,14 +75,15 @@ class Watch:
             run.append((name, array))
         if run:
             self._add_block(run)
-        options = {name: getattr(model.opt, name) for name in OPTIONS if hasattr(model.opt, name)}
         # Arrays are views into the model's options, which stay where they are; numbers are asked for anew.
-        arrays_of_options = {name: value for name, value in options.items() if isinstance(value, np.ndarray)}
-        numbers = tuple(name for name in options if name not in arrays_of_options)
-        self._option_names = (*numbers, *arrays_of_options)
-        self._option_arrays = list(arrays_of_options.values())
-        self._ask = operator.attrgetter(*numbers)
+        self._option_names = () if bulky else tuple(name for name in OPTIONS if hasattr(model.opt, name))
         self._options = self._read_options()
+        memory = None if bulky else _memory_of_options(model)
+        self._option_memory = memory
+        self._old_option_memory = None if memory is None else memory.copy()
+        self._options_differ = (
+            (lambda: True) if memory is None else comparison(memory, self._old_option_memory)  # type: ignore[arg-type]
+        )
 
     def changes(self) -> list[Edit]:
         """What was edited since the last call (or the construction); remembered from now on."""
@@ -96,13 +100,15 @@ class Watch:
                         looks = any(part in name for part in LOOKS)
                         edits.append(Edit(name, index, array.reshape(-1)[index].astype(float), looks))
                 copy[:] = live
-        options = self._read_options()
-        if options != self._options:
-            for name, old_value, new_value in zip(self._option_names, self._options, options, strict=True):
-                if old_value != new_value:
-                    values = np.ravel(getattr(self._model.opt, name)).astype(float)
+        if self._options_differ():
+            options = self._read_options()
+            for name, old_value in self._options.items():
+                if options[name].tobytes() != old_value.tobytes():
+                    values = options[name].astype(float)
                     edits.append(Edit(f"opt.{name}", np.arange(len(values)), values, looks_only=False))
             self._options = options
+            if self._old_option_memory is not None:
+                self._old_option_memory[:] = self._option_memory
         return edits
 
     def values(self) -> "dict[str, np.ndarray]":
@@ -110,18 +116,17 @@ class Watch:
         import numpy as np
 
         found = {name: np.array(array).reshape(-1) for *_, arrays in self._blocks for name, array, _ in arrays}
-        return found | {f"opt.{n}": np.array(getattr(self._model.opt, n)).reshape(-1) for n in self._option_names}
+        return found | {f"opt.{name}": value for name, value in self._read_options().items()}
 
-    def _read_options(self) -> tuple[Any, ...]:
-        return (*self._ask(self._model.opt), *[array.tobytes() for array in self._option_arrays])
-
-    def _add_block(self, run: "list[tuple[str, np.ndarray]]") -> None:
-        """Watch neighbouring arrays as one block of bytes, gaps between them (alignment) included."""
+    def _read_options(self) -> "dict[str, np.ndarray]":
         import numpy as np
 
-        start, end = _address(run[0][1]), _end(run[-1][1])
-        first = run[0][1].reshape(-1).view(np.uint8)
-        live = np.lib.stride_tricks.as_strided(first, shape=(end - start,), strides=(1,), writeable=False)
+        return {name: np.array(getattr(self._model.opt, name)).reshape(-1) for name in self._option_names}
+
+    def _add_block(self, run: "list[tuple[str, np.ndarray]]") -> None:
+        """Watch neighbouring arrays as one block of bytes."""
+        start = _address(run[0][1])
+        live = span([array for _, array in run])
         copy = live.copy()
         arrays = []
         for name, array in run:
@@ -171,6 +176,45 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, "np.ndarray
     return found
 
 
+def span(arrays: "list[np.ndarray]") -> "np.ndarray":
+    """(N,) bytes from the first to the last of neighbouring arrays, gaps between them (alignment) included; a view."""
+    import numpy as np
+
+    first = arrays[0].reshape(-1).view(np.uint8)
+    size = _end(arrays[-1]) - _address(arrays[0])
+    return np.lib.stride_tricks.as_strided(first, shape=(size,), strides=(1,), writeable=False)
+
+
+def _memory_of_options(model: "mujoco.MjModel") -> "np.ndarray | None":
+    """(N,) bytes of the model's options, as a view; None when they are not laid out as the headers say.
+
+    Asking for thirty numbers one by one takes as long as comparing the whole model.
+    """
+    import ctypes
+
+    import numpy as np
+    from mujoco.introspect.structs import STRUCTS
+
+    kinds = {"mjtNum": ctypes.c_double, "int": ctypes.c_int, "float": ctypes.c_float}
+    fields: list[tuple[str, Any]] = []
+    for field in STRUCTS["mjOption"].fields:
+        inner = str(getattr(field.type, "inner_type", field.type))
+        extents = getattr(field.type, "extents", ())
+        kind = kinds.get(inner)
+        if kind is None or len(extents) > 1:
+            return None
+        fields.append((field.name, kind * extents[0] if extents else kind))
+    layout = type("Options", (ctypes.Structure,), {"_fields_": fields})
+    options = layout.from_address(_address(model.opt.gravity) - layout.gravity.offset)  # type: ignore[attr-defined]
+    for name, _ in fields:
+        if (
+            np.array(getattr(model.opt, name)).reshape(-1).tolist()
+            != np.array(getattr(options, name)).reshape(-1).tolist()
+        ):
+            return None
+    return np.frombuffer(options, np.uint8)
+
+
 def comparison(one: "np.ndarray", other: "np.ndarray") -> Callable[[], bool]:
     """A function that tells whether two contiguous arrays of one size differ in memory, as fast as the C library can.
 
@@ -180,7 +224,11 @@ def comparison(one: "np.ndarray", other: "np.ndarray") -> Callable[[], bool]:
     if compare is None:
         return lambda: one.tobytes() != other.tobytes()
     first, second, size = _address(one), _address(other), one.nbytes
-    return lambda: bool(compare(first, second, size))
+
+    def differ(_kept: Any = (one, other)) -> bool:  # memory that is compared must not be given back
+        return bool(compare(first, second, size))
+
+    return differ
 
 
 @cache

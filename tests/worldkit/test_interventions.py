@@ -263,3 +263,73 @@ def test_a_body_that_is_posed_every_step_is_told_every_step(tmp_path):
     recording = record(spec, tmp_path / "t", 50, animate)
     assert (recording.interventions.kind == "pose").sum() >= 49
     np.testing.assert_allclose(recording.pos[:50, 0, 0], 1 + np.sin(recording.time[:50]))
+
+
+@pytest.mark.parametrize("slip", ["qfrc_passive", "qfrc_bias"])
+def test_a_force_slipped_into_what_the_engine_derived_is_told(slip, tmp_path):
+    def float_it(model, data):
+        if slip == "qfrc_bias":
+            data.qfrc_bias[2] = 0.0
+        else:
+            data.qfrc_passive[2] += 2.0 * 9.81
+
+    recording = record(two_balls(-9.81), tmp_path / "t", 50, float_it)
+    assert abs(recording.pos[-1, 0, 2] - 1.0) < 1e-9  # it hovers
+    table = recording.interventions
+    assert set(zip(table.kind, table.target, strict=True)) == {("force", "still")}
+    assert len(table) == 50
+    assert table.value[0, 2] == pytest.approx(2.0 * 9.81)
+
+
+def test_a_passive_callback_is_told_with_its_torque(tmp_path, callbacks):
+    def upright(model, data):
+        data.qfrc_passive[5] += 0.02
+
+    spec = two_balls(-9.81)
+    door = spec.worldbody.add_body(name="door", pos=(0, 5, 0))
+    door.add_joint(name="hinge", type=mujoco.mjtJoint.mjJNT_HINGE, stiffness=(3, 0, 0), damping=(1, 0, 0), springref=20)
+    door.add_geom(size=(0.1, 0, 0), pos=(0.5, 0, 0), mass=1.0)
+    door.gravcomp = 0.5
+    recording = record(spec, tmp_path / "t", 40, before=lambda model, data: mujoco.set_mjcb_passive(upright))
+    table = recording.interventions
+    assert set(zip(table.kind, table.target, strict=True)) == {("callback", "mjcb_passive"), ("torque", "still")}
+    torque = table.kind == "torque"
+    assert table.value[torque][0] == pytest.approx((0, 0, 0, 0, 0, 0.02))
+    assert table.work_j[torque].sum() == pytest.approx(
+        0.5 * 2.0 * 0.4 * 0.1**2 * recording.angvel[-1, 0, 2] ** 2, rel=0.05
+    )
+
+
+def test_edited_contacts_are_told(tmp_path):
+    def stick(model, data):
+        if data.ncon:
+            data.contact.friction[:] = 5.0
+
+    spec = empty()
+    floor(spec)
+    ball(spec, "ball", (0, 0, 0.0999))
+    table = record(spec, tmp_path / "t", 200, stick).interventions
+    assert set(zip(table.kind, table.target, strict=True)) == {("parameter", "data.contact.friction")}
+
+
+def test_asking_the_engine_for_more_is_no_intervention(tmp_path):
+    def curious(model, data):
+        mujoco.mj_forward(model, data)
+        mujoco.mj_rnePostConstraint(model, data)
+        mujoco.mj_subtreeVel(model, data)
+        mujoco.mj_energyPos(model, data)
+
+    assert entries(record(heap(), tmp_path / "t", 200, curious)) == []
+
+
+def test_an_edited_height_field_is_told(tmp_path):
+    def dig(model, data):
+        if data.time > 0.3:
+            model.hfield_data[5] = 0.25
+
+    spec = empty()
+    spec.add_hfield(name="hills", nrow=4, ncol=4, size=(1, 1, 1, 1), userdata=[0.0, 1.0, *[0.5] * 14])
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname="hills")
+    ball(spec, "ball", (0, 0, 3))
+    ((kind, target, _, value, _),) = entries(record(spec, tmp_path / "t", 400, dig))
+    assert (kind, target, value[0]) == ("parameter", "hfield_data", 0.25)
