@@ -68,12 +68,14 @@ def opengl() -> Diagnosis:
 
 
 def sandbox() -> Diagnosis:
-    """The strongest level of the sandbox ladder that works here."""
-    from .stage.sandbox import LADDER, level
+    """The strongest level of the sandbox ladder that really confines here."""
+    from .stage.sandbox import CONFINING, LADDER, level, unusable
 
     strongest = level()
-    weaker = "; ".join(f"{name}: {reason}" for name, module in LADDER.items() if (reason := module.unusable()))
-    found = strongest + (f" ({weaker})" if weaker else "")
+    facts = ", ".join(f"{name} {value}" for name, value in LADDER[strongest].facts().items())
+    proof = "a program inside tried to get out and failed" if strongest in CONFINING else "limits accidents only"
+    weaker = "; ".join(f"{name}: {reason}" for name in LADDER if (reason := unusable(name)))
+    found = f"{strongest} ({'; '.join(part for part in (facts, proof, weaker) if part)})"
     ok = strongest == "bubblewrap"
     return Diagnosis("sandbox", ok, found, "sudo apt-get install -y bubblewrap", essential=False)
 

@@ -57,7 +57,8 @@ class PassResult(Frozen):
     """What a variant had on its command line besides the pass."""
     ok: bool
     code: str = "ok"
-    """`ok`, or how it failed: crashed, timed_out, out_of_memory, too_much_output, killed, cancelled, refused."""
+    """`ok`, or how it failed: crashed, no_result, timed_out, out_of_memory, out_of_cpu_time, too_much_output,
+    file_too_large, disk_full, too_many_processes, environment, killed, cancelled, not_repeatable, internal."""
     message: str = ""
     place: str = ""
     """File and line, when the program raised."""
@@ -67,6 +68,8 @@ class PassResult(Frozen):
     wall_s: float = 0.0
     sandbox: str = ""
     """Level of the ladder it ran at: bubblewrap, landlock or rlimits."""
+    confinement: dict[str, str] = {}
+    """What enforced it: versions, and how the number of processes was limited."""
     job: str = ""
     files: dict[str, str] = {}
     """SHA-256 by path relative to the pass folder."""

@@ -1,46 +1,127 @@
-"""A process and everything it started: resident memory, count, and the end of them all. Source: proc(5)."""
+"""A process and everything it started: how many, how much memory and processor time, and the end of them all.
+
+Descendants are found by parentage, and for the last count by the token which every process of a job bears as a
+resource limit: one that was orphaned on purpose, or whose supervisor was killed, still bears it. Source: proc(5).
+"""
 
 import contextlib
 import os
+import secrets
 import signal
+import time
+from dataclasses import dataclass
 from pathlib import Path
 
 PAGE = os.sysconf("SC_PAGE_SIZE")
+TICKS = os.sysconf("SC_CLK_TCK")
 
 
-def members(root: int) -> list[int]:
-    """The process and all its descendants, found through /proc."""
+@dataclass(frozen=True)
+class Census:
+    """A family at one moment."""
+
+    processes: tuple[int, ...]
+    threads: int
+    cpu_s: float
+    """Processor time, of the living and of the children they have waited for."""
+    resident_bytes: int
+    """Pages shared between processes count once for each."""
+
+
+def census(root: int, *, itself: bool = True) -> Census:
+    """The process and all its living descendants, found through /proc."""
     children: dict[int, list[int]] = {}
+    facts: dict[int, tuple[int, float, int]] = {}
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:
-                # The command's name stands in parentheses and may hold anything; the parent comes second after it.
-                parent = int((entry / "stat").read_text().rpartition(")")[2].split()[1])
-            except (OSError, ValueError, IndexError):
+                # The command's name stands in parentheses and may hold anything; the state comes after it.
+                words = (entry / "stat").read_text().rpartition(")")[2].split()
+            except (OSError, ValueError):
                 continue
-            children.setdefault(parent, []).append(int(entry.name))
+            pid, parent, zombie = int(entry.name), int(words[1]), words[0] == "Z"
+            children.setdefault(parent, []).append(pid)
+            spent = sum(int(word) for word in words[11:15]) / TICKS
+            facts[pid] = (0 if zombie else int(words[17]), spent, int(words[21]) * PAGE)
     found, queue = [], [root]
     while queue:
         process = queue.pop()
         found.append(process)
         queue += children.get(process, [])
-    return found
+    living = [p for p in found if facts.get(p, (0, 0, 0))[0] and (itself or p != root)]
+    return Census(
+        processes=tuple(living),
+        threads=sum(facts[p][0] for p in living),
+        cpu_s=sum(facts[p][1] for p in living),
+        resident_bytes=sum(facts[p][2] for p in living),
+    )
 
 
-def resident_bytes(processes: list[int]) -> int:
-    """Resident memory of them all, counting shared pages once for each."""
+def proportional_bytes(processes: tuple[int, ...]) -> int:
+    """Memory of them all, a shared page counted once; resident memory where the kernel does not say."""
     total = 0
     for process in processes:
         with contextlib.suppress(OSError, ValueError, IndexError):
-            total += int(Path(f"/proc/{process}/statm").read_text().split()[1]) * PAGE
+            try:
+                rollup = Path(f"/proc/{process}/smaps_rollup").read_text()
+                total += next(int(line.split()[1]) for line in rollup.splitlines() if line.startswith("Pss:")) << 10
+            except (OSError, StopIteration):
+                total += int(Path(f"/proc/{process}/statm").read_text().split()[1]) * PAGE
     return total
 
 
-def end(root: int) -> None:
-    """Kill the process, its group and every descendant."""
-    everyone = members(root)
+def available_bytes() -> int | None:
+    """Memory the machine can still give."""
+    try:
+        for line in Path("/proc/meminfo").read_text().splitlines():
+            if line.startswith("MemAvailable:"):
+                return int(line.split()[1]) << 10
+    except (OSError, ValueError):
+        pass
+    return None
+
+
+def new_token() -> int:
+    """A token of 36 random bits; never zero."""
+    return secrets.randbits(36) | 1
+
+
+def mark(token: int) -> tuple[int, int]:
+    """The token as soft and hard limit of message-queue bytes: below what any user may set, and used by nothing else."""
+    return token >> 18, (1 << 19) + (token & 0x3FFFF)
+
+
+def bearing(token: int) -> list[int]:
+    """Every living process that bears a job's token."""
+    found = []
+    wanted = [str(part) for part in mark(token)]
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            try:
+                limits = (entry / "limits").read_text()
+                dead = (entry / "stat").read_text().rpartition(")")[2].split()[0] in "ZX"
+            except (OSError, IndexError):
+                continue
+            line = next((line for line in limits.splitlines() if line.startswith("Max msgqueue size")), "")
+            if line.split()[3:5] == wanted and not dead:
+                found.append(int(entry.name))
+    return found
+
+
+def end(root: int, token: int) -> None:
+    """Kill a job's processes, until none is left (a process may be born between the look and the blow)."""
     with contextlib.suppress(OSError):
         os.killpg(root, signal.SIGKILL)
-    for process in everyone:
-        with contextlib.suppress(OSError):
-            os.kill(process, signal.SIGKILL)
+    sweep(token)
+
+
+def sweep(token: int) -> None:
+    """Kill every process that bears the token; zero is borne by none."""
+    for _ in range(20 if token else 0):
+        processes = [p for p in bearing(token) if p != os.getpid()]
+        if not processes:
+            return
+        for process in processes:
+            with contextlib.suppress(OSError):
+                os.kill(process, signal.SIGKILL)
+        time.sleep(0.01)

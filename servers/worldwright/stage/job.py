@@ -38,6 +38,12 @@ class Spec(Frozen):
     memory_mb: int
     output_mb: int
     file_mb: int
+    cpu_s: float
+    """Processor time of all its processes together."""
+    disk_mb: int
+    """Of everything it writes."""
+    token: int = 0
+    """Borne by each of its processes as a resource limit."""
     force: bool = False
     created: float
     """Seconds since the epoch."""

@@ -7,6 +7,7 @@ first moment: no grace period, and no clock that could jump.
 import fcntl
 import os
 import secrets
+import shutil
 import subprocess
 import sys
 import time
@@ -16,11 +17,11 @@ from contextlib import contextmanager
 from ..model.errors import JobError
 from ..model.evidence import EvidenceKey, PassName
 from ..model.run import Run
-from . import gates
+from . import family, gates
 from .job import Job, JobStatus, Spec
 
 WALL_S: dict[PassName, float] = {"physics": 120.0, "stills": 120.0, "video": 600.0}
-MEMORY_MB = 4096
+MEMORY_MB, FILE_MB, DISK_MB, OUTPUT_MB = 4096, 2048, 8192, 16
 
 
 def launch(
@@ -33,6 +34,9 @@ def launch(
     force: bool = False,
     wall_s: float | None = None,
     memory_mb: int = MEMORY_MB,
+    cpu_s: float | None = None,
+    file_mb: int = FILE_MB,
+    disk_mb: int = DISK_MB,
 ) -> JobStatus:
     """Start one pass, or answer with what already stands.
 
@@ -45,6 +49,9 @@ def launch(
         force: run although it succeeded, and compare.
         wall_s: wall-clock limit, s; the pass's default when None.
         memory_mb: resident memory limit, MiB.
+        cpu_s: processor time of all its processes together, s; what every core could give in `wall_s` when None.
+        file_mb: size of one file, MiB.
+        disk_mb: size of all it writes, MiB.
 
     Raises:
         GateError: something the pass needs has not been proven yet.
@@ -87,11 +94,15 @@ def launch(
             key=key,
             wall_s=wall_s or WALL_S[stage],
             memory_mb=memory_mb,
-            output_mb=16,
-            file_mb=2048,
+            cpu_s=cpu_s or (wall_s or WALL_S[stage]) * (os.cpu_count() or 1),
+            output_mb=OUTPUT_MB,
+            file_mb=file_mb,
+            disk_mb=disk_mb,
+            token=family.new_token(),
             force=force,
             created=time.time(),
         )
+        _tidy(run)
         job = Job.create(run, spec)
         _detach(job)
         return job.read()
@@ -101,6 +112,15 @@ def jobs(run: Run) -> list[Job]:
     """Every readable job, newest first."""
     known = sorted(run.jobs.glob("*/spec.json"), key=lambda path: path.stat().st_mtime, reverse=True)
     return [Job(path.parent) for path in known]
+
+
+def _tidy(run: Run) -> None:
+    """End what a killed supervisor left running, and free what it left on the disk; logs and results stay."""
+    for job in jobs(run):
+        if job.scratch.exists() and job.read().ended:
+            family.sweep(job.spec.token)
+            shutil.rmtree(job.scratch, ignore_errors=True)
+            shutil.rmtree(job.out, ignore_errors=True)
 
 
 def _detach(job: Job) -> None:

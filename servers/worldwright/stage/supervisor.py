@@ -5,8 +5,11 @@ the sandbox, keeps a capped log, watches time, memory, output and the number of 
 when everything ended well are the files moved into the run's evidence, in one rename.
 """
 
+import contextlib
 import json
+import math
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -22,7 +25,9 @@ from ..model.run import Run, sha256_file
 from . import family, sandbox
 from .gates import folder_name
 from .job import Job, JobStatus, Spec
+from .limits import Guard, failed
 from .sandbox.confinement import Confinement, environment
+from .sandbox.enter import enter
 
 LOG_BYTES = 1_000_000
 TICK_S = 0.1
@@ -42,6 +47,7 @@ class Supervision:
         self.started = time.monotonic()
         self.started_at = datetime.now(UTC).isoformat(timespec="seconds")
         self.level = ""
+        self.confinement: dict[str, str] = {}
         self.printed = 0
 
     def state(self, name: Any, **more: Any) -> None:
@@ -54,6 +60,11 @@ class Supervision:
             "variant": self.spec.variant,
         }
         self.job.write(JobStatus(**common, state=name, wall_s=wall, sandbox=self.level, **more))
+
+    @property
+    def log_command(self) -> str:
+        """What shows the program's last words."""
+        return f"worldwright stage log {self.run.folder} --job {self.spec.job}"
 
     def call(self) -> list[str]:
         """The program's command line for this pass."""
@@ -76,60 +87,43 @@ class Supervision:
             out=self.job.out,
             reads=reads,
             scratch=scratch,
-            cpu_s=int(self.spec.wall_s * (os.cpu_count() or 1)) + 1,
+            cpu_s=math.ceil(self.spec.cpu_s),
             file_bytes=self.spec.file_mb * MB,
             memory_bytes=self.spec.memory_mb * MB + ADDRESS_SPACE_SLACK,
+            token=self.spec.token,
             environment=environment(str(scratch)),
         )
         rung = sandbox.LADDER[self.level]
-        process = subprocess.Popen(
-            rung.command(self.call(), confinement),
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            cwd=self.job.out,
-            env=confinement.environment,
-            start_new_session=True,
-            preexec_fn=rung.before_exec(confinement),
-        )
+        pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
+        entered = enter(rung, self.call(), confinement, root=os.getpid(), **pipes)
+        self.confinement = entered.facts
+        process = entered.process
         reader = threading.Thread(target=self.keep_log, args=(process.stdout,), daemon=True)
         reader.start()
-        stopped = self.watch(process)
-        family.end(process.pid)
+        guard = Guard(self.spec, self.job, entered.births, confinement)
+        stopped = self.watch(process, guard)
+        family.end(process.pid, self.spec.token)
         process.wait()
         reader.join(timeout=5)
-        self.settle(process.returncode, stopped)
+        self.settle(process.returncode, stopped or guard.look(self.printed))
 
-    def watch(self, process: "subprocess.Popen[bytes]") -> dict[str, str] | None:
+    def watch(self, process: "subprocess.Popen[bytes]", guard: Guard) -> dict[str, str] | None:
         """Wait for the end; returns why it was stopped, when a limit stopped it."""
         published = 0.0
         while process.poll() is None:
             time.sleep(TICK_S)
+            reap_orphans(process.pid)
             elapsed = time.monotonic() - self.started
             if (self.job.folder / "cancel").exists():
                 return {"code": "cancelled", "message": "cancelled on request"}
+            if stopped := guard.look(self.printed):
+                return stopped
             if elapsed > self.spec.wall_s:
                 return {
                     "code": "timed_out",
                     "message": f"still running after its limit of {self.spec.wall_s:g} s",
                     "next_move": "look for a loop that never ends, or give it more time with --wall-s",
                 }
-            if self.printed > self.spec.output_mb * MB:
-                return {
-                    "code": "too_much_output",
-                    "message": f"it printed more than {self.spec.output_mb} MB",
-                    "next_move": "take the prints out of the loop: the recording holds every number",
-                }
-            processes = family.members(process.pid)
-            used = family.resident_bytes(processes)
-            if used > self.spec.memory_mb * MB:
-                return {
-                    "code": "out_of_memory",
-                    "message": f"it used {used / MB:.0f} MB, over its limit of {self.spec.memory_mb} MB",
-                    "next_move": "hold less in memory, or give it more with --memory-mb",
-                }
-            if len(processes) > 256:
-                return {"code": "refused", "message": "it started more than 256 processes", "next_move": "start none"}
             if elapsed - published > 0.4:
                 published = elapsed
                 self.state("running", **self.progress(elapsed))
@@ -163,7 +157,7 @@ class Supervision:
         out = self.job.out
         summary = _json(out / "result.json")
         error = _json(out / "error.json")
-        failure = stopped or self.failure(status, summary, error)
+        failure = stopped or failed(status, summary, error, self.log_command)
         result = PassResult(
             stage=self.spec.stage,
             variant=self.spec.variant,
@@ -172,10 +166,12 @@ class Supervision:
             started=self.started_at,
             wall_s=round(time.monotonic() - self.started, 3),
             sandbox=self.level,
+            confinement=self.confinement,
             job=self.spec.job,
             summary=summary if isinstance(summary, dict) else {},
             **(failure or {"code": "ok"}),
         )
+        shutil.rmtree(self.job.scratch, ignore_errors=True)
         if failure is None:
             for leftover in ("progress.json", "MUJOCO_LOG.TXT", "result.json"):
                 (out / leftover).unlink(missing_ok=True)
@@ -224,34 +220,6 @@ class Supervision:
             }
         )
 
-    def failure(self, status: int, summary: Any, error: Any) -> dict[str, str] | None:
-        """How a program that ended by itself failed; None when it did not."""
-        if status == 0 and summary.get("ok"):
-            return None
-        log = f"worldwright stage log {self.run.folder}"
-        if error:
-            kind, line = str(error.get("type", "error")), error.get("line")
-            code = "out_of_memory" if kind == "MemoryError" else str(error.get("code") or "crashed")
-            file = Path(str(error.get("file") or "simulation.py")).name
-            return {
-                "code": code,
-                "message": f"{kind}: {error.get('message', '')}"[:2000],
-                "place": f"{file}:{line}" if line else file,
-                "next_move": str(error.get("next_move") or f"correct it there; the traceback is in `{log}`"),
-            }
-        if status in (-9, 137):
-            cause = "it was killed by a signal (SIGKILL): by itself, or by a limit of the kernel"
-            return {"code": "killed", "message": cause, "next_move": f"see its last words in `{log}`"}
-        if status < 0 or status > 128:
-            number = -status if status < 0 else status - 128
-            cause = f"it was ended by signal {number}" + (" (processor time limit)" if number == 24 else "")
-            cause += " (file size limit)" if number == 25 else ""
-            return {"code": "killed", "message": cause, "next_move": f"see its last words in `{log}`"}
-        if status == 0:
-            cause = "it ended without a result: does it hand its world to worldkit's program.main?"
-            return {"code": "no_result", "message": cause, "next_move": "end the file with program.main(build, …)"}
-        return {"code": "crashed", "message": f"it ended with status {status}", "next_move": f"read `{log}`"}
-
 
 def _json(path: Path) -> dict[str, Any]:
     """A JSON object written by the confined program, or an empty one: its content is never trusted."""
@@ -264,11 +232,26 @@ def _json(path: Path) -> dict[str, Any]:
     return value if isinstance(value, dict) else {}
 
 
+def adopt_orphans() -> None:
+    """Become the parent of whatever the program leaves behind, so that it is counted and ended with it."""
+    import ctypes
+
+    ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER
+
+
+def reap_orphans(program: int) -> None:
+    """Bury adopted processes that have ended; the program itself is left to its own handle."""
+    with contextlib.suppress(OSError):
+        while (ended := os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT)) and ended.si_pid != program:
+            os.waitpid(ended.si_pid, 0)
+
+
 def main() -> int:
     """Supervise the job whose folder is given."""
     job = Job(Path(sys.argv[1]))
     # The launcher took the lock and left it to us; the kernel drops it when this process ends, however it ends.
     os.set_inheritable(int(sys.argv[2]), False)
+    adopt_orphans()
     supervision = Supervision(job)
     try:
         supervision.supervise()

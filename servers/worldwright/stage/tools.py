@@ -2,7 +2,7 @@
 
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -54,6 +54,9 @@ def start(
     force: Annotated[bool, Field(description="Run again although it succeeded, and compare.")] = False,
     wall_s: Annotated[float | None, Field(description="Wall-clock limit in seconds.", gt=0, le=86_400)] = None,
     memory_mb: Annotated[int, Field(description="Resident memory limit.", ge=64)] = 4096,
+    cpu_s: Annotated[float | None, Field(description="Processor time of all its processes.", gt=0)] = None,
+    file_mb: Annotated[int, Field(description="Size limit of one file.", ge=1)] = 2048,
+    disk_mb: Annotated[int, Field(description="Size limit of all it writes.", ge=1)] = 8192,
 ) -> JobStatus:
     """Start one pass of the run's program in the sandbox and return at once with its job.
 
@@ -66,7 +69,8 @@ def start(
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
-    return launch(folder, key, stage, force=force, wall_s=wall_s, memory_mb=memory_mb)
+    limits: dict[str, Any] = {"wall_s": wall_s, "memory_mb": memory_mb, "cpu_s": cpu_s}
+    return launch(folder, key, stage, force=force, **limits, file_mb=file_mb, disk_mb=disk_mb)
 
 
 @reads

@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from worldwright.model.errors import GateError, JobError, NotFoundError
-from worldwright.stage import sandbox
+from worldwright.stage import family, sandbox
+from worldwright.stage.job import Job
 from worldwright.stage.tools import cancel, log, start, status, wait
 
 GOOD = """
@@ -45,6 +46,45 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
         start(str(run.folder))
 
 
+PREAMBLE = """
+import json, pathlib, sys
+OUT = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
+def told(kind, error, trace):
+    sys.__excepthook__(kind, error, trace)
+    facts = {"type": kind.__name__, "message": str(error), "file": "simulation.py", "line": 1, "code": "crashed"}
+    (OUT / "error.json").write_text(json.dumps(facts))
+sys.excepthook = told
+"""
+# Bounded on purpose: at most 400 children, each gone after a few seconds by itself.
+BORN = """
+import os, threading, time
+def threaded():
+    threading.Thread(target=time.sleep, args=(4,), daemon=True).start()
+    return 1
+for _ in range(400):
+    try:
+        if os.fork() == 0:
+            time.sleep(4)
+            os._exit(0)
+    except (OSError, RuntimeError):
+        pass
+time.sleep(4)
+"""
+DAEMONS = """
+import os, time
+for _ in range(200):
+    try:
+        if os.fork() == 0:
+            os.setsid()
+            if os.fork() == 0:
+                time.sleep(4)
+            os._exit(0)
+    except OSError:
+        pass
+time.sleep(4)
+"""
+
+
 @pytest.mark.parametrize(
     ("source", "code", "options"),
     [
@@ -58,13 +98,22 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
         ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", "killed", {}),
         ("import sys\nwhile True: sys.stdout.write('x' * 65536)", "too_much_output", {}),
         ("print('nothing')", "no_result", {}),
-        ("import os, time\nfor _ in range(400):\n    if os.fork() == 0: time.sleep(30)\ntime.sleep(30)", "refused", {}),
+        (BORN, "too_many_processes", {}),
+        (BORN.replace("os.fork", "threaded").replace("range(400)", "range(4000)"), "too_many_processes", {}),
+        (DAEMONS, "too_many_processes", {}),
+        ("while True: pass", "out_of_cpu_time", {"cpu_s": 1.0}),
+        ("open(OUT / 'big', 'wb').write(bytes(3 << 20))", "file_too_large", {"file_mb": 1}),
+        (
+            "for n in range(40): (OUT / str(n)).write_bytes(bytes(1 << 20))\nimport time; time.sleep(9)",
+            "disk_full",
+            {"disk_mb": 8},
+        ),
     ],
 )
-def test_every_way_to_fail_has_a_name_and_leaves_no_evidence(make, source, code, options, finish, evidence):
-    run = make(source)
+def test_every_way_to_fail_has_a_name_and_leaves_no_evidence(level, make, source, code, options, finish, evidence):
+    run = make(PREAMBLE + source)
     job = finish(run, **options)
-    assert job.state == "failed"
+    assert job.state == "failed", job.text()
     assert job.code == code, job.text()
     assert job.message
     assert job.next_move
@@ -144,6 +193,25 @@ def test_a_killed_supervisor_leaves_a_lost_job_and_no_evidence(make, evidence):
     assert not (evidence(run) / "physics").exists()
     assert start(str(run.folder)).job != job.job
     cancel(str(run.folder))
+
+
+def test_what_a_killed_supervisor_leaves_behind_is_ended_by_the_next_start(level, make, finish):
+    child = "subprocess.Popen([sys.executable, '-c', 'import time; time.sleep(20.75)'], start_new_session=True)"
+    run = make(f"import subprocess, sys, time\n{child}\ntime.sleep(20)")
+    job = start(str(run.folder))
+    spec = Job.find(run, job.job).spec
+    deadline = time.monotonic() + 10
+    while len(family.bearing(spec.token)) < 2 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert len(family.bearing(spec.token)) >= 2
+    supervisor = subprocess.run(["pgrep", "-f", f"supervisor .*{job.job}"], capture_output=True, text=True, check=True)
+    for process in supervisor.stdout.split():
+        os.kill(int(process), signal.SIGKILL)
+    assert wait(str(run.folder), job=job.job, timeout_s=10).state == "lost"
+    again = start(str(run.folder))
+    assert not family.bearing(spec.token)
+    assert not Job.find(run, job.job).scratch.exists()
+    cancel(str(run.folder), again.job)
 
 
 def test_a_job_survives_its_server(make):

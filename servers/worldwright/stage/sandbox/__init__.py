@@ -4,21 +4,30 @@ The strongest level that really works here is used, and recorded in the evidence
 by name (a weaker one for debugging, or a stronger one to be refused without it).
 """
 
+import contextlib
+import hashlib
+import json
 import os
 from functools import lru_cache
+from pathlib import Path
 
+from worldkit.files import write_json
+
+from ...model.environment import cache_folder
 from ...model.errors import JobError
-from . import bubblewrap, landlock, rlimits
+from . import bubblewrap, landlock, probe, rlimits
 from .confinement import Confinement
 
 LADDER = {"bubblewrap": bubblewrap, "landlock": landlock, "rlimits": rlimits}
+CONFINING = ("bubblewrap", "landlock")
+"""Levels that must withstand the probe; the lowest one only limits accidents."""
 
-__all__ = ["LADDER", "Confinement", "level"]
+__all__ = ["CONFINING", "LADDER", "Confinement", "level", "unusable"]
 
 
 @lru_cache
 def level() -> str:
-    """The name of the strongest level that works, found by really running something at each.
+    """The name of the strongest level that works.
 
     Raises:
         JobError: `WORLDWRIGHT_SANDBOX` names a level that is unknown or does not work here.
@@ -32,7 +41,7 @@ def level() -> str:
             next_move=f"use one of: {', '.join(LADDER)}",
         )
     for name in (wanted,) if wanted else LADDER:
-        reason = LADDER[name].unusable()
+        reason = unusable(name)
         if not reason:
             return name
         if wanted:
@@ -43,3 +52,44 @@ def level() -> str:
                 next_move="unset WORLDWRIGHT_SANDBOX to use the strongest level that does",
             )
     return "rlimits"
+
+
+def unusable(name: str) -> str:
+    """Why a level does not work here; empty when a program inside it really failed to get out.
+
+    What was found is remembered until the machine, the user, bubblewrap or our own sources change.
+    """
+    if reason := LADDER[name].unavailable():
+        return reason
+    if name not in CONFINING:
+        return ""
+    kept = cache_folder() / f"sandbox-{name}-{os.geteuid()}.json"
+    state = _state()
+    try:
+        known = json.loads(kept.read_text(encoding="utf-8"))
+        if known["state"] == state:
+            return str(known["reason"])
+    except (OSError, ValueError, KeyError, TypeError):
+        pass
+    possible, tried, broken = probe.ways_out(LADDER[name])
+    reason = broken or (f"a confined program could: {', '.join(possible)}" if possible else "")
+    with contextlib.suppress(OSError):  # a read-only home costs time, not safety
+        write_json(kept, {"state": state, "reason": reason, "attempts": tried})
+    return reason
+
+
+def _state() -> str:
+    """What the probe's outcome depends on."""
+    import shutil
+    import sys
+
+    digest = hashlib.sha256()
+    for path in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(path.read_bytes())
+    for path in (Path("/proc/sys/kernel/random/boot_id"), Path("/proc/version")):
+        digest.update(path.read_bytes() if path.exists() else b"")
+    for program in (shutil.which("bwrap"), sys.executable):
+        if program:
+            stat = Path(program).stat()
+            digest.update(f"{program} {stat.st_size} {stat.st_mtime_ns}".encode())
+    return digest.hexdigest()

@@ -9,38 +9,17 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
-from . import rlimits
-from .confinement import Confinement, runtime_paths
-
-SYSTEM = (
-    "/usr",
-    "/bin",
-    "/sbin",
-    "/lib",
-    "/lib32",
-    "/lib64",
-    "/etc/ld.so.cache",
-    "/etc/ld.so.conf",
-    "/etc/alternatives",
-)
-GRAPHICS = ("/etc/glvnd", "/etc/vulkan", "/etc/fonts", "/etc/OpenCL", "/sys/dev", "/sys/devices", "/sys/class")
+from . import rlimits, seccomp
+from .confinement import SYSTEM, Confinement, devices, runtime_paths
 
 
-def unusable() -> str:
-    """Why this level does not work here; empty when a confined `true` really ran."""
-    program = shutil.which("bwrap")
-    if program is None:
-        return "bwrap is not installed"
-    probe = [program, "--unshare-all", "--die-with-parent", *_system(), "--proc", "/proc", "--dev", "/dev", "true"]
-    try:
-        done = subprocess.run(probe, capture_output=True, text=True, timeout=20, check=False)
-    except (OSError, subprocess.SubprocessError) as cause:
-        return str(cause)
-    return "" if done.returncode == 0 else done.stderr.strip() or f"bwrap ended with status {done.returncode}"
+def unavailable() -> str:
+    """Why this level cannot be tried here; empty when it can."""
+    return seccomp.unavailable() or ("" if shutil.which("bwrap") else "bwrap is not installed")
 
 
-def command(call: list[str], confinement: Confinement) -> list[str]:
-    """The call inside its own namespaces."""
+def command(call: list[str], confinement: Confinement, denial: int) -> list[str]:
+    """The call inside its own namespaces; `denial` is a descriptor that its system-call filter is read from."""
     reads = [*runtime_paths(), *confinement.reads]
     binds = [word for path in _outermost(reads) for word in ("--ro-bind", str(path), str(path))]
     variables = [word for name, value in confinement.environment.items() for word in ("--setenv", name, value)]
@@ -49,15 +28,22 @@ def command(call: list[str], confinement: Confinement) -> list[str]:
         *("--unshare-all", "--die-with-parent", "--new-session", "--clearenv", "--cap-drop", "ALL"),
         *_system(),
         *("--proc", "/proc", "--dev", "/dev"),
-        *_devices(),
+        *(word for path in devices() for word in ("--dev-bind", str(path), str(path))),
+        *("--size", str(confinement.shared_bytes), "--tmpfs", "/dev/shm", "--remount-ro", "/dev"),
         *binds,
         *("--bind", str(confinement.scratch), str(confinement.scratch)),
         *("--bind", str(confinement.out), str(confinement.out)),
-        *("--remount-ro", "/", "--chdir", str(confinement.out)),
+        *("--remount-ro", "/", "--chdir", str(confinement.out), "--seccomp", str(denial)),
         *variables,
         "--",
         *call,
     ]
+
+
+def facts() -> dict[str, str]:
+    """What the evidence records about this level."""
+    done = subprocess.run(["bwrap", "--version"], capture_output=True, text=True, timeout=10, check=False)
+    return {"bubblewrap": done.stdout.strip().removeprefix("bubblewrap ")}
 
 
 def before_exec(confinement: Confinement) -> Callable[[], None]:
@@ -68,19 +54,13 @@ def before_exec(confinement: Confinement) -> Callable[[], None]:
 def _system() -> list[str]:
     """System folders, read-only; those that are links stay links."""
     words: list[str] = []
-    for name in (*SYSTEM, *GRAPHICS):
+    for name in SYSTEM:
         path = Path(name)
         if path.is_symlink():
             words += ["--symlink", str(path.readlink()), name]
         elif path.exists():
             words += ["--ro-bind", name, name]
     return words
-
-
-def _devices() -> list[str]:
-    """Graphics devices, when the machine has some."""
-    found = [Path("/dev/dri"), *sorted(Path("/dev").glob("nvidia*"))]
-    return [word for path in found if path.exists() for word in ("--dev-bind", str(path), str(path))]
 
 
 def _outermost(paths: list[Path]) -> list[Path]:

@@ -6,6 +6,37 @@ import sysconfig
 from dataclasses import dataclass, field
 from pathlib import Path
 
+SYSTEM = (
+    "/usr",
+    "/bin",
+    "/sbin",
+    "/lib",
+    "/lib32",
+    "/lib64",
+    "/etc/ld.so.cache",
+    "/etc/ld.so.conf",
+    "/etc/alternatives",
+    "/etc/glvnd",
+    "/etc/vulkan",
+    "/etc/fonts",
+    "/etc/OpenCL",
+    "/etc/localtime",
+    "/sys/dev",
+    "/sys/devices",
+    "/sys/class",
+)
+"""What of the system any job may read: programs, libraries, and what describes the graphics stack."""
+
+
+def processes() -> int:
+    """How many processes of one job may live at once: enough to draw on every core, not enough to hurt."""
+    return 64 + 4 * (os.cpu_count() or 1)
+
+
+def threads() -> int:
+    """How many threads, in all its processes together (each software renderer starts one a core, and some)."""
+    return 512 + 64 * (os.cpu_count() or 1)
+
 
 @dataclass(frozen=True)
 class Confinement:
@@ -21,7 +52,12 @@ class Confinement:
     file_bytes: int
     memory_bytes: int
     """Address-space backstop; resident memory is watched by the supervisor."""
-    processes: int = 256
+    token: int = 0
+    """A number that every process of the job bears as a resource limit it cannot change, so that none is lost."""
+    processes: int = field(default_factory=processes)
+    threads: int = field(default_factory=threads)
+    shared_bytes: int = 256 << 20
+    """Shared memory (`/dev/shm`), where the level gives the job one of its own."""
     environment: dict[str, str] = field(default_factory=dict)
 
 
@@ -35,7 +71,13 @@ def runtime_paths() -> tuple[Path, ...]:
     # An environment may borrow another's packages (a .pth file, or the system's).
     paths += [path for path in map(Path, sys.path) if path.name in ("site-packages", "dist-packages")]
     paths += [Path(next(iter(worldkit.__path__))), Path(assets.catalog_root())]
-    return tuple(dict.fromkeys(p.absolute() for p in paths if p.exists()))
+    own = (Path("/"), Path.home(), Path("/home"), Path("/root"))  # never a whole home, however Python is installed
+    return tuple(dict.fromkeys(p for path in paths if path.exists() and (p := path.absolute()) not in own))
+
+
+def devices() -> list[Path]:
+    """Graphics devices, when the machine has some."""
+    return [path for path in (Path("/dev/dri"), *sorted(Path("/dev").glob("nvidia*"))) if path.exists()]
 
 
 def environment(scratch: str) -> dict[str, str]:

@@ -1,98 +1,122 @@
-"""Landlock and seccomp: without privileges or namespaces, the job may write its own folders only and open no socket.
+"""Landlock and seccomp: without privileges or namespaces, a job sees and writes its own folders and opens no socket.
 
-Landlock confines file writes and TCP; a seccomp filter denies `socket` altogether, which Landlock cannot (UDP). Both
-are applied by the child to itself. Source: landlock(7), seccomp(2), the kernel's user-space API documentation.
+Landlock confines reading, writing, running, TCP, abstract sockets and signals; a seccomp filter forbids what it does
+not know (UDP, the files' owners and modes, ptrace's relatives, io_uring, which would go round every filter). Both are
+applied by the child to itself, after it has given up every capability. Source: landlock(7), seccomp(2),
+capabilities(7), the kernel's user-space API documentation.
 """
 
+import contextlib
 import ctypes
 import os
-import platform
 import struct
 from collections.abc import Callable
 from pathlib import Path
 
-from . import rlimits
-from .confinement import Confinement
+from . import rlimits, seccomp
+from .confinement import SYSTEM, Confinement, devices, runtime_paths
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
 VERSION_FLAG, PATH_BENEATH = 1, 1
-# Every file-system right that changes something, by the ABI that brought it.
-WRITE_RIGHTS = {1: 0b1_1111_1111_0010, 2: 1 << 13, 3: 1 << 14}
-SECCOMP_MODE_FILTER, PR_SET_SECCOMP, PR_SET_NO_NEW_PRIVS = 2, 22, 38
-ARCHITECTURES = {"x86_64": (0xC000003E, 41, 53), "aarch64": (0xC00000B7, 198, 199)}
-"""Audit architecture, and the numbers of `socket` and `socketpair`."""
-ALLOW, DENY = 0x7FFF0000, 0x00050000 | 13  # EACCES
+EXECUTE, WRITE_FILE, READ_FILE, READ_DIR, TRUNCATE, IOCTL_DEVICE = 1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 14, 1 << 15
+RIGHTS_BY_ABI = {1: 0b1_1111_1111_1111, 2: 1 << 13, 3: TRUNCATE, 5: IOCTL_DEVICE}
+"""File-system rights by the ABI that brought them."""
+READ, RUN = READ_FILE | READ_DIR, READ_FILE | READ_DIR | EXECUTE
+TCP, SCOPES = 0b11, 0b11
+"""Bind and connect, from ABI 4; abstract sockets and signals stay inside, from ABI 6."""
+FILE_RIGHTS = EXECUTE | WRITE_FILE | READ_FILE | TRUNCATE | IOCTL_DEVICE
+"""What a rule on a file, not a folder, may name."""
+PROC = ("cpuinfo", "meminfo", "stat", "uptime", "version", "loadavg", "filesystems", "self", "thread-self")
+PR_CAPBSET_DROP, PR_CAP_AMBIENT, CLEAR_AMBIENT, CAPABILITY_VERSION = 24, 47, 4, 0x20080522
+WORLD = Path(__file__).parents[3]
 
 
-def _abi() -> int:
+def abi() -> int:
+    """The kernel's Landlock version; below 1 without it."""
     return ctypes.CDLL(None, use_errno=True).syscall(CREATE_RULESET, None, 0, VERSION_FLAG)
 
 
-def unusable() -> str:
-    """Why this level does not work here; empty when a confined child was really kept from writing and connecting."""
-    if platform.machine() not in ARCHITECTURES:
-        return f"no system-call numbers are known for {platform.machine()}"
-    if _abi() < 1:
-        return "the kernel does not offer Landlock"
-    child = os.fork()
-    if child == 0:
-        code = 1
-        try:
-            _apply(())
-            import socket
-
-            try:
-                Path("/tmp/worldwright-landlock-probe").write_bytes(b"")
-            except PermissionError:
-                try:
-                    socket.socket()
-                except PermissionError:
-                    code = 0
-        finally:
-            os._exit(code)
-    return "" if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0 else "a confined process could still write"
+def unavailable() -> str:
+    """Why this level cannot be tried here; empty when it can."""
+    return seccomp.unavailable() or ("" if abi() >= 1 else "the kernel does not offer Landlock")
 
 
-def command(call: list[str], confinement: Confinement) -> list[str]:
+def command(call: list[str], confinement: Confinement, denial: int) -> list[str]:
     """The call as it is: the child confines itself."""
     return call
 
 
+def facts() -> dict[str, str]:
+    """What the evidence records about this level."""
+    return {"landlock_abi": str(abi())}
+
+
 def before_exec(confinement: Confinement) -> Callable[[], None]:
-    """Resource limits, then the file and socket rules."""
+    """Resource limits, then the loss of capabilities, then the file, network and system-call rules."""
     limits = rlimits.before_exec(confinement)
-    writable = (confinement.out, confinement.scratch, Path("/dev"))
+    rules = list(_rules(confinement))
 
     def confine() -> None:
         limits()
-        _apply(writable)
+        _drop_capabilities()
+        restrict(rules)
+        seccomp.install(seccomp.denial(landlock_abi=abi(), own_pid=os.getpid()))
 
     return confine
 
 
-def _apply(writable: tuple[Path, ...]) -> None:
+def _rules(confinement: Confinement) -> list[tuple[Path, int]]:
+    """What is allowed beneath which path."""
+    everything = sum(RIGHTS_BY_ABI.values())
+    rules = [(Path(name), RUN) for name in SYSTEM]
+    rules += [(path, RUN) for path in runtime_paths()]
+    rules += [(path, READ) for path in confinement.reads]
+    # The import system lists the folder that worldkit lies in; it may read nothing else there.
+    rules += [(WORLD, READ_DIR)]
+    rules += [(path, everything & ~EXECUTE & ~IOCTL_DEVICE) for path in (confinement.out, confinement.scratch)]
+    rules += [(Path("/dev") / name, READ_FILE | WRITE_FILE) for name in ("null", "zero", "full", "random", "urandom")]
+    rules += [(path, READ | WRITE_FILE | IOCTL_DEVICE) for path in devices()]
+    rules += [(Path("/proc") / name, READ) for name in PROC]
+    return rules
+
+
+def restrict(rules: list[tuple[Path, int]]) -> None:
+    """Confine the calling process, for good.
+
+    Raises:
+        OSError: the kernel refused.
+    """
     libc = ctypes.CDLL(None, use_errno=True)
-    rights = sum(bits for abi, bits in WRITE_RIGHTS.items() if abi <= _abi())
-    ruleset = libc.syscall(CREATE_RULESET, struct.pack("Q", rights), 8, 0)
+    version = abi()
+    handled = sum(bits for since, bits in RIGHTS_BY_ABI.items() if since <= version)
+    attributes = struct.pack("QQQ", handled, TCP if version >= 4 else 0, SCOPES if version >= 6 else 0)
+    size = 24 if version >= 6 else 16 if version >= 4 else 8
+    ruleset = libc.syscall(CREATE_RULESET, attributes, size, 0)
     if ruleset < 0:
         raise OSError(ctypes.get_errno(), "landlock_create_ruleset")
-    for folder in writable:
-        handle = os.open(folder, os.O_PATH | os.O_CLOEXEC)
+    for path, rights in rules:
         try:
-            if libc.syscall(ADD_RULE, ruleset, PATH_BENEATH, struct.pack("=Qi", rights, handle), 0):
-                raise OSError(ctypes.get_errno(), "landlock_add_rule", str(folder))
+            handle = os.open(path, os.O_PATH | os.O_CLOEXEC)
+        except OSError:
+            continue  # not on this machine
+        try:
+            allowed = handled & (rights if path.is_dir() else rights & FILE_RIGHTS)
+            if allowed and libc.syscall(ADD_RULE, ruleset, PATH_BENEATH, struct.pack("=Qi", allowed, handle), 0):
+                raise OSError(ctypes.get_errno(), "landlock_add_rule", str(path))
         finally:
             os.close(handle)
-    libc.prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    libc.prctl(seccomp.PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0)
     if libc.syscall(RESTRICT_SELF, ruleset, 0):
         raise OSError(ctypes.get_errno(), "landlock_restrict_self")
     os.close(ruleset)
-    audit, *denied = ARCHITECTURES[platform.machine()]
-    # BPF: load the architecture; a foreign one is denied whole; load the number; jump to deny on a match.
-    steps = [(0x20, 0, 0, 4), (0x15, 1, 0, audit), (0x06, 0, 0, DENY), (0x20, 0, 0, 0)]
-    steps += [(0x15, len(denied) - i, 0, number) for i, number in enumerate(denied)]
-    steps += [(0x06, 0, 0, ALLOW), (0x06, 0, 0, DENY)]
-    code = ctypes.create_string_buffer(b"".join(struct.pack("HBBI", *step) for step in steps))
-    program = struct.pack("HxxxxxxQ", len(steps), ctypes.addressof(code))
-    if libc.prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, ctypes.create_string_buffer(program), 0, 0):
-        raise OSError(ctypes.get_errno(), "seccomp")
+
+
+def _drop_capabilities() -> None:
+    """Give up every capability, also those that running a program as root would bring back."""
+    libc = ctypes.CDLL(None, use_errno=True)
+    with contextlib.suppress(OSError, ValueError):
+        last = int(Path("/proc/sys/kernel/cap_last_cap").read_text())
+        for capability in range(last + 1):
+            libc.prctl(PR_CAPBSET_DROP, capability, 0, 0, 0)
+    libc.prctl(PR_CAP_AMBIENT, CLEAR_AMBIENT, 0, 0, 0)
+    libc.capset(struct.pack("Ii", CAPABILITY_VERSION, 0), struct.pack("6I", *[0] * 6))

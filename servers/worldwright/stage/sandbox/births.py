@@ -1,0 +1,90 @@
+"""The limit on processes and threads: the kernel stops every birth in a job until its supervisor has said yes.
+
+`RLIMIT_NPROC` counts all processes of a user and never binds root; control groups need to be writable. A seccomp
+filter with user notification needs neither: `clone` and `fork` wait for an answer, on every level and for every user.
+When the supervisor dies, they fail. Source: seccomp_unotify(2).
+"""
+
+import errno
+import fcntl
+import os
+import select
+import struct
+import threading
+import time
+from collections import deque
+from collections.abc import Callable
+
+from .syscalls import number
+
+RECEIVE, ANSWER = 0xC0502100, 0xC0182101
+CONTINUE = 1
+CLONE_THREAD = 0x00010000
+SETTLE_S = 0.25
+"""How long a birth that was allowed may take until a count sees it."""
+
+
+class Births:
+    """Answers the questions of one job's filter until no process of the job is left.
+
+    Args:
+        listener: the descriptor that the questions come to; owned and closed here.
+        count: the job's processes and threads now.
+        processes: how many processes may live at once.
+        threads: how many threads, in all processes together.
+    """
+
+    def __init__(self, listener: int, count: Callable[[], tuple[int, int]], processes: int, threads: int) -> None:
+        self.listener, self.count = listener, count
+        self.limits = (processes, threads)
+        self.seen = (0, 0)
+        self.allowed: deque[tuple[float, int, int]] = deque()
+        self.exceeded = ""
+        """What was exceeded, once something was: the job is to be stopped."""
+        self.thread = threading.Thread(target=self._serve, daemon=True)
+        self.thread.start()
+
+    def _serve(self) -> None:
+        poll = select.poll()
+        poll.register(self.listener, select.POLLIN)
+        try:
+            while True:
+                events = poll.poll()
+                if any(event & (select.POLLHUP | select.POLLERR | select.POLLNVAL) for _, event in events):
+                    return
+                question = bytearray(80)
+                try:
+                    fcntl.ioctl(self.listener, RECEIVE, question, True)
+                except OSError as gone:
+                    if gone.errno in (errno.ENOENT, errno.EINTR):  # the asker died meanwhile
+                        continue
+                    return
+                identity, _pid, _flags, call = struct.unpack_from("QIIi", question)
+                flags = struct.unpack_from("Q", question, 32)[0]
+                self._answer(identity, self._may(call == number("clone") and bool(flags & CLONE_THREAD)))
+        finally:
+            os.close(self.listener)
+
+    def _answer(self, identity: int, yes: bool) -> None:
+        answer = struct.pack("QqiI", identity, 0, 0 if yes else -errno.EAGAIN, CONTINUE if yes else 0)
+        try:
+            fcntl.ioctl(self.listener, ANSWER, answer)
+        except OSError:  # the asker died meanwhile
+            return
+
+    def _may(self, thread: bool) -> bool:
+        """Whether one more may be born: what was counted last, and every birth allowed since, stay under the limits."""
+        for fresh in (False, True):
+            if fresh:
+                now = time.monotonic()
+                self.seen = self.count()
+                while self.allowed and now - self.allowed[0][0] > SETTLE_S:
+                    self.allowed.popleft()
+            processes = self.seen[0] + sum(birth[1] for birth in self.allowed)
+            threads = self.seen[1] + len(self.allowed)
+            if threads < self.limits[1] and (thread or processes < self.limits[0]):
+                self.allowed.append((time.monotonic(), 0 if thread else 1, 1))
+                return True
+        limit, what = (self.limits[1], "threads") if thread else (self.limits[0], "processes")
+        self.exceeded = f"it started more than {limit} {what}"
+        return False

@@ -1,0 +1,126 @@
+"""Starting a program inside a level of the ladder, with the limit on its births that works here."""
+
+import contextlib
+import os
+import socket
+import subprocess
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from .. import family
+from . import seccomp
+from .births import Births
+from .confinement import Confinement
+
+
+@dataclass(frozen=True)
+class Entered:
+    """A confined program that runs."""
+
+    process: "subprocess.Popen[bytes]"
+    births: Births | None
+    """Decides on new processes and threads; None where the kernel cannot ask."""
+    facts: dict[str, str]
+    """What enforces the limits, for the evidence."""
+
+
+def enter(level: ModuleType, call: list[str], confinement: Confinement, *, root: int = 0, **popen: Any) -> Entered:
+    """Start `call` at one level.
+
+    Args:
+        level: a module of the ladder.
+        call: the command line.
+        confinement: what it may see and use.
+        root: process whose descendants are counted (a supervisor that adopts orphans counts its own); 0 for the
+            program itself.
+        popen: how its output is read.
+    """
+    ours, theirs = socket.socketpair()
+    read, write = os.pipe()
+    os.write(write, seccomp.denial())  # smaller than a pipe's buffer
+    os.close(write)
+    confine = level.before_exec(confinement)
+    others = 0 if os.geteuid() == 0 else _processes_of_this_user()
+
+    def before() -> None:
+        _limit_births(theirs, others + confinement.processes)
+        confine()
+
+    with ours, theirs:
+        try:
+            process = subprocess.Popen(
+                level.command(call, confinement, read),
+                stdin=subprocess.DEVNULL,
+                cwd=confinement.out,
+                env=confinement.environment,
+                start_new_session=True,
+                preexec_fn=before,
+                pass_fds=(read,),
+                **popen,
+            )
+        finally:
+            os.close(read)
+        word, descriptors, _, _ = socket.recv_fds(ours, 64, 1)
+    births = None
+    if descriptors:
+        births = Births(
+            descriptors[0],
+            _counter(root or process.pid, itself=not root),
+            confinement.processes,
+            confinement.threads,
+        )
+    return Entered(process, births, {"births": word.decode(), **level.facts()})
+
+
+def _limit_births(told: socket.socket, user_limit: int) -> None:
+    """In the child: ask the supervisor before each birth, else count the user's processes, else leave it to be watched."""
+    try:
+        listener = seccomp.install(seccomp.births(), listen=True)
+    except OSError:
+        if os.geteuid() == 0:  # never bound by the count
+            told.send(b"watched")
+            return
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_NPROC, (user_limit, user_limit))
+        told.send(b"counted for the user (RLIMIT_NPROC)")
+        return
+    socket.send_fds(told, [b"asked for (seccomp notification)"], [listener])
+    os.close(listener)
+
+
+def _counter(root: int, *, itself: bool) -> Callable[[], tuple[int, int]]:
+    def count() -> tuple[int, int]:
+        now = family.census(root, itself=itself)
+        return len(now.processes), now.threads
+
+    return count
+
+
+def _processes_of_this_user() -> int:
+    """Threads of this user: what RLIMIT_NPROC counts."""
+    total = 0
+    for entry in Path("/proc").iterdir():
+        with contextlib.suppress(OSError, ValueError, IndexError):
+            if entry.name.isdigit() and entry.stat().st_uid == os.geteuid():
+                total += int((entry / "stat").read_text().rpartition(")")[2].split()[17])
+    return total
+
+
+def run(
+    level: ModuleType, call: list[str], confinement: Confinement, timeout_s: float
+) -> "subprocess.CompletedProcess":
+    """Run a short program to its end and return what it said; killed when it takes too long."""
+    entered = enter(level, call, confinement, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    killer = threading.Timer(timeout_s, family.end, (entered.process.pid, confinement.token))
+    killer.start()
+    try:
+        out, errors = entered.process.communicate()
+    finally:
+        killer.cancel()
+        family.end(entered.process.pid, confinement.token)
+    return subprocess.CompletedProcess(call, entered.process.returncode, out, errors)
