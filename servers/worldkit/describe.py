@@ -40,7 +40,8 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
     pulled = pulled_bodies(model)
     joint_types = [mujoco.mjtJoint(t).name.removeprefix("mjJNT_").lower() for t in model.jnt_type]
     options = model.opt
-    shown = visible(model)
+    shown, collides = visible(model), (model.geom_contype != 0) | (model.geom_conaffinity != 0)
+    collides[model.pair_geom1] = collides[model.pair_geom2] = True
     return {
         "simulator": {"name": "mujoco", "version": mujoco.__version__},
         "model": {"name": _model_name(model), "fingerprint": fingerprint(model)},
@@ -75,7 +76,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             for j, name in enumerate(names(model, "joint", model.njnt))
         ],
         "geoms": [
-            {**_geom(model, g, name, bodies), "visible": bool(shown[g])}
+            {**_geom(model, g, name, bodies), "visible": bool(shown[g]), "collides": bool(collides[g])}
             for g, name in enumerate(names(model, "geom", model.ngeom))
         ],
         "tendons": [
@@ -94,6 +95,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             }
             for s, name in enumerate(names(model, "sensor", model.nsensor))
         ],
+        "flexes": [_flex(model, f, name, bodies) for f, name in enumerate(names(model, "flex", model.nflex))],
         "excludes": [[bodies[int(s) >> 16], bodies[int(s) & 0xFFFF]] for s in model.exclude_signature],
         "cameras": names(model, "camera", model.ncam),
         "equalities": [
@@ -148,6 +150,19 @@ def _geom(model: "mujoco.MjModel", g: int, name: str, bodies: list[str]) -> dict
         "friction": model.geom_friction[g].tolist(),
         "surfacevel": bool(model.geom_surfacevel[g].any()),
         "adhesion": bool(model.geom_adhesion[g].any()),
+    }
+
+
+def _flex(model: "mujoco.MjModel", f: int, name: str, bodies: list[str]) -> dict[str, Any]:
+    """One flex: how many vertices, and which static bodies hold some of them."""
+    first = int(model.flex_vertadr[f])
+    owners = model.flex_vertbodyid[first : first + int(model.flex_vertnum[f])]
+    held = [int(b) for b in owners if b >= 0 and model.body_treeid[b] < 0 and model.body_mocapid[b] < 0]
+    return {
+        "name": name,
+        "vertices": len(owners),
+        "pinned": len(held),
+        "pinned_to": sorted({bodies[b] for b in held}),
     }
 
 

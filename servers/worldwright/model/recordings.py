@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .errors import RecordingError
+from .loads import Loads
 from .mechanics import Mechanics
 from .trajectory import OPTIONAL_SHAPES, SHAPES, Contacts, Interventions, Trajectory
 
@@ -124,6 +125,7 @@ def _from_recording(recording: Any) -> Trajectory:
             (float(time), str(name), int(count))
             for time, name, count in zip(warned.time, warned.warning, warned.count, strict=True)
         ),
+        loads=_loads(recording),
         mechanics=mechanics,
         meta=recording.meta,
         time_step=float(recording.time_step),
@@ -132,3 +134,19 @@ def _from_recording(recording: Any) -> Trajectory:
     )
     found.verify(str(recording.folder))
     return found
+
+
+def _loads(recording: Any) -> Loads:
+    edits = recording.edits
+    return Loads(
+        eq_force=recording.eq_force,
+        eq_active=recording.eq_active.astype(bool),
+        tendon_force=recording.tendon_force,
+        actuator_force=recording.actuator_force,
+        ctrl=recording.ctrl,
+        edits=tuple(
+            (float(time), str(array), int(index), float(value))
+            for time, array, index, value in zip(edits.time, edits.array, edits.index, edits.value, strict=True)
+        ),
+        overlaps=recording.overlaps,
+    )

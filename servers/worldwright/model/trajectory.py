@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from .errors import NotFoundError, RecordingError
+from .loads import Loads
 from .mechanics import Mechanics, rotation
 
 Array = np.ndarray
@@ -117,6 +118,8 @@ class Trajectory:
     interventions: Interventions | None = None
     warnings: tuple[tuple[float, str, int], ...] | None = None
     """Simulator warnings: time in s, name, count."""
+    loads: Loads | None = None
+    """What constraints, tendons and actuators exert."""
     mechanics: Mechanics = field(default_factory=Mechanics)
     meta: Mapping[str, Any] = field(default_factory=dict)
     time_step: float = 0.0
@@ -249,6 +252,8 @@ class Trajectory:
                 cut[f.name] = value[:row]
         if self.contacts is not None:
             cut["contacts"] = self.contacts.take(self.contacts.row < row)
+        if self.loads is not None:
+            cut["loads"] = self.loads.before(row)
         return replace(self, **cut)
 
     @cached_property

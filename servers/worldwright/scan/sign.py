@@ -57,6 +57,8 @@ class Context:
     duration_s: float | None = None
     rests: tuple[str, ...] = ()
     """Bodies that an objective claims to come to rest or to stay."""
+    plan: Plan | None = None
+    """The whole plan, for what is asked seldom."""
 
     @classmethod
     def of(cls, plan: Plan | None) -> "Context":
@@ -79,6 +81,7 @@ class Context:
             interventions=plan.simulation_parameters.interventions,
             duration_s=None if isinstance(duration, str) else duration,
             rests=tuple(dict.fromkeys(name for name in rests if name)),
+            plan=plan,
         )
 
     @cached_property

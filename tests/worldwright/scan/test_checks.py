@@ -42,7 +42,7 @@ def test_good_cases_block_nowhere(entry, make, good):
 def test_codes_and_documentation():
     assert len(CHECKS) >= 16
     for code, entry in CHECKS.items():
-        assert code.startswith("WS1") and len(code) == 5
+        assert code.startswith("WS") and len(code) == 5
         assert entry.GOOD and entry.BAD
         for heading in ("What it means:", "Formula:", "Threshold:", "Source:"):
             if heading == "Threshold:" and "Severity:" in entry.doc:
