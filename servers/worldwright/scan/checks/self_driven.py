@@ -31,7 +31,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         peak = float(np.abs(force).max(initial=0.0))
         work = "blocking" if context.planned else "info"
         message = f"actuator {name} exerts up to {peak:.3g} on {', '.join(bodies) or 'the world'} without being asked"
-        yield Sign(name, (trajectory.t[0], trajectory.t[-1]), peak, 0.0, "N, N·m", work, message)  # type: ignore[arg-type]
+        yield Sign(name, (trajectory.t[0], trajectory.t[-1]), peak, 0.0, "N, N·m", work, message)
 
 
 def self_driven(trajectory: Trajectory) -> Iterator[tuple[str, tuple[str, ...], np.ndarray]]:

@@ -69,19 +69,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         if asked is None or history is None:
             continue
         now = max(0, int(np.searchsorted(trajectory.t, time - 1e-9)) - 1)  # the row before the switch took effect
-        crossed = (
-            history >= asked.number * (1 - TOLERANCE) if asked.rising else history <= asked.number * (1 + TOLERANCE)
-        )
-        first = int(np.argmax(crossed)) if crossed.any() else len(crossed)
-        delay = float(time - trajectory.t[first]) if first < len(crossed) else 0.0
-        allowed = max(DELAY_S, 3 * trajectory.interval_s)
-        sign = ">" if asked.rising else "<"
-        if not crossed[max(0, now - 2) : now + 2].any() and first >= now:
-            message = f"{name} is switched at {time:.3f} s, though its {asked.quantity} is {history[now]:.4g}, not {sign} {asked.number:g}"
+        sign = 1.0 if asked.rising else -1.0
+        beyond = sign * (history / asked.number - 1.0)
+        clearly = np.flatnonzero(beyond[: now + 1] > TOLERANCE)
+        said = f"{name} is switched at {time:.3f} s, though its {asked.quantity}"
+        if not (beyond[: now + 2] >= -TOLERANCE).any():
+            message = f"{said} is {history[now]:.4g}, not {'>' if asked.rising else '<'} {asked.number:g}"
             yield Sign(name, (time, time), float(history[now]), asked.number, asked.quantity, "blocking", message)
-        elif delay > allowed:
-            message = f"{name} is switched at {time:.3f} s, though its {asked.quantity} passed {asked.number:g} at {trajectory.t[first]:.3f} s"
-            yield Sign(name, (trajectory.t[first], time), delay, allowed, "s", "blocking", message)
+        elif len(clearly) and time - trajectory.t[clearly[0]] > max(DELAY_S, 3 * trajectory.interval_s):
+            first = float(trajectory.t[clearly[0]])
+            message = f"{said} passed {asked.number:g} at {first:.3f} s"
+            yield Sign(name, (first, time), time - first, DELAY_S, "s", "blocking", message)
 
 
 def measured(trajectory: Trajectory, asked: Threshold, switched: str) -> np.ndarray | None:
