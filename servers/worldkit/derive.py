@@ -65,7 +65,9 @@ def contact_forces(
             local[:, direction] = efc_force[np.where(sliding, along + direction, nothing)]
     else:
         # A pyramid has one force along each of its edges, normal + mu tangent and normal - mu tangent in turn.
-        edge = np.stack([efc_force[np.where(2 * (dim - 1) > k, along + k, nothing)] for k in range(PYRAMID_EDGES)])
+        edge = np.stack(
+            [efc_force[np.where(sliding & (2 * (dim - 1) > k), along + k, nothing)] for k in range(PYRAMID_EDGES)]
+        )
         edge = np.where(sliding, edge, 0.0)
         local[:, 0] = np.where(sliding, edge.sum(axis=0), efc_force[address])
         local[:, 1] = (edge[0] - edge[1]) * friction[:, 0]

@@ -213,3 +213,14 @@ def test_pyramids_without_friction_and_floors_that_stay(tmp_path):
     ball(spec, "ball", (0, 0, 0.0999), mass=3.0, condim=1)
     recording = record(spec, tmp_path / "t", 500)
     assert recording.contacts.force[-1] == pytest.approx((0, 0, 3 * 9.81), rel=1e-6)
+
+
+def test_a_contact_without_force_is_recorded_under_pyramidal_cones(tmp_path):
+    spec = empty()
+    spec.option.cone = mujoco.mjtCone.mjCONE_PYRAMIDAL
+    floor(spec)
+    ball(spec, "ball", (0, 0, 0.15), gap=0.1)  # seen from afar: a contact that has no place among the forces
+    recording = record(spec, tmp_path / "t", 100)
+    assert (recording.contacts.depth_m < 0).any()
+    far = recording.contacts.depth_m < -0.01
+    np.testing.assert_array_equal(recording.contacts.force[far], 0)

@@ -137,6 +137,16 @@ class Objective(Frozen):
     """Expectations over recorded state: each a mapping with one key, the expectation's name, and its arguments."""
     visual_only: str | None = None
     """Why the claim cannot be measured, when it cannot."""
+    cause: tuple[str, ...] = ()
+    """What the claim is an effect of: bodies, actuators, joints, tendons, constraints, `gravity`, `wind`, or an
+    intervention such as `force:rocket`. Without it, `expect` must fail (`scan --causes`)."""
+    effect: str = ""
+    """The effect in words; where it names one of the expectations, that one is the effect."""
+
+    @field_validator("cause", mode="before")
+    @classmethod
+    def _one_cause(cls, value: Any) -> Any:
+        return (value,) if isinstance(value, str) else value
 
 
 class CameraRow(Frozen):

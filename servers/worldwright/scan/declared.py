@@ -31,7 +31,7 @@ def cast(context: Context) -> frozenset[str]:
         found |= {*plan.object_names(), *(joint.child for joint in plan.topology.joints), *plan.topology.body_positions}
         for objective in plan.objectives:
             for row in objective.expect:
-                found.update(_names(row))
+                found.update(mentioned(row))
     return frozenset(found)
 
 
@@ -49,11 +49,12 @@ def drawn_only(context: Context, meta: Any, name: str) -> bool:
     return name in listed or (plan is not None and any(o.name == name and o.visual_only for o in plan.scene_objects))
 
 
-def _names(value: Any) -> set[str]:
+def mentioned(value: Any) -> set[str]:
+    """Every text anywhere in the arguments of expectations: the names they speak of."""
     if isinstance(value, str):
         return {value}
     if isinstance(value, dict):
-        return {name for inner in value.values() for name in _names(inner)}
+        return {name for inner in value.values() for name in mentioned(inner)}
     if isinstance(value, (list, tuple)):
-        return {name for inner in value for name in _names(inner)}
+        return {name for inner in value for name in mentioned(inner)}
     return set()

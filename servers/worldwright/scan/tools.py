@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from ..expose import reads
+from ..model.audits import CausesReport, RefineReport
 from ..model.errors import NotFoundError
 from ..model.evidence import EvidenceKey, ExpectReport, ScanReport
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
+from ..model.progress import Progress, silent
 from ..model.run import Run
 from .answers import Answer
 
@@ -20,11 +22,25 @@ if TYPE_CHECKING:
 RunName = Annotated[
     str, Field(description="A run folder or its name; or a recording: a trajectory folder or .npz file.")
 ]
+MOST_TOLD = 20
 Window = Annotated[str, Field(description="Seconds, as `START:END`; empty: all of it.")]
 
 
 class Scanned(ScanReport):
-    """A scan report with a readable text."""
+    """A scan report with a readable text, and with the audits that were asked for."""
+
+    acting: tuple[str, ...] = ()
+    """What acted on the state besides the engine, one line each (all of it in `interventions.json`)."""
+    refine: RefineReport | None = None
+    causes: CausesReport | None = None
+    pending: tuple[str, ...] = ()
+    """Repetitions of the physics pass that still run: call again with the same arguments."""
+
+    @property
+    def ok(self) -> bool:
+        """Nothing blocks, and every audit asked for is finished and found nothing."""
+        audits = [report.ok for report in (self.refine, self.causes) if report is not None]
+        return super().ok and all(audits) and not self.pending
 
     def text(self) -> str:
         """Anomalies first, then what could not be checked."""
@@ -32,8 +48,20 @@ class Scanned(ScanReport):
         lines = [str(anomaly) for anomaly in self.anomalies]
         lines += [f"skipped {c.code} {c.name}: {c.reason}" for c in self.checks if c.status == "skipped"]
         blocking = sum(a.severity == "blocking" for a in self.anomalies)
-        verdict = "plausible" if self.ok else "not plausible"
+        verdict = "not plausible" if blocking else "plausible"
         lines.append(f"{looked} checks: {verdict}, {blocking} blocking, {len(self.anomalies) - blocking} other")
+        lines += [f"acted: {row}" for row in self.acting]
+        if self.refine is not None:
+            lines += [str(anomaly) for anomaly in self.refine.anomalies]
+            same = sum(not claim.artefact for claim in self.refine.claims)
+            lines.append(f"at half the time step: {same} of {len(self.refine.claims)} expectations say the same")
+        if self.causes is not None:
+            lines += [str(anomaly) for anomaly in self.causes.anomalies]
+            lines += [f"{c.outcome}: objective {c.objective}: {c.message}" for c in self.causes.causes]
+            lines += [f"{t.outcome}: {t.message}" for t in self.causes.triggers]
+            lines += [h.message for h in self.causes.helpers]
+        if self.pending:
+            lines.append(f"still running: {', '.join(self.pending)}; call again with the same arguments")
         return "\n".join(lines)
 
 
@@ -81,22 +109,44 @@ class PlotFacts(Frozen):
         return f"{self.quantity} of {', '.join(self.bodies) or 'the bodies that move most'}"
 
 
-def scan(run: RunName) -> Scanned:
+def scan(
+    run: RunName,
+    refine: Annotated[bool, Field(description="Also repeat the physics at half the time step.")] = False,
+    causes: Annotated[bool, Field(description="Also take each declared cause away, and weaken it.")] = False,
+    timeout_s: Annotated[float, Field(description="Return after so many seconds.", ge=0, le=42)] = 40,
+    progress: Progress = silent,
+) -> Scanned:
     """Look for motion that cannot be: jumps, sinking, energy from nowhere, undeclared pushes, bodies that never settle.
 
-    Reads the recording of the current program and plan and keeps the report as evidence. Each anomaly names its body,
-    its time window, what was measured and the threshold; `blocking` ones stand in the way of acceptance. Checks whose
-    channels were not recorded say so.
+    Reads the recording of the current program and plan and keeps the report as evidence, with the ledger of what acted
+    and who carried the load. Each anomaly names its body, its time window, what was measured and the threshold;
+    `blocking` ones stand in the way of acceptance. `refine` reports claims that the time step decides, `causes` effects
+    that come without their cause or by the clock; both repeat the physics pass: while any is `pending`, call again.
     """
     from . import engine
     from .sign import Context
 
     folder, key, plan, trajectory = _subject(run)
     report = engine.scan(trajectory, Context.of(plan))
-    if folder is not None and key is not None:
-        folder.keep(key, "scan", report)
-        folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
-    return Scanned.model_validate(report.model_dump())
+    if folder is None or key is None or plan is None:
+        if refine or causes:
+            raise NotFoundError(
+                "a lone recording has no program to repeat", place=run, next_move="name a run folder instead"
+            )
+        return Scanned.model_validate(report.model_dump())
+    from .audits import running
+
+    folder.keep(key, "scan", report)
+    folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
+    acted = running.interventions(folder, key, plan, trajectory, report)
+    audited = running.Audited()
+    if refine or causes:
+        audited = running.audit(
+            folder, key, plan, trajectory, acted,
+            refined=refine, causes=causes, timeout_s=timeout_s, progress=progress,
+        )  # fmt: skip
+    told = tuple(row.text for row in acted.acting)
+    return Scanned.model_validate({**report.model_dump(), **audited.model_dump(), "acting": told[:MOST_TOLD]})
 
 
 def expect(run: RunName) -> Expected:

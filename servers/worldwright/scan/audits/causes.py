@@ -1,0 +1,197 @@
+"""The causal audit: take the cause away, and the effect must vanish; make it weaker, and the effect must respond.
+
+For each objective with a `cause`: the physics pass is repeated without it, and its expectations must now fail (those that
+merely mention the cause are left out: a ball that is not there touches nothing). Then it is repeated with the cause at
+80 % and at 50 %: the moment of the effect, or what was measured, must move, or the effect must fail to come; one
+perturbation would not be enough, since a timer hides in the slack of one. Declared interventions are each switched off
+once, to say which claims live by them.
+"""
+
+from dataclasses import dataclass, field
+from itertools import product
+
+from ...model.audits import Acting, CauseResult, CausesReport, HelperResult, Response
+from ...model.errors import NotFoundError
+from ...model.evidence import ExpectationResult, ExpectReport
+from ...model.finding import Anomaly, AnomalySeverity
+from ...model.plan import Plan
+from ...model.trajectory import Trajectory
+from .. import expecting
+from ..declared import mentioned
+from . import moment, triggers
+from .trials import Trials
+
+WEAKER = (0.8, 0.5)
+MOST_HELPERS = 8
+RESPONDS = 1e-3
+"""Relative change of a measured value that counts as a response."""
+
+
+@dataclass
+class Causes:
+    """The causal audit of one recording; `plan_trials` asks for repetitions, `report` judges them."""
+
+    trajectory: Trajectory
+    plan: Plan
+    acting: tuple[Acting, ...]
+    trials: Trials
+    expected: ExpectReport = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.expected = expecting.expect(self.trajectory, self.plan)
+
+    def plan_trials(self) -> None:
+        """Ask for every repetition that the judgement needs."""
+        step = self.trajectory.time_step or self.trajectory.interval_s
+        for objective in self.plan.objectives:
+            for cause in objective.cause:
+                self.trials.ask("--without", cause)
+                for factor in WEAKER:
+                    self.trials.ask("--weaken", f"{cause}={factor:g}")
+        if any(not (row.declared and row.when != "state") for row in triggers.discrete(self.acting, step)):
+            for factor in triggers.SLOWER:
+                if words := triggers.slower(self.plan, self.trajectory, factor):
+                    self.trials.ask(*words)
+        for row in self._helpers():
+            self.trials.ask("--without", f"{row.kind}:{row.target}")
+
+    def _helpers(self) -> list[Acting]:
+        return [row for row in self.acting if row.declared][:MOST_HELPERS]
+
+    def report(self) -> CausesReport:
+        """The judgement; every repetition must have been made or have failed."""
+        step = self.trajectory.time_step or self.trajectory.interval_s
+        causes = tuple(self._cause(i, cause) for i, o in enumerate(self.plan.objectives) for cause in o.cause)
+        tested = {label: made for label, made in self.trials.made.items() if label.startswith("weaken")}
+        found = tuple(triggers.judge(self.trajectory, row, tested) for row in triggers.discrete(self.acting, step))
+        anomalies = [*self._anomalies(causes), *triggers.anomalies(found)]
+        return CausesReport(
+            trajectory_sha256=self.trajectory.sha256,
+            trials=self.trials.told(),
+            causes=causes,
+            triggers=found,
+            helpers=tuple(self._helper(row) for row in self._helpers()),
+            anomalies=tuple(anomalies),
+        )
+
+    # -- one objective -----------------------------------------------------------------------------------------------
+
+    def _cause(self, index: int, cause: str) -> CauseResult:
+        objective, known = self.plan.objectives[index], self.expected.objectives[index]
+        effects = self._effects(index, cause)
+        facts = {
+            "objective": index,
+            "claim": objective.claim,
+            "cause": cause,
+            "effect": objective.effect or ", ".join(e.name for e in effects),
+            "as_planned": tuple(self._respond("as planned", self.trajectory, e) for e in effects),
+        }
+        gone = f"without {cause}"
+        if not effects or any(e.status != "holds" for e in known.expectations):
+            why = "no expectation measures the effect" if not effects else "the effect does not hold as planned"
+            return CauseResult(**facts, outcome="unclear", message=f"{why}, so its cause cannot be tested")
+        if gone in self.trials.failed:
+            why = self.trials.failed[gone]
+            return CauseResult(**facts, outcome="unclear", message=f"{cause} could not be taken away: {why}")
+        without = tuple(self._respond(gone, self.trials.made[gone], e) for e in effects)
+        survivors = [e.name for e, r in zip(effects, without, strict=True) if r.status == "holds"]
+        facts["without"] = without
+        if len(survivors) == len(effects):
+            message = f"without {cause}, {', '.join(survivors)} still holds: {cause} is not its cause"
+            return CauseResult(**facts, outcome="survives", message=message)
+        labels = [label for f in WEAKER if (label := f"weaken {cause}={f:g}") in self.trials.made]
+        answers = [[self._respond(label, self.trials.made[label], e) for e in effects] for label in labels]
+        facts["weakened"] = tuple(r for row in answers for r in row)
+        moved, what = self._moves(facts["as_planned"], answers)
+        vanishes = f"without {cause} the effect does not come"
+        if survivors:
+            vanishes += f" (though {', '.join(survivors)} still holds)"
+        if not labels:
+            why = self.trials.failed.get(f"weaken {cause}={WEAKER[0]:g}", "")
+            return CauseResult(**facts, outcome="caused", message=f"{vanishes}; it cannot be weakened: {why}")
+        if not moved:
+            message = (
+                f"{vanishes}, but with {cause} at {' and '.join(f'{f:.0%}' for f in WEAKER)} nothing moves: {what}"
+            )
+            return CauseResult(**facts, outcome="timed", message=message)
+        return CauseResult(**facts, outcome="caused", message=f"{vanishes}; weakened, {what}")
+
+    def _effects(self, index: int, cause: str) -> tuple[ExpectationResult, ...]:
+        """The expectations that are the effect: those it names, else those that do not speak of the cause itself."""
+        objective, results = self.plan.objectives[index], self.expected.objectives[index].expectations
+        named = tuple(e for e in results if e.name in objective.effect.replace(",", " ").split())
+        if named:
+            return named
+        own = cause.rpartition(":")[2].partition("/")[0]
+        others = tuple(e for e in results if own not in mentioned(e.arguments))
+        return others or results
+
+    def _respond(self, trial: str, trajectory: Trajectory, effect: ExpectationResult) -> Response:
+        try:
+            found = expecting.measure(trajectory, effect.name, effect.arguments)
+        except NotFoundError as unknown:
+            return Response(trial=trial, status="unknown", message=str(unknown))
+        at = moment.event_s(trajectory, effect.name, effect.arguments) if found.status == "holds" else None
+        return Response(
+            trial=trial,
+            status=found.status,
+            event_s=at,
+            measured=found.measured,
+            unit=found.unit,
+            message=f"{effect.name}: {found.message}",
+        )
+
+    def _moves(self, planned: tuple[Response, ...], answers: list[list[Response]]) -> tuple[bool, str]:
+        """Whether any weaker cause moved any effect: its moment where it has one, else what was measured of it."""
+        still = []
+        for row, (number, before) in product(answers, enumerate(planned)):
+            after = row[number]
+            if after.status != before.status:
+                return True, f"{after.message} ({after.trial})"
+            if before.event_s is not None and after.event_s is not None:
+                if abs(after.event_s - before.event_s) > 1.5 * self.trajectory.interval_s:
+                    return True, f"it comes at {after.event_s:.3f} s instead of {before.event_s:.3f} s ({after.trial})"
+                still.append(f"it comes at {after.event_s:.3f} s ({after.trial})")
+            elif before.measured is not None and after.measured is not None:
+                if abs(after.measured - before.measured) > RESPONDS * max(abs(before.measured), 1e-9):
+                    return True, f"{after.measured:.4g} {after.unit} instead of {before.measured:.4g} ({after.trial})"
+                still.append(f"{after.measured:.4g} {after.unit} ({after.trial})")
+        return False, "; ".join(dict.fromkeys(still)) or "nothing was measured"
+
+    def _anomalies(self, causes: tuple[CauseResult, ...]) -> list[Anomaly]:
+        codes: dict[str, tuple[str, str, AnomalySeverity]] = {
+            "survives": ("WS321", "effect_without_cause", "blocking"),
+            "timed": ("WS322", "effect_unmoved", "blocking"),
+            "unclear": ("WS324", "cause_untested", "blocking"),
+        }
+        found = []
+        for result in causes:
+            if result.outcome not in codes:
+                continue
+            code, name, severity = codes[result.outcome]
+            if result.outcome == "timed" and not any(r.event_s is not None for r in result.as_planned):
+                severity = "warn"  # a measure may saturate; a moment may not stand still
+            times = [r.event_s for r in result.as_planned if r.event_s is not None]
+            at = min(times, default=float(self.trajectory.t[-1]))
+            message = f"objective {result.objective}: {result.message}"
+            found.append(
+                Anomaly(
+                    code=code, name=name, severity=severity, body=result.cause, window_s=(at, at),
+                    measured=1.0, threshold=0.0, unit="effects", message=message,
+                )
+            )  # fmt: skip
+        return found
+
+    # -- one declared intervention -----------------------------------------------------------------------------------
+
+    def _helper(self, row: Acting) -> HelperResult:
+        label = f"without {row.kind}:{row.target}"
+        facts = {"kind": row.kind, "target": row.target, "law": row.law}
+        if label not in self.trials.made:
+            why = self.trials.failed.get(label, "")
+            return HelperResult(**facts, needed_by=(), message=f"it could not be switched off: {why}")
+        after = expecting.expect(self.trials.made[label], self.plan)
+        pairs = zip(self.expected.objectives, after.objectives, strict=True)
+        needed = tuple(one.index for one, other in pairs if one.status == "proved" and other.status != "proved")
+        said = f"objectives {', '.join(map(str, needed))} fail" if needed else "every objective holds all the same"
+        return HelperResult(**facts, needed_by=needed, message=f"without the {row.kind} on {row.target}, {said}")
