@@ -90,7 +90,7 @@ INTERVENTION_COLUMNS = (
         (VALUES,),
         "N, N m | control, force | m, rad | m/s, rad/s | parameter's",
         "force and torque on the body; control and actuator force; displacement and rotation vector; change of linear "
-        "and angular velocity; new state of the constraint; first new values of the parameter; zero-padded",
+        "and angular velocity; new state of the constraint and what it carried; first new values of the parameter; zero-padded",
     ),
     Column("work_j", (), "J", "work done on the system; 0 where none can be attributed"),
 )

@@ -10,10 +10,15 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .describe import names
+from .interventions import refresh
 
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
+
+
+SHAPING = ("eq_active", "mocap_pos", "mocap_quat")
+"""Inputs that positions and constraints derive from, before forces come in."""
 
 
 class Hold:
@@ -129,10 +134,14 @@ class _Held:
         if self._control is not None:
             self._control(model, data)
         self._uninstall()
+        stale = False
         for array, index, share in self._groups:
             flat = getattr(data, array).reshape(-1)
             self._authored[array] = flat[index].copy()
-            flat[index] = self._left(array, flat[index], share)
+            flat[index] = left = self._left(array, flat[index], share)
+            stale |= array in SHAPING and left.tobytes() != self._authored[array].tobytes()
+        if stale:  # the program may have had the engine derive everything from what it wrote
+            refresh(model, data)
         if before is not None:
             self._take_back(model, data, *before)
         if self._parameters is not None:

@@ -172,7 +172,8 @@ class Ledger:
             self._pushes.carried(body, moved)
         for equality in switched:
             value = self._new[self._part["EQ_ACTIVE"]][equality]
-            self._record("constraint", self._equalities[equality], (value,))
+            load = 0.0 if value else self._load(int(equality))
+            self._record("constraint", self._equalities[equality], (value, load))
         for name, target in (("ACT", "act"), ("PLASTIC", "plastic"), ("TIME", "time")):
             for index in changed(name)[:MOST_ELEMENTS]:
                 part = self._part[name]
@@ -190,6 +191,17 @@ class Ledger:
         mujoco.mj_comVel(self._model, self._past)
         mujoco.mj_energyPos(self._model, self._past)
         mujoco.mj_energyVel(self._model, self._past)
+
+    def _load(self, equality: int) -> float:
+        """Norm of the force that an equality exerted in the remembered state, which no row shows once it is off."""
+        import mujoco
+        import numpy as np
+
+        past = self._past
+        assert past is not None
+        mujoco.mj_forwardSkip(self._model, past, mujoco.mjtStage.mjSTAGE_NONE, 1)
+        mine = past.efc_id[: past.ne] == equality
+        return float(np.sqrt((past.efc_force[: past.ne][mine] ** 2).sum()))
 
     def _written(self, positions: "np.ndarray", velocities: "np.ndarray") -> None:
         """Poses and velocities of joints were written: displacement, change of velocity, jump in energy."""

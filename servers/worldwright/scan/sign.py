@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 
+from ..model.declared import declaration
 from ..model.finding import AnomalySeverity
 from ..model.plan import Intervention, Plan
 from ..model.trajectory import Trajectory
@@ -84,20 +84,9 @@ class Context:
             plan=plan,
         )
 
-    @cached_property
-    def declared(self) -> frozenset[tuple[str, str]]:
-        """Every (kind, body) the plan declares to act on."""
-        return frozenset((i.kind, body) for i in self.interventions for body in i.bodies)
-
     def declares(self, kind: str, target: str) -> bool:
-        """Whether the plan means this kind of intervention on this target.
-
-        A declared `solver` (an engine outside MuJoCo) covers the forces it applies and the callbacks it installs. A
-        target such as `gate.pos` or `gate/hinge` is its body's.
-        """
-        kinds = {kind, "solver"} if kind in ("force", "torque", "callback", "velocity", "pose") else {kind}
-        owner = target.replace("/", ".").replace("[", ".").split(".")[0]
-        return any((k, name) in self.declared for k in kinds for name in (target, owner))
+        """Whether the plan means this kind of intervention on this target; see `model.declared`."""
+        return declaration(kind, target, self.interventions) is not None
 
     def acts_on(self, body: str, kinds: Iterable[str]) -> bool:
         """Whether the plan declares any of these kinds on the body."""

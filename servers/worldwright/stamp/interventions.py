@@ -6,11 +6,10 @@ target). Everything else is undeclared and blocks acceptance, whatever it did.
 
 from pathlib import Path
 
+from ..model.declared import declaration
 from ..model.errors import RecordingError
 from ..model.frozen import Frozen
 from ..model.plan import Intervention
-
-BY_SOLVER = ("force", "torque", "callback", "velocity", "pose")
 
 
 class Acted(Frozen):
@@ -65,14 +64,3 @@ def acted(recording: Path, declared: tuple[Intervention, ...]) -> tuple[Acted, .
             )
         )
     return tuple(found)
-
-
-def declaration(kind: str, target: str, declared: tuple[Intervention, ...]) -> Intervention | None:
-    """The plan's row that declares this kind on this target.
-
-    A declared `solver` (an engine outside MuJoCo) covers the forces, poses and velocities it writes and the callbacks
-    it installs. A target such as `gate.pos` or `gate/hinge` is its body's. The anomaly check WS108 has the same rule.
-    """
-    kinds = {kind, "solver"} if kind in BY_SOLVER else {kind}
-    owner = target.replace("/", ".").replace("[", ".").split(".")[0]
-    return next((row for row in declared if row.kind in kinds and {target, owner}.intersection(row.bodies)), None)

@@ -53,7 +53,7 @@ class Causes:
                 if words := triggers.slower(self.plan, self.trajectory, factor):
                     self.trials.ask(*words)
         for row in self._helpers():
-            self.trials.ask("--without", f"{row.kind}:{row.target}")
+            self.trials.ask("--without", self._switch(row))
 
     def _helpers(self) -> list[Acting]:
         return [row for row in self.acting if row.declared][:MOST_HELPERS]
@@ -184,8 +184,15 @@ class Causes:
 
     # -- one declared intervention -----------------------------------------------------------------------------------
 
+    def _switch(self, row: Acting) -> str:
+        """How the program is told to leave an intervention out; a motor is switched off, asked or not."""
+        if row.kind == "control":
+            known = [str(a["name"]) for a in self.trajectory.meta.get("actuators") or ()]
+            return "actuator:" + next((n for n in known if row.target in (n, f"{row.body}/{n}")), row.target)
+        return f"{row.kind}:{row.target}"
+
     def _helper(self, row: Acting) -> HelperResult:
-        label = f"without {row.kind}:{row.target}"
+        label = f"without {self._switch(row)}"
         facts = {"kind": row.kind, "target": row.target, "law": row.law}
         if label not in self.trials.made:
             why = self.trials.failed.get(label, "")

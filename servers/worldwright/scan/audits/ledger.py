@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 
 from ...model.audits import Acting, Carrier, InterventionReport, LoadPath, Seen
+from ...model.declared import declaration, owner
 from ...model.finding import Anomaly
-from ...model.plan import Intervention
 from ...model.trajectory import Trajectory
 from ..checks.self_driven import self_driven
 from ..checks.unloaded_tendon import weights
@@ -45,18 +45,6 @@ def report(trajectory: Trajectory, context: Context, anomalies: tuple[Anomaly, .
         ),
         anomalies=tuple(a for a in anomalies if a.code == "WS108" or a.code.startswith("WS3")),
     )
-
-
-def owner(target: str) -> str:
-    """The body, actuator or constraint inside a target such as `gate/hinge` or `gate.geom_friction[skin]`."""
-    return target.replace("/", ".").replace("[", ".").split(".")[0]
-
-
-def declaration(kind: str, target: str, declared: tuple[Intervention, ...]) -> Intervention | None:
-    """The plan's row that declares this kind on this target; a `solver` row covers what it writes and installs."""
-    kinds = {kind, "solver"} if kind in ("force", "torque", "callback", "velocity", "pose") else {kind}
-    names = {target, owner(target), target.rpartition("/")[2]}
-    return next((row for row in declared if row.kind in kinds and names.intersection(row.bodies)), None)
 
 
 def acting(trajectory: Trajectory, context: Context) -> Iterator[Acting]:

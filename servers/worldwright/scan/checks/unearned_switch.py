@@ -59,7 +59,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each switch that came too early or too late."""
     ledger, seen = trajectory.interventions, set()
     assert ledger is not None
-    for time, kind, target in zip(ledger.time, ledger.kind, ledger.target, strict=True):
+    for time, kind, target, value in zip(ledger.time, ledger.kind, ledger.target, ledger.value, strict=True):
         name = str(target)
         if kind != "constraint" or name in seen:
             continue
@@ -69,6 +69,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         if asked is None or history is None:
             continue
         now = max(0, int(np.searchsorted(trajectory.t, time - 1e-9)) - 1)  # the row before the switch took effect
+        if asked.quantity == "load" and value[1] > 0:  # what it carried in the moment it was let go, which no row shows
+            history = history.copy()
+            history[min(now + 1, len(history) - 1)] = value[1]
         sign = 1.0 if asked.rising else -1.0
         beyond = sign * (history / asked.number - 1.0)
         clearly = np.flatnonzero(beyond[: now + 1] > TOLERANCE)
