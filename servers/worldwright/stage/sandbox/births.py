@@ -12,7 +12,6 @@ import select
 import struct
 import threading
 import time
-from collections import deque
 from collections.abc import Callable
 
 from .syscalls import number
@@ -37,8 +36,9 @@ class Births:
     def __init__(self, listener: int, count: Callable[[], tuple[int, int]], processes: int, threads: int) -> None:
         self.listener, self.count = listener, count
         self.limits = (processes, threads)
-        self.seen = (0, 0)
-        self.allowed: deque[tuple[float, int, int]] = deque()
+        self.seen, self.since = (0, 0), [0, 0]
+        self.pending: dict[int, tuple[float, bool]] = {}
+        """By who asked: when it was allowed, and whether a thread. Nobody can ask again before the birth is done."""
         self.exceeded = ""
         """What was exceeded, once something was: the job is to be stopped."""
         self.thread = threading.Thread(target=self._serve, daemon=True)
@@ -59,9 +59,9 @@ class Births:
                     if gone.errno in (errno.ENOENT, errno.EINTR):  # the asker died meanwhile
                         continue
                     return
-                identity, _pid, _flags, call = struct.unpack_from("QIIi", question)
+                identity, asker, _flags, call = struct.unpack_from("QIIi", question)
                 flags = struct.unpack_from("Q", question, 32)[0]
-                self._answer(identity, self._may(call == number("clone") and bool(flags & CLONE_THREAD)))
+                self._answer(identity, self._may(asker, call == number("clone") and bool(flags & CLONE_THREAD)))
         finally:
             os.close(self.listener)
 
@@ -72,19 +72,24 @@ class Births:
         except OSError:  # the asker died meanwhile
             return
 
-    def _may(self, thread: bool) -> bool:
+    def _may(self, asker: int, thread: bool) -> bool:
         """Whether one more may be born: what was counted last, and every birth allowed since, stay under the limits."""
-        for fresh in (False, True):
-            if fresh:
-                now = time.monotonic()
-                self.seen = self.count()
-                while self.allowed and now - self.allowed[0][0] > SETTLE_S:
-                    self.allowed.popleft()
-            processes = self.seen[0] + sum(birth[1] for birth in self.allowed)
-            threads = self.seen[1] + len(self.allowed)
-            if threads < self.limits[1] and (thread or processes < self.limits[0]):
-                self.allowed.append((time.monotonic(), 0 if thread else 1, 1))
-                return True
-        limit, what = (self.limits[1], "threads") if thread else (self.limits[0], "processes")
-        self.exceeded = f"it started more than {limit} {what}"
-        return False
+        self.pending.pop(asker, None)
+        if not self._room(thread):
+            now = time.monotonic()
+            self.pending = {who: birth for who, birth in self.pending.items() if now - birth[0] < SETTLE_S}
+            # A birth allowed just now may not have been seen yet: count it, rather twice than not at all.
+            unseen = list(self.pending.values())
+            self.seen, self.since = self.count(), [sum(not birth[1] for birth in unseen), len(unseen)]
+            if not self._room(thread):
+                limit, what = (self.limits[1], "threads") if thread else (self.limits[0], "processes")
+                self.exceeded = f"it started more than {limit} {what}"
+                return False
+        self.pending[asker] = (time.monotonic(), thread)
+        self.since[0] += not thread
+        self.since[1] += 1
+        return True
+
+    def _room(self, thread: bool) -> bool:
+        processes, threads = (seen + since for seen, since in zip(self.seen, self.since, strict=True))
+        return threads < self.limits[1] and (thread or processes < self.limits[0])

@@ -12,6 +12,8 @@ from pathlib import Path
 from . import rlimits, seccomp
 from .confinement import SYSTEM, Confinement, devices, runtime_paths
 
+SETTINGS = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/proc/fs", "/proc/acpi", "/proc/scsi")
+
 
 def unavailable() -> str:
     """Why this level cannot be tried here; empty when it can."""
@@ -28,6 +30,8 @@ def command(call: list[str], confinement: Confinement, denial: int) -> list[str]
         *("--unshare-all", "--die-with-parent", "--new-session", "--clearenv", "--cap-drop", "ALL"),
         *_system(),
         *("--proc", "/proc", "--dev", "/dev"),
+        # A job of root's is still root to the kernel's own settings, whatever capabilities it lacks.
+        *(word for path in SETTINGS if Path(path).exists() for word in ("--ro-bind", path, path)),
         *(word for path in devices() for word in ("--dev-bind", str(path), str(path))),
         *("--size", str(confinement.shared_bytes), "--tmpfs", "/dev/shm", "--remount-ro", "/dev"),
         *binds,

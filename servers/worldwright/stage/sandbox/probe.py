@@ -57,6 +57,7 @@ def attempts(outside: Path, parent: int) -> dict[str, Callable[[], object]]:
         "mount": lambda: system("mount", b"none", bytes(outside), b"no-such-file-system", 0, None),
         "user namespace": lambda: system("unshare", NEW_USER),
         "io_uring": lambda: call(425, 1, 0),
+        "kernel settings": lambda: os.close(os.open("/proc/sys/kernel/core_pattern", os.O_WRONLY)),
         "raise a limit": lambda: _raise_limit(),
     }
 

@@ -44,6 +44,7 @@ _FORBIDDEN = """
 """
 FORBIDDEN = tuple(_FORBIDDEN.split())
 """Refused with EPERM. The last two lines change what a file is called by others, which no Landlock right covers."""
+SCHEDULING = ("sched_setaffinity", "sched_setscheduler", "sched_setparam", "sched_setattr")
 SIGNALS = ("kill", "tkill", "tgkill", "rt_sigqueueinfo", "rt_tgsigqueueinfo", "pidfd_send_signal")
 
 
@@ -92,6 +93,9 @@ def denial(*, landlock_abi: int = 99, own_pid: int | None = None) -> bytes:
         When("ioctl", 1, 0xFFFFFFFF, TIOCSTI),
         When("ioctl", 1, 0xFFFFFFFF, TIOCLINUX),
         When("prctl", 0, 0xFFFFFFFF, PR_SET_PDEATHSIG),
+        # Its own urgency is its own affair; another's is not.
+        *(When(call, 0, 0xFFFFFFFF, 0, differs=True) for call in SCHEDULING),
+        *(When(call, 1, 0xFFFFFFFF, 0, differs=True) for call in ("setpriority", "ioprio_set")),
         # A pointer to new limits: reading the limits passes none.
         When("prlimit64", 2, 0xFFFFFFFF, 0, differs=True),
         When("prlimit64", 2, 0xFFFFFFFF, 0, differs=True, high=True),

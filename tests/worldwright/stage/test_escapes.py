@@ -1,0 +1,159 @@
+"""Every way out that we can think of is barred on both confining levels, tried for real in a real job."""
+
+import hashlib
+import json
+import os
+import secrets
+import socket
+import sysconfig
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+import worldkit
+from worldwright.model import environment
+from worldwright.model.evidence import LintReport
+from worldwright.model.run import Run, sha256_file
+from worldwright.stage import sandbox
+from worldwright.stage.sandbox.probe import started
+from worldwright.stage.tools import start, wait
+
+from . import escapes
+
+
+def world(folder: Path, name: str) -> dict:
+    """Things worth stealing or spoiling, outside of the job."""
+    outside, home = folder / "outside", folder / "home"
+    for path in (outside / "empty", home / ".ssh"):
+        path.mkdir(parents=True)
+    (outside / "victim").write_text("precious")
+    (home / ".ssh" / "id_ed25519").write_text("secret")
+    disks = [path for path in map(Path, ("/dev/vda", "/dev/sda", "/dev/nvme0n1", "/dev/xvda")) if path.exists()]
+    return {
+        "name": name,
+        "outside": str(outside),
+        "victim": str(outside / "victim"),
+        "home": str(home),
+        "real_home": str(Path.home()),
+        "real_names": sorted(path.name for path in Path.home().iterdir()),
+        "secret": str(home / ".ssh" / "id_ed25519"),
+        "worldkit": str(Path(next(iter(worldkit.__path__))) / "__init__.py"),
+        "packages": sysconfig.get_path("purelib"),
+        "disk": str(disks[0] if disks else "/dev/sda"),
+        "pid": os.getpid(),
+        "start": started(os.getpid()),
+        "unix": str(folder / "unix"),
+    }
+
+
+def digest(folder: Path) -> str:
+    """Names, modes and contents of everything below a folder."""
+    lines = []
+    for path in sorted(folder.rglob("*")):
+        content = path.read_bytes() if path.is_file() else b""
+        lines.append(f"{path} {path.lstat().st_mode} {path.lstat().st_mtime_ns} {hashlib.sha256(content).hexdigest()}")
+    return "\n".join(lines)
+
+
+@pytest.fixture(scope="module")
+def outcomes(tmp_path_factory):
+    """Run every attempt once at a level, in a world where somebody really listens."""
+    done: dict[str, dict[str, str]] = {}
+
+    def outcomes(level: str) -> dict[str, str]:
+        if level not in done:
+            done[level] = {}
+            with pytest.MonkeyPatch.context() as patch:
+                patch.setenv("WORLDWRIGHT_SANDBOX", level)
+                patch.setenv("WORLDWRIGHT_TEST_SECRET", "secret")
+                sandbox.level.cache_clear()
+                try:
+                    done[level] = _escape(tmp_path_factory.mktemp(level))
+                finally:
+                    sandbox.level.cache_clear()
+        return done[level]
+
+    return outcomes
+
+
+def _escape(folder: Path) -> dict[str, str]:
+    name = f"worldwright-escape-{secrets.token_hex(6)}"
+    facts = world(folder, name)
+    run = Run(folder / "world")
+    run.folder.mkdir()
+    run.plan.write_text("a plan")
+    shared = Path("/dev/shm", name)
+    if shared.parent.is_dir():
+        shared.write_bytes(b"shared")
+    with ExitStack() as stack:
+        kinds = (socket.AF_INET, socket.SOCK_STREAM), (socket.AF_INET, socket.SOCK_DGRAM)
+        kinds += (socket.AF_UNIX, socket.SOCK_STREAM), (socket.AF_UNIX, socket.SOCK_STREAM)
+        tcp, udp, unix, abstract = (stack.enter_context(socket.socket(*kind)) for kind in kinds)
+        tcp.bind(("127.0.0.1", 0))
+        udp.bind(("127.0.0.1", 0))
+        unix.bind(facts["unix"])
+        abstract.bind("\0" + name)
+        for listener in (tcp, unix, abstract):
+            listener.listen()
+        facts |= {"tcp": tcp.getsockname()[1], "udp": udp.getsockname()[1]}
+        facts |= {"plan": str(run.plan), "program": str(run.program), "journal": str(run.journal)}
+        facts["evidence"] = str(run.folder / "evidence" / "earlier" / "physics" / "result.json")
+        Path(facts["evidence"]).parent.mkdir(parents=True)
+        Path(facts["evidence"]).write_text("{}")
+        source = Path(escapes.__file__).read_text() + f"\n\nmain({facts!r})\n"
+        run.program.write_text(source)
+        run.log("test", "approve", plan_sha256=sha256_file(run.plan))
+        run.keep(run.evidence_key(environment.current().sha256()), "lint", LintReport(rules=1))
+        before = (
+            digest(folder / "outside"),
+            digest(folder / "home"),
+            run.plan.read_bytes(),
+            sha256_file(run.program),
+        )
+        job = start(str(run.folder))
+        while not job.ended:
+            job = wait(str(run.folder), job=job.job, timeout_s=20)
+    shared.unlink(missing_ok=True)
+    assert job.state == "succeeded", job.text() + (run.jobs / job.job / "log.txt").read_text()
+    assert before == (
+        digest(folder / "outside"),
+        digest(folder / "home"),
+        run.plan.read_bytes(),
+        sha256_file(run.program),
+    )
+    assert [entry["action"] for entry in run.entries()] == ["approve", "stage"]
+    assert not any((Path(place) / name).exists() for place in ("/tmp", "/var/tmp", "/etc", "/usr", "/dev/shm"))
+    assert not (Path(facts["packages"]) / "worldwright-escape-test.pth").exists()
+    out = run.evidence(run.evidence_key(environment.current().sha256())) / "physics"
+    return json.loads((out / "outcomes.json").read_text())
+
+
+@pytest.mark.parametrize("level", sandbox.CONFINING)
+@pytest.mark.parametrize("name", escapes.ATTEMPTS)
+def test_there_is_no_way_out(level, name, outcomes):
+    if reason := sandbox.unusable(level):
+        pytest.skip(f"{level} does not work here: {reason}")
+    outcome = outcomes(level).get(name, "the attempts could not be made")
+    if outcome.startswith("not feasible"):
+        pytest.skip(outcome)
+    assert outcome.startswith("barred"), outcome
+
+
+def test_a_broken_wall_is_noticed(tmp_path):
+    """The attempts themselves can succeed: outside of any sandbox, the harmless ones do."""
+    escapes.W.update(world(tmp_path, "x"), out=str(tmp_path))
+    there = Path.cwd()
+    os.chdir(tmp_path)
+    try:
+        for name in (
+            "write_absolute",
+            "read_a_secret",
+            "listen",
+            "signal_the_server",
+            "change_a_time",
+            "truncate_outside",
+        ):
+            escapes.ATTEMPTS[name]()
+    finally:
+        os.chdir(there)
