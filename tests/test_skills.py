@@ -121,3 +121,49 @@ def test_the_recipes_of_the_coordinates_skill_resolve():
     assert layouts[0]["laptop"].deg_z == pytest.approx(180)
     assert layouts[1]["box_3"].position[0] == pytest.approx(1.24)
     assert layouts[2]["ball"].position == (0, 0, 1.9)
+
+
+def test_the_blocks_of_the_interventions_skill_run(tmp_path):
+    import mujoco
+
+    from worldkit import program, trajectory
+    from worldwright.scan.audits.causes import Causes
+    from worldwright.scan.expecting import EXPECTATIONS
+
+    text = text_of(REPO / "skills/interventions/SKILL.md")
+    blocks = dict(re.findall(r"^```\w+ (\w+)\n(.*?)^```$", text, re.M | re.S))
+    plan = Plan.model_validate(
+        {
+            "plan_type": "mbs",
+            "simulation_parameters": {
+                "time_step": 0.002,
+                "simulation_duration": 1,
+                "interventions": yaml.safe_load(blocks["interventions"]),
+            },
+            "objectives": yaml.safe_load(blocks["objectives"]),
+        }
+    )
+    assert Causes and plan.objectives[0].cause == ("crate",)
+    for objective in plan.objectives:
+        for row in objective.expect:
+            for name, arguments in row.items():
+                EXPECTATIONS.find(name).Given.model_validate(arguments)
+    names: dict = {}
+    exec(compile(blocks["program"], "SKILL.md", "exec"), names)
+
+    def build():
+        spec = mujoco.MjSpec()
+        for name, z, mass in (("shelf", 1.0, 2.0), ("crate", 1.35, 8.0)):
+            body = spec.worldbody.add_body(name=name, pos=(0, 0, z))
+            body.add_freejoint()
+            body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.2, 0.2, 0.1), mass=mass)
+        bolt = spec.add_equality(name="bolt", type=mujoco.mjtEq.mjEQ_WELD, name1="shelf")
+        bolt.objtype, bolt.data[:3] = mujoco.mjtObj.mjOBJ_BODY, 0
+        return spec
+
+    argv = ["--pass", "physics", "--out", str(tmp_path / "out")]
+    assert program.main(build, names["control"], duration=0.6, argv=argv) == 0
+    (kind,), (value,) = (
+        getattr(trajectory.open(tmp_path / "out/trajectory").interventions, n) for n in ("kind", "value")
+    )
+    assert kind == "constraint" and value[1] > names["STRENGTH_N"]
