@@ -194,6 +194,8 @@ def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter
     default = None if required else parameter.default
     if required:
         return click.Argument([parameter.name], type=_click_type(item), nargs=-1 if many else 1, required=True)
+    if any(isinstance(mark, expose.Positional) for mark in typing.get_args(annotation)[1:]):
+        return click.Argument([parameter.name], type=_click_type(item), required=False, default=default)
     flag = ("--" if len(parameter.name) > 1 else "-") + parameter.name.replace("_", "-")
     if item is bool:
         return click.Option([f"{flag}/--no-{flag[2:]}", parameter.name], default=default, help=help_text)

@@ -72,6 +72,10 @@ def build_server(name: str) -> "MCPServer":
     return server
 
 
+class Positional:
+    """Marks a parameter that may be left out and still is given by its place on the command line."""
+
+
 def reads(function: Callable[..., Any]) -> Callable[..., Any]:
     """Mark a tool that changes nothing, so that clients may call it without asking."""
     function.read_only = True  # type: ignore[attr-defined]

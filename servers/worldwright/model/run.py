@@ -27,7 +27,7 @@ class Run:
         if path.name == "plan.md":
             path = path.parent
         for candidate in (path, Path("runs") / path, Path("examples") / path):
-            if (candidate / "plan.md").is_file():
+            if (candidate / "plan.md").is_file() or (candidate / "model.json").is_file():
                 return cls(candidate)
         known = sorted(str(p.parent) for root in ("runs", "examples") for p in Path(root).glob("*/plan.md"))
         raise NotFoundError(
@@ -53,6 +53,16 @@ class Run:
     def plan(self) -> Path:
         """The thirteen sections."""
         return self.folder / "plan.md"
+
+    @property
+    def model(self) -> Path:
+        """Instead of a plan, in a folder that records somebody's MJCF file: which file, and what it is made of."""
+        return self.folder / "model.json"
+
+    @property
+    def source(self) -> Path:
+        """What the program answers to: the plan, or the model that is recorded."""
+        return self.model if self.model.is_file() and not self.plan.is_file() else self.plan
 
     @property
     def program(self) -> Path:
@@ -91,14 +101,14 @@ class Run:
     def evidence_key(self, environment_sha256: str) -> EvidenceKey:
         """The key of the program and plan as they stand now (missing files are a `NotFoundError`)."""
         for path, remedy in (
-            (self.plan, "write the plan first"),
+            (self.source, "write the plan first"),
             (self.program, f"worldwright build {self.plan}"),
         ):
             if not path.is_file():
                 raise NotFoundError(f"there is no {path.name} in this run", place=str(path), next_move=remedy)
         return EvidenceKey(
             program_sha256=sha256_file(self.program),
-            plan_sha256=sha256_file(self.plan),
+            plan_sha256=sha256_file(self.source),
             environment_sha256=environment_sha256,
         )
 

@@ -42,6 +42,8 @@ class Spec(Frozen):
     """Processor time of all its processes together."""
     disk_mb: int
     """Of everything it writes."""
+    reads: tuple[str, ...] = ()
+    """Files outside its folder that the program may read: what a recorded model is made of."""
     token: int = 0
     """Borne by each of its processes as a resource limit."""
     force: bool = False
@@ -69,6 +71,8 @@ class JobStatus(Frozen):
     wall_s: float = 0
     eta_s: float | None = None
     sandbox: str = ""
+    result: str = ""
+    """Folder of what the pass made, once it succeeded."""
 
     @property
     def name(self) -> str:
@@ -92,6 +96,7 @@ class JobStatus(Frozen):
         if self.state == "running" and self.total:
             line += f" · {self.done:g}/{self.total:g} {self.unit}"
             line += f", about {self.eta_s:.0f} s left" if self.eta_s is not None else ""
+        line += f"\n{self.result}" if self.result else ""
         if self.message:
             line += f"\n{self.code}: {f'{self.place}: ' if self.place else ''}{self.message}"
         return line + (f"\nnext: {self.next_move}" if self.next_move else "")
@@ -113,7 +118,7 @@ class Job:
         job = cls(run.jobs / spec.job)
         for folder in (job.out, job.inputs, job.scratch):
             folder.mkdir(parents=True)
-        for path in (run.program, run.plan):
+        for path in (run.program, run.source):
             write_atomic(job.inputs / path.name, path.read_bytes())
         write_json(job.folder / "spec.json", spec.model_dump(mode="json"))
         return job

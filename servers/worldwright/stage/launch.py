@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from ..model.errors import JobError
 from ..model.evidence import EvidenceKey, PassName
 from ..model.run import Run
-from . import family, gates
+from . import family, gates, models
 from .job import Job, JobStatus, Spec
 
 WALL_S: dict[PassName, float] = {"physics": 120.0, "stills": 120.0, "video": 600.0}
@@ -76,8 +76,10 @@ def launch(
                 cached=True,
                 wall_s=earlier.get("wall_s", 0.0),
                 sandbox=earlier.get("sandbox", ""),
+                result=str(run.evidence(key) / gates.folder_name(stage, variant)),
             )
         gates.require(run, key, stage, variant)
+        reads = tuple(str(path) for path in models.files(run))
         wanted = (stage, variant, tuple(arguments), key)
         for other in jobs(run):
             spec = other.spec
@@ -98,6 +100,7 @@ def launch(
             output_mb=OUTPUT_MB,
             file_mb=file_mb,
             disk_mb=disk_mb,
+            reads=reads,
             token=family.new_token(),
             force=force,
             created=time.time(),

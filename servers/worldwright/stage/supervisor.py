@@ -20,9 +20,10 @@ from typing import Any
 
 from worldkit.files import write_json
 
+from ..model.errors import JobError
 from ..model.evidence import PassResult
 from ..model.run import Run, sha256_file
-from . import family, sandbox
+from . import family, models, sandbox
 from .gates import folder_name
 from .job import Job, JobStatus, Spec
 from .limits import Guard, failed
@@ -82,7 +83,8 @@ class Supervision:
         self.level = sandbox.level()
         self.state("running")
         scratch = self.job.scratch
-        reads = (self.job.inputs,) if self.spec.stage == "physics" else (self.job.inputs, self.recording)
+        reads = (self.job.inputs, *map(Path, self.spec.reads))
+        reads = reads if self.spec.stage == "physics" else (*reads, self.recording)
         confinement = Confinement(
             out=self.job.out,
             reads=reads,
@@ -157,7 +159,7 @@ class Supervision:
         out = self.job.out
         summary = _json(out / "result.json")
         error = _json(out / "error.json")
-        failure = stopped or failed(status, summary, error, self.log_command)
+        failure = stopped or failed(status, summary, error, self.log_command) or self.changed()
         result = PassResult(
             stage=self.spec.stage,
             variant=self.spec.variant,
@@ -194,7 +196,17 @@ class Supervision:
         self.run.log("stage", "stage", **facts, job=self.spec.job, wall_s=result.wall_s, sandbox=self.level)
         name = "succeeded" if result.ok else "cancelled" if result.code == "cancelled" else "failed"
         told = {k: getattr(result, k) for k in ("code", "message", "place", "next_move")}
+        if result.ok:
+            told["result"] = str(self.run.evidence(self.spec.key) / folder_name(self.spec.stage, self.spec.variant))
         self.state(name, **told)
+
+    def changed(self) -> dict[str, str] | None:
+        """A recorded model must still be what its folder says, or the recording is of something else."""
+        try:
+            models.files(self.run)
+        except JobError as refusal:
+            return {"code": refusal.code, "message": refusal.cause, "next_move": refusal.next_move}
+        return None
 
     def commit(self, result: PassResult) -> PassResult:
         """One rename into the evidence; where evidence of this key already stands, compare and keep the first."""

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from pydantic import Field
 
-from ..expose import reads
+from ..expose import Positional, reads
 from ..model.errors import NotFoundError
 from ..model.evidence import PASSES, PassName
 from ..model.frozen import Frozen
@@ -49,7 +49,9 @@ class LogPage(Frozen):
 
 
 def start(
-    run: RunName,
+    run: Annotated[
+        str | None, Field(description="The run folder; with `model`, where to record it."), Positional()
+    ] = None,
     stage: Annotated[PassName, Field(description="physics, then stills, then video.")] = "physics",
     force: Annotated[bool, Field(description="Run again although it succeeded, and compare.")] = False,
     wall_s: Annotated[float | None, Field(description="Wall-clock limit in seconds.", gt=0, le=86_400)] = None,
@@ -57,17 +59,27 @@ def start(
     cpu_s: Annotated[float | None, Field(description="Processor time of all its processes.", gt=0)] = None,
     file_mb: Annotated[int, Field(description="Size limit of one file.", ge=1)] = 2048,
     disk_mb: Annotated[int, Field(description="Size limit of all it writes.", ge=1)] = 8192,
+    model: Annotated[Path | None, Field(description="An MJCF file to record without any plan.")] = None,
+    duration: Annotated[float | None, Field(description="Simulated seconds of `model`.", gt=0, le=3600)] = None,
 ) -> JobStatus:
     """Start one pass of the run's program in the sandbox and return at once with its job.
 
     Needs an approved plan and a clean lint for physics, physics for stills, stills for video. A pass that already
     succeeded for this exact program, plan and environment is answered from its evidence; one that is under way is
-    joined. Follow it with `wait`.
+    joined. Follow it with `wait`. With `model`, any MJCF file is recorded in a folder of its own (runs/<its name>).
     """
     from ..model import environment
+    from . import models
     from .launch import launch
 
-    folder = Run.find(run)
+    if model is not None:
+        folder = models.prepare(model, duration, Path(run) if run else None)
+    elif run is None:
+        raise NotFoundError("name a run, or a model to record", next_move="worldwright stage start RUN")
+    elif duration is not None:
+        raise NotFoundError("a run's duration is in its plan", next_move="give duration only together with model")
+    else:
+        folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
     limits: dict[str, Any] = {"wall_s": wall_s, "memory_mb": memory_mb, "cpu_s": cpu_s}
     return launch(folder, key, stage, force=force, **limits, file_mb=file_mb, disk_mb=disk_mb)

@@ -1,0 +1,114 @@
+"""Any MJCF file can be recorded, with what it includes, and nothing else of the folder it lies in."""
+
+import json
+import struct
+
+import pytest
+from click.testing import CliRunner
+
+from worldwright.cli import main
+from worldwright.model.errors import GateError, JobError, NotFoundError
+from worldwright.model.run import Run
+from worldwright.model.trajectory import Trajectory
+from worldwright.stage import models
+from worldwright.stage.tools import start, wait
+
+WORLD = """<mujoco model="thrown">
+  <compiler meshdir="../assets" texturedir="../assets/pictures"/>
+  <include file="parts/ground.xml"/>
+  <asset><mesh name="rock" file="rock.stl"/><texture name="t" type="2d" file="t.png"/></asset>
+  <worldbody><light pos="0 0 3"/>
+    <body name="rock" pos="0 0 1"><freejoint/><geom type="mesh" mesh="rock" density="2000"/></body>
+  </worldbody>
+</mujoco>"""
+GROUND = '<mujoco><worldbody><geom type="plane" size="5 5 .1"/></worldbody></mujoco>'
+
+
+@pytest.fixture
+def model(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("models/parts", "assets/pictures"):
+        (tmp_path / name).mkdir(parents=True)
+    corners = [(0, 0, 0), (0.1, 0, 0), (0, 0.1, 0), (0, 0, 0.1)]
+    faces = [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
+    triangles = b"".join(struct.pack("<12fH", 0, 0, 0, *(c for i in face for c in corners[i]), 0) for face in faces)
+    (tmp_path / "assets/rock.stl").write_bytes(bytes(80) + struct.pack("<I", len(faces)) + triangles)
+    import cv2
+    import numpy as np
+
+    cv2.imwrite(str(tmp_path / "assets/pictures/t.png"), np.full((8, 8, 3), 128, np.uint8))
+    (tmp_path / "models/parts/ground.xml").write_text(GROUND)
+    (tmp_path / "models/thrown.xml").write_text(WORLD)
+    (tmp_path / "models/unrelated.xml").write_text("<mujoco/>")
+    return tmp_path / "models/thrown.xml"
+
+
+def end(folder):
+    job = wait(str(folder), timeout_s=40)
+    assert job.ended
+    return job
+
+
+def test_a_model_is_recorded_with_all_it_is_made_of(level, model):
+    names = {path.name for path in models.made_of(model)}
+    assert names == {"thrown.xml", "ground.xml", "rock.stl", "t.png"}
+    started = CliRunner().invoke(
+        main, ["stage", "start", "--model", str(model), "--duration", "0.6", "--format", "json"]
+    )
+    assert started.exit_code == 0, started.output
+    job = end("runs/thrown")
+    assert job.state == "succeeded", job.text()
+    recording = Trajectory.read(Run.find("runs/thrown").folder / job.result / "trajectory")
+    assert recording.t[-1] == pytest.approx(0.6)
+    assert recording.pos[0, 0, 2] - recording.pos[-1, 0, 2] > 0.5
+    again = start(model=model, duration=0.6)
+    assert again.cached
+    assert start(model=model, duration=0.7).cached is False
+    end("runs/thrown")
+
+
+def test_a_model_that_changed_is_recorded_anew_and_never_under_its_old_name(model):
+    start(model=model, duration=0.1)
+    first = end("runs/thrown")
+    model.with_name("parts").joinpath("ground.xml").write_text(GROUND.replace("5 5", "6 6"))
+    with pytest.raises(JobError, match=r"ground\.xml"):
+        start("runs/thrown", stage="stills")
+    second = start(model=model, duration=0.1)
+    assert second.key != first.key
+    assert end("runs/thrown").state == "succeeded"
+
+
+@pytest.mark.parametrize("text", ["", "<mujoco", "\0\1", "<mujoco><include file='thrown.xml'/></mujoco>", "<a/>" * 2])
+def test_a_broken_model_is_named_and_the_folder_stays_usable(model, text):
+    model.write_text(text)
+    try:
+        start(model=model, duration=0.1)
+    except JobError as refusal:
+        assert "thrown.xml" in refusal.place
+        assert refusal.next_move
+    else:
+        job = end("runs/thrown")
+        assert (job.state, job.code) == ("failed", "crashed")
+        assert job.message
+    model.write_text("<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>")
+    start(model=model, duration=0.1)
+    assert end("runs/thrown").state == "succeeded"
+
+
+def test_stills_of_a_bare_model(model):
+    start(model=model, duration=0.2)
+    end("runs/thrown")
+    start("runs/thrown", stage="stills")
+    job = end("runs/thrown")
+    assert job.state == "succeeded", job.text()
+    assert json.loads((Run.find("runs/thrown").folder / job.result / "result.json").read_text())["summary"]["cameras"]
+
+
+def test_misuse_is_refused(model):
+    with pytest.raises(NotFoundError):
+        start(model=model.with_name("none.xml"))
+    with pytest.raises(NotFoundError, match="name a run"):
+        start()
+    (model.parent / "plan.md").write_text("a plan")
+    with pytest.raises(GateError, match="with a plan"):
+        start(str(model.parent), model=model)
