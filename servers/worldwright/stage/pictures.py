@@ -1,14 +1,20 @@
-"""Stills and film frames as small pictures for people and models: together under 1 MB."""
+"""Stills, contact sheets and key frames as small pictures for people and models: together under 1 MB."""
 
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from ..model.errors import NotFoundError
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
 
+if TYPE_CHECKING:
+    from .moments import Moments
+
 BUDGET_BYTES = 700_000
 """Base64 adds a third on the wire."""
+COLUMNS, CELL_WIDTH = 4, 320
+Show = Literal["all", "stills", "sheet", "key"]
 
 
 class Shown(Frozen):
@@ -16,14 +22,23 @@ class Shown(Frozen):
 
     cameras: tuple[str, ...]
     captions: tuple[str, ...]
+    moments: dict[str, float] = {}
+    """Times of setup, event and aftermath, s."""
 
     def text(self) -> str:
         """One caption a line."""
         return "\n".join(self.captions)
 
 
-def contact(evidence: Path, camera: str | None, count: int) -> Illustrated:
-    """Pictures of one key's stills and films, scaled down until they fit the budget."""
+def contact(evidence: Path, camera: str | None, count: int, show: Show = "all") -> Illustrated:
+    """Pictures of one key's stills and films, scaled down until they fit the budget.
+
+    Args:
+        evidence: the folder of one key.
+        camera: one camera; all when None.
+        count: pictures on a contact sheet.
+        show: which kinds.
+    """
     known = sorted({p.stem for p in (*evidence.glob("stills/*.png"), *evidence.glob("video/*.mp4"))})
     if camera is not None and camera not in known:
         raise NotFoundError(
@@ -38,33 +53,99 @@ def contact(evidence: Path, camera: str | None, count: int) -> Illustrated:
             next_move="run the stills pass, then the video pass",
         )
     cameras = [camera] if camera else known
-    images: list[tuple[str, Any]] = []
-    for name in cameras:
-        still = evidence / "stills" / f"{name}.png"
-        if still.is_file():
-            images.append((f"{name}: still at 0.00 s", _read(still)))
-        film = evidence / "video" / f"{name}.mp4"
-        if film.is_file():
-            images += [(f"{name}: film at {time_s:.2f} s", image) for time_s, image in moments(film, count)]
+    films = [film for name in cameras if (film := evidence / "video" / f"{name}.mp4").is_file()]
+    three = _moments(evidence, films) if films and show in ("all", "key") else None
+    images = list(_images(evidence, cameras, count, show, three))
+    if not images:
+        raise NotFoundError(
+            "there is no film yet", place=str(evidence / "video"), next_move="run the video pass, or show stills"
+        )
     share = BUDGET_BYTES // len(images)
     pictures = tuple(Picture(_jpeg(image, share), caption, "jpeg") for caption, image in images)
-    return Illustrated(Shown(cameras=tuple(cameras), captions=tuple(p.caption for p in pictures)), pictures)
+    times = {"setup": three.setup, "event": three.event, "aftermath": three.aftermath} if three else {}
+    return Illustrated(
+        Shown(cameras=tuple(cameras), captions=tuple(p.caption for p in pictures), moments=times), pictures
+    )
+
+
+def _moments(evidence: Path, films: list[Path]) -> "Moments":
+    from . import moments
+
+    recording = evidence / "physics" / "trajectory"
+    if (recording / "complete.json").is_file():
+        return moments.of_recording(recording)
+    return moments.of_film(films[0])
+
+
+def _images(
+    evidence: Path, cameras: list[str], count: int, show: Show, three: "Moments | None"
+) -> Iterator[tuple[str, Any]]:
+    """(caption, RGB uint8 (H, W, 3)) of everything asked for that exists."""
+    for name in cameras:
+        still = evidence / "stills" / f"{name}.png"
+        if show in ("all", "stills") and still.is_file():
+            yield f"{name}: still at 0.00 s", _read(still)
+        film = evidence / "video" / f"{name}.mp4"
+        if not film.is_file():
+            continue
+        if show in ("all", "sheet"):
+            frames = list(moments(film, count))
+            stamps = ", ".join(f"{time_s:.2f}" for time_s, _ in frames)
+            yield f"{name}: contact sheet, row by row, at {stamps} s", sheet(frames)
+        if three and show in ("all", "key"):
+            named = {"setup": three.setup, "event": three.event, "aftermath": three.aftermath}
+            for (word, _), (time_s, image) in zip(named.items(), at(film, list(named.values())), strict=True):
+                yield f"{name}: {word} at {time_s:.2f} s (by motion energy of the {three.source})", image
 
 
 def moments(film: Path, count: int) -> list[tuple[float, Any]]:
-    """(time in seconds, RGB uint8 (H, W, 3)) at `count` evenly spread moments, the last frame included."""
+    """(time in seconds, RGB uint8 (H, W, 3)) at `count` evenly spread moments, first and last frame included."""
     import av
 
     with av.open(str(film)) as container:
         stream = container.streams.video[0]
         total = stream.frames or sum(1 for _ in container.decode(stream))
-        wanted = {round((i + 1) * (total - 1) / count) for i in range(count)}
-        container.seek(0)
-        found = []
-        for index, frame in enumerate(container.decode(stream)):
-            if index in wanted:
+        rate = float(stream.average_rate or 24)
+    spread = [round(i * (total - 1) / max(count - 1, 1)) / rate for i in range(count)] if count > 1 else [0.0]
+    return at(film, spread)
+
+
+def at(film: Path, times_s: list[float]) -> list[tuple[float, Any]]:
+    """(time in seconds, RGB uint8 (H, W, 3)) of the frames nearest to some ascending times, one for each."""
+    import av
+
+    found: list[tuple[float, Any]] = []
+    with av.open(str(film)) as container:
+        last = None
+        for frame in container.decode(video=0):
+            while len(found) < len(times_s) and float(frame.time or 0.0) >= times_s[len(found)] - 1e-3:
                 found.append((float(frame.time or 0.0), frame.to_ndarray(format="rgb24")))
+            last = frame
+            if len(found) == len(times_s):
+                break
+        while last is not None and len(found) < len(times_s):
+            found.append((float(last.time or 0.0), last.to_ndarray(format="rgb24")))
     return found
+
+
+def sheet(frames: list[tuple[float, Any]]) -> Any:
+    """Frames on one picture, row by row, each with its time in a corner: RGB uint8."""
+    import cv2
+    import numpy as np
+
+    height = round(frames[0][1].shape[0] * CELL_WIDTH / frames[0][1].shape[1])
+    columns = min(COLUMNS, len(frames))
+    rows = -(-len(frames) // columns)
+    page = np.full((rows * (height + 4) + 4, columns * (CELL_WIDTH + 4) + 4, 3), 255, np.uint8)
+    for index, (time_s, image) in enumerate(frames):
+        cell = cv2.resize(image, (CELL_WIDTH, height), interpolation=cv2.INTER_AREA)
+        label, font = f"{time_s:.2f} s", cv2.FONT_HERSHEY_SIMPLEX
+        (width, tall), _ = cv2.getTextSize(label, font, 0.45, 1)
+        cv2.rectangle(cell, (4, 4), (12 + width, 14 + tall), (255, 255, 255), -1)
+        cv2.putText(cell, label, (8, 9 + tall), font, 0.45, (20, 20, 20), 1, cv2.LINE_AA)
+        top, left = 4 + index // columns * (height + 4), 4 + index % columns * (CELL_WIDTH + 4)
+        page[top : top + height, left : left + CELL_WIDTH] = cell
+    return page
 
 
 def _read(path: Path) -> Any:
@@ -77,11 +158,11 @@ def _read(path: Path) -> Any:
 
 
 def _jpeg(image: Any, budget: int) -> bytes:
-    """JPEG of at most `budget` bytes: first half the quality, then half the size."""
+    """JPEG of at most `budget` bytes: first a lower quality, then a smaller size."""
     import cv2
 
     picture = cv2.cvtColor(image, cv2.COLOR_RGB2BGR)
-    width = min(960, picture.shape[1])
+    width = min(COLUMNS * (CELL_WIDTH + 4) + 4, picture.shape[1])
     while True:
         small = cv2.resize(
             picture, (width, round(picture.shape[0] * width / picture.shape[1])), interpolation=cv2.INTER_AREA

@@ -2,7 +2,7 @@
 
 import time
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -126,14 +126,25 @@ def cancel(run: RunName, job: JobName = None) -> JobStatus:
 def frames(
     run: RunName,
     camera: Annotated[str | None, Field(description="One camera; all of them when left out.")] = None,
-    count: Annotated[int, Field(description="Moments to show of each film.", ge=1, le=12)] = 4,
+    count: Annotated[int, Field(description="Pictures on a contact sheet.", ge=1, le=24)] = 8,
+    show: Annotated[
+        Literal["all", "stills", "sheet", "key"],
+        Field(description="Stills, contact sheets, key frames (setup, event, aftermath), or all of them."),
+    ] = "all",
 ) -> Illustrated:
-    """Show the pictures of the current program: the still of each camera, then moments of its film with their times."""
+    """Show the current program's pictures: stills, a contact sheet of each film with the times, and key frames.
+
+    Key frames are chosen by motion energy: the setup, the event (where it changes fastest) and the aftermath (where
+    it has calmed down). Together under 1 MB; with many cameras, name one to see it larger.
+    """
     from ..model import environment
     from .pictures import contact
 
     folder = Run.find(run)
-    return contact(folder.evidence(folder.evidence_key(environment.current().sha256())), camera, count)
+    evidence = folder.evidence(folder.evidence_key(environment.current().sha256()))
+    if not any((evidence / name).is_dir() for name in ("stills", "video")) and folder.accepted.is_dir():
+        evidence = folder.accepted  # a fresh clone keeps the accepted pictures only
+    return contact(evidence, camera, count, show)
 
 
 @reads

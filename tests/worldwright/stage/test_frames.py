@@ -1,0 +1,70 @@
+"""What `frames` shows: contact sheets, and the moments that matter."""
+
+import base64
+
+import numpy as np
+import pytest
+
+from worldwright.model.errors import NotFoundError
+from worldwright.stage import moments
+from worldwright.stage.pictures import contact, sheet
+from worldwright.stage.tools import frames
+
+
+@pytest.fixture(scope="module")
+def filmed(reviewed):
+    """The evidence of a run with stills, films and a recording."""
+    return next(path.parent for path in reviewed.glob("evidence/*/video"))
+
+
+def test_key_frames_of_a_dropped_ball_show_its_fall_and_its_bounce(filmed):
+    three = moments.of_recording(filmed / "physics/trajectory")
+    # dropped from a height of 0.45 m: it hits the floor after sqrt(2 h / g)
+    impact_s = (2 * 0.45 / 9.81) ** 0.5
+    assert three.setup == 0
+    assert three.event == pytest.approx(impact_s, abs=2 * moments.WINDOW_S)
+    assert three.event < three.aftermath <= 0.5 + 1e-9
+
+
+def test_everything_is_shown_with_its_time_and_fits_the_wire(filmed):
+    shown = contact(filmed, None, 6)
+    kinds = [
+        word
+        for caption in shown.data.captions
+        for word in ("still", "sheet", "setup", "event", "aftermath")
+        if word in caption
+    ]
+    assert kinds == ["still", "sheet", "setup", "event", "aftermath"] * 2
+    assert sum(len(base64.b64encode(picture.data)) for picture in shown.pictures) < 1_000_000
+    assert shown.data.moments["event"] > 0
+    assert all(picture.data.startswith(b"\xff\xd8") for picture in shown.pictures)
+
+
+def test_one_kind_and_one_camera(filmed, reviewed):
+    assert len(frames(str(reviewed), camera="side", show="sheet", count=24).pictures) == 1
+    assert len(frames(str(reviewed), show="key").pictures) == 6
+    with pytest.raises(NotFoundError, match="rear"):
+        frames(str(reviewed), camera="rear")
+
+
+def test_a_film_alone_still_has_its_moments(filmed):
+    film = next((filmed / "video").glob("*.mp4"))
+    three = moments.of_film(film)
+    assert three.source == "film"
+    assert 0 <= three.setup < three.event <= three.aftermath
+
+
+def test_a_sheet_holds_every_frame():
+    cells = [(i / 10, np.full((90, 160, 3), 20 * i, np.uint8)) for i in range(7)]
+    page = sheet(cells)
+    assert page.shape == (2 * 184 + 4, 4 * 324 + 4, 3)
+    for index, (_, cell) in enumerate(cells):
+        assert (page[4 + index // 4 * 184 + 150, 4 + index % 4 * 324 + 300] == cell[0, 0]).all()
+
+
+def test_nothing_that_moves_gives_the_middle():
+    t = np.linspace(0, 1, 25)
+    three = moments._choose(t, np.zeros(25), np.zeros(24), "recording")
+    assert (three.setup, three.event, three.aftermath) == (0, 0.5, 1)
+    broken = moments._choose(t, np.full(25, np.nan), np.ones(24), "recording")
+    assert broken.aftermath == 1
