@@ -20,7 +20,8 @@ from .columns import VALUES
 from .derived import Derived
 from .describe import names
 from .pushes import Event, Pushes, owners, twist
-from .watch import Watch, comparison, owner_of
+from .snapshot import Snapshot
+from .watch import Watch, owner_of
 
 if TYPE_CHECKING:
     import mujoco
@@ -41,7 +42,8 @@ class Ledger:
     """Detects and records interventions of one simulation.
 
     A step goes: `settle()` when velocities are computed, `watch()` before anything may interfere, `watch_derived()`
-    before `control`, the interference, `compare()`, and `reacted()` when forces are computed. `settle()` once more at the end of the run.
+    before `control`, the interference, `compare()`, and `reacted()` when forces are computed. `settle()` once more at
+    the end of the run.
 
     Args:
         model, data: the world.
@@ -50,31 +52,10 @@ class Ledger:
     """
 
     def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", event: Event, row: Callable[[], int]) -> None:
-        import mujoco
-        import numpy as np
-
         self._model, self._data, self._event, self._row = model, data, event, row
-        self._get_state = mujoco.mj_getState
-        bits = mujoco.mjtState
-        wanted = (
-            "TIME", "QPOS", "QVEL", "ACT", "CTRL", "QFRC_APPLIED", "XFRC_APPLIED", "EQ_ACTIVE", "MOCAP_POS",
-            "MOCAP_QUAT", "PLASTIC",
-        )  # fmt: skip
-        self._signature, offset = 0, 0
-        self._part: dict[str, slice] = {}
-        for name in wanted:
-            bit = int(getattr(bits, f"mjSTATE_{name}"))
-            self._signature |= bit
-            width = mujoco.mj_stateSize(model, bit)
-            self._part[name] = slice(offset, offset + width)
-            offset += width
-        self._old, self._new = np.zeros(offset), np.zeros(offset)
-        pushing = [self._part[name] for name in ("CTRL", "QFRC_APPLIED", "XFRC_APPLIED")]
-        self._inputs = slice(pushing[0].start, pushing[-1].stop)  # neighbours in the state vector
-        idle = np.zeros(self._inputs.stop - self._inputs.start)
-        self._written_to = comparison(self._old, self._new) if offset else bool
-        self._was_pushing = comparison(self._old[self._inputs], idle) if len(idle) else bool
-        self._is_pushing = comparison(self._new[self._inputs], idle) if len(idle) else bool
+        self._snapshot = Snapshot(model, data)
+        self._old, self._new, self._part = self._snapshot.old, self._snapshot.new, self._snapshot.part
+        self._passive = CALLBACKS.index("passive")
         self._derived = Derived(model, data)
         self._bulk = Watch(model, bulky=True)
         self._steps = 0
@@ -103,7 +84,7 @@ class Ledger:
 
     def watch(self) -> None:
         """Remember the state, before anything may interfere."""
-        self._get_state(self._model, self._data, self._old, self._signature)
+        self._snapshot.remember()
 
     def watch_derived(self) -> None:
         """Remember what derives from the state, before `control` may write to it."""
@@ -120,20 +101,18 @@ class Ledger:
         if self._steps % BULK_EVERY == 0:
             self.check_bulk()
         self._steps += 1
-        self._get_state(self._model, self._data, self._new, self._signature)
         slipped = self._derived.force()
         edited = self._derived.others()
-        if called_back and self._callbacks[CALLBACKS.index("passive")] is not None:
+        if self._snapshot.changed() and self._state():
+            slipped, edited = None, []  # whatever derives from the state was computed anew
+        if called_back and self._callbacks[self._passive] is not None:
             hidden = self._derived.called_back()
             slipped = hidden if slipped is None else slipped if hidden is None else slipped + hidden
-        if self._written_to():
-            edited = []  # what derives from the state was rightly computed anew, or will be
-            self._state()
         for name, values in edited:
             self._record("parameter", f"data.{name}", values)
         if slipped is not None:
             self._pushes.generalised(slipped)
-        if not (self._is_pushing() or self._was_pushing()):
+        if not self._snapshot.pushing():
             return called_back
         part = self._part
         old, new = self._old[part["CTRL"]], self._new[part["CTRL"]]
@@ -149,8 +128,8 @@ class Ledger:
         for edit in self._bulk.changes():
             self._record("parameter", edit.array, edit.values)
 
-    def _state(self) -> None:
-        """The state itself was written."""
+    def _state(self) -> bool:
+        """Record what was written to the state; tells whether everything that derives from it was computed anew."""
         import numpy as np
 
         def changed(name: str) -> "np.ndarray":
@@ -161,7 +140,8 @@ class Ledger:
         poses, turns = changed("MOCAP_POS"), changed("MOCAP_QUAT")
         switched = changed("EQ_ACTIVE")
         deformed = changed("PLASTIC")
-        if len(positions) or len(velocities) or len(poses) or len(turns) or len(switched) or len(deformed):
+        anew = bool(len(positions) or len(velocities) or len(poses) or len(turns) or len(switched) or len(deformed))
+        if anew:
             refresh(self._model, self._data)
             self._look_back()
         if len(positions) or len(velocities):
@@ -178,6 +158,7 @@ class Ledger:
             for index in changed(name)[:MOST_ELEMENTS]:
                 part = self._part[name]
                 self._record("parameter", f"{target}[{index}]", (self._new[part][index], self._old[part][index]))
+        return anew
 
     def _look_back(self) -> None:
         """Compute what derived from the state before it was written, in a data of its own."""
@@ -185,7 +166,7 @@ class Ledger:
 
         if self._past is None:
             self._past = mujoco.MjData(self._model)
-        mujoco.mj_setState(self._model, self._past, self._old, self._signature)
+        mujoco.mj_setState(self._model, self._past, self._old, self._snapshot.signature)
         mujoco.mj_fwdKinematics(self._model, self._past)
         mujoco.mj_makeM(self._model, self._past)
         mujoco.mj_comVel(self._model, self._past)

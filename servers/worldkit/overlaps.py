@@ -108,8 +108,9 @@ def _candidates(model: "mujoco.MjModel") -> "np.ndarray":
     )
     signature = _signature(model, one, other)
     excluded = np.isin(signature, model.exclude_signature)
-    paired = {frozenset(p) for p in zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)}
-    named = np.array([frozenset(p) in paired for p in zip(one.tolist(), other.tolist(), strict=True)], bool)
+    low, high = np.minimum(one, other).astype(np.int64), np.maximum(one, other)
+    listed = np.sort(np.stack([model.pair_geom1, model.pair_geom2], axis=1), axis=1).astype(np.int64)
+    named = np.isin(low * model.ngeom + high, listed[:, 0] * model.ngeom + listed[:, 1])
     can = named | ((masks != 0) & ~excluded)
     free = ~np.isin(signature, _ties(model)) & (~can | off)
     return np.stack([one[free], other[free]], axis=1)

@@ -333,3 +333,23 @@ def test_an_edited_height_field_is_told(tmp_path):
     ball(spec, "ball", (0, 0, 3))
     ((kind, target, _, value, _),) = entries(record(spec, tmp_path / "t", 400, dig))
     assert (kind, target, value[0]) == ("parameter", "hfield_data", 0.25)
+
+
+def test_a_pose_written_and_derived_again_by_the_program_is_no_force(tmp_path):
+    def pose(model, data):
+        data.qpos[7:9] += 0.01
+        data.qvel[6:12] += 1.0
+        mujoco.mj_forward(model, data)
+
+    table = record(two_balls(-9.81), tmp_path / "t", 40, pose).interventions
+    assert set(table.kind) == {"pose", "velocity"} and set(table.target) == {"other"}
+
+
+def test_a_force_slipped_in_beside_a_control_is_told(tmp_path):
+    def both(model, data):
+        data.ctrl[0] = 1.0
+        data.qfrc_passive[0] += 3.0
+
+    table = record(cart(), tmp_path / "t", 20, both).interventions
+    assert set(table.kind) == {"control", "force"}
+    assert (table.kind == "force").sum() == 20
