@@ -53,6 +53,32 @@ def simulator() -> Diagnosis:
     return Diagnosis("mujoco", done.returncode == 0 and found.startswith("4."), found, fix)
 
 
+def wheels() -> Diagnosis:
+    """The files of every wheel that can change a result are the ones the wheel came with."""
+    import base64
+    import hashlib
+    from importlib.metadata import PackageNotFoundError, distribution
+
+    from worldkit.lock import WHEELS
+
+    changed, count = [], 0
+    for name in WHEELS:
+        try:
+            files = distribution(name).files or []
+        except PackageNotFoundError:
+            continue
+        for file in files:
+            if file.hash is None or file.hash.mode != "sha256":
+                continue
+            path, count = Path(str(file.locate())), count + 1
+            found = hashlib.sha256(path.read_bytes()).digest() if path.is_file() else b""
+            if base64.urlsafe_b64encode(found).rstrip(b"=").decode() != file.hash.value:
+                changed.append(f"{name}: {file}")
+    found_text = f"changed since installed: {', '.join(changed[:3])}" if changed else f"{count} files as installed"
+    fix = f"{sys.executable} -m pip install --force-reinstall --no-deps <the wheel named>"
+    return Diagnosis("wheels", not changed, found_text, fix)
+
+
 def opengl() -> Diagnosis:
     """A frame can be rendered without a display, with EGL or OSMesa."""
     tried = []
@@ -110,7 +136,7 @@ def disk() -> Diagnosis:
     return Diagnosis("disk", free_gb > 2, f"{free_gb:.0f} GB free here", "free some space: a run needs up to 2 GB")
 
 
-CHECKS: tuple[Callable[[], Diagnosis], ...] = (python, simulator, opengl, sandbox, servers, catalog, disk)
+CHECKS: tuple[Callable[[], Diagnosis], ...] = (python, simulator, wheels, opengl, sandbox, servers, catalog, disk)
 
 
 def diagnose() -> Iterator[Diagnosis]:
@@ -129,8 +155,20 @@ def _last_line(text: str) -> str:
 
 
 @click.command("doctor")
-def command() -> None:
-    """Check Python, OpenGL, the sandbox and the servers; name a fix for each problem."""
+@click.option(
+    "--lock", type=click.Path(path_type=Path), help="Only pin a run to this environment: write its lock here."
+)
+def command(lock: Path | None) -> None:
+    """Check Python, wheels, OpenGL, the sandbox and the servers; name a fix for each problem."""
+    if lock is not None:
+        from worldkit.files import write_json
+        from worldkit.lock import observe
+
+        from .stage.sandbox.confinement import gl_backend
+
+        write_json(lock, observe(gl_backend()))
+        click.echo(f"{lock}: a run that holds it runs in this environment or not at all")
+        return
     broken = False
     for diagnosis in diagnose():
         mark = "ok  " if diagnosis.ok else "FAIL" if diagnosis.essential else "weak"

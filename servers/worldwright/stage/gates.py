@@ -7,10 +7,15 @@ key. Video: stills did.
 import json
 from typing import Any
 
+from worldkit import lock
+
 from ..model.errors import GateError
 from ..model.evidence import EvidenceKey, PassName
 from ..model.run import Run
+from .sandbox.confinement import gl_backend
 
+PINNED = "environment.lock"
+"""A run that holds this file runs in the environment it names, or not at all."""
 BEFORE: dict[PassName, PassName] = {"stills": "physics", "video": "stills"}
 
 
@@ -26,6 +31,24 @@ def passed(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> di
         return None
     result = _read(run, key, f"{name}/result.json")
     return result if result.get("ok") else None
+
+
+def require_environment(run: Run) -> None:
+    """Raise a `GateError` with the differences when the run is pinned to another environment than this one."""
+    pinned = run.folder / PINNED
+    if not pinned.is_file():
+        return
+    try:
+        locked = json.loads(pinned.read_text(encoding="utf-8"))
+        found = lock.differences({str(k): str(v) for k, v in locked.items()}, lock.observe(gl_backend()))
+    except (OSError, ValueError, AttributeError) as cause:
+        found = [f"the lock cannot be read: {cause}"]
+    if found:
+        raise GateError(
+            "this is not the environment the run is pinned to: " + "; ".join(found),
+            place=str(pinned),
+            next_move=f"install what it names, or pin anew: `worldwright doctor --lock {pinned}`",
+        )
 
 
 def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> None:

@@ -12,6 +12,7 @@ from typing import Literal
 
 from pydantic import ValidationError
 
+from worldkit import lock
 from worldkit.files import write_atomic, write_json
 
 from ..model.errors import NotFoundError
@@ -19,6 +20,7 @@ from ..model.evidence import EvidenceKey, PassName
 from ..model.frozen import Frozen
 from ..model.run import Run
 from .gates import folder_name
+from .sandbox.confinement import gl_backend
 
 State = Literal["queued", "running", "succeeded", "failed", "cancelled", "lost"]
 
@@ -110,6 +112,7 @@ class Job:
         self.out = folder / "out"
         self.inputs = folder / "inputs"
         self.scratch = folder / "tmp"
+        self.lock = self.inputs / "environment.json"
         self.log = folder / "log.txt"
 
     @classmethod
@@ -120,6 +123,7 @@ class Job:
             folder.mkdir(parents=True)
         for path in (run.program, run.source):
             write_atomic(job.inputs / path.name, path.read_bytes())
+        write_json(job.lock, lock.observe(gl_backend()))
         write_json(job.folder / "spec.json", spec.model_dump(mode="json"))
         return job
 

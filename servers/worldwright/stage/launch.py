@@ -78,6 +78,7 @@ def launch(
                 sandbox=earlier.get("sandbox", ""),
                 result=str(run.evidence(key) / gates.folder_name(stage, variant)),
             )
+        gates.require_environment(run)
         gates.require(run, key, stage, variant)
         reads = tuple(str(path) for path in models.files(run))
         wanted = (stage, variant, tuple(arguments), key)

@@ -93,7 +93,7 @@ class Supervision:
             file_bytes=self.spec.file_mb * MB,
             memory_bytes=self.spec.memory_mb * MB + ADDRESS_SPACE_SLACK,
             token=self.spec.token,
-            environment=environment(str(scratch)),
+            environment=environment(str(scratch), str(self.job.lock)),
         )
         rung = sandbox.LADDER[self.level]
         pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
@@ -177,6 +177,7 @@ class Supervision:
         if failure is None:
             for leftover in ("progress.json", "MUJOCO_LOG.TXT", "result.json"):
                 (out / leftover).unlink(missing_ok=True)
+            (out / self.job.lock.name).write_bytes(self.job.lock.read_bytes())
             files = {
                 path.relative_to(out).as_posix(): sha256_file(path) for path in sorted(out.rglob("*")) if path.is_file()
             }

@@ -35,7 +35,7 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
     assert result["ok"]
     assert result["sandbox"] == level
     assert result["summary"]["trajectory_sha256"] == "abc"
-    assert set(result["files"]) == {"data.bin", "trajectory/complete.json"}
+    assert set(result["files"]) == {"data.bin", "environment.json", "trajectory/complete.json"}
     assert log(str(run.folder)).content == "said something\n"
     again = start(str(run.folder))
     assert again.cached

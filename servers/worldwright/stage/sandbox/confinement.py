@@ -80,8 +80,8 @@ def devices() -> list[Path]:
     return [path for path in (Path("/dev/dri"), *sorted(Path("/dev").glob("nvidia*"))) if path.exists()]
 
 
-def environment(scratch: str) -> dict[str, str]:
-    """The environment variables of a job: nothing of the user's but the choice of renderer."""
+def environment(scratch: str, lock: str = "") -> dict[str, str]:
+    """The environment variables of a job: nothing of the user's but the choice of renderer; and its lock."""
     # One thread for linear algebra: a sum split between threads is not the same sum.
     keep = {
         k: v
@@ -102,6 +102,7 @@ def environment(scratch: str) -> dict[str, str]:
         "PYTHONPATH": str(Path(__file__).parents[3]),
         "OMP_NUM_THREADS": "1",
         "OPENBLAS_NUM_THREADS": "1",
+        "WORLDKIT_LOCK": lock,
     }
 
 
