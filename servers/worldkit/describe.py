@@ -72,6 +72,9 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
                 "body": bodies[model.jnt_bodyid[j]],
                 "qpos_address": int(model.jnt_qposadr[j]),
                 "dof_address": int(model.jnt_dofadr[j]),
+                "stiffness": float(model.jnt_stiffness[j]),
+                "damping": float(model.dof_damping[model.jnt_dofadr[j]]),
+                "frictionloss": float(model.dof_frictionloss[model.jnt_dofadr[j]]),
             }
             for j, name in enumerate(names(model, "joint", model.njnt))
         ],

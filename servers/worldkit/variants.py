@@ -18,9 +18,9 @@ Taken away (`--without NAME`):
     callback:NAME   one intervention, as the ledger calls it, is undone each time it is made
 
 Made weaker (`--weaken NAME=FACTOR`, 0 < FACTOR):
-    body      mass, weight's acceleration, initial speed and the accelerations its own motors and the program's forces
-              give it, all times FACTOR: everything it could push or pull with; or one of `BODY.mass`, `BODY.velocity`,
-              `BODY.weight`
+    body      mass, weight's acceleration, initial and surface speed, and the accelerations its own motors and the
+              program's forces give it, all times FACTOR: everything it could push or pull with; or one of `BODY.mass`,
+              `BODY.velocity`, `BODY.weight`
     joint     spring, motors, initial velocity      actuator  its force and what it is asked for
     tendon    spring, damper, motors                gravity, wind
     force: torque: pose: velocity: mocap: control: parameter:    what is written, times FACTOR
@@ -296,6 +296,9 @@ class _Edit:
                 model.key_qvel[:, self._dofs(joint)] *= factor
         if aspect:
             return
+        geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] in carried]
+        model.geom_surfacevel[geoms] *= factor
+        model.geom_adhesion[geoms] *= factor**2
         for actuator in range(model.nu):
             if model.actuator_trntype[actuator] <= 1 and model.actuator_trnid[actuator, 0] in joints:
                 self._scale_actuator(actuator, factor**2)

@@ -152,6 +152,16 @@ def test_a_servo_that_balances_from_inside_the_model_is_caught_unless_declared(t
     assert helper.needed_by == (0,)  # switch the servo off, and the pole falls
 
 
+def test_a_figure_held_by_its_own_joint_or_sent_off_spinning_is_caught(tmp_path):
+    def build():
+        spec = figure(hop=3.0)
+        spec.joints[0].stiffness[0] = 300.0
+        return spec
+
+    found = audit(World(build, None, 0.3, ("figure",)), tmp_path)
+    assert {"WS314", "WS316"} <= found.codes()
+
+
 # -- parameters edited when it matters -------------------------------------------------------------------------------
 
 
@@ -190,6 +200,23 @@ def test_friction_edited_at_the_right_moment_is_caught_and_its_part_shown(tmp_pa
     assert row.declared and row.target == "cart.dof_frictionloss[cart]"
     (helper,) = found.causes.helpers
     assert helper.needed_by == (0,)  # suppress the edit, and nothing stops the cart
+
+
+def test_a_conveyor_nobody_mentions_is_caught_and_one_the_plan_names_is_not(tmp_path):
+    def build():
+        spec = empty()
+        belt = spec.worldbody.add_body(name="belt", pos=(0, 0, 0.05))
+        belt.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(1, 0.3, 0.05), surfacevel=(0.5, 0, 0, 0, 0, 0))
+        box(spec, "parcel", (0, 0, 0.2))
+        return spec
+
+    carried = {"claim": "The belt carries the parcel.", "expect": [{"moves": {"body": "parcel", "min_m": 0.2}}]}
+    world = World(build, None, 1.0, ("parcel",), objectives=(carried,))
+    found = audit(world, tmp_path / "a")
+    assert "WS315" in found.codes()
+    world.objectives = ({**carried, "cause": "belt"},)
+    found = audit(world, tmp_path / "b")
+    assert "WS315" not in found.codes()
 
 
 # -- the load goes another way than shown ----------------------------------------------------------------------------

@@ -1,0 +1,62 @@
+"""The model itself drives bodies, by wind, moving surfaces or adhesion, and the plan does not say so.
+
+What it means: these do work on bodies from inside the engine, so the ledger of interventions cannot show them. A conveyor or
+a gust can be what the prompt asks for; then the plan says it.
+
+Formula: `option.wind` is not 0 in a medium with density or viscosity; a geom has a surface velocity or adhesion. Declared by
+an intervention of kind `force`, `parameter` or `control` naming the body (for wind: `wind` or `world`), or as an objective's
+cause.
+Threshold: none. Blocking with a plan; without one a remark.
+Source: MuJoCo manual, option/wind, geom/surfacevel, geom/adhesion; the facts on staging.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from ...model.trajectory import Trajectory
+from .. import analytic
+from ..sign import Case, Context, Sign
+
+CODE = "WS315"
+NEEDS = ("meta",)
+KINDS = ("force", "parameter", "control")
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield each drive that nobody declared."""
+    option = trajectory.meta.get("option") or {}
+    drives = []
+    if any(option.get("wind") or ()) and (option.get("density") or option.get("viscosity")):
+        drives.append(("wind", "a wind blows", ("wind", "world")))
+    told = set()
+    for geom in trajectory.meta.get("geoms") or ():
+        for key, what in (("surfacevel", "has a moving surface"), ("adhesion", "attracts what it touches")):
+            body = str(geom.get("body"))
+            if geom.get(key) and (body, key) not in told:
+                told.add((body, key))
+                drives.append((body, f"{body} {what}", (body, str(geom["name"]))))
+    causes = {name for objective in context.plan.objectives for name in objective.cause} if context.plan else set()
+    for body, message, names in drives:
+        if causes.intersection(names) or any(context.acts_on(name, KINDS) for name in names):
+            continue
+        severity = "blocking" if context.planned else "info"
+        window = (trajectory.t[0], trajectory.t[-1])
+        yield Sign(body, window, 1.0, 0.0, "drives", severity, f"{message}; no intervention says so")
+
+
+def _belt(**geom: bool) -> Trajectory:
+    return replace(analytic.resting(), meta={"geoms": [{"name": "belt", "body": "body", **geom}]})
+
+
+def _windy(density: float) -> Trajectory:
+    return replace(analytic.resting(), meta={"option": {"wind": [3.0, 0, 0], "density": density, "viscosity": 0.0}})
+
+
+GOOD = (
+    lambda: Case("a still surface", _belt(surfacevel=False), Context(planned=True)),
+    lambda: Case("wind in a vacuum", _windy(0.0), Context(planned=True)),
+)
+BAD = (
+    lambda: Case("a secret conveyor", _belt(surfacevel=True), Context(planned=True), severity="blocking"),
+    lambda: Case("a secret wind", _windy(1.2), Context(planned=True), severity="blocking"),
+)
