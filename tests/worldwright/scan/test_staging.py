@@ -282,8 +282,10 @@ def test_guy_lines_that_carry_nothing_are_caught(tmp_path):
 
 
 def test_guy_lines_under_load_are_honest(tmp_path):
-    world = World(lambda: tent(False, False), None, 0.6, objectives=({**HUNG, "cause": []},))
-    found = audit(world, tmp_path)
+    lines = "guy_0+guy_1+guy_2+guy_3"
+    found = audit(World(lambda: tent(False, False), None, 0.6, objectives=({**HUNG, "cause": lines},)), tmp_path)
+    (cause,) = found.causes.causes
+    assert cause.outcome == "caused" and "cannot be weakened" in cause.message
     assert found.codes() == set() and not found.codes("warn") & {"WS305", "WS306"}
     assert min(c.peak for c in found.ledger.carriers if c.kind == "tendon") > 1.0
 
@@ -446,6 +448,23 @@ def test_a_winch_that_lifts_by_its_motor_is_honest(tmp_path):
     assert found.codes() == set(), [str(a) for a in (*found.scan.anomalies, *found.causes.anomalies)]
     assert found.causes.causes[0].outcome == "caused"
     assert found.ledger.ok and not found.codes("warn") & {"WS305"}
+
+
+def test_a_wall_that_stops_a_ball_is_its_cause_though_it_cannot_be_weaker(tmp_path):
+    def build():
+        spec = empty(gravity=0.0, floor=False)
+        wall = spec.worldbody.add_body(name="wall", pos=(1, 0, 0))
+        wall.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.1, 1, 1))
+        box(spec, "puck", (0, 0, 0))
+        key = spec.add_key(name="start")
+        key.qpos, key.qvel = [0, 0, 0, 1, 0, 0, 0], [4.0, 0, 0, 0, 0, 0]
+        return spec
+
+    stopped = {"claim": "The wall stops it.", "cause": "wall", "expect": [{"stays": {"body": "puck", "max_m": 0.9}}]}
+    motion = {"puck": {"linear": [4.0, 0, 0]}}
+    found = audit(World(build, None, 0.5, ("puck",), (), (stopped,), motion), tmp_path)
+    (cause,) = found.causes.causes
+    assert cause.outcome == "caused" and "nothing of it moves" in cause.message
 
 
 def test_a_ball_that_topples_a_domino_is_its_cause(tmp_path):

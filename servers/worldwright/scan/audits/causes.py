@@ -19,12 +19,22 @@ from ...model.trajectory import Trajectory
 from .. import expecting
 from ..declared import mentioned
 from . import moment, triggers
-from .trials import Trials
+from .trials import Trials, label_of
 
 WEAKER = (0.8, 0.5)
+TOGETHER = "+"
+"""Joins names that are one cause only together, such as the four lines of a tent."""
 MOST_HELPERS = 8
 RESPONDS = 1e-3
 """Relative change of a measured value that counts as a response."""
+
+
+def _without(cause: str) -> tuple[str, ...]:
+    return tuple(word for part in cause.split(TOGETHER) for word in ("--without", part.strip()))
+
+
+def _weaker(cause: str, factor: float) -> tuple[str, ...]:
+    return tuple(word for part in cause.split(TOGETHER) for word in ("--weaken", f"{part.strip()}={factor:g}"))
 
 
 @dataclass
@@ -45,9 +55,8 @@ class Causes:
         step = self.trajectory.time_step or self.trajectory.interval_s
         for objective in self.plan.objectives:
             for cause in objective.cause:
-                self.trials.ask("--without", cause)
-                for factor in WEAKER:
-                    self.trials.ask("--weaken", f"{cause}={factor:g}")
+                for words in (_without(cause), *(_weaker(cause, factor) for factor in WEAKER)):
+                    self.trials.ask(*words)
         if any(not (row.declared and row.when != "state") for row in triggers.discrete(self.acting, step)):
             for factor in triggers.SLOWER:
                 if words := triggers.slower(self.plan, self.trajectory, factor):
@@ -86,7 +95,7 @@ class Causes:
             "effect": objective.effect or ", ".join(e.name for e in effects),
             "as_planned": tuple(self._respond("as planned", self.trajectory, e) for e in effects),
         }
-        gone = f"without {cause}"
+        gone = label_of(_without(cause))
         if not effects or any(e.status != "holds" for e in known.expectations):
             why = "no expectation measures the effect" if not effects else "the effect does not hold as planned"
             return CauseResult(**facts, outcome="unclear", message=f"{why}, so its cause cannot be tested")
@@ -99,7 +108,10 @@ class Causes:
         if len(survivors) == len(effects):
             message = f"without {cause}, {', '.join(survivors)} still holds: {cause} is not its cause"
             return CauseResult(**facts, outcome="survives", message=message)
-        labels = [label for f in WEAKER if (label := f"weaken {cause}={f:g}") in self.trials.made]
+        asked = [label_of(_weaker(cause, factor)) for factor in WEAKER]
+        made = [label for label in asked if label in self.trials.made]
+        # What never moves and carries no motor cannot be weaker: then the repetition is the same motion, bit for bit.
+        labels = [label for label in made if self.trials.made[label].sha256 != self.trajectory.sha256]
         answers = [[self._respond(label, self.trials.made[label], e) for e in effects] for label in labels]
         facts["weakened"] = tuple(r for row in answers for r in row)
         moved, what = self._moves(facts["as_planned"], answers)
@@ -107,7 +119,7 @@ class Causes:
         if survivors:
             vanishes += f" (though {', '.join(survivors)} still holds)"
         if not labels:
-            why = self.trials.failed.get(f"weaken {cause}={WEAKER[0]:g}", "")
+            why = "nothing of it moves" if made else self.trials.failed.get(asked[0], "")
             return CauseResult(**facts, outcome="caused", message=f"{vanishes}; it cannot be weakened: {why}")
         if not moved:
             message = (
@@ -122,8 +134,8 @@ class Causes:
         named = tuple(e for e in results if e.name in objective.effect.replace(",", " ").split())
         if named:
             return named
-        own = cause.rpartition(":")[2].partition("/")[0]
-        others = tuple(e for e in results if own not in mentioned(e.arguments))
+        own = {part.rpartition(":")[2].partition("/")[0] for part in cause.split(TOGETHER)}
+        others = tuple(e for e in results if not own & mentioned(e.arguments))
         return others or results
 
     def _respond(self, trial: str, trajectory: Trajectory, effect: ExpectationResult) -> Response:

@@ -28,7 +28,7 @@ class Trials:
 
     def ask(self, *words: str) -> str:
         """Ask for one repetition; returns its label, e.g. `without foot`."""
-        label = " ".join(word.removeprefix("--") for word in words)
+        label = label_of(words)
         self.words[label] = words
         return label
 
@@ -72,6 +72,11 @@ class Trials:
         facts: dict[str, dict[str, Any]] = {label: {"trajectory_sha256": t.sha256} for label, t in self.made.items()}
         facts |= {label: {"failed": why} for label, why in self.failed.items()}
         return tuple(Trial(label=label, **facts.get(label, {})) for label in self.words)
+
+
+def label_of(words: tuple[str, ...]) -> str:
+    """What a repetition is called, from the program's options: `without foot`."""
+    return " ".join(word.removeprefix("--") for word in words)
 
 
 def variant_name(label: str) -> str:

@@ -1,11 +1,11 @@
-"""The model itself drives bodies, by wind, moving surfaces or adhesion, and the plan does not say so.
+"""The model itself drives bodies, by wind, moving surfaces, adhesion or a plugin, and the plan does not say so.
 
 What it means: these do work on bodies from inside the engine, so the ledger of interventions cannot show them. A conveyor or
 a gust can be what the prompt asks for; then the plan says it.
 
-Formula: `option.wind` is not 0 in a medium with density or viscosity; a geom has a surface velocity or adhesion. Declared by
-an intervention of kind `force`, `parameter` or `control` naming the body (for wind: `wind` or `world`), or as an objective's
-cause.
+Formula: `option.wind` is not 0 in a medium with density or viscosity; a geom has a surface velocity or adhesion; the model
+has engine plugins. Declared by an intervention of kind `force`, `parameter`, `control` or `solver` naming the body (for
+wind: `wind` or `world`; for plugins: `world`), or as an objective's cause.
 Threshold: none. Blocking with a plan; without one a remark.
 Source: MuJoCo manual, option/wind, geom/surfacevel, geom/adhesion; the facts on staging.
 """
@@ -19,7 +19,7 @@ from ..sign import Case, Context, Sign
 
 CODE = "WS315"
 NEEDS = ("meta",)
-KINDS = ("force", "parameter", "control")
+KINDS = ("force", "parameter", "control", "solver")
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -35,6 +35,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             if geom.get(key) and (body, key) not in told:
                 told.add((body, key))
                 drives.append((body, f"{body} {what}", (body, str(geom["name"]))))
+    if trajectory.meta.get("has_plugin"):
+        drives.append(("world", "an engine plugin acts", ("world", "plugin")))
     causes = {name for objective in context.plan.objectives for name in objective.cause} if context.plan else set()
     for body, message, names in drives:
         if causes.intersection(names) or any(context.acts_on(name, KINDS) for name in names):
