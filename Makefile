@@ -5,7 +5,7 @@ JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := $(CURDIR)/.ci/constraints.txt
 
-.PHONY: help demo test lint fmt bench examples test-inspector test-semantic docs lock clean
+.PHONY: help demo test lint fmt bench examples test-faults test-inspector test-semantic docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -32,6 +32,9 @@ bench: .venv/.dev ## Performance goals as ratios measured in one run
 
 examples: .venv/.dev ## Re-prove every accepted example
 	@for run in examples/*/; do $(BIN)/worldwright stamp verify $$run || exit 1; done
+
+test-faults: .venv/.dev ## kill -9 at a hundred random moments (make test does a few)
+	WORLDWRIGHT_KILLS=100 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/stage/test_faults.py
 
 test-inspector: .venv/.dev ## The MCP inspector's strict check on all six servers (needs npm)
 	$(BIN)/python -m pytest tests/inspector -p no:xdist

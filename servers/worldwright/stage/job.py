@@ -19,7 +19,7 @@ from ..model.errors import NotFoundError
 from ..model.evidence import EvidenceKey, PassName
 from ..model.frozen import Frozen
 from ..model.run import Run
-from .gates import folder_name
+from .gates import folder_name, passed
 from .sandbox.confinement import gl_backend
 
 State = Literal["queued", "running", "succeeded", "failed", "cancelled", "lost"]
@@ -128,18 +128,28 @@ class Job:
         return job
 
     @classmethod
+    def all(cls, run: Run) -> "list[Job]":
+        """Every readable job, newest first: by their numbers, since a clock may jump."""
+        return [cls(path.parent) for path in sorted(run.jobs.glob("*/spec.json"), key=_number, reverse=True)]
+
+    @classmethod
+    def next_number(cls, run: Run) -> int:
+        """The number after the newest job's."""
+        return max((_number(path) for path in run.jobs.glob("*/spec.json")), default=0) + 1
+
+    @classmethod
     def find(cls, run: Run, name: str | None) -> "Job":
         """A job by id, or the latest; a `NotFoundError` lists the known ones."""
-        known = sorted(run.jobs.glob("*/spec.json"), key=lambda path: path.stat().st_mtime)
+        known = cls.all(run)
         if name is None and known:
-            return cls(known[-1].parent)
-        for path in known:
-            if path.parent.name == name:
-                return cls(path.parent)
+            return known[0]
+        for job in known:
+            if job.folder.name == name:
+                return job
         raise NotFoundError(
             f"there is no job '{name}' in this run" if name else "no job was started in this run",
             place=str(run.jobs),
-            next_move=f"known jobs: {', '.join(p.parent.name for p in known) or '(none)'}; "
+            next_move=f"known jobs: {', '.join(job.folder.name for job in known[:10]) or '(none)'}; "
             f"start one with `worldwright stage start {run.folder}`",
         )
 
@@ -174,6 +184,11 @@ class Job:
                 return JobStatus.model_validate(again)
         except (OSError, ValueError):
             pass
+        run = Run(spec.run)
+        if (proof := passed(run, spec.key, spec.stage, spec.variant)) and proof.get("job") == spec.job:
+            # It was killed between its last two steps: what it proved stands.
+            folder = run.evidence(spec.key) / folder_name(spec.stage, spec.variant)
+            return state.model_copy(update={"state": "succeeded", "code": "ok", "result": str(folder)})
         return state.model_copy(
             update={
                 "state": "lost",
@@ -193,3 +208,9 @@ class Job:
         except OSError:
             return False
         return False
+
+
+def _number(spec: Path) -> int:
+    """The middle of a job's id, `physics-12-0a1b2c3d`."""
+    word = spec.parent.name.rsplit("-", 2)[-2:][0]
+    return int(word) if word.isdecimal() else 0

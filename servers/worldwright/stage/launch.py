@@ -4,6 +4,7 @@ The launcher takes the job's lock before the supervisor exists and passes it on,
 first moment: no grace period, and no clock that could jump.
 """
 
+import errno
 import fcntl
 import os
 import secrets
@@ -57,7 +58,7 @@ def launch(
         GateError: something the pass needs has not been proven yet.
         JobError: a variant of this name stands already, made with other arguments.
     """
-    with _one_at_a_time(run):
+    with _writable(run), _one_at_a_time(run):
         earlier = gates.passed(run, key, stage, variant)
         if earlier is not None and tuple(earlier.get("arguments", ())) != tuple(arguments):
             raise JobError(
@@ -82,14 +83,14 @@ def launch(
         gates.require(run, key, stage, variant)
         reads = tuple(str(path) for path in models.files(run))
         wanted = (stage, variant, tuple(arguments), key)
-        for other in jobs(run):
+        for other in Job.all(run):
             spec = other.spec
             if force or (spec.stage, spec.variant, spec.arguments, spec.key) != wanted:
                 continue
             if not (state := other.read()).ended:
                 return state
         spec = Spec(
-            job=f"{gates.folder_name(stage, variant)}-{secrets.token_hex(4)}",
+            job=f"{gates.folder_name(stage, variant)}-{Job.next_number(run)}-{secrets.token_hex(4)}",
             run=str(run.folder),
             stage=stage,
             variant=variant,
@@ -112,15 +113,9 @@ def launch(
         return job.read()
 
 
-def jobs(run: Run) -> list[Job]:
-    """Every readable job, newest first."""
-    known = sorted(run.jobs.glob("*/spec.json"), key=lambda path: path.stat().st_mtime, reverse=True)
-    return [Job(path.parent) for path in known]
-
-
 def _tidy(run: Run) -> None:
     """End what a killed supervisor left running, and free what it left on the disk; logs and results stay."""
-    for job in jobs(run):
+    for job in Job.all(run):
         if job.scratch.exists() and job.read().ended:
             family.sweep(job.spec.token)
             shutil.rmtree(job.scratch, ignore_errors=True)
@@ -139,6 +134,21 @@ def _detach(job: Job) -> None:
             start_new_session=True,
             pass_fds=(lock.fileno(),),
         )
+
+
+@contextmanager
+def _writable(run: Run) -> Iterator[None]:
+    """A full disk or a read-only folder is the user's to mend, not a defect of ours."""
+    try:
+        yield
+    except OSError as cause:
+        full = cause.errno in (errno.ENOSPC, errno.EDQUOT)
+        raise JobError(
+            f"the job cannot be set up: {cause.strerror or cause}",
+            code="disk_full" if full else "not_writable",
+            place=str(cause.filename or run.jobs),
+            next_move="free some space there" if full else "make the run folder writable, or copy the run elsewhere",
+        ) from cause
 
 
 @contextmanager

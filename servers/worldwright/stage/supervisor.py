@@ -49,6 +49,8 @@ class Supervision:
         self.started_at = datetime.now(UTC).isoformat(timespec="seconds")
         self.level = ""
         self.confinement: dict[str, str] = {}
+        self.last: dict[str, Any] = {}
+        """What the program last said of its progress."""
         self.printed = 0
 
     def state(self, name: Any, **more: Any) -> None:
@@ -128,7 +130,8 @@ class Supervision:
                 }
             if elapsed - published > 0.4:
                 published = elapsed
-                self.state("running", **self.progress(elapsed))
+                self.last = self.progress(elapsed) or self.last
+                self.state("running", **self.last)
         return None
 
     def progress(self, elapsed: float) -> dict[str, Any]:
@@ -187,6 +190,8 @@ class Supervision:
             write_json(out / "result.json", result.model_dump(mode="json"))
             result = self.commit(result)
         else:
+            if result.code == "disk_full":  # what filled the disk must not keep the next run from starting
+                shutil.rmtree(out, ignore_errors=True)
             write_json(self.job.folder / "result.json", result.model_dump(mode="json"))
         facts = {
             "key": self.spec.key.key,
@@ -197,7 +202,9 @@ class Supervision:
         self.run.log("stage", "stage", **facts, job=self.spec.job, wall_s=result.wall_s, sandbox=self.level)
         name = "succeeded" if result.ok else "cancelled" if result.code == "cancelled" else "failed"
         told = {k: getattr(result, k) for k in ("code", "message", "place", "next_move")}
+        told |= {name: self.last[name] for name in ("done", "total", "unit") if name in self.last}
         if result.ok:
+            told["done"] = self.last.get("total", 0)
             told["result"] = str(self.run.evidence(self.spec.key) / folder_name(self.spec.stage, self.spec.variant))
         self.state(name, **told)
 

@@ -103,12 +103,11 @@ def status(run: RunName) -> RunStages:
     """Which passes have succeeded for the current program and plan, and how the latest jobs stand."""
     from ..model import environment
     from . import gates
-    from .launch import jobs
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
     passed = tuple(stage for stage in PASSES if gates.passed(folder, key, stage) is not None)
-    return RunStages(key=key.key, passed=passed, jobs=tuple(job.read() for job in jobs(folder)[:10]))
+    return RunStages(key=key.key, passed=passed, jobs=tuple(job.read() for job in Job.all(folder)[:10]))
 
 
 def cancel(run: RunName, job: JobName = None) -> JobStatus:

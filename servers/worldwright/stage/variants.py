@@ -71,11 +71,12 @@ def run(
 def follow(job: Job, timeout_s: float, progress: Progress = silent) -> JobStatus:
     """Read a job until it ends or `timeout_s` has passed, passing on its progress."""
     deadline = time.monotonic() + timeout_s
-    told = None
+    told: tuple[float, float | None] = (-1.0, None)
     while True:
         state = job.read()
         left = f", about {state.eta_s:.0f} s left" if state.eta_s is not None else ""
-        if (state.done, state.eta_s) != told:
+        # Progress never goes back: a client may take that for another task.
+        if state.state == "running" and state.done >= told[0] and (state.done, state.eta_s) != told:
             told = (state.done, state.eta_s)
             progress(state.done, state.total, f"{state.name} {state.done:g}/{state.total:g} {state.unit}{left}")
         if state.ended or time.monotonic() >= deadline:
