@@ -167,8 +167,8 @@ class RefineReport(Frozen):
 
     @property
     def ok(self) -> bool:
-        """Nothing depends on the time step."""
-        return not any(a.severity == "blocking" for a in self.anomalies)
+        """It was repeated, and nothing depends on the time step."""
+        return bool(self.refined_sha256) and not any(a.severity == "blocking" for a in self.anomalies)
 
 
 class Trial(Frozen):

@@ -169,12 +169,18 @@ def log(
 
 
 def run_variant(
-    run: Run, variant: str, arguments: tuple[str, ...], *, timeout_s: float = 40, progress: Progress = silent
+    run: Run,
+    variant: str,
+    arguments: tuple[str, ...],
+    *,
+    wall_s: float | None = None,
+    timeout_s: float = 40,
+    progress: Progress = silent,
 ) -> JobStatus:
     """For the audits of other servers (no tool): see `stage.variants.run`."""
     from . import variants
 
-    return variants.run(run, variant, arguments, timeout_s=timeout_s, progress=progress)
+    return variants.run(run, variant, arguments, wall_s=wall_s, timeout_s=timeout_s, progress=progress)
 
 
 def variant_folder(run: Run, variant: str) -> Path | None:

@@ -64,6 +64,28 @@ def test_both_audits_end_in_evidence_and_go_on_where_they_stopped(run):
     assert "refine" in actions and "causes" in actions
 
 
+def test_a_repetition_that_fails_ends_the_audit_with_its_reason(run, tmp_path):
+    import shutil
+
+    folder = tmp_path / run.name
+    shutil.copytree(run, folder)
+    plan = (folder / "plan.md").read_text()
+    (folder / "plan.md").write_text(plan.replace("cause: gravity", "cause: the_moon"))
+    stamp.approve(str(folder), by="tester")
+    assert lint.check_program([folder / "simulation.py"]).ok
+    job = stage.start(str(folder), stage="physics")
+    while not job.ended:
+        job = stage.wait(str(folder), job=job.job, timeout_s=30)
+    for _ in range(40):  # each call too short for a repetition to end in it
+        found = tools.scan(str(folder), causes=True, timeout_s=0.3)
+        if not found.pending:
+            break
+    assert not found.pending and not found.ok
+    (cause,) = found.causes.causes
+    assert cause.outcome == "unclear" and "there is no the_moon" in cause.message and "ball" in cause.message
+    assert [a.code for a in found.causes.anomalies] == ["WS324"]
+
+
 def test_a_lone_recording_cannot_be_repeated(run):
     (recording,) = run.glob("evidence/*/physics/trajectory")
     assert tools.scan(str(recording)).anomalies == ()

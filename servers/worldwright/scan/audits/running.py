@@ -13,7 +13,7 @@ from ..sign import Context
 from . import ledger
 from .causes import Causes
 from .refine import FACTOR, refine
-from .trials import Trials
+from .trials import Trials, patience_s
 
 
 class Audited(Frozen):
@@ -39,7 +39,7 @@ def audit(
 ) -> Audited:
     """Run the audits asked for; what is missing after `timeout_s` goes on by itself and is named as `pending`."""
     deadline = time.monotonic() + timeout_s
-    trials = Trials(run)
+    trials = Trials(run, wall_s=patience_s(run, key), memory=run.evidence(key) / "trials.json")
     finer = trials.ask("--time-step-factor", f"{FACTOR:g}") if refined else ""
     causal = Causes(trajectory, plan, interventions.acting, trials) if causes else None
     if causal is not None:
@@ -47,7 +47,11 @@ def audit(
     if not trials.collect(deadline - time.monotonic(), progress):
         return Audited(pending=trials.pending)
     found = Audited(
-        refine=refine(trajectory, trials.made.get(finer), plan, trials.failed.get(finer, "")) if refined else None,
+        refine=refine(
+            trajectory, trials.made.get(finer), plan, trials.failed.get(finer, ""), untested=finer in trials.limited
+        )
+        if refined
+        else None,
         causes=None if causal is None else causal.report(),
     )
     for name, report in (("refine", found.refine), ("causes", found.causes)):

@@ -1,19 +1,27 @@
 """Repeating the physics pass with something changed, as often as an audit asks, a few at a time, within one call's time."""
 
 import hashlib
+import json
 import re
 import time
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
+from worldkit.files import write_json
+
 from ...model.audits import Trial
-from ...model.errors import JobError
+from ...model.errors import JobError, NotFoundError
+from ...model.evidence import EvidenceKey
 from ...model.progress import Progress, silent
 from ...model.run import Run
 from ...model.trajectory import Trajectory
 
 AT_ONCE = 2
 POLL_S = 0.2
+LIMITS = ("timed_out", "out_of_memory", "too_much_output", "killed", "cancelled")
+SLOWER, SPARE_S = 4.0, 120.0
+"""A repetition may take so many times as long as the physics pass, and this much more."""
 
 
 @dataclass
@@ -25,6 +33,22 @@ class Trials:
     """The program's options, by label."""
     made: dict[str, Trajectory] = field(default_factory=dict)
     failed: dict[str, str] = field(default_factory=dict)
+    limited: set[str] = field(default_factory=set)
+    """Labels that failed by a limit of time or memory, or were cancelled: that says nothing about the world."""
+    wall_s: float | None = None
+    """Wall-clock limit of one repetition; None: the physics pass's own."""
+    memory: Path | None = None
+    """Where jobs under way are remembered from one call to the next, so that one that fails meanwhile is not restarted
+    for ever; None: nowhere."""
+    jobs: dict[str, str] = field(default_factory=dict)
+    """Job by label, while it is under way."""
+
+    def __post_init__(self) -> None:
+        if self.memory is not None and self.memory.is_file():
+            try:
+                self.jobs = {str(k): str(v) for k, v in json.loads(self.memory.read_text(encoding="utf-8")).items()}
+            except (OSError, ValueError, AttributeError):
+                self.jobs = {}
 
     def ask(self, *words: str) -> str:
         """Ask for one repetition; returns its label, e.g. `without foot`."""
@@ -39,7 +63,7 @@ class Trials:
 
     def collect(self, timeout_s: float, progress: Progress = silent) -> bool:
         """Start what is missing and wait for it; tells whether everything is there. Call again to go on."""
-        from ...stage.tools import run_variant, variant_folder
+        from ...stage.tools import variant_folder
 
         deadline = time.monotonic() + timeout_s
         while True:
@@ -47,31 +71,71 @@ class Trials:
             for label in self.pending:
                 if running >= AT_ONCE:
                     break
-                name = variant_name(label)
                 try:
-                    status = run_variant(self.run, name, self.words[label], timeout_s=0)
+                    status = self._status(label)
                 except JobError as refused:
                     self.failed[label] = str(refused)
                     continue
                 if not status.ended:
                     running += 1
                     continue
-                folder = variant_folder(self.run, name) if status.state == "succeeded" else None
-                if folder is None:
-                    self.failed[label] = f"{status.message}" + (f"; {status.next_move}" if status.next_move else "")
-                else:
+                folder = variant_folder(self.run, variant_name(label)) if status.state == "succeeded" else None
+                if folder is not None:
+                    self._forget(label)
                     self.made[label] = Trajectory.read(folder / "trajectory")
+                    continue
+                if status.code in LIMITS:
+                    self.limited.add(label)
+                self.failed[label] = f"{status.code}: {status.message}" + (
+                    f"; {status.next_move}" if status.next_move else ""
+                )
             done = len(self.words) - len(self.pending)
             progress(done, len(self.words), f"{done} of {len(self.words)} repetitions")
-            if not self.pending or time.monotonic() >= deadline:
-                return not self.pending
+            if not self.pending:
+                for label in self.failed:  # told now; asked again, they are tried again
+                    self._forget(label)
+                return True
+            if time.monotonic() >= deadline:
+                return False
             time.sleep(POLL_S)
+
+    def _status(self, label: str) -> Any:
+        """Where a repetition stands; it is started when it was not."""
+        from ...stage.tools import run_variant, wait
+
+        if label in self.jobs:
+            try:
+                return wait(str(self.run.folder), job=self.jobs[label], timeout_s=0)
+            except NotFoundError:  # its folder was cleared away
+                self._forget(label)
+        status = run_variant(self.run, variant_name(label), self.words[label], wall_s=self.wall_s, timeout_s=0)
+        if not status.ended:
+            self.jobs[label] = status.job
+            self._remember()
+        return status
+
+    def _forget(self, label: str) -> None:
+        if self.jobs.pop(label, None) is not None:
+            self._remember()
+
+    def _remember(self) -> None:
+        if self.memory is not None:
+            write_json(self.memory, self.jobs)
 
     def told(self) -> tuple[Trial, ...]:
         """All repetitions, as the report lists them."""
         facts: dict[str, dict[str, Any]] = {label: {"trajectory_sha256": t.sha256} for label, t in self.made.items()}
         facts |= {label: {"failed": why} for label, why in self.failed.items()}
         return tuple(Trial(label=label, **facts.get(label, {})) for label in self.words)
+
+
+def patience_s(run: Run, key: EvidenceKey) -> float:
+    """How long one repetition may take, s, from how long the physics pass took."""
+    try:
+        result = json.loads((run.evidence(key) / "physics" / "result.json").read_text(encoding="utf-8"))
+        return SLOWER * float(result["wall_s"]) + SPARE_S
+    except (OSError, ValueError, KeyError, TypeError):
+        return SPARE_S
 
 
 def label_of(words: tuple[str, ...]) -> str:
