@@ -87,7 +87,8 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             for t, name in enumerate(names(model, "tendon", model.ntendon))
         ],
         "actuators": [
-            {"name": name, "bodies": pulled["actuator"][a]} for a, name in enumerate(names(model, "actuator", model.nu))
+            {"name": name, "bodies": bodies}
+            for name, bodies in zip(actuator_columns(model)[1], pulled["actuator"], strict=True)
         ],
         "sensors": [
             {
@@ -182,8 +183,20 @@ def tied_bodies(model: "mujoco.MjModel", e: int, bodies: list[str]) -> list[str]
     return []
 
 
+def actuator_columns(model: "mujoco.MjModel") -> tuple[list[str], list[str]]:
+    """Names of the controls, and of the force outputs: the actuator's, with a number where it has several of them."""
+
+    def columns(count: Any) -> list[str]:
+        called = names(model, "actuator", len(count))
+        return [
+            name if n == 1 else f"{name}[{k}]" for name, n in zip(called, count.tolist(), strict=True) for k in range(n)
+        ]
+
+    return columns(model.actuator_ctrlnum), columns(model.actuator_outnum)
+
+
 def pulled_bodies(model: "mujoco.MjModel") -> dict[str, list[list[str]]]:
-    """Names of the bodies whose joints each `actuator` and `tendon` acts on, read off their Jacobians at qpos0."""
+    """Names of the bodies whose joints each output of an `actuator`, and each `tendon`, acts on, by Jacobians at qpos0."""
     import mujoco
     import numpy as np
 

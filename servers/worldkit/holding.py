@@ -45,9 +45,10 @@ class Hold:
         elif kind == "callback":
             self._callbacks.append(target.removeprefix("mjcb_"))
         elif kind == "control":
-            known = names(model, "actuator", model.nu)
-            name = target if target in known else target.rpartition("/")[2]
-            self._input("ctrl", [known.index(name)], share)
+            known = names(model, "actuator", len(model.actuator_trntype))
+            name = next(n for n in (target, target.rpartition("/")[2], target.partition("/")[2]) if n in known)
+            first, count = model.actuator_ctrladr[known.index(name)], model.actuator_ctrlnum[known.index(name)]
+            self._input("ctrl", range(first, first + count), share)
         elif kind == "constraint":
             self._input("eq_active", [names(model, "equality", model.neq).index(target)], share)
         else:

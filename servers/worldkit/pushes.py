@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from .columns import VALUES
-from .describe import names, pulled_bodies
+from .describe import actuator_columns, names, pulled_bodies
 
 if TYPE_CHECKING:
     import mujoco
@@ -26,9 +26,11 @@ class Pushes:
         self._bodies = names(model, "body", model.nbody)
         self._joints = names(model, "joint", model.njnt)
         pulled = pulled_bodies(model)["actuator"]
+        controls, _ = actuator_columns(model)
+        self._output = _outputs(model)
         self._actuators = [  # `body/actuator` when it moves one body's joint
-            f"{bodies[0]}/{name}" if len(bodies) == 1 else name
-            for name, bodies in zip(names(model, "actuator", model.nu), pulled, strict=True)
+            f"{pulled[output][0]}/{name}" if len(pulled[output]) == 1 else name
+            for name, output in zip(controls, self._output.tolist(), strict=True)
         ]
         self._on_bodies: list[tuple[str, int, np.ndarray, np.ndarray]] = []
         self._on_joints: list[tuple[str, str, slice, np.ndarray, np.ndarray, np.ndarray]] = []
@@ -90,7 +92,7 @@ class Pushes:
         if len(which):
             self._time, self._driven = self._data.time, which
             self._control = self._data.ctrl[which].copy()
-            self._speed = self._data.actuator_velocity[which].copy()
+            self._speed = self._data.actuator_velocity[self._output[which]].copy()
 
     def carried(self, body: int, moved: "np.ndarray") -> None:
         """A mocap body was moved by this displacement and rotation vector."""
@@ -101,7 +103,7 @@ class Pushes:
         import mujoco
 
         if self._driven is not None:
-            self._force = self._data.actuator_force[self._driven].copy()
+            self._force = self._data.actuator_force[self._output[self._driven]].copy()
         if not self._mocap:
             return
         mujoco.mj_rnePostConstraint(self._model, self._data)
@@ -125,7 +127,8 @@ class Pushes:
             self._event("interventions", time, kind, target, tuple(value), work)
         if self._driven is not None:
             assert self._force is not None and self._speed is not None and self._control is not None
-            works = self._force * (self._speed + data.actuator_velocity[self._driven]) / 2 * step
+            speed = (self._speed + data.actuator_velocity[self._output[self._driven]]) / 2
+            works = self._force * speed * step
             for actuator, control, exerted, work in zip(self._driven, self._control, self._force, works, strict=True):
                 told = (float(control), float(exerted), *(0.0,) * (VALUES - 2))
                 self._event("interventions", time, "control", self._actuators[actuator], told, float(work))
@@ -141,6 +144,20 @@ def twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndar
     spin, linear = data.cvel[body, :3], data.cvel[body, 3:]
     arm = data.xipos[body] - data.subtree_com[model.body_rootid[body]]
     return np.concatenate((linear + np.cross(spin, arm), spin))
+
+
+def _outputs(model: "mujoco.MjModel") -> "np.ndarray":
+    """(nu,) the force output of each control: an orientation actuator has three, one for each of its controls."""
+    import numpy as np
+
+    found = [
+        first + min(k, outputs - 1)
+        for first, outputs, controls in zip(
+            model.actuator_outadr.tolist(), model.actuator_outnum.tolist(), model.actuator_ctrlnum.tolist(), strict=True
+        )
+        for k in range(controls)
+    ]
+    return np.array(found, dtype=int)
 
 
 def owners(addresses: "np.ndarray", indices: "np.ndarray") -> list[int]:

@@ -41,7 +41,6 @@ if TYPE_CHECKING:
     from .holding import Hold
 
 OBJECTS = ("body", "geom", "joint", "actuator", "equality", "tendon", "flex")
-COUNTS = dict(zip(OBJECTS, ("nbody", "ngeom", "njnt", "nu", "neq", "ntendon", "nflex"), strict=True))
 WORLD = ("gravity", "wind", "control")
 WRITES = ("force", "torque", "pose", "velocity", "mocap", "control", "constraint", "parameter", "callback")
 ASPECTS = ("mass", "velocity", "weight")
@@ -138,7 +137,7 @@ def resolve(model: "mujoco.MjModel", name: str, place: str = "") -> list[tuple[s
     if colon and kind in WRITES:
         return [(f"write {kind}", target)] if _writable(model, kind, target, place) else []
     if colon and kind in OBJECTS:
-        known = names(model, kind, getattr(model, COUNTS[kind]))
+        known = names(model, kind, _count(model, kind))
         if target in known:
             return [(kind, known.index(target))]
     found = _known(model, name)
@@ -147,10 +146,22 @@ def resolve(model: "mujoco.MjModel", name: str, place: str = "") -> list[tuple[s
     return found
 
 
+def _count(model: "mujoco.MjModel", kind: str) -> int:
+    counts = {
+        "body": "nbody",
+        "geom": "ngeom",
+        "joint": "njnt",
+        "equality": "neq",
+        "tendon": "ntendon",
+        "flex": "nflex",
+    }
+    return len(model.actuator_trntype) if kind == "actuator" else int(getattr(model, counts[kind]))
+
+
 def _known(model: "mujoco.MjModel", name: str) -> list[tuple[str, Any]]:
     found = []
     for kind in OBJECTS:
-        known = names(model, kind, getattr(model, COUNTS[kind]))
+        known = names(model, kind, _count(model, kind))
         if name in known[1:] if kind == "body" else name in known:
             found.append((kind, known.index(name)))
     kinds = [kind for kind, _ in found]
@@ -160,7 +171,7 @@ def _known(model: "mujoco.MjModel", name: str) -> list[tuple[str, Any]]:
 def _remedy(model: "mujoco.MjModel") -> str:
     parts = []
     for kind in OBJECTS:
-        known = [n for n in names(model, kind, getattr(model, COUNTS[kind])) if n != "world"]
+        known = [n for n in names(model, kind, _count(model, kind)) if n != "world"]
         if known:
             more = f" and {len(known) - MOST_NAMES} more" if len(known) > MOST_NAMES else ""
             parts.append(f"{kind}: {', '.join(known[:MOST_NAMES])}{more}")
@@ -173,7 +184,7 @@ def _writable(model: "mujoco.MjModel", kind: str, target: str, place: str) -> bo
     if kind == "callback" or (kind == "parameter" and target):
         return True
     wanted = {"control": "actuator", "constraint": "equality"}.get(kind, "body")
-    known = names(model, wanted, getattr(model, COUNTS[wanted]))
+    known = names(model, wanted, _count(model, wanted))
     if target in known or owner in known or target.rpartition("/")[2] in known:
         return True
     raise ProgramError(
@@ -264,8 +275,9 @@ class _Edit:
         called = {name for i, name in enumerate(names(model, "body", model.nbody)) if i in carried}
         pulled = pulled_bodies(model)
         self._untouchable([g for g in range(model.ngeom) if model.geom_bodyid[g] in carried])
-        for actuator, bodies in enumerate(pulled["actuator"]):
-            if called.intersection(bodies):
+        for actuator, first in enumerate(model.actuator_outadr):
+            outputs = pulled["actuator"][first : first + model.actuator_outnum[actuator]]
+            if any(called.intersection(bodies) for bodies in outputs):
                 self._scale_actuator(actuator, 0.0)
         for tendon, bodies in enumerate(pulled["tendon"]):
             if called.intersection(bodies):
@@ -299,7 +311,7 @@ class _Edit:
         geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] in carried]
         model.geom_surfacevel[geoms] *= factor
         model.geom_adhesion[geoms] *= factor**2
-        for actuator in range(model.nu):
+        for actuator in range(len(model.actuator_trntype)):
             if model.actuator_trntype[actuator] <= 1 and model.actuator_trnid[actuator, 0] in joints:
                 self._scale_actuator(actuator, factor**2)
         for index in carried:
@@ -321,7 +333,7 @@ class _Edit:
         model.jnt_stiffness[joint] *= factor
         model.jnt_stiffnesspoly[joint] *= factor
         model.key_qvel[:, dofs] *= factor
-        for actuator in range(model.nu):
+        for actuator in range(len(model.actuator_trntype)):
             if model.actuator_trntype[actuator] <= 1 and model.actuator_trnid[actuator, 0] == joint:
                 self._scale_actuator(actuator, factor)
 
@@ -334,7 +346,7 @@ class _Edit:
             model.tendon_dampingpoly,
         ):
             array[tendon] *= factor
-        for actuator in range(model.nu):
+        for actuator in range(len(model.actuator_trntype)):
             if model.actuator_trntype[actuator] == 3 and model.actuator_trnid[actuator, 0] == tendon:
                 self._scale_actuator(actuator, factor)
 
@@ -355,7 +367,7 @@ class _Edit:
         model.actuator_biasprm[actuator] *= factor
         if np.any(model.actuator_forcelimited[actuator]):
             model.actuator_forcerange[actuator] *= factor
-        self.hold.write("control", names(model, "actuator", model.nu)[actuator], factor)
+        self.hold.write("control", names(model, "actuator", len(model.actuator_trntype))[actuator], factor)
 
     def _off(self, equality: int) -> None:
         self.model.eq_active0[equality] = 0

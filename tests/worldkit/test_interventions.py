@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from small_worlds import INTEGRATORS, ball, empty, floor, heap, record
 
+from worldkit import variants
+
 
 def entries(recording):
     """(kind, target, time, value, work) of every intervention."""
@@ -353,3 +355,24 @@ def test_a_force_slipped_in_beside_a_control_is_told(tmp_path):
     table = record(cart(), tmp_path / "t", 20, both).interventions
     assert set(table.kind) == {"control", "force"}
     assert (table.kind == "force").sum() == 20
+
+
+@pytest.mark.parametrize("gone", [False, True])
+def test_an_actuator_of_several_controls_is_told_by_its_own_name(gone, tmp_path):
+    model = mujoco.MjModel.from_xml_string(
+        """<mujoco><worldbody>
+        <body name="head" pos="0 0 1"><joint name="neck" type="ball"/><geom size=".1" mass="1"/></body>
+        <body name="arm" pos="1 0 1"><joint name="elbow"/><geom size=".1" pos=".1 0 0" mass="1"/></body></worldbody>
+        <actuator><orientation name="gaze" joint="neck" kp="10"/><motor name="lift" joint="elbow"/></actuator></mujoco>"""
+    )
+
+    def control(model, data):
+        data.ctrl[:] = 0.1
+
+    if gone:
+        control = variants.apply(model, variants.Variant.parse(None, ["gaze", "control:lift"], []), control)
+    recording = record(model, tmp_path / "t", 20, control)
+    told = {"head/gaze[0]", "head/gaze[1]", "head/gaze[2]", "arm/lift"}
+    assert set(recording.interventions.target) == (told - {"arm/lift"} if gone else told)
+    assert [row["name"] for row in recording.meta["actuators"]] == ["gaze[0]", "gaze[1]", "gaze[2]", "lift"]
+    assert bool(np.any(recording.actuator_force)) != gone

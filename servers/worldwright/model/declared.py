@@ -15,7 +15,8 @@ def owner(target: str) -> str:
 
 def names_of(target: str) -> frozenset[str]:
     """Names by which a plan may declare a target: itself, its body, its joint or actuator (`load/winch`: `winch`)."""
-    return frozenset((target, owner(target), target.partition("/")[2] or target))
+    inner = target.partition("/")[2] or target
+    return frozenset((target, owner(target), inner, inner.partition("[")[0]))
 
 
 def declaration(kind: str, target: str, declared: Iterable[Intervention]) -> Intervention | None:

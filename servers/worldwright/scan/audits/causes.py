@@ -200,7 +200,8 @@ class Causes:
         """How the program is told to leave an intervention out; a motor is switched off, asked or not."""
         if row.kind == "control":
             known = [str(a["name"]) for a in self.trajectory.meta.get("actuators") or ()]
-            return "actuator:" + next((n for n in known if row.target in (n, f"{row.body}/{n}")), row.target)
+            name = next((n for n in known if row.target in (n, f"{row.body}/{n}")), row.target)
+            return f"actuator:{name.partition('[')[0]}"
         return f"{row.kind}:{row.target}"
 
     def _helper(self, row: Acting) -> HelperResult:
