@@ -214,6 +214,15 @@ def test_what_a_killed_supervisor_leaves_behind_is_ended_by_the_next_start(level
     cancel(str(run.folder), again.job)
 
 
+def test_a_supervisor_killed_after_its_proof_stood_has_succeeded(make, finish, evidence):
+    run = make(GOOD)
+    done = finish(run)
+    path = run.jobs / done.job / "state.json"
+    path.write_text(json.dumps({**json.loads(path.read_text()), "state": "running"}))
+    again = wait(str(run.folder), job=done.job, timeout_s=5)
+    assert (again.state, again.result) == ("succeeded", str(evidence(run) / "physics"))
+
+
 def test_a_job_survives_its_server(make):
     run = make("import time; time.sleep(1.5)\n" + GOOD)
     code = f"from worldwright.stage.tools import start; print(start({str(run.folder)!r}).job)"

@@ -13,6 +13,7 @@ import struct
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 
 from .syscalls import number
 
@@ -77,7 +78,8 @@ class Births:
         self.pending.pop(asker, None)
         if not self._room(thread):
             now = time.monotonic()
-            self.pending = {who: birth for who, birth in self.pending.items() if now - birth[0] < SETTLE_S}
+            recent = ((who, birth) for who, birth in self.pending.items() if now - birth[0] < SETTLE_S)
+            self.pending = {who: birth for who, birth in recent if _lives(who)}  # the dead are done with it
             # A birth allowed just now may not have been seen yet: count it, rather twice than not at all.
             unseen = list(self.pending.values())
             self.seen, self.since = self.count(), [sum(not birth[1] for birth in unseen), len(unseen)]
@@ -93,3 +95,11 @@ class Births:
     def _room(self, thread: bool) -> bool:
         processes, threads = (seen + since for seen, since in zip(self.seen, self.since, strict=True))
         return threads < self.limits[1] and (thread or processes < self.limits[0])
+
+
+def _lives(task: int) -> bool:
+    """Whether a process or thread is still there and not a zombie."""
+    try:
+        return Path(f"/proc/{task}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except (OSError, IndexError):
+        return False
