@@ -39,20 +39,18 @@ class Hold:
     def write(self, kind: str, target: str, share: float) -> None:
         """Leave only this share of what the program writes of this kind to this target (see `variants`)."""
         model = self._model
-        owner = target.partition("/")[0].partition("[")[0]
         if kind == "parameter":
             self._owners[target] = share
         elif kind == "callback":
             self._callbacks.append(target.removeprefix("mjcb_"))
         elif kind == "control":
-            known = names(model, "actuator", len(model.actuator_trntype))
-            name = next(n for n in (target, target.rpartition("/")[2], target.partition("/")[2]) if n in known)
-            first, count = model.actuator_ctrladr[known.index(name)], model.actuator_ctrlnum[known.index(name)]
+            actuator = found(names(model, "actuator", len(model.actuator_trntype)), target)
+            first, count = model.actuator_ctrladr[actuator], model.actuator_ctrlnum[actuator]
             self._input("ctrl", range(first, first + count), share)
         elif kind == "constraint":
-            self._input("eq_active", [names(model, "equality", model.neq).index(target)], share)
+            self._input("eq_active", [found(names(model, "equality", model.neq), target)], share)
         else:
-            self._body(kind, names(model, "body", model.nbody).index(owner), share)
+            self._body(kind, found(names(model, "body", model.nbody), target), share)
 
     def _body(self, kind: str, body: int, share: float) -> None:
         model = self._model
@@ -226,6 +224,13 @@ class _Parameters:
                 flat, old = live.reshape(-1), self._pristine[edit.array]
                 flat[index] = old[index] + ((flat[index] - old[index]) * share).astype(old.dtype)
         self._watch.changes()  # what was taken back is no edit
+
+
+def found(known: list[str], target: str) -> int:
+    """Index of what a target of the ledger names (`cart/motor`, `gaze[0]`, `ball/hinge`); -1 when nothing is so called."""
+    bare = target.partition("[")[0]
+    meant = (target, bare, bare.rpartition("/")[2], bare.partition("/")[2], bare.partition("/")[0])
+    return next((known.index(name) for name in meant if name in known), -1)
 
 
 def _turned(first: "np.ndarray", wanted: "np.ndarray", share: float) -> "np.ndarray":

@@ -270,6 +270,9 @@ def test_a_finer_step_records_the_same_instants(tmp_path):
     [
         (["--without", "bal"], "there is no bal"),
         (["--without", "force:nobody"], "there is no body nobody"),
+        (["--without", "control:ball/engine"], "there is no actuator ball/engine"),
+        (["--without", "constraint:"], "there is no equality"),
+        (["--without", "callback:mjcb_nonsense"], "there is no callback mjcb_nonsense"),
         (["--weaken", "ball"], "does not say"),
         (["--weaken", "ball=-1"], "does not say"),
         (["--weaken", "lamp.mass.x=0.5"], "there is no lamp.mass.x"),
