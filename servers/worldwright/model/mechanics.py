@@ -11,6 +11,9 @@ from typing import Any
 
 import numpy as np
 
+from . import linkage
+from .linkage import Joint, Tie
+
 Array = np.ndarray
 INFINITE_M = 1e6
 """A half extent beyond this is a plane or a height field's: it bounds nothing."""
@@ -49,6 +52,20 @@ class Mechanics:
     """(G,) index of the body that owns each geom, -1 for the world."""
     geom_half_extents: Array | None = None
     """(G, 3) m, in the geom's own frame; inf for planes."""
+    geom_type: tuple[str, ...] = ()
+    """Shape of each geom: `sphere`, `box`, `plane`, `mesh` …"""
+    geom_pos: Array | None = None
+    """(G, 3) m, centre of each geom's box in its body's frame."""
+    geom_quat: Array | None = None
+    """(G, 4) wxyz, in its body's frame."""
+    geom_collides: Array | None = None
+    """(G,) bool: its masks let it touch something."""
+    geom_friction: Array | None = None
+    """(G,) sliding friction; 0 where contacts are frictionless (condim 1)."""
+    joints: tuple[Joint, ...] = ()
+    """Hinges and slides with limits."""
+    ties: tuple[Tie, ...] = ()
+    """Welds and connects that hold at the start."""
     ground_z: float | None = None
     """Height of the world's highest level, collidable plane, m."""
     gravity: Array | None = None
@@ -95,6 +112,9 @@ class Mechanics:
             geom_names=geoms.names,
             geom_body=geoms.body,
             geom_half_extents=geoms.half,
+            **geoms.shapes(),
+            joints=linkage.joints(_rows(meta.get("joints")), lambda value: _index(value, names, rows)),
+            ties=linkage.ties(_rows(meta.get("equalities")), lambda value: _index(value, names, rows)),
             ground_z=geoms.ground_z(),
             gravity=_vector(meta, "gravity", option),
             drives=drives,
@@ -151,20 +171,12 @@ def describe(model: Any) -> dict[str, Any]:
             "quat": model.geom_quat[g].tolist(),
             "contype": int(model.geom_contype[g]),
             "conaffinity": int(model.geom_conaffinity[g]),
+            "friction": model.geom_friction[g].tolist(),
+            "condim": int(model.geom_condim[g]),
             "surfacevel": bool(np.any(model.geom_surfacevel[g])),
             "adhesion": bool(np.any(model.geom_adhesion[g])),
         }
         for g in range(model.ngeom)
-    ]
-    is_site = [mujoco.mjtObj(k) == obj.mjOBJ_SITE for k in model.eq_objtype]
-    ends = [
-        [
-            body_names[model.site_bodyid[i] if is_site[e] else i]
-            for i in (model.eq_obj1id[e], model.eq_obj2id[e])
-            if i >= 0
-        ]
-        for e in range(model.neq)
-        if model.eq_type[e] in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
     ]
     # What a tendon or an actuator pulls on is read off its Jacobian, whatever its transmission.
     data = mujoco.MjData(model)
@@ -179,7 +191,8 @@ def describe(model: Any) -> dict[str, Any]:
     return {
         "bodies": bodies,
         "geoms": geoms,
-        "equalities": [{"bodies": pair} for pair in ends],
+        "joints": [_joint(model, j, name(obj.mjOBJ_JOINT, j), body_names) for j in range(model.njnt)],
+        "equalities": [_tie(model, data, e, name(obj.mjOBJ_EQUALITY, e), body_names) for e in range(model.neq)],
         "tendons": tendons,
         "actuators": actuators,
         "gravity": option.gravity.tolist(),
@@ -188,6 +201,44 @@ def describe(model: Any) -> dict[str, Any]:
         "has_flex": bool(model.nflex),
         "has_plugin": bool(model.nplugin),
     }
+
+
+def _joint(model: Any, j: int, called: str, body_names: Sequence[str]) -> dict[str, Any]:
+    """A joint; its range only when it is limited and the only one of its body, so that a pose tells its angle."""
+    import mujoco
+
+    body = int(model.jnt_bodyid[j])
+    kind = mujoco.mjtJoint(model.jnt_type[j]).name[6:].lower()
+    row: dict[str, Any] = {"name": called, "type": kind, "body": body_names[body]}
+    if model.jnt_limited[j] and kind in ("hinge", "slide") and model.body_jntnum[body] == 1:
+        row |= {
+            "range": (model.jnt_range[j] - model.qpos0[model.jnt_qposadr[j]]).tolist(),
+            "axis": model.jnt_axis[j].tolist(),
+            "pos0": model.body_pos[body].tolist(),
+            "quat0": model.body_quat[body].tolist(),
+        }
+    return row
+
+
+def _tie(model: Any, data: Any, e: int, called: str, body_names: Sequence[str]) -> dict[str, Any]:
+    """An equality; with anchors when it holds two points of two bodies together."""
+    import mujoco
+
+    kind = mujoco.mjtEq(model.eq_type[e])
+    row: dict[str, Any] = {"name": called, "type": kind.name[5:].lower(), "active": bool(model.eq_active0[e])}
+    if kind not in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD):
+        return {**row, "bodies": []}
+    ids = (int(model.eq_obj1id[e]), int(model.eq_obj2id[e]))
+    if mujoco.mjtObj(model.eq_objtype[e]) == mujoco.mjtObj.mjOBJ_SITE:
+        ends = [int(model.site_bodyid[i]) for i in ids]
+        anchors = [model.site_pos[i].tolist() for i in ids]
+    else:
+        # mjEQ_CONNECT stores the anchor in both bodies' frames; mjEQ_WELD in the second's, then the relative pose.
+        ends = list(ids)
+        second = np.array(model.eq_data[e, :3] if kind == mujoco.mjtEq.mjEQ_WELD else model.eq_data[e, 3:6])
+        point = data.xpos[ids[1]] + data.xmat[ids[1]].reshape(3, 3) @ second
+        anchors = [(data.xmat[ids[0]].reshape(3, 3).T @ (point - data.xpos[ids[0]])).tolist(), second.tolist()]
+    return {**row, "ends": [body_names[i] for i in ends], "bodies": [body_names[i] for i in ends], "anchors": anchors}
 
 
 def _pulled(data: Any, kind: str, row: int, owner: Sequence[str], nv: int) -> list[str]:
@@ -236,6 +287,24 @@ class _Geoms:
         empty = ~np.all(np.isfinite(low), axis=1)
         low[empty], high[empty] = np.nan, np.nan
         return (low + high) / 2, (high - low) / 2
+
+    def shapes(self) -> dict[str, Any]:
+        """Where each geom's box stands in its body, and what it is; nothing when the rows do not say."""
+        if self.half is None or not all("pos" in row and "quat" in row for row in self.rows):
+            return {}
+        quat = np.array([row["quat"] for row in self.rows], dtype=float)
+        pos = np.array([row["pos"] for row in self.rows], dtype=float)
+        collides = [bool(row.get("contype", 1) or row.get("conaffinity", 1)) for row in self.rows]
+        found: dict[str, Any] = {
+            "geom_type": tuple(str(row.get("type", "")) for row in self.rows),
+            "geom_pos": pos + np.einsum("gij,gj->gi", rotation(quat), np.where(np.isfinite(self.half), self.middle, 0.0)),
+            "geom_quat": quat,
+            "geom_collides": np.array([row.get("collides", own) for row, own in zip(self.rows, collides, strict=True)]),
+        }
+        if all(row.get("friction") is not None for row in self.rows):
+            slide = [float(np.ravel(row["friction"])[0]) for row in self.rows]
+            found["geom_friction"] = np.where([row.get("condim", 3) == 1 for row in self.rows], 0.0, slide)
+        return found
 
     def ground_z(self) -> float | None:
         """The highest level plane of the world that can be touched."""

@@ -48,9 +48,25 @@ def read_npz(path: Path, mjcf: Path | None = None) -> Trajectory:
                 f"{name} holds {found[name].dtype}, not numbers", place=str(path), next_move="store float64 arrays"
             )
         channels[name] = found[name].astype(float)
-    trajectory = Trajectory(names=names, mechanics=_mechanics(mjcf, names), meta={"source": path.name}, **channels)
+    channels, late = _in_order(channels)
+    trajectory = Trajectory(
+        names=names, mechanics=_mechanics(mjcf, names), meta={"source": path.name}, out_of_order=late, **channels
+    )
     trajectory.verify(str(path))
     return trajectory
+
+
+def _in_order(channels: dict[str, Array]) -> tuple[dict[str, Array], tuple[float, ...]]:
+    """The rows whose time is later than every earlier one's, and the times of the others."""
+    t = channels["t"]
+    if t.ndim != 1 or len(t) < 2 or not np.any(np.isfinite(t)):
+        return channels, ()
+    highest = np.maximum.accumulate(np.where(np.isfinite(t), t, -np.inf))
+    kept = np.isfinite(t) & np.concatenate(([True], t[1:] > highest[:-1]))
+    if kept.all():
+        return channels, ()
+    late = tuple(float(v) for v in np.nan_to_num(t[~kept]))
+    return {name: a[kept] if len(a) == len(t) else a for name, a in channels.items()}, late
 
 
 def _mechanics(mjcf: Path | None, names: tuple[str, ...]) -> Mechanics:

@@ -124,6 +124,8 @@ class Trajectory:
     meta: Mapping[str, Any] = field(default_factory=dict)
     time_step: float = 0.0
     """s, of the simulation; 0 when unknown."""
+    out_of_order: tuple[float, ...] = ()
+    """Times of rows that were not later than the rows before them; they are left out of every array."""
     complete: bool = True
     """False: the recording was cut off by a crash or a limit."""
     recorded_sha256: str = ""

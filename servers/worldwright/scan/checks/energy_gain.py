@@ -16,8 +16,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...model.finding import AnomalySeverity
 from ...model.trajectory import Trajectory
-from .. import analytic
+from .. import analytic, flight
 from ..sign import Case, Context, Sign, SkipError
 
 CODE = "WS109"
@@ -51,10 +52,24 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     share = gain[end] / scale
     if share <= WARN:
         return
+    unnamed = trajectory.interventions is None and _pushed(trajectory)
     start = int(np.argmin(level[: end + 1]))
     window = (trajectory.t[rows[start]], trajectory.t[rows[end]])
     message = f"the mechanical energy rises by {gain[end]:.3g} J ({share:.0%} of its scale) without recorded work"
-    yield Sign("world", window, share, WARN, "of the energy scale", "blocking" if share > BLOCK else "warn", message)
+    severity: AnomalySeverity = "blocking" if share > BLOCK and not unnamed else "warn"
+    if unnamed:
+        message += "; the recording names no forces, and one acts in flight that may be meant"
+    yield Sign("world", window, share, WARN, "of the energy scale", severity, message)
+
+
+def _pushed(trajectory: Trajectory) -> bool:
+    """Whether a smooth force acts on something in flight, or everything climbs while nothing touches (a thruster)."""
+    if trajectory.mechanics.unforced is not None:
+        return any(not push.sudden and not push.sets_in for push in flight.pushes(trajectory))
+    energy, touching = trajectory.energy, trajectory.ncon
+    if energy is None or touching is None or np.any(touching > 0):
+        return False
+    return bool(np.all(np.diff(energy.sum(axis=1)) >= -1e-9 * np.abs(energy).max()) and np.ptp(energy[:, 0]) > 0)
 
 
 def _noise(trajectory: Trajectory) -> float:

@@ -6,6 +6,8 @@ left hanging without support. Touching nothing and tied to nothing, only gravity
 Formula: for a loose body in rows without contact, a = dv/dt of its centre of mass; |a - g| > 0.1 max(|g|, 1) over at
 least three rows whose sum |sum (a - g) dt| exceeds 0.1 sqrt(g r); or, when every step was recorded, one single step
 with |dv - g dt| > 0.5 sqrt(g r). Rows with a recorded force, torque, velocity or pose on the body are the ledger's.
+Severity: blocking where the recording has a ledger, or where the force sets in with full strength in mid-flight; a
+smooth force in a recording that names no forces (a planet's pull, a thruster, water) warns.
 Threshold: a tenth of gravity; free flight of the engine agrees to 1e-9.
 Source: Newton's second law; the facts on staging (forces on airborne bodies).
 """
@@ -16,64 +18,34 @@ from dataclasses import replace
 import numpy as np
 
 from ...model.trajectory import Trajectory
-from .. import analytic
-from ..sign import Case, Context, Sign, spans
+from .. import analytic, flight
+from ..sign import Case, Context, Sign
 
 CODE = "WS113"
 NEEDS = ("touching", "mechanics.unforced")
-PUSHES = ("force", "torque", "pose", "velocity", "control", "callback", "constraint")
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the bodies whose flight is not free."""
-    flying = in_flight(trajectory)
-    dt = np.diff(trajectory.t)[:, None]
-    g = trajectory.gravity
-    tolerance = 0.1 * max(float(np.sqrt((g**2).sum())), 1.0)
-    for b in np.flatnonzero(flying.any(axis=0)):
-        extra = np.diff(trajectory.com_velocity[:, b], axis=0) - g * dt
-        size = np.sqrt((extra**2).sum(axis=1))
-        scale = trajectory.speed_scale[b]
-        off = flying[:, b] & (size > tolerance * dt[:, 0])
-        name = trajectory.names[b]
-        for start, stop in spans(off, bridge=1):
-            change = float(np.sqrt((extra[start:stop].sum(axis=0) ** 2).sum()))
-            lasting = stop - start >= 3 and change > 0.1 * scale
-            if not lasting and not (trajectory.every_step and size[start:stop].max() > 0.5 * scale):
-                continue
-            seconds = trajectory.t[stop] - trajectory.t[start]
-            message = f"{name} touches nothing, yet its velocity changes by {change:.3g} m/s more than gravity explains"
-            if trajectory.speed[start:stop, b].max() < 1e-6:
-                message = f"{name} hangs in the air for {seconds:.2g} s, touching nothing"
-            severity = "info" if context.acts_on(name, PUSHES) else "blocking"
-            yield Sign(
-                name, (trajectory.t[start], trajectory.t[stop]), change / seconds, tolerance, "m/s^2", severity, message
-            )
-            break
-
-
-def in_flight(trajectory: Trajectory) -> np.ndarray:
-    """(T-1, B) steps in which only gravity may act on a loose body."""
-    touching, unforced = trajectory.touching, trajectory.mechanics.unforced
-    if touching is None or unforced is None or len(trajectory.t) < 3:
-        return np.zeros((max(0, len(trajectory.t) - 1), len(trajectory.names)), dtype=bool)
-    apart = ~(touching[1:] | touching[:-1])
-    if not trajectory.every_step:
-        # A touch may hide between two sparse rows beside one that was seen.
-        near = apart.copy()
-        near[1:] &= apart[:-1]
-        near[:-1] &= apart[1:]
-        apart = near
-    flying = apart & unforced & trajectory.moves_freely
-    ledger = trajectory.interventions
-    if ledger is not None and len(ledger.time):
-        step = np.clip(np.searchsorted(trajectory.t, np.asarray(ledger.time) + 1e-12) - 1, 0, len(flying) - 1)
-        for row, kind, target in zip(step, ledger.kind, ledger.target, strict=True):
-            if kind in PUSHES:
-                body = str(target).replace("/", ".").split(".")[0]
-                column = trajectory.names.index(body) if body in trajectory.names else slice(None)
-                flying[max(0, row - 1) : row + 2, column] = False
-    return flying
+    told = trajectory.interventions is not None or trajectory.every_step
+    seen = set()
+    for push in flight.pushes(trajectory):
+        name = trajectory.names[push.body]
+        if name in seen or (push.sudden and not told):  # velocity_jump's
+            continue
+        seen.add(name)
+        start, stop = push.start, push.stop
+        seconds = trajectory.t[stop] - trajectory.t[start]
+        message = f"{name} touches nothing, yet its velocity changes by {push.change:.3g} m/s more than gravity explains"
+        if trajectory.speed[start:stop, push.body].max() < 1e-6:
+            message = f"{name} hangs in the air for {seconds:.2g} s, touching nothing"
+        certain = told or push.sets_in
+        if not certain:
+            message += "; the recording names no forces, so whether this one is meant cannot be told"
+        severity = "info" if context.acts_on(name, flight.PUSHES) else "blocking" if certain else "warn"
+        tolerance = 0.1 * max(float(np.sqrt((trajectory.gravity**2).sum())), 1.0)
+        window = (trajectory.t[start], trajectory.t[stop])
+        yield Sign(name, window, push.change / seconds, tolerance, "m/s^2", severity, message)
 
 
 def _floating() -> Case:

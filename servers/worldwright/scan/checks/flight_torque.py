@@ -17,8 +17,8 @@ import numpy as np
 from ...model.mechanics import rotation
 from ...model.trajectory import Trajectory
 from .. import analytic
+from ..flight import PUSHES, in_flight
 from ..sign import Case, Context, Sign, spans
-from .flight_force import PUSHES, in_flight
 
 CODE = "WS114"
 NEEDS = ("touching", "mechanics.unforced", "mechanics.inertia", "mechanics.inertia_quat")

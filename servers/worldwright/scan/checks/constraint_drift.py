@@ -1,0 +1,93 @@
+"""Two bodies that a weld or a connection holds together come apart while it still holds.
+
+What it means: the constraint is too soft for its load, the step is too long, or two constraints contradict each other.
+A connection that breaks is another thing: the gap is small until it breaks, and then the bodies part for good.
+
+Formula: the distance of the two anchor points, less what it was at the start. Judged up to a break: the last row at which
+the gap was small and after which it only grows, past the size of the smaller body.
+Threshold: 5 % of the smaller body's bounding radius warns, 20 % blocks, for at least 0.05 s.
+Source: the manual on equality constraints; Baumgarte, Stabilization of constraints (1972).
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...model.linkage import Tie
+from ...model.mechanics import rotation
+from ...model.trajectory import Trajectory
+from .. import analytic
+from ..sign import Case, Context, Sign, sliding_sum
+
+CODE = "WS122"
+NEEDS = ("mechanics.ties",)
+WARN, BLOCK, HELD_S = 0.05, 0.2, 0.05
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield the ties that drift."""
+    rows = max(1, round(HELD_S / trajectory.interval_s))
+    for tie in trajectory.mechanics.ties:
+        gap = distance(trajectory, tie)
+        size = min(float(trajectory.size_m[b]) for b in tie.bodies if b >= 0) if max(tie.bodies) >= 0 else 1.0
+        held = _until_break(gap, size)
+        if len(held) < rows or not len(held):
+            continue
+        level = float((sliding_sum(held, rows) / rows).max())
+        if level <= WARN * size:
+            continue
+        names = " and ".join(trajectory.names[b] if b >= 0 else "world" for b in tie.bodies)
+        past = np.flatnonzero(held > WARN * size)
+        window = (trajectory.t[past[0]], trajectory.t[past[-1]])
+        severity = "blocking" if level > BLOCK * size else "warn"
+        message = f"{tie.name} lets {names} come {level:.3g} m apart while it holds them"
+        yield Sign(names, window, level, WARN * size, "m", severity, message)
+
+
+def distance(trajectory: Trajectory, tie: Tie) -> np.ndarray:
+    """(T,) m between the anchors, beyond their distance at the start."""
+    points = []
+    for body, anchor in zip(tie.bodies, tie.anchors, strict=True):
+        if body < 0:
+            points.append(np.broadcast_to(anchor, (len(trajectory.t), 3)))
+        else:
+            points.append(trajectory.pos[:, body] + rotation(trajectory.quat[:, body]) @ anchor)
+    apart = np.sqrt(((points[0] - points[1]) ** 2).sum(axis=1))
+    return np.abs(apart - apart[0])
+
+
+def _until_break(gap: np.ndarray, size: float) -> np.ndarray:
+    """The rows before the two part for good; all of them when they never do."""
+    if gap[-1] < size:
+        return gap
+    small = np.flatnonzero(gap < BLOCK * size)
+    last = int(small[-1]) + 1 if len(small) else 0
+    apart = gap[last:]
+    # Parting takes a few rows, a drift goes on for as long as the constraint gives way.
+    quick = len(apart) and np.argmax(apart > size) <= max(3, 0.1 * len(gap))
+    return gap[: max(0, last - 1)] if quick else gap
+
+
+def _pulled(gap_m: np.ndarray) -> Case:
+    t = analytic.clock(2.0)
+    pos = np.zeros((len(t), 2, 3))
+    pos[:, 1, 0] = 0.2 + gap_m
+    vel = np.gradient(pos, t, axis=0)
+    made = analytic.motion(t, pos, vel, names=("a", "b"), size_m=0.2, free=False, gravity=0.0)
+    tie = Tie("weld", (0, 1), np.array([[0.1, 0, 0], [-0.1, 0, 0]]))
+    return Case("two welded boxes", replace(made, mechanics=replace(made.mechanics, ties=(tie,))))
+
+
+def _clock() -> np.ndarray:
+    return analytic.clock(2.0)
+
+
+GOOD = (
+    lambda: _pulled(0 * _clock()),
+    lambda: _pulled(np.where(_clock() < 1.0, 0.0, 5.0 * (_clock() - 1.0) ** 2 + 2 * np.maximum(_clock() - 1.0, 0))),
+)
+BAD = (
+    lambda: replace(_pulled(0.03 * np.minimum(_clock(), 1.0)), severity="blocking"),
+    lambda: replace(_pulled(0.015 * np.minimum(_clock(), 1.0)), severity="warn"),
+)

@@ -1,0 +1,82 @@
+"""A contact pushes a hundred times harder than the motion around it accounts for.
+
+What it means: bodies were put inside each other, the contact is too stiff for the step, or a constraint fights it.
+A real blow is as short and as hard, but then it changes the body's velocity; a spike does not, or throws the body away.
+
+Formula: F, the sum of the contact forces on a body, against its usual value (the median while in contact) and its
+weight. A spike has F > 100 times the larger, at a body slower than sqrt(g r) in the three rows before.
+Threshold: 100: a thing of a kilogram pressed with a tonne.
+Source: the impulse-momentum theorem.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ...model.trajectory import Trajectory
+from .. import analytic
+from ..sign import Case, Context, Sign
+
+CODE = "WS127"
+NEEDS = ("linvel", "touching")
+FACTOR = 100.0
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield the worst spike of each body."""
+    force = forces(trajectory)
+    mass, g = trajectory.mechanics.mass, float(np.sqrt((trajectory.gravity**2).sum()))
+    for b in np.flatnonzero((force > 0).any(axis=0) & trajectory.moves_freely):
+        pressed = force[:, b] > 0
+        usual = float(np.median(force[pressed, b]))
+        weight = 0.0 if mass is None else float(mass[b]) * g
+        limit = FACTOR * max(usual, weight)
+        if limit <= 0 or (mass is None and pressed.sum() < 20):
+            continue
+        for n in np.flatnonzero(force[:, b] > limit):
+            if trajectory.speed[max(0, n - 3) : n + 1, b].min() > trajectory.speed_scale[b]:
+                continue
+            near = _others_fast(trajectory, int(n), int(b))
+            if near:
+                continue
+            name = trajectory.names[b]
+            message = f"a contact presses {name} with {force[n, b]:.3g} N, {force[n, b] / (limit / FACTOR):.0f} times the usual"
+            yield Sign(name, (trajectory.t[n], trajectory.t[n]), force[n, b], limit, "N", "blocking", message)
+            break
+
+
+def forces(trajectory: Trajectory) -> np.ndarray:
+    """(T, B) N: sums of the magnitudes of the contact forces on each body."""
+    if trajectory.contact_force_sum is not None:
+        return trajectory.contact_force_sum
+    total = np.zeros((len(trajectory.t), len(trajectory.names)))
+    if trajectory.contacts is not None:
+        for body in (trajectory.contacts.body1, trajectory.contacts.body2):
+            inside = body >= 0
+            np.add.at(total, (trajectory.contacts.row[inside], body[inside]), trajectory.contacts.normal_force[inside])
+    return total
+
+
+def _others_fast(trajectory: Trajectory, n: int, b: int) -> bool:
+    """Whether another body was fast enough just before to have struck a blow."""
+    before = trajectory.speed[max(0, n - 3) : n + 1].max(axis=0) > trajectory.speed_scale
+    before[b] = False
+    return bool(before.any())
+
+
+def _pressed(force: float, speed: float = 0.0) -> Case:
+    still = analytic.resting()
+    push = np.full((len(still.t), 1), analytic.G)
+    push[400] = force
+    moving = still.linvel.copy()
+    moving[:401, 0, 2] = -speed
+    return Case("a push for one row", replace(still, contacts=None, contact_force_sum=push, linvel=moving))
+
+
+GOOD = (
+    lambda: Case("a body at rest", analytic.resting()),
+    lambda: _pressed(5000.0, speed=5.0),
+    lambda: _pressed(200.0),
+)
+BAD = (lambda: replace(_pressed(50_000.0), severity="blocking"),)
