@@ -5,6 +5,7 @@ fast. Exit codes: 0 yes, 1 the answer is no (findings, a failed pass), 2 the cal
 not be answered (its cause and the next move are printed), 3 a defect of ours.
 """
 
+import functools
 import inspect
 import json
 import os
@@ -99,6 +100,11 @@ def verb(function: Callable[..., Any]) -> click.Command:
         kind = click.Path(path_type=Path, allow_dash=True)
         text = f"A file with one {batch[0]} a line (- is standard input); prints one JSON line each."
         parameters.append(click.Option(["--batch", "_batch"], type=kind, help=text))
+    many = getattr(function, "several", None)
+    if many:
+        parameters = [
+            click.Argument([many], type=p.type, nargs=-1, required=True) if p.name == many else p for p in parameters
+        ]
     choices = click.Choice(["text", "json"])
     parameters.append(click.Option(["--format", "_format"], type=choices, default="text", help="How to print."))
 
@@ -106,6 +112,8 @@ def verb(function: Callable[..., Any]) -> click.Command:
         arguments = {name: _value(annotations[name], value) for name, value in values.items() if value is not None}
         if _batch is not None:
             sys.exit(report_errors(lambda: _each(function, _batch, arguments), _format))
+        if many:
+            sys.exit(_one_by_one(function, many, arguments, _format, listener is not None))
         if batch and batch[0] not in arguments:
             raise click.UsageError(f"give a {batch[0]}, or --batch FILE with one a line")
         result = report_errors(lambda: _call(function, arguments, listener is not None), _format)
@@ -129,6 +137,32 @@ def _call(function: Callable[..., Any], arguments: dict[str, Any], listens: bool
         return expose.call(function, arguments, progress)
 
 
+def _one_by_one(
+    function: Callable[..., Any], parameter: str, arguments: dict[str, Any], style: str, listens: bool
+) -> int:
+    """Call a tool for every value of a parameter; the exit code is the worst. One that fails does not stop the rest."""
+    worst = 0
+    for value in arguments[parameter]:
+        try:
+            one = functools.partial(_call, function, {**arguments, parameter: value}, listens)
+            result = report_errors(one, style)
+        except SystemExit as refused:
+            worst = max(worst, int(refused.code or 0))
+            continue
+        worst = max(worst, expose.exit_code(result))
+        if style == "json":
+            click.echo(_line(result))
+        else:
+            if len(arguments[parameter]) > 1:
+                click.echo(f"{value}:")
+            show(result, style)
+    return worst
+
+
+def _line(result: Any) -> str:
+    return json.dumps(json.loads(expose.to_json(result)), ensure_ascii=False, separators=(",", ":"))
+
+
 def _each(function: Callable[..., Any], lines: Path, arguments: dict[str, Any]) -> int:
     """Call a tool for every line of a file; the exit code is the worst of the answers'."""
     from .report.progress import bar
@@ -148,7 +182,7 @@ def _each(function: Callable[..., Any], lines: Path, arguments: dict[str, Any]) 
     for value in values:
         result = expose.call(function, {**arguments, parameter: value})
         worst = max(worst, expose.exit_code(result))
-        click.echo(json.dumps(json.loads(expose.to_json(result)), ensure_ascii=False, separators=(",", ":")))
+        click.echo(_line(result))
     return worst
 
 

@@ -97,6 +97,16 @@ def batched(parameter: str, before: Callable[[Progress], None] | None = None) ->
     return mark
 
 
+def several(parameter: str) -> Callable[..., Any]:
+    """Let a tool's command take many values of `parameter`: one call each, as JSON one line each."""
+
+    def mark(function: Callable[..., Any]) -> Callable[..., Any]:
+        function.several = parameter  # type: ignore[attr-defined]
+        return function
+
+    return mark
+
+
 def description(function: Callable[..., Any]) -> str:
     """What an agent reads about a tool: its docstring, unwrapped."""
     return inspect.cleandoc(function.__doc__ or "").strip()

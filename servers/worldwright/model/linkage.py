@@ -48,7 +48,9 @@ def joints(rows: Sequence[Mapping[str, Any]], index: Any) -> tuple[Joint, ...]:
             continue
         low, high = (float(v) for v in row["range"])
         vectors = {key: np.asarray(row[key], dtype=float) for key in ("axis", "pos0", "quat0")}
-        found.append(Joint(str(row.get("name", "")), index(row["body"]), str(row["type"]), low=low, high=high, **vectors))
+        found.append(
+            Joint(str(row.get("name", "")), index(row["body"]), str(row["type"]), low=low, high=high, **vectors)
+        )
     return tuple(found)
 
 

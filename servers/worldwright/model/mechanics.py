@@ -297,7 +297,8 @@ class _Geoms:
         collides = [bool(row.get("contype", 1) or row.get("conaffinity", 1)) for row in self.rows]
         found: dict[str, Any] = {
             "geom_type": tuple(str(row.get("type", "")) for row in self.rows),
-            "geom_pos": pos + np.einsum("gij,gj->gi", rotation(quat), np.where(np.isfinite(self.half), self.middle, 0.0)),
+            "geom_pos": pos
+            + np.einsum("gij,gj->gi", rotation(quat), np.where(np.isfinite(self.half), self.middle, 0.0)),
             "geom_quat": quat,
             "geom_collides": np.array([row.get("collides", own) for row, own in zip(self.rows, collides, strict=True)]),
         }

@@ -24,6 +24,8 @@ from .mechanics import Mechanics, rotation
 
 Array = np.ndarray
 STANDARD_GRAVITY = 9.80665
+SMALLEST_M = 0.01
+"""Assumed of a body whose size is not known, however little of the scene moves."""
 WORLD_NAMES = ("world", "ground", "floor")
 """Names by which the world itself may be meant where a body is asked for."""
 SHAPES = {"pos": (3,), "quat": (4,), "linvel": (3,), "angvel": (3,)}
@@ -301,7 +303,7 @@ class Trajectory:
 
     @cached_property
     def size_m(self) -> Array:
-        """(B,) radius of the sphere around each body; where unknown, a fiftieth of the extent of the scene."""
+        """(B,) radius of the sphere around each body; where unknown, a fiftieth of the extent of the scene or 1 cm."""
         known = self.mechanics.half_extents
         size = np.full(len(self.names), np.nan) if known is None else np.sqrt((known**2).sum(axis=1))
         if np.any(np.isnan(size)):
@@ -311,7 +313,7 @@ class Trajectory:
             if len(flat):
                 low, high = np.percentile(flat, (1, 99), axis=0)
                 extent = float(np.sqrt(((high - low) ** 2).sum())) or 1.0
-            size = np.where(np.isnan(size), 0.02 * extent, size)
+            size = np.where(np.isnan(size), max(0.02 * extent, SMALLEST_M), size)
         return np.maximum(size, 1e-9)
 
     @cached_property

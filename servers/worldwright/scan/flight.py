@@ -16,6 +16,7 @@ from .sign import spans
 
 Array = np.ndarray
 PUSHES = ("force", "torque", "pose", "velocity", "control", "callback", "constraint")
+_PUSHES = "_pushes_in_flight"
 SUDDEN_ROWS = 2
 LASTING_ROWS = 3
 
@@ -58,15 +59,23 @@ def in_flight(trajectory: Trajectory) -> Array:
                 body = str(target).replace("/", ".").split(".")[0]
                 column = trajectory.names.index(body) if body in trajectory.names else slice(None)
                 flying[max(0, row - 1) : row + 2, column] = False
-    if not trajectory.every_step:
-        for b in np.flatnonzero(flying.any(axis=0)):
-            close = reachable(trajectory, int(b))
-            flying[:, b] &= ~(close[1:] | close[:-1])
     return flying
 
 
-def pushes(trajectory: Trajectory) -> Iterator[Push]:
-    """Every stretch of flight that gravity does not explain, body by body."""
+def certain(trajectory: Trajectory, b: int, start: int, stop: int) -> bool:
+    """Whether steps `start` to `stop` of a body are flight even between rows: nothing was near enough to touch it."""
+    return trajectory.every_step or not reachable(trajectory, b, slice(max(0, start - 1), stop + 2)).any()
+
+
+def pushes(trajectory: Trajectory) -> tuple[Push, ...]:
+    """Every stretch of flight that gravity does not explain, body by body; found once, asked for by several checks."""
+    known = trajectory.__dict__.get(_PUSHES)
+    if known is None:
+        known = trajectory.__dict__[_PUSHES] = tuple(_pushes(trajectory))
+    return known
+
+
+def _pushes(trajectory: Trajectory) -> Iterator[Push]:
     flying = in_flight(trajectory)
     dt = np.diff(trajectory.t)[:, None]
     g = trajectory.gravity
@@ -82,12 +91,14 @@ def pushes(trajectory: Trajectory) -> Iterator[Push]:
             if trajectory.every_step:
                 sudden = bool(size[start:stop].max() > 0.5 * scale)
             lasting = stop - start >= LASTING_ROWS and change > 0.1 * scale
-            if not (sudden or lasting):
+            if not (sudden or lasting) or not certain(trajectory, int(b), int(start), int(stop)):
                 continue
             before = flying[max(0, start - LASTING_ROWS) : start, b]
             free = len(before) == LASTING_ROWS and bool(before.all())
             usual = float(np.median(size[start:stop] / dt[start:stop, 0]))
-            at_once = size[min(start + 1, stop - 1)] / dt[start, 0] > 0.7 * usual and _steady(extra[start:stop] / dt[start:stop])
+            at_once = size[min(start + 1, stop - 1)] / dt[start, 0] > 0.7 * usual and _steady(
+                extra[start:stop] / dt[start:stop]
+            )
             yield Push(int(b), int(start), int(stop), change, sudden, bool(lasting and free and at_once))
 
 
@@ -99,37 +110,44 @@ def _steady(acceleration: Array) -> bool:
     return bool(spread < 0.2 * np.sqrt((mean**2).sum()))
 
 
-def reachable(trajectory: Trajectory, b: int) -> Array:
-    """(T,) rows at which a body is so close to something that it may have touched it between rows.
+def reachable(trajectory: Trajectory, b: int, rows: slice) -> Array:
+    """(N,) rows at which a body is so close to something that it may have touched it between rows.
 
     Bounding spheres, inflated by the way of two rows; False everywhere when sizes are not known.
     """
     facts = trajectory.mechanics
-    close = np.zeros(len(trajectory.t), dtype=bool)
+    speed = trajectory.speed[rows]
+    close = np.zeros(len(speed), dtype=bool)
     if facts.half_extents is None or np.isnan(facts.half_extents[b]).any():
         return close
-    centre = _centre(trajectory, b)
-    radius = float(np.sqrt((facts.half_extents[b] ** 2).sum()))
-    for other in range(len(trajectory.names)):
-        if other == b or np.isnan(facts.half_extents[other]).any():
+    centre = _centre(trajectory, b, rows)
+    radii = np.sqrt((facts.half_extents**2).sum(axis=1))
+    every = 2 * trajectory.interval_s
+    # Which others come near at all: their origins within reach of the stretch's bounding box.
+    low, high = centre.min(axis=0), centre.max(axis=0)
+    path = trajectory.pos[rows]
+    offset = 0.0 if facts.center is None else np.sqrt((np.nan_to_num(facts.center) ** 2).sum(axis=1))
+    reach = radii[b] + radii + offset + every * (speed[:, b].max() + speed.max(axis=0))
+    apart = np.maximum(low - path.max(axis=0), path.min(axis=0) - high).max(axis=1)
+    for other in np.flatnonzero(~np.isnan(radii) & (apart < reach)):
+        if other == b:
             continue
-        gap = centre - _centre(trajectory, other)
-        reach = radius + float(np.sqrt((facts.half_extents[other] ** 2).sum()))
-        way = 2 * trajectory.interval_s * (trajectory.speed[:, b] + trajectory.speed[:, other])
-        close |= np.sqrt((gap**2).sum(axis=1)) < reach + way
-    way = 2 * trajectory.interval_s * trajectory.speed[:, b]
+        gap = centre - _centre(trajectory, int(other), rows)
+        way = every * (speed[:, b] + speed[:, other])
+        close |= np.sqrt((gap**2).sum(axis=1)) < radii[b] + radii[other] + way
+    way = every * speed[:, b]
     if facts.geom_pos is None and facts.ground_z is not None:
-        close |= centre[:, 2] - facts.ground_z < radius + way
+        close |= centre[:, 2] - facts.ground_z < radii[b] + way
     for g in _world_geoms(trajectory):
-        close |= _distance_to_geom(trajectory, g, centre) < radius + way
+        close |= _distance_to_geom(trajectory, g, centre) < radii[b] + way
     return close
 
 
-def _centre(trajectory: Trajectory, b: int) -> Array:
+def _centre(trajectory: Trajectory, b: int, rows: slice) -> Array:
     middle = trajectory.mechanics.center
     if middle is None or not np.any(middle[b]):
-        return trajectory.pos[:, b]
-    return trajectory.pos[:, b] + rotation(trajectory.quat[:, b]) @ middle[b]
+        return trajectory.pos[rows, b]
+    return trajectory.pos[rows, b] + rotation(trajectory.quat[rows, b]) @ middle[b]
 
 
 def _world_geoms(trajectory: Trajectory) -> Array:

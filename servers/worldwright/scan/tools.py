@@ -1,14 +1,15 @@
 """The tools of `scan`: plausibility, expectations, cross-check questions, plots, comparison."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
-from ..expose import reads
+from ..expose import reads, several
 from ..model.audits import CausesReport, RefineReport
 from ..model.errors import NotFoundError
 from ..model.evidence import EvidenceKey, ExpectReport, ScanReport
+from ..model.finding import Anomaly, AnomalySeverity
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
 from ..model.progress import Progress, silent
@@ -26,8 +27,29 @@ MOST_TOLD = 20
 Window = Annotated[str, Field(description="Seconds, as `START:END`; empty: all of it.")]
 
 
+class Found(Frozen):
+    """One anomaly, in the shape other programs read."""
+
+    check: str
+    severity: AnomalySeverity
+    body: str
+    t_start: float
+    t_end: float
+    value: float
+    threshold: float
+    unit: str
+    code: str
+    message: str
+
+
 class Scanned(ScanReport):
     """A scan report with a readable text, and with the audits that were asked for."""
+
+    file: str = ""
+    """What was scanned, as it was named."""
+    findings: tuple[Found, ...] = ()
+    """Every anomaly, flat."""
+    anomalies: tuple[Anomaly, ...] = Field(default=(), exclude=True)
 
     acting: tuple[str, ...] = ()
     """What acted on the state besides the engine, one line each (all of it in `interventions.json`)."""
@@ -109,6 +131,7 @@ class PlotFacts(Frozen):
         return f"{self.quantity} of {', '.join(self.bodies) or 'the bodies that move most'}"
 
 
+@several("run")
 def scan(
     run: RunName,
     refine: Annotated[bool, Field(description="Also repeat the physics at half the time step.")] = False,
@@ -133,7 +156,7 @@ def scan(
             raise NotFoundError(
                 "a lone recording has no program to repeat", place=run, next_move="name a run folder instead"
             )
-        return Scanned.model_validate(report.model_dump())
+        return _scanned(run, report)
     from .audits import running
 
     folder.keep(key, "scan", report)
@@ -146,7 +169,7 @@ def scan(
             refined=refine, causes=causes, timeout_s=timeout_s, progress=progress,
         )  # fmt: skip
     told = tuple(row.text for row in acted.acting)
-    return Scanned.model_validate({**report.model_dump(), **audited.model_dump(), "acting": told[:MOST_TOLD]})
+    return _scanned(run, report, **audited.model_dump(), acting=told[:MOST_TOLD])
 
 
 def expect(run: RunName) -> Expected:
@@ -164,6 +187,17 @@ def expect(run: RunName) -> Expected:
     folder.keep(key, "expect", report)
     folder.log("scan", "expect", key=key.key, ok=report.ok)
     return Expected.model_validate(report.model_dump())
+
+
+def _scanned(run: str, report: ScanReport, **more: Any) -> Scanned:
+    found = tuple(
+        Found(
+            check=a.name, severity=a.severity, body=a.body, t_start=a.window_s[0], t_end=a.window_s[1],
+            value=a.measured, threshold=a.threshold, unit=a.unit, code=a.code, message=a.message,
+        )
+        for a in report.anomalies
+    )  # fmt: skip
+    return Scanned.model_validate({**report.model_dump(), **more, "file": run, "findings": found})
 
 
 @reads

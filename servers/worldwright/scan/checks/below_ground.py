@@ -3,7 +3,8 @@
 What it means: its contact with the ground is switched off or missing, or it went through it between two steps.
 
 Formula: the centre of its bounding box is deeper than its bounding radius under the world's level ground plane (the
-whole body is under). Where no ground is known: it ends falling, 50 r and 5 m under everything's first position.
+whole body is under); or its lowest point, by the shape of its geoms, has been deeper than half its half-thickness for
+0.25 s (a quarter of it is under). Where no ground is known: it ends falling, 50 r and 5 m under everything's first position.
 Threshold: the body's own size. Blocking with a known ground, else a warning.
 Source: the manual on planes (a plane is infinite for collisions, whatever its drawn size).
 """
@@ -13,9 +14,11 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...model.mechanics import rotation
 from ...model.trajectory import Trajectory
 from .. import analytic
-from ..sign import Case, Context, Sign
+from ..sign import Case, Context, Sign, spans
+from .sliding_as_rolling import shaped
 
 CODE = "WS115"
 NEEDS = ("pos",)
@@ -28,9 +31,12 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     for b in np.flatnonzero(trajectory.moves_freely):
         name = trajectory.names[b]
         if ground is not None:
-            under = ground - height[:, b] - size[b]
-            if under.max() <= 0 or height[0, b] < ground - size[b]:
+            if height[0, b] < ground - size[b]:
                 continue  # what starts below (a cellar, a pit) was put there
+            under = ground - height[:, b] - size[b]
+            if under.max() <= 0:
+                yield from _half_under(trajectory, int(b), ground)
+                continue
             start = int(np.argmax(under > 0))
             message = f"{name} goes through the ground, to {ground - height[:, b].min():.3g} m below it"
             window = (trajectory.t[start], trajectory.t[-1])
@@ -44,6 +50,48 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             yield Sign(name, (trajectory.t[start], trajectory.t[-1]), depth, limit, "m", "warn", message)
 
 
+def _half_under(trajectory: Trajectory, b: int, ground: float) -> Iterator[Sign]:
+    facts = trajectory.mechanics
+    thick = facts.half_thickness()
+    lowest = lowest_point(trajectory, b)
+    if thick is None or lowest is None or np.isnan(thick[b]):
+        return
+    rows = max(1, round(0.25 / trajectory.interval_s))
+    depth = ground - lowest
+    for start, stop in spans(depth > 0.5 * thick[b]):
+        if stop - start >= rows:
+            name, deepest = trajectory.names[b], float(depth[start:stop].max())
+            message = f"{name} is {deepest:.3g} m deep in the ground"
+            window = (trajectory.t[start], trajectory.t[stop - 1])
+            yield Sign(name, window, deepest, 0.5 * float(thick[b]), "m", "blocking", message)
+            return
+
+
+def lowest_point(trajectory: Trajectory, b: int) -> np.ndarray | None:
+    """(T,) m: height of the lowest point of a body's colliding geoms; None when a shape is not simple."""
+    facts = trajectory.mechanics
+    if facts.geom_pos is None or facts.geom_body is None or facts.geom_half_extents is None:
+        return None
+    assert facts.geom_collides is not None and facts.geom_quat is not None
+    lowest: np.ndarray | None = None
+    for g in np.flatnonzero((facts.geom_body == b) & facts.geom_collides):
+        half, kind = facts.geom_half_extents[g], facts.geom_type[g]
+        up = (rotation(trajectory.quat[:, b]) @ rotation(facts.geom_quat[g]))[:, 2, :]  # world z in the geom's frame
+        centre = trajectory.pos[:, b, 2] + (rotation(trajectory.quat[:, b]) @ facts.geom_pos[g])[:, 2]
+        if kind == "box":
+            reach = np.abs(up) @ half
+        elif kind in ("sphere", "ellipsoid"):
+            reach = np.sqrt(((up * half) ** 2).sum(axis=1))
+        elif kind == "capsule":
+            reach = half[0] + np.abs(up[:, 2]) * (half[2] - half[0])
+        elif kind == "cylinder":
+            reach = half[0] * np.sqrt(np.clip(1 - up[:, 2] ** 2, 0, 1)) + np.abs(up[:, 2]) * half[2]
+        else:
+            return None
+        lowest = centre - reach if lowest is None else np.minimum(lowest, centre - reach)
+    return lowest
+
+
 def _no_ground() -> Case:
     fall = analytic.falling(seconds=2.0)
     made = replace(fall, mechanics=replace(fall.mechanics, ground_z=None))
@@ -54,4 +102,13 @@ GOOD = (
     lambda: Case("a bouncing ball", analytic.bouncing()),
     lambda: Case("a fall that ends above the ground", analytic.falling(seconds=0.8)),
 )
-BAD = (lambda: Case("a fall through the ground", analytic.falling(1.0, 1.0), severity="blocking"), _no_ground)
+
+
+def _buried() -> Case:
+    still = shaped(analytic.resting(), "box", 0.5)
+    pos = still.pos.copy()
+    pos[:, 0, 2] -= np.minimum(0.06 * still.t, 0.06)
+    return Case("a box sunk to its middle", replace(still, pos=pos), severity="blocking")
+
+
+BAD = (_buried, lambda: Case("a fall through the ground", analytic.falling(1.0, 1.0), severity="blocking"), _no_ground)

@@ -88,6 +88,6 @@ GOOD = (
     lambda: _pulled(np.where(_clock() < 1.0, 0.0, 5.0 * (_clock() - 1.0) ** 2 + 2 * np.maximum(_clock() - 1.0, 0))),
 )
 BAD = (
-    lambda: replace(_pulled(0.03 * np.minimum(_clock(), 1.0)), severity="blocking"),
+    lambda: replace(_pulled(0.06 * np.minimum(_clock(), 1.0)), severity="blocking"),
     lambda: replace(_pulled(0.015 * np.minimum(_clock(), 1.0)), severity="warn"),
 )

@@ -6,6 +6,7 @@ the pictures and feeds energy into everything stacked above. Bouncing decays, an
 Formula: over windows of 0.5 s, the body stays within a tenth of r (and turns less than 0.2 rad) while its vertical
 velocity (or its angular velocity times r) changes sign more than 10 times with contact in between; u is its rms there.
 Chatter when at least 1 s of such windows has u > 0.02 sqrt(g r) and the last third keeps 0.6 of the first third's u.
+Likewise six hops on one spot, none higher than r, whose last third keeps 0.8 of the first third's height: a warning.
 Threshold: 0.02 sqrt(g r) is a hop of r / 5000, about what a picture begins to show; 0.2 sqrt(g r) blocks.
 Source: the reference paper's scanner; the manual on contact stiffness against the time step.
 """
@@ -24,6 +25,7 @@ NEEDS = ("linvel", "touching")
 WINDOW_S = 0.5
 MINIMUM_S = 1.0
 REVERSALS = 10
+HOPS = 6
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -55,6 +57,26 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             message = f"{name} jitters on its contact at {last:.3g} m/s for {seconds:.2g} s without calming down"
             yield Sign(name, (trajectory.t[start], trajectory.t[stop]), last, 0.02 * scale, "m/s", severity, message)
             break
+        else:
+            yield from _hops(trajectory, int(b), touching[:, b])
+
+
+def _hops(trajectory: Trajectory, b: int, touching: np.ndarray) -> Iterator[Sign]:
+    """Small hops on one spot that stay as high: a warning, since a ball without losses does the same."""
+    flights = spans(~touching)
+    flights = flights[(flights[:, 0] > 0) & (flights[:, 1] < len(touching))]
+    rise = np.array([np.ptp(trajectory.pos[a:z, b, 2]) for a, z in flights])
+    real = rise > 0.01 * trajectory.size_m[b]
+    flights, rise = flights[real], rise[real]
+    if len(rise) < HOPS or rise.max() > trajectory.size_m[b]:
+        return
+    third = len(rise) // 3
+    drift = float(np.sqrt(((trajectory.pos[flights[-1, 0], b, :2] - trajectory.pos[flights[0, 0], b, :2]) ** 2).sum()))
+    if rise[-third:].mean() < 0.8 * rise[:third].mean() or drift > trajectory.size_m[b]:
+        return
+    name, window = trajectory.names[b], (trajectory.t[flights[0, 0]], trajectory.t[flights[-1, 1]])
+    message = f"{name} hops {len(rise)} times on one spot and its hops do not get lower"
+    yield Sign(name, window, len(rise), HOPS, "hops", "warn", message)
 
 
 def _jitter(

@@ -14,19 +14,24 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...model.finding import AnomalySeverity
 from ...model.trajectory import Trajectory
 from .. import analytic
-from ..sign import Case, Context, Sign, sliding_sum
+from ..sign import Case, Context, Sign, SkipError, sliding_sum
 
 CODE = "WS110"
-NEEDS = ("contacts", "mechanics.half_extents")
+NEEDS = ("mechanics.half_extents",)
 SUSTAINED_S = 0.1
+LASTING_S = 0.25
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the worst pair of each body that overlaps too much."""
     contacts = trajectory.contacts
-    if contacts is None or not len(contacts.row):
+    if contacts is None:
+        yield from _deepest(trajectory)
+        return
+    if not len(contacts.row):
         return
     ratio = contacts.depth_m / _half_thickness(trajectory)
     held = max(1, round(SUSTAINED_S / trajectory.interval_s))
@@ -48,6 +53,29 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         window = (trajectory.t[inside[0]], trajectory.t[inside[-1]])
         message = f"{names} overlap by up to {depth:.3g} m, {worst.max():.0%} of the thinner one's half-thickness"
         yield Sign(names, window, worst.max(), threshold, "of the half-thickness", severity, message)
+
+
+def _deepest(trajectory: Trajectory) -> Iterator[Sign]:
+    """The same of a recording that tells only the deepest penetration of each row: against the largest that moves.
+
+    Which bodies overlap is not told, and a hard blow on the usual soft contacts goes deep for a moment: a whole bounding
+    radius blocks, as does a quarter at the start or for 0.25 s.
+    """
+    deepest, half = trajectory.max_penetration, trajectory.mechanics.half_extents
+    if deepest is None or half is None:
+        raise SkipError("the recording has neither contacts nor max_penetration")
+    known = trajectory.moves_freely & ~np.isnan(half).any(axis=1)
+    if not known.any():
+        raise SkipError("the sizes of the bodies that move are not known")
+    ratio = deepest / float(trajectory.size_m[known].max())
+    lasting = _lasting(ratio, max(1, round(LASTING_S / trajectory.interval_s)))
+    if ratio.max() < 0.25:
+        return
+    severity: AnomalySeverity = "blocking" if ratio.max() > 1.0 or ratio[0] > 0.25 or lasting > 0.25 else "warn"
+    inside = np.flatnonzero(ratio > 0.1)
+    window = (trajectory.t[inside[0]], trajectory.t[inside[-1]])
+    message = f"bodies overlap by up to {deepest.max():.3g} m, {ratio.max():.0%} of a bounding radius"
+    yield Sign("world", window, ratio.max(), 0.25, "of the bounding radius", severity, message)
 
 
 def _half_thickness(trajectory: Trajectory) -> np.ndarray:
@@ -82,11 +110,18 @@ def _overlapping(depth: float, seconds: float) -> Trajectory:
     return replace(still, contacts=replace(still.contacts, depth_m=deep))
 
 
+def _told(depth: float) -> Case:
+    still = analytic.resting()
+    told = np.where(still.t < 0.2, depth, 0.0)
+    return Case("only the deepest is told", replace(still, contacts=None, max_penetration=told), severity="blocking")
+
+
 GOOD = (
     lambda: Case("a body at rest", analytic.resting()),
     lambda: Case("a soft landing, 1 cm for 10 ms", _overlapping(0.01, 0.01)),
 )
 BAD = (
+    lambda: _told(0.06),
     lambda: Case("2 cm of 5 for half a second", _overlapping(0.02, 0.5), severity="blocking"),
     lambda: Case("1 cm of 5 for half a second", _overlapping(0.01, 0.5), severity="warn"),
     lambda: Case("more than half way in, once", _overlapping(0.06, 0.004), severity="blocking"),

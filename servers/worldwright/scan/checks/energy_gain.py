@@ -52,24 +52,20 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     share = gain[end] / scale
     if share <= WARN:
         return
-    unnamed = trajectory.interventions is None and _pushed(trajectory)
+    driven = trajectory.mechanics.dynamic is None  # no model: whether motors drive it cannot be told
+    unnamed = trajectory.interventions is None and (driven or _pushed(trajectory))
     start = int(np.argmin(level[: end + 1]))
     window = (trajectory.t[rows[start]], trajectory.t[rows[end]])
     message = f"the mechanical energy rises by {gain[end]:.3g} J ({share:.0%} of its scale) without recorded work"
     severity: AnomalySeverity = "blocking" if share > BLOCK and not unnamed else "warn"
     if unnamed:
-        message += "; the recording names no forces, and one acts in flight that may be meant"
+        message += "; the recording names no forces, and what drives it may be meant"
     yield Sign("world", window, share, WARN, "of the energy scale", severity, message)
 
 
 def _pushed(trajectory: Trajectory) -> bool:
-    """Whether a smooth force acts on something in flight, or everything climbs while nothing touches (a thruster)."""
-    if trajectory.mechanics.unforced is not None:
-        return any(not push.sudden and not push.sets_in for push in flight.pushes(trajectory))
-    energy, touching = trajectory.energy, trajectory.ncon
-    if energy is None or touching is None or np.any(touching > 0):
-        return False
-    return bool(np.all(np.diff(energy.sum(axis=1)) >= -1e-9 * np.abs(energy).max()) and np.ptp(energy[:, 0]) > 0)
+    """Whether a smooth force acts on something in flight (a thruster, a planet)."""
+    return any(not push.sudden and not push.sets_in for push in flight.pushes(trajectory))
 
 
 def _noise(trajectory: Trajectory) -> float:

@@ -5,7 +5,7 @@ itself is no fault: a pendulum rings for minutes and a ball rolls on.
 
 Formula: over the last quarter of the recording (at least 0.5 s), u is the rms of the speed plus half of r times the
 spin. Judged only for a body that the plan says rests or stays, for a dynamic body that no step expects to move, and,
-without a plan, for a loose body that stays in contact, within its own size and unspinning, and whose u in the second
+without a plan, for a loose body that stays in contact, within twice its own size and unspinning, and whose u in the second
 half of the window keeps 0.8 of the first's.
 Threshold: u > 0.02 sqrt(g r). Severity: blocking where the plan claims rest, otherwise a warning.
 Source: the reference paper's scanner.
@@ -64,7 +64,7 @@ def _fidgets(trajectory: Trajectory, b: int, end: slice) -> bool:
     excursion = np.ptp(trajectory.pos[end, b], axis=0).max()
     spin = np.abs(trajectory.angvel[end, b].mean(axis=0)).max() * trajectory.size_m[b]
     swing = _rms(trajectory.speed[end, b])
-    return bool(touching[end, b].mean() > 0.5 and excursion < trajectory.size_m[b] and spin < 3 * swing)
+    return bool(touching[end, b].mean() > 0.5 and excursion < 2 * trajectory.size_m[b] and spin < 3 * swing)
 
 
 def _rocking() -> Case:

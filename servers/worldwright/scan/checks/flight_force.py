@@ -36,7 +36,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         seen.add(name)
         start, stop = push.start, push.stop
         seconds = trajectory.t[stop] - trajectory.t[start]
-        message = f"{name} touches nothing, yet its velocity changes by {push.change:.3g} m/s more than gravity explains"
+        message = (
+            f"{name} touches nothing, yet its velocity changes by {push.change:.3g} m/s more than gravity explains"
+        )
         if trajectory.speed[start:stop, push.body].max() < 1e-6:
             message = f"{name} hangs in the air for {seconds:.2g} s, touching nothing"
         certain = told or push.sets_in

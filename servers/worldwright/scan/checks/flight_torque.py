@@ -17,7 +17,7 @@ import numpy as np
 from ...model.mechanics import rotation
 from ...model.trajectory import Trajectory
 from .. import analytic
-from ..flight import PUSHES, in_flight
+from ..flight import PUSHES, certain, in_flight
 from ..sign import Case, Context, Sign, spans
 
 CODE = "WS114"
@@ -41,7 +41,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             change = np.sqrt(((momentum - momentum[0]) ** 2).sum(axis=1))
             share = change / (np.sqrt((momentum**2).sum(axis=1)).max() + floor)
             worst = int(np.argmax(share))
-            if share[worst] <= WARN:
+            if share[worst] <= WARN or not certain(trajectory, int(b), int(start), int(stop)):
                 continue
             name = trajectory.names[b]
             declared = context.acts_on(name, PUSHES)

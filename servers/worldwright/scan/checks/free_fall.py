@@ -3,7 +3,7 @@
 What it means: gravity was edited while it ran, a force helps or holds the body, or the recording's clock or scale is
 wrong. All loose bodies of a world fall alike.
 
-Formula: over each stretch of flight of at least six rows, a is the mean of dv/dt. It counts as a fall when it is even
+Formula: over each stretch of flight of at least eight rows and 0.08 s, a is the mean of dv/dt. It counts as a fall when it is even
 (each row within a tenth of g of it) and points along gravity (less than a tenth across): f = a·g / g². Judged where f > 0,
 or f within 0.05 of -1 (reversed); other upward accelerations are a thruster's, which flight_force names. Without a
 model: two even falls of one body that differ.
@@ -22,7 +22,8 @@ from ..sign import Case, Context, Sign, spans
 
 CODE = "WS119"
 NEEDS = ("linvel",)
-ROWS = 6
+ROWS = 8
+SECONDS = 0.08
 LONG_ROWS = 12
 TOLERANCE = 0.05
 
@@ -44,9 +45,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         than = f"gravity is {g:.3g}" if known else f"it fell with {falls[0][2] * g:.3g} before"
         message = f"{name} falls with {share * g:.3g} m/s^2 where {than} m/s^2"
         limit = expected * g * TOLERANCE
-        yield Sign(
-            name, (trajectory.t[start], trajectory.t[stop]), share * g, limit, "m/s^2", severity, message
-        )
+        yield Sign(name, (trajectory.t[start], trajectory.t[stop]), share * g, limit, "m/s^2", severity, message)
 
 
 def _falls(trajectory: Trajectory, known: bool) -> dict[int, list[tuple[int, int, float]]]:
@@ -73,7 +72,11 @@ def _falls(trajectory: Trajectory, known: bool) -> dict[int, list[tuple[int, int
             inner = share[start:stop]
             mean = float(np.median(inner))
             drift = abs(float(inner[-1] - inner[0]))  # a force that grows with depth or speed is no gravity
-            if stop - start < (ROWS if known else LONG_ROWS) or np.abs(inner - mean).max() > 0.1 or drift > 0.03:
+            short = trajectory.t[stop] - trajectory.t[start] < SECONDS or stop - start < (ROWS if known else LONG_ROWS)
+            if short or np.abs(inner - mean).max() > 0.1 or drift > 0.03:
+                continue
+            right = abs(mean - 1) <= TOLERANCE
+            if known and not right and not flight.certain(trajectory, int(b), int(start), int(stop)):
                 continue
             if (mean > 0.02 and (known or mean < 3)) or (known and (abs(mean + 1) < TOLERANCE)):
                 found.setdefault(int(b), []).append((int(start), int(stop), mean))

@@ -10,7 +10,6 @@ Source: densities of common materials, CRC Handbook of Chemistry and Physics.
 """
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 

@@ -56,7 +56,9 @@ def coordinate(trajectory: Trajectory, joint: Joint) -> np.ndarray:
     if joint.kind == "slide":
         moved = np.einsum("tji,tj->ti", above, trajectory.pos[:, joint.body] - base) - joint.pos0
         return moved @ (home @ joint.axis)
-    turn = np.einsum("ji,tkj,tkl->til", home, above, here)  # home^T above^T here: the turn in the body's reference frame
+    turn = np.einsum(
+        "ji,tkj,tkl->til", home, above, here
+    )  # home^T above^T here: the turn in the body's reference frame
     cosine = (np.trace(turn, axis1=1, axis2=2) - 1) / 2
     axial = np.stack(
         [turn[:, 2, 1] - turn[:, 1, 2], turn[:, 0, 2] - turn[:, 2, 0], turn[:, 1, 0] - turn[:, 0, 1]], axis=1

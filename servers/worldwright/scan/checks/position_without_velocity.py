@@ -47,13 +47,15 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         worst = start + int(np.argmax(gap[start:stop] - limit[start:stop]))
         name = trajectory.names[b]
         declared = context.acts_on(name, ("pose",))
+        # A body that is posed from outside has no velocity at all; whether it is one, only a model could tell.
+        posed = trajectory.mechanics.mocap is None and not speed.any()
         yield Sign(
             name,
             (trajectory.t[start], trajectory.t[min(stop + rows - 1, len(trajectory.t) - 1)]),
             gap[worst],
             limit[worst],
             "m",
-            "info" if declared else "blocking",
+            "info" if declared else "warn" if posed else "blocking",
             f"{name} moves {gap[worst]:.3g} m further in {WINDOW_S} s than its own velocity takes it"
             + (" (the plan declares that its pose is written)" if declared else ""),
         )

@@ -57,7 +57,7 @@ def steady_slide(trajectory: Trajectory, b: int, slowing: float) -> np.ndarray:
     touching = trajectory.touching
     assert touching is not None
     speed = trajectory.speed[:, b]
-    level = np.abs(trajectory.linvel[:, b, 2]) < 0.02 * speed + 1e-6
+    level = np.abs(trajectory.linvel[:, b, 2]) < 0.1 * speed
     moving = speed > 0.3 * trajectory.speed_scale[b]
     rate = np.gradient(speed, trajectory.t)
     return np.asarray(touching[:, b] & level & moving & (np.abs(rate) < 0.2 * slowing))

@@ -46,7 +46,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
                 continue
             name, speed = trajectory.names[b], float(np.median(trajectory.speed[start:stop, b]))
             window = (trajectory.t[start], trajectory.t[stop - 1])
-            message = f"{name} slides on at {speed:.3g} m/s where friction should take {friction * g:.2g} m/s each second"
+            message = (
+                f"{name} slides on at {speed:.3g} m/s where friction should take {friction * g:.2g} m/s each second"
+            )
             severity = "info" if context.acts_on(name, ("pose", "velocity", "force")) else "blocking"
             lost = float(trajectory.speed[start, b] - trajectory.speed[stop - 1, b]) / (window[1] - window[0])
             yield Sign(name, window, lost, 0.2 * friction * g, "m/s^2", severity, message)

@@ -4,7 +4,7 @@ What it means: somebody wrote a pose, or the solver threw the body. A collision 
 position, so a hard hit is not a teleport.
 
 Formula: |x[n+1] - x[n]| - v dt > 0.1 r, with v the largest speed within two rows of the step (so that bounces between
-two rows of a sparse recording are allowed) and r the body's bounding radius; likewise the angle between orientations
+two rows of a sparse recording are allowed, and 2 g dt^2 more) and r the body's bounding radius; likewise the angle between orientations
 against w dt, by 0.25 rad. Where speeds were made up from the poses, the same jump shows as one displacement that is
 eight times its neighbours' and more than half of r.
 Threshold: a tenth of the body's own size in one step is visible at any scale, and rounding is 1e-10 of it.
@@ -36,13 +36,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     step = np.diff(trajectory.pos, axis=0)
     moved = np.sqrt(np.einsum("tbi,tbi->tb", step, step))
     excess = moved - _fastest_nearby(trajectory.speed) * dt
-    limit = SIZE_FRACTION * size + 1e-9 * np.abs(trajectory.pos).max(initial=0.0)
+    g = float(np.sqrt((trajectory.gravity**2).sum()))
+    limit = SIZE_FRACTION * size + 2 * g * dt**2 + 1e-9 * np.abs(trajectory.pos).max(initial=0.0)
     isolated = _isolated(moved) & (moved > 0.5 * size)
     jumped = (excess > limit) | isolated
+    if trajectory.mechanics.mocap is None:
+        # Without a model, a body that never has a velocity may be posed from outside: only a lone jump is one.
+        jumped &= isolated | (trajectory.speed.max(axis=0) > 0)
     cosine = np.abs(np.einsum("tbi,tbi->tb", trajectory.quat[1:], trajectory.quat[:-1]))
     # Near 1 an angle is read off the sine, where a cosine has lost its digits; far away either will do.
     angle = 2 * np.arccos(np.clip(cosine, 0.0, 1.0))
-    spun = angle - _fastest_nearby(trajectory.spin) * dt > ANGLE_RAD
+    spun = angle - 1.2 * _fastest_nearby(trajectory.spin) * dt > ANGLE_RAD
     for b in np.flatnonzero((jumped | spun).any(axis=0) & trajectory.moves_freely):
         name = trajectory.names[b]
         declared = context.acts_on(name, ("pose",))
@@ -52,7 +56,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             n = int(np.argmax(np.where(jumped[:, b], moved[:, b], 0.0)))
             times = int(jumped[:, b].sum())
             message = f"{name} jumps {moved[n, b]:.3g} m in one step{_times(times)}{note}"
-            yield Sign(name, (trajectory.t[n], trajectory.t[n + 1]), moved[n, b], limit[b], "m", severity, message)
+            yield Sign(name, (trajectory.t[n], trajectory.t[n + 1]), moved[n, b], limit[n, b], "m", severity, message)
         else:
             n = int(np.argmax(np.where(spun[:, b], angle[:, b], 0.0)))
             message = f"{name} turns {np.degrees(angle[n, b]):.0f} degrees in one step{note}"

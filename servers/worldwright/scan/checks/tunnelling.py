@@ -4,12 +4,12 @@ What it means: it was too fast for the step, the two do not collide (masks, an e
 or a pose was written. Solid bodies cannot be on both sides of each other.
 
 Formula: the path of a body's centre, in the frame of another geom (its box, or a plane's half space), goes from one side
-of the box's thinnest axis to the other and crosses the middle plane inside the box, its speed across undiminished by more
-than half. Pairs are looked at only where the bounding spheres of their ways overlap.
+of the box's thinnest axis to the other and crosses the middle plane inside the box, going on the same way from one face to the other . Pairs are looked at only where the bounding spheres of their ways overlap.
 Threshold: none: the middle of a solid cannot be crossed. Blocking, also for geometry that is not set to collide.
 Source: the manual on collision filtering, and on speculative contacts.
 """
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -24,12 +24,18 @@ CODE = "WS120"
 NEEDS = ("mechanics.geom_pos", "mechanics.half_extents", "mechanics.parent")
 SOLID = frozenset({"box", "sphere", "capsule", "cylinder", "ellipsoid"})
 CHUNKS = 64
+LAP = 40
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each pair of which one passes through the other."""
     facts = trajectory.mechanics
-    if facts.geom_body is None or facts.geom_pos is None or facts.geom_half_extents is None or facts.half_extents is None:
+    if (
+        facts.geom_body is None
+        or facts.geom_pos is None
+        or facts.geom_half_extents is None
+        or facts.half_extents is None
+    ):
         return
     family = _families(facts.parent)
     solids = [
@@ -100,7 +106,8 @@ class _Neighbours:
         assert facts.geom_pos is not None and facts.geom_half_extents is not None
         count = len(trajectory.t)
         edges = np.unique(np.linspace(0, count - 1, min(CHUNKS, max(2, count // 8)) + 1).astype(int))
-        self.parts = [slice(int(a), int(z) + 1) for a, z in zip(edges[:-1], edges[1:], strict=True)]
+        # Parts overlap, so that a passage is not cut in two.
+        self.parts = [slice(max(0, int(a) - LAP), min(count, int(z) + 1 + LAP)) for a, z in itertools.pairwise(edges)]
         self.low = np.array([trajectory.pos[part].min(axis=0) for part in self.parts])
         self.high = np.array([trajectory.pos[part].max(axis=0) for part in self.parts])
         radius = np.sqrt((np.nan_to_num(facts.half_extents) ** 2).sum(axis=1))
@@ -138,16 +145,20 @@ def _crossing(trajectory: Trajectory, b: int, g: int, rows: slice) -> int | None
     half = facts.geom_half_extents[g]
     k = int(np.argmin(half))
     z = local[:, k]
-    flips = np.flatnonzero((z[:-1] * z[1:] < 0) & np.isfinite(z[:-1] * z[1:]))
+    flips = np.flatnonzero((z[:-1] < 0) != (z[1:] < 0))
     across = [axis for axis in range(3) if axis != k]
     for n in flips:
         share = z[n] / (z[n] - z[n + 1])
         point = local[n] + share * (local[n + 1] - local[n])
         if not np.all(np.abs(point[across]) < 0.9 * half[across]):
             continue
-        before, after = z[max(0, n - 3) : n + 2], z[n : n + 5]
-        straight = np.all(np.diff(before) * (z[n + 1] - z[n]) > 0) and np.all(np.diff(after) * (z[n + 1] - z[n]) > 0)
-        if straight and abs(after[-1] - after[0]) > half[k] and abs(before[-1] - before[0]) > half[k]:
+        first, last = n, n + 1
+        while first > 0 and abs(z[first]) < half[k]:
+            first -= 1
+        while last < len(z) - 1 and abs(z[last]) < half[k]:
+            last += 1
+        way = np.diff(z[first : last + 1]) * (z[n + 1] - z[n])
+        if abs(z[first]) >= half[k] and abs(z[last]) >= half[k] and np.all(way > 0):
             return int(rows.start + n)
     return None
 
@@ -160,7 +171,9 @@ def _through(bounces: bool) -> Case:
         hit = t > 0.4
         x, v = np.where(hit, -0.2 - 2.0 * (t - 0.4), x), np.where(hit, -2.0, v)
     zero = np.zeros_like(t)
-    made = analytic.motion(t, np.stack([x, zero, zero + 1], 1), np.stack([v, zero, zero], 1), gravity=0.0)
+    touch: list[analytic.Touch] = [(-1, 0, np.abs(t - 0.4) < 0.003, 1e-4, 500.0)] if bounces else []
+    path, speed = np.stack([x, zero, zero + 1], axis=1), np.stack([v, zero, zero], axis=1)
+    made = analytic.motion(t, path, speed, gravity=0.0, touches=touch)
     facts = replace(
         made.mechanics,
         geom_names=("body", "wall"),

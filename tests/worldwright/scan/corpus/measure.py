@@ -33,11 +33,16 @@ def report(world: World, folder: Path, optional: bool = True, model: bool = True
         return refusal
 
 
-def blocking(found: ScanReport | RecordingError) -> list[str]:
+def blocking(found: ScanReport | RecordingError) -> set[str]:
     """Names of the checks that block; a refused recording blocks as `recording`."""
     if isinstance(found, RecordingError):
-        return ["recording"]
-    return [a.name for a in found.anomalies if a.severity == "blocking"]
+        return {"recording"}
+    return {a.name for a in found.anomalies if a.severity == "blocking"}
+
+
+def warned(found: ScanReport | RecordingError) -> set[str]:
+    """Names of the checks that block or warn."""
+    return blocking(found) | {a.name for a in getattr(found, "anomalies", ()) if a.severity == "warn"}
 
 
 def main() -> int:
@@ -60,7 +65,7 @@ def main() -> int:
             if options.poses and world.needs:
                 continue
             found = report(world, Path(folder), not options.poses, not (options.bare or options.poses))
-            names = set(blocking(found))
+            names = blocking(found) if not world.fault or world.name not in faulty.WARNED else warned(found)
             right.update(names & set(world.fault))
             wrong.update(names if not world.fault else ())
             if bool(world.fault) != bool(names & set(world.fault)) or (names and not world.fault):

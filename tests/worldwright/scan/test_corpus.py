@@ -1,0 +1,39 @@
+"""Eighty and more real simulations: every planted fault is found, and no clean world is blocked."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parent / "corpus"))
+
+import clean
+import faulty
+import measure
+
+CLEAN = clean.worlds()
+FAULTY = faulty.worlds()
+
+
+def test_the_corpus_is_large_enough():
+    assert len(CLEAN) >= 40 and len(FAULTY) >= 40
+    assert len({world.name for world in (*CLEAN, *FAULTY)}) == len(CLEAN) + len(FAULTY)
+
+
+@pytest.fixture(autouse=True)
+def elsewhere(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # MuJoCo writes its log into the working directory
+
+
+@pytest.mark.parametrize("channels", ["everything", "no model", "poses alone"])
+@pytest.mark.parametrize("world", CLEAN, ids=lambda world: world.name)
+def test_a_clean_world_is_not_blocked(world, channels, tmp_path):
+    found = measure.report(world, tmp_path, channels != "poses alone", channels == "everything")
+    assert measure.blocking(found) == set()
+
+
+@pytest.mark.parametrize("world", FAULTY, ids=lambda world: world.name)
+def test_a_planted_fault_is_found(world, tmp_path):
+    found = measure.report(world, tmp_path)
+    names = measure.warned(found) if world.name in faulty.WARNED else measure.blocking(found)
+    assert names & set(world.fault)
