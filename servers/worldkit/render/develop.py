@@ -9,6 +9,7 @@ from . import gl
 
 STEPS = (2, 3, 4)
 """Powers of two by which the glow is smaller than the picture."""
+CURVE_STEPS = 4096
 BRIGHTEST = 16.0
 """Scene light beyond this is white."""
 
@@ -29,10 +30,10 @@ def film_curve(light: np.ndarray) -> np.ndarray:
 
 
 def _curve_texture() -> int:
-    root = np.linspace(0.0, 1.0, 1024)
+    root = np.linspace(0.0, 1.0, CURVE_STEPS)
     values = np.ascontiguousarray(film_curve(BRIGHTEST * root**4), dtype=np.float32)[None, :]
-    handle = gl.texture(GL.GL_R32F, 1024, 1)
-    GL.glTexSubImage2D(GL.GL_TEXTURE_2D, 0, 0, 0, 1024, 1, GL.GL_RED, GL.GL_FLOAT, values)
+    handle = gl.texture(GL.GL_R32F, CURVE_STEPS, 1)
+    GL.glTexSubImage2D(GL.GL_TEXTURE_2D, 0, 0, 0, CURVE_STEPS, 1, GL.GL_RED, GL.GL_FLOAT, values)
     return handle
 
 
@@ -70,5 +71,5 @@ class Developer:
         program.texture("picture", 0, self._developed.colour)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
-        raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RGB, GL.GL_UNSIGNED_BYTE)
-        return np.frombuffer(raw, dtype=np.uint8).reshape(self.height, self.width, 3)[::-1]
+        raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE)
+        return np.frombuffer(raw, dtype=np.uint8).reshape(self.height, self.width, 4)[::-1, :, :3]

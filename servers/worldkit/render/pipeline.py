@@ -7,7 +7,6 @@ same picture in whatever order frames are drawn.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -20,13 +19,11 @@ from . import gl, room
 from .develop import Developer
 from .finish import Finish, linear
 from .occlusion import Occlusion
+from .painter import Painter
 from .scenery import light_rows, own_lights, setting_of, space_of
 from .shadows import ShadowMap
-from .soft import Soft
-from .supplies import Supplies
 from .surroundings import Surroundings, irradiance, noise_map
 from .things import FLOATS, SIDE_MODE, Batch, Things
-from .variants import Features, Variants, features, glossy
 from .view import View, of_camera
 
 if TYPE_CHECKING:
@@ -95,10 +92,8 @@ class Pipeline:
         self.radius = max(float(np.linalg.norm(high - low)) / 2.0, 1e-3)
         self.floor_z = float(self.things.rows[self.things.ground, 11]) if self.things.ground >= 0 else float(low[2])
 
-        GL.glClipControl(GL.GL_LOWER_LEFT, GL.GL_ZERO_TO_ONE)
+        gl.prepare_depth()
         self._key = np.array(self.setting.key.direction)
-        self._supplies = Supplies(model)
-        self._variants = Variants()
         self._stages: dict[str, Stage] = {}
         self._noise = noise_map()
         self._sky_uniforms: dict[str, object] = {
@@ -107,18 +102,12 @@ class Pipeline:
         self._around = Surroundings(self.setting, self._noise, self._sky_uniforms)
         key = np.array(self.setting.key.colour) * max(self._key[2], 0.0)
         self._ground_light = irradiance(self._around.harmonics, np.array([0.0, 0.0, 1.0])) + key
-        self._walls: list[Batch] = []
-        self._wall_rows = np.zeros((0, FLOATS), dtype=np.float32)
-        if self.setting.name == "room":
-            self._build_room(rest)
+        self._room: tuple[np.ndarray, np.ndarray] | None = None
+        walls, wall_rows = self._build_room(rest) if self.setting.name == "room" else ([], np.zeros((0, FLOATS)))
+        self.painter = Painter(model, self.setting.index, self.things, walls, wall_rows.astype(np.float32))
         self._sky_program = gl.Program("screen.vert", "sky.frag", BAKE=0, SETTING=self.setting.index)
         self._depth_program = gl.Program("thing.vert", "shadow.frag", FULL=0)
-        self._buffer = GL.glGenBuffers(1)
-        self._rows_texture = GL.glGenTextures(1)
-        self.soft = Soft(model)
         self._number: gl.Target | None = None
-        self._prepared: set[Features] = set()
-        self._rows = self.things.rows
 
     def _adopt_key(self, rest: mujoco.MjData) -> None:
         """Let a foreign model's own directional light be the key light."""
@@ -136,13 +125,14 @@ class Pipeline:
                 self.lights.remove(light)
                 return
 
-    def _build_room(self, rest: mujoco.MjData) -> None:
+    def _build_room(self, rest: mujoco.MjData) -> tuple[list[Batch], np.ndarray]:
         self._room = room.extent(self.low, self.high, np.array(rest.cam_xpos).reshape(-1, 3))
         low, high = self._room
         panels = room.panels(low, high, self.floor_z, self.setting.key.azimuth_deg)
         looks = sorted({panel.look for panel in panels})
         start = len(self.things.rows)
-        rows = []
+        rows: list[np.ndarray] = []
+        walls = []
         for name in looks:
             entry = look("plastic_white" if name == "window_light" else name)
             finish = Finish(entry)
@@ -160,115 +150,14 @@ class Pipeline:
                 row[36:40] = 0.0, 0.0, 1e3, 0.0
                 rows.append(row)
                 batch.rows.append(batch.first + len(batch.rows))
-            self._walls.append(batch)
-        self._wall_rows = np.array(rows, dtype=np.float32)
+            walls.append(batch)
+        return walls, np.array(rows)
 
     def ground_mean(self) -> tuple[float, float, float]:
         """Scene-linear mean colour of the ground."""
         if self.things.ground < 0:
             return (0.18, 0.18, 0.18)
         return self.things.finish(int(self.things.geoms[self.things.ground])).mean
-
-    def _upload(self, data: mujoco.MjData) -> None:
-        self.things.update(data)
-        self.soft.update(data)
-        rows = np.concatenate([self.things.rows, self._wall_rows, self.soft.rows])
-        if not len(rows):
-            rows = np.zeros((1, FLOATS), dtype=np.float32)
-        self._rows = rows
-        GL.glBindBuffer(GL.GL_TEXTURE_BUFFER, self._buffer)
-        GL.glBufferData(GL.GL_TEXTURE_BUFFER, rows.nbytes, np.ascontiguousarray(rows), GL.GL_STREAM_DRAW)
-        GL.glActiveTexture(GL.GL_TEXTURE2)
-        GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._rows_texture)
-        GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGBA32F, self._buffer)
-
-    # Drawing.
-
-    def _batches(self, *, clear: bool | None = False, ground: bool = True, walls: bool = True) -> Iterator[Batch]:
-        """Batches to draw: opaque (`clear` False), see-through (True) or all (None)."""
-        for batch in self.things.batches:
-            if (ground or batch.shape[0] != "disc") and (clear is None or batch.clear == clear):
-                yield batch
-        if walls and clear is not True:
-            yield from self._walls
-
-    def _radius_px(self, batch: Batch, view: View | None) -> float:
-        """Largest radius of a batch's things on screen, pixels."""
-        if view is None or not batch.rows or batch.shape[0] not in ("sphere", "capsule", "cylinder"):
-            return 40.0
-        rows = self._rows[batch.first : batch.first + len(batch.rows)]
-        depth = np.maximum((rows[:, [3, 7, 11]] - view.eye) @ view.forward, 0.05)
-        return float((rows[:, 12:14].max(axis=1) / depth).max() * self.height / (2.0 * view.tangents[1]))
-
-    def _draw(self, program: gl.Program, view: View | None = None, **which: bool | None) -> None:
-        """Draw batches with one program."""
-        program.set(things=2)
-        for batch in self._batches(**which):
-            program.set(first=batch.first)
-            self._supplies.shape(*batch.shape, self._radius_px(batch, view)).draw(len(batch.rows))
-        if which.get("clear") is not True:
-            start = len(self.things.rows) + len(self._wall_rows)
-            for shape, first, count, _ in self.soft.draws():
-                program.set(first=start + first)
-                (shape or self._supplies.shape("capsule", -1)).draw(count)
-
-    def _shade(
-        self,
-        batch: Batch,
-        uniforms: dict[str, object],
-        stage: Stage,
-        shape: gl.Shape,
-        count: int,
-        *,
-        simple: bool = False,
-        reflecting: bool = False,
-        mirror: bool = False,
-    ) -> None:
-        """Draw `count` things from the batch's first with its own variant of the surface shader."""
-        kind = self._supplies.paint_kind(batch.finish, float(self._rows[batch.first, 26]))
-        wanted = features(batch, self.setting.index, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind)
-        program = self._variants.get(wanted)
-        program.use()
-        if wanted not in self._prepared:
-            self._prepared.add(wanted)
-            program.set(**uniforms)
-            program.texture("noise_map", 3, self._noise)
-            program.texture("around", 4, self._around.map)
-            program.texture("shade", 8, stage.occlusion.result.colour)
-            program.texture("guide", 11, stage.occlusion.guide.colour)
-            program.texture("behind_depth", 12, stage.behind.depth if stage.behind else self._supplies.black)
-            program.texture("behind", 9, stage.behind.colour if stage.behind else self._supplies.black)
-            program.texture(
-                "reflection", 10, stage.mirror.colour if stage.mirror and reflecting else self._supplies.black
-            )
-            stage.shadow.bind(program)
-        if kind:
-            wide = batch.shape[0] == "disc" or batch.finish.look.tile_m > 1.0
-            target = GL.GL_TEXTURE_CUBE_MAP if kind == 2 else GL.GL_TEXTURE_2D
-            program.texture("paint", 1 if kind == 2 else 0, self._supplies.picture(batch.finish, wide), target)
-        program.set(first=batch.first)
-        shape.draw(count)
-
-    def _shade_all(
-        self, stage: Stage, view: View, uniforms: dict[str, object], *, simple: bool, reflecting: bool, ground: bool
-    ) -> None:
-        """Draw everything opaque with its own material."""
-        self._prepared.clear()
-        for batch in self._batches(ground=ground):
-            shape = self._supplies.shape(*batch.shape, self._radius_px(batch, view))
-            self._shade(batch, uniforms, stage, shape, len(batch.rows), simple=simple, reflecting=reflecting)
-        start = len(self.things.rows) + len(self._wall_rows)
-        for soft, first, count, finish in self.soft.draws():
-            batch = Batch(("capsule", -1) if soft is None else ("mesh", -1), finish, False, first=start + first)
-            self._shade(
-                batch,
-                uniforms,
-                stage,
-                soft or self._supplies.shape("capsule", -1),
-                count,
-                simple=simple,
-                reflecting=reflecting,
-            )
 
     def _uniforms(self, stage: Stage, view: View, data: mujoco.MjData, size: tuple[int, int]) -> dict[str, object]:
         setting = self.setting
@@ -303,7 +192,7 @@ class Pipeline:
         reach = max(radius - 0.5 * seen, 0.0)
         return centre + pull * min(1.0, reach / max(float(np.linalg.norm(pull)), 1e-9)), seen
 
-    def _open(self, view: View, **which: bool | None) -> None:
+    def _open(self, view: View, height: int, *, mirrored: bool = False) -> None:
         """Clear the bound target and lay down depth alone, so that only what is seen gets shaded."""
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthMask(GL.GL_TRUE)
@@ -312,7 +201,6 @@ class Pipeline:
         GL.glClearDepth(0.0)
         GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
         GL.glColorMask(False, False, False, False)
-        mirrored = bool(which.pop("mirrored", False))
         self._depth_program.use().set(
             view_projection=view.matrix(),
             eye=view.eye,
@@ -320,7 +208,7 @@ class Pipeline:
             mirrored=int(mirrored),
             mirror_z=self.floor_z,
         )
-        self._draw(self._depth_program, view, **which)
+        self.painter.draw(self._depth_program, view, height, flipped=mirrored, ground=not mirrored)
         GL.glColorMask(True, True, True, True)
 
     def _polished(self, view: View) -> bool:
@@ -334,85 +222,83 @@ class Pipeline:
         if quality not in self._stages:
             self._stages[quality] = Stage(self.width, self.height, QUALITIES[quality])
         stage = self._stages[quality]
+        painter, height = self.painter, stage.height
         view = of_camera(self.model, data, camera, self.width, self.height)
-        self._upload(data)
+        painter.upload(data)
         low, high = self.things.bounds(data)
         everything = np.minimum(low, self.low), np.maximum(high, self.high)
         whole = self.centre, float(np.linalg.norm(np.maximum(everything[1] - self.centre, self.centre - everything[0])))
         stage.shadow.draw(
             self._key, self.setting.key_spread, *self._focus(view, whole), whole,
-            lambda program: self._draw(program, ground=False, walls=False),
+            lambda program: painter.draw(program, None, height, flipped=True, ground=False, walls=False),
         )  # fmt: skip
-        stage.occlusion.draw(view, lambda program: self._draw(program, view))
+        small = stage.occlusion.height
+        stage.occlusion.draw(view, lambda program: painter.draw(program, view, small))
         reflecting = self._polished(view)
         if reflecting:
             self._reflect(stage, view, data)
+        mirrors, clear = painter.mirrors(), any(batch.clear for batch in self.things.batches)
+        if (mirrors or clear) and stage.behind is None:
+            stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F, depth=True)
         stage.picture.bind()
-        self._open(view)
+        self._open(view, height)
         uniforms = self._uniforms(stage, view, data, (stage.width, stage.height))
-        self._shade_all(stage, view, uniforms, simple=False, reflecting=reflecting, ground=True)
+        painter.prepare(uniforms, self._textures(stage, reflecting), stage.shadow)
+        painter.shade(view, height)
         self._sky(view.rays())
-        mirrors = [batch for batch in self._batches(walls=False) if glossy(batch)]
-        clear = any(batch.clear for batch in self.things.batches)
-        if mirrors or clear:
+        if mirrors:
             self._copy(stage)
-        self._prepared.clear()
-        for batch in mirrors:
-            shape = self._supplies.shape(*batch.shape, self._radius_px(batch, view))
-            self._shade(batch, uniforms, stage, shape, len(batch.rows), mirror=True)
+            painter.shade_mirrors(view, height)
         if clear:
-            if mirrors:
-                self._copy(stage)
-            self._glass(stage, view, uniforms)
+            self._copy(stage)
+            painter.shade_glass(view, height)
         return stage.developer.draw(stage.picture.colour, self.setting.exposure, self.setting.vignette)
+
+    def _textures(self, stage: Stage, reflecting: bool) -> dict[str, tuple[int, int]]:
+        """Unit and texture of everything that materials look at."""
+        behind, black = stage.behind, self.painter.supplies.black
+        out = {
+            "noise_map": (3, self._noise),
+            "around": (4, self._around.map),
+            "shade": (8, stage.occlusion.result.colour),
+            "behind": (9, behind.colour if behind else black),
+            "guide": (11, stage.occlusion.guide.colour),
+            "behind_depth": (12, behind.depth if behind else black),
+        }
+        return out | {"reflection": (10, stage.mirror.colour)} if reflecting and stage.mirror else out
 
     def _reflect(self, stage: Stage, view: View, data: mujoco.MjData) -> None:
         """The world mirrored at the ground, with coarser copies for duller floors."""
         if stage.mirror is None:
             w, h = stage.width // 3, stage.height // 3
             stage.mirror = gl.Target(max(w, 1), max(h, 1), GL.GL_RGBA16F, depth=True, levels=6)
-        stage.mirror.bind()
+        mirror = stage.mirror
+        mirror.bind()
         GL.glEnable(GL.GL_CLIP_DISTANCE0)
-        self._open(view, ground=False, mirrored=True)
+        self._open(view, mirror.height, mirrored=True)
         flip = np.array([1.0, 1.0, -1.0])
-        uniforms = self._uniforms(stage, view, data, (stage.mirror.width, stage.mirror.height)) | {
+        uniforms = self._uniforms(stage, view, data, (mirror.width, mirror.height)) | {
             "mirrored": 1,
             "eye": view.eye * flip + np.array([0.0, 0.0, 2.0 * self.floor_z]),
             "forward": view.forward * flip,
             "blockers": 4,
             "filters": 6,
         }
-        self._shade_all(stage, view, uniforms, simple=True, reflecting=False, ground=False)
+        self.painter.prepare(uniforms, self._textures(stage, False), stage.shadow)
+        self.painter.shade(view, mirror.height, mirrored=True)
         GL.glDisable(GL.GL_CLIP_DISTANCE0)
         rays = view.rays()
         rays[2, :] *= -1.0
         self._sky(rays)
         GL.glActiveTexture(GL.GL_TEXTURE10)
-        GL.glBindTexture(GL.GL_TEXTURE_2D, stage.mirror.colour)
+        GL.glBindTexture(GL.GL_TEXTURE_2D, mirror.colour)
         GL.glGenerateMipmap(GL.GL_TEXTURE_2D)
 
     def _copy(self, stage: Stage) -> None:
         """Keep the picture so far for mirrors and glass to look at."""
-        if stage.behind is None:
-            stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F, depth=True)
+        assert stage.behind is not None
         stage.picture.blit_to(stage.behind, depth=True)
         stage.picture.bind()
-
-    def _glass(self, stage: Stage, view: View, uniforms: dict[str, object]) -> None:
-        """See-through things, the farthest first, over a copy of the picture behind them."""
-        self._prepared.clear()
-        GL.glEnable(GL.GL_BLEND)
-        GL.glBlendFuncSeparate(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA, GL.GL_ONE, GL.GL_ONE)
-        GL.glEnable(GL.GL_CULL_FACE)
-        GL.glCullFace(GL.GL_BACK)
-        owners = [(row, batch) for batch in self.things.batches if batch.clear for row in batch.rows]
-        places = self._rows[:, [3, 7, 11]]
-        owners.sort(key=lambda pair: -float((places[pair[0]] - view.eye) @ view.forward))
-        for row, batch in owners:
-            shape = self._supplies.shape(*batch.shape, self._radius_px(batch, view))
-            self._shade(replace(batch, first=row), uniforms, stage, shape, 1)
-        GL.glDisable(GL.GL_CULL_FACE)
-        GL.glDisable(GL.GL_BLEND)
 
     def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
         """Geom number of each pixel, or -1: int32 (H, W), row 0 the top."""
@@ -420,7 +306,7 @@ class Pipeline:
             self._number = gl.Target(self.width, self.height, GL.GL_R32I, depth=True, linear=False)
             self._ident = gl.Program("thing.vert", "ident.frag", FULL=0)
         view = of_camera(self.model, data, camera, self.width, self.height)
-        self._upload(data)
+        self.painter.upload(data)
         self._number.bind()
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthMask(GL.GL_TRUE)
@@ -430,7 +316,7 @@ class Pipeline:
         GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
         GL.glClearBufferiv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.int32))
         self._ident.use().set(view_projection=view.matrix(), eye=view.eye, rank_step=RANK_STEP, mirrored=0)
-        self._draw(self._ident, view, clear=None)
+        self.painter.draw(self._ident, view, self.height, clear=None)
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
         raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RED_INTEGER, GL.GL_INT)
         return np.frombuffer(raw, dtype=np.int32).reshape(self.height, self.width)[::-1].copy()

@@ -7,10 +7,13 @@ uniform float exposure;
 uniform float vignette;
 out vec4 colour;
 
-float film(float x) { return textureLod(curve, vec2(sqrt(sqrt(x * (1.0 / 16.0))), 0.5), 0.0).r; }
+float film(float x) {
+    int last = textureSize(curve, 0).x - 1;
+    return texelFetch(curve, ivec2(min(int(sqrt(sqrt(x * (1.0 / 16.0))) * float(last) + 0.5), last), 0), 0).r;
+}
 
 void main() {
-    vec3 c = mix(textureLod(scene, at, 0.0).rgb, textureLod(glow, at, 0.0).rgb, 0.045);
+    vec3 c = mix(texelFetch(scene, ivec2(gl_FragCoord.xy), 0).rgb, textureLod(glow, at, 0.0).rgb, 0.045);
     vec2 q = (at - 0.5) * vec2(1.0, 0.85);
     c *= exposure * (1.0 - vignette * smoothstep(0.05, 0.62, dot(q, q) * 1.9));
     // Strong light loses some of its colour, as on film.

@@ -50,4 +50,7 @@ void main() {
     gl_ClipDistance[0] = mirrored == 1 ? world.z - mirror_z + 1e-4 : 1.0;
     gl_Position = view_projection * vec4(drawn, 1.0);
     gl_Position.z *= 1.0 + rank_step * facts.z;
+#if HALF_DEPTH
+    gl_Position.z = 2.0 * gl_Position.z - gl_Position.w;
+#endif
 }

@@ -3,13 +3,16 @@ uniform sampler2D shadow_depth;
 uniform int block;  // a uniform, so that compilers do not unroll the loops
 out vec2 bounds;
 void main() {
+    vec2 texel = 1.0 / vec2(textureSize(shadow_depth, 0));
     ivec2 base = ivec2(gl_FragCoord.xy) * block;
-    float low = 1.0, high = 0.0;
-    for (int y = 0; y < block; y++)
-        for (int x = 0; x < block; x++) {
-            float d = texelFetch(shadow_depth, base + ivec2(x, y), 0).r;
+    vec4 low = vec4(1.0), high = vec4(0.0);
+    for (int y = 1; y < block; y += 2)
+        for (int x = 1; x < block; x += 2) {
+            vec4 d = textureGather(shadow_depth, vec2(base + ivec2(x, y)) * texel);  // the four around this corner
             low = min(low, d);
             high = max(high, d);
         }
-    bounds = vec2(low, high);
+    low.xy = min(low.xy, low.zw);
+    high.xy = max(high.xy, high.zw);
+    bounds = vec2(min(low.x, low.y), max(high.x, high.y));
 }
