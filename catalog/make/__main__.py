@@ -8,7 +8,7 @@ from pathlib import Path
 from . import package
 
 HERE = Path(__file__).resolve().parent
-TOOLS = {"__init__", "__main__", "surface", "shapes", "texture", "hulls", "recipe", "package", "thumbnail"}
+TOOLS = {"__init__", "__main__", "surface", "shapes", "texture", "hulls", "recipe", "package", "thumbnails"}
 KEYS = tuple(sorted(path.stem for path in HERE.glob("*.py") if path.stem not in TOOLS))
 
 
@@ -27,9 +27,9 @@ def main(argv: list[str] | None = None) -> int:
         made = package.files(import_module(f".{key}", __package__).make())
         stale += _write(args.out / key, made, check=args.check)
         if args.thumbnails and not args.check:
-            from .thumbnail import render
+            from .thumbnails import draw
 
-            render(key, args.out)
+            (args.out / key / "thumbnail.png").write_bytes(draw(key, args.out))
     return 1 if args.check and stale else 0
 
 

@@ -1,15 +1,16 @@
-"""Draw every asset's thumbnail with the runtime's own renderer: `python -m catalog.make.thumbnails`."""
+"""Draw an asset's thumbnail with the runtime's own renderer (`python -m catalog.make --thumbnails`)."""
 
 import os
-import tempfile
 from pathlib import Path
 
 SIZE = 256
 SUPERSAMPLE = 2
 
 
-def draw(key: str) -> bytes:
-    """PNG of one asset in the studio, three-quarter view."""
+def draw(key: str, catalog: Path) -> bytes:
+    """PNG of one asset of a catalog folder in the studio, three-quarter view."""
+    os.environ.setdefault("MUJOCO_GL", "egl")
+    os.environ["WORLDWRIGHT_CATALOG"] = str(catalog)
     import cv2
     import mujoco
 
@@ -40,19 +41,3 @@ def _wide(key: str) -> bool:
     asset = assets.find(key)
     extents = asset.extents(asset.metric_height)
     return max(extents[0], extents[1]) > 1.6 * extents[2]
-
-
-def main() -> None:
-    """Draw them all."""
-    os.environ.setdefault("MUJOCO_GL", "egl")
-    from worldkit import assets
-    from worldkit.files import write_atomic
-
-    for key in assets.keys():  # noqa: SIM118 - a function, not a mapping
-        write_atomic(Path(assets.catalog_root()) / key / "thumbnail.png", draw(key))
-        print(key, flush=True)
-
-
-if __name__ == "__main__":
-    os.chdir(tempfile.gettempdir())  # the engine writes its log into the working folder
-    main()

@@ -43,7 +43,7 @@ def stills(
             visibility[name] = visible(model, frames.segmentation(data, name))
             tick(done + 1, len(names))
     write_json(out / "visibility.json", visibility)
-    return {"cameras": list(names), "size": list(size)}
+    return {"cameras": list(names), "size": list(size), "renderer": frames.engine}
 
 
 def video(
@@ -80,6 +80,7 @@ def video(
         "fps": fps,
         "size": list(size),
         "seconds": len(rows) / fps,
+        "renderer": frames.engine,
     }
 
 
