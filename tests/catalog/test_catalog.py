@@ -91,7 +91,7 @@ def test_what_collides_is_as_large_as_what_is_drawn(key):
 
 @pytest.mark.parametrize("key", KEYS)
 def test_it_stands_where_it_is_put(key):
-    model, data = run(world(key), 2.0)
+    _model, data = run(world(key), 2.0)
     height = assets.find(key).metric_height
     moved = data.body("thing").xpos - (0, 0, height / 2)
     assert np.abs(moved[2]) < 0.003 + 0.01 * height
@@ -106,7 +106,7 @@ def test_a_ball_stays_in_the_bowl():
     spec = world("bowl")
     height = assets.find("bowl").metric_height
     bodies.sphere(spec, "marble", diameter=0.02, pos=(0.02, 0.01, height + 0.05))
-    model, data = run(spec, 2.5)
+    _model, data = run(spec, 2.5)
     marble, bowl = data.body("marble").xpos, data.body("thing").xpos
     rim = max(assets.find("bowl").extents(height)[:2]) / 2
     assert np.hypot(*(marble - bowl)[:2]) < rim
@@ -118,7 +118,7 @@ def test_a_ball_rests_on_the_bed_of_the_table():
     height = assets.find("pool_table").metric_height
     assets.add(spec, "pool_table", name="table", height=height, pos=(0, 0, height / 2), fixed=True)
     bodies.sphere(spec, "ball", diameter=0.057, pos=(0.2, 0.1, height + 0.1))
-    model, data = run(spec, 2.0)
+    _model, data = run(spec, 2.0)
     ball = data.body("ball").xpos
     assert height - 0.12 < ball[2] < height + 0.03
     assert np.abs(data.qvel[-6:-3]).max() < 0.05
