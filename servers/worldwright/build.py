@@ -22,7 +22,6 @@ from .model.errors import GateError, JobError, WorldwrightError
 from .model.evidence import PASSES
 from .model.progress import Progress
 from .model.run import Run, sha256_file
-from .model.scene import Scene
 
 
 @dataclass(frozen=True)
@@ -103,27 +102,18 @@ def _approve(run: Run, options: Options) -> str:
 
 
 def _draft(run: Run) -> str:
-    from .draft import draft
-    from .model.plan_text import read_plan
-    from .place.tools import resolve
+    from .draft.writing import write_program
 
-    layout = Scene(objects=resolve(run.plan, write=False).objects)
-    drafted = draft(read_plan(run.plan).plan, layout)
-    if run.program.is_file():
-        written = sha256_file(run.program)
-        if not any(e.get("action") == "draft" and e.get("program_sha256") == written for e in run.entries()):
-            return "kept simulation.py as its author left it"
-        if run.program.read_text(encoding="utf-8") == drafted.source:
-            return "unchanged"
-    write_atomic(run.program, drafted.source)
-    run.log("build", "draft", program_sha256=sha256_file(run.program), open_places=list(drafted.open_places))
-    if not drafted.complete:
+    written = write_program(run)
+    if written.outcome == "kept":
+        return "kept simulation.py as its author left it"
+    if written.outcome == "written" and written.open_places:
         raise Stopped(
             "the draft leaves places to its author",
             f"write what is marked AUTHOR in {run.program}, then build again",
-            "\n".join(f"- {place}" for place in drafted.open_places),
+            "\n".join(f"- {place}" for place in written.open_places),
         )
-    return f"{len(drafted.source.splitlines())} lines"
+    return "unchanged" if written.outcome == "unchanged" else f"{written.lines} lines"
 
 
 def _lint(run: Run) -> str:

@@ -27,6 +27,11 @@ COMMANDS = {
         "Plan in, accepted world out: resolve, draft, lint, run, scan, review, stamp.",
     ),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
+    "contract": ("worldwright.contract.command", "The roles of a run in each harness's own files: sync, check, show."),
+    "lessons": (
+        "worldwright.contract.lessons",
+        "Root causes in runs' journals, and the skill or rule to write them into.",
+    ),
     "doctor": (
         "worldwright.doctor",
         "Check Python, OpenGL, the sandbox and the servers; name a fix for each problem.",

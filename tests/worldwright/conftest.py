@@ -109,6 +109,12 @@ None.
 
 
 @pytest.fixture(scope="session")
+def small_plan() -> str:
+    """The text of a plan that runs in seconds."""
+    return PLAN
+
+
+@pytest.fixture(scope="session")
 def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run with a resolved plan and a drafted program, not yet approved."""
     from worldwright.draft import draft

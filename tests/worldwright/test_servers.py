@@ -59,6 +59,7 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "draw": {"plan": plan},
         },
         "stage": {
+            "draft": {"run": run},
             "start": {"run": run, "stage": "physics"},
             "wait": {"run": run},
             "status": {"run": run},

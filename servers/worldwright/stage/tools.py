@@ -48,6 +48,42 @@ class LogPage(Frozen):
         return self.content
 
 
+class Drafted(Frozen):
+    """What became of the program."""
+
+    file: str
+    outcome: Literal["written", "unchanged", "kept"]
+    """`kept`: an author's program stands there, and is not touched."""
+    lines: int
+    open_places: tuple[str, ...] = ()
+    """What is left to the author, each marked `AUTHOR:` in the file."""
+
+    def text(self) -> str:
+        """One line, and the open places."""
+        left = "".join(f"\n- AUTHOR: {place}" for place in self.open_places)
+        return f"{self.file}: {self.outcome}, {self.lines} lines{left}"
+
+
+def draft(run: RunName) -> Drafted:
+    """Write simulation.py from the approved plan, as far as the plan declares the world.
+
+    For rigid bodies, joints and initial motion the draft is whole; what else the plan asks for is left as places marked
+    `AUTHOR:`. An author's program is never overwritten.
+    """
+    from ..draft.writing import write_program
+
+    found = Run.find(run)
+    written = write_program(found, actor="code")
+    return Drafted.model_validate(
+        {
+            "file": str(found.program),
+            "outcome": written.outcome,
+            "lines": written.lines,
+            "open_places": written.open_places,
+        }
+    )
+
+
 def start(
     run: Annotated[
         str | None, Field(description="The run folder; with `model`, where to record it."), Positional()
@@ -190,4 +226,4 @@ def variant_folder(run: Run, variant: str) -> Path | None:
     return variants.folder(run, variant)
 
 
-TOOLS = (start, wait, status, cancel, frames, log)
+TOOLS = (draft, start, wait, status, cancel, frames, log)

@@ -1,0 +1,231 @@
+#!/usr/bin/env python3
+"""The write-scope guard: a hook that every tool use passes before it happens.
+
+Reads the hook's JSON from standard input; exits 0 to let the call through and 2, with the reason on standard error, to
+deny it. Whatever goes wrong denies. Real paths are judged, so `..` and symbolic links do not help.
+
+- A role (plan, code, visual, review) writes only its own files inside one run folder, uses only its own MCP tools, and
+  has no shell.
+- The main thread, and any agent that is none of our roles, writes nothing under `runs/`; its shell may only look there.
+
+Only the standard library, so that it starts in a few hundredths of a second with any Python. The gates check the same
+by hash: what slips past a hook is refused at acceptance.
+"""
+
+import json
+import os
+import re
+import shlex
+import sys
+from pathlib import Path
+
+try:
+    from .roles import BY_AGENT, MAIN_TOOLS, RUNS, Role
+except ImportError:  # started as a program: the folder of this file is on the path
+    from roles import BY_AGENT, MAIN_TOOLS, RUNS, Role  # type: ignore[no-redef]
+
+SERVERS = frozenset({"retrieve", "lint", "place", "stage", "scan", "stamp"})
+WRITERS = frozenset({"write", "edit", "multiedit", "notebookedit", "apply_patch", "patch", "create", "str_replace"})
+SHELLS = frozenset(
+    {"bash", "shell", "exec", "local_shell", "exec_command", "unified_exec", "write_stdin", "powershell"}
+)
+READERS = frozenset({"read", "glob", "grep", "ls", "list", "notebookread", "view_image", "read_file", "list_dir"})
+LOOKING = frozenset(
+    [
+        "ls",
+        "cat",
+        "head",
+        "tail",
+        "less",
+        "wc",
+        "file",
+        "stat",
+        "sha256sum",
+        "md5sum",
+        "du",
+        "diff",
+        "cmp",
+        "rg",
+        "grep",
+        "egrep",
+        "fgrep",
+        "jq",
+        "tree",
+        "realpath",
+        "pwd",
+        "echo",
+        "true",
+    ]
+)
+"""Commands that cannot write without a redirection."""
+PATCHED = re.compile(r"^\*\*\* (?:Add|Update|Delete) File: (.+)$|^\*\*\* Move to: (.+)$", re.MULTILINE)
+
+
+class DeniedError(Exception):
+    """The call is not allowed; the message says why and what to do instead."""
+
+
+def judge(event: dict, project: Path) -> None:
+    """Raise `DeniedError` unless the tool use is allowed.
+
+    Args:
+        event: the hook's input: `tool_name`, `tool_input`, and for sub-agents `agent_type`.
+        project: the folder that holds `runs/`.
+    """
+    tool = str(event.get("tool_name") or "")
+    given = event.get("tool_input")
+    if not tool:
+        raise DeniedError("the hook's input names no tool")
+    agent = str(event.get("agent_type") or event.get("agent_name") or "")
+    role = BY_AGENT.get(agent.rsplit(":", 1)[-1].lower())
+    base = Path(str(event.get("cwd") or project))
+    kind = tool.lower()
+    if kind.startswith("mcp__"):
+        _judge_mcp(kind, role)
+    elif kind in WRITERS:
+        for path in _targets(given):
+            _judge_write(path, base, project, role)
+    elif kind in SHELLS:
+        _judge_shell(_command(given), base, project, role)
+    elif role is not None and kind in READERS and not role.reads_files:
+        raise DeniedError(f"the {role.name} role sees only what its tools show it: {', '.join(role.tools)}")
+    elif role is not None and kind in ("agent", "task", "spawn_agent"):
+        raise DeniedError(f"the {role.name} role starts no agents: answer, and let the main thread go on")
+
+
+def _judge_mcp(kind: str, role: "Role | None") -> None:
+    parts = kind.split("__")
+    if len(parts) < 3 or parts[1] not in SERVERS:
+        return
+    name = f"{parts[1]}.{parts[2]}"
+    allowed = MAIN_TOOLS if role is None else role.tools
+    if name not in allowed:
+        who = "the main thread" if role is None else f"the {role.name} role"
+        raise DeniedError(f"{name} is not a tool of {who}; it has: {', '.join(allowed)}")
+
+
+def _targets(given: object) -> list[str]:
+    """Every path a writing tool names; none found is a refusal."""
+    found: list[str] = []
+    if isinstance(given, dict):
+        for key in ("file_path", "filePath", "path", "notebook_path", "filename"):
+            if isinstance(given.get(key), str):
+                found.append(given[key])
+        for key in ("input", "patch", "patchText", "command", "content_patch"):
+            value = given.get(key)
+            text = "\n".join(map(str, value)) if isinstance(value, list) else value
+            if isinstance(text, str):
+                found += [a or b for a, b in PATCHED.findall(text)]
+    elif isinstance(given, str):
+        found += [a or b for a, b in PATCHED.findall(given)]
+    if not found:
+        raise DeniedError("the file this call would write cannot be told from its input")
+    return [path.strip() for path in found]
+
+
+def _judge_write(path: str, base: Path, project: Path, role: "Role | None") -> None:
+    target = _real(path, base)
+    inside = _inside(target, project)
+    if role is None:
+        if inside is not None:
+            raise DeniedError(
+                f"{path} belongs to a run, and the main thread writes nothing there: the plan role writes plan.md, the "
+                "code role simulation.py, the tools everything else"
+            )
+        return
+    scope = " or ".join(f"{RUNS}/<slug>/{name}" for name in role.writes) or "nothing"
+    if inside is None or len(inside.parts) != 2 or inside.parts[1] not in role.writes:
+        raise DeniedError(f"{path} is outside the write scope of the {role.name} role, which is {scope}")
+    link = Path(os.path.normpath(base / path))
+    if link.is_symlink() or (link.exists() and link.stat().st_nlink > 1):
+        raise DeniedError(f"{path} is a link; the {role.name} role writes plain files")
+
+
+def _judge_shell(command: str, base: Path, project: Path, role: "Role | None") -> None:
+    if role is not None:
+        raise DeniedError(f"the {role.name} role has no shell; its tools are: {', '.join(role.tools)}")
+    runs = project / RUNS
+    here = _inside(_real(".", base), project) is not None
+    if not (here or RUNS in command or str(runs) in command or _globs_into(command, base, runs)):
+        return
+    if re.search(r"[`]|\$\(|<\(|>\(|\$\{?[A-Za-z_]", command):
+        raise DeniedError("a command that touches runs/ may not compute its arguments: write the paths out")
+    for part in re.split(r"&&|\|\||[;|\n]", command):
+        _judge_part(part, command)
+
+
+def _judge_part(part: str, command: str) -> None:
+    try:
+        words = shlex.split(part)
+    except ValueError as cause:
+        raise DeniedError(f"the command cannot be read: {cause}") from cause
+    if not words:
+        return
+    if re.search(r">", re.sub(r"2>\s*(?:/dev/null|&1)", "", re.sub(r"'[^']*'|\"[^\"]*\"", "", part))) or "&" in words:
+        raise DeniedError("the main thread writes nothing under runs/, and may not redirect there")
+    name = Path(words[0]).name
+    if name == "worldwright" or name in LOOKING:
+        return
+    raise DeniedError(
+        f"`{words[0]}` may write under runs/ ({command[:80]!r}): only `worldwright …` and looking commands "
+        f"({', '.join(sorted(LOOKING))}) may name a run; a role writes its own file"
+    )
+
+
+def _command(given: object) -> str:
+    if isinstance(given, dict):
+        value = given.get("command", given.get("cmd", given.get("input")))
+        if isinstance(value, list):
+            words = [str(word) for word in value]
+            shell = len(words) >= 3 and Path(words[0]).name in ("bash", "sh", "zsh") and words[1].startswith("-")
+            return words[-1] if shell else shlex.join(words)
+        if isinstance(value, str):
+            return value
+    if isinstance(given, str):
+        return given
+    raise DeniedError("the command cannot be told from the hook's input")
+
+
+def _real(path: str, base: Path) -> Path:
+    """The file that would really be written: links resolved as far as the path exists."""
+    return Path(os.path.realpath(base / Path(path).expanduser()))
+
+
+def _inside(target: Path, project: Path) -> "Path | None":
+    """The path below `runs/`, or None when it is elsewhere."""
+    runs = Path(os.path.realpath(project / RUNS))
+    try:
+        return target.relative_to(runs)
+    except ValueError:
+        return None
+
+
+def _globs_into(command: str, base: Path, runs: Path) -> bool:
+    """Whether a pattern of the command matches the runs folder (`ru*`, `r?ns`)."""
+    for word in re.findall(r"[^\s;|&<>'\"]*[*?\[][^\s;|&<>'\"]*", command):
+        head = word.strip("./").split("/")[0]
+        if head and re.fullmatch(
+            re.escape(head).replace(r"\*", ".*").replace(r"\?", ".").replace(r"\[", "[").replace(r"\]", "]"), RUNS
+        ):
+            return True
+    return bool(re.match(r"\s*(?:cd|pushd)\s", command)) and _real(command.split(None, 1)[1].split()[0], base) == runs
+
+
+def main() -> int:
+    """Judge one event from standard input."""
+    try:
+        event = json.load(sys.stdin)
+        if not isinstance(event, dict):
+            raise DeniedError("the hook's input is no object")
+        judge(event, Path(os.path.realpath(Path(__file__).parents[3])))
+    except DeniedError as reason:
+        sys.stderr.write(f"scope guard: {reason}\n")
+        return 2
+    except BaseException as defect:  # a guard that fails must not let anything through
+        sys.stderr.write(f"scope guard failed, so the call is denied: {type(defect).__name__}: {defect}\n")
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,51 @@
+"""Write a run's `simulation.py` from its approved plan, never over what an author wrote."""
+
+from dataclasses import dataclass
+
+from worldkit.files import write_atomic
+
+from ..model.errors import GateError
+from ..model.run import Run, sha256_file
+from ..model.scene import Scene
+
+
+@dataclass(frozen=True)
+class Written:
+    """What became of the program."""
+
+    outcome: str
+    """`written`, `unchanged`, or `kept` (an author's program stands there)."""
+    lines: int
+    open_places: tuple[str, ...] = ()
+    """What the draft leaves to its author."""
+
+
+def write_program(run: Run, actor: str = "build") -> Written:
+    """Draft the program of the plan as it stands.
+
+    Raises:
+        GateError: the plan is not approved as it stands.
+    """
+    from ..model.plan_text import read_plan
+    from ..place.tools import resolve
+    from . import draft
+
+    plan_sha256 = sha256_file(run.plan)
+    if not any(e.get("action") == "approve" and e.get("plan_sha256") == plan_sha256 for e in run.entries()):
+        raise GateError(
+            "the plan is not approved as it stands, so no code may be written for it",
+            place=str(run.plan),
+            next_move=f"worldwright stamp approve {run.folder}",
+        )
+    layout = Scene(objects=resolve(run.plan, write=False).objects)
+    drafted = draft(read_plan(run.plan).plan, layout)
+    lines = len(drafted.source.splitlines())
+    if run.program.is_file():
+        present = sha256_file(run.program)
+        if not any(e.get("action") == "draft" and e.get("program_sha256") == present for e in run.entries()):
+            return Written("kept", len(run.program.read_text(encoding="utf-8", errors="replace").splitlines()))
+        if run.program.read_text(encoding="utf-8") == drafted.source:
+            return Written("unchanged", lines, tuple(drafted.open_places))
+    write_atomic(run.program, drafted.source)
+    run.log(actor, "draft", program_sha256=sha256_file(run.program), open_places=list(drafted.open_places))
+    return Written("written", lines, tuple(drafted.open_places))

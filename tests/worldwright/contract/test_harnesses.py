@@ -1,0 +1,117 @@
+"""The generated files are fresh, name only tools that exist, and cost little context."""
+
+import json
+import re
+import tomllib
+from pathlib import Path
+
+import pytest
+import yaml
+from click.testing import CliRunner
+
+from worldwright import cli, expose
+from worldwright.contract import command, harnesses
+from worldwright.contract.roles import MAIN_TOOLS, ROLES
+
+REPO = Path(__file__).parents[3]
+TOOLS = {f"{server}.{function.__name__}" for server in expose.SERVERS for function in expose.tools(server)}
+BUDGET_TOKENS = 6000
+
+
+def tokens(text: str) -> int:
+    """A high estimate: a token every three characters (English prose has four and more)."""
+    return -(-len(text) // 3)
+
+
+def test_the_files_are_as_the_roles_say():
+    assert command.stale(REPO) == {}
+    assert CliRunner().invoke(cli.main, ["contract", "check"]).exit_code == 0
+
+
+def test_drift_is_named(tmp_path):
+    for name, text in harnesses.files().items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    (tmp_path / ".mcp.json").write_text("{}")
+    (tmp_path / ".codex/hooks.json").unlink()
+    assert command.stale(tmp_path) == {".mcp.json": "differs from the roles", ".codex/hooks.json": "missing"}
+
+
+@pytest.mark.parametrize("tools", [MAIN_TOOLS, *(role.tools for role in ROLES)])
+def test_every_tool_exists(tools):
+    assert set(tools) <= TOOLS and len(set(tools)) == len(tools)
+
+
+def test_every_tool_has_somebody():
+    used = {tool for role in ROLES for tool in role.tools} | set(MAIN_TOOLS)
+    assert used == TOOLS
+
+
+def test_who_reports_and_who_decides_are_apart():
+    tools = {role.name: set(role.tools) for role in ROLES}
+    assert "stamp.describe" in tools["visual"] and "stamp.review" in tools["review"]
+    decisive = {"stamp.approve", "stamp.accept", "stamp.block"}
+    assert decisive <= set(MAIN_TOOLS) and not any(decisive & own for own in tools.values())
+    assert not {"stamp.describe", "stamp.review"} & set(MAIN_TOOLS)
+    assert [role.writes for role in ROLES] == [("plan.md", "prompt.md"), ("simulation.py",), (), ()]
+
+
+def test_every_file_is_well_formed():
+    files = harnesses.files()
+    for name, text in files.items():
+        if name.endswith(".json"):
+            json.loads(text)
+        elif name.endswith(".toml"):
+            tomllib.loads(text)
+        else:
+            header = yaml.safe_load(text.split("---\n")[1])
+            assert header["description"]
+    assert len(files) == 5 + 3 * len(ROLES)
+
+
+def test_a_claude_agent_lists_its_tools_only():
+    for role in ROLES:
+        header = yaml.safe_load(harnesses.files()[f".claude/agents/{role.agent}.md"].split("---\n")[1])
+        listed = set(header["tools"].split(", "))
+        assert {t for t in listed if t.startswith("mcp__")} == {f"mcp__{t.replace('.', '__')}" for t in role.tools}
+        assert ("Write" in listed) == bool(role.writes) and "Bash" not in listed
+        assert ("Read" in listed) == role.reads_files
+
+
+def test_opencode_permissions_end_with_what_is_allowed():
+    for role in ROLES:
+        text = harnesses.files()[f".opencode/agents/{role.agent}.md"]
+        permission = yaml.safe_load(text.split("---\n")[1])["permission"]
+        assert next(iter(permission["edit"])) == "*" and permission["edit"]["*"] == "deny"
+        assert permission["bash"] == permission["task"] == permission["external_directory"] == "deny"
+        allowed = {k for k, v in permission.items() if v == "allow" and "_" in k}
+        assert allowed == {t.replace(".", "_") for t in role.tools}
+
+
+def test_the_contract_costs_little_context():
+    loaded = [(REPO / "AGENTS.md").read_text(), (REPO / "CLAUDE.md").read_text()]
+    for path in sorted((REPO / "skills").glob("*/SKILL.md")):
+        header = yaml.safe_load(path.read_text().split("---\n")[1])
+        loaded.append(f"{header['name']}: {header['description']}")
+    loaded += [f"{role.agent}: {role.purpose}" for role in ROLES]
+    total = sum(map(tokens, loaded))
+    assert total < BUDGET_TOKENS, f"about {total} tokens before the first word"
+
+
+@pytest.mark.parametrize("server", expose.SERVERS)
+def test_tool_descriptions_are_short(server):
+    for function in expose.tools(server):
+        assert len(expose.description(function).split()) < 120, function.__name__
+
+
+def test_every_command_is_a_link_to_its_skill():
+    for name in ("generate", "resume", "revise", "review", "verify", "build"):
+        link = REPO / "commands" / f"{name}.md"
+        assert link.is_symlink() and link.resolve() == REPO / "skills" / name / "SKILL.md"
+
+
+def test_skills_name_only_tools_that_exist():
+    for path in (REPO / "skills").glob("*/SKILL.md"):
+        for server, tool in re.findall(rf"`({'|'.join(expose.SERVERS)})\.(\w+)`", path.read_text()):
+            assert f"{server}.{tool}" in TOOLS, f"{path.parent.name}: {server}.{tool}"
