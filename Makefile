@@ -5,7 +5,7 @@ JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := $(CURDIR)/.ci/constraints.txt
 
-.PHONY: help demo test lint fmt bench examples test-faults test-inspector test-semantic docs lock clean
+.PHONY: help demo test lint fmt bench examples test-faults test-inspector test-harness test-semantic docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -38,6 +38,9 @@ test-faults: .venv/.dev ## kill -9 at a hundred random moments (make test does a
 
 test-inspector: .venv/.dev ## The MCP inspector's strict check on all six servers (needs npm)
 	$(BIN)/python -m pytest tests/inspector -p no:xdist
+
+test-harness: .venv/.dev ## The contract in the real Claude Code and OpenCode, offline, with a scripted model (needs npm)
+	cd tests/harness && PYTHONPATH=. WORLDWRIGHT_HARNESSES=1 ../../$(BIN)/python -m pytest . -p no:xdist
 
 test-semantic: .venv/.semantic ## Ranking by meaning: the quality of search with the packaged model
 	$(BIN)/python -m pytest tests/worldwright/retrieve -p no:xdist

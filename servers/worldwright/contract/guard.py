@@ -8,6 +8,9 @@ deny it. Whatever goes wrong denies. Real paths are judged, so `..` and symbolic
   has no shell.
 - The main thread, and any agent that is none of our roles, writes nothing under `runs/`; its shell may only look there.
 
+With `--allow` (Claude Code understands it) a call that belongs to a run need not be confirmed by the person, save the
+approval of a plan, which is theirs.
+
 Only the standard library, so that it starts in a few hundredths of a second with any Python. The gates check the same
 by hash: what slips past a hook is refused at acceptance.
 """
@@ -65,8 +68,8 @@ class DeniedError(Exception):
     """The call is not allowed; the message says why and what to do instead."""
 
 
-def judge(event: dict, project: Path) -> None:
-    """Raise `DeniedError` unless the tool use is allowed.
+def judge(event: dict, project: Path) -> bool:
+    """Raise `DeniedError` unless the tool use is allowed; True when it is one of a run's own, which nobody need confirm.
 
     Args:
         event: the hook's input: `tool_name`, `tool_input`, and for sub-agents `agent_type`.
@@ -81,27 +84,30 @@ def judge(event: dict, project: Path) -> None:
     base = Path(str(event.get("cwd") or project))
     kind = tool.lower()
     if kind.startswith("mcp__"):
-        _judge_mcp(kind, role)
-    elif kind in WRITERS:
+        return _judge_mcp(kind, role)
+    if kind in WRITERS:
         for path in _targets(given):
             _judge_write(path, base, project, role)
-    elif kind in SHELLS:
+        return role is not None
+    if kind in SHELLS:
         _judge_shell(_command(given), base, project, role)
     elif role is not None and kind in READERS and not role.reads_files:
         raise DeniedError(f"the {role.name} role sees only what its tools show it: {', '.join(role.tools)}")
     elif role is not None and kind in ("agent", "task", "spawn_agent"):
         raise DeniedError(f"the {role.name} role starts no agents: answer, and let the main thread go on")
+    return False
 
 
-def _judge_mcp(kind: str, role: "Role | None") -> None:
+def _judge_mcp(kind: str, role: "Role | None") -> bool:
     parts = kind.split("__")
     if len(parts) < 3 or parts[1] not in SERVERS:
-        return
+        return False
     name = f"{parts[1]}.{parts[2]}"
     allowed = MAIN_TOOLS if role is None else role.tools
     if name not in allowed:
         who = "the main thread" if role is None else f"the {role.name} role"
         raise DeniedError(f"{name} is not a tool of {who}; it has: {', '.join(allowed)}")
+    return name != "stamp.approve"  # whether a plan is approved, the person is asked
 
 
 def _targets(given: object) -> list[str]:
@@ -217,13 +223,20 @@ def main() -> int:
         event = json.load(sys.stdin)
         if not isinstance(event, dict):
             raise DeniedError("the hook's input is no object")
-        judge(event, Path(os.path.realpath(Path(__file__).parents[3])))
+        own = judge(event, Path(os.path.realpath(Path(__file__).parents[3])))
     except DeniedError as reason:
         sys.stderr.write(f"scope guard: {reason}\n")
         return 2
     except BaseException as defect:  # a guard that fails must not let anything through
         sys.stderr.write(f"scope guard failed, so the call is denied: {type(defect).__name__}: {defect}\n")
         return 2
+    if own and "--allow" in sys.argv[1:]:
+        decision = {
+            "hookEventName": "PreToolUse",
+            "permissionDecision": "allow",
+            "permissionDecisionReason": "in scope",
+        }
+        sys.stdout.write(json.dumps({"hookSpecificOutput": decision}))
     return 0
 
 

@@ -62,9 +62,9 @@ def _mcp(tools: tuple[str, ...]) -> Iterator[str]:
         yield f"mcp__{server}__{name}"
 
 
-def _hook(folder: str) -> str:
+def _hook(folder: str, options: str = "") -> str:
     """The guard as a hook command: a failure of any kind denies."""
-    return f"python3 {folder}{GUARD} || {{ echo 'scope guard failed or denied' >&2; exit 2; }}"
+    return f"python3 {folder}{GUARD}{options} || {{ echo 'scope guard failed or denied' >&2; exit 2; }}"
 
 
 def _claude_agent(role: Role) -> str:
@@ -82,16 +82,11 @@ def _claude_agent(role: Role) -> str:
 
 
 def _claude_settings() -> dict[str, object]:
-    hook = {"type": "command", "command": _hook('"$CLAUDE_PROJECT_DIR"/'), "timeout": 20}
+    hook = {"type": "command", "command": _hook('"$CLAUDE_PROJECT_DIR"/', " --allow"), "timeout": 20}
     return {
         "enableAllProjectMcpServers": True,
         "env": {"CLAUDE_CODE_DISABLE_BACKGROUND_TASKS": "1"},
-        "permissions": {
-            "allow": [
-                *sorted(set(_mcp(MAIN_TOOLS)) | {t for role in ROLES for t in _mcp(role.tools)}),
-                f"Edit({RUNS}/**)",
-            ],
-        },
+        "permissions": {"ask": ["mcp__stamp__approve"]},
         "hooks": {"PreToolUse": [{"matcher": "*", "hooks": [hook]}]},
     }
 

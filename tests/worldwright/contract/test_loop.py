@@ -98,7 +98,9 @@ def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_pla
     frames = harness.call("world-visual", "stage.frames", run=run)
     assert frames.pictures
     seen = VisualDescription(
-        author="world-visual", summary="a red ball falls onto a floor", cameras={"overview": "a red ball in the air", "side": "the same from the side"}
+        author="world-visual",
+        summary="a red ball falls onto a floor",
+        cameras={"overview": "a red ball in the air", "side": "the same from the side"},
     )
     harness.call("world-visual", "stamp.describe", run=run, description=seen)
     assert harness.call("world-review", "scan.scan", run=run).ok

@@ -1,0 +1,80 @@
+"""Real harnesses from npm at pinned versions, in an empty home, with dummy keys, against a scripted model on loopback."""
+
+import os
+import platform
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+REPO = Path(__file__).parents[2]
+PACKAGES = ("@anthropic-ai/claude-code@2.1.329", "opencode-ai@1.18.33")
+FOLDER = REPO / ".venv" / "harnesses"
+MACHINE = "x64" if platform.machine() == "x86_64" else "arm64"
+BINARIES = {
+    "claude": FOLDER / f"node_modules/@anthropic-ai/claude-code-linux-{MACHINE}/claude",
+    "opencode": FOLDER / f"node_modules/opencode-linux-{MACHINE}/bin/opencode",
+}
+
+
+# Their own target (`make test-harness`): the harnesses are large and come from npm.
+collect_ignore_glob = [] if os.environ.get("WORLDWRIGHT_HARNESSES") else ["test_*.py"]
+
+
+@pytest.fixture(scope="session")
+def harnesses() -> dict[str, Path]:
+    """The harnesses' programs, installed once."""
+    if not all(path.is_file() for path in BINARIES.values()):
+        if shutil.which("npm") is None:
+            pytest.skip("npm is not installed")
+        FOLDER.mkdir(parents=True, exist_ok=True)
+        (FOLDER / "package.json").write_text("{}")
+        command = ["npm", "install", "--ignore-scripts", "--no-audit", "--no-fund", *PACKAGES]
+        done = subprocess.run(command, cwd=FOLDER, capture_output=True, text=True)
+        if done.returncode:
+            pytest.skip(f"the harnesses cannot be installed here: {done.stderr[-300:]}")
+    return BINARIES
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    """A copy of the project as it stands, with the environment of this checkout."""
+    folder = tmp_path / "project"
+    listed = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=REPO,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    for name in listed.stdout.splitlines():
+        source, target = REPO / name, folder / name
+        if name.startswith("examples/") or not (source.is_file() or source.is_symlink()):
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source, target, follow_symlinks=False)
+    (folder / ".venv").symlink_to(REPO / ".venv")
+    subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
+    return folder
+
+
+@pytest.fixture
+def clean(tmp_path: Path) -> dict[str, str]:
+    """An environment with nothing of this machine's settings: an empty home, a path, dummy keys."""
+    home = tmp_path / "home"
+    home.mkdir()
+    return {
+        "HOME": str(home),
+        "PATH": os.environ["PATH"],
+        "MUJOCO_GL": os.environ.get("MUJOCO_GL", "egl"),
+        "ANTHROPIC_API_KEY": "dummy",
+        "OPENAI_API_KEY": "dummy",
+        "IS_SANDBOX": "1",
+    }
+
+
+@pytest.fixture
+def small_plan() -> str:
+    """The plan of the suite's own small world."""
+    return (REPO / "tests/worldwright/world/dropped-ball.md").read_text(encoding="utf-8")

@@ -1,0 +1,85 @@
+"""The contract in the real OpenCode: what its permissions deny and let pass, and one `/generate` from words to a stamp."""
+
+import json
+import shutil
+import subprocess
+
+import pytest
+from model_server import Call, Model, Say, Script
+from story import story
+
+
+def opencode(harnesses, project, clean, script, *arguments, timeout=300):
+    """Run one headless session; returns what it printed."""
+    if shutil.which("rg", path=clean["PATH"]) is None:
+        pytest.skip("OpenCode needs ripgrep (Debian: ripgrep)")
+    with Model(script) as model:
+        path = project / ".opencode/opencode.json"
+        config = json.loads(path.read_text())
+        options = {"baseURL": f"{model.url}/v1", "apiKey": "dummy"}
+        limits = {"limit": {"context": 200000, "output": 8000}, "tool_call": True}
+        config["provider"] = {
+            "scripted": {"npm": "@ai-sdk/openai-compatible", "options": options, "models": {"scripted": limits}}
+        }
+        config["model"] = config["small_model"] = "scripted/scripted"
+        config["permission"]["stamp_approve"] = "allow"  # the person, who is not there to be asked
+        path.write_text(json.dumps(config))
+        done = subprocess.run(
+            [harnesses["opencode"], "run", *arguments],
+            cwd=project, env={**clean, "OPENCODE_DISABLE_AUTOUPDATE": "1"},
+            capture_output=True, text=True, timeout=timeout, stdin=subprocess.DEVNULL,
+        )  # fmt: skip
+    assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-3000:]
+    return done.stdout
+
+
+def write(project, path):
+    return Call("write", {"filePath": str(project / path), "content": "# text\n"})
+
+
+def spawn(role):
+    given = {"description": role, "prompt": "the run is runs/ball", "subagent_type": f"world-{role}"}
+    return Call("task", given)
+
+
+def test_the_permissions_hold_for_every_role(harnesses, project, clean):
+    forbidden = ["README.md", "runs/ball/journal.jsonl", "runs/ball/../../x.md"]
+    turns = {
+        "main": [[write(project, "runs/ball/plan.md")], *([spawn(role)] for role in ("plan", "code"))],
+        "plan": [
+            [write(project, "runs/ball/plan.md")],
+            *([write(project, p)] for p in [*forbidden, "runs/ball/simulation.py"]),
+        ],
+        "code": [
+            [write(project, "runs/ball/simulation.py")],
+            *([write(project, p)] for p in [*forbidden, "runs/ball/plan.md"]),
+        ],
+    }
+    script = Script(turns)
+    before = (project / "README.md").read_text()
+    opencode(harnesses, project, clean, script, "do what the script says")
+    assert sorted(p.name for p in (project / "runs/ball").iterdir()) == ["plan.md", "simulation.py"], dict(
+        script.results
+    )
+    assert (project / "README.md").read_text() == before and not (project / "x.md").exists()
+    assert not any(tool in script.tools["plan"] for tool in ("bash", "task"))
+
+
+@pytest.mark.slow
+def test_a_sentence_becomes_a_stamped_world(harnesses, project, clean, small_plan):
+    script = Script(
+        story(
+            project, small_plan,
+            write=lambda path, text: Call("write", {"filePath": str(project / path), "content": text}),
+            tool=lambda server, name, /, **given: Call(f"{server}_{name}", given),
+            spawn=spawn,
+        )
+    )  # fmt: skip
+    opencode(harnesses, project, clean, script, "--command", "generate", "a ball is dropped")
+    said = json.dumps(script.results, indent=1)[-6000:]
+    assert (project / "runs/ball/accepted/stamp.json").is_file(), said
+    assert [Say("accepted")] not in script.turns["main"]
+    done = subprocess.run(
+        [project / ".venv/bin/worldwright", "stamp", "verify", "runs/ball"], cwd=project, capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout
