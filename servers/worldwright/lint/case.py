@@ -31,7 +31,7 @@ SOUND_PLAN: dict[str, Any] = {
         "initial_motion": {"crate": {"linear": [0.5, 0.0, 0.0]}},
     },
     "objectives": [
-        {"claim": "The crate slides.", "expect": [{"moves": {"body": "crate"}}]},
+        {"claim": "The crate slides.", "expect": [{"moves": {"body": "crate", "min_m": 0.1}}]},
         {"claim": "The crate is brown.", "visual_only": "a colour has no state"},
     ],
     "implementation_steps": [

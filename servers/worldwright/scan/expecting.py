@@ -45,6 +45,24 @@ def _objective(trajectory: Trajectory, index: int, objective: Objective) -> Obje
     )
 
 
+def argument_problem(name: str, arguments: Any) -> tuple[str, str] | None:
+    """What is wrong with the arguments of an expectation, and the fix; None when nothing is, or the name is unknown."""
+    try:
+        entry = EXPECTATIONS.find(name)
+    except NotFoundError:
+        return None
+    try:
+        entry.Given.model_validate(arguments if isinstance(arguments, dict) else {"body": arguments})
+    except ValidationError as cause:
+        first = cause.errors()[0]
+        where = ".".join(str(part) for part in first["loc"]) or "arguments"
+        fields = ", ".join(
+            field + ("" if info.is_required() else "?") for field, info in entry.Given.model_fields.items()
+        )
+        return f"{where}: {first['msg']}", f"its arguments: {fields} (those with ? may be left out)"
+    return None
+
+
 def measure(trajectory: Trajectory, name: str, arguments: dict[str, Any]) -> ExpectationResult:
     """One expectation; an unknown name, wrong arguments or a missing channel is `unknown` with its reason."""
     try:

@@ -246,6 +246,13 @@ def compare(
     return compare_reports(folder, first, second)
 
 
+def argument_problem(name: str, arguments: object) -> tuple[str, str] | None:
+    """What is wrong with an expectation's arguments, and the fix; None when they are right or the name is unknown."""
+    from .expecting import argument_problem as judge
+
+    return judge(name, arguments)
+
+
 def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Trajectory]":
     """The recording meant, with the run, key and plan it belongs to, when it belongs to one."""
     from ..model.trajectory import Trajectory

@@ -37,7 +37,7 @@ float lit(vec3 p, vec3 n, vec3 light, vec2 pixel) {
         vec2 o = sqrt((float(i) + 0.5) / float(blockers)) * widest * way;
         way = whirl * way;
         float d = textureLod(shadow_depth, s.xy + o, 0.0).r;
-        float blocks = step(d, s.z + dot(gradient, o) - bias);
+        float blocks = step(d, min(s.z + dot(gradient, o) - bias, 0.9995));  // never an empty texel, which holds 1
         found += blocks;
         sum += blocks * d;
     }
@@ -48,7 +48,7 @@ float lit(vec3 p, vec3 n, vec3 light, vec2 pixel) {
     for (int i = 0; i < turns; i++) {
         vec2 o = sqrt((float(i) + 0.5) / float(filters)) * radius * way;
         way = whirl * way;
-        light_sum += texture(shadow_compare, vec3(s.xy + o, s.z + dot(gradient, o) - bias));
+        light_sum += texture(shadow_compare, vec3(s.xy + o, min(s.z + dot(gradient, o) - bias, 0.9995)));
     }
     float share = turns == 0 ? 1.0 : light_sum / float(filters);
     share = mix(share, share * share * (3.0 - 2.0 * share), 0.6);

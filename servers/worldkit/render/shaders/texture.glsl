@@ -40,6 +40,8 @@ Paint paint_sides(vec3 p, vec3 n, int mode, float per_metre, float relief, float
     vec4 other = textureLod(paint, turn * t + 0.31, max(level - 1.2, 0.0));
     float blend = smoothstep(0.35, 0.65, textureLod(noise_map, t * 0.061, 0.0).r);
     result.value = mix(result.value, other, blend * 0.75);
+    // Far away only the repetition would be left of the pattern: there its mean stands for it.
+    result.value = mix(result.value, textureLod(paint, t, 20.0), 0.85 * smoothstep(1.5, 4.5, level));
 #endif
 #if RELIEF
     float reach = exp2(level) / float(textureSize(paint, 0).x);
