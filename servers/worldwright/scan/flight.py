@@ -18,6 +18,8 @@ Array = np.ndarray
 PUSHES = ("force", "torque", "pose", "velocity", "control", "callback", "constraint")
 _PUSHES = "_pushes_in_flight"
 SUDDEN_ROWS = 2
+MOST = 60
+"""Stretches of one body that are looked at; what a body does sixty times it need not be told more often."""
 LASTING_ROWS = 3
 
 
@@ -85,7 +87,7 @@ def _pushes(trajectory: Trajectory) -> Iterator[Push]:
         size = np.sqrt((extra**2).sum(axis=1))
         scale = trajectory.speed_scale[b]
         off = flying[:, b] & (size > tolerance * dt[:, 0])
-        for start, stop in spans(off, bridge=1):
+        for start, stop in spans(off, bridge=1)[:MOST]:
             change = float(np.sqrt((extra[start:stop].sum(axis=0) ** 2).sum()))
             sudden = stop - start <= SUDDEN_ROWS and change > 0.1 * scale + 0.02 * trajectory.speed[start, b]
             if trajectory.every_step:

@@ -53,11 +53,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
 def _half_under(trajectory: Trajectory, b: int, ground: float) -> Iterator[Sign]:
     facts = trajectory.mechanics
     thick = facts.half_thickness()
-    lowest = lowest_point(trajectory, b)
-    if thick is None or lowest is None or np.isnan(thick[b]):
+    if thick is None or np.isnan(thick[b]):
         return
     rows = max(1, round(0.25 / trajectory.interval_s))
-    depth = ground - lowest
+    near = trajectory.pos[:, b, 2] - ground < trajectory.size_m[b] - 0.5 * thick[b]
+    if near.sum() < rows:
+        return
+    lowest = lowest_point(trajectory, b, near)
+    if lowest is None:
+        return
+    depth = np.full(len(near), -np.inf)
+    depth[near] = ground - lowest
     for start, stop in spans(depth > 0.5 * thick[b]):
         if stop - start >= rows:
             name, deepest = trajectory.names[b], float(depth[start:stop].max())
@@ -67,17 +73,18 @@ def _half_under(trajectory: Trajectory, b: int, ground: float) -> Iterator[Sign]
             return
 
 
-def lowest_point(trajectory: Trajectory, b: int) -> np.ndarray | None:
-    """(T,) m: height of the lowest point of a body's colliding geoms; None when a shape is not simple."""
+def lowest_point(trajectory: Trajectory, b: int, rows: np.ndarray) -> np.ndarray | None:
+    """(N,) m at the rows (a mask): height of the lowest point of a body's colliding geoms; None when a shape is not simple."""
     facts = trajectory.mechanics
     if facts.geom_pos is None or facts.geom_body is None or facts.geom_half_extents is None:
         return None
     assert facts.geom_collides is not None and facts.geom_quat is not None
     lowest: np.ndarray | None = None
+    turn = rotation(trajectory.quat[rows, b])
     for g in np.flatnonzero((facts.geom_body == b) & facts.geom_collides):
         half, kind = facts.geom_half_extents[g], facts.geom_type[g]
-        up = (rotation(trajectory.quat[:, b]) @ rotation(facts.geom_quat[g]))[:, 2, :]  # world z in the geom's frame
-        centre = trajectory.pos[:, b, 2] + (rotation(trajectory.quat[:, b]) @ facts.geom_pos[g])[:, 2]
+        up = (turn @ rotation(facts.geom_quat[g]))[:, 2, :]  # world z in the geom's frame
+        centre = trajectory.pos[rows, b, 2] + (turn @ facts.geom_pos[g])[:, 2]
         if kind == "box":
             reach = np.abs(up) @ half
         elif kind in ("sphere", "ellipsoid"):

@@ -4,7 +4,7 @@ What it means: bodies were put inside each other, the contact is too stiff for t
 A real blow is as short and as hard, but then it changes the body's velocity; a spike does not, or throws the body away.
 
 Formula: F, the sum of the contact forces on a body, against its usual value (the median while in contact) and its
-weight. A spike has F > 100 times the larger, at a body slower than sqrt(g r) in the three rows before.
+weight. A spike has F > 100 times the larger, with nothing faster than sqrt(g r) / 2 in the 0.05 s before.
 Threshold: 100: a thing of a kilogram pressed with a tonne.
 Source: the impulse-momentum theorem.
 """
@@ -21,6 +21,7 @@ from ..sign import Case, Context, Sign
 CODE = "WS127"
 NEEDS = ("linvel", "touching")
 FACTOR = 100.0
+BLOW_S = 0.05
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -35,10 +36,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         if limit <= 0 or (mass is None and pressed.sum() < 20):
             continue
         for n in np.flatnonzero(force[:, b] > limit):
-            if trajectory.speed[max(0, n - 3) : n + 1, b].min() > trajectory.speed_scale[b]:
-                continue
-            near = _others_fast(trajectory, int(n), int(b))
-            if near:
+            if _struck(trajectory, int(n)):
                 continue
             name = trajectory.names[b]
             message = f"a contact presses {name} with {force[n, b]:.3g} N, {force[n, b] / (limit / FACTOR):.0f} times the usual"
@@ -58,11 +56,11 @@ def forces(trajectory: Trajectory) -> np.ndarray:
     return total
 
 
-def _others_fast(trajectory: Trajectory, n: int, b: int) -> bool:
-    """Whether another body was fast enough just before to have struck a blow."""
-    before = trajectory.speed[max(0, n - 3) : n + 1].max(axis=0) > trajectory.speed_scale
-    before[b] = False
-    return bool(before.any())
+def _struck(trajectory: Trajectory, n: int) -> bool:
+    """Whether anything was fast enough shortly before row `n` to have struck a blow."""
+    rows = max(3, round(BLOW_S / trajectory.interval_s))
+    before = trajectory.speed[max(0, n - rows) : n + 1]
+    return bool((before > 0.5 * trajectory.speed_scale).any())
 
 
 def _pressed(force: float) -> Case:

@@ -35,7 +35,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     for b in np.flatnonzero(flying.any(axis=0)):
         floor = 0.2 * float(inertia[b].max()) * np.sqrt(g / trajectory.size_m[b])
         for start, stop in spans(flying[:, b]):
-            if stop - start < MINIMUM_ROWS:
+            still = trajectory.spin[start : stop + 1, b].max() < 0.02 * np.sqrt(g / trajectory.size_m[b])
+            if stop - start < MINIMUM_ROWS or still:
                 continue
             momentum = angular_momentum(trajectory, b, slice(start, stop + 1))
             change = np.sqrt(((momentum - momentum[0]) ** 2).sum(axis=1))

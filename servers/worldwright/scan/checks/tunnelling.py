@@ -23,8 +23,7 @@ from ..sign import Case, Context, Sign
 CODE = "WS120"
 NEEDS = ("mechanics.geom_pos", "mechanics.half_extents", "mechanics.parent")
 SOLID = frozenset({"box", "sphere", "capsule", "cylinder", "ellipsoid"})
-CHUNKS = 64
-LAP = 40
+ROWS, LAP = 48, 40
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -105,14 +104,14 @@ class _Neighbours:
         assert facts.half_extents is not None and facts.geom_body is not None
         assert facts.geom_pos is not None and facts.geom_half_extents is not None
         count = len(trajectory.t)
-        edges = np.unique(np.linspace(0, count - 1, min(CHUNKS, max(2, count // 8)) + 1).astype(int))
+        edges = np.unique(np.append(np.arange(0, count, ROWS), count - 1))
+        cores = [slice(int(a), int(z) + 1) for a, z in itertools.pairwise(edges)]
         # Parts overlap, so that a passage is not cut in two.
-        self.parts = [slice(max(0, int(a) - LAP), min(count, int(z) + 1 + LAP)) for a, z in itertools.pairwise(edges)]
-        self.low = np.array([trajectory.pos[part].min(axis=0) for part in self.parts])
-        self.high = np.array([trajectory.pos[part].max(axis=0) for part in self.parts])
-        radius = np.sqrt((np.nan_to_num(facts.half_extents) ** 2).sum(axis=1))
-        centre = 0.0 if facts.center is None else np.sqrt((np.nan_to_num(facts.center) ** 2).sum(axis=1))
-        self.reach = radius + centre
+        self.parts = [slice(max(0, core.start - LAP), min(count, core.stop + LAP)) for core in cores]
+        self.low = np.array([trajectory.pos[core].min(axis=0) for core in cores])
+        self.high = np.array([trajectory.pos[core].max(axis=0) for core in cores])
+        offset = facts.com if facts.com is not None else np.zeros((len(trajectory.names), 3))
+        self.offset = np.sqrt((offset**2).sum(axis=1))
         self.facts = facts
 
     def windows(self, b: int, g: int) -> Iterator[slice]:
@@ -120,7 +119,8 @@ class _Neighbours:
         facts = self.facts
         assert facts.geom_body is not None and facts.geom_pos is not None and facts.geom_half_extents is not None
         other = int(facts.geom_body[g])
-        size = float(np.sqrt((facts.geom_half_extents[g] ** 2).sum()))
+        # The centre of the one must come into the box of the other.
+        size = float(np.sqrt((facts.geom_half_extents[g] ** 2).sum())) + float(self.offset[b])
         if other >= 0:
             low, high = self.low[:, other], self.high[:, other]
             size += float(np.sqrt((facts.geom_pos[g] ** 2).sum()))
