@@ -100,9 +100,9 @@ def timeline(touches: list[Touch], end: float) -> list[Row]:
 def ticks(low: float, high: float, count: int = 5) -> list[float]:
     """Round numbers from `low` to `high`, about `count` of them."""
     span = high - low
-    if not (math.isfinite(span) and span > 0):
-        return [low]
     raw = span / max(1, count)
+    if not (math.isfinite(span) and raw > 1e-300):  # below that, numbers lose their digits and logarithms their range
+        return [low]
     power = 10.0 ** math.floor(math.log10(raw))
     step = next(power * m for m in (1, 2, 2.5, 5, 10) if power * m >= raw * 0.999)
     first = math.ceil(low / step - 1e-9)
