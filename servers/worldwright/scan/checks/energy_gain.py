@@ -95,6 +95,10 @@ def _work(trajectory: Trajectory) -> np.ndarray:
 def _quiet(trajectory: Trajectory, scale: float) -> np.ndarray:
     """(T,) rows at which contacts store next to nothing."""
     contacts = trajectory.contacts
+    force, deepest = trajectory.contact_force_sum, trajectory.max_penetration
+    if contacts is None and force is not None and deepest is not None:
+        # Each contact pushes two bodies at most, so this bounds what all of them store.
+        return np.asarray(force.sum(axis=1) * deepest < 0.01 * scale)
     if contacts is None:
         if trajectory.ncon is None or (trajectory.ncon == 0).mean() < 0.2:
             return np.ones(len(trajectory.t), dtype=bool)

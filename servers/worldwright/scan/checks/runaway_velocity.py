@@ -4,6 +4,7 @@ What it means: the integration diverges, bodies burst out of each other, or a fo
 
 Formula: v of each body against what the scene offers: the speed of falling through ten times its extent, and a hundred
 times the median speed of the body itself. A body that starts fast (a bullet) is measured against its start.
+A speed that doubles eight times, each time in the same while, is measured against the fall alone.
 Threshold: ten times the larger of these, or the speed of light's thousandth whatever the scene; sustained over three rows.
 Source: conservation of energy, v = sqrt(2 g h).
 """
@@ -32,6 +33,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     usual = 100 * np.median(trajectory.speed, axis=0)
     first = 3 * trajectory.speed[:3].max(axis=0)
     limit = np.minimum(10 * np.maximum(np.maximum(fall, usual), first), ABSURD_M_S)
+    limit = np.where(_exponential(trajectory), np.minimum(limit, 10 * fall), limit)
     for b in np.flatnonzero((trajectory.speed > limit).any(axis=0)):
         found = spans(trajectory.speed[:, b] > limit[b])
         lasting = found[np.diff(found, axis=1)[:, 0] >= min(3, len(trajectory.t))]
@@ -42,6 +44,19 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         name = trajectory.names[b]
         message = f"{name} reaches {top:.3g} m/s, more than this scene can give it"
         yield Sign(name, (trajectory.t[begin], trajectory.t[end - 1]), top, limit[b], "m/s", "blocking", message)
+
+
+def _exponential(trajectory: Trajectory) -> np.ndarray:
+    """(B,) bool: the speed has doubled eight times in a row, each time in about the same while, as no thruster does it."""
+    found = np.zeros(len(trajectory.names), dtype=bool)
+    for b in np.flatnonzero(trajectory.speed.max(axis=0) > 256 * np.median(trajectory.speed[:3], axis=0)):
+        speed = trajectory.speed[:, b]
+        top = int(np.argmax(speed))
+        levels = speed[top] / 2.0 ** np.arange(8, -1, -1)
+        rows = np.array([int(np.argmax(speed[: top + 1] >= level)) for level in levels])
+        gaps = np.diff(trajectory.t[rows])
+        found[b] = bool(rows[0] > 0 and gaps.min() > 0 and gaps.max() < 2.5 * gaps.min())
+    return found
 
 
 def _diverging() -> Case:
