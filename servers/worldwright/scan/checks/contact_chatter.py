@@ -52,7 +52,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             if last < 0.6 * first or last < 0.02 * scale:
                 continue
             name = trajectory.names[b]
-            others = np.delete(trajectory.speed[start : stop + 1], b, axis=1)
+            part = slice(start, stop + 1)
+            others = np.delete(trajectory.speed[part] + trajectory.size_m * trajectory.spin[part], b, axis=1)
             # Among others that move as fast, a body may be shaken by them: not its own contact need be at fault.
             shaken = float(np.mean((others > 0.5 * last).sum(axis=1))) >= 1.0
             driven = context.acts_on(name, ("force", "torque", "control", "mocap"))
