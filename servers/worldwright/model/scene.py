@@ -1,5 +1,7 @@
 """The resolved layout: every object with its size, its pose and where each number came from."""
 
+from functools import cached_property
+
 from .finding import Finding
 from .frozen import Frozen
 from .plan import Vec3
@@ -39,11 +41,30 @@ class PlacedObject(Frozen):
         return (x - half[0], y - half[1], z - half[2]), (x + half[0], y + half[1], z + half[2])
 
 
+class PlacedCamera(Frozen):
+    """A camera that a relation template placed, world frame, metres."""
+
+    name: str
+    template: str
+    position: Vec3
+    target: Vec3
+    """The point it looks at."""
+    fovy_deg: float
+    """Vertical field of view."""
+    provenance: tuple[str, ...] = ()
+
+
 class Scene(Frozen):
     """The resolved layout (ResolvedPlan): objects in dependency order and the problems found on the way."""
 
     objects: tuple[PlacedObject, ...] = ()
+    cameras: tuple[PlacedCamera, ...] = ()
+    """Cameras that geometry_relations place; the others frame what they show when the world runs."""
     findings: tuple[Finding, ...] = ()
+
+    @cached_property
+    def _by_name(self) -> dict[str, PlacedObject]:
+        return {placed.name: placed for placed in self.objects}
 
     @property
     def ok(self) -> bool:
@@ -51,7 +72,7 @@ class Scene(Frozen):
         return not any(f.severity == "error" for f in self.findings)
 
     def __getitem__(self, name: str) -> PlacedObject:
-        for placed in self.objects:
-            if placed.name == name:
-                return placed
+        placed = self._by_name.get(name)
+        if placed is not None:
+            return placed
         raise KeyError(f"{name} is not placed; placed: {', '.join(o.name for o in self.objects)}")

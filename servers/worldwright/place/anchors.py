@@ -74,6 +74,13 @@ class Box:
     """Extents do not change with yaw."""
     surface: Callable[[str | None], Surface] = field(default=no_surface, repr=False)
     """A named surface, or the default one; KeyError tells the known ones."""
+    floor_datum: bool = False
+    """Plans write the height of its floor instead of its centre's (containers that are a generated_boundary)."""
+
+    @property
+    def written_shift(self) -> float:
+        """What is added to the centre's z where plans write this object's position, metres."""
+        return -self.size[2] / 2 if self.floor_datum else 0.0
 
     def get(self, dof: str) -> float:
         """A coordinate that must be known by now."""
@@ -110,6 +117,21 @@ class Box:
         """A vector of the object's own plane, turned into the world's."""
         c, s = cos_sin(self.get("yaw"))
         return (c * x - s * y, s * x + c * y)
+
+    def spread(self, turned_deg: float) -> tuple[float, float]:
+        """Half extents in the plane along axes from which the object is turned by an angle."""
+        if self.round:
+            return (self.size[0] / 2, self.size[1] / 2)
+        c, s = (abs(v) for v in cos_sin(turned_deg))
+        return ((self.size[0] * c + self.size[1] * s) / 2, (self.size[0] * s + self.size[1] * c) / 2)
+
+    def corners(self) -> list[tuple[float, float]]:
+        """The four corners of its footprint, world frame, counter-clockwise."""
+        x, y, (sx, sy, _) = self.get("x"), self.get("y"), self.size
+        yaw = 0.0 if self.round else self.get("yaw")
+        c, s = cos_sin(yaw)
+        signs = ((1, 1), (-1, 1), (-1, -1), (1, -1))
+        return [(x + (c * i * sx - s * j * sy) / 2, y + (s * i * sx + c * j * sy) / 2) for i, j in signs]
 
     def to_own(self, x: float, y: float) -> tuple[float, float]:
         """A world point, seen from the object's centre along its own axes."""

@@ -7,10 +7,10 @@ from ..model.finding import Finding
 from ..model.plan import Orientation, Plan, Position
 from ..model.scene import PlacedObject, Scene
 from .anchors import TOLERANCE_DEG, TOLERANCE_M, CannotResolveError, shown, wrap
-from .engine import Resolution
 from .extents import fixed_objects
 from .overlaps import overlapping
 from .reports import CheckReport, RowMargin
+from .resolution import Resolution
 from .statements import Locate, Problems, Statement
 from .world import drawn_only, jointed, simulate
 
@@ -47,8 +47,8 @@ def check(
 def _rows(resolution: Resolution, problems: Problems) -> Iterator[RowMargin]:
     """The margin of every row whose objects are placed."""
     for row in resolution.statements:
-        subject, reference = resolution.boxes.get(row.subject), resolution.reference(row)
-        if subject is None or reference is None:
+        subject, reference = resolution.subject(row), resolution.reference(row)
+        if subject is None or reference is None or not resolution.measurable(row):
             continue
         unit = row.entry.UNIT
         try:
@@ -155,7 +155,9 @@ def _stale(plan: Plan, resolution: Resolution, problems: Problems) -> None:
         if row.subject not in placed or not isinstance(row.position, Position):
             continue
         now = placed[row.subject]
-        away = max(abs(a - b) for a, b in zip(row.position.vector, now.position, strict=True))
+        x, y, z = now.position
+        given = (x, y, z + resolution.boxes[row.subject].written_shift)
+        away = max(abs(a - b) for a, b in zip(row.position.vector, given, strict=True))
         turned = abs(wrap(row.orientation.deg_z - now.deg_z)) if isinstance(row.orientation, Orientation) else 0.0
         if away > 2e-6 or turned > 2e-6:
             problems.add(

@@ -5,17 +5,19 @@ say it, and what depends on itself is a finding that names the circle. Source: p
 Predicate-to-Position Contract.
 """
 
+import gc
 from collections import defaultdict
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from contextlib import contextmanager
 
 from ..model.plan import Plan
-from ..model.scene import PlacedObject, Scene
-from .anchors import DOFS, Box, CannotResolveError, Derivation, shown, wrap
-from .extents import boxes, fixed_objects
+from .anchors import DOFS, CannotResolveError, Derivation, shown, wrap
+from .extents import boxes
 from .graph import Node, groups, order_within
+from .resolution import Resolution, collected
+from .shots import shots
 from .statements import Locate, Problems, Statement, statements
-from .vocabulary import BASE, base
+from .vocabulary import BASE, CAMERA_FAMILY, base
 
 AGREE = 1e-6
 """Two rows may set the same coordinate if they differ by less: metres or degrees."""
@@ -26,24 +28,6 @@ MISSING = {
     "PLACE-ON-BASE with `y`",
     "z": "PLACE-ON-BASE, PLACE-ON, or HEIGHT with `bottom`, `center` or `top`",
 }
-
-
-@dataclass
-class Resolution:
-    """A resolved layout with everything that led to it."""
-
-    scene: Scene
-    boxes: dict[str, Box] = field(default_factory=dict)
-    """Placed objects by name, in dependency order; not rounded."""
-    statements: list[Statement] = field(default_factory=list)
-    derived: dict[tuple[str | int, ...], list[str]] = field(default_factory=dict)
-    """Formulas that each row contributed, by its path."""
-
-    def reference(self, statement: Statement) -> Box | None:
-        """The box a statement refers to."""
-        if statement.reference in (None, BASE):
-            return base()
-        return self.boxes.get(str(statement.reference))
 
 
 def resolve(plan: Plan, *, file: str = "plan.md", locate: Locate = lambda *path: None) -> Resolution:
@@ -57,7 +41,21 @@ def resolve(plan: Plan, *, file: str = "plan.md", locate: Locate = lambda *path:
     Returns:
         the layout; `scene.findings` has an error for each object that could not be placed.
     """
-    return _Resolver(plan, Problems(file, locate)).resolve()
+    with uncollected():
+        return _Resolver(plan, Problems(file, locate)).resolve()
+
+
+@contextmanager
+def uncollected() -> Iterator[None]:
+    """Without the cyclic garbage collector: nothing made here is garbage before the end, and scanning it again and again
+    costs a third of the time at ten thousand objects."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
 
 
 class _Resolver:
@@ -70,6 +68,8 @@ class _Resolver:
         self.pins: dict[Node, list[Statement]] = defaultdict(list)
         self.formulas: dict[Node, list[str]] = {}
         self.derived: dict[tuple[str | int, ...], list[str]] = defaultdict(list)
+        self.regions: dict[tuple[object, ...], list[Statement]] = defaultdict(list)
+        """Rows whose places are drawn together."""
         self.failed: set[str] = set()
         self.told: set[str] = set()
         """Failed objects that some finding is about; the other failed ones only wait for them."""
@@ -84,17 +84,24 @@ class _Resolver:
         self.fail(set(self.unsized) | spoiled)
         rows_of: dict[str, list[Statement]] = defaultdict(list)
         for row in rows:
+            if row.entry.FAMILY == CAMERA_FAMILY:
+                continue
             rows_of[row.subject].append(row)
+            if hasattr(row.entry.module, "sample"):
+                self.regions[self.region(row)].append(row)
             for dof in row.pins:
                 self.pins[row.subject, dof].append(row)
         for name in self.boxes:
             if name not in self.failed:
                 self.check_determined(name, rows_of[name])
         reads = {node: self.reads(node) for node in self.nodes()}
-        for group in groups(reads):
+        for group in self.sampled_last(groups(reads), reads):
             self.place(group, reads)
         self.name_the_waiting()
-        return self.result(rows)
+        placed = {name: box for name, box in self.boxes.items() if name not in self.failed}
+        resolution = collected(self.plan, placed, rows, self.formulas, self.derived)
+        resolution.shots = shots(resolution, self.problems)
+        return resolution.told(self.problems.findings)
 
     def fail(self, names: set[str]) -> None:
         """These objects cannot be placed, and a finding says why."""
@@ -113,14 +120,46 @@ class _Resolver:
         for row in self.pins.get(node, ()):
             for name in row.pins[node[1]]:
                 owner, _, anchor = name.partition(".")
-                target = row.subject if owner == "self" else row.reference
-                if target is None or target == BASE:
-                    continue
-                if anchor != "extents":
-                    found.add((target, anchor))
-                elif target in self.boxes and not self.boxes[target].round:
-                    found.add((target, "yaw"))
+                for target in row.sources(owner):
+                    if anchor != "extents":
+                        found.add((target, anchor))
+                    elif target in self.boxes and not self.boxes[target].round:
+                        found.add((target, "yaw"))
         return found
+
+    def sampled_last(self, found: list[list[Node]], reads: dict[Node, set[Node]]) -> list[list[Node]]:
+        """What rests on no drawn place first, so that places are drawn in the area that it leaves free."""
+        if not self.regions:
+            return found
+        drawn = {(row.subject, dof) for rows in self.regions.values() for row in rows for dof in row.pins}
+        late: set[Node] = set()
+        first, last = [], []
+        for group in found:
+            if any(node in drawn or not late.isdisjoint(reads[node]) for node in group):
+                late.update(group)
+                last.append(group)
+            else:
+                first.append(group)
+        return first + last
+
+    @staticmethod
+    def region(row: Statement) -> tuple[object, ...]:
+        """What rows must share to be drawn together."""
+        return (row.code, row.reference, *sorted((key, str(value)) for key, value in row.params.items()))
+
+    def sample(self, row: Statement) -> None:
+        """Draw the places of every row of a region at once, clear of all that is placed by now."""
+        rows = sorted(self.regions[self.region(row)], key=lambda r: r.subject)
+        members = {r.subject for r in rows}
+        obstacles = [
+            box
+            for name, box in self.boxes.items()
+            if name not in members and name not in self.failed and None not in (box.x, box.y, box.z, box.yaw)
+        ]
+        reference = self.base if row.reference in (None, BASE) else self.boxes[str(row.reference)]
+        spots = row.entry.sample([self.boxes[r.subject] for r in rows], reference, row.params, obstacles)
+        for index, (member, spot) in enumerate(zip(rows, spots, strict=True)):
+            member.params.update(spot=spot, others=[self.boxes[r.subject] for r in rows[:index]])
 
     def check_determined(self, name: str, rows: list[Statement]) -> None:
         """Every object needs x, y and z; yaw has the documented baseline."""
@@ -190,6 +229,8 @@ class _Resolver:
         for row in rows:
             reference = self.base if row.reference in (None, BASE) else self.boxes[str(row.reference)]
             try:
+                if "spot" not in row.params and hasattr(row.entry.module, "sample"):
+                    self.sample(row)
                 results.append((row, row.entry.resolve(dof, box, reference, row.params)))
             except CannotResolveError as error:
                 self.problems.add("WP208", "no_solution", f"{row}: {error}", error.fix, row.path)
@@ -270,7 +311,7 @@ class _Resolver:
         for position, node in enumerate(circle):
             read = circle[position - 1]
             for row in self.pins[node]:
-                if read[0] in (row.reference, row.subject):
+                if read[0] in (row.reference, row.subject, *row.needs()):
                     rows.setdefault(str(row), row)
         names = list(dict.fromkeys(name for name, _ in circle))
         chain = " -> ".join([*names, names[0]])
@@ -294,64 +335,3 @@ class _Resolver:
                 "fix the other findings first",
                 first.path if first else ("topology",),
             )
-
-    def result(self, rows: list[Statement]) -> Resolution:
-        fixed = set(fixed_objects(self.plan))
-        kinds = {row.name: "scene_object" for row in self.plan.scene_objects}
-        kinds |= {name: row.filename for row in self.plan.assets for name in row.instances}
-        supports: dict[str, str] = {}
-        for row in rows:
-            if row.code == "PLACE-ON-BASE" or (row.code == "PLACE-ON" and row.reference == BASE):
-                supports[row.subject] = "ground"
-            elif row.code == "PLACE-ON":
-                supports[row.subject] = str(row.reference)
-        placed = {n: b for n, b in self.boxes.items() if n not in self.failed}
-        objects = [
-            PlacedObject(
-                name=name,
-                kind=kinds[name],
-                size=box.size,
-                position=(_round(box.get("x")), _round(box.get("y")), _round(box.get("z"))),
-                deg_z=_round(wrap(box.get("yaw"))),
-                round=box.round,
-                fixed=name in fixed,
-                supported_by=supports.get(name),
-                provenance=tuple(self.provenance(name)),
-            )
-            for name, box in _ordered(placed, rows)
-        ]
-        scene = Scene(objects=tuple(objects), findings=tuple(self.problems.findings))
-        return Resolution(scene, {o.name: self.boxes[o.name] for o in objects}, rows, dict(self.derived))
-
-    def provenance(self, name: str) -> Iterator[str]:
-        for dof in DOFS:
-            yield from self.formulas.get((name, dof), ())
-        if (name, "yaw") not in self.pins:
-            yield "deg_z = 0 (no orientation row: front along +X)"
-
-
-def _ordered(placed: dict[str, Box], rows: list[Statement]) -> list[tuple[str, Box]]:
-    """References before what refers to them, otherwise in plan order."""
-    needs: dict[str, list[str]] = defaultdict(list)
-    for row in rows:
-        if row.reference in placed and row.pins:
-            needs[row.subject].append(str(row.reference))
-    order: dict[str, Box] = {}
-    for root in placed:
-        stack = [(root, iter(needs[root]))]
-        open_names = {root}
-        while stack:
-            name, references = stack[-1]
-            step = next((r for r in references if r not in order and r not in open_names), None)
-            if step is not None:
-                stack.append((step, iter(needs[step])))
-                open_names.add(step)
-            else:
-                stack.pop()
-                order.setdefault(name, placed[name])
-    return list(order.items())
-
-
-def _round(value: float) -> float:
-    """Micrometres and microdegrees, without a negative zero."""
-    return round(value, 6) + 0.0

@@ -1,9 +1,8 @@
 """The chain of rows and formulas from the base to an object's numbers."""
 
 from ..model.plan import Plan
-from .engine import Resolution
 from .reports import Explained, Explanation
-from .vocabulary import BASE
+from .resolution import Resolution
 
 
 def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
@@ -12,8 +11,7 @@ def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
     waiting = [name]
     references: dict[str, set[str]] = {}
     for row in resolution.statements:
-        if row.reference not in (None, BASE):
-            references.setdefault(row.subject, set()).add(str(row.reference))
+        references.setdefault(row.subject, set()).update(row.needs())
     while waiting:
         current = waiting.pop()
         if current not in needed:

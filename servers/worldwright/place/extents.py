@@ -54,7 +54,8 @@ def _primitive(row: SceneObject) -> Box:
             raise KeyError(f"{row.name} has no surface {name!r}; it has: {', '.join(known)}")
         return known[name]
 
-    return Box(row.name, row.size, round=ellipse and sx == sy, surface=surface)
+    floor = row.construction_source == "generated_boundary" and row.wall_thickness is not None
+    return Box(row.name, row.size, round=ellipse and sx == sy, surface=surface, floor_datum=floor)
 
 
 def _asset(plan: Plan, row: AssetRow) -> Box:

@@ -6,13 +6,16 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Any, Literal
 
-Kind = Literal["number", "pair", "point", "name", "height"]
+Kind = Literal["number", "pair", "point", "name", "height", "flag", "object", "objects"]
 _WORDS = {
     "number": "a number",
     "pair": "a list of 2 numbers [dx, dy]",
     "point": "a list of 3 numbers [x, y, z]",
     "name": "a name",
     "height": "a number, or the name of a layer of topology.reference_heights",
+    "flag": "true or false",
+    "object": "the name of an object",
+    "objects": "a list of names of objects, each once",
 }
 
 
@@ -23,6 +26,9 @@ class Parameter:
     kind: Kind
     meaning: str
     minimum: float | None = None
+    choices: tuple[str, ...] = ()
+    """Of a name: what it may be."""
+    required: bool = False
 
 
 def read(
@@ -59,13 +65,28 @@ def read(
         if low is not None and any(v < low for v in _numbers(value)):
             problems.append((f"`{key}` must be at least {low:g}, got {raw!r}", f"{key}: {spec[key].meaning}"))
             continue
+        if spec[key].choices and value not in spec[key].choices:
+            problems.append(
+                (f"`{key}` must be one of {', '.join(spec[key].choices)}, got {raw!r}", f"{key}: {spec[key].meaning}")
+            )
+            continue
         values[key] = value
+    problems += [
+        (f"it needs `{key}`", f"add `{key}`: {parameter.meaning}")
+        for key, parameter in spec.items()
+        if parameter.required and key not in given
+    ]
     return values, problems
 
 
 def _read(raw: Any, kind: Kind, heights: Mapping[str, float]) -> Any:
-    if kind == "name":
+    if kind in ("name", "object"):
         return raw if isinstance(raw, str) and raw else None
+    if kind == "objects":
+        fits = isinstance(raw, list | tuple) and raw and all(isinstance(name, str) and name for name in raw)
+        return tuple(raw) if fits and len(set(raw)) == len(raw) else None
+    if kind == "flag":
+        return raw if isinstance(raw, bool) else None
     if kind == "height" and isinstance(raw, str):
         return heights.get(raw)
     if kind in ("number", "height"):

@@ -9,11 +9,12 @@ from difflib import get_close_matches
 from typing import Any
 
 from ..model.finding import Finding
-from ..model.plan import TO_CLARIFY, Plan
+from ..model.plan import TO_CLARIFY, Plan, RelationRow
+from ..model.plan_references import GROUND, WORLD
 from ..shelf import Entry
-from .anchors import Box
+from .anchors import Box, CannotResolveError
 from .parameters import read
-from .vocabulary import BASE, CAMERA_TEMPLATES, PREDICATES, RELATIONS
+from .vocabulary import BASE, CAMERA_FAMILY, PREDICATES, RELATIONS, SCENE, Expansion
 
 Path = tuple[str | int, ...]
 Locate = Callable[..., int | None]
@@ -34,6 +35,21 @@ class Statement:
     entry: Entry = field(repr=False, compare=False)
     pins: dict[str, tuple[str, ...]] = field(repr=False)
     """Coordinates it sets, with the names of what they are computed from."""
+
+    def sources(self, owner: str) -> tuple[str, ...]:
+        """Names of the objects that an owner in `pins` stands for: `self`, `reference`, or a parameter."""
+        if owner == "self":
+            return (self.subject,)
+        value = self.reference if owner == "reference" else self.params.get(owner)
+        if isinstance(value, Box):
+            return (value.name,)
+        return () if value in (None, BASE) else (str(value),)
+
+    def needs(self) -> Iterator[str]:
+        """Names of the objects that it refers to."""
+        if self.reference not in (None, BASE, SCENE):
+            yield str(self.reference)
+        yield from (v.name for v in self.params.values() if isinstance(v, Box) and v.name != self.subject)
 
     @property
     def label(self) -> str:
@@ -93,6 +109,12 @@ class _Reader:
         self.spoiled: set[str] = set()
         heights = plan.topology.reference_heights
         self.heights = heights if isinstance(heights, dict) else {}
+        self.cameras = {camera.name: camera for camera in plan.cameras()}
+        self.groups = {
+            row.subject: members
+            for row in plan.topology.scene_predicates
+            if row.predicate in ("GROUP", "COPY-GROUP") and (members := _names(row.params.get("members")))
+        }
 
     def rows(self) -> Iterator[Statement]:
         for index, row in enumerate(self.plan.topology.scene_predicates):
@@ -104,8 +126,19 @@ class _Reader:
                 yield from self.statement(PREDICATES, path, row.subject, row.predicate, row.object, row.params)
         for index, relation in enumerate(self.plan.geometry_relations):
             path = ("geometry_relations", index)
-            if relation.relation_name in CAMERA_TEMPLATES or relation.body_a not in self.known:
-                continue  # a camera's relation; dangling names are told when the plan is read
+            entry = RELATIONS.entries.get(relation.relation_name)
+            if entry is not None and entry.FAMILY == CAMERA_FAMILY:
+                yield from self.camera(path, relation)
+                continue
+            if relation.body_a in self.cameras and relation.body_a not in self.known:
+                self.problems.add(
+                    "WP211",
+                    "unknown_relation",
+                    f"`{relation.relation_name}` does not place the camera `{relation.body_a}`",
+                    f"cameras: {', '.join(code for code, e in RELATIONS.items() if e.FAMILY == CAMERA_FAMILY)}",
+                    path,
+                )
+                continue
             if relation.parameters == TO_CLARIFY:
                 self.unclear(relation.body_a, path)
             elif self.exists(relation.body_a, path):
@@ -166,6 +199,8 @@ class _Reader:
         wrong = self.reference_problem(entry, subject, reference)
         values, faults = read(params, entry.PARAMS, self.heights)
         refuse = getattr(entry.module, "refuse", None)
+        if not wrong and not faults:
+            faults = list(self.objects(entry, subject, values))
         if not wrong and not faults and refuse and (refused := refuse(values)):
             faults = [refused]
         for cause, fix in [*([wrong] if wrong else []), *faults]:
@@ -176,7 +211,72 @@ class _Reader:
             return
         if entry.REFERENCE == "optional" and reference is None:
             reference = BASE
-        yield Statement(path, line, subject, code, reference, values, entry, entry.pins(values))
+        if "seed" in entry.PARAMS:
+            values.setdefault("seed", float(self.plan.simulation_parameters.seed))
+        for part, own in self.expanded(entry, path, subject, reference, values):
+            yield Statement(path, line, part, code, reference, own, entry, entry.pins(own))
+
+    def objects(self, entry: Entry, subject: str, values: dict[str, Any]) -> Iterator[tuple[str, str]]:
+        """Replaces names of objects among the parameters by their boxes; yields what is wrong with them."""
+        for key, parameter in entry.PARAMS.items():
+            if key not in values or parameter.kind not in ("object", "objects"):
+                continue
+            names = values[key] if parameter.kind == "objects" else (values[key],)
+            for name in names:
+                if name == subject:
+                    yield f"`{key}` names the subject itself", "name another object"
+                elif name not in self.known:
+                    near = get_close_matches(name, self.known, n=1, cutoff=0.6)
+                    fix = f"did you mean `{near[0]}`?" if near else f"known: {', '.join(sorted(self.known))}"
+                    yield f"`{key}`: there is no object `{name}`", fix
+                elif name not in self.boxes:
+                    yield f"`{key}`: the size of `{name}` is not known", f"fix the finding about `{name}` first"
+            if parameter.kind == "object" and values[key] in self.boxes:
+                values[key] = self.boxes[values[key]]
+
+    def expanded(
+        self, entry: Entry, path: Path, subject: str, reference: str | None, values: dict[str, Any]
+    ) -> list[tuple[str, dict[str, Any]]]:
+        """The statements that a row about several objects stands for."""
+        expand = getattr(entry.module, "expand", None)
+        if expand is None:
+            return [(subject, values)]
+        try:
+            parts: list[tuple[str, dict[str, Any]]] = expand(
+                Expansion(subject, reference, values, self.groups, self.boxes)
+            )
+        except CannotResolveError as error:
+            self.spoiled |= {subject, *(name for name in values.get("members", ()) if name in self.known)}
+            self.problems.add("WP202", "bad_params", f"{subject} {entry.code}: {error}", error.fix, path)
+            return []
+        return parts
+
+    def camera(self, path: Path, relation: RelationRow) -> Iterator[Statement]:
+        """A camera's relation; its lens and the recording's format come from their owners."""
+        name = relation.body_a
+        if name not in self.cameras:
+            self.problems.add(
+                "WP203",
+                "unknown_object",
+                f"there is no camera `{name}`",
+                "add it to the cameras of an implementation step; known: " + (", ".join(self.cameras) or "(none)"),
+                path,
+            )
+            return
+        if relation.parameters == TO_CLARIFY:
+            self.unclear(name, path)
+            self.spoiled.discard(name)
+            return
+        given = dict(relation.parameters) if isinstance(relation.parameters, dict) else {}
+        width, height = self.plan.recording_mode.size
+        given.setdefault("fovy_deg", self.cameras[name].fovy)
+        given.setdefault("aspect", width / height)
+        reference = None if relation.body_b in (BASE, WORLD, GROUND, SCENE) else relation.body_b
+        entry = RELATIONS.entries[relation.relation_name]
+        if reference is None and entry.REFERENCE == "optional":
+            reference = SCENE
+        yield from self.statement(RELATIONS, path, name, relation.relation_name, reference, given)
+        self.spoiled.discard(name)
 
     def reference_problem(self, entry: Entry, subject: str, reference: str | None) -> tuple[str, str] | None:
         if entry.REFERENCE == "none":
@@ -190,10 +290,14 @@ class _Reader:
             )
         if reference == subject:
             return ("it refers to itself", "name another object")
-        if reference == BASE or reference in self.known:
+        if reference == BASE or reference in self.known or (reference == SCENE and entry.FAMILY == CAMERA_FAMILY):
             return None
         near = get_close_matches(reference, self.known, n=1, cutoff=0.6)
         return (
             f"there is no object `{reference}`",
             f"did you mean `{near[0]}`?" if near else f"known: {BASE}, {', '.join(sorted(self.known))}",
         )
+
+
+def _names(value: Any) -> tuple[str, ...]:
+    return tuple(value) if isinstance(value, list | tuple) and all(isinstance(v, str) for v in value) else ()

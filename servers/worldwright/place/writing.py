@@ -5,7 +5,7 @@ from typing import Any
 from ..model.plan import TO_CLARIFY
 from ..model.plan_text import PlanDocument
 from .anchors import CannotResolveError, shown
-from .engine import Resolution
+from .resolution import Resolution
 
 Path = tuple[str | int, ...]
 
@@ -13,14 +13,14 @@ Path = tuple[str | int, ...]
 def changes(document: PlanDocument, resolution: Resolution) -> list[tuple[Path, Any]]:
     """The edits that bind every row to its subject's pose; nothing for rows that are still TO_CLARIFY."""
     placed = {o.name: o for o in resolution.scene.objects}
-    rows = {row.path: row for row in resolution.statements}
     found: list[tuple[Path, Any]] = []
     for index, row in enumerate(document.plan.topology.scene_predicates):
         path: Path = ("topology", "scene_predicates", index)
-        if row.subject not in placed or path not in rows or TO_CLARIFY in (row.position, row.orientation):
+        if row.subject not in placed or path not in resolution.rows_at or TO_CLARIFY in (row.position, row.orientation):
             continue
         now = placed[row.subject]
         x, y, z = now.position
+        z = round(z + resolution.boxes[row.subject].written_shift, 6) + 0.0  # floor, of a generated boundary
         found += [
             ((*path, "position"), {"x": x, "y": y, "z": z}),
             ((*path, "orientation"), {"deg_z": now.deg_z}),
@@ -30,13 +30,27 @@ def changes(document: PlanDocument, resolution: Resolution) -> list[tuple[Path, 
 
 
 def _provenance(resolution: Resolution, path: Path) -> str:
-    """The formulas a row contributed, or the margin by which it holds when it only demands something."""
+    """The formulas a row contributed, or the margin by which it holds when it only demands something.
+
+    A row that places several objects tells their poses, since they have no rows of their own.
+    """
+    rows = resolution.rows_at[path]
+    if len(rows) > 1 and resolution.derived.get(path):
+        return "; ".join(_pose(resolution, row.subject) for row in rows)
     if formulas := resolution.derived.get(path):
         return "; ".join(formulas)
-    row = next(row for row in resolution.statements if row.path == path)
-    reference = resolution.reference(row)
     try:
-        margin = row.entry.holds(resolution.boxes[row.subject], reference, row.params)
+        margin = min(
+            row.entry.holds(resolution.boxes[row.subject], resolution.reference(row), row.params)
+            for row in rows
+            if resolution.measurable(row)
+        )
     except CannotResolveError as error:
         return f"sets nothing; cannot hold: {error}"
-    return f"sets nothing; holds by {shown(margin)} {row.entry.UNIT}"
+    return f"sets nothing; holds by {shown(margin)} {rows[0].entry.UNIT}"
+
+
+def _pose(resolution: Resolution, name: str) -> str:
+    placed = resolution.scene[name]
+    x, y, z = (shown(v) for v in placed.position)
+    return f"{name} at ({x}, {y}, {z}), deg_z {shown(placed.deg_z)}"

@@ -173,9 +173,12 @@ def test_absolute_positions():
         topology={"body_positions": {"a": {"x": 1, "y": 2, "z": 3}, "c": TO_CLARIFY}},
         geometry_relations=[
             {"relation_name": "base", "body_a": "b", "parameters": {"position": [0, 0, 1], "deg_z": 30}},
-            {"relation_name": "side_minus_y", "body_a": "camera"},
+            {"relation_name": "side_minus_y", "body_a": "camera", "body_b": "a"},
         ],
+        implementation_steps=[{"description": "look", "cameras": [{"name": "camera", "fovy": 90}]}],
+        recording_mode={"size": [640, 640]},
     )
+    assert [(c.name, c.position, c.target) for c in scene.cameras] == [("camera", (1, 0.95, 3), (1, 2, 3))]
     assert scene["a"].position == (1, 2, 3)
     assert (scene["b"].position, scene["b"].deg_z) == ((0, 0, 1), 30)
     assert codes(scene) == {"WP210"}

@@ -235,7 +235,7 @@ corners = st.tuples(*[st.floats(-2, 2)] * 3, *[st.floats(0.01, 2)] * 3)
 
 @given(st.lists(corners, max_size=20))
 @settings(max_examples=60, deadline=None)
-def test_the_sweep_finds_what_brute_force_finds(rows):
+def test_the_grid_finds_what_brute_force_finds(rows):
     bounds = [(f"n{i}", r[:3], tuple(a + b for a, b in zip(r[:3], r[3:], strict=True))) for i, r in enumerate(rows)]
     swept = {(a, b): depth for a, b, depth in overlapping(bounds, deeper_than_m=1e-3)}
     for i, (first, low, high) in enumerate(bounds):

@@ -9,8 +9,8 @@ from ...model.plan import Plan
 from ...model.scene import PlacedObject, Scene
 from ..anchors import cos_sin
 from ..checks import flagged
-from ..engine import Resolution
 from ..extents import fixed_objects
+from ..resolution import Resolution
 from ..vocabulary import BASE
 from . import palette
 from .canvas import Canvas, Colour, text_width

@@ -23,6 +23,7 @@ PARAMS = {
     "gap": Parameter("number", "metres between the surface and the lowest point; omitted: 0, in contact", 0.0),
 }
 UNIT = "m"
+SUPPORTS = True
 
 
 def _tray(name: str | None) -> Surface:
