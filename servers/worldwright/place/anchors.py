@@ -9,7 +9,7 @@ Round things (spheres, upright cylinders) keep their extents at any yaw. Source:
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 Vec3 = tuple[float, float, float]
@@ -74,6 +74,8 @@ class Box:
     """Extents do not change with yaw."""
     surface: Callable[[str | None], Surface] = field(default=no_surface, repr=False)
     """A named surface, or the default one; KeyError tells the known ones."""
+    surfaces: Callable[[], Sequence[Surface]] = field(default=tuple, repr=False)
+    """Every named surface, the default one first."""
     floor_datum: bool = False
     """Plans write the height of its floor instead of its centre's (containers that are a generated_boundary)."""
 

@@ -5,6 +5,7 @@ Scene objects own their `size` (full extents). Assets are scaled uniformly from 
 """
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from ..model.plan import AssetRow, Plan, SceneObject
 from .anchors import Box, Surface
@@ -26,7 +27,7 @@ def boxes(plan: Plan) -> tuple[dict[str, Box], dict[str, Unsized]]:
             unsized |= dict.fromkeys(asset.instances, (error.cause, error.fix, ("assets", index, *error.path)))
             continue
         for name in asset.instances:
-            found.setdefault(name, Box(name, made.size, round=made.round, surface=made.surface))
+            found.setdefault(name, replace(made, name=name))
     return found, unsized
 
 
@@ -55,7 +56,8 @@ def _primitive(row: SceneObject) -> Box:
         return known[name]
 
     floor = row.construction_source == "generated_boundary" and row.wall_thickness is not None
-    return Box(row.name, row.size, round=ellipse and sx == sy, surface=surface, floor_datum=floor)
+    shape = ellipse and sx == sy
+    return Box(row.name, row.size, round=shape, surface=surface, surfaces=lambda: surfaces, floor_datum=floor)
 
 
 def _asset(plan: Plan, row: AssetRow) -> Box:
@@ -80,9 +82,13 @@ def _asset(plan: Plan, row: AssetRow) -> Box:
             raise KeyError(f"{row.name}: {cause.args[0]}") from cause
         return Surface(support.name, support.z, support.extents, support.centre, support.shape)
 
+    def surfaces() -> list[Surface]:
+        names = dict.fromkeys([None, "top", *(row.name for row in entry.supports)])
+        return list({found.name: found for found in map(surface, names)}.values())
+
     pieces = entry.collision
     ball = len(pieces) == 1 and pieces[0].type == "sphere"
-    return Box(row.name, size, round=ball, surface=surface)
+    return Box(row.name, size, round=ball, surface=surface, surfaces=surfaces)
 
 
 def fixed_objects(plan: Plan) -> Iterator[str]:

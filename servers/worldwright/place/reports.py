@@ -35,6 +35,21 @@ class RowMargin(Frozen):
     unit: str
 
 
+class Seen(Frozen):
+    """How one camera sees one object at the start, measured with rays on a coarse picture."""
+
+    camera: str
+    object: str
+    pixels: int
+    """At the recording's size, of what is visible."""
+    share: float
+    """Of the picture, 0 to 1."""
+    in_frame: float
+    """Part of its outline that is inside the picture, 0 to 1."""
+    hidden: float
+    """Part of what is inside the picture that something else hides, 0 to 1."""
+
+
 class CheckReport(Frozen):
     """What the checks say about a layout."""
 
@@ -45,6 +60,8 @@ class CheckReport(Frozen):
     findings: tuple[Finding, ...] = ()
     margins: tuple[RowMargin, ...] = ()
     """Of the rows, tightest first; at most 40."""
+    views: tuple[Seen, ...] = ()
+    """What each camera sees of its subjects."""
 
     @property
     def ok(self) -> bool:
@@ -55,6 +72,10 @@ class CheckReport(Frozen):
         """The findings, then the tightest rows."""
         lines = [str(finding) for finding in self.findings]
         lines += [f"{m.margin:+9.4f} {m.unit:<3} {m.row}" for m in self.margins[:8]]
+        lines += [
+            f"{v.camera}: {v.object} {v.pixels} pixels ({v.share:.1%}), {v.in_frame:.0%} in frame, {v.hidden:.0%} hidden"
+            for v in self.views[:24]
+        ]
         verdict = "holds" if self.ok else "does not hold"
         return "\n".join(
             [*lines, f"{self.objects} objects, {self.rows} rows, {self.pairs_tested} close pairs: the layout {verdict}"]

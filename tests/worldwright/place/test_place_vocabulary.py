@@ -1,11 +1,13 @@
 """The shelf entries: each documents itself, and its worked numbers are true."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
 
 from worldwright.place.anchors import Box, CannotResolveError, Surface, cos_sin, total, wrap
+from worldwright.place.reference import PAGE, page
 from worldwright.place.vocabulary import PREDICATES, RELATIONS
 
 PAPER = Path(__file__).parent / "paper_vocabulary.json"
@@ -117,3 +119,25 @@ def test_provenance_shows_the_numbers():
 def test_modules_are_small():
     for entry in ENTRIES:
         assert len(Path(entry.module.__file__).read_text(encoding="utf-8").splitlines()) < 200
+
+
+def test_the_page_of_the_vocabulary_is_fresh():
+    assert PAGE.read_text(encoding="utf-8") == page(), "run: python -m worldwright.place.reference"
+    text = page()
+    for entry in ENTRIES:
+        assert f"### {entry.code}\n" in text
+        assert all(f"| `{name}`" in text for name in entry.PARAMS)
+
+
+def test_the_copy_of_the_papers_table_is_true():
+    """Where the paper's source lies beside the repository, the names in the copy are those that its table prints."""
+    source = Path(__file__).parents[4] / "shared/paper/chronoagentic.tex"
+    if not source.is_file():
+        pytest.skip("the paper's source is not beside the repository")
+    text = source.read_text(encoding="utf-8")
+    table = text[text.index(r"\label{tab:scene_relation_families}") :]
+    table = table[: table.index(r"\end{table}")]
+    names = {name.replace(r"\_", "_") for name in re.findall(r"\\texttt\{([^}]*)\}", table)}
+    predicates, templates = printed_in_the_paper()
+    copied = {name for group in (*predicates.values(), *templates.values()) for name in group}
+    assert names == copied - {"base"}

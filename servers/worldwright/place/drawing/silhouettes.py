@@ -75,12 +75,19 @@ def _tube(x: float, y: float, z: float) -> np.ndarray:
 def _asset(placed: PlacedObject) -> list[np.ndarray]:
     from worldkit import assets
 
-    box = _box(*(extent / 2 for extent in placed.size))
+    box = [_box(*(extent / 2 for extent in placed.size))]
     try:
-        entry = assets.find(placed.kind)
+        return asset_clouds(placed.kind, placed.size[2]) or box
     except (assets.UnknownAssetError, assets.AssetError, OSError):
-        return [box]
-    scale = entry.scale(placed.size[2])
+        return box
+
+
+def asset_clouds(key: str, height: float) -> list[np.ndarray]:
+    """The corners of an asset's collision pieces, each (N, 3), around the centre of its bounding box, metres."""
+    from worldkit import assets
+
+    entry = assets.find(key)
+    scale = entry.scale(height)
     clouds = []
     for piece in entry.collision:
         if piece.file is not None:
@@ -92,7 +99,7 @@ def _asset(placed: PlacedObject) -> list[np.ndarray]:
             tall = piece.height is not None and piece.type in ("cylinder", "capsule")
             local = _tube(radius, radius, (piece.height or 0.0) / 2) if tall else _ball(radius, radius, radius)
         clouds.append((local @ _rotation(piece.quat).T + np.asarray(piece.pos)) * scale)
-    return clouds or [box]
+    return clouds
 
 
 @lru_cache(maxsize=2048)

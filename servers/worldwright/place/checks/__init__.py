@@ -1,0 +1,57 @@
+"""Whether a resolved layout holds: one module for each question, all asked of one `Layout`."""
+
+from collections.abc import Callable, Sequence
+
+from ...model.plan import Plan
+from ..engine import uncollected
+from ..reports import CheckReport
+from ..resolution import Resolution
+from ..statements import Locate, Problems
+from . import below_ground, penetration, rows, stale, supports
+from .layout import Layout
+from .marks import flagged
+
+CHECKS: tuple[Callable[[Layout], None], ...] = (
+    rows.check,
+    below_ground.check,
+    penetration.check,
+    supports.check,
+    stale.check,
+)
+"""In the order in which their findings are told."""
+
+
+def check(
+    plan: Plan,
+    resolution: Resolution,
+    *,
+    file: str = "plan.md",
+    locate: Locate,
+    exact: bool = True,
+    only: Sequence[Callable[[Layout], None]] = CHECKS,
+) -> CheckReport:
+    """Check a resolved layout.
+
+    Args:
+        plan: the plan.
+        resolution: its layout, with the findings of the resolver (they come first).
+        file, locate: where the plan stands.
+        exact: measure with the real collision shapes, in a process of its own, where boxes are too coarse: pairs whose
+            boxes overlap, clearances, and what cameras see.
+        only: which checks to make.
+    """
+    layout = Layout(plan, resolution, Problems(file, locate), exact)
+    with uncollected():
+        for one in only:
+            one(layout)
+    return CheckReport(
+        objects=len(resolution.scene.objects),
+        rows=len({row.path for row in resolution.statements}),
+        pairs_tested=layout.pairs_tested,
+        findings=(*resolution.scene.findings, *layout.problems.findings),
+        margins=tuple(sorted(layout.margins, key=lambda m: m.margin)[:40]),
+        views=tuple(layout.views),
+    )
+
+
+__all__ = ["CHECKS", "Layout", "check", "flagged"]

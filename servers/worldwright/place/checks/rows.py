@@ -1,0 +1,30 @@
+"""Every row holds at the resolved poses: its signed margin is not negative."""
+
+from ..anchors import TOLERANCE_DEG, TOLERANCE_M, CannotResolveError, shown
+from ..reports import RowMargin
+from .layout import Layout
+
+
+def check(layout: Layout) -> None:
+    """Measures every row whose objects are placed; WP301 where it is violated."""
+    resolution = layout.resolution
+    for row in resolution.statements:
+        subject, reference = resolution.subject(row), resolution.reference(row)
+        if subject is None or reference is None or not resolution.measurable(row):
+            continue
+        unit = row.entry.UNIT
+        try:
+            margin = float(row.entry.holds(subject, reference, row.params))
+        except CannotResolveError as error:
+            layout.problems.add("WP301", "row_does_not_hold", f"{row.label}: {error}", error.fix, row.path)
+            continue
+        if margin < 0:
+            tolerance = TOLERANCE_DEG if unit == "deg" else TOLERANCE_M
+            layout.problems.add(
+                "WP301",
+                "row_does_not_hold",
+                f"{row.label} is violated by {shown(tolerance - margin)} {unit}",
+                "change the row, or the rows that set the coordinates it speaks about",
+                row.path,
+            )
+        layout.margins.append(RowMargin(row=row.label, line=row.line, margin=round(margin, 6), unit=unit))
