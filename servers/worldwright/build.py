@@ -61,6 +61,7 @@ def steps(run: Run, options: Options) -> Iterator[Step]:
     yield "scan", lambda _: _scan(run)
     yield "expect", lambda _: _expect(run)
     if options.accept:
+        yield "causes", lambda progress: _causes(run, progress)
         yield "review", lambda _: _review(run)
         yield "accept", lambda _: _accept(run)
 
@@ -166,6 +167,21 @@ def _expect(run: Run) -> str:
         )
         raise Stopped("the world does not do what the plan claims", f"edit {run.program} or {run.plan}", details)
     return f"{proved} of {len(report.objectives)} objectives proved by measurement"
+
+
+def _causes(run: Run, progress: Progress) -> str:
+    from .scan.tools import scan
+    from .stamp.tools import status
+
+    step = next(s for s in status(str(run.folder)).steps if s.name == "causes")
+    if not step.holds:
+        while (report := scan(str(run.folder), causes=True, progress=progress)).pending:
+            pass
+        found = report.causes.anomalies if report.causes else ()
+        if any(a.severity == "blocking" for a in found):
+            raise Stopped("an effect does not come from its cause", f"edit {run.program} or {run.plan}", _lines(found))
+        step = next(s for s in status(str(run.folder)).steps if s.name == "causes")
+    return step.detail
 
 
 def _review(run: Run) -> str:

@@ -5,7 +5,7 @@ from typing import Any
 
 from ..model.evidence import ExpectationResult
 from .chart import quantity
-from .material import Material
+from .material import Material, acting
 
 QUIET = ("time", "actor", "action")
 UNITS = {
@@ -70,11 +70,17 @@ def facts(material: Material) -> list[Fact]:
         anomalies = len(material.scan.anomalies)
         tone = "bad" if blocking else "warn" if anomalies else "good"
         found.append(Fact(str(anomalies), f"anomalies in {looked} checks", tone))
-    if material.ledger is not None:
-        undeclared = sum(not entry.declared for entry in material.ledger)
-        declared = ", all declared" if material.ledger else ""
+    ledger = acting(material)
+    if ledger is not None:
+        undeclared = sum(not entry.declared for entry in ledger)
+        declared = ", all declared" if ledger else ""
         label = "undeclared interventions" if undeclared else f"interventions{declared}"
-        found.append(Fact(str(undeclared or len(material.ledger)), label, "bad" if undeclared else "good"))
+        found.append(Fact(str(undeclared or len(ledger)), label, "bad" if undeclared else "good"))
+    if material.causes and material.causes.causes:
+        shown = sum(c.outcome == "caused" for c in material.causes.causes)
+        found.append(
+            Fact(f"{shown}/{len(material.causes.causes)}", "causes shown", "good" if material.causes.ok else "bad")
+        )
     depth = summary.get("max_penetration_m")
     if isinstance(depth, int | float):
         found.append(Fact(f"{quantity(depth * 1000)}\u202fmm", "deepest contact"))

@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from ..model.audits import Acting, CausesReport, InterventionReport, RefineReport
 from ..model.errors import WorldwrightError
 from ..model.evidence import ExpectReport, LintReport, PassResult, ScanReport, VisualDescription
 from ..model.plan import Plan
@@ -43,12 +44,16 @@ class Material:
     videos: dict[str, Path] = field(default_factory=dict)
     scan: ScanReport | None = None
     expect: ExpectReport | None = None
+    interventions: InterventionReport | None = None
+    causes: CausesReport | None = None
+    refine: RefineReport | None = None
     visual: VisualDescription | None = None
     review: Verdict | None = None
     stamp: Statement | None = None
     stamp_sha256: str = ""
     motion: series.Motion | None = None
     ledger: tuple[Acted, ...] | None = None
+    """What acted according to the recording itself; stands in until a scan has written its report."""
     layout: bytes | None = None
     """Top-down drawing, PNG."""
     journal: tuple[dict[str, Any], ...] = ()
@@ -116,6 +121,9 @@ def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
     found.physics = read("physics", PassResult)
     found.scan = read("scan", ScanReport)
     found.expect = read("expect", ExpectReport)
+    found.interventions = read("interventions", InterventionReport)
+    found.causes = read("causes", CausesReport)
+    found.refine = read("refine", RefineReport)
     found.visual = read("visual", VisualDescription)
     found.review = read("review", Verdict)
     found.stills = {p.stem: p for p in sorted((media / "stills").glob("*.png"))}
@@ -149,6 +157,11 @@ def _motion(found: Material, state: State) -> None:
             return
         if sampled:
             found.motion = series.from_samples(sampled, found.physics.summary if found.physics else {})
+
+
+def acting(material: Material) -> tuple[Acting, ...] | tuple[Acted, ...] | None:
+    """What acted besides the engine's step, as the scan tells it, else as the recording does; None when unknown."""
+    return material.ledger if material.interventions is None else material.interventions.acting
 
 
 def _layout(found: Material) -> None:

@@ -9,7 +9,7 @@ from worldkit.files import write_atomic
 from ..model.run import Run
 from . import chart, media, text
 from .facts import arguments, facts, provenance, story, strength
-from .material import Material, gather
+from .material import Material, acting, gather
 
 TONES = 8
 
@@ -49,6 +49,7 @@ def _context(material: Material) -> dict[str, Any]:
         "charts": _charts(material),
         "layout": media.picture(material.layout) if material.layout else None,
         "facts": facts(material),
+        "acting": acting(material),
         "arguments": arguments,
         "strength": strength,
         "story": story(material),

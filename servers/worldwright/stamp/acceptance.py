@@ -27,7 +27,7 @@ from .statement import (
 from .steps import steps
 from .strip import Stripped, strip
 
-REPORTS = ("key", "lint", "scan", "expect", "visual", "review")
+REPORTS = ("key", "lint", "scan", "expect", "interventions", "causes", "refine", "visual", "review")
 
 
 class Accepted(Frozen):

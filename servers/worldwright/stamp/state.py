@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from ..model.audits import CausesReport, InterventionReport, RefineReport
 from ..model.errors import NotFoundError, PlanError, WorldwrightError
 from ..model.evidence import (
     Environment,
@@ -180,6 +181,21 @@ class State:
     def expect(self) -> Kept[ExpectReport]:
         """The measured objectives of this key."""
         return self._read("expect.json", ExpectReport)
+
+    @cached_property
+    def interventions(self) -> Kept[InterventionReport]:
+        """The ledger of what acts on this key's recording, with who carries the load."""
+        return self._read("interventions.json", InterventionReport)
+
+    @cached_property
+    def causes(self) -> Kept[CausesReport]:
+        """The causal audit of this key, where it was made."""
+        return self._read("causes.json", CausesReport)
+
+    @cached_property
+    def refine(self) -> Kept[RefineReport]:
+        """The audit at half the time step of this key, where it was made."""
+        return self._read("refine.json", RefineReport)
 
     @cached_property
     def visual(self) -> Kept[VisualDescription]:

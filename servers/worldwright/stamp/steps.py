@@ -4,6 +4,7 @@ from collections.abc import Callable
 from typing import Literal
 
 from ..model.frozen import Frozen
+from . import audited
 from .bundle import damage
 from .state import State
 
@@ -18,6 +19,7 @@ StepName = Literal[
     "video",
     "scan",
     "expect",
+    "causes",
     "visual",
     "review",
     "accepted",
@@ -193,6 +195,25 @@ def _expect(state: State) -> Answer:
     return "holds", f"{proved} of {count} objectives proved, {count - proved} visual only", ""
 
 
+def _causes(state: State) -> Answer:
+    command = f"worldwright scan scan {state.place} --causes"
+    why = audited.why_causes(state)
+    how = audited.standing(state, state.causes)
+    report = state.causes.value
+    if how == "fails" and report is not None:
+        found = audited.findings(report)
+        return "fails", f"{len(found)} finding(s), first: {found[0]}", f"correct {state.place}/simulation.py, one patch"
+    if how == "holds" and report is not None:
+        shown = sum(c.outcome == "caused" for c in report.causes)
+        return "holds", f"{shown} of {len(report.causes)} causes shown by {len(report.trials)} repetitions", ""
+    if not why:
+        return "not_needed", "no objective names a cause", ""
+    if how == "stale":
+        return "missing", "the causes are of another recording", command
+    status, detail, command = _absent(state, state.causes.problem, "causes.json", command)
+    return status, f"{detail}; {why}" if status == "missing" else detail, command
+
+
 def _visual(state: State) -> Answer:
     command = f"worldwright stamp describe {state.place} @description.json"
     if state.visual.value is None:
@@ -253,6 +274,7 @@ DERIVED: dict[StepName, Callable[[State], Answer]] = {
     "video": _video,
     "scan": _scan,
     "expect": _expect,
+    "causes": _causes,
     "visual": _visual,
     "review": _review,
     "accepted": _accepted,

@@ -127,7 +127,7 @@ def test_a_fresh_clone_shows_what_the_stamp_carries(accepted: Path, tmp_path: Pa
     assert page.tags.count("video") == 2
     assert "Height" in text
     assert "only the stamp's samples" in text
-    assert "acceptance allows no other" in text
+    assert "nothing but the engine's own step acted on this world" in text
 
 
 @pytest.mark.parametrize("seed", range(12))

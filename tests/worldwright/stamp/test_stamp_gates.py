@@ -49,7 +49,7 @@ def test_every_gate_is_documented_and_on_the_shelf() -> None:
 def test_a_planned_run_is_open_and_names_the_next_command(planned: Path) -> None:
     status = stamp.status(str(planned))
     assert (status.state, status.ok) == ("open", False)
-    assert [s.name for s in status.steps if s.holds] == ["planned", "validated", "program"]
+    assert [s.name for s in status.steps if s.status == "holds"] == ["planned", "validated", "program"]
     assert status.next_move == f"worldwright stamp approve {planned}"
     assert "✓ planned" in status.text()
 

@@ -1,7 +1,8 @@
 """The world may be accepted: everything holds for this exact program, plan and environment.
 
 Needed: an approved and unchanged plan, a clean lint, all passes, no blocking anomaly, no refuted or unproved objective,
-a passing review whose evidence still exists, evidence files as the passes left them, and no undeclared intervention.
+a passing review whose evidence still exists, evidence files as the passes left them, no undeclared intervention, every
+declared cause shown to be one, and no claim that a finer time step was found to change.
 
 Why: an accepted world is one that a stranger can trust without having watched it being made.
 """
@@ -10,7 +11,7 @@ from collections.abc import Iterator
 
 from ...model.errors import WorldwrightError
 from ...model.run import sha256_file
-from .. import bindings, interventions
+from .. import audited, bindings, interventions
 from ..needs import held
 from ..refusal import Refusal
 from ..state import State
@@ -33,6 +34,7 @@ def check(state: State) -> Iterator[Refusal]:
             "video",
             "scan",
             "expect",
+            "causes",
             "visual",
             "review",
         )
@@ -44,7 +46,8 @@ def check(state: State) -> Iterator[Refusal]:
     if state.review.value is not None:
         yield from bindings.problems(state, state.review.value)
     yield from _changed(state)
-    yield from _undeclared(state)
+    found = list(audited.refusals(state))
+    yield from found or _undeclared(state)  # the recording itself is asked too: a report can be written by hand
 
 
 def _blocked(state: State) -> Iterator[Refusal]:

@@ -1,0 +1,100 @@
+"""What acceptance asks of the three audits of truth: interventions, causes, refinement.
+
+The ledger is made by every scan and always needed. The causal audit is needed when an objective names its cause, or when
+a declared intervention is said to be set off by what happens. The refinement audit is asked for by a person; what it
+found must not be ignored. An audit of another recording vouches for nothing.
+"""
+
+from collections.abc import Iterator
+from typing import Literal
+
+from ..model.audits import CausesReport, InterventionReport, RefineReport
+from .kept import Kept
+from .refusal import Refusal
+from .state import State
+
+Standing = Literal["absent", "damaged", "stale", "fails", "holds"]
+Audit = InterventionReport | CausesReport | RefineReport
+
+
+def standing(state: State, kept: Kept[InterventionReport] | Kept[CausesReport] | Kept[RefineReport]) -> Standing:
+    """Whether an audit is there, can be read, is of this recording, and found nothing that blocks."""
+    if kept.value is None:
+        return "damaged" if kept.problem else "absent"
+    if kept.value.trajectory_sha256 != state.trajectory_sha256:
+        return "stale"
+    return "holds" if kept.value.ok else "fails"
+
+
+def why_causes(state: State) -> str:
+    """Why the causal audit is needed; empty when it is not."""
+    for index, objective in enumerate(state.plan.objectives if state.plan else ()):
+        if objective.cause:
+            return f"objective {index} names its cause ({', '.join(objective.cause)})"
+    ledger = state.interventions.value
+    for row in ledger.acting if ledger else ():
+        if row.declared and row.when == "state":
+            return f"{row.kind} on {row.target} is declared to be set off by what happens ({row.trigger})"
+    return ""
+
+
+def findings(report: Audit) -> tuple[str, ...]:
+    """What in an audit blocks, one line each."""
+    blocking = tuple(str(a) for a in report.anomalies if a.severity == "blocking")
+    if isinstance(report, InterventionReport):
+        return (*(f"undeclared intervention: {row.text}" for row in report.undeclared), *blocking)
+    if isinstance(report, RefineReport) and not report.refined_sha256:
+        return blocking or ("the physics could not be repeated at a finer time step",)
+    return blocking
+
+
+def refusals(state: State) -> Iterator[Refusal]:
+    """What the audits refuse: missing where needed, of another recording, or with a finding."""
+    again = f"worldwright scan scan {state.place}"
+    yield from _of(state, "interventions", state.interventions, again, needed="every acceptance rests on it")
+    yield from _of(state, "causes", state.causes, f"{again} --causes", needed=why_causes(state))
+    yield from _of(state, "refine", state.refine, f"{again} --refine", needed="")
+
+
+def _of(
+    state: State,
+    name: str,
+    kept: Kept[InterventionReport] | Kept[CausesReport] | Kept[RefineReport],
+    command: str,
+    needed: str,
+) -> Iterator[Refusal]:
+    how = standing(state, kept)
+    if how == "absent" and needed:
+        yield Refusal(cause=f"there is no {name}.json for this key, and {needed}", next_move=command)
+    elif how == "damaged":
+        yield Refusal(cause=kept.problem, next_move=command)
+    elif how == "stale":
+        yield Refusal(cause=f"{name}.json is of another recording", next_move=command)
+    elif how == "fails" and kept.value is not None:
+        for finding in findings(kept.value):
+            yield Refusal(cause=finding, next_move=_remedy(state, name))
+    elif how == "holds" and name == "causes":
+        for untested in _untested(state):
+            yield Refusal(cause=untested, next_move=command)
+
+
+def _untested(state: State) -> Iterator[str]:
+    """Causes of the plan that the audit does not speak of."""
+    report = state.causes.value
+    tested = {(c.objective, c.cause) for c in report.causes} if report else set()
+    for index, objective in enumerate(state.plan.objectives if state.plan else ()):
+        for cause in objective.cause:
+            if (index, cause) not in tested:
+                yield f"objective {index} names {cause} as its cause, and causes.json does not mention it"
+
+
+def _remedy(state: State, name: str) -> str:
+    program, plan = f"{state.place}/simulation.py", f"{state.place}/plan.md"
+    if name == "interventions":
+        return (
+            f"take it out of {program}, or declare it under simulation_parameters.interventions (law, bodies, source) "
+            "and have the plan approved again"
+        )
+    if name == "causes":
+        return f"let the effect come from its cause in {program}, or correct the cause in {plan} and approve it again"
+    return f"correct the time step or the solver in {program}, or the claim in {plan}, and run the passes again"
