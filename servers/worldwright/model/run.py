@@ -1,17 +1,20 @@
 """The run folder: where a run's files live. State is derived from these files, never stored beside them."""
 
 import hashlib
-import json
-import os
 from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from worldkit.files import write_json
+from worldkit.files import write_atomic, write_json
 
 from .errors import NotFoundError
 from .evidence import EvidenceKey
+from .journal import Journal
+from .storage import writing
+
+SOURCE = "source"
+"""Folder beside the evidence of a key that holds the program and the plan it is about."""
 
 
 class Run:
@@ -19,6 +22,7 @@ class Run:
 
     def __init__(self, folder: Path | str) -> None:
         self.folder = Path(folder).resolve()
+        self._reports: dict[str, str] = {}
 
     @classmethod
     def find(cls, name: Path | str) -> "Run":
@@ -113,40 +117,56 @@ class Run:
         )
 
     def keep(self, key: EvidenceKey, name: str, report: Any) -> Path:
-        """Atomically store a report model as `evidence/<key>/<name>.json` (and `key.json` beside it)."""
+        """Atomically store a report model as `evidence/<key>/<name>.json`, with what it is about beside it.
+
+        Beside it: `key.json`, and `source/` with the program and the plan themselves, so that every iteration can be
+        gone back to. The next line of the journal vouches for the report's bytes.
+        """
         folder = self.evidence(key)
-        write_json(folder / "key.json", key.model_dump(mode="json"))
         path = folder / f"{name}.json"
-        write_json(path, report.model_dump(mode="json"))
+        with writing(f"the report {path.name}", folder):
+            write_json(folder / "key.json", key.model_dump(mode="json"))
+            self._snapshot(key)
+            write_json(path, report.model_dump(mode="json"))
+        self._reports[name] = sha256_file(path)
         return path
 
-    def log(self, actor: str, action: str, **facts: Any) -> None:
-        """Append one line to the journal (a single write, so concurrent writers do not mix)."""
+    def _snapshot(self, key: EvidenceKey) -> None:
+        """The program and the plan of this key, once; nothing when they were changed meanwhile."""
+        for path, wanted in ((self.program, key.program_sha256), (self.source, key.plan_sha256)):
+            kept = self.evidence(key) / SOURCE / path.name
+            if kept.is_file() or not path.is_file():
+                continue
+            content = path.read_bytes()
+            if hashlib.sha256(content).hexdigest() == wanted:
+                write_atomic(kept, content)
+
+    def log(self, actor: str, action: str, **facts: Any) -> str:
+        """Append one line to the journal; returns the head of its chain.
+
+        Every line says how the program and the plan stood when it was written (`program_sha256`, `plan_sha256`), and
+        the SHA-256 of the reports kept since the line before (`reports`), so that later changes can be told.
+        """
         entry = {
             "time": datetime.now(UTC).isoformat(timespec="milliseconds"),
             "actor": actor,
             "action": action,
             **facts,
         }
-        line = (json.dumps(entry, ensure_ascii=False, default=str) + "\n").encode()
-        self.folder.mkdir(parents=True, exist_ok=True)
-        handle = os.open(self.journal, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
-        try:
-            os.write(handle, line)
-        finally:
-            os.close(handle)
+        for name, path in (("program_sha256", self.program), ("plan_sha256", self.plan)):
+            if name not in entry and path.is_file():
+                entry[name] = sha256_file(path)
+        if self._reports:
+            entry["reports"] = dict(self._reports)
+        with writing("the journal", self.journal):
+            self.folder.mkdir(parents=True, exist_ok=True)
+            head = Journal(self.journal).append(entry)
+        self._reports.clear()
+        return head
 
     def entries(self) -> Iterator[dict[str, Any]]:
         """The journal, oldest first; a line torn by a crash is skipped."""
-        if not self.journal.is_file():
-            return
-        for line in self.journal.read_text(encoding="utf-8", errors="replace").split("\n"):
-            try:
-                entry = json.loads(line)
-            except json.JSONDecodeError:
-                continue
-            if isinstance(entry, dict):
-                yield entry
+        yield from Journal(self.journal).entries()
 
 
 def sha256_file(path: Path | str) -> str:

@@ -160,8 +160,8 @@ def scan(
     from .audits import running
 
     folder.keep(key, "scan", report)
-    folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
     acted = running.interventions(folder, key, plan, trajectory, report)
+    folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
     audited = running.Audited()
     if refine or causes:
         audited = running.audit(

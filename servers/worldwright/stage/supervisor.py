@@ -193,13 +193,7 @@ class Supervision:
             if result.code == "disk_full":  # what filled the disk must not keep the next run from starting
                 shutil.rmtree(out, ignore_errors=True)
             write_json(self.job.folder / "result.json", result.model_dump(mode="json"))
-        facts = {
-            "key": self.spec.key.key,
-            "stage": folder_name(self.spec.stage, self.spec.variant),
-            "ok": result.ok,
-            "code": result.code,
-        }
-        self.run.log("stage", "stage", **facts, job=self.spec.job, wall_s=result.wall_s, sandbox=self.level)
+            self.journal(result)
         name = "succeeded" if result.ok else "cancelled" if result.code == "cancelled" else "failed"
         told = {k: getattr(result, k) for k in ("code", "message", "place", "next_move")}
         told |= {name: self.last[name] for name in ("done", "total", "unit") if name in self.last}
@@ -207,6 +201,24 @@ class Supervision:
             told["done"] = self.last.get("total", 0)
             told["result"] = str(self.run.evidence(self.spec.key) / folder_name(self.spec.stage, self.spec.variant))
         self.state(name, **told)
+
+    def journal(self, result: PassResult, **more: str) -> None:
+        """One line: which pass of which program and plan ended how."""
+        key = self.spec.key
+        self.run.log(
+            "stage",
+            "stage",
+            key=key.key,
+            stage=folder_name(self.spec.stage, self.spec.variant),
+            ok=result.ok,
+            code=result.code,
+            job=self.spec.job,
+            wall_s=result.wall_s,
+            sandbox=self.level,
+            program_sha256=key.program_sha256,
+            plan_sha256=key.plan_sha256,
+            **more,
+        )
 
     def changed(self) -> dict[str, str] | None:
         """A recorded model must still be what its folder says, or the recording is of something else."""
@@ -217,7 +229,11 @@ class Supervision:
         return None
 
     def commit(self, result: PassResult) -> PassResult:
-        """One rename into the evidence; where evidence of this key already stands, compare and keep the first."""
+        """One rename into the evidence; where evidence of this key already stands, compare and keep the first.
+
+        The journal vouches for the result before the rename: a kill in between leaves a line about nothing, which
+        proves nothing, and never a result that nobody vouches for.
+        """
         folder = self.run.evidence(self.spec.key)
         target = folder / folder_name(self.spec.stage, self.spec.variant)
         write_json(folder / "key.json", self.spec.key.model_dump(mode="json"))
@@ -225,13 +241,16 @@ class Supervision:
         if not earlier.get("ok"):
             if target.exists():  # what an older, interrupted version left behind proves nothing
                 target.rename(self.job.folder / f"replaced-{target.name}")
+            self.journal(result, result_sha256=sha256_file(self.job.out / "result.json"))
             self.job.out.rename(target)
             return result
         first = (earlier.get("summary") or {}).get("trajectory_sha256")
         again = result.summary.get("trajectory_sha256")
         if first == again:
-            return result.model_copy(update={"message": "the same result as before; the first evidence is kept"})
-        return result.model_copy(
+            result = result.model_copy(update={"message": "the same result as before; the first evidence is kept"})
+            self.journal(result)
+            return result
+        result = result.model_copy(
             update={
                 "ok": False,
                 "code": "not_repeatable",
@@ -239,6 +258,8 @@ class Supervision:
                 "next_move": "seed every random draw and take wall-clock and set order out of the program",
             }
         )
+        self.journal(result)
+        return result
 
 
 def _json(path: Path) -> dict[str, Any]:

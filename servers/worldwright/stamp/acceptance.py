@@ -10,6 +10,7 @@ from worldkit.files import write_atomic
 
 from ..model.errors import GateError
 from ..model.frozen import Frozen
+from ..model.journal import Journal
 from ..model.progress import Progress, silent
 from . import bundle, digest, gates, machine
 from .proof import Proved, prove
@@ -178,6 +179,7 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
             f"{row.kind} on {', '.join(row.bodies)}: {row.law} (trigger: {row.trigger}; source: {row.source})"
             for row in plan.simulation_parameters.interventions
         ),
+        journal_head=Journal(state.run.journal).head(),
         reviewer=review.reviewer,
         described_by=visual.author,
         approval=Approval(

@@ -98,6 +98,8 @@ class Acceptance(Frozen):
     objectives: tuple[ObjectiveOutcome, ...] = ()
     expectations: tuple[ExpectationVerdict, ...] = ()
     declared_interventions: tuple[str, ...] = ()
+    journal_head: str = ""
+    """Chain of the journal's last line when the run was accepted: binds every line before it."""
     reviewer: str = ""
     described_by: str = ""
     approval: Approval

@@ -3,7 +3,8 @@
 from typing import Literal
 
 from ..model.frozen import Frozen
-from . import bundle, gates
+from . import bundle, gates, scope
+from .refusal import Refusal
 from .state import State
 from .steps import Step, StepName, steps
 
@@ -48,7 +49,10 @@ def status(state: State) -> Status:
         state.plan_sha256,
     )
     outcome: Literal["open", "accepted", "blocked"] = "open"
+    outside = list(scope.refusals(state))
     next_move = next((step.next_move for step in found.values() if not step.holds), "")
+    if outside and found["program"].holds and found["approved"].holds:
+        next_move = outside[0].next_move
     if found["accepted"].holds:
         outcome, next_move = "accepted", f"worldwright stamp verify {state.place}"
     elif same:
@@ -60,12 +64,14 @@ def status(state: State) -> Status:
         steps=tuple(found.values()),
         cause=ending.cause if ending and same and outcome == "blocked" else "",
         next_move=next_move,
-        notes=tuple(_notes(state, found, outcome, bool(ending and not same))),
+        notes=tuple(_notes(state, found, outside, outcome, bool(ending and not same))),
     )
 
 
-def _notes(state: State, found: dict[StepName, Step], outcome: str, older_block: bool) -> list[str]:
-    notes = []
+def _notes(
+    state: State, found: dict[StepName, Step], outside: list[Refusal], outcome: str, older_block: bool
+) -> list[str]:
+    notes = [f"outside the write scope: {refusal.cause}" for refusal in outside]
     if state.blocked.problem:
         notes.append(state.blocked.problem)
     if older_block:

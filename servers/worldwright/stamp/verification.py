@@ -16,6 +16,7 @@ from typing import Literal
 from ..model.errors import GateError, NotFoundError, WorldwrightError
 from ..model.evidence import Environment, ExpectReport
 from ..model.frozen import Frozen
+from ..model.journal import Journal
 from ..model.progress import Progress, silent
 from ..model.run import Run
 from . import bundle, digest, machine
@@ -152,12 +153,23 @@ def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
     ):
         if wanted and statement.digest_of(name) != wanted:
             yield Check(name=what, ok=False, detail=f"{name} is not the one that was approved")
-    stamped = bundle.sha256_file(folder / bundle.STAMP)
+    wrong = _journal(run, statement, bundle.sha256_file(folder / bundle.STAMP)) if run.journal.is_file() else None
+    if wrong is not None:
+        yield Check(name="journal", ok=not wrong, detail=wrong or "unbroken, and it knows this stamp")
+
+
+def _journal(run: Run, statement: Statement, stamped: str) -> str | None:
+    """What the run's journal says against this stamp; empty when it agrees, None when it has no word on it."""
+    journal = Journal(run.journal)
+    broken, head = journal.breaks(), statement.predicate.journal_head
+    if broken:
+        return broken[0]
+    if head and head not in journal.heads():
+        return "it lacks the line that stood last when the stamp was made"
     accepts = [e for e in State(run).journal if e.get("action") == "accept"]
-    if accepts:
-        known = any(e.get("stamp_sha256") == stamped for e in accepts)
-        detail = "the journal knows this stamp" if known else "the journal does not know this stamp"
-        yield Check(name="journal", ok=known, detail=detail)
+    if accepts and not any(e.get("stamp_sha256") == stamped for e in accepts):
+        return "it does not know this stamp"
+    return "" if accepts else None
 
 
 def _motion(

@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 from worldwright.model import environment
-from worldwright.model.run import Run, sha256_file
+from worldwright.model.run import SOURCE, Run, sha256_file
 from worldwright.stage import family
 from worldwright.stage.job import Job
 from worldwright.stage.tools import start, wait
@@ -53,7 +53,7 @@ def proven(run: Run) -> dict[str, str]:
     """Digest of every pass that stands; each one must be whole."""
     found = {}
     for folder in run.folder.glob("evidence/*/*"):
-        if folder.is_dir():
+        if folder.is_dir() and folder.name != SOURCE:
             result = json.loads((folder / "result.json").read_text())
             assert result["ok"]
             for name, sha256 in result["files"].items():
@@ -140,7 +140,7 @@ import json, pathlib, sys, time
 sys.path.insert(0, sys.argv[1])
 from worldwright.model import environment
 from worldwright.model.evidence import LintReport
-from worldwright.model.run import Run, sha256_file
+from worldwright.model.run import SOURCE, Run, sha256_file
 from worldwright.stage.tools import start, wait
 run = Run(pathlib.Path(sys.argv[1], "world"))
 run.folder.mkdir()

@@ -1,6 +1,5 @@
 """Acceptance asks the three audits of truth, and an audit of something else does not answer."""
 
-import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,7 +12,7 @@ from worldwright.model.run import Run
 from worldwright.report.material import gather
 from worldwright.report.page import render
 from worldwright.scan import tools as scan
-from worldwright.stamp import gates
+from worldwright.stamp import audited, gates
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
@@ -29,12 +28,14 @@ def refused(folder: Path) -> str:
 
 
 def spoil(folder: Path, name: str, report: InterventionReport | RefineReport | CausesReport | None, **changes) -> None:
-    """Write an audit by hand, or take it away."""
-    path = State.find(str(folder)).folder / f"{name}.json"
+    """Let the scan have found something else, or nothing."""
+    state = State.find(str(folder))
     if report is None:
-        path.unlink()
-    else:
-        path.write_text(json.dumps(report.model_dump(mode="json") | changes), encoding="utf-8")
+        (state.folder / f"{name}.json").unlink()
+        return
+    run = Run(folder)
+    run.keep(state.key, name, type(report).model_validate(report.model_dump() | changes))
+    run.log("scan", name, key=state.key.key)
 
 
 def recording(folder: Path) -> str:
@@ -79,7 +80,8 @@ def test_a_damaged_audit_is_named(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
     for name in ("interventions", "causes", "refine"):
         (State.find(str(folder)).folder / f"{name}.json").write_text("{", encoding="utf-8")
-        assert f"{name}.json is damaged" in refused(folder)
+        assert any(f"{name}.json is damaged" in r.cause for r in audited.refusals(State.find(str(folder))))
+    assert "interventions.json is not what its step wrote" in refused(folder)
 
 
 def test_a_claim_that_the_time_step_decides_is_refused(reviewed: Path, copy: Copy) -> None:

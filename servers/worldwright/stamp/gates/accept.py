@@ -2,7 +2,8 @@
 
 Needed: an approved and unchanged plan, a clean lint, all passes, no blocking anomaly, no refuted or unproved objective,
 a passing review whose evidence still exists, evidence files as the passes left them, no undeclared intervention, every
-declared cause shown to be one, and no claim that a finer time step was found to change.
+declared cause shown to be one, and no claim that a finer time step was found to change. Before all that: plan, program
+and reports are what the last legal step left, by the hashes in the journal.
 
 Why: an accepted world is one that a stranger can trust without having watched it being made.
 """
@@ -11,7 +12,7 @@ from collections.abc import Iterator
 
 from ...model.errors import WorldwrightError
 from ...model.run import sha256_file
-from .. import audited, bindings, interventions
+from .. import audited, bindings, interventions, scope
 from ..needs import held
 from ..refusal import Refusal
 from ..state import State
@@ -21,6 +22,10 @@ CODE = "WG070"
 
 def check(state: State) -> Iterator[Refusal]:
     """Refusals for whatever is missing, refuted, changed or undeclared."""
+    outside = list(scope.refusals(state))
+    yield from outside
+    if outside:
+        return
     missing = list(
         held(
             state,

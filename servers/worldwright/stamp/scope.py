@@ -1,0 +1,109 @@
+"""The second line of the write scope: what the journal says of plan.md, simulation.py and the evidence.
+
+The first line is the hook of the harness, which denies a write before it happens. This one needs no hook. Every legal
+step left a line with the hashes of the program and the plan as they stood, and of the reports it kept; the lines are
+chained. What was changed by another way than a step is told by its hash, named, and refuses acceptance.
+
+Legal for the program: it was drafted, linted by the one who wrote it, or rolled back. Legal for the plan: it was started
+from another one, resolved, or approved.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from ..model.journal import Journal
+from ..model.run import SOURCE, sha256_file
+from .refusal import Refusal
+from .state import State
+
+LEGAL = {"simulation.py": ("draft", "lint", "roll_back"), "plan.md": ("plan", "resolve", "approve")}
+HASHES = {"simulation.py": "program_sha256", "plan.md": "plan_sha256"}
+AGAIN = {
+    "lint": "worldwright lint check-program {place}/simulation.py",
+    "scan": "worldwright scan scan {place}",
+    "interventions": "worldwright scan scan {place}",
+    "expect": "worldwright scan expect {place}",
+    "causes": "worldwright scan scan {place} --causes",
+    "refine": "worldwright scan scan {place} --refine",
+    "visual": "worldwright stamp describe {place} @description.json",
+    "review": "worldwright stamp review {place} @verdict.json",
+}
+"""What makes each report again."""
+
+
+def refusals(state: State) -> Iterator[Refusal]:
+    """Files that are not what the last legal step left, most basic first; nothing when all of them are."""
+    broken = Journal(state.run.journal).breaks()
+    if broken:
+        yield Refusal(
+            cause=f"the journal was changed: {broken[0]}",
+            next_move=f"restore {state.place}/journal.jsonl from version control; without a copy, move it away, have "
+            "the plan approved and run every step again",
+        )
+        return
+    changed = [refusal for name in LEGAL for refusal in _file(state, name)]
+    yield from changed
+    if not changed:
+        yield from _reports(state)
+
+
+def _file(state: State, name: str) -> Iterator[Refusal]:
+    field = HASHES[name]
+    lines = [e for e in state.journal if e.get("action") in LEGAL[name]]
+    now = state.program_sha256 if name == "simulation.py" else state.plan_sha256
+    if not lines or not now or lines[-1].get(field, now) == now:  # journals of older versions have lines without it
+        return
+    last = lines[-1]
+    yield Refusal(
+        cause=f"{name} was changed since the last legal step ({last['action']} by {last.get('actor')}, "
+        f"{last.get('time')}): its sha256 was {str(last[field])[:16]}, and is {now[:16]}",
+        next_move=f"{_restore(state, name, str(last[field]))}; or, if the change is meant, {_legalise(state, name)}",
+    )
+
+
+def _restore(state: State, name: str, sha256: str) -> str:
+    """The command that brings the legal bytes back, where a copy of them is kept."""
+    for folder in sorted((state.run.folder / "evidence").glob(f"*/{SOURCE}")):
+        copy = folder / name
+        if copy.is_file() and sha256_file(copy) == sha256:
+            return f"cp {state.place}/{copy.relative_to(state.run.folder)} {state.place}/{name}"
+    return f"restore {state.place}/{name} from version control"
+
+
+def _legalise(state: State, name: str) -> str:
+    if name == "plan.md":
+        return f"have it approved again: worldwright stamp approve {state.place}"
+    return f"worldwright lint check-program {state.place}/simulation.py, and run every pass again"
+
+
+def _reports(state: State) -> Iterator[Refusal]:
+    """Reports and results of this key whose bytes no line of the journal vouches for."""
+    key = state.key.key if state.key else ""
+    vouched: dict[str, str] = {}
+    for entry in state.journal:
+        if entry.get("key") == key:
+            reports = entry.get("reports")
+            vouched |= reports if isinstance(reports, dict) else {}
+            if entry.get("action") == "stage" and entry.get("result_sha256"):
+                vouched[str(entry.get("stage"))] = str(entry["result_sha256"])
+    for name, command in AGAIN.items():
+        yield from _vouched(state.folder / f"{name}.json", vouched.get(name), command.format(place=state.place))
+    for stage in state.passes:
+        again = f"rm -r {state.folder / stage} && worldwright stage start {state.place} --stage {stage}"
+        yield from _vouched(state.folder / stage / "result.json", vouched.get(stage), again)
+
+
+def _vouched(path: Path, wanted: Any, command: str) -> Iterator[Refusal]:
+    name = path.name if path.name != "result.json" else f"{path.parent.name}/{path.name}"
+    try:
+        found = sha256_file(path)
+    except OSError:
+        return  # what is missing is for the steps to say
+    if wanted is None:
+        yield Refusal(cause=f"no line of the journal vouches for {name}", next_move=command)
+    elif found != wanted:
+        yield Refusal(
+            cause=f"{name} is not what its step wrote: sha256 {found[:16]} instead of {str(wanted)[:16]}",
+            next_move=command,
+        )
