@@ -13,10 +13,11 @@ import numpy as np
 from ..model.mechanics import rotation
 from ..model.trajectory import Trajectory
 from .sign import spans
+from .survey import survey
 
 Array = np.ndarray
 PUSHES = ("force", "torque", "pose", "velocity", "control", "callback", "constraint")
-_PUSHES = "_pushes_in_flight"
+_FLIGHT, _PUSHES = "_in_flight", "_pushes_in_flight"
 SUDDEN_ROWS = 2
 MOST = 60
 """Stretches of one body that are looked at; what a body does sixty times it need not be told more often."""
@@ -41,7 +42,14 @@ class Push:
 
 
 def in_flight(trajectory: Trajectory) -> Array:
-    """(T-1, B) steps in which only gravity may act on a loose body."""
+    """(T-1, B) steps in which only gravity may act on a loose body; found once, asked for by several checks."""
+    known = trajectory.__dict__.get(_FLIGHT)
+    if known is None:
+        known = trajectory.__dict__[_FLIGHT] = _in_flight(trajectory)
+    return np.asarray(known)
+
+
+def _in_flight(trajectory: Trajectory) -> Array:
     touching, unforced = trajectory.touching, trajectory.mechanics.unforced
     if touching is None or unforced is None or len(trajectory.t) < 3:
         return np.zeros((max(0, len(trajectory.t) - 1), len(trajectory.names)), dtype=bool)
@@ -79,10 +87,12 @@ def pushes(trajectory: Trajectory) -> tuple[Push, ...]:
 
 def _pushes(trajectory: Trajectory) -> Iterator[Push]:
     flying = in_flight(trajectory)
+    if len(flying) < 2:
+        return
     dt = np.diff(trajectory.t)[:, None]
     g = trajectory.gravity
     tolerance = 0.1 * max(float(np.sqrt((g**2).sum())), 1.0)
-    for b in np.flatnonzero(flying.any(axis=0)):
+    for b in np.flatnonzero(survey(trajectory).off_gravity.any(axis=0) & flying.any(axis=0)):
         extra = np.diff(trajectory.com_velocity[:, b], axis=0) - g * dt
         size = np.sqrt((extra**2).sum(axis=1))
         scale = trajectory.speed_scale[b]

@@ -18,6 +18,7 @@ from ...model.mechanics import rotation
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 from .sliding_as_rolling import shaped
 
 CODE = "WS115"
@@ -27,16 +28,18 @@ NEEDS = ("pos",)
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the bodies that end up under everything."""
     ground, size = trajectory.mechanics.ground_z, trajectory.size_m
-    height = trajectory.pos[:, :, 2]
+    height, lowest = trajectory.pos[:, :, 2], survey(trajectory).low[:, :, 2].min(axis=0)
     for b in np.flatnonzero(trajectory.moves_freely):
         name = trajectory.names[b]
         if ground is not None:
+            if lowest[b] >= ground + size[b]:
+                continue
             if height[0, b] < ground - size[b]:
                 continue  # what starts below (a cellar, a pit) was put there
-            under = ground - height[:, b] - size[b]
-            if under.max() <= 0:
+            if ground - lowest[b] - size[b] <= 0:
                 yield from _half_under(trajectory, int(b), ground)
                 continue
+            under = ground - height[:, b] - size[b]
             start = int(np.argmax(under > 0))
             message = f"{name} goes through the ground, to {ground - height[:, b].min():.3g} m below it"
             window = (trajectory.t[start], trajectory.t[-1])
@@ -56,7 +59,10 @@ def _half_under(trajectory: Trajectory, b: int, ground: float) -> Iterator[Sign]
     if thick is None or np.isnan(thick[b]):
         return
     rows = max(1, round(0.25 / trajectory.interval_s))
-    near = trajectory.pos[:, b, 2] - ground < trajectory.size_m[b] - 0.5 * thick[b]
+    close = trajectory.size_m[b] - 0.5 * thick[b]
+    if survey(trajectory).low[:, b, 2].min() - ground >= close:
+        return
+    near = trajectory.pos[:, b, 2] - ground < close
     if near.sum() < rows:
         return
     lowest = lowest_point(trajectory, b, near)

@@ -16,6 +16,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign
+from ..survey import survey
 
 CODE = "WS131"
 NEEDS = ("quat",)
@@ -24,6 +25,8 @@ LIMIT = 1e-3
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each body with quaternions that are not unit."""
+    if survey(trajectory).stretched.max(initial=0.0) <= LIMIT:
+        return
     off = np.abs(np.sqrt(np.einsum("tbi,tbi->tb", trajectory.quat, trajectory.quat)) - 1.0)
     worst = off.max(axis=0)
     for b in np.flatnonzero(worst > LIMIT):

@@ -19,6 +19,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, sliding_sum, spans
+from ..survey import survey
 
 CODE = "WS106"
 NEEDS = ("linvel", "touching")
@@ -34,9 +35,14 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     touching = trajectory.touching
     if touching is None or rows < 4 or len(trajectory.t) < 2 * rows:
         return
-    lively = trajectory.moves_freely & touching.any(axis=0)
+    look = survey(trajectory)
+    loudest = np.maximum(look.speed, trajectory.size_m * look.spin).max(axis=0)
+    lively = trajectory.moves_freely & (look.touches > 0).any(axis=0) & (loudest >= 0.02 * trajectory.speed_scale)
     for b in np.flatnonzero(lively):
         size, scale = trajectory.size_m[b], trajectory.speed_scale[b]
+        if not _on_the_spot(trajectory, b, rows):
+            yield from _hops(trajectory, int(b), touching[:, b])
+            continue
         parts = np.concatenate((trajectory.linvel[:, b, 2:], size * trajectory.angvel[:, b]), axis=1)
         if np.abs(parts).max() < 0.02 * scale:
             continue
@@ -65,11 +71,24 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             yield from _hops(trajectory, int(b), touching[:, b])
 
 
+def _on_the_spot(trajectory: Trajectory, b: int, rows: int) -> bool:
+    """Whether any window of `rows` begins and ends, and has its middle, within a tenth of the body's size."""
+    pos, windows = trajectory.pos[:, b], len(trajectory.t) - rows + 1
+    limit, height = 0.1 * trajectory.size_m[b], pos[:, 2].copy()
+    near = np.abs(height[rows - 1 :] - height[:windows]) < limit
+    near &= np.abs(height[rows // 2 : rows // 2 + windows] - sliding_sum(height, rows) / rows) < limit
+    starts = np.flatnonzero(near)
+    return bool((np.abs(pos[starts + rows - 1, :2] - pos[starts, :2]) < limit).all(axis=1).any())
+
+
 def _hops(trajectory: Trajectory, b: int, touching: np.ndarray) -> Iterator[Sign]:
     """Small hops on one spot that stay as high: a warning, since a ball without losses does the same."""
     flights = spans(~touching)
     flights = flights[(flights[:, 0] > 0) & (flights[:, 1] < len(touching))]
-    rise = np.array([np.ptp(trajectory.pos[a:z, b, 2]) for a, z in flights])
+    if len(flights) < HOPS:
+        return
+    height, edges = trajectory.pos[:, b, 2].copy(), flights.ravel()
+    rise = np.maximum.reduceat(height, edges)[::2] - np.minimum.reduceat(height, edges)[::2]
     real = rise > 0.01 * trajectory.size_m[b]
     flights, rise = flights[real], rise[real]
     if len(rise) < HOPS or rise.max() > trajectory.size_m[b]:

@@ -17,6 +17,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign
+from ..survey import survey
 
 CODE = "WS127"
 NEEDS = ("linvel", "touching")
@@ -26,16 +27,19 @@ BLOW_S = 0.05
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the worst spike of each body."""
-    force = forces(trajectory)
+    force, most = forces(trajectory), (survey(trajectory).touches > 0).any(axis=0)
     mass, g = trajectory.mechanics.mass, float(np.sqrt((trajectory.gravity**2).sum()))
-    for b in np.flatnonzero((force > 0).any(axis=0) & trajectory.moves_freely):
-        pressed = force[:, b] > 0
-        usual = float(np.median(force[pressed, b]))
+    for b in np.flatnonzero(most & trajectory.moves_freely):
+        column = force[:, b]
+        pressed = column[column > 0]
+        if not len(pressed):
+            continue
+        usual = float(np.median(pressed))
         weight = 0.0 if mass is None else float(mass[b]) * g
         limit = FACTOR * max(usual, weight)
-        if limit <= 0 or (mass is None and pressed.sum() < 20):
+        if limit <= 0 or (mass is None and len(pressed) < 20):
             continue
-        for n in np.flatnonzero(force[:, b] > limit):
+        for n in np.flatnonzero(column > limit):
             if _struck(trajectory, int(n)):
                 continue
             name = trajectory.names[b]

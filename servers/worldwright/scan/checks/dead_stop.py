@@ -19,6 +19,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic, flight
 from ..sign import Case, Context, Sign
+from ..survey import survey
 
 CODE = "WS123"
 NEEDS = ("linvel",)
@@ -28,25 +29,34 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the bodies that stop for nothing."""
     if len(trajectory.t) < 4:
         return
-    speed = np.where(trajectory.moves_freely, trajectory.speed, 0.0)
-    fast = speed[:-1] > 0.3 * trajectory.speed_scale
-    stopped = fast & (speed[1:] < 0.01 * speed[:-1])
+    may = np.flatnonzero((survey(trajectory).halts > 0).any(axis=0) & trajectory.moves_freely)
+    if not len(may):
+        return
+    scale, speed = trajectory.speed_scale[may], trajectory.speed[:, may]
+    stopped = (speed[:-1] > 0.3 * scale) & (speed[1:] < 0.01 * speed[:-1])
     stopped[:-1] &= speed[2:] < 0.02 * speed[:-2]
     g = float(np.sqrt((trajectory.gravity**2).sum()))
     stopped &= speed[:-1] > 3 * g * np.diff(trajectory.t)[:, None]
     free = trajectory.mechanics.unforced
-    together = stopped.sum(axis=1) >= np.maximum(1, fast.sum(axis=1))
-    for b in np.flatnonzero(stopped.any(axis=0)):
-        for n in np.flatnonzero(stopped[:, b]):
+    for column in np.flatnonzero(stopped.any(axis=0)):
+        b = may[column]
+        for n in np.flatnonzero(stopped[:, column]):
             alone = free is not None and bool(free[b])
-            crowd = bool(together[n]) and int(stopped[n].sum()) > 1
+            moving = trajectory.moves_freely & (trajectory.speed[n] > 0.3 * trajectory.speed_scale)
+            crowd = int(stopped[n].sum()) >= max(2, int(moving.sum()))
             if not (alone or crowd) or _was_hit(trajectory, int(b), int(n)):
                 continue
             name = trajectory.names[b]
             severity = "info" if context.acts_on(name, flight.PUSHES) else "blocking"
-            message = f"{name} stops dead from {speed[n, b]:.3g} m/s, and nothing touches it that did not before"
+            message = f"{name} stops dead from {speed[n, column]:.3g} m/s, and nothing touches it that did not before"
             yield Sign(
-                name, (trajectory.t[n], trajectory.t[n + 1]), speed[n, b], 0.01 * speed[n, b], "m/s", severity, message
+                name,
+                (trajectory.t[n], trajectory.t[n + 1]),
+                speed[n, column],
+                0.01 * speed[n, column],
+                "m/s",
+                severity,
+                message,
             )
             break
 

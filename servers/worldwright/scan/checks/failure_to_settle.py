@@ -43,7 +43,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             if not trajectory.mechanics.free[b]:
                 continue
             severity, why = "warn", "and no step of the plan expects it to move"
-        elif not context.planned and _fidgets(trajectory, b, end) and second[b] > 0.8 * first[b]:
+        elif not context.planned and second[b] > 0.8 * first[b] and _fidgets(trajectory, b, end):
             severity, why = "warn", "and is not calming down"
         else:
             continue
@@ -61,10 +61,12 @@ def _fidgets(trajectory: Trajectory, b: int, end: slice) -> bool:
     touching, free = trajectory.touching, trajectory.mechanics.free
     if touching is None or (free is not None and not free[b]):
         return False
+    if touching[end, b].mean() <= 0.5:
+        return False
     excursion = np.ptp(trajectory.pos[end, b], axis=0).max()
     spin = np.abs(trajectory.angvel[end, b].mean(axis=0)).max() * trajectory.size_m[b]
     swing = _rms(trajectory.speed[end, b])
-    return bool(touching[end, b].mean() > 0.5 and excursion < 2 * trajectory.size_m[b] and spin < 3 * swing)
+    return bool(excursion < 2 * trajectory.size_m[b] and spin < 3 * swing)
 
 
 def _rocking() -> Case:

@@ -19,6 +19,7 @@ from ...model.trajectory import Trajectory
 from .. import analytic
 from ..flight import PUSHES, certain, in_flight
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS114"
 NEEDS = ("touching", "mechanics.unforced", "mechanics.inertia", "mechanics.inertia_quat")
@@ -32,7 +33,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     g = float(np.sqrt((trajectory.gravity**2).sum())) or 1.0
     inertia = trajectory.mechanics.inertia
     assert inertia is not None
-    for b in np.flatnonzero(flying.any(axis=0)):
+    turning = survey(trajectory).spin.max(axis=0) >= 0.02 * np.sqrt(g / trajectory.size_m)
+    for b in np.flatnonzero(turning & flying.any(axis=0)):
         floor = 0.2 * float(inertia[b].max()) * np.sqrt(g / trajectory.size_m[b])
         for start, stop in spans(flying[:, b]):
             still = trajectory.spin[start : stop + 1, b].max() < 0.02 * np.sqrt(g / trajectory.size_m[b])

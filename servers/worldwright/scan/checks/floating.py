@@ -19,6 +19,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic, flight
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS124"
 NEEDS = ("linvel", "touching")
@@ -31,19 +32,19 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     touching, loose = trajectory.touching, trajectory.mechanics.unforced
     if g == 0 or touching is None:
         return
-    dt = np.diff(trajectory.t)[:, None, None]
-    rate = np.diff(trajectory.com_velocity, axis=0) / dt
-    even = np.sqrt(np.einsum("tbi,tbi->tb", rate, rate)) < 0.05 * g
-    even &= ~(touching[1:] | touching[:-1])
+    dt = np.diff(trajectory.t)[:, None]
     rows = max(3, round(HELD_S / trajectory.interval_s))
-    for b in np.flatnonzero(even.any(axis=0) & trajectory.moves_freely):
+    for b in np.flatnonzero((survey(trajectory).weightless.sum(axis=0) >= rows) & trajectory.moves_freely):
         if loose is not None and not loose[b]:
             continue
-        for start, stop in spans(even[:, b]):
+        rate = np.diff(trajectory.com_velocity[:, b], axis=0) / dt
+        even = np.sqrt((rate**2).sum(axis=1)) < 0.05 * g
+        even &= ~(touching[1:, b] | touching[:-1, b])
+        for start, stop in spans(even):
             if stop - start < rows or (loose is None and not _fell_before(trajectory, int(b), int(start))):
                 continue
             name, seconds = trajectory.names[b], trajectory.t[stop] - trajectory.t[start]
-            pull = np.sqrt((rate[max(0, start - 3) : start, b] ** 2).sum(axis=1))
+            pull = np.sqrt((rate[max(0, start - 3) : start] ** 2).sum(axis=1))
             eased = len(pull) == 3 and bool(pull.max() < 0.5 * g)
             told = trajectory.interventions is not None or trajectory.every_step
             severity = "info" if context.acts_on(name, flight.PUSHES) else "warn" if eased and not told else "blocking"

@@ -19,6 +19,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic, flight
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS119"
 NEEDS = ("linvel",)
@@ -61,7 +62,8 @@ def _falls(trajectory: Trajectory, known: bool) -> dict[int, list[tuple[int, int
     pull = trajectory.gravity
     g2 = float((pull**2).sum())
     found: dict[int, list[tuple[int, int, float]]] = {}
-    for b in np.flatnonzero(flying.any(axis=0)):
+    odd = survey(trajectory).odd_fall.sum(axis=0) >= ROWS
+    for b in np.flatnonzero(odd):
         rate = np.diff(trajectory.com_velocity[:, b] if known else trajectory.linvel[:, b], axis=0) / dt[:, None]
         share = rate @ pull / g2
         across = np.sqrt(np.maximum((rate**2).sum(axis=1) / g2 - share**2, 0.0))

@@ -19,6 +19,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS104"
 NEEDS = ("linvel",)
@@ -29,13 +30,16 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the bodies whose channels freeze, each once."""
     if len(trajectory.t) < 4:
         return
-    same_place = np.all(trajectory.pos[1:] == trajectory.pos[:-1], axis=2)
-    same_turn = np.all(trajectory.quat[1:] == trajectory.quat[:-1], axis=2)
     dt = np.diff(trajectory.t)
-    for b in np.flatnonzero((same_place | same_turn).any(axis=0) & trajectory.moves_freely):
-        sign = _held(trajectory, b, same_place[:, b], trajectory.speed[:, b], dt, 0.05 * trajectory.size_m[b], "m")
-        sign = sign or _held(trajectory, b, same_turn[:, b], trajectory.spin[:, b], dt, 0.2, "rad")
-        sign = sign or _stopped_dead(trajectory, b, same_place[:, b] & same_turn[:, b])
+    look = survey(trajectory)
+    still, unturned = look.still.sum(axis=0), look.unturned.sum(axis=0)
+    may = (still > 0) | (unturned * look.spin.max(axis=0) * dt.max() > 0.2)
+    for b in np.flatnonzero(may & trajectory.moves_freely):
+        same_place = np.all(trajectory.pos[1:, b] == trajectory.pos[:-1, b], axis=1)
+        same_turn = np.all(trajectory.quat[1:, b] == trajectory.quat[:-1, b], axis=1)
+        sign = _held(trajectory, b, same_place, trajectory.speed[:, b], dt, 0.05 * trajectory.size_m[b], "m")
+        sign = sign or _held(trajectory, b, same_turn, trajectory.spin[:, b], dt, 0.2, "rad")
+        sign = sign or _stopped_dead(trajectory, b, same_place & same_turn)
         if sign:
             yield sign
 

@@ -16,6 +16,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign
+from ..survey import survey
 
 CODE = "WS101"
 NEEDS = ("pos",)
@@ -24,14 +25,18 @@ NORM_TOLERANCE = 1e-3
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the bodies (or the system) whose numbers are not."""
+    channels = (trajectory.pos, trajectory.quat, trajectory.linvel, trajectory.angvel)
     bad = np.zeros(trajectory.pos.shape[:2], dtype=bool)
-    for channel in (trajectory.pos, trajectory.quat, trajectory.linvel, trajectory.angvel):
-        # A sum is not finite as soon as one of its terms is not.
-        bad |= ~np.isfinite(np.einsum("tbi->tb", channel))
+    if not trajectory.finite:
+        for channel in channels:
+            bad |= ~np.isfinite(channel).all(axis=2)
     yield from _signs(trajectory, bad, trajectory.names, "is not a number")
     if trajectory.energy is not None:
         odd = ~np.isfinite(trajectory.energy).all(axis=1)[:, None]
         yield from _signs(trajectory, odd, ("energy",), "is not a number")
+    stretched = survey(trajectory).stretched
+    if not (stretched > 2 * NORM_TOLERANCE).any() and not np.isnan(stretched).any():
+        return
     norm = np.einsum("tbi,tbi->tb", trajectory.quat, trajectory.quat)
     off = ~bad & (np.abs(norm - 1) > 2 * NORM_TOLERANCE)
     yield from _signs(trajectory, off, trajectory.names, "has an orientation that is no rotation (its norm is not 1)")

@@ -17,6 +17,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, sliding_sum, spans
+from ..survey import survey
 
 CODE = "WS103"
 NEEDS = ("linvel",)
@@ -30,8 +31,10 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     if rows < 2 or not len(candidates):
         return
     dt = np.diff(trajectory.t)[:, None]
-    size = trajectory.size_m
-    for b in candidates:
+    size, look = trajectory.size_m, survey(trajectory)
+    least = 0.2 * size + 2 * trajectory.interval_s * look.speed.max(axis=0)
+    may = look.astray_over(rows) > least
+    for b in candidates[may[candidates]]:
         speed = trajectory.speed[:, b]
         steps = (trajectory.linvel[1:, b] + trajectory.linvel[:-1, b]) / 2 * dt
         off = trajectory.pos[rows:, b] - trajectory.pos[:-rows, b] - sliding_sum(steps, rows)

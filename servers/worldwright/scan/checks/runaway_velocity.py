@@ -17,6 +17,7 @@ import numpy as np
 from ...model.trajectory import STANDARD_GRAVITY, Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS129"
 NEEDS = ("linvel",)
@@ -30,20 +31,24 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     extent = float(np.sqrt((np.ptp(start, axis=0) ** 2).sum())) + float(trajectory.size_m.max())
     g = float(np.sqrt((trajectory.gravity**2).sum())) or STANDARD_GRAVITY
     fall = np.sqrt(2 * g * 10 * extent)
+    top = survey(trajectory).speed.max(axis=0)
+    may = top > np.minimum(10 * fall, ABSURD_M_S)
+    if not may.any():
+        return
     usual = 100 * np.median(trajectory.speed, axis=0)
     first = 3 * trajectory.speed[:3].max(axis=0)
     limit = np.minimum(10 * np.maximum(np.maximum(fall, usual), first), ABSURD_M_S)
     limit = np.where(_exponential(trajectory), np.minimum(limit, 10 * fall), limit)
-    for b in np.flatnonzero((trajectory.speed > limit).any(axis=0)):
+    for b in np.flatnonzero(top > limit):
         found = spans(trajectory.speed[:, b] > limit[b])
         lasting = found[np.diff(found, axis=1)[:, 0] >= min(3, len(trajectory.t))]
         if not len(lasting):
             continue
         begin, end = lasting[0]
-        top = float(trajectory.speed[begin:end, b].max())
+        most = float(trajectory.speed[begin:end, b].max())
         name = trajectory.names[b]
-        message = f"{name} reaches {top:.3g} m/s, more than this scene can give it"
-        yield Sign(name, (trajectory.t[begin], trajectory.t[end - 1]), top, limit[b], "m/s", "blocking", message)
+        message = f"{name} reaches {most:.3g} m/s, more than this scene can give it"
+        yield Sign(name, (trajectory.t[begin], trajectory.t[end - 1]), most, limit[b], "m/s", "blocking", message)
 
 
 def _exponential(trajectory: Trajectory) -> np.ndarray:

@@ -17,6 +17,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS125"
 NEEDS = ("touching", "mechanics.geom_type", "mechanics.geom_friction", "mechanics.unforced")
@@ -31,9 +32,10 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     if facts.geom_friction is None or facts.unforced is None or touching is None or g == 0:
         return
     rows = max(4, round(HELD_S / trajectory.interval_s))
-    for b in np.flatnonzero(trajectory.moves_freely & facts.unforced & touching.any(axis=0)):
+    long = survey(trajectory).touches.sum(axis=0) >= rows - 1
+    for b in np.flatnonzero(trajectory.moves_freely & facts.unforced & long):
         radius, friction = _round(trajectory, int(b))
-        if radius is None or friction < FRICTION:
+        if radius is None or friction < FRICTION or not _stays_down(touching[:, b], rows):
             continue
         for start, stop in spans(steady_slide(trajectory, int(b), friction * g), bridge=1):
             if stop - start < rows:
@@ -50,6 +52,12 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             severity = "info" if context.acts_on(name, ("pose", "velocity", "force")) else "blocking"
             yield Sign(name, window, share, 0.1, "of rolling", severity, message)
             break
+
+
+def _stays_down(touching: np.ndarray, rows: int) -> bool:
+    """Whether some contact lasts as long."""
+    runs = spans(touching, bridge=1)
+    return len(runs) > 0 and int(np.diff(runs, axis=1).max()) >= rows - 1
 
 
 def steady_slide(trajectory: Trajectory, b: int, slowing: float) -> np.ndarray:

@@ -15,6 +15,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, SkipError, spans
+from ..survey import survey
 from .sliding_as_rolling import FRICTION, HELD_S, shaped, steady_slide
 
 CODE = "WS126"
@@ -32,7 +33,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         raise SkipError("a surface moves, and carries what lies on it")
     assert facts.geom_body is not None and facts.geom_collides is not None
     rows = max(4, round(HELD_S / trajectory.interval_s))
-    for b in np.flatnonzero(trajectory.moves_freely & facts.unforced & touching.any(axis=0)):
+    long = survey(trajectory).touches.sum(axis=0) >= rows - 1
+    for b in np.flatnonzero(trajectory.moves_freely & facts.unforced & long):
         own = np.flatnonzero((facts.geom_body == b) & facts.geom_collides)
         friction = float(facts.geom_friction[own].min(initial=np.inf))
         if not len(own) or friction < FRICTION or any(facts.geom_type[g_] in ROUND for g_ in own):

@@ -17,6 +17,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic, flight
 from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS128"
 NEEDS = ("angvel",)
@@ -30,8 +31,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     alone = (
         flight.in_flight(trajectory) if known else np.repeat(trajectory.moves_freely[None], len(trajectory.t) - 1, 0)
     )
-    for b in np.flatnonzero(alone.any(axis=0)):
-        slow = float(np.sqrt(g / trajectory.size_m[b]))
+    slowest = np.sqrt(g / trajectory.size_m)
+    for b in np.flatnonzero((survey(trajectory).spin.max(axis=0) > slowest) & alone.any(axis=0)):
+        slow = float(slowest[b])
         ratio = 1.5
         if facts.inertia is not None and facts.inertia[b].min() > 0:
             ratio = max(ratio, 1.2 * float(facts.inertia[b].max() / facts.inertia[b].min()))

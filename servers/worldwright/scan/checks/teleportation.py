@@ -19,6 +19,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign
+from ..survey import survey
 
 CODE = "WS102"
 NEEDS = ("linvel",)
@@ -31,40 +32,39 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the worst jump of each body."""
     if len(trajectory.t) < 2:
         return
-    dt = np.diff(trajectory.t)[:, None]
-    size = trajectory.size_m
-    step = np.diff(trajectory.pos, axis=0)
-    moved = np.sqrt(np.einsum("tbi,tbi->tb", step, step))
-    excess = moved - _fastest_nearby(trajectory.speed) * dt
+    look, size = survey(trajectory), trajectory.size_m
+    may = look.anywhere((look.excess > SIZE_FRACTION * size) | (look.lone > 0.5 * size) | (look.overturn > ANGLE_RAD))
+    dt = np.diff(trajectory.t)
     g = float(np.sqrt((trajectory.gravity**2).sum()))
-    limit = SIZE_FRACTION * size + 2 * g * dt**2 + 1e-9 * np.abs(trajectory.pos).max(initial=0.0)
-    isolated = _isolated(moved) & (moved > 0.5 * size)
-    jumped = (excess > limit) | isolated
-    if trajectory.mechanics.mocap is None:
-        # Without a model, a body that never has a velocity may be posed from outside: only a lone jump is one.
-        jumped &= isolated | (trajectory.speed.max(axis=0) > 0)
-    cosine = np.abs(np.einsum("tbi,tbi->tb", trajectory.quat[1:], trajectory.quat[:-1]))
-    # Near 1 an angle is read off the sine, where a cosine has lost its digits; far away either will do.
-    angle = 2 * np.arccos(np.clip(cosine, 0.0, 1.0))
-    spun = angle - 1.2 * _fastest_nearby(trajectory.spin) * dt > ANGLE_RAD
-    for b in np.flatnonzero((jumped | spun).any(axis=0) & trajectory.moves_freely):
+    rounding = 1e-9 * float(np.abs((look.low, look.high)).max(initial=0.0))
+    for b in np.flatnonzero(may & trajectory.moves_freely):
+        step = np.diff(trajectory.pos[:, b], axis=0)
+        moved = np.sqrt((step**2).sum(axis=1))
+        limit = SIZE_FRACTION * size[b] + 2 * g * dt**2 + rounding
+        isolated = _isolated(moved) & (moved > 0.5 * size[b])
+        jumped = (moved - _fastest_nearby(trajectory.speed[:, b]) * dt > limit) | isolated
+        if trajectory.mechanics.mocap is None and not trajectory.speed[:, b].any():
+            # Without a model, a body that never has a velocity may be posed from outside: only a lone jump is one.
+            jumped &= isolated
+        cosine = np.abs((trajectory.quat[1:, b] * trajectory.quat[:-1, b]).sum(axis=1))
+        angle = 2 * np.arccos(np.clip(cosine, 0.0, 1.0))
+        spun = angle - 1.2 * _fastest_nearby(trajectory.spin[:, b]) * dt > ANGLE_RAD
         name = trajectory.names[b]
         declared = context.acts_on(name, ("pose",))
         severity = "info" if declared else "blocking"
         note = " (the plan declares that its pose is written)" if declared else ""
-        if jumped[:, b].any():
-            n = int(np.argmax(np.where(jumped[:, b], moved[:, b], 0.0)))
-            times = int(jumped[:, b].sum())
-            message = f"{name} jumps {moved[n, b]:.3g} m in one step{_times(times)}{note}"
-            yield Sign(name, (trajectory.t[n], trajectory.t[n + 1]), moved[n, b], limit[n, b], "m", severity, message)
-        else:
-            n = int(np.argmax(np.where(spun[:, b], angle[:, b], 0.0)))
-            message = f"{name} turns {np.degrees(angle[n, b]):.0f} degrees in one step{note}"
-            yield Sign(name, (trajectory.t[n], trajectory.t[n + 1]), angle[n, b], ANGLE_RAD, "rad", severity, message)
+        if jumped.any():
+            n = int(np.argmax(np.where(jumped, moved, 0.0)))
+            message = f"{name} jumps {moved[n]:.3g} m in one step{_times(int(jumped.sum()))}{note}"
+            yield Sign(name, (trajectory.t[n], trajectory.t[n + 1]), moved[n], limit[n], "m", severity, message)
+        elif spun.any():
+            n = int(np.argmax(np.where(spun, angle, 0.0)))
+            message = f"{name} turns {np.degrees(angle[n]):.0f} degrees in one step{note}"
+            yield Sign(name, (trajectory.t[n], trajectory.t[n + 1]), angle[n], ANGLE_RAD, "rad", severity, message)
 
 
 def _fastest_nearby(speed: np.ndarray) -> np.ndarray:
-    """(T-1, B) the largest of the speeds within two rows of each step."""
+    """(T-1,) the largest of the speeds within two rows of each step."""
     best = np.maximum(speed[1:], speed[:-1])
     wide = best.copy()
     for shift in (1, 2):
@@ -74,7 +74,7 @@ def _fastest_nearby(speed: np.ndarray) -> np.ndarray:
 
 
 def _isolated(moved: np.ndarray) -> np.ndarray:
-    """(T-1, B) one large displacement between small ones."""
+    """(T-1,) one large displacement between small ones."""
     near = np.zeros_like(moved)
     near[1:] += moved[:-1]
     near[:-1] += moved[1:]

@@ -9,7 +9,6 @@ Threshold: none: the middle of a solid cannot be crossed. Blocking, also for geo
 Source: the manual on collision filtering, and on speculative contacts.
 """
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -18,19 +17,23 @@ import numpy as np
 from ...model.mechanics import rotation
 from ...model.trajectory import Trajectory
 from .. import analytic
-from ..sign import Case, Context, Sign
+from ..sign import Case, Context, Sign, spans
+from ..survey import survey
 
 CODE = "WS120"
 NEEDS = ("mechanics.geom_pos", "mechanics.half_extents", "mechanics.parent")
+Array = np.ndarray
 SOLID = frozenset({"box", "sphere", "capsule", "cylinder", "ellipsoid"})
-ROWS, LAP = 48, 40
+LAP = 40
+"""Rows before and after, so that a passage is seen from face to face."""
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each pair of which one passes through the other."""
     facts = trajectory.mechanics
     if (
-        facts.geom_body is None
+        len(trajectory.t) < 2
+        or facts.geom_body is None
         or facts.geom_pos is None
         or facts.geom_half_extents is None
         or facts.half_extents is None
@@ -43,15 +46,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         if kind in SOLID and _meant(trajectory, g) and np.all(np.isfinite(facts.geom_half_extents[g]))
     ]
     seen: set[tuple[int, int]] = set()
-    near = _Neighbours(trajectory)
+    near = _Neighbours(trajectory, solids)
+    other_of = facts.geom_body[np.asarray(solids, dtype=int)]
     for b in np.flatnonzero(trajectory.moves_freely):
         if not _is_solid(trajectory, int(b)):
             continue
-        for g in solids:
-            other = int(facts.geom_body[g])
-            if other == b or (other >= 0 and family[other] == family[b]) or (other, int(b)) in seen:
+        close = near.near(int(b)) & (other_of != b)
+        for k in np.flatnonzero(close.any(axis=0)):
+            g, other = solids[k], int(other_of[k])
+            if (other >= 0 and family[other] == family[b]) or (other, int(b)) in seen:
                 continue
-            for rows in near.windows(int(b), g):
+            for rows in near.windows(int(b), int(k), close[:, k]):
                 n = _crossing(trajectory, int(b), g, rows)
                 if n is None:
                     continue
@@ -97,38 +102,60 @@ def _is_solid(trajectory: Trajectory, b: int) -> bool:
 
 
 class _Neighbours:
-    """Stretches of time in which a body's way comes near a geom: a coarse search over boxes around the ways."""
+    """Stretches of time in which a body's centre may come into the middle of a geom's box."""
 
-    def __init__(self, trajectory: Trajectory) -> None:
+    def __init__(self, trajectory: Trajectory, solids: list[int]) -> None:
         facts = trajectory.mechanics
-        assert facts.half_extents is not None and facts.geom_body is not None
-        assert facts.geom_pos is not None and facts.geom_half_extents is not None
-        count = len(trajectory.t)
-        edges = np.unique(np.append(np.arange(0, count, ROWS), count - 1))
-        cores = [slice(int(a), int(z) + 1) for a, z in itertools.pairwise(edges)]
-        # Parts overlap, so that a passage is not cut in two.
-        self.parts = [slice(max(0, core.start - LAP), min(count, core.stop + LAP)) for core in cores]
-        self.low = np.array([trajectory.pos[core].min(axis=0) for core in cores])
-        self.high = np.array([trajectory.pos[core].max(axis=0) for core in cores])
-        offset = facts.com if facts.com is not None else np.zeros((len(trajectory.names), 3))
-        self.offset = np.sqrt((offset**2).sum(axis=1))
-        self.facts = facts
-
-    def windows(self, b: int, g: int) -> Iterator[slice]:
-        """The parts to look at closely."""
-        facts = self.facts
         assert facts.geom_body is not None and facts.geom_pos is not None and facts.geom_half_extents is not None
-        other = int(facts.geom_body[g])
-        # The centre of the one must come into the box of the other.
-        size = float(np.sqrt((facts.geom_half_extents[g] ** 2).sum())) + float(self.offset[b])
-        if other >= 0:
-            low, high = self.low[:, other], self.high[:, other]
-            size += float(np.sqrt((facts.geom_pos[g] ** 2).sum()))
-        else:
-            low = high = facts.geom_pos[g][None]
-        apart = np.maximum(low - size - self.high[:, b], self.low[:, b] - high - size).max(axis=1)
-        for k in np.flatnonzero(apart < 0):
-            yield self.parts[int(k)]
+        self.trajectory, self.look = trajectory, survey(trajectory)
+        self.solids = np.asarray(solids, dtype=int)
+        self.body = facts.geom_body[self.solids]
+        half, offset = facts.geom_half_extents[self.solids], np.sqrt((facts.geom_pos[self.solids] ** 2).sum(axis=1))
+        # A way that crosses the middle plane inside nine tenths of the box is there this near to the box's centre.
+        across = np.sqrt((half**2).sum(axis=1) - half.min(axis=1) ** 2)
+        self.reach = across + np.where(self.body >= 0, offset, 0.0)
+        com = facts.com if facts.com is not None else np.zeros((len(trajectory.names), 3))
+        self.offset = np.sqrt((com**2).sum(axis=1))
+        fixed = facts.geom_pos[self.solids]
+        moving = np.maximum(self.body, 0)
+        self.low = np.where((self.body >= 0)[:, None], self.look.low[:, moving], fixed)
+        self.high = np.where((self.body >= 0)[:, None], self.look.high[:, moving], fixed)
+
+    def near(self, b: int) -> Array:
+        """(K, G) stretches in which the boxes around the two ways are near enough."""
+        gap = np.maximum(self.low - self.look.high[:, b, None], self.look.low[:, b, None] - self.high)
+        way = np.minimum(np.maximum(gap, 0.0), 1e100)
+        close = np.asarray((way**2).sum(axis=2) < (self.reach + self.offset[b]) ** 2)
+        for k in np.flatnonzero((self.body < 0) & close.any(axis=0)):
+            close[:, k] &= self._through_middle(b, int(k))
+        return close
+
+    def _through_middle(self, b: int, k: int) -> Array:
+        """(K,) stretches in which the box around a way meets the middle plane of a fixed geom, inside its box."""
+        facts, g = self.trajectory.mechanics, int(self.solids[k])
+        assert facts.geom_pos is not None and facts.geom_quat is not None and facts.geom_half_extents is not None
+        turn, half = rotation(facts.geom_quat[g]), facts.geom_half_extents[g].copy()
+        half[np.argmin(half)] = 0.0
+        middle = ((self.look.low[:, b] + self.look.high[:, b]) / 2 - facts.geom_pos[g]) @ turn
+        # A stretch ends one row before its last step does; that step is no longer than the ones this allows.
+        slack = self.offset[b] + 2 * self.trajectory.interval_s * self.look.speed[:, b, None]
+        around = (self.look.high[:, b] - self.look.low[:, b]) / 2 @ np.abs(turn)
+        return np.asarray((np.abs(middle) <= half + around + slack).all(axis=1))
+
+    def windows(self, b: int, k: int, stretches: Array) -> Iterator[slice]:
+        """The rows to look at closely, for the k-th solid, within the stretches (K,) that are near."""
+        count, rows = len(self.trajectory.t), self.look.rows
+        for first, last in spans(stretches):
+            start, stop = max(0, first * rows - LAP), min(count, last * rows + LAP)
+            if self.body[k] < 0:
+                yield slice(start, stop)
+                continue
+            between = self.trajectory.com[start:stop, b] - self.trajectory.pos[start:stop, self.body[k]]
+            distance = np.sqrt((between**2).sum(axis=1))
+            step = np.abs(np.diff(distance, append=distance[-1:]))
+            close = distance < self.reach[k] + step.max(initial=0.0)
+            for begin, end in spans(close, bridge=2 * LAP):
+                yield slice(max(start, start + begin - LAP), min(stop, start + end + LAP))
 
 
 def _crossing(trajectory: Trajectory, b: int, g: int, rows: slice) -> int | None:

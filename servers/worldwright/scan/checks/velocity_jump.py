@@ -18,6 +18,7 @@ import numpy as np
 from ...model.trajectory import Trajectory
 from .. import analytic, flight
 from ..sign import Case, Context, Sign
+from ..survey import survey
 
 CODE = "WS118"
 NEEDS = ("linvel",)
@@ -56,7 +57,7 @@ def _inferred(trajectory: Trajectory) -> Iterator[tuple[int, int, int, float]]:
     dt = np.diff(trajectory.t)[:, None]
     g = trajectory.gravity
     apart = ~(touching[1:] | touching[:-1])
-    for b in range(len(trajectory.names)):
+    for b in np.flatnonzero(survey(trajectory).kicked.any(axis=0)):
         extra = np.sqrt(((np.diff(trajectory.linvel[:, b], axis=0) - g * dt) ** 2).sum(axis=1))
         ballistic = apart[:, b] & (extra < 0.03 * dt[:, 0] * max(1.0, float(np.abs(g).max())))
         squared = trajectory.speed[:, b] ** 2
@@ -65,7 +66,7 @@ def _inferred(trajectory: Trajectory) -> Iterator[tuple[int, int, int, float]]:
         for n in np.flatnonzero(apart[:, b] & (gain > limit) & (extra**2 > limit)):
             before, after = ballistic[max(0, n - ROWS) : n], ballistic[n + 1 : n + 1 + ROWS]
             if len(before) == len(after) == ROWS and before.all() and after.all():
-                yield b, int(n), int(n) + 1, float(extra[n])
+                yield int(b), int(n), int(n) + 1, float(extra[n])
 
 
 def _kicked() -> Case:
