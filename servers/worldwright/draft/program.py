@@ -300,9 +300,12 @@ class _Writer:
             return ""
         self.modules.add("cameras")
         lines = []
+        shots = {shot.name: shot for shot in self.scene.cameras}
         for row in rows:
             keywords: dict = {}
-            if row.position is not None:
+            if row.name in shots:  # a relation template placed it
+                keywords |= {"position": shots[row.name].position, "target": shots[row.name].target}
+            elif row.position is not None:
                 keywords |= {"position": row.position}
                 if row.target is not None:
                     keywords |= {"target": row.target}

@@ -14,6 +14,7 @@ from typing import Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from .frozen import Frozen
+from .observation import REFERENCE_VIEW, ImageObservation
 
 Vec3 = tuple[float, float, float]
 TO_CLARIFY = "TO_CLARIFY"
@@ -292,6 +293,15 @@ class Joint(Frozen):
     """Degrees or metres."""
 
 
+class SettledOffset(Frozen):
+    """How far an object came from where its rows put it when it was let go: added to its resolved pose."""
+
+    x: float = 0.0
+    y: float = 0.0
+    z: float = 0.0
+    deg_z: float = 0.0
+
+
 class Topology(Frozen):
     """Section `topology`: the frame, the joints and the placement rows."""
 
@@ -304,6 +314,10 @@ class Topology(Frozen):
     """Absolute centres (pure multibody plans)."""
     joints: tuple[Joint, ...] = ()
     scene_predicates: tuple[PredicateRow, ...] = ()
+    image_observation: ImageObservation | None = None
+    """What the reference image shows, when there is one."""
+    settled: dict[str, SettledOffset] = {}
+    """Small displacements that `place settle --write` found, by object."""
 
 
 class Visualization(Frozen):
@@ -366,13 +380,31 @@ class Plan(Frozen):
         return tuple(o.name for o in self.scene_objects) + tuple(n for a in self.assets for n in a.instances)
 
     def cameras(self) -> tuple[CameraRow, ...]:
-        """Every camera of every step, once, in plan order."""
+        """Every camera of every step, once, in plan order; the first one looks from the reference image's viewpoint."""
         seen: dict[str, CameraRow] = {}
         for step in self.implementation_steps:
             for camera in step.cameras:
                 row = CameraRow(name=camera, view=camera) if isinstance(camera, str) else camera
                 seen.setdefault(row.name, row)
-        return tuple(seen.values())
+        return self._as_observed(list(seen.values()))
+
+    def _as_observed(self, rows: list[CameraRow]) -> tuple[CameraRow, ...]:
+        """The viewpoint of the image configures the first camera: an open one takes it, else one is put before it."""
+        observed = self.topology.image_observation
+        if observed is None:
+            return tuple(rows)
+        placed = {relation.body_a: relation.relation_name for relation in self.geometry_relations}
+        if rows:
+            first = rows[0]
+            view = placed.get(first.name, first.view)
+            if view == observed.viewpoint:
+                return tuple(rows)
+            if view is None and first.position is None:
+                return (first.model_copy(update={"view": observed.viewpoint}), *rows[1:])
+        names = self.object_names()
+        subjects = tuple(v.name for v in observed.visible if v.name in names)
+        view_of_image = CameraRow(name=REFERENCE_VIEW, view=observed.viewpoint, subjects=subjects)
+        return (view_of_image, *(row for row in rows if row.name != REFERENCE_VIEW))
 
     def movers(self) -> tuple[str, ...]:
         """Objects that some step expects to move."""

@@ -52,6 +52,15 @@ def footprint(placed: PlacedObject, row: SceneObject | None) -> Polygon:
     return turned(rectangle(*row.size[:2]), x, y, placed.deg_z)
 
 
+def shadow(placed: PlacedObject, row: SceneObject | None) -> Polygon:
+    """Everything below the object, world frame: what it covers seen from above."""
+    x, y, _ = placed.position
+    if row is None:
+        return turned(list(_asset(placed.kind, placed.size[2])[2]), x, y, placed.deg_z)
+    shape = ellipse if row.primitive in ("sphere", "ellipsoid", "capsule", "cylinder") else rectangle
+    return turned(shape(*placed.size[:2]), x, y, placed.deg_z)
+
+
 def centre_of_mass(placed: PlacedObject, row: SceneObject | None) -> tuple[float, float]:
     """Its place in the plane, world frame, metres."""
     x, y, _ = placed.position
@@ -66,8 +75,10 @@ def rows(plan: Plan) -> dict[str, SceneObject]:
 
 
 @lru_cache(maxsize=512)
-def _asset(key: str, height: float) -> tuple[tuple[tuple[float, float], ...], tuple[float, float]]:
-    """The polygon of an asset's lowest points and its centre of mass, own frame."""
+def _asset(
+    key: str, height: float
+) -> tuple[tuple[tuple[float, float], ...], tuple[float, float], tuple[tuple[float, float], ...]]:
+    """The polygon of an asset's lowest points, its centre of mass, and the polygon of all its points; own frame."""
     from worldkit import assets
 
     from .drawing.silhouettes import asset_clouds
@@ -77,7 +88,9 @@ def _asset(key: str, height: float) -> tuple[tuple[tuple[float, float], ...], tu
     low = min(float(cloud[:, 2].min()) for cloud in clouds)
     points = [(float(x), float(y)) for cloud in clouds for x, y, z in cloud if z <= low + SLICE_M]
     scale = entry.scale(height)
-    return tuple(hull(points)), (entry.inertia_com[0] * scale, entry.inertia_com[1] * scale)
+    everything = [(float(x), float(y)) for cloud in clouds for x, y, _ in cloud]
+    centre = (entry.inertia_com[0] * scale, entry.inertia_com[1] * scale)
+    return tuple(hull(points)), centre, tuple(hull(everything))
 
 
 def hull(points: list[tuple[float, float]]) -> Polygon:

@@ -19,14 +19,18 @@ def answer(request: dict[str, Any]) -> dict[str, Any]:
 
     Returns:
         `contacts`: [name, name, depth in metres] for each pair of objects that penetrate at the start, deepest first;
-        `objects`: for each, `start` and `end` position (m), `quat` (w, x, y, z) at the end, and `speed` (m/s).
+        `objects`: for each, `start` and `end` position (m), `quat` (w, x, y, z) at the end, and `speed` (m/s);
+        `distances`: [name, name, metres] for each of `pairs`, at most `far_m`; `views`: what `cameras` see (`sight.seen`).
     """
     import mujoco
     import numpy as np
 
+    from . import sight
+
     model = _build(request)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
+    distances = [[a, b, _distance(model, data, a, b, request["far_m"])] for a, b in request["pairs"]]
     deepest: dict[tuple[str, str], float] = {}
     for geoms, distance in zip(data.contact.geom, data.contact.dist, strict=True):
         first, second = sorted(_owner(model, geom) for geom in geoms)
@@ -52,7 +56,24 @@ def answer(request: dict[str, Any]) -> dict[str, Any]:
             "speed": float(np.linalg.norm(velocity[3:])),
         }
     contacts = sorted(deepest.items(), key=lambda row: -row[1])
-    return {"contacts": [[a, b, depth] for (a, b), depth in contacts], "objects": objects}
+    views = sight.seen(model, data, request["cameras"]) if request["cameras"] else []
+    return {
+        "contacts": [[a, b, depth] for (a, b), depth in contacts],
+        "objects": objects,
+        "distances": distances,
+        "views": views,
+    }
+
+
+def _distance(model: Any, data: Any, first: str, second: str, far_m: float) -> float:
+    """The smallest distance between the collision shapes of two objects, metres; negative when they penetrate."""
+    import mujoco
+    import numpy as np
+
+    geoms = [np.flatnonzero(model.geom_bodyid == model.body(name).id) for name in (first, second)]
+    return min(
+        (mujoco.mj_geomDistance(model, data, a, b, far_m, None) for a in geoms[0] for b in geoms[1]), default=far_m
+    )
 
 
 def _build(request: dict[str, Any]) -> Any:
@@ -84,6 +105,10 @@ def _build(request: dict[str, Any]) -> Any:
                 spec.delete(geom)
         else:
             _primitive(bodies, spec, row, common)
+    if request["cameras"]:
+        from . import sight
+
+        sight.add_cameras(spec, request["cameras"])
     return spec.compile()
 
 

@@ -98,6 +98,8 @@ class Settled(Frozen):
     """At the end."""
     position: Vec3
     """Where it ended, metres."""
+    moved: Vec3
+    """From where it started, metres."""
 
 
 class SettleReport(Frozen):
@@ -105,12 +107,14 @@ class SettleReport(Frozen):
 
     duration_s: float
     objects: tuple[Settled, ...] = ()
-    """Those that moved most come first; at most 60."""
+    """Those that moved most come first; a tool's answer has at most 60."""
     held: tuple[str, ...] = ()
     """Not let go: on joints, or drawn only."""
     findings: tuple[Finding, ...] = ()
     deepest_m: float = 0.0
     """Largest penetration at the start."""
+    written: tuple[str, ...] = ()
+    """Objects whose settled displacement was written into the plan."""
 
     @property
     def ok(self) -> bool:
@@ -128,7 +132,11 @@ class SettleReport(Frozen):
         ]
         lines += [str(finding) for finding in self.findings]
         return "\n".join(
-            [*lines, f"after {self.duration_s:g} s: the layout {'settles' if self.ok else 'does not settle'}"]
+            [
+                *lines,
+                f"after {self.duration_s:g} s: the layout {'settles' if self.ok else 'does not settle'}"
+                + (f"; {len(self.written)} displacements written" if self.written else ""),
+            ]
         )
 
 

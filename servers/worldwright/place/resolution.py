@@ -6,9 +6,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from ..model.finding import Finding
-from ..model.plan import Plan
+from ..model.plan import Plan, SettledOffset
 from ..model.scene import PlacedCamera, PlacedObject, Scene
-from .anchors import DOFS, Box, wrap
+from .anchors import DOFS, Box, shown, wrap
 from .extents import fixed_objects
 from .graph import Node
 from .statements import Statement
@@ -108,14 +108,23 @@ def collected(
             yield from formulas.get((name, dof), ())
         if name not in turned:
             yield "deg_z = 0 (no orientation row: front along +X)"
+        if name in settled:
+            yield f"then {_shifted(settled[name])} (topology.settled: let go in a pre-roll)"
+
+    settled = plan.topology.settled
+    rest = SettledOffset()
 
     objects = tuple(
         PlacedObject(
             name=name,
             kind=kinds[name],
             size=box.size,
-            position=(rounded(box.get("x")), rounded(box.get("y")), rounded(box.get("z"))),
-            deg_z=rounded(wrap(box.get("yaw"))),
+            position=(
+                rounded(box.get("x") + settled.get(name, rest).x),
+                rounded(box.get("y") + settled.get(name, rest).y),
+                rounded(box.get("z") + settled.get(name, rest).z),
+            ),
+            deg_z=rounded(wrap(box.get("yaw") + settled.get(name, rest).deg_z)),
             round=box.round,
             fixed=name in fixed,
             supported_by=supports.get(name),
@@ -124,6 +133,12 @@ def collected(
         for name, box in _ordered(placed, rows)
     )
     return Resolution(Scene(objects=objects), {o.name: placed[o.name] for o in objects}, rows, dict(derived))
+
+
+def _shifted(offset: SettledOffset) -> str:
+    """A settled displacement in words."""
+    parts = [f"{dof} {shown(v)} m" for dof, v in (("x", offset.x), ("y", offset.y), ("z", offset.z)) if v]
+    return ", ".join([*parts, *([f"deg_z {shown(offset.deg_z)}"] if offset.deg_z else [])]) or "nothing"
 
 
 def _supports(rows: list[Statement]) -> dict[str, str]:

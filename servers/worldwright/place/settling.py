@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from ..model.plan import Plan
+from ..model.plan import Plan, SettledOffset
 from ..model.scene import Scene
 from .anchors import shown, wrap
 from .reports import Settled, SettleReport
@@ -14,6 +14,10 @@ SLIDE_M = 0.02
 TILT_DEG = 3.0
 SPEED_M_S = 0.05
 DEEP_M = 2e-3
+MOST_M, MOST_DEG = 0.02, 3.0
+"""No tolerance for writing back may be larger: what moves more was not at rest where its rows put it."""
+NOISE_M, NOISE_DEG = 1e-4, 0.05
+"""Less than this is not written."""
 
 
 def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: float) -> SettleReport:
@@ -72,11 +76,38 @@ def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: f
     moved.sort(key=lambda o: -(abs(o.drop_m) + o.slide_m + math.radians(o.tilt_deg)))
     return SettleReport(
         duration_s=duration_s,
-        objects=tuple(moved[:60]),
+        objects=tuple(moved),
         held=tuple(held),
         findings=tuple(problems.findings),
         deepest_m=round(deepest, 6),
     )
+
+
+def offsets(
+    plan: Plan, report: SettleReport, tolerance_m: float, tolerance_deg: float
+) -> tuple[dict[str, dict[str, float]], list[str]]:
+    """What to write into `topology.settled`, and the objects that moved further than the tolerance allows.
+
+    Offsets add to those already there, since the pre-roll starts from them. Movers are left where their rows put them.
+    """
+    movers = set(plan.movers())
+    found: dict[str, dict[str, float]] = {}
+    too_far: list[str] = []
+    for settled in report.objects:
+        before = plan.topology.settled.get(settled.name, SettledOffset())
+        if settled.name in movers:
+            continue
+        x, y, z = (a + b for a, b in zip(settled.moved, (before.x, before.y, before.z), strict=True))
+        turn = wrap(before.deg_z + settled.turn_deg)
+        if math.hypot(x, y, z) > tolerance_m or max(abs(turn), settled.tilt_deg) > tolerance_deg:
+            too_far.append(
+                f"`{settled.name}` moved {shown(round(math.hypot(x, y, z), 5))} m, turned {shown(round(turn, 3))} deg and "
+                f"tilted {shown(round(settled.tilt_deg, 3))} deg"
+            )
+        elif math.hypot(x, y, z) > NOISE_M or abs(turn) > NOISE_DEG:
+            values = {"x": round(x, 6), "y": round(y, 6), "z": round(z, 6), "deg_z": round(turn, 4)}
+            found[settled.name] = {key: value for key, value in values.items() if value}
+    return found, too_far
 
 
 def _settled(name: str, deg_z: float, row: dict[str, Any]) -> Settled:
@@ -92,4 +123,5 @@ def _settled(name: str, deg_z: float, row: dict[str, Any]) -> Settled:
         turn_deg=round(wrap(yaw - deg_z), 4),
         speed_m_s=round(row["speed"], 6),
         position=(round(x1, 6), round(y1, 6), round(z1, 6)),
+        moved=(round(x1 - x0, 6), round(y1 - y0, 6), round(z1 - z0, 6)),
     )

@@ -9,6 +9,7 @@ from worldkit.files import write_atomic
 
 from ..expose import reads
 from ..model.errors import NotFoundError, PlanError
+from ..model.finding import Finding
 from ..model.picture import Illustrated, Picture
 from ..model.plan_text import PlanDocument, read_plan
 from ..model.run import Run, sha256_file
@@ -36,12 +37,13 @@ def resolve(
         text = document.edited(writing.changes(document, resolution))
     written = text != document.text
     if written:
-        path = Path(document.file)
-        write_atomic(path, text.encode())
-        if path.name == "plan.md":
-            Run(path.parent).log("place", "resolve", plan_sha256=sha256_file(path))
+        _save(document, text, "resolve")
     return Layout(
-        objects=resolution.scene.objects, findings=resolution.scene.findings, plan=document.file, written=written
+        objects=resolution.scene.objects,
+        cameras=resolution.scene.cameras,
+        findings=resolution.scene.findings,
+        plan=document.file,
+        written=written,
     )
 
 
@@ -57,22 +59,61 @@ def check(plan: PlanPath) -> CheckReport:
     return checks.check(document.plan, _resolve(document), file=document.file, locate=document.line_of)
 
 
-@reads
 def settle(
     plan: PlanPath,
     duration_s: Annotated[float, Field(gt=0, le=10, description="Simulated seconds to let go for.")] = 1.5,
+    write: Annotated[
+        bool, Field(description="Write the settled displacements into the plan, if all are small.")
+    ] = False,
+    tolerance_m: Annotated[
+        float, Field(gt=0, le=settling.MOST_M, description="Largest displacement to write, m.")
+    ] = 0.005,
+    tolerance_deg: Annotated[
+        float, Field(gt=0, le=settling.MOST_DEG, description="Largest turn or tilt to write.")
+    ] = 1.0,
 ) -> SettleReport:
     """Let the layout go in a short physics pre-roll and report how far each object drops, slides and tilts.
 
     No initial motion, no control; objects on joints stay where they are. Objects that motion_expectations names may
-    move; any other that does not stay is a finding. Changes nothing.
+    move; any other that does not stay is a finding that says what moved. With `write`, and when everything else stays within
+    the tolerance, displacements go into topology.settled, which resolve adds to its poses; otherwise nothing is written.
     """
     document = _read(plan)
     resolution = _resolve(document)
     _need_all(document, resolution)
-    return settling.settle(
+    report = settling.settle(
         document.plan, resolution.scene, file=document.file, locate=document.line_of, duration_s=duration_s
     )
+    if write and report.ok:
+        report = _write_settled(document, report, tolerance_m, tolerance_deg)
+    return report.model_copy(update={"objects": report.objects[:60]})
+
+
+def _write_settled(
+    document: PlanDocument, report: SettleReport, tolerance_m: float, tolerance_deg: float
+) -> SettleReport:
+    """The displacements into the plan, or a finding for what moved too far."""
+    found, too_far = settling.offsets(document.plan, report, tolerance_m, tolerance_deg)
+    if too_far:
+        finding = Finding(
+            code="WP323",
+            name="beyond_tolerance",
+            severity="error",
+            message=f"nothing was written: {'; '.join(too_far[:6])}; the tolerance is {tolerance_m:g} m and {tolerance_deg:g} deg",
+            fix="correct the rows so that it starts at rest, name it in motion_expectations, or allow a larger tolerance",
+            file=document.file,
+            line=document.line_of("topology"),
+            section="topology",
+        )
+        return report.model_copy(update={"findings": (*report.findings, finding)})
+    before = {name: offset.model_dump(exclude_defaults=True) for name, offset in document.plan.topology.settled.items()}
+    after = {name: value for name, value in {**before, **found}.items() if value}
+    if after == before:
+        return report
+    _save(document, document.edited([(("topology", "settled"), after)]), "settle")
+    again = _read(Path(document.file))
+    _save(again, again.edited(writing.changes(again, _resolve(again))), "resolve")
+    return report.model_copy(update={"written": tuple(found)})
 
 
 @reads
@@ -116,6 +157,14 @@ def draw(
         findings=report.findings[:40],
     )
     return Illustrated(data, (Picture(picture, f"Layout of {document.plan.title or document.file}"),))
+
+
+def _save(document: PlanDocument, text: str, action: str) -> None:
+    """Write a plan, and note it in its run's journal."""
+    path = Path(document.file)
+    write_atomic(path, text.encode())
+    if path.name == "plan.md":
+        Run(path.parent).log("place", action, plan_sha256=sha256_file(path))
 
 
 def _read(plan: Path) -> PlanDocument:

@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +27,16 @@ def drawn_only(plan: Plan) -> set[str]:
 
 
 def simulate(
-    plan: Plan, scene: Scene, *, only: set[str] | None = None, loose: bool = False, duration_s: float = 0.0
+    plan: Plan,
+    scene: Scene,
+    *,
+    only: set[str] | None = None,
+    loose: bool = False,
+    duration_s: float = 0.0,
+    everything: bool = False,
+    pairs: Sequence[tuple[str, str]] = (),
+    far_m: float = 0.0,
+    cameras: Sequence[dict[str, Any]] = (),
 ) -> dict[str, Any]:
     """Run the pre-roll on resolved objects (see `preroll.answer`).
 
@@ -36,13 +46,17 @@ def simulate(
         only: these objects alone; None for all that are simulated.
         loose: give fixed things a free joint too, so that contacts between them are seen; there is then no ground.
         duration_s: how long to let go.
+        everything: also what is only drawn.
+        pairs, far_m: measure the distances of these objects, up to so many metres.
+        cameras: measure what these see (`sight`).
 
     Raises:
         JobError: the process failed, diverged, or took longer than 40 s.
     """
     hidden = drawn_only(plan)
-    names = {o.name for o in scene.objects if o.name not in hidden and (only is None or o.name in only)}
+    names = {o.name for o in scene.objects if (everything or o.name not in hidden) and (only is None or o.name in only)}
     request = _request(plan, scene, names, loose) | {"duration_s": duration_s}
+    request |= {"pairs": list(pairs), "far_m": far_m, "cameras": list(cameras)}
     with tempfile.TemporaryDirectory(prefix="worldwright-preroll-") as folder:
         out = Path(folder) / "answer.json"
         sources = str(Path(__file__).resolve().parents[2])

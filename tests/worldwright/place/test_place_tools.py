@@ -250,3 +250,40 @@ def test_the_grid_finds_what_brute_force_finds(rows):
 def test_round_numbers():
     assert [nice(v) for v in (0.07, 0.1, 0.13, 3, 8)] == [0.1, 0.1, 0.2, 5, 10]
     assert [metres(0.5, 0.2), metres(-1.0, 1), metres(-0.0, 0.1)] == ["0.5", "−1", "0"]
+
+
+SUNK = "  - {subject: ball, predicate: PLACE-ON, object: box, params: {offset: [0, 0], gap: 0.003}}"
+
+
+def test_settled_poses_are_written_only_within_the_tolerance(plan):
+    text = plan.read_text(encoding="utf-8")
+    assert ROW in text
+    movers = text.replace("motion_expectations: [ball]", "motion_expectations: []")
+    plan.write_text(movers.replace(ROW, SUNK), encoding="utf-8")
+    before = plan.read_bytes()
+    refused = tools.settle(plan, write=True, tolerance_m=0.002)
+    assert [f.code for f in refused.findings] == ["WP323"]
+    assert "`ball` moved 0.003" in refused.findings[0].message
+    assert plan.read_bytes() == before
+    done = tools.settle(plan, write=True, tolerance_m=0.005)
+    assert done.ok
+    assert done.written == ("ball",)
+    after = read_plan(plan).plan
+    assert after.topology.settled["ball"].z == pytest.approx(-0.003, abs=6e-4)
+    resolved = tools.resolve(plan)
+    assert not resolved.written, "settling wrote the poses too"
+    assert "topology.settled" in " ".join(resolved["ball"].provenance)
+    assert not [f for f in tools.check(plan).findings if f.code == "WP305"]
+    again = tools.settle(plan, write=True)
+    assert not again.written
+    assert again.objects[0].moved[2] == pytest.approx(0, abs=1e-4)
+
+
+def test_a_settled_pose_written_by_hand_is_found(plan):
+    text = plan.read_text(encoding="utf-8")
+    plan.write_text(
+        text.replace("scene_predicates:", "settled: {ball: {x: 0.2}}\nscene_predicates:", 1), encoding="utf-8"
+    )
+    found = [f for f in tools.check(plan).findings if f.code == "WP305" and f.severity == "error"]
+    assert len(found) == 1
+    assert "0.2 m" in found[0].message

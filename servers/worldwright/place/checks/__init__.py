@@ -7,7 +7,20 @@ from ..engine import uncollected
 from ..reports import CheckReport
 from ..resolution import Resolution
 from ..statements import Locate, Problems
-from . import below_ground, penetration, rows, stale, supports
+from . import (
+    below_ground,
+    clearance,
+    completeness,
+    containment,
+    density,
+    framing,
+    image,
+    penetration,
+    rows,
+    sizes,
+    stale,
+    supports,
+)
 from .layout import Layout
 from .marks import flagged
 
@@ -16,7 +29,14 @@ CHECKS: tuple[Callable[[Layout], None], ...] = (
     below_ground.check,
     penetration.check,
     supports.check,
+    containment.check,
+    clearance.check,
+    density.check,
+    sizes.check,
+    completeness.check,
+    image.check,
     stale.check,
+    framing.check,
 )
 """In the order in which their findings are told."""
 

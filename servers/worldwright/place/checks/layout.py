@@ -3,8 +3,9 @@
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from ...model.plan import Plan
+from ...model.plan import AssetRow, Plan, SceneObject
 from ...model.scene import PlacedObject, Scene
+from .. import categories
 from ..overlaps import overlapping
 from ..reports import RowMargin, Seen
 from ..resolution import Resolution
@@ -53,6 +54,23 @@ class Layout:
     def placed(self) -> dict[str, PlacedObject]:
         """Objects by name."""
         return {o.name: o for o in self.scene.objects}
+
+    @cached_property
+    def rows(self) -> dict[str, SceneObject | AssetRow]:
+        """What declares each object."""
+        found: dict[str, SceneObject | AssetRow] = {row.name: row for row in self.plan.scene_objects}
+        return found | {name: row for row in self.plan.assets for name in row.instances}
+
+    @cached_property
+    def categories(self) -> dict[str, categories.Category]:
+        """The category of each placed object that has one."""
+        found = ((name, categories.of(self.rows[name], self.rows[name].name)) for name in self.placed)
+        return {name: category for name, category in found if category is not None}
+
+    def reach(self, placed: PlacedObject, more_m: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Its world box in the plane, larger by a distance on every side."""
+        (x0, y0, _), (x1, y1, _) = placed.bounds()
+        return (x0 - more_m, y0 - more_m), (x1 + more_m, y1 + more_m)
 
     @cached_property
     def bounds(self) -> dict[str, tuple[tuple[float, float, float], tuple[float, float, float]]]:

@@ -1,17 +1,31 @@
 """The poses written in the plan are those that its rows give."""
 
+import math
+
 from ...model.plan import Orientation, Position
 from ..anchors import shown, wrap
+from ..settling import MOST_DEG, MOST_M
 from .layout import Layout
 
 
 def check(layout: Layout) -> None:
     """WP305 for a written pose that is older than its rows."""
+    for name, offset in layout.plan.topology.settled.items():
+        far = math.hypot(offset.x, offset.y, offset.z)
+        if name not in layout.plan.object_names() or far > MOST_M or abs(offset.deg_z) > MOST_DEG:
+            layout.problems.add(
+                "WP305",
+                "stale_pose",
+                f"topology.settled moves `{name}` by {shown(far)} m and {shown(abs(offset.deg_z))} deg: settling writes "
+                f"objects of the plan, and at most {MOST_M} m and {MOST_DEG} deg",
+                "remove it; rows place, `worldwright place settle --write` writes only what settles",
+                ("topology", "settled", name),
+            )
     for index, row in enumerate(layout.plan.topology.scene_predicates):
         now = layout.placed.get(row.subject)
         if now is None or not isinstance(row.position, Position):
             continue
-        x, y, z = now.position
+        x, y, z = now.position  # with what settling added
         given = (x, y, z + layout.resolution.boxes[row.subject].written_shift)
         away = max(abs(a - b) for a, b in zip(row.position.vector, given, strict=True))
         turned = abs(wrap(row.orientation.deg_z - now.deg_z)) if isinstance(row.orientation, Orientation) else 0.0

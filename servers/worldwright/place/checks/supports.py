@@ -18,6 +18,7 @@ def check(layout: Layout) -> None:
     for first, second, _ in layout.close:
         below[first].append(second)
         below[second].append(first)
+    _scenery(layout, below)
     for placed in layout.scene.objects:
         name = placed.name
         if placed.fixed or name in layout.held or name in layout.hidden:
@@ -52,6 +53,32 @@ def check(layout: Layout) -> None:
         margin = inset(hull(touching), centre)
         if margin < -SURE_M:
             _tips(layout, placed, [box.name for box, _ in contacts], -margin)
+
+
+def _scenery(layout: Layout, touching: dict[str, list[str]]) -> None:
+    """WP309 for fixed things that hang in the air: neither they nor the fixed things they touch reach the ground."""
+    fixed = {
+        o.name: o for o in layout.scene.objects if o.fixed and o.name not in layout.hidden and o.name not in layout.held
+    }
+    waiting = [n for n, o in fixed.items() if o.position[2] - o.size[2] / 2 <= CONTACT_M]
+    held = set(waiting)
+    while waiting:
+        for other in touching[waiting.pop()]:
+            if other in fixed and other not in held:
+                held.add(other)
+                waiting.append(other)
+    for name in fixed.keys() - held:
+        placed = fixed[name]
+        _, below = _drop(layout, placed, placed.position[2] - placed.size[2] / 2)
+        layout.problems.add(
+            "WP309",
+            "scenery_in_mid_air",
+            f"`{name}` is fixed {shown(placed.position[2] - placed.size[2] / 2)} m up, touches nothing that stands, and nothing "
+            f"holds it (below it is {below})",
+            "put it on or against something fixed (a wall, a post, a ceiling), or add what it hangs from",
+            layout.path(name),
+            severity="warning",
+        )
 
 
 def _planes(box: Box, height: float) -> list[tuple[Box, Surface]]:

@@ -1,0 +1,89 @@
+"""Sizes are those of the real things: heights against their category, and related sizes against each other."""
+
+from ...model.plan import AssetRow, SceneObject
+from ...model.scene import PlacedObject
+from .. import categories
+from ..anchors import shown
+from ..categories import Category
+from .layout import Layout
+
+ABSURD = 3.0
+"""Times outside its category's range: no variant of the thing is that size."""
+REACH_M = 0.8
+"""A seat nearer to a table than this is one to sit at it."""
+KNEES_M = (0.15, 0.45)
+"""From a seat to its table's top; 0.23 to 0.30 m is common for dining and desk work, the rest is our judgement."""
+
+
+def check(layout: Layout) -> None:
+    """WP316 for a height that its category does not have, WP317 for a seat that does not fit its table."""
+    plan = layout.plan
+    for index, row in enumerate(plan.scene_objects):
+        _height(layout, row, row.size[2], ("scene_objects", index, "size"))
+    for asset in plan.assets:
+        if asset.name in plan.asset_dimensions:
+            _height(layout, asset, plan.asset_dimensions[asset.name], ("asset_dimensions", asset.name))
+    _seats(layout)
+
+
+def _height(layout: Layout, row: SceneObject | AssetRow, height: float, path: tuple[str | int, ...]) -> None:
+    category = categories.of(row, row.name)
+    if category is None or category.low_m <= height <= category.high_m:
+        return
+    factor = category.low_m / height if height < category.low_m else height / category.high_m
+    layout.problems.add(
+        "WP316",
+        "unlikely_height",
+        f"`{row.name}` is {shown(height)} m high; a {category.name} is {shown(category.low_m)} to {shown(category.high_m)} m "
+        f"({category.source})",
+        "correct its height, or say in its name that it is a `toy`, a `model` or `giant`",
+        path,
+        severity="error" if factor > ABSURD else "warning",
+    )
+
+
+def _seats(layout: Layout) -> None:
+    kinds = layout.categories
+    seats = [o for o in layout.scene.objects if (c := kinds.get(o.name)) and c.kind == "seat" and c.seat_share]
+    tables = [o for o in layout.scene.objects if (c := kinds.get(o.name)) and _table(c)]
+    for seat in seats:
+        low, high = layout.reach(seat, REACH_M)
+        near = [t for t in tables if all(t.bounds()[0][i] <= high[i] and t.bounds()[1][i] >= low[i] for i in (0, 1))]
+        for table in sorted(near, key=lambda t: _apart(seat, t))[:1]:
+            _fits(layout, seat, table, kinds[seat.name])
+
+
+def _table(category: Category) -> bool:
+    return category.kind == "support" and category.head in ("table", "desk", "counter", "bar", "island", "workbench") and (
+        category.name not in ("coffee table", "side table", "bedside table", "console table", "pool table")
+    )  # fmt: skip
+
+
+def _apart(a: PlacedObject, b: PlacedObject) -> float:
+    return (a.position[0] - b.position[0]) ** 2 + (a.position[1] - b.position[1]) ** 2
+
+
+def _fits(layout: Layout, seat: PlacedObject, table: PlacedObject, category: Category) -> None:
+    top = table.position[2] + table.size[2] / 2
+    floor = seat.position[2] - seat.size[2] / 2
+    named = next((s.height_m for s in layout.resolution.boxes[seat.name].surfaces() if s.name == "seat"), None)
+    share = category.seat_share or (0.5, 0.5)
+    lowest, highest = (named, named) if named is not None else (share[0] * seat.size[2], share[1] * seat.size[2])
+    room = (top - floor - highest, top - floor - lowest)
+    if room[1] >= KNEES_M[0] and room[0] <= KNEES_M[1]:
+        return
+    above = room[1] <= 0
+    layout.problems.add(
+        "WP317",
+        "seat_does_not_fit",
+        f"the seat of `{seat.name}`, {shown(round(lowest, 3))} m high, is "
+        + (
+            "not below"
+            if above
+            else f"{shown(round(max(room[1], 0.0) if room[1] < KNEES_M[0] else room[0], 3))} m below"
+        )
+        + f" the top of `{table.name}` at {shown(round(top, 3))} m",
+        f"between them belong {KNEES_M[0]} to {KNEES_M[1]} m: change one of the two heights in asset_dimensions",
+        layout.path(seat.name),
+        severity="error" if above else "warning",
+    )

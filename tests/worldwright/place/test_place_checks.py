@@ -1,0 +1,315 @@
+"""Each check finds what it is for, at its size, and leaves a sound layout alone."""
+
+import pytest
+
+from worldwright.model.observation import Viewpoint
+from worldwright.model.plan import Plan
+from worldwright.place import categories
+from worldwright.place.checks import check
+from worldwright.place.engine import resolve
+
+TABLE = {"name": "table", "primitive": "box", "size": [1.2, 0.8, 0.75], "fixed": True}
+ON_GROUND = {"subject": "table", "predicate": "PLACE-ON-BASE", "params": {"x": 0, "y": 0}}
+
+
+def report(objects, rows, *, exact=False, topology=None, **changes):
+    """What `check` says about a plan of scene objects; a row is (subject, predicate, object, params) or a mapping."""
+    listed = [
+        r if isinstance(r, dict) else dict(zip(("subject", "predicate", "object", "params"), r, strict=True))
+        for r in rows
+    ]
+    plan = Plan.model_validate(
+        {
+            "plan_type": "scene",
+            "simulation_parameters": {"time_step": 0.002, "simulation_duration": 1.0},
+            "objectives": [{"claim": "everything stands"}],
+            "scene_objects": objects,
+            "topology": {"scene_predicates": listed, **(topology or {})},
+            **changes,
+        }
+    )
+    resolution = resolve(plan)
+    assert resolution.scene.ok, resolution.scene.findings
+    return check(plan, resolution, locate=lambda *path: None, exact=exact)
+
+
+def codes(found) -> dict[str, list[str]]:
+    told: dict[str, list[str]] = {}
+    for finding in found.findings:
+        told.setdefault(finding.code, []).append(finding.message)
+    return told
+
+
+def box(name, *size, **more):
+    return {"name": name, "primitive": "box", "size": list(size), **more}
+
+
+def on(name, where, x=0.0, y=0.0, **params):
+    return (name, "PLACE-ON", where, {"offset": [x, y], **params})
+
+
+def test_a_sound_layout_has_no_findings():
+    found = report([TABLE, box("mug", 0.08, 0.08, 0.1)], [ON_GROUND, on("mug", "table", 0.2, 0.1)], exact=True)
+    assert not found.findings
+    assert found.ok
+
+
+# --- support --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("x", "tips"), [(0.55, False), (0.599, False), (0.602, True)])
+def test_the_centre_of_mass_decides_what_tips(x, tips):
+    """A plank of 0.4 m across the table's edge at 0.6 m: it tips when its middle is beyond the edge."""
+    rows = [ON_GROUND, {"subject": "board", "predicate": "HEIGHT", "params": {"bottom": 0.75}},
+            ("board", "ALIGN-CENTER-FB", "table", {"offset": x}), ("board", "ALIGN-CENTER-LR", "table", {})]  # fmt: skip
+    told = codes(report([TABLE, box("board", 0.4, 0.1, 0.02)], rows))
+    assert ("WP307" in told) is tips
+    if tips:
+        assert "0.002 m beyond the edge" in told["WP307"][0]
+
+
+def test_a_plank_on_two_posts_does_not_tip():
+    objects = [box("a", 0.1, 0.1, 0.5, fixed=True), box("b", 0.1, 0.1, 0.5, fixed=True), box("beam", 1.0, 0.1, 0.02)]
+    rows = [("a", "PLACE-ON-BASE", None, {"x": -0.4, "y": 0}), ("b", "PLACE-ON-BASE", None, {"x": 0.4, "y": 0}),
+            {"subject": "beam", "predicate": "HEIGHT", "params": {"bottom": 0.5}},
+            ("beam", "ALIGN-CENTER-FB", "base", {}), ("beam", "ALIGN-CENTER-LR", "base", {})]  # fmt: skip
+    assert not report(objects, rows).findings
+    assert "WP307" in codes(report(objects[1:], rows[1:]))
+
+
+def test_what_floats_is_found_loose_or_fixed():
+    rows = [{"subject": "sign", "predicate": "HEIGHT", "params": {"bottom": 1.2}},
+            ("sign", "ALIGN-CENTER-FB", "base", {}), ("sign", "ALIGN-CENTER-LR", "base", {})]  # fmt: skip
+    (message,) = codes(report([box("sign", 0.5, 0.1, 0.3)], rows))["WP304"]
+    assert "1.2 m above the ground" in message
+    (message,) = codes(report([box("sign", 0.5, 0.1, 0.3, fixed=True)], rows))["WP309"]
+    assert "1.2 m up" in message
+    post = box("post", 0.1, 0.1, 2.0, fixed=True)
+    beside = [("post", "PLACE-ON-BASE", None, {"x": 0.3, "y": 0}), *rows]
+    assert "WP309" not in codes(report([post, box("sign", 0.5, 0.1, 0.3, fixed=True)], beside)), "it touches a post"
+
+
+def test_penetration_is_measured_with_exact_shapes():
+    balls = [{"name": n, "primitive": "sphere", "size": [0.2] * 3, "dynamic": False, "fixed": True} for n in "ab"]
+    apart = [("a", "PLACE-ON-BASE", None, {"x": 0, "y": 0}), ("b", "PLACE-ON-BASE", None, {"x": 0.15, "y": 0.15})]
+    assert report(balls, apart, exact=False).findings[0].code == "WP302", "their boxes overlap"
+    assert not report(balls, apart, exact=True).findings
+    near = [apart[0], ("b", "PLACE-ON-BASE", None, {"x": 0.18, "y": 0})]
+    (message,) = codes(report(balls, near, exact=True))["WP302"]
+    assert "0.02 m" in message
+
+
+# --- containment and clearance ---------------------------------------------------------------------------------------
+
+
+def test_what_reaches_into_a_wall_is_not_contained():
+    tank = {"name": "tank", "primitive": "box_container", "size": [1, 1, 0.5], "wall_thickness": 0.05, "fixed": True,
+            "construction_source": "generated_boundary"}  # fmt: skip
+    rows = [("tank", "PLACE-ON-BASE", None, {"x": 0, "y": 0}), on("brick", "tank", 0.42, 0.0)]
+    (message,) = codes(report([tank, box("brick", 0.2, 0.1, 0.1)], rows))["WP310"]
+    assert "0.07 m into its wall" in message
+    assert "WP310" not in codes(report([tank, box("brick", 0.2, 0.1, 0.1)], [rows[0], on("brick", "tank", 0.3)]))
+
+
+@pytest.mark.parametrize(("exact", "free"), [(False, 0.141421), (True, 0.2)])
+def test_clearances_are_measured(exact, free):
+    """Two balls of 0.2 m, 0.4 m apart along a diagonal: their boxes are nearer than they are."""
+    d = 0.4 / 2**0.5
+    balls = [{"name": n, "primitive": "sphere", "size": [0.2] * 3, "fixed": True} for n in "ab"]
+    rows = [("a", "PLACE-ON-BASE", None, {"x": 0, "y": 0}), ("b", "PLACE-ON-BASE", None, {"x": d, "y": d})]
+    density = {"clearance": [{"between": ["a", "b"], "min_m": 0.25}]}
+    (message,) = codes(report(balls, rows, exact=exact, layout_density=density))["WP308"]
+    measured = float(message.split(" is ")[1].split(" m ")[0])
+    assert measured == pytest.approx(free if exact else 2**0.5 * (d - 0.2), abs=2e-4)
+    assert not report(
+        balls, rows, exact=True, layout_density={"clearance": [{"between": ["a", "b"], "min_m": 0.19}]}
+    ).findings
+
+
+def test_clearance_around_ignores_what_rests_on_it():
+    objects = [TABLE, box("mug", 0.08, 0.08, 0.1), box("crate", 0.3, 0.3, 0.3), box("stool", 0.3, 0.3, 0.45)]
+    rows = [ON_GROUND, on("mug", "table"), ("crate", "PLACE-ON-BASE", None, {"x": 1.0, "y": 0}),
+            ("stool", "PLACE-ON-BASE", None, {"x": 0, "y": 0.6})]  # fmt: skip
+    told = codes(
+        report(objects, rows, layout_density={"clearance": [{"around": "table", "min_m": 0.3, "ignoring": ["stool"]}]})
+    )
+    assert [m.split("`")[1] for m in told["WP308"]] == ["crate"]
+
+
+# --- density ---------------------------------------------------------------------------------------------------------
+
+
+def test_density_targets():
+    objects = [TABLE, *(box(f"mug_{i}", 0.1, 0.1, 0.1) for i in range(3)), box("lid", 0.1, 0.1, 0.01)]
+    rows = [ON_GROUND, *(on(f"mug_{i}", "table", 0.2 * i) for i in range(3)), on("lid", "mug_0")]
+
+    def told(**density):
+        return codes(report(objects, rows, layout_density=density)).get("WP315", [])
+
+    assert not told(table={"min_objects": 4, "max_objects": 4, "min_kinds": 2, "min_fill": 0.031, "max_fill": 0.032})
+    assert "4 objects, fewer than 5" in told(table={"min_objects": 5})[0]
+    assert "2 kinds" in told(table={"min_kinds": 3})[0]
+    assert "3.1%" in told(table={"max_fill": 0.03})[0]
+    assert not told(scene={"min_objects": 5, "area": [1.2, 0.8], "min_fill": 0.99, "envelope": [1.2, 0.8, 0.86]})
+    assert "0.06 m out" in " ".join(told(scene={"envelope": [1.2, 0.8, 0.80]}))
+    for wrong in (
+        {"table": {"least": 3}},
+        {"shelf": {"min_objects": 1}},
+        {"table": {"surface": "inside"}},
+        {"clearance": [3]},
+    ):
+        assert "WP320" in codes(report(objects, rows, layout_density=wrong)), wrong
+
+
+# --- sizes -----------------------------------------------------------------------------------------------------------
+
+
+def test_the_table_of_categories_is_sound():
+    table = categories.table()
+    assert len(table) >= 150
+    for row in table.values():
+        assert 0 < row.low_m < row.high_m
+        assert row.kind in ("support", "seat", "container", "terrain", "large", "thing")
+        assert row.rests_on in ("ground", "support", "any")
+        assert len(row.source) > 10
+        assert row.seat_share is None or 0 < row.seat_share[0] <= row.seat_share[1] <= 1
+
+
+@pytest.mark.parametrize(
+    ("name", "category"),
+    [("dining_chair_2", "dining chair"), ("chair_leg", None), ("upperBook", "book"), ("books", "book"), ("toy_car", None),
+     ("mug_left", "mug"), ("shelves_3", "shelf"), ("x9", None), ("poolTable", "pool table"), ("car_b", "car")],
+)  # fmt: skip
+def test_an_objects_category_is_its_head(name, category):
+    found = categories.named(name)
+    assert (found.name if found else None) == category
+
+
+def test_heights_against_their_category():
+    rows = [ON_GROUND]
+    assert not report([TABLE], rows).findings
+    (finding,) = report([{**TABLE, "size": [1.2, 0.8, 1.4]}], rows).findings
+    assert (finding.code, finding.severity) == ("WP316", "warning")
+    (finding,) = report([{**TABLE, "size": [1.2, 0.8, 7.5]}], rows).findings
+    assert (finding.code, finding.severity) == ("WP316", "error")
+    assert not report(
+        [{**TABLE, "name": "toy_table", "size": [0.2, 0.1, 0.1]}], [{**ON_GROUND, "subject": "toy_table"}]
+    ).findings
+
+
+@pytest.mark.parametrize(("height", "severity"), [(0.85, None), (1.15, "warning"), (0.72, None)])
+def test_a_seat_is_lower_than_its_table(height, severity):
+    chair = box("dining_chair", 0.45, 0.45, height, fixed=True)
+    rows = [ON_GROUND, ("dining_chair", "PLACE-ON-BASE", None, {"x": 0, "y": 0.7})]
+    found = [f for f in report([TABLE, chair], rows).findings if f.code == "WP317"]
+    assert [f.severity for f in found] == ([severity] if severity and height > 1.5 else [])
+    tall = report([{**TABLE, "size": [1.2, 0.8, 0.4]}, chair], rows)
+    assert any(f.code == "WP317" for f in tall.findings) is (0.42 * height > 0.25)
+
+
+# --- completeness ----------------------------------------------------------------------------------------------------
+
+
+def test_implied_supports_and_what_is_only_spoken_of():
+    plate = box("plate", 0.25, 0.25, 0.03)
+    told = codes(report([plate], [("plate", "PLACE-ON-BASE", None, {"x": 0, "y": 0})]))
+    assert "usually rests on something" in told["WP318"][0]
+    rows = [ON_GROUND, on("plate", "table")]
+    claim = [{"claim": "The plate slides off the table onto the sofa, along the edge of the table."}]
+    (message,) = codes(report([TABLE, plate], rows, objectives=claim))["WP319"]
+    assert "a sofa" in message
+    assert not report([TABLE, plate], rows, objectives=[{"claim": "The plate lies on the bed of the table."}]).findings
+    assert "WP319" in codes(report([TABLE, plate], rows, plan_type="fsi_in_scene"))
+
+
+# --- the image -------------------------------------------------------------------------------------------------------
+
+
+def seen(viewpoint, relations=(), facing=(), visible=()):
+    return {"image_observation": {
+        "viewpoint": viewpoint, "visible": list(visible),
+        "relations": [dict(zip(("subject", "relation", "object"), r, strict=True)) for r in relations],
+        "facing": list(facing)}}  # fmt: skip
+
+
+CUPS = [TABLE, box("cup", 0.08, 0.08, 0.1), box("jug", 0.1, 0.1, 0.2), box("saucer", 0.15, 0.15, 0.02)]
+LAID = [ON_GROUND, on("jug", "table", 0.3, 0.0), on("saucer", "table", -0.3, 0.1), on("cup", "saucer"),
+        ("jug", "FACING-TO", "cup", {})]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("viewpoint", "true", "false"),
+    [
+        ("side_minus_y", [("cup", "left_of", "jug"), ("cup", "behind", "jug")], [("jug", "left_of", "cup")]),
+        ("side_plus_y", [("cup", "right_of", "jug"), ("cup", "in_front_of", "jug")], [("cup", "behind", "jug")]),
+        ("side_plus_x", [("cup", "right_of", "jug"), ("cup", "behind", "jug")], [("cup", "left_of", "jug")]),
+        ("top_down", [("cup", "left_of", "jug"), ("cup", "behind", "jug")], [("jug", "behind", "cup")]),
+        ("perspective", [("cup", "on", "saucer"), ("cup", "above", "saucer"), ("saucer", "on", "table")],
+         [("jug", "on", "saucer"), ("jug", "inside", "table"), ("cup", "beside", "jug"), ("cup", "below", "table")]),
+    ],
+)  # fmt: skip
+def test_relations_as_the_picture_shows_them(viewpoint, true, false):
+    assert "WP321" not in codes(report(CUPS, LAID, topology=seen(viewpoint, true)))
+    told = codes(report(CUPS, LAID, topology=seen(viewpoint, false)))["WP321"]
+    assert len(told) == len(false)
+
+
+def test_headings_and_names_as_the_picture_shows_them():
+    facing = [
+        {"subject": "jug", "direction": "left"},
+        {"subject": "jug", "toward": "cup"},
+        {"subject": "cup", "direction": "right"},
+    ]
+    assert not report(CUPS, LAID, topology=seen("side_minus_y", (), facing)).findings
+    assert "WP321" in codes(report(CUPS, LAID, topology=seen("side_plus_y", (), facing[:1])))
+    assert "WP322" in codes(report(CUPS, LAID, topology=seen("top_down", visible=["spoon"])))
+
+
+def test_the_viewpoint_configures_the_first_camera():
+    def cameras(*rows):
+        steps = [{"description": "look", "cameras": list(rows)}]
+        data = {"plan_type": "scene", "simulation_parameters": {"time_step": 0.01, "simulation_duration": 1},
+                "objectives": [{"claim": "x"}], "implementation_steps": steps, "scene_objects": [TABLE],
+                "topology": seen("side_plus_x", visible=["table"])}  # fmt: skip
+        return [(c.name, c.view) for c in Plan.model_validate(data).cameras()]
+
+    assert cameras() == [("reference_view", "side_plus_x")]
+    assert cameras({"name": "a"}, "top_down") == [("a", "side_plus_x"), ("top_down", "top_down")]
+    assert cameras("side_plus_x", "top_down") == [("side_plus_x", "side_plus_x"), ("top_down", "top_down")]
+    assert cameras("top_down") == [("reference_view", "side_plus_x"), ("top_down", "top_down")]
+
+
+def test_viewpoints_are_the_views_there_are():
+    from typing import get_args
+
+    from worldkit.cameras.views import VIEWS
+
+    assert set(get_args(Viewpoint)) == set(VIEWS)
+
+
+# --- cameras ---------------------------------------------------------------------------------------------------------
+
+
+def test_what_cameras_see():
+    objects = [box("wall", 0.1, 3.0, 2.0, fixed=True), box("crate", 0.5, 0.5, 0.5), box("dot", 0.01, 0.01, 0.01)]
+    rows = [("wall", "PLACE-ON-BASE", None, {"x": 1.0, "y": 0}), ("crate", "PLACE-ON-BASE", None, {"x": 0, "y": 0}),
+            ("dot", "PLACE-ON-BASE", None, {"x": -1.0, "y": 1.0})]  # fmt: skip
+    at = {"target": [0, 0, 0.25], "subjects": ["crate"], "fovy": 45}
+    cameras = [
+        {"name": "clear", "position": [-3, 0, 0.25], **at},
+        {"name": "walled", "position": [4, 0, 0.25], **at},
+        {"name": "away", **at, "position": [-3, 0, 0.25], "target": [-6, 0, 0.25]},
+        {"name": "far", "position": [-9, 0, 0.5], **at, "subjects": ["dot"]},
+    ]
+    found = report(objects, rows, exact=True, implementation_steps=[{"description": "look", "cameras": cameras}])
+    by = {v.camera: v for v in found.views}
+    assert by["clear"].hidden == 0
+    assert by["clear"].in_frame == 1
+    # a face of 0.5 m at 2.75 m: 720 px of 2 * 2.75 tan(22.5 deg) = 2.278 m
+    assert by["clear"].pixels == pytest.approx((0.5 / 2.278 * 720) ** 2, rel=0.01)
+    assert by["walled"].hidden == 1
+    told = {f.code: f for f in found.findings}
+    assert "walled" in told["WP313"].message
+    assert "away" in told["WP312"].message
+    assert told["WP312"].severity == "error"
+    assert "far" in told["WP314"].message
