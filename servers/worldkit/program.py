@@ -2,7 +2,7 @@
 
     simulation.py --pass physics|still|video|view [--out DIR] [--from RECORDING]
                   [--seed N] [--camera NAME]… [--duration S]
-                  [--time-step-factor 0.5] [--without NAME]… [--weaken NAME=FACTOR]…
+                  [--time-step-factor 0.5] [--without NAME]… [--weaken NAME=FACTOR]… [--reuse PASS]…
 
 physics simulates and records into `DIR/trajectory`; still and video draw recorded states (`--from`) and never step the
 physics; view opens a window. Every pass leaves `progress.json` while it runs, then `result.json`, or `error.json` and
@@ -128,6 +128,10 @@ def _parse(argv: Sequence[str], name: str) -> argparse.Namespace:
     changed.add_argument("--time-step-factor", type=float, metavar="F", help="simulate in finer steps, e.g. 0.5")
     changed.add_argument("--without", action="append", default=[], metavar="NAME", help="take it away; repeatable")
     changed.add_argument("--weaken", action="append", default=[], metavar="NAME=FACTOR", help="repeatable")
+    parser.add_argument(
+        "--reuse", action="append", default=[], type=Path, metavar="PASS",
+        help="folder of an earlier physics pass: its recording is taken over if the same motion follows; repeatable",
+    )  # fmt: skip
     options = parser.parse_args(argv)
     options.plain = options.run is None
     if options.run is None:
@@ -161,8 +165,10 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
     from . import overlaps, trajectory, variants, world
     from .describe import describe
     from .files import write_json
+    from .motion_key import motion_key
     from .record import Recorder
     from .reporting import Progress
+    from .reuse import reuse
     from .simulate import prepare, simulate
 
     variant = variants.Variant.parse(options.time_step_factor, options.without, options.weaken)
@@ -170,7 +176,7 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
     duration = settings.duration if options.duration is None else options.duration
     build_rng, control_rng = world.seeded(seed)
     model = world.make(settings.build, build_rng)
-    control = world.controller(settings.control, control_rng)
+    drive, control = settings.control, world.controller(settings.control, control_rng)
     world.check_cast(model, settings.movers, settings.visual_only)
     # At a finer step the recorded instants stay the same, so that expectations measure the same thing.
     every = world.record_every(model, world.steps_of(model, duration)) * variant.steps_per_step
@@ -187,7 +193,20 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
         "record_every": every,
         **({"variant": variant.as_meta()} if variant else {}),
     }
+    decided = {"steps": steps, "record_every": every, "seed": seed, "variant": variant.as_meta()}
+    meta["motion_key"] = motion_key(model, drive, decided, _source(settings))
     as_built = copy.copy(model)  # the program may edit the one that is simulated
+    began = time.perf_counter()
+    kept = reuse(options.reuse, meta["motion_key"], meta, as_built, out / TRAJECTORY, overlap=not variant)
+    if kept is not None:
+        facts = {"duration_s": duration, "time_step": meta["time_step"], "bodies": model.nbody - 1}
+        wall = round(time.perf_counter() - began, 3)
+        write_json(
+            out / "result.json",
+            {"ok": True, "pass": "physics", **kept, **facts, "motion_key": meta["motion_key"], "wall_s": wall},
+        )
+        sys.stdout.write(f"moves as {kept['reused_from']} did, whose recording is taken over: nothing was simulated\n")
+        return
     prepare(model)
     data = world.start(model)
     progress = Progress(out, steps, "steps")
@@ -204,6 +223,7 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
         "duration_s": duration,
         "time_step": meta["time_step"],
         "trajectory_sha256": recorder.sha256(),
+        "motion_key": meta["motion_key"],
         "rows": recorder.rows,
         "record_every": every,
         "warnings": recorder.warnings,
@@ -221,6 +241,15 @@ def _physics(settings: _Settings, options: argparse.Namespace, out: Path) -> Non
     )
     if options.plain:
         sys.stdout.write(f"film it: --pass video --from {out / TRAJECTORY}\n")
+
+
+def _source(settings: _Settings) -> str | None:
+    """The text of the program's file; None when it cannot be read."""
+    code = getattr(settings.build, "__code__", None)
+    try:
+        return Path(code.co_filename).read_text(encoding="utf-8") if code else None
+    except (OSError, ValueError):
+        return None
 
 
 def _pictures(settings: _Settings, options: argparse.Namespace, out: Path) -> None:

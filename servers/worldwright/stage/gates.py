@@ -5,6 +5,7 @@ key. Video: stills did.
 """
 
 import json
+from pathlib import Path
 from typing import Any
 
 from worldkit import lock
@@ -31,6 +32,21 @@ def passed(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> di
         return None
     result = _read(run, key, f"{name}/result.json")
     return result if result.get("ok") else None
+
+
+def earlier(run: Run, key: EvidenceKey, variant: str = "") -> list[Path]:
+    """Physics passes of other programs or plans in this environment, newest first, one for each motion, at most eight."""
+    name = folder_name("physics", variant)
+    found: dict[str, tuple[str, Path]] = {}
+    for folder in run.folder.glob(f"evidence/*/{name}"):
+        other = _json(folder.parent / "key.json")
+        if folder.parent.name == key.key or other.get("environment_sha256") != key.environment_sha256:
+            continue
+        result = _json(folder / "result.json")
+        motion, started = str((result.get("summary") or {}).get("motion_key", "")), str(result.get("started", ""))
+        if motion and result.get("ok") and (folder / "trajectory" / "complete.json").is_file():
+            found[motion] = max(found.get(motion, ("", folder)), (started, folder))
+    return [folder for _, folder in sorted(found.values(), reverse=True)[:8]]
 
 
 def require_environment(run: Run) -> None:
@@ -80,8 +96,12 @@ def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> N
 
 
 def _read(run: Run, key: EvidenceKey, name: str) -> dict[str, Any]:
+    return _json(run.evidence(key) / name)
+
+
+def _json(path: Path) -> dict[str, Any]:
     try:
-        value = json.loads((run.evidence(key) / name).read_text(encoding="utf-8"))
+        value = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return {}
     return value if isinstance(value, dict) else {}

@@ -46,6 +46,8 @@ class Spec(Frozen):
     """Of everything it writes."""
     reads: tuple[str, ...] = ()
     """Files outside its folder that the program may read: what a recorded model is made of."""
+    reuse: tuple[str, ...] = ()
+    """Folders of earlier physics passes whose recording may fit already."""
     token: int = 0
     """Borne by each of its processes as a resource limit."""
     force: bool = False

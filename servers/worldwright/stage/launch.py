@@ -103,6 +103,7 @@ def launch(
             file_mb=file_mb,
             disk_mb=disk_mb,
             reads=reads,
+            reuse=() if force or stage != "physics" else tuple(map(str, gates.earlier(run, key, variant))),
             token=family.new_token(),
             force=force,
             created=time.time(),

@@ -73,7 +73,9 @@ class Supervision:
         """The program's command line for this pass."""
         program = str(self.job.inputs / "simulation.py")
         call = [sys.executable, "-s", program, "--pass", OPTION[self.spec.stage], "--out", str(self.job.out)]
-        return [*call, *(() if self.spec.stage == "physics" else ("--from", str(self.recording))), *self.spec.arguments]
+        earlier = [word for folder in self.spec.reuse for word in ("--reuse", folder)]
+        recording = [] if self.spec.stage == "physics" else ["--from", str(self.recording)]
+        return [*call, *recording, *self.spec.arguments, *earlier]
 
     @property
     def recording(self) -> Path:
@@ -85,7 +87,7 @@ class Supervision:
         self.level = sandbox.level()
         self.state("running")
         scratch = self.job.scratch
-        reads = (self.job.inputs, *map(Path, self.spec.reads))
+        reads = (self.job.inputs, *map(Path, (*self.spec.reads, *self.spec.reuse)))
         reads = reads if self.spec.stage == "physics" else (*reads, self.recording)
         confinement = Confinement(
             out=self.job.out,
@@ -177,6 +179,9 @@ class Supervision:
             **(failure or {"code": "ok"}),
         )
         shutil.rmtree(self.job.scratch, ignore_errors=True)
+        if failure is None and (source := str(result.summary.get("reused_from", ""))):
+            message = f"moves as {source} did, whose recording is taken over: only cameras, lights or looks differ"
+            result = result.model_copy(update={"message": message})
         if failure is None:
             for leftover in ("progress.json", "MUJOCO_LOG.TXT", "result.json"):
                 (out / leftover).unlink(missing_ok=True)

@@ -1,0 +1,146 @@
+"""A repair that changes only what is seen pays for no physics, and anything else does."""
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from worldwright.lint import tools as lint
+from worldwright.model import environment
+from worldwright.model.run import Run, sha256_file
+from worldwright.scan import tools as scan
+from worldwright.stage import tools as stage
+from worldwright.stamp import measured
+from worldwright.stamp import tools as stamp
+
+Copy = Callable[[Path], Path]
+
+
+def physics(folder: Path, **options: object):
+    lint.check_program([folder / "simulation.py"])
+    job = stage.start(str(folder), **options)
+    while not job.ended:
+        job = stage.wait(str(folder), job=job.job, timeout_s=30)
+    assert job.state == "succeeded", job.text()
+    return job
+
+
+def result(run: Run) -> dict:
+    folder = run.evidence(run.evidence_key(environment.current().sha256())) / "physics"
+    return json.loads((folder / "result.json").read_text())
+
+
+def patch(folder: Path, old: str, new: str) -> None:
+    program = folder / "simulation.py"
+    source = program.read_text(encoding="utf-8")
+    assert old in source
+    program.write_text(source.replace(old, new), encoding="utf-8")
+
+
+CAMERA = ('if __name__ == "__main__":', '\n_build = build\n\n\ndef build() -> mujoco.MjSpec:\n    """With one more camera."""\n    spec = _build()\n    cameras.add(spec, "close", view="top_down", subjects=("ball",))\n    return spec\n\n\nif __name__ == "__main__":')  # fmt: skip
+
+
+def test_a_camera_repair_takes_the_recording_over_to_acceptance(planned: Path, copy: Copy) -> None:
+    folder = copy(planned)
+    run = Run(folder)
+    stamp.approve(str(folder), by="tester")
+    physics(folder)
+    first = result(run)
+    assert first["summary"]["steps"] > 0
+    assert "reused_from" not in first["summary"]
+    first_key = run.evidence_key(environment.current().sha256()).key
+
+    patch(folder, *CAMERA)
+    job = physics(folder)
+    second = result(run)
+    assert second["summary"]["reused_from"] == first_key
+    assert second["summary"]["trajectory_sha256"] == first["summary"]["trajectory_sha256"]
+    assert "only cameras, lights or looks differ" in job.text()
+    here = run.evidence(run.evidence_key(environment.current().sha256())) / "physics"
+    assert all(sha256_file(here / name) == sha256 for name, sha256 in second["files"].items())
+    meta = json.loads((here / "trajectory" / "meta.json").read_text())
+    assert "close" in meta["cameras"]
+
+    for name in ("stills", "video"):
+        physics(folder, stage=name)
+    assert (here.parent / "stills" / "close.png").is_file()
+    assert scan.scan(str(folder)).ok
+    assert scan.expect(str(folder)).ok
+    stamp.describe(str(folder), measured.describe(run))
+    stamp.review(str(folder), measured.review(run))
+    accepted = stamp.accept(str(folder), timeout_s=60)  # simulates anew: what was taken over is proved
+    assert accepted.ok
+    assert accepted.trajectory_sha256 == first["summary"]["trajectory_sha256"]
+
+
+@pytest.fixture
+def ran(planned: Path, copy: Copy) -> Path:
+    folder = copy(planned)
+    stamp.approve(str(folder), by="tester")
+    physics(folder)
+    return folder
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        ("pos=(0.0, 0.0, 0.5)", "pos=(0.0, 0.0, 0.4)"),
+        ("    return spec", "    spec.option.impratio = 3.0\n    return spec"),
+        ("    return spec", "    spec.option.iterations = 7\n    return spec"),
+    ],
+)
+def test_a_change_of_the_physics_is_simulated(ran: Path, change: tuple[str, str]) -> None:
+    before = result(Run(ran))["summary"]
+    patch(ran, *change)
+    physics(ran)
+    now = result(Run(ran))["summary"]
+    assert "reused_from" not in now
+    assert now["motion_key"] != before["motion_key"]
+
+
+def test_a_look_costs_nothing_and_force_simulates(ran: Path) -> None:
+    patch(ran, "    return spec", '    spec.geom("ball").rgba = (0.0, 0.3, 1.0, 1.0)\n    return spec')
+    physics(ran)
+    assert result(Run(ran))["summary"]["reused_from"]
+    forced = physics(ran, force=True)
+    assert "the same result as before" in forced.text()
+
+
+def test_a_variant_is_taken_over_too(ran: Path) -> None:
+    from worldwright.stage.variants import folder
+    from worldwright.stage.variants import run as vary
+
+    run = Run(ran)
+    for expected in (None, "reused_from"):
+        job = vary(run, "half", ("--time-step-factor", "0.5"))
+        while not job.ended:
+            job = stage.wait(str(ran), job=job.job, timeout_s=30)
+        assert job.state == "succeeded", job.text()
+        summary = json.loads((folder(run, "half") / "result.json").read_text())["summary"]
+        assert ("reused_from" in summary) == bool(expected)
+        patch(ran, "    return spec", "    spec.visual.map.zfar = 60.0\n    return spec")
+        physics(ran)
+
+
+def test_a_recording_with_an_edited_byte_is_not_taken_over(ran: Path) -> None:
+    run = Run(ran)
+    here = run.evidence(run.evidence_key(environment.current().sha256())) / "physics" / "trajectory"
+    rows = bytearray((here / "state.arrows").read_bytes())
+    rows[len(rows) // 2] ^= 1
+    (here / "state.arrows").write_bytes(bytes(rows))
+    patch(ran, "    return spec", "    spec.visual.map.zfar = 60.0\n    return spec")
+    physics(ran)
+    assert "reused_from" not in result(run)["summary"]
+
+
+def test_another_environment_is_never_answered_from(ran: Path) -> None:
+    run = Run(ran)
+    here = run.evidence(run.evidence_key(environment.current().sha256()))
+    key = json.loads((here / "key.json").read_text())
+    (here / "key.json").write_text(json.dumps({**key, "environment_sha256": "0" * 64}))
+    patch(ran, "    return spec", "    spec.visual.map.zfar = 60.0\n    return spec")
+    physics(ran)
+    assert "reused_from" not in result(run)["summary"]
+    shutil.rmtree(run.jobs)
