@@ -3,6 +3,7 @@
 import hashlib
 from typing import TYPE_CHECKING, Any
 
+from . import linkage
 from .overlaps import visible
 
 if TYPE_CHECKING:
@@ -36,6 +37,8 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
     """
     import mujoco
 
+    home = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, home)  # anchors are read off the reference pose
     bodies = names(model, "body", model.nbody)
     pulled = pulled_bodies(model)
     joint_types = [mujoco.mjtJoint(t).name.removeprefix("mjJNT_").lower() for t in model.jnt_type]
@@ -75,6 +78,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
                 "stiffness": float(model.jnt_stiffness[j]),
                 "damping": float(model.dof_damping[model.jnt_dofadr[j]]),
                 "frictionloss": float(model.dof_frictionloss[model.jnt_dofadr[j]]),
+                **linkage.joint(model, j, bodies),
             }
             for j, name in enumerate(names(model, "joint", model.njnt))
         ],
@@ -83,7 +87,12 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             for g, name in enumerate(names(model, "geom", model.ngeom))
         ],
         "tendons": [
-            {"name": name, "bodies": pulled["tendon"][t], "limited": bool(model.tendon_limited[t])}
+            {
+                "name": name,
+                "bodies": pulled["tendon"][t],
+                "limited": bool(model.tendon_limited[t]),
+                **linkage.rope(model, t, bodies),
+            }
             for t, name in enumerate(names(model, "tendon", model.ntendon))
         ],
         "actuators": [
@@ -108,6 +117,7 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
                 "type": mujoco.mjtEq(model.eq_type[e]).name.removeprefix("mjEQ_").lower(),
                 "bodies": tied_bodies(model, e, bodies),
                 "active": bool(model.eq_active0[e]),
+                **linkage.tie(model, home, e, bodies),
             }
             for e, name in enumerate(names(model, "equality", model.neq))
         ],
@@ -152,6 +162,7 @@ def _geom(model: "mujoco.MjModel", g: int, name: str, bodies: list[str]) -> dict
         "conaffinity": int(model.geom_conaffinity[g]),
         "group": int(model.geom_group[g]),
         "friction": model.geom_friction[g].tolist(),
+        "condim": int(model.geom_condim[g]),
         "surfacevel": bool(model.geom_surfacevel[g].any()),
         "adhesion": bool(model.geom_adhesion[g].any()),
     }

@@ -40,6 +40,32 @@ class Tie:
     """(2, 3) the point in each body's own frame, m."""
 
 
+@dataclass(frozen=True)
+class Rope:
+    """A tendon that may not be longer than its limit."""
+
+    name: str
+    bodies: tuple[int, ...]
+    """(N,) indices along its way; -1 is the world."""
+    points: Array
+    """(N, 3) in each body's own frame, m."""
+    longest_m: float
+
+
+def ropes(rows: Sequence[Mapping[str, Any]], index: Any) -> tuple[Rope, ...]:
+    """From the rows of `describe`; those without a limit or a way are left out."""
+    return tuple(
+        Rope(
+            str(row.get("name", "")),
+            tuple(index(body) for body, _ in row["way"]),
+            np.array([point for _, point in row["way"]], dtype=float),
+            float(row["range"][1]),
+        )
+        for row in rows
+        if row.get("range") is not None and len(row.get("way") or ()) > 1
+    )
+
+
 def joints(rows: Sequence[Mapping[str, Any]], index: Any) -> tuple[Joint, ...]:
     """From the rows of `describe`; those without limits or details are left out."""
     found = []

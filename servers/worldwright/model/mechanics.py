@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from . import linkage
-from .linkage import Joint, Tie
+from .linkage import Joint, Rope, Tie
 
 Array = np.ndarray
 INFINITE_M = 1e6
@@ -64,6 +64,8 @@ class Mechanics:
     """(G,) sliding friction; 0 where contacts are frictionless (condim 1)."""
     joints: tuple[Joint, ...] = ()
     """Hinges and slides with limits."""
+    ropes: tuple[Rope, ...] = ()
+    """Tendons with limits."""
     ties: tuple[Tie, ...] = ()
     """Welds and connects that hold at the start."""
     ground_z: float | None = None
@@ -114,6 +116,7 @@ class Mechanics:
             geom_half_extents=geoms.half,
             **geoms.shapes(),
             joints=linkage.joints(_rows(meta.get("joints")), lambda value: _index(value, names, rows)),
+            ropes=linkage.ropes(_rows(meta.get("tendons")), lambda value: _index(value, names, rows)),
             ties=linkage.ties(_rows(meta.get("equalities")), lambda value: _index(value, names, rows)),
             ground_z=geoms.ground_z(),
             gravity=_vector(meta, "gravity", option),
@@ -125,134 +128,13 @@ class Mechanics:
         """From the MJCF file that describes the bodies called `names`; raises ValueError when it does not load."""
         import mujoco
 
+        from worldkit.describe import describe
+
         return cls.from_meta(describe(mujoco.MjModel.from_xml_path(str(path))), names)
 
     def half_thickness(self) -> Array | None:
         """(B,) half the smallest extent of each body, m; nan without geoms."""
         return None if self.half_extents is None else self.half_extents.min(axis=1)
-
-
-def describe(model: Any) -> dict[str, Any]:
-    """The facts of an `MjModel` in the layout of a recording's `meta.json`."""
-    import mujoco
-
-    def name(kind: Any, index: int) -> str:
-        return mujoco.mj_id2name(model, kind, index) or f"{kind.name[6:].lower()}_{index}"
-
-    obj = mujoco.mjtObj
-    body_names = [name(obj.mjOBJ_BODY, i) for i in range(model.nbody)]
-    joint_types = [mujoco.mjtJoint(t).name[6:].lower() for t in model.jnt_type]
-    bodies = []
-    for i in range(1, model.nbody):
-        first, count = model.body_jntadr[i], model.body_jntnum[i]
-        dofs = slice(model.body_dofadr[i], model.body_dofadr[i] + model.body_dofnum[i])
-        bodies.append(
-            {
-                "name": body_names[i],
-                "parent": body_names[model.body_parentid[i]],
-                "mass": float(model.body_mass[i]),
-                "ipos": model.body_ipos[i].tolist(),
-                "iquat": model.body_iquat[i].tolist(),
-                "inertia": model.body_inertia[i].tolist(),
-                "joints": joint_types[first : first + count] if count else [],
-                "damping": float(np.abs(model.dof_damping[dofs]).max(initial=0.0)) if count else 0.0,
-                "dynamic": bool(model.body_dofnum[model.body_weldid[i]] > 0),
-                "mocap": bool(model.body_mocapid[i] >= 0),
-                "gravcomp": float(model.body_gravcomp[i]),
-            }
-        )
-    geoms = [
-        {
-            "name": name(obj.mjOBJ_GEOM, g),
-            "body": body_names[model.geom_bodyid[g]],
-            "type": mujoco.mjtGeom(model.geom_type[g]).name[7:].lower(),
-            "aabb": model.geom_aabb[g].ravel().tolist(),
-            "pos": model.geom_pos[g].tolist(),
-            "quat": model.geom_quat[g].tolist(),
-            "contype": int(model.geom_contype[g]),
-            "conaffinity": int(model.geom_conaffinity[g]),
-            "friction": model.geom_friction[g].tolist(),
-            "condim": int(model.geom_condim[g]),
-            "surfacevel": bool(np.any(model.geom_surfacevel[g])),
-            "adhesion": bool(np.any(model.geom_adhesion[g])),
-        }
-        for g in range(model.ngeom)
-    ]
-    # What a tendon or an actuator pulls on is read off its Jacobian, whatever its transmission.
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    owner = [body_names[b] for b in model.dof_bodyid]
-    tendons = [{"bodies": _pulled(data, "ten", t, owner, model.nv)} for t in range(model.ntendon)]
-    actuators = [
-        {"name": name(obj.mjOBJ_ACTUATOR, a), "bodies": _pulled(data, "actuator", a, owner, model.nv)}
-        for a in range(model.nu)
-    ]
-    option = model.opt
-    return {
-        "bodies": bodies,
-        "geoms": geoms,
-        "joints": [_joint(model, j, name(obj.mjOBJ_JOINT, j), body_names) for j in range(model.njnt)],
-        "equalities": [_tie(model, data, e, name(obj.mjOBJ_EQUALITY, e), body_names) for e in range(model.neq)],
-        "tendons": tendons,
-        "actuators": actuators,
-        "gravity": option.gravity.tolist(),
-        "time_step": float(option.timestep),
-        "option": {"density": option.density, "viscosity": option.viscosity, "wind": option.wind.tolist()},
-        "has_flex": bool(model.nflex),
-        "has_plugin": bool(model.nplugin),
-    }
-
-
-def _joint(model: Any, j: int, called: str, body_names: Sequence[str]) -> dict[str, Any]:
-    """A joint; its range only when it is limited and the only one of its body, so that a pose tells its angle."""
-    import mujoco
-
-    body = int(model.jnt_bodyid[j])
-    kind = mujoco.mjtJoint(model.jnt_type[j]).name[6:].lower()
-    row: dict[str, Any] = {"name": called, "type": kind, "body": body_names[body]}
-    if model.jnt_limited[j] and kind in ("hinge", "slide") and model.body_jntnum[body] == 1:
-        row |= {
-            "range": (model.jnt_range[j] - model.qpos0[model.jnt_qposadr[j]]).tolist(),
-            "axis": model.jnt_axis[j].tolist(),
-            "pos0": model.body_pos[body].tolist(),
-            "quat0": model.body_quat[body].tolist(),
-        }
-    return row
-
-
-def _tie(model: Any, data: Any, e: int, called: str, body_names: Sequence[str]) -> dict[str, Any]:
-    """An equality; with anchors when it holds two points of two bodies together."""
-    import mujoco
-
-    kind = mujoco.mjtEq(model.eq_type[e])
-    row: dict[str, Any] = {"name": called, "type": kind.name[5:].lower(), "active": bool(model.eq_active0[e])}
-    if kind not in (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD):
-        return {**row, "bodies": []}
-    ids = (int(model.eq_obj1id[e]), int(model.eq_obj2id[e]))
-    if mujoco.mjtObj(model.eq_objtype[e]) == mujoco.mjtObj.mjOBJ_SITE:
-        ends = [int(model.site_bodyid[i]) for i in ids]
-        anchors = [model.site_pos[i].tolist() for i in ids]
-    else:
-        # mjEQ_CONNECT stores the anchor in both bodies' frames; mjEQ_WELD in the second's, then the relative pose.
-        ends = list(ids)
-        second = np.array(model.eq_data[e, :3] if kind == mujoco.mjtEq.mjEQ_WELD else model.eq_data[e, 3:6])
-        point = data.xpos[ids[1]] + data.xmat[ids[1]].reshape(3, 3) @ second
-        anchors = [(data.xmat[ids[0]].reshape(3, 3).T @ (point - data.xpos[ids[0]])).tolist(), second.tolist()]
-    return {**row, "ends": [body_names[i] for i in ends], "bodies": [body_names[i] for i in ends], "anchors": anchors}
-
-
-def _pulled(data: Any, kind: str, row: int, owner: Sequence[str], nv: int) -> list[str]:
-    """Bodies whose degrees of freedom a tendon or an actuator acts on; all of them when that cannot be read."""
-    if kind == "actuator":
-        start, count = int(data.moment_rowadr[row]), int(data.moment_rownnz[row])
-        columns = data.moment_colind[start : start + count]
-    else:
-        try:
-            start, count = int(data.model.ten_J_rowadr[row]), int(data.model.ten_J_rownnz[row])
-            columns = data.model.ten_J_colind[start : start + count]
-        except AttributeError:
-            columns = range(nv)
-    return sorted({owner[int(c)] for c in columns})
 
 
 class _Geoms:

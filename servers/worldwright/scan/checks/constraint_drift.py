@@ -3,9 +3,9 @@
 What it means: the constraint is too soft for its load, the step is too long, or two constraints contradict each other.
 A connection that breaks is another thing: the gap is small until it breaks, and then the bodies part for good.
 
-Formula: the distance of the two anchor points, less what it was at the start. Judged up to a break: the last row at which
-the gap was small and after which it only grows, past the size of the smaller body.
-Threshold: 5 % of the smaller body's bounding radius warns, 20 % blocks, for at least 0.05 s.
+Formula: the distance of the two anchor points, less what it was at the start. Judged up to a break: the row at
+which the recording switches it off or, where it does not say, the last row at which the gap was small and after which it only grows, past the size of the smaller body.
+Threshold: 5 % of the smaller body's bounding radius warns, 10 % blocks, for at least 0.05 s.
 Source: the manual on equality constraints; Baumgarte, Stabilization of constraints (1972).
 """
 
@@ -22,7 +22,7 @@ from ..sign import Case, Context, Sign, sliding_sum
 
 CODE = "WS122"
 NEEDS = ("mechanics.ties",)
-WARN, BLOCK, HELD_S = 0.05, 0.2, 0.05
+WARN, BLOCK, HELD_S = 0.05, 0.1, 0.05
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -31,7 +31,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     for tie in trajectory.mechanics.ties:
         gap = distance(trajectory, tie)
         size = min(float(trajectory.size_m[b]) for b in tie.bodies if b >= 0) if max(tie.bodies) >= 0 else 1.0
-        held = _until_break(gap, size)
+        off = _switched_off(trajectory, tie)
+        held = _until_break(gap, size) if off is None else gap[:off]
         if len(held) < rows or not len(held):
             continue
         level = float((sliding_sum(held, rows) / rows).max())
@@ -55,6 +56,16 @@ def distance(trajectory: Trajectory, tie: Tie) -> np.ndarray:
             points.append(trajectory.pos[:, body] + rotation(trajectory.quat[:, body]) @ anchor)
     apart = np.sqrt(((points[0] - points[1]) ** 2).sum(axis=1))
     return np.abs(apart - apart[0])
+
+
+def _switched_off(trajectory: Trajectory, tie: Tie) -> int | None:
+    """The first row at which the recording says that the tie does not hold; None when it does not say."""
+    called = [str(row.get("name", "")) for row in trajectory.meta.get("equalities") or ()]
+    if trajectory.loads is None or tie.name not in called:
+        return None
+    active = np.asarray(trajectory.loads.eq_active)[:, called.index(tie.name)].astype(bool)
+    # The row before the switch already shows the step that strained it to breaking.
+    return len(active) if active.all() else max(0, int(np.argmin(active)) - 1)
 
 
 def _until_break(gap: np.ndarray, size: float) -> np.ndarray:

@@ -63,7 +63,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             # Among others that move as fast, a body may be shaken by them: not its own contact need be at fault.
             shaken = float(np.mean((others > 0.5 * last).sum(axis=1))) >= 1.0
             driven = context.acts_on(name, ("force", "torque", "control", "mocap"))
-            severity = "info" if driven else "blocking" if last > 0.2 * scale and not shaken else "warn"
+            sized = trajectory.mechanics.half_extents is not None  # otherwise both thresholds rest on a guess
+            certain = sized and last > 0.2 * scale and not shaken
+            severity = "info" if driven else "blocking" if certain else "warn"
             message = f"{name} jitters on its contact at {last:.3g} m/s for {seconds:.2g} s without calming down"
             yield Sign(name, (trajectory.t[start], trajectory.t[stop]), last, 0.02 * scale, "m/s", severity, message)
             break

@@ -6,7 +6,7 @@ and an obstacle shows as a contact.
 Formula: one row's speed falls from v to less than 0.01 v, with v > 0.3 sqrt(g r). Nothing stopped it when no contact
 began and no contact force of the body exceeds four times what it was before, in the rows around; beside gravity, a
 sliding contact can take at most 2 g dt of speed in a row. A body that joints or ties could stop is not judged alone, but
-that all moving bodies stop in the same row is.
+that all moving bodies stop in the same row is. Where no model tells whether it has joints, it is a warning.
 Threshold: friction of coefficient 2.
 Source: Newton's second law.
 """
@@ -44,10 +44,11 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             alone = free is not None and bool(free[b])
             moving = trajectory.moves_freely & (trajectory.speed[n] > 0.3 * trajectory.speed_scale)
             crowd = int(stopped[n].sum()) >= max(2, int(moving.sum()))
-            if not (alone or crowd) or _was_hit(trajectory, int(b), int(n)):
+            unknown = free is None and trajectory.touching is not None
+            if not (alone or crowd or unknown) or _was_hit(trajectory, int(b), int(n)):
                 continue
             name = trajectory.names[b]
-            severity = "info" if context.acts_on(name, flight.PUSHES) else "blocking"
+            severity = "info" if context.acts_on(name, flight.PUSHES) else "blocking" if alone or crowd else "warn"
             message = f"{name} stops dead from {speed[n, column]:.3g} m/s, and nothing touches it that did not before"
             yield Sign(
                 name,

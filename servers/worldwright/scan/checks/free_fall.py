@@ -6,7 +6,7 @@ wrong. All loose bodies of a world fall alike.
 Formula: over each stretch of flight of at least eight rows and 0.08 s, a is the mean of dv/dt. It counts as a fall when it is even
 (each row within a tenth of g of it) and points along gravity (less than a tenth across): f = a·g / g². Judged where f > 0,
 or f within 0.05 of -1 (reversed); other upward accelerations are a thruster's, which flight_force names. Without a
-model: two even falls of one body that differ.
+model: two even falls of one body that differ; one that is not the earth's is a warning.
 Threshold: |f - 1| > 0.05.
 Source: Galileo's law of falling bodies.
 """
@@ -39,6 +39,14 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         expected = 1.0 if known else falls[0][2]
         wrong = [fall for fall in falls if abs(fall[2] - expected) > TOLERANCE * max(1.0, abs(expected))]
         if not wrong:
+            if not known and abs(expected - 1) > TOLERANCE:
+                start, stop, share = falls[0]
+                message = (
+                    f"{trajectory.names[b]} falls with {share * g:.3g} m/s^2, not the {g:.3g} m/s^2 of the earth; "
+                    "whether its world has another gravity, only a model beside the recording could tell"
+                )
+                window = (trajectory.t[start], trajectory.t[stop])
+                yield Sign(trajectory.names[b], window, share * g, g * TOLERANCE, "m/s^2", "warn", message)
             continue
         start, stop, share = max(wrong, key=lambda fall: abs(fall[2] - expected))
         name = trajectory.names[b]
@@ -110,4 +118,12 @@ GOOD = (
     lambda: Case("a pendulum", analytic.swinging()),
     lambda: Case("a collision without gravity", analytic.collision()),
 )
-BAD = (lambda: _slow(0.5), lambda: _slow(-1.0), lambda: _slow(1.6), _changed)
+
+
+def _bare(share: float) -> Case:
+    made = _slow(share).trajectory
+    bare = replace(made, mechanics=replace(made.mechanics, unforced=None, gravity=None))
+    return Case(f"a fall with {share:g} of gravity, model not known", bare, severity="warn")
+
+
+BAD = (lambda: _bare(0.5), lambda: _slow(0.5), lambda: _slow(-1.0), lambda: _slow(1.6), _changed)
