@@ -18,7 +18,7 @@ def wandering(seed: int, rows: int, bodies: int) -> Trajectory:
     pos = np.cumsum(vel, axis=0) * 0.01
     pos[rows // 3 :, 0] += rng.normal(0, 2, 3)
     pos[rows // 2 : rows // 2 + 3] = pos[rows // 2]
-    quat = np.cumsum(rng.normal(0, 0.2, (rows, bodies, 4)), axis=0) + (3, 0, 0, 0)
+    quat = np.cumsum(rng.normal(0, 0.2, (rows, bodies, 4)), axis=0) + np.array((3.0, 0, 0, 0))
     quat /= np.sqrt((quat**2).sum(axis=2, keepdims=True))
     force = rng.uniform(-1, 1, (rows, bodies)).clip(0)
     names = [f"b{k}" for k in range(bodies)]
