@@ -14,7 +14,7 @@ from worldwright.model.plan_text import parse_plan
 from worldwright.place.engine import resolve
 from worldwright.place.vocabulary import PREDICATES
 
-REPO = Path(__file__).parents[1]
+REPO = Path(__file__).parents[2]
 SKILLS = sorted((REPO / "skills").glob("*/SKILL.md"))
 PLANNING = [p for p in SKILLS if p.parent.name in ("plan-format", "coordinates")]
 by_name = pytest.mark.parametrize("path", SKILLS, ids=lambda p: p.parent.name)
