@@ -1,7 +1,8 @@
 """lint: may this plan be committed; may this program run?
 
-Rules live on two shelves, `rules/program` (WL…) and `rules/plan` (WP…): one small module each, documented by its
-docstring and proven by its own GOOD and BAD cases. A linted program is read, never executed.
+Rules live on three shelves, `rules/program` (WL…), `rules/model` (WM…) and `rules/plan` (WP…): one small module each,
+documented by its docstring, proven by its own GOOD and BAD cases, and by EVIDENCE that the harm is real. A program is
+read here, never executed: its world is compiled in the sandbox of stage, and comes back as numbers (`compiled`).
 """
 
 from ..model.evidence import LintReport

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 from pathlib import Path
 from types import FunctionType
+from typing import TYPE_CHECKING
 
 from ..model.finding import Finding
 from ..model.plan import Plan
@@ -12,6 +13,10 @@ from . import source as sources
 from . import suppression
 from .problem import Problem
 from .program import Program
+from .proof import KINDS
+
+if TYPE_CHECKING:
+    from .compiled.fetch import Outcome
 
 PER_RULE = 20
 """Hits of one rule shown per file: the rest would say the same."""
@@ -19,20 +24,43 @@ PER_RULE = 20
 SCOPES = ("file", "any", "contract", "plan")
 """What a program rule needs: any file, a parsed program or model, a program of ours, or a plan to compare with."""
 
-PROGRAM_RULES = Shelf(
-    "worldwright.lint.rules.program",
-    requires={"SEVERITY": str, "SCOPE": str, "GOOD": tuple, "BAD": tuple, "check": FunctionType},
-)
-PLAN_RULES = Shelf(
-    "worldwright.lint.rules.plan",
-    requires={"SEVERITY": str, "GOOD": tuple, "BAD": tuple, "check": FunctionType},
-)
+_COMMON: dict[str, type | tuple[type, ...]] = {
+    "SEVERITY": str,
+    "GOOD": tuple,
+    "BAD": tuple,
+    "EVIDENCE": KINDS,
+    "check": FunctionType,
+}
+PROGRAM_RULES = Shelf("worldwright.lint.rules.program", requires={**_COMMON, "SCOPE": str})
+MODEL_RULES = Shelf("worldwright.lint.rules.model", requires={**_COMMON, "SCOPE": str})
+PLAN_RULES = Shelf("worldwright.lint.rules.plan", requires=_COMMON)
 
 
 @cache
 def program_rules() -> tuple[Entry, ...]:
     """Every program rule, by code."""
     return tuple(PROGRAM_RULES.values())
+
+
+@cache
+def model_rules() -> tuple[Entry, ...]:
+    """Every rule about compiled worlds, by code."""
+    return tuple(MODEL_RULES.values())
+
+
+def find(code: str) -> Entry:
+    """A rule of any shelf by code or name; a `NotFoundError` lists the nearest."""
+    for shelf in (PROGRAM_RULES, MODEL_RULES, PLAN_RULES):
+        for key in (code.upper(), code.lower()):
+            if key in shelf:
+                return shelf[key]
+    prefix = code.upper()[:2]
+    return {"WP": PLAN_RULES, "WM": MODEL_RULES}.get(prefix, PROGRAM_RULES).find(code)
+
+
+def all_rules() -> tuple[Entry, ...]:
+    """Every rule there is: about programs, compiled worlds, plans."""
+    return (*program_rules(), *model_rules(), *plan_rules())
 
 
 @cache
@@ -50,6 +78,10 @@ def check_source(source: sources.Source, plan: Plan | None = None, contract: boo
         if applies(rule, program):
             found += findings(rule, rule.check(program), source.path, answered)
     return in_order(found)
+
+
+ALWAYS = ("WM101", "WM102")
+"""Model rules that speak of worlds which could not be built, too."""
 
 
 def applies(rule: Entry, program: Program) -> bool:
@@ -118,6 +150,49 @@ def check_plan_rules(plan: Plan, file: str, line_of=None) -> list[Finding]:
     return in_order(found)
 
 
-def check_program_file(path: Path, plan: Plan | None, contract: bool | None = None) -> list[Finding]:
-    """Findings on one file."""
-    return check_source(sources.read(path), plan, contract)
+def check_world(program: Program, outcome: "Outcome") -> list[Finding]:
+    """Findings of every model rule on the world that a program makes."""
+    from .compiled.view import ModelView
+
+    view = ModelView(outcome, program, program.plan)
+    answered = suppression.read(program.source.text) if program.source.tree is not None else ()
+    found: list[Finding] = []
+    for rule in model_rules():
+        needs_world = rule.CODE not in ALWAYS and outcome.status != "compiled"
+        if needs_world or (rule.SCOPE == "plan" and program.plan is None):
+            continue
+        found += findings(rule, rule.check(view), program.path, answered)
+    return in_order(found)
+
+
+NAMES = ("WL100", "WL101", "WL102", "WL103", "WL104", "WL105", "WL106")
+"""Rules about names: a program that fails them is not worth building."""
+
+
+def check_program_file(
+    path: Path, plan: Plan | None, contract: bool | None = None, model: bool | None = None
+) -> tuple[list[Finding], str]:
+    """Findings on one file, and in a few words how building its world went (empty: it was not wanted).
+
+    Args:
+        path: program or MJCF file.
+        plan: to compare with.
+        contract: it is a program of ours (None: to be seen from its imports).
+        model: build its world in the sandbox (None: for programs of ours and model files).
+    """
+    source = sources.read(path)
+    found = check_source(source, plan, contract)
+    program = Program(source, plan, contract)
+    if source.problem is not None or (model is None and not (source.is_mjcf or program.contract)) or model is False:
+        return found, ""
+    if model is None and any(f.code in NAMES for f in found):  # an author's ignore does not make a name exist
+        return found, f"{path.name}: the world is not built until its names are right"
+    from .compiled import fetch
+
+    outcome = fetch.world(path, is_mjcf=source.is_mjcf)
+    if outcome.status == "refused":
+        return found, f"{path.name}: the world is not built: no sandbox confines here (worldwright doctor says why)"
+    if outcome.status == "nothing":
+        return found, f"{path.name}: the program makes no world"
+    said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
+    return in_order([*found, *check_world(program, outcome)]), said

@@ -17,6 +17,8 @@ class ShownReport(LintReport):
     """How many files were looked at."""
     kept: str = ""
     """Where the report was stored as evidence, when the program belongs to a run."""
+    worlds: tuple[str, ...] = ()
+    """How compiling went, per file whose world was wanted."""
 
     def text(self) -> str:
         """The findings with excerpts, then one line of summary."""
@@ -27,6 +29,7 @@ class ShownReport(LintReport):
         files = f"{self.files} file{'s' * (self.files != 1)}"
         verdict = f"{errors} error{'s' * (errors != 1)}, {warnings} warning{'s' * (warnings != 1)}"
         clean = "clean" if not self.findings else verdict
+        parts += self.worlds
         parts.append(f"{files}, {self.rules} rules: {clean}" + (f" (kept as {self.kept})" if self.kept else ""))
         return "\n".join(parts)
 

@@ -31,18 +31,23 @@ def check_plan(plan: Annotated[Path, Field(description="Path of a plan.md")]) ->
 def check_program(
     files: Annotated[list[Path], Field(description="Programs (.py) or bare MJCF models (.xml)")],
     plan: Annotated[Path | None, Field(description="Plan to compare with; default: plan.md beside the program")] = None,
+    model: Annotated[
+        bool | None,
+        Field(description="Build the world in the sandbox and inspect it; default: for programs of ours and MJCF"),
+    ] = None,
 ) -> ShownReport:
-    """May these programs run? Reads them, never executes them.
+    """May these programs run? Reads them; what they build is compiled in the sandbox and inspected there.
 
     Every name, keyword and MJCF element is resolved against the installed MuJoCo, with the nearest name and the
-    changelog's migration; the program is compared with its plan; staging (written poses, hidden forces, disabled
-    physics) and unrepeatable inputs are named. For a run's own simulation.py the report is kept as evidence, which the
-    physics pass needs. Answer for a finding with `# worldwright: ignore[WL123] reason`.
+    changelog's migration; program and compiled world are compared with the plan; staging, silent mistakes and worlds
+    the engine cannot carry are named. For a run's own simulation.py the report is kept as evidence, which the physics
+    pass needs. Answer for a finding with `# worldwright: ignore[WL123] reason`.
     """
     from . import engine
 
     found: list[Finding] = []
-    kept = ""
+    kept, worlds = "", []
+    rules = len(engine.program_rules()) + len(engine.model_rules())
     for file in files:
         if not file.exists():
             raise NotFoundError("there is no such program", place=str(file), next_move="name an existing file")
@@ -57,11 +62,13 @@ def check_program(
             if committed is not None:
                 faults = engine.check_plan_rules(committed, str(chosen), line_of)
                 here += [fault for fault in faults if fault.severity == "error"]
-        here += engine.check_program_file(file, committed, contract=True if chosen else None)
+        looked, world = engine.check_program_file(file, committed, True if chosen else None, model)
+        here += looked
+        worlds += [world] if world else []
         if key is not None and key == _key(file.parent):  # else it was edited meanwhile: these findings are of neither
-            kept = _keep(file.parent, key, here, len(engine.program_rules()))
+            kept = _keep(file.parent, key, here, rules)
         found += here
-    return ShownReport(findings=capped(found), rules=len(engine.program_rules()), files=len(files), kept=kept)
+    return ShownReport(findings=capped(found), rules=rules, files=len(files), kept=kept, worlds=tuple(worlds))
 
 
 @reads
@@ -69,11 +76,7 @@ def explain(code: Annotated[str, Field(description="Code or name of a rule, e.g.
     """What a lint rule does, why it matters, what to write instead, and its bad and good cases."""
     from . import engine
 
-    shelf = engine.PLAN_RULES if code.upper().startswith("WP") else engine.PROGRAM_RULES
-    key = code.upper() if code.upper().startswith("W") else code
-    if key not in shelf and code in [rule.name for rule in engine.plan_rules()]:
-        shelf, key = engine.PLAN_RULES, code
-    rule = shelf.find(key)
+    rule = engine.find(code)
     return RuleDoc(
         code=rule.code,
         name=rule.name,
@@ -93,7 +96,7 @@ def list_rules() -> RuleList:
     return RuleList(
         rules=tuple(
             RuleSummary(code=rule.code, name=rule.name, severity=rule.SEVERITY, summary=rule.summary)
-            for rule in (*engine.program_rules(), *engine.plan_rules())
+            for rule in engine.all_rules()
         )
     )
 

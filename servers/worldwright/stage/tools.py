@@ -1,8 +1,9 @@
 """The tools of `stage`: start a pass, follow it, look at what it shows."""
 
 import time
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -14,6 +15,9 @@ from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
 from ..model.run import Run
 from .job import Job, JobStatus
+
+if TYPE_CHECKING:
+    from .confined import Confined
 
 RunName = Annotated[str, Field(description="Path of the run folder, or its name under runs/ or examples/.")]
 JobName = Annotated[str | None, Field(description="Job id; the latest job when left out.")]
@@ -224,6 +228,20 @@ def variant_folder(run: Run, variant: str) -> Path | None:
     from . import variants
 
     return variants.folder(run, variant)
+
+
+def run_confined(call: Sequence[str], **limits: Any) -> "Confined":
+    """For other servers (no tool): a short confined run that leaves nothing behind; see `stage.confined.run`."""
+    from . import confined
+
+    return confined.run(call, **limits)
+
+
+def model_files(model: Path) -> list[Path]:
+    """For other servers (no tool): a model file and every file it names; see `stage.models.made_of`."""
+    from .models import made_of
+
+    return made_of(model)
 
 
 TOOLS = (draft, start, wait, status, cancel, frames, log)

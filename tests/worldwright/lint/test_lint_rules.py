@@ -6,8 +6,10 @@ import pytest
 
 from worldwright.lint import engine, source
 from worldwright.lint.case import SOUND_PLAN, Case, plan_with
+from worldwright.lint.compiled.view import ModelView
 from worldwright.lint.plan_view import PlanView
 from worldwright.lint.program import Program
+from worldwright.lint.proof import outcome_of
 
 HEADINGS = ("What it does:", "Why is this bad:", "Use instead:")
 
@@ -22,6 +24,35 @@ def plan_cases(kind):
     for rule in engine.plan_rules():
         for index, change in enumerate(getattr(rule, kind)):
             yield pytest.param(rule, change, id=f"{rule.code}-{index}")
+
+
+def world_cases(kind):
+    for rule in engine.model_rules():
+        for index, case in enumerate(getattr(rule, kind)):
+            text, change = case if isinstance(case, tuple) else (case, {})
+            yield pytest.param(rule, text, change, id=f"{rule.code}-{index}")
+
+
+def world_problems(rule, text, change):
+    """What a rule says of a case's world, compiled here: cases are part of the project."""
+    plan = plan_with(change) if rule.SCOPE == "plan" else None
+    path = "model.xml" if text.lstrip().startswith("<") else "simulation.py"
+    return list(rule.check(ModelView(outcome_of(text), Program(source.parse(text, path), plan), plan)))
+
+
+@pytest.mark.parametrize(("rule", "text", "change"), [*world_cases("GOOD")])
+def test_good_worlds_are_clean(rule, text, change):
+    assert world_problems(rule, text, change) == []
+
+
+@pytest.mark.parametrize(("rule", "text", "change"), [*world_cases("BAD")])
+def test_bad_worlds_are_found(rule, text, change):
+    found = world_problems(rule, text, change)
+    assert found
+    lines = text.count("\n") + 1
+    for problem in found:
+        assert problem.message and not problem.message.endswith(".")
+        assert problem.fix and problem.line is not None and 1 <= problem.line <= lines
 
 
 def problems(rule, case):
@@ -63,7 +94,7 @@ def test_the_sound_plan_is_clean_under_every_rule():
     assert SOUND_PLAN["title"]
 
 
-@pytest.mark.parametrize("rule", [*engine.program_rules(), *engine.plan_rules()], ids=lambda rule: rule.code)
+@pytest.mark.parametrize("rule", engine.all_rules(), ids=lambda rule: rule.code)
 def test_pages_are_complete(rule):
     place = -1
     for heading in HEADINGS:
@@ -72,14 +103,14 @@ def test_pages_are_complete(rule):
     assert rule.summary.endswith(".") and len(rule.summary) < 140
     assert rule.SEVERITY in ("error", "warning", "info")
     assert len(rule.GOOD) >= 1 and len(rule.BAD) >= 1
-    prefix = "WL" if ".program." in rule.module.__name__ else "WP"
+    prefix = {"program": "WL", "model": "WM", "plan": "WP"}[rule.module.__name__.rsplit(".", 2)[1]]
     assert re.fullmatch(prefix + r"\d{3}", rule.code)
-    if prefix == "WL":
+    if prefix != "WP":
         assert rule.SCOPE in engine.SCOPES
 
 
 def test_codes_are_unique_and_names_do_not_repeat():
-    rules = [*engine.program_rules(), *engine.plan_rules()]
+    rules = engine.all_rules()
     assert len({rule.code for rule in rules}) == len(rules)
     assert len({rule.name for rule in rules}) == len(rules)
-    assert len(engine.program_rules()) >= 12 and len(engine.plan_rules()) >= 6
+    assert len(rules) >= 60

@@ -102,7 +102,7 @@ def test_explain_knows_codes_and_names_and_suggests():
 
 def test_list_rules_names_every_rule_once():
     rules = tools.list_rules().rules
-    assert len(rules) == len({rule.code for rule in rules}) == len(engine.program_rules()) + len(engine.plan_rules())
+    assert len(rules) == len({rule.code for rule in rules}) == len(engine.all_rules())
     assert "WL101" in tools.list_rules().text()
 
 

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP107"
 SEVERITY = "error"
@@ -23,6 +24,7 @@ BAD: Changes = (
     {"asset_dimensions": {"mug": 95.0}},
     {"asset_dimensions": {"mug": -0.1}},
 )
+EVIDENCE = Argued("a mesh has no metric size of its own: any number would compile")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP113"
 SEVERITY = "warning"
@@ -30,6 +31,7 @@ BAD: Changes = (
         }
     },
 )
+EVIDENCE = Argued("any constant simulates; whether it is right, only its source tells")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

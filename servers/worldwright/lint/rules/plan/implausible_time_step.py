@@ -10,10 +10,12 @@ Use instead: 0.001 to 0.005 s; fast small objects need less. Choose a duration t
 """
 
 from collections.abc import Iterator
+from typing import Any
 
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Measured
 
 CODE = "WP102"
 SEVERITY = "error"
@@ -25,6 +27,26 @@ BAD: Changes = (
     {"simulation_parameters": {"time_step": 0.002, "simulation_duration": 0.001}},
     {"simulation_parameters": {"time_step": 1e-6, "simulation_duration": 60.0}},
 )
+SHORT: dict[str, object] = {"simulation_parameters": {"time_step": 0.002}}
+
+
+def _deepest_m(change: dict[str, Any]) -> float:
+    """How deep a dropped box sinks into the floor at the case's time step, m."""
+    import mujoco
+
+    step = change["simulation_parameters"]["time_step"]
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><option timestep='{step}'/><worldbody><geom type='plane' size='5 5 .1'/><body pos='0 0 .5'>"
+        "<freejoint/><geom type='box' size='.05 .05 .05'/></body></worldbody></mujoco>"
+    )
+    data, deepest = mujoco.MjData(model), 0.0
+    for _ in range(int(2 / step)):
+        mujoco.mj_step(model, data)
+        deepest = max([deepest, *(-data.contact.dist)]) if data.ncon else deepest
+    return float(deepest)
+
+
+EVIDENCE = Measured("a dropped box sinks deep into the floor", _deepest_m, 0.003, "m", good=SHORT)
 CONTACT_LIMIT_S = 0.01
 """Half of the default contact time constant (manual: `o_solref`, 0.02 s)."""
 MAX_STEPS = 2_000_000

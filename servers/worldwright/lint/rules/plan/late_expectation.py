@@ -13,6 +13,7 @@ from typing import Any
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP105"
 SEVERITY = "error"
@@ -25,6 +26,7 @@ BAD: Changes = (
     {"objectives": [{"claim": "Fall.", "expect": [{"falls": {"body": "crate", "window_s": [2.0, 5.0]}}]}]},
     {"objectives": [{"claim": "Fall.", "expect": [{"falls": {"body": "crate", "window_s": [2.0, 1.0]}}]}]},
 )
+EVIDENCE = Argued("the recording ends before; what is not recorded cannot be shown to hold or to fail")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

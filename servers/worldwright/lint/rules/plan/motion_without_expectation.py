@@ -13,6 +13,7 @@ from typing import Any
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP111"
 SEVERITY = "warning"
@@ -28,6 +29,7 @@ BAD: Changes = (
         ]
     },
 )
+EVIDENCE = Argued("what nobody measures cannot be shown to fail")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

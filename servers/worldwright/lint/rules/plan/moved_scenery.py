@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import Place, PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP110"
 SEVERITY = "error"
@@ -32,6 +33,7 @@ BAD: Changes = (
         "implementation_steps": [{**STEP, "motion_expectations": ["mug"]}],
     },
 )
+EVIDENCE = Argued("a body without a joint keeps no velocity: there is nothing to measure")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

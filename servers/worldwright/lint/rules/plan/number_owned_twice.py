@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import Place, PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP112"
 SEVERITY = "error"
@@ -31,6 +32,7 @@ BAD: Changes = (
         "simulation_parameters": {"masses": {"mug": 0.3, "mug_1": 0.4}},
     },
 )
+EVIDENCE = Argued("either number simulates; which one was meant, nobody can tell")
 SIZES = frozenset({"size", "extents", "dimensions", "radius", "diameter", "width", "depth", "length"})
 
 

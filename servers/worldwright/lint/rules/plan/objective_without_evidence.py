@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP103"
 SEVERITY = "error"
@@ -24,6 +25,7 @@ BAD: Changes = (
     {"objectives": [{"claim": "It is pretty.", "visual_only": "taste"}]},
     {"objectives": [{"claim": "It falls.", "expect": [{"falls": {}, "moves": {}}]}]},
 )
+EVIDENCE = Argued("a claim without a measurement is neither true nor false of any run")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import Place, PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP106"
 SEVERITY = "warning"
@@ -37,6 +38,7 @@ BAD: Changes = (
     },
     {"implementation_steps": []},
 )
+EVIDENCE = Argued("depth and what hides behind are judged by eyes, not by the engine")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

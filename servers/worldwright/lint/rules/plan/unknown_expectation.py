@@ -19,6 +19,7 @@ from typing import Any
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP104"
 SEVERITY = "error"
@@ -31,6 +32,7 @@ BAD: Changes = (
     {"objectives": [{"claim": "It moves.", "expect": [{"moves": {"body": "create"}}]}]},
     {"objectives": [{"claim": "They stay.", "expect": [{"stays": {"bodies": ["ramp", "mugg"]}}]}]},
 )
+EVIDENCE = Argued("an expectation that nothing implements is answered `unknown` by scan, whatever the run did")
 BODY_KEYS = ("body", "bodies", "support", "other", "others", "by", "on")
 SCENERY = ("ground", "world", "base", "floor")
 

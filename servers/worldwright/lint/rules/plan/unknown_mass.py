@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP108"
 SEVERITY = "error"
@@ -31,6 +32,7 @@ BAD: Changes = (
     },
     {"simulation_parameters": {"masses": {"crate": 0.0}}},
 )
+EVIDENCE = Argued("the engine would use the density of water without a word; that it is wrong, only a source tells")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

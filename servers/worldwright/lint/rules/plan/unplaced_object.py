@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP109"
 SEVERITY = "error"
@@ -35,6 +36,7 @@ BAD: Changes = (
         "topology": {"scene_predicates": [*ROWS, {"subject": "mug_1", "predicate": "PLACE-ON", "object": "ramp"}]},
     },
 )
+EVIDENCE = Argued("everything without a place is built at the origin, inside everything else without one")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

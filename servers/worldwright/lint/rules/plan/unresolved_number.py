@@ -14,6 +14,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP101"
 SEVERITY = "error"
@@ -23,6 +24,7 @@ BAD: Changes = (
     {"clarifications_needed": ["How heavy is the crate?"]},
     {"topology": {"body_positions": {"crate": "TO_CLARIFY"}}},
 )
+EVIDENCE = Argued("a number that is not there cannot be run; it would have to be invented")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
+from ...proof import Argued
 
 CODE = "WP114"
 SEVERITY = "error"
@@ -25,6 +26,7 @@ BAD: Changes = (
     {"objectives": [{"claim": "It falls.", "expect": [{"falls": {"body": "crate", "min_m": "a lot"}}]}]},
     {"objectives": [{"claim": "It touches.", "expect": [{"touches": {}}]}]},
 )
+EVIDENCE = Argued("scan refuses to judge it; no run changes that")
 
 
 def check(view: PlanView) -> Iterator[Problem]:

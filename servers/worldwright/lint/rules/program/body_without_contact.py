@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from ...case import Case
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, height_after
 
 CODE = "WL135"
 SEVERITY = "error"
@@ -34,6 +35,18 @@ BAD = (
         "<mujoco><worldbody><body><freejoint/><geom size='1' contype='0' conaffinity='0'/></body></worldbody></mujoco>",
         path="a.xml",
     ),
+)
+BALL = (
+    "import mujoco\nspec = mujoco.MjSpec()\nspec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5, 5, 1])\n"
+    "ball = spec.worldbody.add_body(pos=(0, 0, 0.5))\nball.add_freejoint()\nball.add_geom(size=[0.1, 0, 0]{0})\n"
+)
+EVIDENCE = Measured(
+    "the ball falls through the floor",
+    lambda s: height_after(s, 1.0),
+    1.0,
+    "m",
+    bad=BALL.format(", contype=0, conaffinity=0"),
+    good=BALL.format(""),
 )
 
 

@@ -10,10 +10,12 @@ Use instead: degrees, or `spec.compiler.degree = False` for the whole model. Vel
 """
 
 import ast
+import math
 from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, model_of
 
 CODE = "WL141"
 SEVERITY = "error"
@@ -32,6 +34,14 @@ BAD = (
     HEAD + "LIMIT = np.deg2rad(45)\nj = b.add_joint()\nj.range = (-LIMIT, LIMIT)\n",
     HEAD + "c = b.add_camera(fovy=math.radians(45))\n",
 )
+
+
+def _range_deg(source: str) -> float:
+    """The upper end of the joint's compiled range, degrees."""
+    return math.degrees(float(model_of(source + "b.add_geom(size=[0.1, 0, 0])\n").jnt_range[0, 1]))
+
+
+EVIDENCE = Measured("the joint is locked", _range_deg, 80.0, "degrees")
 ANGLES = frozenset({"euler", "range", "springref", "ref", "fovy"})
 OWNERS: frozenset[str | None] = frozenset(
     {"MjsBody", "MjsGeom", "MjsJoint", "MjsSite", "MjsCamera", "MjsFrame", "MjsLight"}

@@ -15,6 +15,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, height_after
 
 CODE = "WL133"
 SEVERITY = "error"
@@ -31,6 +32,12 @@ BAD = (
     HEAD + "XML = '<mujoco><option><flag contact=\"disable\"/></option></mujoco>'\n",
     HEAD + "XML = '<mujoco><option><flag gravity=\"disable\"/></option></mujoco>'\n",
 )
+WORLD = (
+    "<mujoco><option><flag contact='{0}'/></option><worldbody><geom type='plane' size='5 5 .1'/><body pos='0 0 .5'>"
+    "<freejoint/><geom size='.1'/></body></worldbody></mujoco>"
+)
+OFF, ON = WORLD.format("disable"), WORLD.format("enable")
+EVIDENCE = Measured("the ball falls through the floor", lambda s: height_after(s, 1.0), 1.0, "m", bad=OFF, good=ON)
 _PARTS_WORDS = """
     contact gravity constraint limit frictionloss equality actuation spring damper
 """

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL112"
 SEVERITY = "error"
@@ -28,6 +29,7 @@ BAD = (
     "from worldkit import scene\ndef build():\n    import scipy.spatial\n",
     "from worldkit import scene\nfrom . import neighbour\n",
 )
+EVIDENCE = Argued("what can be imported depends on the machine; the sandbox, tested in stage, has what is allowed")
 _ALLOWED_WORDS = """
     __future__ abc bisect cmath collections colorsys copy dataclasses decimal enum fractions functools heapq
     itertools math mujoco numbers numpy operator random statistics string textwrap types typing worldkit

@@ -14,6 +14,7 @@ from math import isclose
 from ... import stated
 from ...problem import Problem
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL121"
 SEVERITY = "error"
@@ -21,6 +22,7 @@ SCOPE = "plan"
 HEAD = "from worldkit import program\ndef build():\n    return None\n"
 GOOD = (HEAD + "DURATION = 3.0\nprogram.main(build, duration=DURATION)\n", HEAD + "program.main(build, duration=3)\n")
 BAD = (HEAD + "program.main(build, duration=2.0)\n", HEAD + "T = 3.0 * 2\nprogram.main(build, duration=T)\n")
+EVIDENCE = Argued("any duration simulates; that another one was approved, only the plan tells")
 
 
 def check(program: Program) -> Iterator[Problem]:

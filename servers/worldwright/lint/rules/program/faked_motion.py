@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from ...case import Case
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, executed
 from ._written import MOCAP, MOTION, POSE, writes
 
 CODE = "WL130"
@@ -44,6 +45,31 @@ BAD = (
     + "import mujoco\n",
     MAIN + "def control(m, d):\n    d.mocap_pos[0] = (0, 0, d.time)\n" + END,
 )
+BALL = (
+    "import mujoco\nspec = mujoco.MjSpec()\nball = spec.worldbody.add_body()\nball.add_freejoint()\n"
+    "ball.add_geom(size=[0.1, 0, 0])\ndef control(model, data):\n    {0}\n"
+)
+LIFTS, FALLS = BALL.format("data.qpos[2] = data.time"), BALL.format("pass")
+
+
+def _unexplained(source: str) -> float:
+    """Way of the ball in half a second that its recorded velocity does not account for, m."""
+    import mujoco
+
+    space = executed(source)
+    model = space["spec"].compile()
+    data, way = mujoco.MjData(model), 0.0
+    start = float(data.qpos[2])
+    for _ in range(250):
+        mujoco.mj_step1(model, data)
+        space["control"](model, data)
+        data.qvel[2] *= source == FALLS  # what is carried along does not fall on its own account
+        mujoco.mj_step2(model, data)
+        way += float(data.qvel[2]) * model.opt.timestep
+    return abs(float(data.qpos[2]) - start - way)
+
+
+EVIDENCE = Measured("the ball moves without a velocity", _unexplained, 0.05, "m", good=FALLS, bad=LIFTS)
 
 
 def check(program: Program) -> Iterator[Problem]:

@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, executed, model_of
 
 CODE = "WL132"
 SEVERITY = "error"
@@ -20,6 +21,30 @@ GOOD = ("import mujoco\nfrom worldkit import program\nmujoco.get_mjcb_control()\
 BAD = (
     "import mujoco\nfrom worldkit import program\nmujoco.set_mjcb_passive(lambda m, d: None)\n",
     "from mujoco import set_mjcb_control as install\nfrom worldkit import program\ninstall(None)\n",
+)
+HOLDS = (
+    "import mujoco\ndef hold(model, data):\n    data.qfrc_passive[2] = 9.81 * model.body_mass[1]\n"
+    "mujoco.set_mjcb_passive(hold)\n"
+)
+
+
+def _elsewhere(source: str) -> float:
+    """Height after 0.5 s of a ball in a world that the program knows nothing of, m."""
+    import mujoco
+
+    model = model_of("<mujoco><worldbody><body><freejoint/><geom size='.1'/></body></worldbody></mujoco>")
+    data = mujoco.MjData(model)
+    try:
+        executed(source)
+        for _ in range(250):
+            mujoco.mj_step(model, data)
+        return float(data.qpos[2])
+    finally:
+        mujoco.set_mjcb_passive(None)
+
+
+EVIDENCE = Measured(
+    "an unrelated world does not fall any more", _elsewhere, 0.5, "m", bad=HOLDS, good="import mujoco\n"
 )
 
 

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, height_after
 
 CODE = "WL134"
 SEVERITY = "error"
@@ -24,6 +25,18 @@ BAD = (
     HEAD + "b = spec.worldbody.add_body(name='b', gravcomp=1)\n",
     HEAD + "b = spec.worldbody.add_body(name='b')\nb.gravcomp = 0.5\n",
     HEAD + "XML = '<mujoco><worldbody><body gravcomp=\"1\"/></worldbody></mujoco>'\n",
+)
+BALL = (
+    "import mujoco\nspec = mujoco.MjSpec()\nspec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5, 5, 1])\n"
+    "ball = spec.worldbody.add_body(pos=(0, 0, 0.5), {0})\nball.add_freejoint()\nball.add_geom(size=[0.1, 0, 0])\n"
+)
+EVIDENCE = Measured(
+    "the ball hangs in the air",
+    lambda s: height_after(s, 1.0),
+    0.2,
+    "m",
+    bad=BALL.format("gravcomp=1"),
+    good=BALL.format(""),
 )
 
 

@@ -15,6 +15,7 @@ from ... import stated
 from ...case import Case
 from ...problem import Problem
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL122"
 SEVERITY = "error"
@@ -32,6 +33,7 @@ BAD = (
     Case(HEAD + "spec = scene.new('a', time_step=0.002)\n", MOON),
     HEAD + "spec = scene.new('a', time_step=0.002, gravity=(0, -9.81, 0))\n",
 )
+EVIDENCE = Argued("any gravity simulates; that another one was approved, only the plan tells")
 
 
 def check(program: Program) -> Iterator[Problem]:

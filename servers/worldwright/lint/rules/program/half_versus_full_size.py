@@ -17,6 +17,7 @@ from typing import Any
 from ...case import Case
 from ...problem import Problem
 from ...program import Program
+from ...proof import Measured, model_of
 
 CODE = "WL125"
 SEVERITY = "error"
@@ -34,6 +35,13 @@ BAD = (
     "from worldkit import bodies\nbodies.box(None, 'crate', size=(0.2, 0.15, 0.1))\n",
     Case("from worldkit import bodies\nbodies.sphere(None, 'crate', diameter=0.1)\n", BALL),
     'XML = \'<mujoco><worldbody><body name="crate"><geom type="box" size=".4 .3 .2"/></body></worldbody></mujoco>\'\n',
+)
+HALF = (
+    "import mujoco\nspec = mujoco.MjSpec()\nb = spec.worldbody.add_body(name='crate')\n"
+    "b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.2, 0.15, 0.1))\n"
+)
+EVIDENCE = Measured(
+    "the crate is eight times as heavy", lambda s: float(model_of(s).body_mass[1]), 50.0, "kg", good=HALF
 )
 HALF_SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "cylinder": 2}
 """How many leading entries of a geom's `size` are half extents of the shape."""

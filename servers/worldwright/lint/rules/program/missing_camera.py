@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ... import stated
 from ...problem import Problem
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL124"
 SEVERITY = "error"
@@ -27,6 +28,7 @@ BAD = (
     HEAD + "cameras.add(spec, 'side', view='side_minus_y')\ncameras.add(spec, 'perspective')\n",
     "spec = None\n",
 )
+EVIDENCE = Argued("no run shows an absence; what the camera should have shown cannot be reviewed")
 
 
 def check(program: Program) -> Iterator[Problem]:

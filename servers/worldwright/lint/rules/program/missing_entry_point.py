@@ -13,6 +13,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL110"
 SEVERITY = "error"
@@ -28,6 +29,7 @@ BAD = (
     "from worldkit import program, scene\nprogram.main(lambda: None)\n",
     "from worldkit import program, scene\ndef build():\n    pass\nprogram.main(build, duration=1.0)\n",
 )
+EVIDENCE = Argued("it runs and records nothing; that a recording was expected, only the run that asked for it knows")
 
 
 def check(program: Program) -> Iterator[Problem]:

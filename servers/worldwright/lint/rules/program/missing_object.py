@@ -17,6 +17,7 @@ from collections.abc import Iterator
 from ...case import Case
 from ...problem import Problem
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL123"
 SEVERITY = "error"
@@ -32,6 +33,7 @@ BAD = (
     "names = ('ramp', 'crate_', 'mug')  # crate\n",
     Case("names = ('ramp', 'crate', 'mug_1')\n", TWO_MUGS),
 )
+EVIDENCE = Argued("no run shows an absence; what the plan promises of the object cannot be measured")
 
 
 def check(program: Program) -> Iterator[Problem]:

@@ -14,6 +14,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL113"
 SEVERITY = "error"
@@ -30,6 +31,7 @@ BAD = (
     "import mujoco\nfrom worldkit import scene\nspec = mujoco.MjSpec.from_file('robot.xml')\n",
     "from worldkit import scene\nscene.__dict__['x']\n().__class__.__bases__\n",
 )
+EVIDENCE = Argued("the sandbox refuses it at run time; the tests of stage try every way out there")
 _BUILTINS_WORDS = """
     open exec eval compile __import__ input breakpoint globals vars
 """

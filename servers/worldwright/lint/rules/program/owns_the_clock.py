@@ -14,6 +14,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL111"
 SEVERITY = "error"
@@ -28,6 +29,7 @@ BAD = (
     "import mujoco\nfrom worldkit import program\nr = mujoco.Renderer(None)\n",
     "import mujoco.viewer\nfrom worldkit import program\nmujoco.viewer.launch(None)\n",
 )
+EVIDENCE = Argued("its steps and pictures are real; the harm is that no pass records them, so nothing can be proved")
 STEPS = tuple(
     f"mujoco.{name}"
     for name in ("mj_step", "mj_step1", "mj_step2", "mj_resetData", "mj_resetDataKeyframe", "mj_Euler", "mj_RungeKutta")

@@ -19,6 +19,7 @@ from typing import Any
 from ...case import Case
 from ...problem import Problem
 from ...program import Program
+from ...proof import Measured, after
 
 CODE = "WL140"
 SEVERITY = "warning"
@@ -33,6 +34,14 @@ BAD = (
     HEAD + "b = spec.worldbody.add_body(name='b')\nb.quat = [0, 0, 0, 0]\n",
     Case("<mujoco><worldbody><body quat='0 0 0 1'/></worldbody></mujoco>", path="a.xml"),
 )
+
+
+def _forward(source: str) -> float:
+    """Where the tip of the body points along x, m."""
+    return float(after(source + "spec.bodies[1].add_geom(size=[0.1, 0, 0], pos=(1, 0, 0))\n", 0.0)[1].geom_xpos[0, 0])
+
+
+EVIDENCE = Measured("the body is turned by half a turn", _forward, 0.5, "m", good=0)
 
 
 def check(program: Program) -> Iterator[Problem]:

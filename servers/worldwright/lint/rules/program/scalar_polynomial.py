@@ -13,6 +13,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL142"
 SEVERITY = "error"
@@ -28,6 +29,7 @@ BAD = (
     HEAD + "C = 0.1\nj.damping = C * 2\n",
     "import mujoco\nt = mujoco.MjSpec().add_tendon()\nt.stiffness = 100\n",
 )
+EVIDENCE = Raises(good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:

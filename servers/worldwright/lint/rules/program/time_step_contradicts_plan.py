@@ -16,6 +16,7 @@ from ... import stated
 from ...case import Case
 from ...problem import Problem
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL120"
 SEVERITY = "error"
@@ -31,6 +32,7 @@ BAD = (
     HEAD + "spec = scene.new('a', time_step=0.002)\nspec.option.timestep = 0.0005\n",
     Case("XML = '<mujoco><option timestep=\"0.01\"/></mujoco>'\n"),
 )
+EVIDENCE = Argued("any step simulates; that another one was approved, only the plan tells")
 
 
 def check(program: Program) -> Iterator[Problem]:

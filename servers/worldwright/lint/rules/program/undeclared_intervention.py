@@ -15,6 +15,7 @@ from collections.abc import Iterator
 from ...case import Case
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Argued
 from ._written import CONTROL, FORCE, SWITCH, writes
 
 CODE = "WL126"
@@ -38,6 +39,7 @@ BAD = (
     MAIN + "def control(model, data):\n    model.opt.gravity[2] = 0\n" + END,
     MAIN + "def control(model, data):\n    push = data.body('crate').xfrc_applied\n    push[2] = 1\n" + END,
 )
+EVIDENCE = Argued("the engine does what is written; whether it was declared, only the plan tells")
 KINDS = ({"force", "torque"}, FORCE), ({"control"}, CONTROL), ({"constraint"}, SWITCH)
 
 

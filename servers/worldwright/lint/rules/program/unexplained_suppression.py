@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ... import suppression
 from ...problem import Problem
 from ...program import Program
+from ...proof import Argued
 
 CODE = "WL199"
 SEVERITY = "error"
@@ -27,6 +28,7 @@ BAD = (
     "x = 1  # worldwright: ignore everything\n",
     "x = 1  # worldwright: ignore[E501] long line\n",
 )
+EVIDENCE = Argued("a comment does nothing when it runs; who reads it later misses the reason")
 
 
 def check(program: Program) -> Iterator[Problem]:
@@ -34,7 +36,7 @@ def check(program: Program) -> Iterator[Problem]:
     if program.source.is_mjcf:
         return
     for comment in suppression.read(program.source.text):
-        if not comment.codes or not all(re.fullmatch(r"W[LP]\d{3}", code) for code in comment.codes):
+        if not comment.codes or not all(re.fullmatch(r"W[LMP]\d{3}", code) for code in comment.codes):
             yield Problem("the comment names no rule to ignore", "name it: ignore[WL123] reason", comment.line)
         elif not comment.reason:
             yield Problem("the suppression gives no reason", "say why after the bracket", comment.line)

@@ -16,6 +16,7 @@ from ...case import Case
 from ...mjcf_text import Tag
 from ...problem import Problem
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL104"
 SEVERITY = "error"
@@ -36,8 +37,9 @@ BAD = (
     Case("<mujoco><option time_step='0.001'/></mujoco>", path="a.xml"),
     Case("<mujoco><option collision='all'/></mujoco>", path="a.xml"),
     Case("<mujoco><worldbody><camera orthographic='true'/></worldbody></mujoco>", path="a.xml"),
-    "XML = '<mujoco><worldbody><geom siz=\"1\"/></worldbody></mujoco>'\n",
+    "import mujoco\nmujoco.MjModel.from_xml_string('<mujoco><worldbody><geom siz=\"1\"/></worldbody></mujoco>')\n",
 )
+EVIDENCE = Raises("Schema violation", good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:

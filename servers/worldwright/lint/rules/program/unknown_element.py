@@ -16,6 +16,7 @@ from ...case import Case
 from ...mjcf_text import Tag
 from ...problem import Problem
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL103"
 SEVERITY = "error"
@@ -26,11 +27,12 @@ GOOD = (
     "HTML = '<composite/>'\n",
 )
 BAD = (
-    'XML = """\n<mujoco>\n  <worldbody>\n    <composite type="grid"/>\n  </worldbody>\n</mujoco>"""\n',
+    'import mujoco\nXML = """\n<mujoco>\n  <worldbody>\n    <composite type="grid"/>\n  </worldbody>\n</mujoco>"""\nmujoco.MjModel.from_xml_string(XML)\n',
     Case("<mujoco><equality><flexvert flex='cloth'/></equality></mujoco>", path="a.xml"),
     Case("<mujoco><worldbody><gem size='1'/></worldbody></mujoco>", path="a.xml"),
     Case("<mujoco><geom size='1'/></mujoco>", path="a.xml"),
 )
+EVIDENCE = Raises("Schema violation", good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:

@@ -16,6 +16,7 @@ from difflib import get_close_matches
 from ....simulator import changelog
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL102"
 SEVERITY = "error"
@@ -32,6 +33,7 @@ BAD = (
     "import mujoco\nspec = mujoco.MjSpec()\nspec.add_mesh(name='m', filename='m.stl')\n",
     "import mujoco as mj\nb = mj.MjSpec().worldbody.add_body()\nb.add_geom(mesh='m')\n",
 )
+EVIDENCE = Raises(good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:

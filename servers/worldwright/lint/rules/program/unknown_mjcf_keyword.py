@@ -16,6 +16,7 @@ from ....simulator import changelog, mjcf
 from ...case import Case
 from ...problem import Problem
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL105"
 SEVERITY = "error"
@@ -30,8 +31,9 @@ GOOD = (
 BAD = (
     Case("<mujoco><option integrator='rk4'/></mujoco>", path="a.xml"),
     Case("<mujoco><worldbody><geom type='cube' size='1 1 1'/></worldbody></mujoco>", path="a.xml"),
-    "XML = '<mujoco><option cone=\"eliptic\"/></mujoco>'\n",
+    "import mujoco\nmujoco.MjModel.from_xml_string('<mujoco><option cone=\"eliptic\"/></mujoco>')\n",
 )
+EVIDENCE = Raises("invalid keyword", good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:

@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from ....simulator import changelog
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL101"
 SEVERITY = "error"
@@ -36,6 +37,7 @@ BAD = (
     "import mujoco\ndef control(model: mujoco.MjModel, data: mujoco.MjData):\n    return data.efc_diagApprox\n",
     "from worldkit import scene\nspec = scene.new('a', time_step=0.001)\nspec.add_body()\n",
 )
+EVIDENCE = Raises(without=(5,), good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:

@@ -14,6 +14,7 @@ from difflib import get_close_matches
 from ... import worldkit_api
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL106"
 SEVERITY = "error"
@@ -28,6 +29,7 @@ BAD = (
     "from worldkit import contacts\nFELT = contacts.surface(fricton=0.2)\n",
     "from worldkit.contacts import surfaces\n",
 )
+EVIDENCE = Raises()
 
 
 def check(program: Program) -> Iterator[Problem]:

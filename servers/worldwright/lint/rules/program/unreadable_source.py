@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from ...case import Case
 from ...problem import Problem
 from ...program import Program
+from ...proof import Raises
 
 CODE = "WL100"
 SEVERITY = "error"
@@ -26,6 +27,7 @@ BAD = (
     Case("<mujoco><worldbody></mujoco>", path="model.xml"),
     'XML = """\n<mujoco>\n  <worldbody>\n</mujoco>\n"""\n',
 )
+EVIDENCE = Raises(without=(0, 5), good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:

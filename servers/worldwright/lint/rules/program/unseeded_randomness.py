@@ -14,6 +14,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, executed
 
 CODE = "WL115"
 SEVERITY = "error"
@@ -30,6 +31,10 @@ BAD = (
     "import random\nfrom worldkit import scene\nx = random.uniform(0, 1)\n",
     "from random import choice\nfrom worldkit import scene\nx = choice([1, 2])\n",
     "import numpy as np\nfrom worldkit import scene\nrng = np.random.default_rng(None)\n",
+)
+SEEDED = "import numpy as np\nx = np.random.default_rng(1).random(3)\n"
+EVIDENCE = Measured(
+    "two runs differ", lambda s: float(abs(executed(s)["x"] - executed(s)["x"]).max()), 1e-6, good=SEEDED
 )
 _GENERATORS_WORDS = """
     numpy.random.default_rng numpy.random.RandomState numpy.random.SeedSequence random.Random

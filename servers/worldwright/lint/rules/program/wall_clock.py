@@ -12,6 +12,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, executed
 
 CODE = "WL114"
 SEVERITY = "error"
@@ -21,6 +22,9 @@ BAD = (
     "import time\nfrom worldkit import program\ndef control(model, data):\n    data.ctrl[0] = time.time()\n",
     "from time import perf_counter as now\nfrom worldkit import program\nstart = now()\n",
     "import datetime\nfrom worldkit import program\ndatetime.datetime.now()\n",
+)
+EVIDENCE = Measured(
+    "two runs differ", lambda s: executed(s)["start"] - executed(s)["start"], 1e-9, "s", bad=1, good="start = 0.0\n"
 )
 
 

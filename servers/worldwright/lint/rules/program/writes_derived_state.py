@@ -14,6 +14,7 @@ from collections.abc import Iterator
 
 from ...problem import Problem, at
 from ...program import Program
+from ...proof import Measured, executed
 from ._written import DERIVED, writes
 
 CODE = "WL131"
@@ -26,6 +27,15 @@ BAD = (
     HEAD + "data.body('crate').xpos[2] += 0.1\n",
     HEAD + "data.sensordata[:] = 0\n",
     HEAD + "import numpy as np\nnp.copyto(data.geom_xpos, 0)\n",
+)
+WORLD = (
+    'import mujoco\nmodel = mujoco.MjModel.from_xml_string(\'<mujoco><worldbody><body pos="0 0 3"><freejoint/>'
+    '<geom size=".1"/></body></worldbody></mujoco>\')\ndata = mujoco.MjData(model)\nmujoco.mj_forward(model, data)\n'
+)
+LIFT_POSE = WORLD + "data.xpos[1, 2] = 9\nmujoco.mj_forward(model, data)\n"
+LIFT_STATE = WORLD + "data.qpos[2] = 9\nmujoco.mj_forward(model, data)\n"
+EVIDENCE = Measured(
+    "the body does not move", lambda s: float(executed(s)["data"].xpos[1, 2]), 1.0, "m", bad=LIFT_POSE, good=LIFT_STATE
 )
 
 

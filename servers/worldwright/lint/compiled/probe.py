@@ -1,0 +1,143 @@
+"""Compile a world and write down what it is: run in the sandbox by `fetch.py`, never imported into a server.
+
+    probe.py program|mjcf FILE OUT
+
+A program is run as a script up to the moment it hands its world to worldkit, or takes its first step; a model file is
+compiled. What is left behind is `outcome.json` and, when there is a world, `facts.npz`: numbers and names, no code.
+"""
+
+import json
+import os
+import runpy
+import sys
+import traceback
+import warnings
+from pathlib import Path
+from typing import Any
+
+from measure import facts  # beside this script
+
+sys.path.pop(0)  # the program must not find our modules
+
+
+class Enough(BaseException):
+    """The world is known: the rest of the program is not needed."""
+
+
+class Capture:
+    """Stands in for the few functions that make models, take steps, or take over the program."""
+
+    def __init__(self) -> None:
+        self.models: list[Any] = []
+        self.build: Any = None
+        self.keywords: dict[str, Any] = {}
+        self.undo: list[tuple[Any, str, Any]] = []
+
+    def install(self, mujoco: Any) -> None:
+        """Wrap the engine's constructors, and stop at the first step."""
+        for owner, name in (
+            (mujoco.MjModel, "from_xml_string"),
+            (mujoco.MjModel, "from_xml_path"),
+            (mujoco.MjModel, "from_binary_path"),
+            (mujoco.MjSpec, "compile"),
+        ):
+            original = getattr(owner, name)
+
+            def made(*arguments: Any, _original: Any = original, **keywords: Any) -> Any:
+                model = _original(*arguments, **keywords)
+                self.models.append(model)
+                return model
+
+            setattr(owner, name, made if name == "compile" else staticmethod(made))
+
+        def stop(*_: Any, **__: Any) -> None:
+            raise Enough
+
+        self.undo = []
+        for name in ("mj_step", "mj_step1", "mj_step2"):
+            original_step = getattr(mujoco, name)
+            self.undo.append((mujoco, name, original_step))
+            # Before any model is known, a step is the program's own mistake, and fails as it would.
+            setattr(mujoco, name, lambda *a, _o=original_step, **k: stop() if self.models else _o(*a, **k))
+        from worldkit import program
+
+        def main(build: Any, control: Any = None, **keywords: Any) -> None:
+            self.build, self.keywords = build, keywords
+            raise Enough
+
+        program.main = main  # type: ignore[assignment]
+
+
+def run(path: Path) -> tuple[Any, dict[str, Any]]:
+    """(model, facts) of a program's world; the model is None when it makes none."""
+    import mujoco
+
+    capture = Capture()
+    capture.install(mujoco)
+    sys.argv = [str(path)]
+    sys.path.insert(0, str(path.parent))
+    space: dict[str, Any] = {}
+    try:
+        space = runpy.run_path(str(path), run_name="__main__")
+    except Enough:
+        pass
+    except (Exception, SystemExit):
+        if not capture.models:
+            raise
+    finally:
+        for owner, name, original in capture.undo:
+            setattr(owner, name, original)
+    build = capture.build or space.get("build")
+    if callable(build):
+        from worldkit import world
+
+        seed = capture.keywords.get("seed", 0)
+        return world.make(build, world.seeded(seed if isinstance(seed, int) else 0)[0]), {"made_by": "build"}
+    if capture.models:
+        return capture.models[-1], {"made_by": "script"}
+    return None, {"made_by": "nothing"}
+
+
+def failure(error: BaseException, path: Path) -> dict[str, Any]:
+    """What went wrong, and the last line of the program that it went through."""
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).name == path.name]
+    return {
+        "failure": type(error).__name__,
+        "message": str(error)[:2000],
+        "line": frames[-1].lineno if frames else None,
+    }
+
+
+def main(kind: str, path: Path, out: Path) -> None:
+    """Write the outcome; the process's exit code says nothing."""
+    import mujoco
+    import numpy as np
+
+    outcome: dict[str, Any] = {}
+    model = None
+    config = mujoco.MjLogConfig.get()
+    config.logto_file = False
+    config.set()
+    with warnings.catch_warnings(record=True) as said:
+        warnings.simplefilter("always")
+        try:
+            if kind == "mjcf":
+                model = mujoco.MjSpec.from_file(str(path)).compile()
+                outcome["made_by"] = "file"
+            else:
+                model, more = run(path)
+                outcome.update(more)
+        except BaseException as error:
+            outcome.update(failure(error, path))
+        if model is not None:
+            arrays, texts = facts(model)
+            outcome.update(texts)
+            np.savez(out / "facts.npz", **arrays)
+    outcome["warnings"] = [str(w.message)[:500] for w in said if w.category is UserWarning][:20]
+    (out / "outcome.json").write_text(json.dumps(outcome), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]))
+    sys.stdout.flush()
+    os._exit(0)  # what the program left running is of no interest

@@ -1,0 +1,1 @@
+"""Rules over compiled worlds: one module each."""

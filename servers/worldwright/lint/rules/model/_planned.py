@@ -1,0 +1,40 @@
+"""What the rules that compare a compiled world with its plan share: cases, and where the plan puts things."""
+
+import numpy as np
+
+from ....model.plan import Plan, Position
+from ...compiled.view import ModelView
+
+HEAD = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody><geom name='ground' type='plane' size='9 9 1'/>"
+THREE = (
+    HEAD + "<body name='ramp' pos='0 0 .1'><geom type='box' size='1 .5 .1'/></body>"
+    "<body name='crate' pos='0 0 .3'><freejoint/><geom type='box' size='.2 .15 .1' density='700'/></body>"
+    "<body name='mug' pos='.5 0 .25'><freejoint/><geom type='cylinder' size='.04 .05' mass='.35'/></body></worldbody>"
+    "<keyframe><key name='start' qpos='0 0 .3 1 0 0 0 .5 0 .25 1 0 0 0' qvel='.5 0 0 0 0 0 0 0 0 0 0 0'/></keyframe></mujoco>"
+)
+"""The world of `case.SOUND_PLAN`."""
+
+
+def extent(view: ModelView, body: int) -> np.ndarray:
+    """(3,) full extents of a body and what it carries, along its own axes, m."""
+    return view.body_high[body] - view.body_low[body]
+
+
+def centre(view: ModelView, body: int) -> np.ndarray:
+    """(3,) the centre of the box around a body, world frame, m."""
+    return view.xpos[body] + view.xmat[body] @ ((view.body_high[body] + view.body_low[body]) / 2)
+
+
+def places(plan: Plan) -> dict[str, tuple[float, float, float]]:
+    """The resolved centre of every placed object, world frame, m."""
+    found = {
+        row.subject: row.position.vector for row in plan.topology.scene_predicates if isinstance(row.position, Position)
+    }
+    found |= {n: p.vector for n, p in plan.topology.body_positions.items() if isinstance(p, Position)}
+    return found
+
+
+def free_joint(view: ModelView, body: int) -> int | None:
+    """The free joint of a body, or None."""
+    first, count = int(view.body_jntadr[body]), int(view.body_jntnum[body])
+    return first if count == 1 and view.joint_kind[first] == "free" else None

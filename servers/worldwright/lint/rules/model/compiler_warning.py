@@ -1,0 +1,29 @@
+"""The compiler accepts the world, and warns of it.
+
+What it does: passes on the warnings that the engine's compiler gives, which nobody sees in a sandboxed or batch run.
+
+Why is this bad: what is warned of does not do what it is there for, e.g. a flex without any force that would hold it
+together.
+
+Use instead: what the warning names.
+"""
+
+from collections.abc import Iterator
+
+from ...compiled.view import ModelView
+from ...problem import Problem
+from ...proof import Warns
+
+CODE = "WM102"
+SEVERITY = "warning"
+SCOPE = "any"
+HEAD = "<mujoco><worldbody><body name='b'><flexcomp name='f' type='grid' dim='2' count='4 4 1' spacing='.1 .1 .1'"
+GOOD = (HEAD + " radius='.01'><edge equality='true'/></flexcomp></body></worldbody></mujoco>",)
+BAD = (HEAD + " radius='.01'/></body></worldbody></mujoco>",)
+EVIDENCE = Warns("no equality constraints or passive forces")
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """Every warning, once."""
+    for said in dict.fromkeys(view.outcome.warnings):
+        yield Problem(" ".join(said.split()), "mend what the compiler warns of", 1)

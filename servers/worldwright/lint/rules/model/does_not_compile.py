@@ -1,0 +1,52 @@
+"""The world cannot be built.
+
+What it does: reports what the program, or the engine's compiler, said when the world was built in the sandbox; and a
+program that takes too long or too much memory to build it.
+
+Why is this bad: there is no world to simulate.
+
+Use instead: what the message names; `worldwright retrieve symbol NAME` tells what an element or a function takes.
+"""
+
+from collections.abc import Iterator
+
+from ...compiled.view import ModelView
+from ...problem import Problem
+from ...proof import Raises
+
+CODE = "WM101"
+SEVERITY = "error"
+SCOPE = "any"
+GOOD = (
+    "<mujoco><worldbody><body><freejoint/><geom size='1'/></body></worldbody></mujoco>",
+    "import mujoco\ndef build():\n    return mujoco.MjSpec()\n",
+)
+BAD = (
+    "<mujoco><worldbody><body><freejoint/></body></worldbody></mujoco>",
+    "<mujoco><worldbody><geom type='box' size='1'/></worldbody></mujoco>",
+    "import mujoco\ndef build():\n    raise ValueError('no size')\n",
+)
+EVIDENCE = Raises()
+TOLD = {
+    "timed_out": ("the world was still being built after {wall:.0f} s", "look for a loop that never ends at import"),
+    "out_of_memory": ("building the world took more than 2 GB of memory", "build less, or refer to files"),
+    "died": ("the process that built the world died: {message}", "run the program, and correct what ends it"),
+}
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """The outcome."""
+    outcome = view.outcome
+    if outcome.status in TOLD:
+        message, fix = TOLD[outcome.status]
+        yield Problem(message.format(wall=outcome.wall_s, message=outcome.message or "no word"), fix, 1)
+    if outcome.status == "failed":
+        said = " ".join(outcome.message.split())[:400]
+        line = outcome.line
+        if line is None and "line " in said:  # the compiler names the line of the model text
+            number = said.rsplit("line ", 1)[1].split()[0].strip(".,)'")
+            program = view.program
+            line = int(number) if number.isdigit() and program is not None and program.source.is_mjcf else None
+        yield Problem(
+            f"the world cannot be built: {outcome.failure}: {said}", "correct what the message names", line or 1
+        )

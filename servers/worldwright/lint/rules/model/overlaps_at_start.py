@@ -1,0 +1,44 @@
+"""Bodies overlap before anything moves.
+
+What it does: looks at the contacts of the start (keyframe "start" if there is one): deeper than 1 mm and than 5 % of the
+smaller of the two.
+
+Why is this bad: the solver drives them apart within a few steps. Things jump up, fly off, or settle elsewhere than they
+were put; the energy comes from nowhere.
+
+Use instead: resolve the layout again (`worldwright place resolve`), or leave a gap of a millimetre: gravity closes it.
+"""
+
+from collections.abc import Iterator
+
+from ...compiled.view import ModelView
+from ...problem import Problem
+from ...proof import Measured, fastest
+
+CODE = "WM112"
+SEVERITY = "error"
+SCOPE = "any"
+STACK = (
+    "<mujoco><worldbody><geom type='plane' size='5 5 .1'/><body name='crate' pos='0 0 {0}'><freejoint/>"
+    "<geom type='box' size='.1 .1 .1'/></body></worldbody></mujoco>"
+)
+GOOD = (STACK.format("0.1"), STACK.format("0.0995"))
+BAD = (STACK.format("0.06"),)
+EVIDENCE = Measured("the crate jumps", fastest, 0.4, "m/s")
+LEAST_M, SHARE = 1e-3, 0.05
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """The deepest contact of each pair of bodies."""
+    worst: dict[tuple[int, int], float] = {}
+    for (one, other), depth in zip(view.contact_geom, view.contact_depth, strict=True):
+        if one < 0 or other < 0:
+            continue
+        radii = [float(view.geom_rbound[g]) for g in (one, other) if view.geom_rbound[g] > 0]
+        if depth > max(LEAST_M, SHARE * min(radii, default=0.0)):
+            bodies = sorted((int(view.geom_bodyid[one]), int(view.geom_bodyid[other])))
+            pair = (bodies[0], bodies[1])
+            worst[pair] = max(worst.get(pair, 0.0), float(depth))
+    for (low, high), depth in worst.items():
+        message = f"{view.name('body', high)} starts {depth * 1e3:.1f} mm deep in {view.name('body', low)}"
+        yield view.at("body", high, message, "place it clear of the other; a gap of 1 mm closes by itself")

@@ -1,0 +1,42 @@
+"""A compiled body weighs something else than the plan says.
+
+What it does: compares the mass of each body, with all it carries, with the plan's `masses`: more than 2 % apart.
+
+Why is this bad: every collision and every load comes out differently. Geoms that are only drawn weigh as much as any,
+unless their mass is zero.
+
+Use instead: `mass=` on one geom and `mass=0` on those that are only drawn.
+"""
+
+from collections.abc import Iterator
+
+from ...compiled.view import ModelView
+from ...problem import Problem
+from ...proof import Measured, model_of
+from ._planned import THREE
+
+CODE = "WM154"
+SEVERITY = "error"
+SCOPE = "plan"
+GOOD = (THREE,)
+BAD = (
+    THREE.replace("mass='.35'/>", "mass='.35'/><geom size='.04' contype='0' conaffinity='0'/>"),
+    THREE.replace("mass='.35'", "mass='350'"),
+)
+EVIDENCE = Measured("what is only drawn adds its weight", lambda s: float(model_of(s).body_mass[3]), 0.1, "kg")
+SHARE = 0.02
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """Every mass of the plan; a row's mass is that of each of its instances."""
+    assert view.plan is not None
+    instances = {a.name: a.instances for a in view.plan.assets}
+    for row, planned in view.plan.simulation_parameters.masses.items():
+        for name in instances.get(row, (row,)):
+            body = view.root_named(name)
+            if body is None or not view.moving[body]:
+                continue
+            built = float(view.body_subtreemass[body])
+            if abs(built - planned) > SHARE * planned:
+                message = f"{name} weighs {built:.4g} kg, the plan says {planned:g} kg"
+                yield view.at("body", body, message, "give the mass to one geom, and none to what is only drawn")

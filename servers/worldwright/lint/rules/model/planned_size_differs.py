@@ -1,0 +1,54 @@
+"""A compiled body has another size than the plan gives it.
+
+What it does: compares the box around each body with the plan's `size` (full extents along its own axes), or the height
+of an asset with `asset_dimensions`: more than 3 % and 1 mm apart.
+
+Why is this bad: everything that was placed, sized or argued in the plan is about another thing. A factor of two is a
+half size taken for a full one.
+
+Use instead: the plan's size; `worldkit.bodies` take full extents, MuJoCo's geoms half of them.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ...compiled.view import ModelView
+from ...problem import Problem
+from ...proof import Measured, model_of
+from ._planned import THREE, extent
+
+CODE = "WM151"
+SEVERITY = "error"
+SCOPE = "plan"
+GOOD = (THREE,)
+BAD = (THREE.replace("size='.2 .15 .1'", "size='.4 .3 .2'"), THREE.replace("size='.04 .05'", "size='.04 .1'"))
+EVIDENCE = Measured("the crate is eight times as heavy", lambda s: float(model_of(s).body_mass[2]), 50.0, "kg")
+SHARE, LEAST_M = 0.03, 1e-3
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """Scene objects by their three extents (upright or not is the layout's matter), assets by their height."""
+    assert view.plan is not None
+    for row in view.plan.scene_objects:
+        body = view.root_named(row.name)
+        if body is None or row.primitive == "plane":
+            continue
+        yield from _compared(view, body, np.array(row.size), extent(view, body))
+    for asset in view.plan.assets:
+        height = view.plan.asset_dimensions.get(asset.name)
+        for name in asset.instances:
+            body = view.root_named(name)
+            if body is not None and height is not None:
+                yield from _compared(view, body, np.array([height]), extent(view, body)[2:])
+
+
+def _compared(view: ModelView, body: int, planned: np.ndarray, built: np.ndarray) -> Iterator[Problem]:
+    apart = np.abs(built - planned)
+    if not np.isfinite(built).all() or (apart <= np.maximum(SHARE * planned, LEAST_M)).all():
+        return
+    words = [" x ".join(f"{v:.4g}" for v in values) for values in (built, planned)]
+    ratio = built / planned
+    hint = next((f" (all times {f:g})" for f in (2.0, 0.5) if np.allclose(ratio, f, rtol=0.02)), "")
+    message = f"{view.name('body', body)} measures {words[0]} m, the plan says {words[1]} m{hint}"
+    yield view.at("body", body, message, "build it in the plan's size, or change the plan")

@@ -1,0 +1,122 @@
+"""A short confined run that belongs to no run folder: lint compiles a program's world this way, and looks at what it left.
+
+Same ladder, same limits as a job, but nothing is kept: files are made in a folder that is gone afterwards. It is never
+done on the lowest level unless the user chose that level: limits alone do not keep a program from the user's files.
+"""
+
+import os
+import stat
+import subprocess
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+
+from . import family, sandbox
+from .sandbox.confinement import Confinement, environment
+from .sandbox.enter import enter
+
+TICK_S = 0.02
+MB = 1 << 20
+LOG_BYTES = 20_000
+
+
+@dataclass(frozen=True)
+class Confined:
+    """How a confined run ended."""
+
+    status: str
+    """`ended`, `timed_out`, `out_of_memory`, or `refused` when no level of the sandbox confines here."""
+    exit_code: int = 0
+    files: dict[str, bytes] = field(default_factory=dict)
+    """What was asked for and was left as a plain file of acceptable size."""
+    log: str = ""
+    """The end of what it printed."""
+    wall_s: float = 0.0
+    level: str = ""
+
+
+def run(
+    call: Sequence[str],
+    *,
+    reads: Sequence[Path] = (),
+    wanted: Sequence[str] = (),
+    wall_s: float = 20.0,
+    memory_mb: int = 2048,
+    file_mb: int = 64,
+) -> Confined:
+    """Run a command to its end in the sandbox; `{out}` in it stands for the one folder it may write.
+
+    Args:
+        call: the command line.
+        reads: files and folders it may read besides what every program may.
+        wanted: names of files in the folder that the caller wants to see.
+        wall_s: killed after so many seconds.
+        memory_mb: resident memory of all its processes, MiB.
+        file_mb: size of one file, MiB.
+    """
+    name = sandbox.level()
+    if name not in sandbox.CONFINING and os.environ.get("WORLDWRIGHT_SANDBOX") != name:
+        return Confined("refused", level=name)
+    with tempfile.TemporaryDirectory(prefix="worldwright-confined-") as folder:
+        out, scratch = Path(folder) / "out", Path(folder) / "tmp"
+        out.mkdir()
+        scratch.mkdir()
+        confinement = Confinement(
+            out=out,
+            reads=tuple(path.absolute() for path in reads),
+            scratch=scratch,
+            cpu_s=int(wall_s) + 1,
+            file_bytes=file_mb * MB,
+            memory_bytes=memory_mb * MB + (4 << 30),
+            token=family.new_token(),
+            processes=16,
+            threads=128,
+            environment=environment(str(scratch)),
+        )
+        words = [word.replace("{out}", str(out)) for word in call]
+        # Its output goes to a file, so that the file limit holds for it too.
+        with (Path(folder) / "log.txt").open("w+b") as log:
+            began = time.monotonic()
+            status, code = _watched(sandbox.LADDER[name], words, confinement, log, wall_s, memory_mb * MB)
+            wall = time.monotonic() - began
+            log.seek(max(0, log.seek(0, os.SEEK_END) - LOG_BYTES))
+            tail = log.read().decode(errors="replace")
+        files = {file: data for file in wanted if (data := _plain(out / file, file_mb * MB)) is not None}
+    return Confined(status, code, files, tail, round(wall, 3), name)
+
+
+def _watched(
+    level: ModuleType, call: list[str], confinement: Confinement, log: object, wall_s: float, memory: int
+) -> tuple[str, int]:
+    entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
+    process, status = entered.process, "ended"
+    deadline, look = time.monotonic() + wall_s, 0.0
+    try:
+        while process.poll() is None:
+            now = time.monotonic()
+            if now > deadline:
+                status = "timed_out"
+                break
+            if now > look:
+                look = now + 0.2
+                if family.census(process.pid).resident_bytes > memory:
+                    status = "out_of_memory"
+                    break
+            time.sleep(TICK_S)
+    finally:
+        family.end(process.pid, confinement.token)
+    return status, process.wait()
+
+
+def _plain(path: Path, limit: int) -> bytes | None:
+    """The content of a plain file; never through a link, which could lead out of the folder."""
+    try:
+        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+    except OSError:
+        return None
+    with os.fdopen(handle, "rb") as stream:
+        facts = os.fstat(handle)
+        return stream.read() if stat.S_ISREG(facts.st_mode) and facts.st_size <= limit else None

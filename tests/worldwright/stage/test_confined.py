@@ -1,0 +1,45 @@
+"""A short confined run: limits hold, nothing is left behind, and only plain files come back."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from worldwright.stage import sandbox
+from worldwright.stage.confined import run
+
+pytestmark = pytest.mark.skipif(sandbox.level() not in sandbox.CONFINING, reason="no level confines here")
+
+
+def python(code, **limits):
+    return run([sys.executable, "-c", code, "{out}"], **limits)
+
+
+def test_what_is_asked_for_comes_back_and_the_rest_is_gone():
+    done = python(
+        "import sys, pathlib; o = pathlib.Path(sys.argv[1]); (o / 'a').write_text('x'); print(o)", wanted=("a", "b")
+    )
+    assert (done.status, done.exit_code, done.files) == ("ended", 0, {"a": b"x"})
+    assert not Path(done.log.strip()).exists()
+
+
+def test_links_and_pipes_do_not_come_back():
+    code = "import os, sys; os.chdir(sys.argv[1]); os.symlink('/etc/hostname', 'a'); os.mkfifo('b'); os.mkdir('c')"
+    assert python(code, wanted=("a", "b", "c")).files == {}
+
+
+def test_time_memory_and_output_are_limited():
+    assert python("while True: pass", wall_s=1.0).status == "timed_out"
+    hog = python("x = b'x' * (300 << 20)\nwhile True: pass", memory_mb=128, wall_s=20.0)
+    assert hog.status == "out_of_memory"
+    loud = python("while True: print('x' * 100000)", file_mb=1, wall_s=20.0)
+    assert loud.exit_code != 0 and len(loud.log) <= 20_000
+
+
+def test_only_what_was_named_can_be_read(tmp_path):
+    named, other = tmp_path / "named.txt", tmp_path / "other.txt"
+    named.write_text("yes")
+    other.write_text("no")
+    code = "import pathlib, sys; print(pathlib.Path({!r}).read_text())"
+    assert "yes" in python(code.format(str(named)), reads=[named]).log
+    assert python(code.format(str(other)), reads=[named]).exit_code != 0
