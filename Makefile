@@ -5,7 +5,7 @@ JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := $(CURDIR)/.ci/constraints.txt
 
-.PHONY: help demo test lint fmt bench examples test-faults test-inspector test-harness test-semantic docs lock clean
+.PHONY: help demo test lint fmt bench examples test-faults test-conformance test-harness test-semantic docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -36,10 +36,10 @@ examples: .venv/.dev ## Re-prove every accepted example
 test-faults: .venv/.dev ## kill -9 at a hundred random moments (make test does a few)
 	WORLDWRIGHT_KILLS=100 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/stage/test_faults.py
 
-test-inspector: .venv/.dev ## The MCP inspector's strict check on all six servers (needs npm)
-	$(BIN)/python -m pytest tests/inspector -p no:xdist
+test-conformance: .venv/.dev ## The official MCP suite over HTTP and the inspector over stdio, on all six servers (needs npm)
+	WORLDWRIGHT_CONFORMANCE=1 $(BIN)/python -m pytest tests/conformance -p no:xdist
 
-test-harness: .venv/.dev ## The contract in the real Claude Code and OpenCode, offline, with a scripted model (needs npm)
+test-harness: .venv/.dev ## The contract in the real Claude Code, Codex and OpenCode, offline, with a scripted model (needs npm)
 	cd tests/harness && PYTHONPATH=. WORLDWRIGHT_HARNESSES=1 ../../$(BIN)/python -m pytest . -p no:xdist
 
 test-semantic: .venv/.semantic ## Ranking by meaning: the quality of search with the packaged model

@@ -9,11 +9,13 @@ from pathlib import Path
 import pytest
 
 REPO = Path(__file__).parents[2]
-PACKAGES = ("@anthropic-ai/claude-code@2.1.329", "opencode-ai@1.18.33")
+PACKAGES = ("@anthropic-ai/claude-code@2.1.329", "@openai/codex@0.169.0", "opencode-ai@1.18.33")
 FOLDER = REPO / ".venv" / "harnesses"
 MACHINE = "x64" if platform.machine() == "x86_64" else "arm64"
+TRIPLE = f"{'x86_64' if MACHINE == 'x64' else 'aarch64'}-unknown-linux-musl"
 BINARIES = {
     "claude": FOLDER / f"node_modules/@anthropic-ai/claude-code-linux-{MACHINE}/claude",
+    "codex": FOLDER / f"node_modules/@openai/codex-linux-{MACHINE}/vendor/{TRIPLE}/bin/codex",
     "opencode": FOLDER / f"node_modules/opencode-linux-{MACHINE}/bin/opencode",
 }
 
@@ -62,10 +64,12 @@ def project(tmp_path: Path) -> Path:
 @pytest.fixture
 def clean(tmp_path: Path) -> dict[str, str]:
     """An environment with nothing of this machine's settings: an empty home, a path, dummy keys."""
-    home = tmp_path / "home"
+    home, scratch = tmp_path / "home", tmp_path / "scratch"
     home.mkdir()
+    scratch.mkdir()
     return {
         "HOME": str(home),
+        "TMPDIR": str(scratch),  # Codex refuses a home below the folder for temporary files
         "PATH": os.environ["PATH"],
         "MUJOCO_GL": os.environ.get("MUJOCO_GL", "egl"),
         "ANTHROPIC_API_KEY": "dummy",

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from model_server import Call, Lazy, Say, Turn
+from script import Call, Lazy, Say, Turn
 
 RUN = "runs/ball"
 
@@ -14,9 +14,9 @@ def story(
     plan: str,
     write: Callable[[str, str], Call],
     tool: Callable[..., Call],
-    spawn: Callable[[str], Call],
+    spawn: Callable[[str], list[Turn | Lazy]],
 ) -> dict[str, list[Turn | Lazy]]:
-    """The script; the callables say how a harness writes a file, calls a tool and spawns an agent."""
+    """The script; the callables say how a harness writes a file, calls a tool, and spawns an agent and waits for it."""
 
     def program(change: Callable[[str], str]) -> Lazy:
         def turn() -> Turn:
@@ -59,16 +59,16 @@ def story(
     film = [*stage("stills"), *stage("video")]
     return {
         "main": [
-            [spawn("plan")],
+            *spawn("plan"),
             [tool("stamp", "approve", run=RUN, by="the person")],
-            [spawn("code")],
+            *spawn("code"),
             *film,
-            [spawn("visual")],
-            [spawn("review")],
-            [spawn("code")],
+            *spawn("visual"),
+            *spawn("review"),
+            *spawn("code"),
             *film,
-            [spawn("visual")],
-            [spawn("review")],
+            *spawn("visual"),
+            *spawn("review"),
             [tool("stamp", "accept", run=RUN, timeout_s=40)],
             [tool("stamp", "status", run=RUN)],
             [Say("accepted")],

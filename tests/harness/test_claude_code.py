@@ -4,7 +4,8 @@ import json
 import subprocess
 
 import pytest
-from model_server import Call, Model, Say, Script
+from model_server import Model
+from script import ROLES, Call, Say, Script
 from story import story
 
 
@@ -34,7 +35,8 @@ def write(project, path):
 
 
 def spawn(role):
-    return Call("Agent", {"description": role, "prompt": "the run is runs/ball", "subagent_type": f"world-{role}"})
+    given = {"description": role, "prompt": "the run is runs/ball", "subagent_type": f"world-{role}"}
+    return [[Call("Agent", given)]]
 
 
 def test_the_guard_holds_for_every_role(harnesses, project, clean):
@@ -52,7 +54,7 @@ def test_the_guard_holds_for_every_role(harnesses, project, clean):
         "main": [
             [write(project, "runs/ball/plan.md")],
             [Call("Bash", {"command": "mkdir -p runs/ball && echo x > runs/ball/plan.md", "description": "write"})],
-            *([spawn(role)] for role in ("plan", "code", "visual", "review")),
+            *(turn for role in ROLES for turn in spawn(role)),
             [Call("mcp__stamp__review", {"run": "runs/ball"})],
         ],
         "plan": [

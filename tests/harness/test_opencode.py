@@ -5,7 +5,8 @@ import shutil
 import subprocess
 
 import pytest
-from model_server import Call, Model, Say, Script
+from model_server import Model
+from script import Call, Say, Script
 from story import story
 
 
@@ -39,13 +40,13 @@ def write(project, path):
 
 def spawn(role):
     given = {"description": role, "prompt": "the run is runs/ball", "subagent_type": f"world-{role}"}
-    return Call("task", given)
+    return [[Call("task", given)]]
 
 
 def test_the_permissions_hold_for_every_role(harnesses, project, clean):
     forbidden = ["README.md", "runs/ball/journal.jsonl", "runs/ball/../../x.md"]
     turns = {
-        "main": [[write(project, "runs/ball/plan.md")], *([spawn(role)] for role in ("plan", "code"))],
+        "main": [[write(project, "runs/ball/plan.md")], *spawn("plan"), *spawn("code")],
         "plan": [
             [write(project, "runs/ball/plan.md")],
             *([write(project, p)] for p in [*forbidden, "runs/ball/simulation.py"]),

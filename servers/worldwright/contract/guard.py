@@ -5,14 +5,15 @@ Reads the hook's JSON from standard input; exits 0 to let the call through and 2
 deny it. Whatever goes wrong denies. Real paths are judged, so `..` and symbolic links do not help.
 
 - A role (plan, code, visual, review) writes only its own files inside one run folder, uses only its own MCP tools, and
-  has no shell.
+  has no shell, save for looking at files where the harness has no other way to (Codex).
 - The main thread, and any agent that is none of our roles, writes nothing under `runs/`; its shell may only look there.
 
 With `--allow` (Claude Code understands it) a call that belongs to a run need not be confirmed by the person, save the
 approval of a plan, which is theirs.
 
 Only the standard library, so that it starts in a few hundredths of a second with any Python. The gates check the same
-by hash: what slips past a hook is refused at acceptance.
+by hash: what slips past a hook is refused at acceptance. No hook sees everything: Codex asks none about text that is typed
+into a shell already running, so a shell that waits for input is not started at all.
 """
 
 import json
@@ -39,9 +40,8 @@ LOOKING = frozenset(
         "cat",
         "head",
         "tail",
-        "less",
+        "nl",
         "wc",
-        "file",
         "stat",
         "sha256sum",
         "md5sum",
@@ -53,14 +53,25 @@ LOOKING = frozenset(
         "egrep",
         "fgrep",
         "jq",
-        "tree",
         "realpath",
         "pwd",
         "echo",
         "true",
     ]
 )
-"""Commands that cannot write without a redirection."""
+"""Commands that cannot write without a redirection (`tree -o`, `less -o` and `file -C` can)."""
+STARTERS = re.compile(r"^--(?:pre|hostname-bin)(?:=|$)")
+"""Options of `rg` that start another program."""
+PRINTED = re.compile(r"^\d+(?:,(?:\d+|\$))?p$")
+"""The one script of `sed` that only looks: `sed -n 10,20p FILE`."""
+INTERACTIVE = re.compile(
+    r"(?:^|[;&|\n])\s*(?:\S*/)?(?:(?:ba|da|z|fi)?sh|i?python[\d.]*|node|perl|ruby)(?:\s+-[il]+)*\s*(?:$|[;&\n])"
+)
+"""An interpreter that is given neither a program nor a file, and so would read what is typed into it later."""
+SILENCED = re.compile(r"\b2>\s*(?:/dev/null|&1)(?=[\s;|&]|$)")
+"""Errors thrown away or joined to the output: the redirections that write no file."""
+COLLABORATION = ("collaboration", "multi_agent")
+"""Namespaces of Codex's tools for other agents; a hook sees them run together: `collaborationspawn_agent`."""
 PATCHED = re.compile(r"^\*\*\* (?:Add|Update|Delete) File: (.+)$|^\*\*\* Move to: (.+)$", re.MULTILINE)
 
 
@@ -93,7 +104,7 @@ def judge(event: dict, project: Path) -> bool:
         _judge_shell(_command(given), base, project, role)
     elif role is not None and kind in READERS and not role.reads_files:
         raise DeniedError(f"the {role.name} role sees only what its tools show it: {', '.join(role.tools)}")
-    elif role is not None and kind in ("agent", "task", "spawn_agent"):
+    elif role is not None and (kind in ("agent", "task", "spawn_agent") or kind.startswith(COLLABORATION)):
         raise DeniedError(f"the {role.name} role starts no agents: answer, and let the main thread go on")
     return False
 
@@ -148,33 +159,56 @@ def _judge_write(path: str, base: Path, project: Path, role: "Role | None") -> N
 
 
 def _judge_shell(command: str, base: Path, project: Path, role: "Role | None") -> None:
-    if role is not None:
+    if role is not None and not role.reads_files:
         raise DeniedError(f"the {role.name} role has no shell; its tools are: {', '.join(role.tools)}")
-    runs = project / RUNS
-    here = _inside(_real(".", base), project) is not None
-    if not (here or RUNS in command or str(runs) in command or _globs_into(command, base, runs)):
-        return
+    if role is None:
+        if INTERACTIVE.search(command):
+            raise DeniedError("a shell that waits for input cannot be judged: give the whole command at once")
+        runs = project / RUNS
+        here = _inside(_real(".", base), project) is not None
+        if not (here or RUNS in command or str(runs) in command or _globs_into(command, base, runs)):
+            return
+    who = f"the {role.name} role has a shell only to look" if role else "the main thread writes nothing under runs/"
     if re.search(r"[`]|\$\(|<\(|>\(|\$\{?[A-Za-z_]", command):
-        raise DeniedError("a command that touches runs/ may not compute its arguments: write the paths out")
-    for part in re.split(r"&&|\|\||[;|\n]", command):
-        _judge_part(part, command)
+        raise DeniedError(f"{who}, and a command may not compute its arguments: write the paths out")
+    for words in _commands(command, who):
+        _judge_command(words, who, project, role)
 
 
-def _judge_part(part: str, command: str) -> None:
-    try:
-        words = shlex.split(part)
-    except ValueError as cause:
-        raise DeniedError(f"the command cannot be read: {cause}") from cause
-    if not words:
+def _commands(command: str, who: str) -> list[list[str]]:
+    """The simple commands of a line of shell, as words; a redirection or a job in the background is refused."""
+    found: list[list[str]] = [[]]
+    for line in SILENCED.sub(" ", command).splitlines():
+        reader = shlex.shlex(line, posix=True, punctuation_chars=True)
+        reader.whitespace_split, reader.commenters = True, ""
+        try:
+            words = list(reader)
+        except ValueError as cause:
+            raise DeniedError(f"the command cannot be read: {cause}") from cause
+        for word in words:
+            if word in ("&&", "||", ";", "|"):
+                found.append([])
+            elif word and not word.strip("();<>|&"):
+                raise DeniedError(f"{who}, and may not redirect (`{word}`) there")
+            else:
+                found[-1].append(word)
+        found.append([])
+    return [words for words in found if words]
+
+
+def _judge_command(words: list[str], who: str, project: Path, role: "Role | None") -> None:
+    if words[0] in LOOKING and not (words[0] == "rg" and any(STARTERS.match(word) for word in words)):
         return
-    if re.search(r">", re.sub(r"2>\s*(?:/dev/null|&1)", "", re.sub(r"'[^']*'|\"[^\"]*\"", "", part))) or "&" in words:
-        raise DeniedError("the main thread writes nothing under runs/, and may not redirect there")
-    name = Path(words[0]).name
-    if name == "worldwright" or name in LOOKING:
+    if words[:2] == ["sed", "-n"] and len(words) > 3 and PRINTED.match(words[2]) and words[3][:1] != "-":
+        return
+    if role is None and words[0] in ("worldwright", ".venv/bin/worldwright", str(project / ".venv/bin/worldwright")):
+        verb = ".".join(words[1:3]).replace("-", "_")
+        if words[1:2] and words[1] in SERVERS and verb not in MAIN_TOOLS:
+            raise DeniedError(f"{verb} is not a tool of the main thread: the role whose it is reports for itself")
         return
     raise DeniedError(
-        f"`{words[0]}` may write under runs/ ({command[:80]!r}): only `worldwright …` and looking commands "
-        f"({', '.join(sorted(LOOKING))}) may name a run; a role writes its own file"
+        f"`{words[0]}` may write, and {who}: only looking commands ({', '.join(sorted(LOOKING))}, sed -n 1,9p)"
+        + (" and `worldwright …` may name a run; a role writes its own file" if role is None else " are for it")
     )
 
 

@@ -15,6 +15,8 @@ COMMAND = ".venv/bin/worldwright"
 GUARD = "servers/worldwright/contract/guard.py"
 CLAUDE_READERS = ("Read", "Glob", "Grep")
 CLAUDE_WRITERS = ("Write", "Edit")
+PERSONAL = ("stamp.approve",)
+"""Tools that speak for the person, who is asked each time; the guard alone decides about all others of ours."""
 
 
 def files() -> dict[str, str]:
@@ -86,7 +88,7 @@ def _claude_settings() -> dict[str, object]:
     return {
         "enableAllProjectMcpServers": True,
         "env": {"CLAUDE_CODE_DISABLE_BACKGROUND_TASKS": "1"},
-        "permissions": {"ask": ["mcp__stamp__approve"]},
+        "permissions": {"ask": list(_mcp(PERSONAL))},
         "hooks": {"PreToolUse": [{"matcher": "*", "hooks": [hook]}]},
     }
 
@@ -104,8 +106,13 @@ def _codex_config() -> str:
             f'command = "{COMMAND}"',
             f'args = ["serve", "{name}"]',
             "startup_timeout_sec = 30",
+            "required = true",  # or the first call may come before its server is up
+            'default_tools_approval_mode = "approve"',
             "",
         ]
+    for tool in PERSONAL:
+        server, name = tool.split(".")
+        parts += [f"[mcp_servers.{server}.tools.{name}]", 'approval_mode = "prompt"', ""]
     for role in ROLES:
         parts += [
             f"[agents.{role.agent}]",
@@ -171,5 +178,6 @@ def _opencode_config() -> dict[str, object]:
             "edit": {"*": "ask", f"{RUNS}/**": "deny"},
             "external_directory": "deny",
             **_opencode_tools(MAIN_TOOLS),
+            **{tool.replace(".", "_"): "ask" for tool in PERSONAL},
         },
     }

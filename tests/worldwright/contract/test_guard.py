@@ -109,10 +109,28 @@ def test_a_patch_is_judged_by_every_file_it_names(project):
 
 
 @pytest.mark.parametrize("agent", [role.agent for role in ROLES])
-def test_roles_have_no_shell_and_start_no_agents(project, agent):
-    for tool, given in (("Bash", {"command": "ls"}), ("shell", {"command": ["bash", "-lc", "ls"]}), ("exec", "ls")):
-        assert "no shell" in verdict(project, tool, given, agent)
-    assert verdict(project, "Task", {"prompt": "x"}, agent)
+def test_roles_start_and_address_no_agents(project, agent):
+    for tool in ("Task", "Agent", "spawn_agent", "collaborationspawn_agent", "collaborationsend_message"):
+        assert "starts no agents" in verdict(project, tool, {"message": "x"}, agent)
+    assert verdict(project, "collaborationspawn_agent", {"message": "x"}) is None
+
+
+LOOKING = [
+    "ls -R runs",
+    "cat runs/ball/plan.md | head -5; pwd",
+    "sed -n 1,20p runs/ball/plan.md",
+    "rg 'a|b' skills 2>&1",
+]
+
+
+@pytest.mark.parametrize("agent", [role.agent for role in ROLES])
+def test_a_role_has_a_shell_for_looking_at_most(project, agent):
+    sees = agent not in ("world-visual",)
+    for command in LOOKING:
+        assert (verdict(project, "Bash", {"command": command}, agent) is None) == sees
+        assert (verdict(project, "shell", {"command": ["bash", "-lc", command]}, agent) is None) == sees
+    for command in [*WRITING, "echo x > /elsewhere", "touch x", "sed -n w1 x", "worldwright stamp accept runs/ball"]:
+        assert verdict(project, "Bash", {"command": command}, agent)
 
 
 WRITING = [
@@ -135,6 +153,16 @@ WRITING = [
     "git checkout -- runs/ball/plan.md",
     "ls runs & rm -r runs",
     "bash -c 'rm runs/ball/plan.md'",
+    "cat runs/ball/plan.md&rm -r runs/ball",
+    "tree runs -o runs/ball/plan.md",
+    "rg --pre=./x runs",
+    "sed -n '1,5w runs/x' a",
+    "cat a >| runs/ball/plan.md",
+    "cat a 2>/dev/null>runs/ball/plan.md",
+    "ls runs\nrm -r runs/ball",
+    "./worldwright runs",
+    "worldwright stamp describe runs/ball x",
+    "worldwright stamp review runs/ball x",
 ]
 
 
@@ -156,10 +184,19 @@ def test_the_main_thread_changes_nothing_under_runs_by_the_shell(project, comman
         "make test",
         "pip install x > log.txt",
         "rm -rf build",
+        "rg 'a|b; c' runs",
+        "python3 x.py",
+        "bash build.sh && make",
+        "printf x | python3 -",
     ],
 )
 def test_looking_and_other_work_is_left_alone(project, command):
     assert verdict(project, "Bash", {"command": command}) is None
+
+
+@pytest.mark.parametrize("command", ["sh", "bash -i", "cd x && python3", "/usr/bin/node", "python3.12 -i"])
+def test_what_waits_for_input_is_not_started(project, command):
+    assert "waits for input" in verdict(project, "Bash", {"command": command})
 
 
 def test_the_main_thread_writes_elsewhere_and_not_in_a_run(project):
