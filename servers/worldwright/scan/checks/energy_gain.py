@@ -17,7 +17,8 @@ from dataclasses import replace
 import numpy as np
 
 from ...model.finding import AnomalySeverity
-from ...model.trajectory import Trajectory
+from ...model.plan import Intervention
+from ...model.trajectory import Interventions, Trajectory
 from .. import analytic, flight
 from ..sign import Case, Context, Sign, SkipError
 
@@ -25,6 +26,7 @@ CODE = "WS109"
 NEEDS = ("energy",)
 DIP_S = 0.15
 WARN, BLOCK = 0.03, 0.15
+AT_ONCE = ("pose", "velocity", "mocap", "parameter", "constraint")
 UNACCOUNTED = {"fluid", "surface velocity", "plugins", "flexes", "gravity compensation", "adhesion"}
 
 
@@ -87,7 +89,10 @@ def _work(trajectory: Trajectory) -> np.ndarray:
     unmeasured = {"control", "mocap", "constraint", "parameter", "callback", "pose", "velocity"} & set(ledger.kind)
     if not np.all(np.isfinite(ledger.work_j)) or (unmeasured and not np.any(ledger.work_j)):
         raise SkipError("interventions act on the system, and their work is not recorded")
-    done = np.searchsorted(trajectory.t, np.asarray(ledger.time) + 1e-12, side="left")
+    # A force works from its row to the next; what is written at once already shows in the state of its own row.
+    at_once = np.isin(np.asarray(ledger.kind, dtype=str), AT_ONCE)
+    when = np.asarray(ledger.time) + np.where(at_once, -1e-9, 1e-12)
+    done = np.searchsorted(trajectory.t, when, side="left")
     np.add.at(total, np.minimum(done, len(total) - 1), ledger.work_j)
     return np.cumsum(total)
 
@@ -137,7 +142,25 @@ def _burst() -> Case:
     return Case("a body shoots off by itself", _with_energy(analytic.motion(t, pos, vel)), severity="blocking")
 
 
+def _launched() -> Case:
+    burst = _burst().trajectory
+    assert burst.energy is not None
+    row = int(np.argmax(burst.linvel[:, 0, 0] > 0))
+    work = float(burst.energy[row].sum() - burst.energy[row - 1].sum())
+    ledger = Interventions(
+        time=burst.t[row : row + 1],
+        kind=("velocity",),
+        target=("body",),
+        value=np.zeros((1, 6)),
+        work_j=np.array([work]),
+    )
+    meant = Intervention(kind="velocity", bodies=("body",), law="a shot", trigger="t = 0.3 s", source="the prompt")
+    told = Context(planned=True, movers=("body",), interventions=(meant,))
+    return Case("a body shoots off by a velocity that the ledger has", replace(burst, interventions=ledger), told)
+
+
 GOOD = (
+    _launched,
     lambda: Case("free fall", _with_energy(analytic.falling())),
     lambda: Case("a bouncing ball", _with_energy(analytic.bouncing())),
     lambda: Case("a body braked by friction", _with_energy(analytic.sliding(1.0, 1.0))),
