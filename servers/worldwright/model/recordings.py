@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from .coordinates import Coordinates
 from .errors import RecordingError
 from .loads import Loads
 from .mechanics import Mechanics
@@ -142,6 +143,12 @@ def _from_recording(recording: Any) -> Trajectory:
             for time, name, count in zip(warned.time, warned.warning, warned.count, strict=True)
         ),
         loads=_loads(recording),
+        coordinates=Coordinates(
+            qpos=recording.qpos,
+            qvel=recording.qvel,
+            tendon_length=recording.tendon_length,
+            eq_residual=recording.eq_residual,
+        ),
         mechanics=mechanics,
         meta=recording.meta,
         time_step=float(recording.time_step),

@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from .coordinates import Coordinates
 from .errors import NotFoundError, RecordingError
 from .loads import Loads
 from .mechanics import Mechanics
@@ -126,6 +127,8 @@ class Trajectory:
     """Simulator warnings: time in s, name, count."""
     loads: Loads | None = None
     """What constraints, tendons and actuators exert."""
+    coordinates: Coordinates | None = None
+    """Joint positions, tendon lengths, constraint violations."""
     mechanics: Mechanics = field(default_factory=Mechanics)
     meta: Mapping[str, Any] = field(default_factory=dict)
     time_step: float = 0.0
@@ -262,6 +265,8 @@ class Trajectory:
             cut["contacts"] = self.contacts.take(self.contacts.row < row)
         if self.loads is not None:
             cut["loads"] = self.loads.before(row)
+        if self.coordinates is not None:
+            cut["coordinates"] = self.coordinates.before(row)
         return replace(self, **cut)
 
     @cached_property

@@ -35,6 +35,7 @@ def motion(
     size_m: float | Sequence[float] = 0.1,
     mass: float | Sequence[float] = 1.0,
     touches: Sequence[Touch] = (),
+    normal: Sequence[float] = (0.0, 0.0, 1.0),
     free: bool = True,
     gravity: float = G,
     ground_z: float | None = 0.0,
@@ -68,15 +69,15 @@ def motion(
         quat=quat,
         linvel=np.asarray(linvel, dtype=float).reshape(rows, count, 3),
         angvel=angvel,
-        contacts=contacts(touches),
+        contacts=contacts(touches, normal),
         mechanics=facts,
         time_step=float(t[1] - t[0]),
         **channels,
     )
 
 
-def contacts(touches: Sequence[Touch]) -> Contacts:
-    """Contact rows from masks, with normals along +z."""
+def contacts(touches: Sequence[Touch], normal: Sequence[float] = (0.0, 0.0, 1.0)) -> Contacts:
+    """Contact rows from masks, with one normal for all."""
     parts = []
     for one, other, mask, depth, force in touches:
         row = np.flatnonzero(mask)
@@ -85,15 +86,15 @@ def contacts(touches: Sequence[Touch]) -> Contacts:
     columns = [np.concatenate(c) for c in zip(*parts, strict=True)] if parts else [np.zeros(0)] * 5
     order = np.argsort(columns[0], kind="stable")
     row, one, other, depth, force = (column[order] for column in columns)
-    normal = np.tile((0.0, 0.0, 1.0), (len(row), 1))
+    normals = np.tile(np.asarray(normal, dtype=float), (len(row), 1))
     return Contacts(
         row=row.astype(int),
         body1=one.astype(int),
         body2=other.astype(int),
         depth_m=depth.astype(float),
         normal_force=force.astype(float),
-        force=normal * force[:, None],
-        normal=normal,
+        force=normals * force[:, None],
+        normal=normals,
         position=np.zeros((len(row), 3)),
     )
 
@@ -191,7 +192,8 @@ def collision(
     mask[hit - 1 : hit + 1] = True
     pos[:, :, 2] = 1.0
     touch: list[Touch] = [(0, 1, mask, 1e-4, 100.0)]
-    return motion(t, pos, vel, names=("a", "b"), mass=masses, touches=touch, gravity=0.0, **more)
+    line = (1.0, 0.0, 0.0)
+    return motion(t, pos, vel, names=("a", "b"), mass=masses, touches=touch, normal=line, gravity=0.0, **more)
 
 
 def swinging(

@@ -1,8 +1,10 @@
-"""Measure a plan's objectives on a recording: each ends up proved, refuted, visual only, or unproved."""
+"""Measure a plan's objectives on a recording: each ends up proved, refuted, visual only, or unproved with a reason."""
 
+import math
 from types import FunctionType
 from typing import Any
 
+import numpy as np
 from pydantic import ValidationError
 
 from ..model.errors import NotFoundError
@@ -15,6 +17,7 @@ from .measured import UnknowableError
 EXPECTATIONS = Shelf(
     "worldwright.scan.expectations", {"Given": type, "measure": FunctionType, "GOOD": tuple, "BAD": tuple}
 )
+TIMES = ("window_s", "before_s", "after_s", "at_s")
 
 
 def expect(trajectory: Trajectory, plan: Plan) -> ExpectReport:
@@ -25,7 +28,7 @@ def expect(trajectory: Trajectory, plan: Plan) -> ExpectReport:
 
 def _objective(trajectory: Trajectory, index: int, objective: Objective) -> ObjectiveResult:
     measured = tuple(
-        measure(trajectory, name, arguments if isinstance(arguments, dict) else {"body": arguments})
+        _unless_cut(trajectory, measure(trajectory, name, named(arguments)))
         for row in objective.expect
         for name, arguments in row.items()
     )
@@ -39,10 +42,28 @@ def _objective(trajectory: Trajectory, index: int, objective: Objective) -> Obje
         status, reason = "visual_only", objective.visual_only
     else:
         unknown = [f"{r.name}: {r.message}" for r in measured if r.status == "unknown"]
-        status, reason = "unproved", "; ".join(unknown) or "nothing was expected of the recorded state"
+        nothing = "nothing is expected of the recorded state; add `expect:`, or `visual_only: why it cannot be measured`"
+        status, reason = "unproved", "; ".join(unknown) or nothing
     return ObjectiveResult.model_validate(
         {"index": index, "claim": objective.claim, "status": status, "reason": reason, "expectations": measured}
     )
+
+
+def _unless_cut(trajectory: Trajectory, result: ExpectationResult) -> ExpectationResult:
+    """What holds so far is not proved while the recording ends before the time that the claim speaks of."""
+    if result.status != "holds":
+        return result
+    late = max((float(np.max(v)) for key in TIMES if (v := result.arguments.get(key)) is not None), default=0.0)
+    end = float(trajectory.t[-1])
+    if late <= end + max(2 * trajectory.interval_s, 1e-9):
+        return result
+    message = f"the recording ends at {end:.3f} s, the claim speaks of {late:g} s; so far: {result.message}"
+    return result.model_copy(update={"status": "unknown", "message": message})
+
+
+def named(arguments: Any) -> dict[str, Any]:
+    """The arguments as a mapping: a lone text is short for a body."""
+    return arguments if isinstance(arguments, dict) else {"body": arguments}
 
 
 def argument_problem(name: str, arguments: Any) -> tuple[str, str] | None:
@@ -52,32 +73,39 @@ def argument_problem(name: str, arguments: Any) -> tuple[str, str] | None:
     except NotFoundError:
         return None
     try:
-        entry.Given.model_validate(arguments if isinstance(arguments, dict) else {"body": arguments})
+        entry.Given.model_validate(named(arguments))
     except ValidationError as cause:
         first = cause.errors()[0]
-        where = ".".join(str(part) for part in first["loc"]) or "arguments"
+        where = ".".join(str(part) for part in first["loc"])
+        said = first["msg"].removeprefix("Value error, ")
         fields = ", ".join(
             field + ("" if info.is_required() else "?") for field, info in entry.Given.model_fields.items()
         )
-        return f"{where}: {first['msg']}", f"its arguments: {fields} (those with ? may be left out)"
+        return f"{where}: {said}" if where else said, f"its arguments: {fields} (those with ? may be left out)"
     return None
 
 
 def measure(trajectory: Trajectory, name: str, arguments: dict[str, Any]) -> ExpectationResult:
     """One expectation; an unknown name, wrong arguments or a missing channel is `unknown` with its reason."""
+
+    def unknown(message: str) -> ExpectationResult:
+        return ExpectationResult(name=name, arguments=arguments, status="unknown", message=message)
+
     try:
         entry = EXPECTATIONS.find(name)
-        given = entry.Given.model_validate(arguments)
-        found = entry.measure(trajectory, given)
-    except ValidationError as cause:
-        fields = EXPECTATIONS[name].Given.model_fields
-        first = cause.errors()[0]
-        where = ".".join(str(part) for part in first["loc"])
-        message = f"{where}: {first['msg']}; arguments: {', '.join(fields)}"
-        return ExpectationResult(name=name, arguments=arguments, status="unknown", message=message)
+    except NotFoundError as cause:
+        return unknown(f"{cause.cause}; {cause.next_move}")
+    if problem := argument_problem(name, arguments):
+        return unknown("; ".join(problem))
+    try:
+        with np.errstate(all="ignore"):
+            found = entry.measure(trajectory, entry.Given.model_validate(arguments))
     except (NotFoundError, UnknowableError) as cause:
-        message = f"{cause.cause}; {cause.next_move}" if cause.next_move else cause.cause
-        return ExpectationResult(name=name, arguments=arguments, status="unknown", message=message)
+        return unknown(f"{cause.cause}; {cause.next_move}" if cause.next_move else cause.cause)
+    except Exception as defect:  # a defect of one expectation must neither prove nor refute anything
+        return unknown(f"the expectation itself failed ({type(defect).__name__}: {defect}); report it with this recording")
+    if not (math.isfinite(found.measured) and math.isfinite(found.margin)):
+        return unknown(f"the recording is not finite where it is measured: {found.message}")
     return ExpectationResult(
         name=name,
         arguments=arguments,

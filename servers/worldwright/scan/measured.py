@@ -1,8 +1,8 @@
 """What an expectation says: the vocabulary between the engine and the shelf of expectations."""
 
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
-from pydantic import Field
+from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from ..model.errors import WorldwrightError
 from ..model.frozen import Frozen
@@ -10,7 +10,7 @@ from ..model.trajectory import Trajectory
 
 
 class Measured(NamedTuple):
-    """One measurement against what was expected; a positive margin means it holds, by that much."""
+    """One measurement against what was expected; a positive margin means it holds, by that much, in the same unit."""
 
     measured: float
     expected: str
@@ -19,39 +19,109 @@ class Measured(NamedTuple):
     message: str
 
 
+def at_least(value: float, least: float, unit: str, message: str) -> Measured:
+    """Holds when `value` reaches `least`."""
+    return Measured(float(value), f"at least {_told(least, unit)}", float(value - least), unit, message)
+
+
+def at_most(value: float, most: float, unit: str, message: str) -> Measured:
+    """Holds when `value` stays within `most`."""
+    return Measured(float(value), f"at most {_told(most, unit)}", float(most - value), unit, message)
+
+
+def close_to(value: float, expected: float, tolerance: float, unit: str, message: str) -> Measured:
+    """Holds when `value` is within `tolerance` (relative) of what was expected, e.g. of a textbook's formula."""
+    margin = tolerance * abs(expected) - abs(value - expected)
+    return Measured(float(value), f"{_told(expected, unit)} within {tolerance:.3g} of it", float(margin), unit, message)
+
+
+def between(value: float, least: float | None, most: float | None, unit: str, message: str) -> Measured:
+    """Holds within a range, either end of which may be open."""
+    if most is None or (least is not None and value - least <= most - value):
+        return at_least(value, -1e300 if least is None else least, unit, message)
+    return at_most(value, most, unit, message)
+
+
+def all_of(first: Measured, *others: Measured) -> Measured:
+    """The first of several conditions that fails; the first when all hold."""
+    return next((one for one in (first, *others) if not one.margin >= 0), first)
+
+
+def _told(value: float, unit: str) -> str:
+    return f"{value:g}" if unit == "1" else f"{value:g} {unit}"
+
+
 class UnknowableError(WorldwrightError):
     """The recording cannot answer this expectation; the cause says why."""
 
     code = "unknowable"
 
 
+def _ordered(window: tuple[float, float]) -> tuple[float, float]:
+    if window[1] <= window[0]:
+        raise ValueError("the window ends before it starts: write [start, end] in seconds")
+    return window
+
+
+Window = Annotated[tuple[Annotated[float, Field(ge=0)], float], AfterValidator(_ordered)]
+Point = tuple[float, float, float]
+Name = Annotated[str, Field(min_length=1)]
+Tolerance = Annotated[float, Field(gt=0)]
+
+
 class Arguments(Frozen):
-    """Arguments of an expectation; an unknown one is an error that lists the known."""
+    """Arguments of an expectation; an unknown one is an error that lists the known, and so is nan or infinity."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True, allow_inf_nan=False)
 
 
-class OfBody(Arguments):
+class Windowed(Arguments):
+    """What is asked of a stretch of time."""
+
+    window_s: Window | None = Field(None, description="[start, end], s; without it the whole recording")
+
+
+class OfBody(Windowed):
     """One body over a window."""
 
-    body: str
-    window_s: tuple[float, float] | None = None
+    body: Name = Field(description="the body")
 
 
-class OfPair(Arguments):
+class OfPair(Windowed):
     """Two bodies."""
 
-    bodies: tuple[str, str]
+    bodies: tuple[Name, Name] = Field(description="the two bodies; `ground` is the world")
+
+    @model_validator(mode="after")
+    def _two(self) -> "OfPair":
+        if self.bodies[0] == self.bodies[1]:
+            raise ValueError("name two different bodies")
+        return self
 
 
-class OfBodies(Arguments):
+class OfBodies(Windowed):
     """One body, or several."""
 
-    body: str | None = None
-    bodies: tuple[str, ...] = Field(default=())
+    body: Name | None = Field(None, description="one body")
+    bodies: tuple[Name, ...] = Field((), description="several bodies")
 
     @property
     def names(self) -> tuple[str, ...]:
         """All of them, once."""
         return tuple(dict.fromkeys((*((self.body,) if self.body else ()), *self.bodies)))
+
+    def indices(self, trajectory: Trajectory) -> list[int]:
+        """Their indices; raises when there is none."""
+        if not self.names:
+            raise UnknowableError("no body is named", next_move="add `body: NAME` or `bodies: [NAME, …]`")
+        return [body_index(trajectory, name) for name in self.names]
+
+
+def one_of(arguments: Arguments, *names: str) -> None:
+    """Raise a ValueError unless exactly one of these arguments is given; for validators."""
+    given = [name for name in names if getattr(arguments, name) not in (None, (), "")]
+    if len(given) != 1:
+        raise ValueError(f"give exactly one of {', '.join(names)}; {', '.join(given) or 'none'} was given")
 
 
 def body_index(trajectory: Trajectory, name: str) -> int:
@@ -62,9 +132,24 @@ def body_index(trajectory: Trajectory, name: str) -> int:
     return index
 
 
-def window(trajectory: Trajectory, window_s: tuple[float, float] | None) -> slice:
-    """The rows of a window, or all."""
-    return trajectory.rows(*window_s) if window_s else trajectory.rows()
+def window(trajectory: Trajectory, window_s: tuple[float, float] | None, least: int = 1) -> slice:
+    """The rows of a window, or all; raises when the recording has fewer than `least` rows there."""
+    if window_s is None:
+        rows = trajectory.rows()
+    elif window_s[0] > trajectory.t[-1] + 1e-9 or window_s[1] < trajectory.t[0] - 1e-9:
+        span = f"from {trajectory.t[0]:.3f} to {trajectory.t[-1]:.3f} s"
+        raise UnknowableError(f"the recording goes {span}, the window from {window_s[0]:g} to {window_s[1]:g} s")
+    else:
+        rows = trajectory.rows(*window_s)
+    if rows.stop - rows.start < least:
+        raise UnknowableError(f"only {rows.stop - rows.start} rows were recorded there, {least} are needed")
+    return rows
+
+
+def last_rows(trajectory: Trajectory, rows: slice, seconds: float) -> slice:
+    """The last `seconds` of some rows."""
+    start = int(trajectory.t.searchsorted(trajectory.t[rows.stop - 1] - seconds - 1e-9))
+    return slice(max(rows.start, start), rows.stop)
 
 
 def pair_rows(trajectory: Trajectory, one: str, other: str) -> Any:
@@ -73,3 +158,10 @@ def pair_rows(trajectory: Trajectory, one: str, other: str) -> Any:
     if touching is None:
         raise UnknowableError("no contacts were recorded")
     return touching
+
+
+def masses(trajectory: Trajectory) -> Any:
+    """(B,) kg; raises when the recording does not tell."""
+    if trajectory.mechanics.mass is None:
+        raise UnknowableError("the recording does not tell masses")
+    return trajectory.mechanics.mass

@@ -60,7 +60,7 @@ def check(view: PlanView) -> Iterator[Problem]:
 def vocabulary() -> tuple[str, ...]:
     """The shelf's names: its files, read from disk (the engine that measures is another server's), and plug-ins."""
     folder = Path(__file__).parents[3] / "scan" / "expectations"
-    names = {path.stem for path in folder.glob("*.py") if not path.stem.startswith("_")}
+    names = {path.stem for path in folder.rglob("*.py") if not path.stem.startswith("_")}
     names |= {point.name for point in entry_points(group="worldwright.scan.expectations")}
     return tuple(sorted(names))
 

@@ -1,0 +1,1 @@
+"""Contact: who touches whom, with which force, and whether it rolls, slides, sticks or bounces."""

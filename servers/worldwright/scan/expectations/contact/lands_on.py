@@ -1,0 +1,57 @@
+"""A body in the air lands on a given body before it touches anything else.
+
+Measures how much earlier its first touch with `support` comes than its first touch with anything else, seconds
+(touching nothing else counts to the end of the window). Source: the engine's contacts.
+"""
+
+import numpy as np
+from pydantic import Field
+
+from ....model.trajectory import Trajectory
+from ...analytic import bouncing, falling
+from ...known.contacts import caught
+from ...measured import Measured, Name, OfBody, UnknowableError, at_least, body_index, window
+
+CODE = "WE147"
+EVENT = True
+
+
+class Given(OfBody):
+    """On what."""
+
+    support: Name = Field(description="what it lands on; `ground` is the world")
+
+
+def measure(trajectory: Trajectory, given: Given) -> Measured:
+    """How much earlier."""
+    body, support = body_index(trajectory, given.body), trajectory.index(given.support)
+    contacts, touching = trajectory.contacts, trajectory.touching
+    if contacts is None or touching is None:
+        raise UnknowableError("no contacts were recorded")
+    rows = window(trajectory, given.window_s, 2)
+    t, end = trajectory.t, float(trajectory.t[rows.stop - 1])
+    aloft = rows.start + int((~touching[rows, body]).argmax())
+    if touching[aloft, body]:
+        return at_least(-1e-9, 0.0, "s", f"{given.body} is never in the air")
+    own = contacts.live & ((contacts.body1 == body) | (contacts.body2 == body))
+    own &= (contacts.row >= aloft) & (contacts.row < rows.stop)
+    row = contacts.row[own]
+    right = np.where(contacts.body1[own] == body, contacts.body2[own], contacts.body1[own]) == support
+    if not right.any():
+        return at_least(float(t[aloft]) - end - 1e-9, 0.0, "s", f"{given.body} never touches {given.support}")
+    landed = float(t[row[right].min()])
+    elsewhere = float(t[row[~right].min()]) if (~right).any() else end
+    message = f"{given.body} lands on {given.support} at {landed:.3f} s"
+    if elsewhere < landed:
+        message += f", but touches something else at {elsewhere:.3f} s"
+    return at_least(elsewhere - landed, 0.0, "s", message)
+
+
+GOOD = (
+    (lambda: bouncing(1.0, 0.8), {"body": "ball", "support": "ground"}),
+    (caught, {"body": "ball", "support": "box"}),
+)
+BAD = (
+    (caught, {"body": "ball", "support": "ground"}),
+    (lambda: falling(touches=[]), {"body": "body", "support": "ground"}),
+)

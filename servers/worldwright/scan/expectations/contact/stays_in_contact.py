@@ -1,0 +1,28 @@
+"""Two bodies stay in contact.
+
+Measures the share of the rows in which they touch. Source: the engine's contacts.
+"""
+
+from pydantic import Field
+
+from ....model.trajectory import Trajectory
+from ...analytic import bouncing, resting
+from ...measured import Measured, OfPair, at_least, pair_rows, window
+
+CODE = "WE145"
+
+
+class Given(OfPair):
+    """How much of the time."""
+
+    min_share: float = Field(default=0.95, gt=0, le=1, description="least share of the time in contact")
+
+
+def measure(trajectory: Trajectory, given: Given) -> Measured:
+    """The share of the time."""
+    share = float(pair_rows(trajectory, *given.bodies)[window(trajectory, given.window_s)].mean())
+    return at_least(share, given.min_share, "1", f"{' and '.join(given.bodies)} touch for {share:.1%} of the time")
+
+
+GOOD = ((resting, {"bodies": ["body", "ground"], "min_share": 1.0}),)
+BAD = ((lambda: bouncing(1.0, 0.8), {"bodies": ["ball", "ground"]}),)

@@ -1,0 +1,53 @@
+"""Two bodies meet and stay together.
+
+From `settle_s` after their first touch on, measures how much the distance between their origins changes, metres; they
+must also still be in contact at the end. Source: the engine's contacts; kinematics (perfectly inelastic contact).
+"""
+
+import numpy as np
+from pydantic import Field
+
+from ....model.trajectory import Trajectory
+from ...analytic import bouncing, collision
+from ...known.contacts import caught
+from ...measured import Measured, OfPair, all_of, at_least, at_most, pair_rows, window
+
+CODE = "WE142"
+EVENT = True
+
+
+class Given(OfPair):
+    """How firmly."""
+
+    max_m: float = Field(default=0.005, gt=0, description="largest change of their distance, m")
+    settle_s: float = Field(default=0.05, ge=0, description="time they may take to settle after the first touch, s")
+
+
+def measure(trajectory: Trajectory, given: Given) -> Measured:
+    """The change of their distance."""
+    rows = window(trajectory, given.window_s, 2)
+    touching = pair_rows(trajectory, *given.bodies)[rows]
+    t, pair = trajectory.t[rows], " and ".join(given.bodies)
+    if not touching.any():
+        return at_most(1e3, given.max_m, "m", f"{pair} never touch")
+    met = float(t[touching.argmax()])
+    after = t >= met + given.settle_s
+    if after.sum() < 2:
+        return at_least(float(t[-1]) - met, given.settle_s + trajectory.interval_s, "s", f"{pair} have only just met")
+    one, other = (
+        trajectory.pos[rows, b] if (b := trajectory.index(name)) >= 0 else np.zeros((len(t), 3)) for name in given.bodies
+    )
+    change = float(np.ptp(np.linalg.norm(other - one, axis=1)[after]))
+    message = f"{pair} meet at {met:.3f} s, then their distance changes by {change * 1000:.2f} mm"
+    # A contact may blink at rest: what counts is whether they still meet in the last rows.
+    late = touching[-max(3, len(touching) // 100) :]
+    together = at_least(float(late.any()), 1.0, "1", f"{message}, and they are apart in the end")
+    return all_of(at_most(change, given.max_m, "m", message), together)
+
+
+GOOD = ((lambda: caught(), {"bodies": ["ball", "box"]}),)
+BAD = (
+    (collision, {"bodies": ["a", "b"]}),
+    (lambda: bouncing(1.0, 0.8, seconds=0.8), {"bodies": ["ball", "ground"]}),
+    (lambda: caught(slips=0.05), {"bodies": ["ball", "box"]}),
+)

@@ -1,0 +1,1 @@
+"""Fracture: which constraint gives way, at which load, and what stays whole."""

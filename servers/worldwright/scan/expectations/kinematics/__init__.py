@@ -1,0 +1,1 @@
+"""Kinematics: where bodies go, along which curve, how fast."""

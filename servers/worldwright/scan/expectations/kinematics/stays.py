@@ -1,0 +1,31 @@
+"""A body stays where it is.
+
+Measures the largest distance of its origin from its first position in the window, metres. A body that turns on the
+spot stays; ask `stays_upright` about its tilt. Source: kinematics, displacement.
+"""
+
+import numpy as np
+from pydantic import Field
+
+from ....model.trajectory import Trajectory
+from ...analytic import resting, sliding
+from ...measured import Measured, OfBody, at_most, body_index, window
+
+CODE = "WE102"
+
+
+class Given(OfBody):
+    """The largest distance."""
+
+    max_m: float = Field(gt=0, description="largest distance allowed, m")
+
+
+def measure(trajectory: Trajectory, given: Given) -> Measured:
+    """The farthest it gets."""
+    path = trajectory.pos[window(trajectory, given.window_s), body_index(trajectory, given.body)]
+    far = float(np.linalg.norm(path - path[0], axis=1).max())
+    return at_most(far, given.max_m, "m", f"{given.body} gets {far * 1000:.2f} mm away from where it starts")
+
+
+GOOD = ((resting, {"body": "body", "max_m": 0.001}),)
+BAD = ((lambda: sliding(1.0), {"body": "body", "max_m": 0.5}),)

@@ -1,0 +1,1 @@
+"""Oscillation: periods against theory, damping, phase."""

@@ -1,0 +1,1 @@
+"""Rotation: how bodies turn, spin, precess and tip."""
