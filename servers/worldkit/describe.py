@@ -169,13 +169,17 @@ def _geom(model: "mujoco.MjModel", g: int, name: str, bodies: list[str]) -> dict
 
 
 def _flex(model: "mujoco.MjModel", f: int, name: str, bodies: list[str]) -> dict[str, Any]:
-    """One flex: how many vertices, and which static bodies hold some of them."""
+    """One flex: how many vertices, the bodies that carry its shape, and which static bodies hold some of them."""
     first = int(model.flex_vertadr[f])
     owners = model.flex_vertbodyid[first : first + int(model.flex_vertnum[f])]
+    node = int(model.flex_nodeadr[f])
+    nodes = model.flex_nodebodyid[node : node + int(model.flex_nodenum[f])] if node >= 0 else ()
     held = [int(b) for b in owners if b >= 0 and model.body_treeid[b] < 0 and model.body_mocapid[b] < 0]
     return {
         "name": name,
         "vertices": len(owners),
+        # An interpolated flex has its shape from a few nodes, and its vertices belong to no body.
+        "bodies": list(dict.fromkeys(bodies[int(b)] for b in (*nodes, *owners) if b > 0)),
         "pinned": len(held),
         "pinned_to": sorted({bodies[b] for b in held}),
     }

@@ -42,7 +42,9 @@ def _objective(trajectory: Trajectory, index: int, objective: Objective) -> Obje
         status, reason = "visual_only", objective.visual_only
     else:
         unknown = [f"{r.name}: {r.message}" for r in measured if r.status == "unknown"]
-        nothing = "nothing is expected of the recorded state; add `expect:`, or `visual_only: why it cannot be measured`"
+        nothing = (
+            "nothing is expected of the recorded state; add `expect:`, or `visual_only: why it cannot be measured`"
+        )
         status, reason = "unproved", "; ".join(unknown) or nothing
     return ObjectiveResult.model_validate(
         {"index": index, "claim": objective.claim, "status": status, "reason": reason, "expectations": measured}
@@ -103,7 +105,9 @@ def measure(trajectory: Trajectory, name: str, arguments: dict[str, Any]) -> Exp
     except (NotFoundError, UnknowableError) as cause:
         return unknown(f"{cause.cause}; {cause.next_move}" if cause.next_move else cause.cause)
     except Exception as defect:  # a defect of one expectation must neither prove nor refute anything
-        return unknown(f"the expectation itself failed ({type(defect).__name__}: {defect}); report it with this recording")
+        return unknown(
+            f"the expectation itself failed ({type(defect).__name__}: {defect}); report it with this recording"
+        )
     if not (math.isfinite(found.measured) and math.isfinite(found.margin)):
         return unknown(f"the recording is not finite where it is measured: {found.message}")
     return ExpectationResult(

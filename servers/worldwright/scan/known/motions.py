@@ -88,7 +88,10 @@ def two(first: Trajectory, second: Trajectory, names: tuple[str, str] = ("a", "b
         return np.stack([getattr(part, channel)[:, 0] for part in both], axis=1)
 
     mass = [float(part.mechanics.mass[0]) if part.mechanics.mass is not None else 1.0 for part in both]
-    size = [2 * float(part.mechanics.half_extents[0, 0]) if part.mechanics.half_extents is not None else 0.1 for part in both]
+    size = [
+        2 * float(part.mechanics.half_extents[0, 0]) if part.mechanics.half_extents is not None else 0.1
+        for part in both
+    ]
     gravity = -float(first.gravity[2])
     return motion(
         first.t[:rows], join("pos") + shift, join("linvel"), names=names, quat=join("quat"), angvel=join("angvel"),

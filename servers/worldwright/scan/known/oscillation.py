@@ -9,7 +9,12 @@ from ..analytic import clock, motion
 
 
 def springing(
-    stiffness: float = 40.0, mass: float = 1.0, ratio: float = 0.0, amplitude: float = 0.1, seconds: float = 5.0, **more: Any
+    stiffness: float = 40.0,
+    mass: float = 1.0,
+    ratio: float = 0.0,
+    amplitude: float = 0.1,
+    seconds: float = 5.0,
+    **more: Any,
 ) -> Trajectory:
     """A mass on a spring along x, let go at `amplitude`: x = A exp(-z w t) (cos wd t + z w / wd sin wd t).
 

@@ -9,7 +9,12 @@ from ..analytic import G, clock, motion
 
 
 def released(
-    stiffness: float = 200.0, compression: float = 0.1, mass: float = 1.0, lost: float = 0.0, seconds: float = 1.0, **more: Any
+    stiffness: float = 200.0,
+    compression: float = 0.1,
+    mass: float = 1.0,
+    lost: float = 0.0,
+    seconds: float = 1.0,
+    **more: Any,
 ) -> Trajectory:
     """A body on a pressed spring along x: v = x sqrt(k / m) once the spring is slack, less the share of energy `lost`.
 

@@ -69,3 +69,58 @@ def hinged(final_deg: float = 30.0, seconds: float = 1.0, **more: Any) -> Trajec
     spin = np.tile((0.0, rate, 0.0), (len(t), 1))[:, None]
     made = motion(t, pos, vel, quat=quat, angvel=spin, names=("bar",), free=False, **more)
     return with_channels(made, joints={"hinge": angle})
+
+
+PROFILES = {
+    "returns": lambda s: np.sin(np.pi * s) ** 2,
+    "keeps": lambda s: np.minimum(2 * s, 1.0),
+    "rings": lambda s: np.sin(3 * np.pi * s),
+}
+"""How a deformation goes over the share of time passed: there and back, there to stay, to and fro."""
+
+
+def beam(profile: str = "returns", sag: float = 0.1, parts: int = 11, drift: float = 0.0, **more: Any) -> Trajectory:
+    """A row of parts `beam_0` … along x, 1 m long, that sags as a parabola by up to `sag`; drifting and turning in space.
+
+    With `drift` the whole moves along x by so much and turns about z by as many radians: no deformation.
+    """
+    t = clock(1.0)
+    amount = PROFILES[profile](t)
+    x = np.linspace(-0.5, 0.5, parts)
+    shape = np.zeros((len(t), parts, 3))
+    shape[:, :, 0] = x
+    shape[:, :, 2] = 1.0 - sag * amount[:, None] * (1 - 4 * x**2)
+    angle = drift * t
+    turned = shape.copy()
+    turned[:, :, 0] = np.cos(angle)[:, None] * shape[:, :, 0] + drift * t[:, None]
+    turned[:, :, 1] = np.sin(angle)[:, None] * shape[:, :, 0]
+    names = tuple(f"beam_{k}" for k in range(parts))
+    return motion(t, turned, np.gradient(turned, t, axis=0), names=names, size_m=0.02, free=False, **more)
+
+
+def stretched(strain: float = 0.2, profile: str = "keeps", tension: float = 50.0, **more: Any) -> Trajectory:
+    """A `rope` (tendon) of 1 m between `left` and `right`, drawn out along x by the strain, with a tension in proportion."""
+    t = clock(1.0)
+    length = 1.0 + strain * PROFILES[profile](t)
+    pos = np.zeros((len(t), 2, 3))
+    pos[:, 1, 0], pos[:, :, 2] = length, 1.0
+    made = motion(t, pos, np.gradient(pos, t, axis=0), names=("left", "right"), free=False, **more)
+    return with_channels(made, tendons={"rope": (length, tension * np.abs(length - 1.0) / max(abs(strain), 1e-9))})
+
+
+def breaking(load_n: float | None = 100.0, rate: float = 200.0, **more: Any) -> Trajectory:
+    """Two bodies hung from each other: `bolt` carries a load growing at `rate` N/s and lets go at `load_n`; `pin` holds.
+
+    Afterwards `lower` falls freely. With None nothing breaks.
+    """
+    t = clock(1.0)
+    moment = np.inf if load_n is None else load_n / rate
+    whole = t <= moment
+    fallen = np.where(whole, 0.0, t - moment) if np.isfinite(moment) else 0 * t
+    pos, vel = np.zeros((len(t), 2, 3)), np.zeros((len(t), 2, 3))
+    pos[:, 0, 2], pos[:, 1, 2] = 10.0, 9.8 - G * fallen**2 / 2
+    vel[:, 1, 2] = -G * fallen
+    made = motion(t, pos, vel, names=("upper", "lower"), free=False, **more)
+    load = np.where(whole, rate * t, 0.0)
+    always = np.ones(len(t), dtype=bool)
+    return with_channels(made, equalities={"bolt": (whole, load), "pin": (always, 10.0 + 0 * t)})

@@ -8,6 +8,7 @@ Use instead: an expectation that names it: `moves`, `falls`, `reaches_speed`, `b
 """
 
 from collections.abc import Iterator
+from fnmatch import fnmatchcase
 from typing import Any
 
 from ...case import Changes
@@ -45,7 +46,8 @@ def check(view: PlanView) -> Iterator[Problem]:
     for index, step in enumerate(view.plan.implementation_steps):
         for number, mover in enumerate(step.motion_expectations):
             described = view.rows.get(mover)
-            if mover not in named and (described is None or described.name not in named):
+            meant = any(fnmatchcase(mover, name) for name in named)  # a crowd may be named by a pattern, `grain_*`
+            if not meant and (described is None or described.name not in named):
                 place = ("implementation_steps", index, "motion_expectations", number)
                 yield view.at(
                     place, f"nothing measures that `{mover}` moves", f"expect e.g. `- moves: {{body: {mover}}}`"

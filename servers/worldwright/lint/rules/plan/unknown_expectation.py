@@ -31,6 +31,11 @@ BAD: Changes = (
     {"objectives": [{"claim": "It flies.", "expect": [{"flies_gracefully": {"body": "crate"}}]}]},
     {"objectives": [{"claim": "It moves.", "expect": [{"moves": {"body": "create"}}]}]},
     {"objectives": [{"claim": "They stay.", "expect": [{"stays": {"bodies": ["ramp", "mugg"]}}]}]},
+    {
+        "objectives": [
+            {"claim": "At 1 s.", "expect": [{"happens_at": {"event": {"falls": {"body": "mugg"}}, "at_s": 1}}]}
+        ]
+    },
 )
 EVIDENCE = Argued("an expectation that nothing implements is answered `unknown` by scan, whatever the run did")
 BODY_KEYS = ("body", "bodies", "support", "other", "others", "by", "on")
@@ -66,10 +71,15 @@ def vocabulary() -> tuple[str, ...]:
 
 
 def _bodies(arguments: Any) -> Iterator[str]:
+    if isinstance(arguments, list | tuple):
+        for item in arguments:
+            yield from _bodies(item)
     if not isinstance(arguments, dict):
         return
-    for key in BODY_KEYS:
-        value = arguments.get(key)
-        for item in value if isinstance(value, list | tuple) else [value]:
-            if isinstance(item, str):
-                yield item
+    for key, value in arguments.items():
+        if key in BODY_KEYS:
+            yield from (
+                item for item in (value if isinstance(value, list | tuple) else [value]) if isinstance(item, str)
+            )
+        else:  # an event is an expectation in the arguments of another
+            yield from _bodies(value)

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from ....model.trajectory import Trajectory
 from ...analytic import bouncing, collision, resting
-from ...measured import Measured, OfPair, Tolerance, close_to, pair_rows, window
+from ...measured import Measured, OfPair, Tolerance, pair_rows, window
 
 CODE = "WE140"
 EVENT = True

@@ -37,7 +37,9 @@ class Given(OfBodies):
 
     quantity: Literal["momentum", "angular_momentum", "energy"] = Field(description="what is conserved")
     tolerance: Tolerance = Field(description="allowed change, relative")
-    around_contact: tuple[Name, Name] | None = Field(None, description="two bodies: compare before and after they touch")
+    around_contact: tuple[Name, Name] | None = Field(
+        None, description="two bodies: compare before and after they touch"
+    )
     about: Point | None = Field(None, description="for angular momentum: a fixed point [x, y, z], m")
 
 

@@ -22,7 +22,9 @@ EVENT = True
 class Given(OfBodies):
     """Which spring, how exactly."""
 
-    stiffness_n_m: float | None = Field(None, gt=0, description="stiffness, N/m; without it the recorded energy is used")
+    stiffness_n_m: float | None = Field(
+        None, gt=0, description="stiffness, N/m; without it the recorded energy is used"
+    )
     compression_m: float | None = Field(None, gt=0, description="how far it was pressed or pulled, m")
     tolerance: Tolerance = Field(0.05, description="relative")
 

@@ -8,8 +8,8 @@ import numpy as np
 from pydantic import Field
 
 from ....model.trajectory import Trajectory
-from ...known.motions import thrown
 from ...analytic import falling
+from ...known.motions import thrown
 from ...measured import Measured, OfBody, at_least, body_index, window
 
 CODE = "WE120"

@@ -21,7 +21,9 @@ class Given(Windowed):
 
     bodies: tuple[Name, Name] | None = Field(None, description="two bodies; or")
     joints: tuple[Name, Name] | None = Field(None, description="two hinges or slides")
-    along: str = Field("principal", pattern="^(x|y|z|principal)$", description="of bodies: x, y, z, or where they move most")
+    along: str = Field(
+        "principal", pattern="^(x|y|z|principal)$", description="of bodies: x, y, z, or where they move most"
+    )
     phase_deg: float = Field(default=0.0, ge=-180, le=180, description="expected phase, deg: 0 together, 180 against")
     tolerance_deg: float = Field(default=20.0, gt=0, lt=180, description="largest difference of phase, deg")
     tolerance: Tolerance = Field(0.05, description="relative, of their periods")

@@ -37,7 +37,9 @@ class Given(OfBody):
 
     axis: str = Field("z", pattern="^[xyz]$", description="the body's own axis of spin: x, y or z")
     rate_rad_s: float | None = Field(None, description="expected rate, rad/s, counter-clockwise from above; or")
-    arm_m: float | None = Field(None, gt=0, description="distance of its centre of mass from the pivot, m: theory's rate")
+    arm_m: float | None = Field(
+        None, gt=0, description="distance of its centre of mass from the pivot, m: theory's rate"
+    )
     tolerance: Tolerance = Field(0.1, description="relative, of the rate")
     min_turns: float = Field(default=0.5, gt=0, description="least angle passed about the vertical, turns")
     max_nod_deg: float = Field(default=15.0, gt=0, description="largest change of the tilt, deg")

@@ -7,6 +7,7 @@ from pydantic import Field
 
 from ....model.trajectory import Trajectory
 from ...analytic import resting, rolling
+from ...known.motions import downhill
 from ...measured import Measured, OfBody, at_least, body_index, window
 
 CODE = "WE164"
@@ -25,7 +26,10 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     return at_least(top, given.min_rad_s, "rad/s", f"{given.body} spins at up to {top:.3f} rad/s")
 
 
-GOOD = ((lambda: rolling(1.0, 0.1), {"body": "ball", "min_rad_s": 9.99}),)
+GOOD = (
+    (lambda: rolling(1.0, 0.1), {"body": "ball", "min_rad_s": 9.99}),
+    (lambda: downhill(30.0, rolls=True), {"body": "body", "min_rad_s": 70.0}),  # 5/7 g sin / r = 70.05 rad/s^2
+)
 BAD = (
     (lambda: rolling(1.0, 0.1), {"body": "ball", "min_rad_s": 10.1}),
     (resting, {"body": "body", "min_rad_s": 0.01}),
