@@ -2,7 +2,7 @@
 
 import ast
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from xml.parsers import expat
 
 MAX_DEPTH = 200
@@ -25,6 +25,8 @@ class Document:
     root: Tag | None
     error: str = ""
     error_line: int = 1
+    computed: bool = False
+    """Parts of it are made at run time, so that absent names and odd values prove nothing."""
 
 
 def documents(text_nodes: list[ast.AST], lines: tuple[str, ...]) -> list[Document]:
@@ -39,7 +41,9 @@ def documents(text_nodes: list[ast.AST], lines: tuple[str, ...]) -> list[Documen
             continue
         first, last = getattr(node, "lineno", 1), getattr(node, "end_lineno", None) or 1
         offset = _leading_newlines(node, lines)
-        found.append(parse(text, lambda line, a=first + offset, z=last: min(a + line - 1, z)))
+        document = parse(text, lambda line, a=first + offset, z=last: min(a + line - 1, z))
+        computed = isinstance(node, ast.JoinedStr) or bool(re.search(r"\{\w*\}|%[sdfg(]|\$\w", text))
+        found.append(replace(document, computed=computed))
     return found
 
 

@@ -7,6 +7,19 @@ from ..model.finding import Severity
 
 
 @dataclass(frozen=True)
+class Edit:
+    """A stretch of the source, and what to write in its place."""
+
+    line: int
+    column: int
+    """1-based, in characters."""
+    end_line: int
+    end_column: int
+    """The first column that stays."""
+    text: str
+
+
+@dataclass(frozen=True)
 class Problem:
     """One hit of one rule."""
 
@@ -20,9 +33,13 @@ class Problem:
     section: str | None = None
     severity: Severity | None = None
     """Overrides the rule's own severity."""
+    edit: Edit | None = None
+    """A change that mends it and cannot break anything; applied by `--fix`."""
 
 
-def at(node: ast.AST, message: str, fix: str = "", severity: Severity | None = None) -> Problem:
+def at(
+    node: ast.AST, message: str, fix: str = "", severity: Severity | None = None, edit: Edit | None = None
+) -> Problem:
     """A problem at a syntax node."""
     line = getattr(node, "lineno", 1)
     return Problem(
@@ -32,4 +49,5 @@ def at(node: ast.AST, message: str, fix: str = "", severity: Severity | None = N
         getattr(node, "col_offset", 0) + 1,
         getattr(node, "end_lineno", None) or line,
         severity=severity,
+        edit=edit,
     )

@@ -11,6 +11,7 @@ from ..simulator.symbols import Symbols
 from . import mjcf_text
 from .folding import UNKNOWN, Folder
 from .inference import Inference
+from .problem import Edit
 from .scopes import Scopes
 from .source import Source
 
@@ -214,6 +215,42 @@ class Program:
             tag = stack.pop()
             yield tag
             stack += reversed(tag.children)
+
+    def edit(self, node: ast.AST, text: str) -> Edit:
+        """A change that writes `text` in a node's place."""
+        first, last = getattr(node, "lineno", 1), getattr(node, "end_lineno", 1)
+        return Edit(
+            first,
+            self._characters(first, getattr(node, "col_offset", 0)) + 1,
+            last,
+            self._characters(last, getattr(node, "end_col_offset", 0)) + 1,
+            text,
+        )
+
+    def insertion_after(self, node: ast.AST, text: str) -> Edit:
+        """A change that writes `text` behind a node."""
+        whole = self.edit(node, text)
+        return Edit(whole.end_line, whole.end_column, whole.end_line, whole.end_column, text)
+
+    def _characters(self, line: int, offset: int) -> int:
+        """The syntax tree counts bytes, editors count characters."""
+        text = self.lines[line - 1] if 0 < line <= len(self.lines) else ""
+        return offset if text.isascii() else len(text.encode()[:offset].decode(errors="replace"))
+
+    @cached_property
+    def whole_model(self) -> bool:
+        """Everything the model is made of stands in this source: no files, nothing computed, nothing generated."""
+        loads = ("from_xml_path", "from_file", "from_binary_path", "from_zip", "attach", "attach_body", "attach_frame")
+        if any(True for _ in self.method_calls(*loads)) or any(
+            full.rsplit(".", 1)[-1] in loads for full in self.calls_by_name
+        ):
+            return False
+        if any(full.startswith("worldkit.") for full in self.calls_by_name):
+            return False
+        generated = {"include", "attach", "replicate", "flexcomp", "composite"}
+        return not any(document.computed for document in self.documents) and not any(
+            tag.name in generated for tag in self.tags()
+        )
 
     @cached_property
     def strings(self) -> set[str]:

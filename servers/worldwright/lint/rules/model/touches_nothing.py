@@ -1,7 +1,7 @@
 """A free body can meet nothing in its world.
 
 What it does: compares the contact masks (`contype`, `conaffinity`), pairs and exclusions of every free body with those of
-everything else; also contacts that are switched off for the whole world.
+everything else; also contacts that are switched off for the whole world. A body that is alone in its world is left alone.
 
 Why is this bad: it falls through the floor and through all others. Masks that are set but never match look right and do
 nothing.
@@ -40,14 +40,13 @@ EVIDENCE = Measured("the ball falls through the floor", height_after, 1.0, "m")
 
 def check(view: ModelView) -> Iterator[Problem]:
     """Every tree that hangs on a free joint."""
-    alone = len(view.geom_bodyid) <= 1
     flexes = bool(((view.flex_contype != 0) | (view.flex_conaffinity != 0)).any())
     visual = {o.name for o in view.plan.scene_objects if o.visual_only} if view.plan else set()
     for joint, kind in enumerate(view.joint_kind):
         body = int(view.jnt_bodyid[joint])
         tree = view.body_treeid[view.geom_bodyid] == view.body_treeid[body]
         geoms = np.flatnonzero(tree)
-        if kind != "free" or not len(geoms) or alone or view.name("body", body) in visual:
+        if kind != "free" or not len(geoms) or tree.all() or view.name("body", body) in visual:
             continue
         if view.contacts_off:
             yield view.at("body", body, f"{view.name('body', body)} meets nothing: contacts are off", "switch them on")
