@@ -58,7 +58,7 @@ PLAN = Role(
     reads_files=True,
     instructions="""
 Write `prompt.md` (the person's words, unchanged), then `plan.md` with its thirteen sections: follow the skills
-`plan-format`, `coordinates` and `interventions`. Objectives first: each claim of the prompt becomes one objective with an
+`expectations`, `plan-format`, `coordinates` and `interventions`. Objectives first: each claim of the prompt becomes one objective with an
 `expect` that would fail if it did not happen, or `visual_only` with the reason. Name the `cause` of every effect that
 could be staged. Sizes and masses are those of the real thing; mark what you inferred. Let the engine cause every effect: a
 timer, a helper force or a hidden weld is a refuted plan, not a solution. Two to three cameras that complement each other.

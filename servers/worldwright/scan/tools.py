@@ -1,5 +1,6 @@
 """The tools of `scan`: plausibility, expectations, cross-check questions, plots, comparison."""
 
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -24,6 +25,7 @@ RunName = Annotated[
     str, Field(description="A run folder or its name; or a recording: a trajectory folder or .npz file.")
 ]
 MOST_TOLD = 20
+STATUSES = ("proved", "refuted", "visual_only", "unproved")
 Window = Annotated[str, Field(description="Seconds, as `START:END`; empty: all of it.")]
 
 
@@ -100,6 +102,10 @@ class Expected(ExpectReport):
                 lines.append(f"            {result.status:<7} {result.name}: {result.message}{margin}")
             if objective.status in ("visual_only", "unproved"):
                 lines.append(f"            {objective.reason}")
+        count = Counter(objective.status for objective in self.objectives)
+        lines.append(", ".join(f"{count[status]} {status.replace('_', ' ')}" for status in STATUSES if count[status]))
+        if count["unproved"]:
+            lines.append("unproved blocks acceptance: supply what is missing, or give the claim a `visual_only` reason")
         return "\n".join(lines)
 
 

@@ -1,0 +1,128 @@
+"""The vocabulary of expectations and the list of anomaly checks as pages, written from their modules.
+
+`python -m worldwright.scan.reference` rewrites the skills' copies; a test compares them with the code.
+"""
+
+import json
+from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+from ..shelf import Entry
+from .engine import CHECKS
+from .expecting import EXPECTATIONS
+
+SKILLS = Path(__file__).parents[3] / "skills"
+VOCABULARY, ANOMALIES = SKILLS / "expectations/references/vocabulary.md", SKILLS / "review/references/anomalies.md"
+FAMILIES = (
+    "kinematics", "contact", "rotation", "oscillation", "energy", "deformation", "fracture", "flow", "comparison",
+)  # fmt: skip
+_VOCABULARY = """# The vocabulary of expectations
+
+Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan/expectations`; change those. Metres,
+kilograms, seconds, newtons, degrees; world frame, z up. A margin is in the unit of what is measured, and positive when the
+claim holds. Those marked with a star are **events**: they come true at a moment, so they can be ordered
+(`happens_before` …) and their causes tested. `window_s: [start, end]` restricts any of them to a stretch of time.
+"""
+_ANOMALIES = """# The anomaly checks
+
+Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan/checks`; change those. Each looks at every
+recording, whatever the plan claims. *Needs* names the channels without which a check is skipped, and says so.
+"""
+
+
+def vocabulary() -> str:
+    """The page of expectations."""
+    families = {name: [e for e in EXPECTATIONS.values() if _family(e) == name] for name in FAMILIES}
+    others = [e for e in EXPECTATIONS.values() if _family(e) not in FAMILIES]
+    if others:  # of third parties, whose modules live elsewhere
+        families["others"] = others
+    parts = [_VOCABULARY, "| family | expectations |", "|---|---|"]
+    for name, entries in families.items():
+        parts.append(f"| [{name}](#{name}) | {', '.join(f'`{e.name}`' + _star(e) for e in entries)} |")
+    for name, entries in families.items():
+        package = import_module(f"{EXPECTATIONS.package}.{name}") if name in FAMILIES else None
+        parts += ["", f"## {name}", "", (package.__doc__ or "").strip() if package else "From plug-ins."]
+        for entry in entries:
+            parts += ["", _expectation(entry)]
+    return "\n".join(parts) + "\n"
+
+
+def anomalies() -> str:
+    """The page of checks."""
+    parts = [_ANOMALIES, "| code | check | what it finds |", "|---|---|---|"]
+    parts += [f"| {e.code} | `{e.name}` | {e.summary} |" for e in CHECKS.values()]
+    for entry in CHECKS.values():
+        needs = ", ".join(f"`{name}`" for name in entry.NEEDS) or "poses alone"
+        parts += ["", f"## {entry.code} {entry.name}", "", entry.doc, "", f"Needs: {needs}."]
+    return "\n".join(parts) + "\n"
+
+
+PAGES = {VOCABULARY: vocabulary, ANOMALIES: anomalies}
+
+
+def _expectation(entry: Entry) -> str:
+    lines = [f"### {entry.name}{_star(entry)}", "", entry.doc, "", "| argument | kind | meaning |", "|---|---|---|"]
+    schema = entry.Given.model_json_schema(by_alias=True)
+    for name, field in schema["properties"].items():
+        if name == "window_s":
+            continue
+        needed = " (needed)" if name in schema.get("required", ()) else ""
+        default = field.get("default")
+        usual = f" ({_flow(default)} if left out)" if default not in (None, [], "") and name != "low" else ""
+        usual = "" if isinstance(default, list) else usual
+        lines.append(f"| `{name}`{needed} | {_kind(field)} | {field.get('description', '')}{usual} |")
+    lines += ["", f"Example: `- {entry.name}: {_flow(entry.GOOD[0][1])}` · {entry.code}"]
+    return "\n".join(lines)
+
+
+def _kind(field: Mapping[str, Any]) -> str:
+    """A JSON schema in a few words."""
+    options = [option for option in field.get("anyOf", ()) if option.get("type") != "null"]
+    if options:
+        return " or ".join(dict.fromkeys(_kind({**field, "anyOf": (), **option}) for option in options))
+    if "enum" in field:
+        return " or ".join(f"`{value}`" for value in field["enum"])
+    if "const" in field:
+        return f"`{field['const']}`"
+    kind = field.get("type")
+    if kind == "array":
+        if (count := field.get("maxItems")) and count == field.get("minItems"):
+            inner = {_kind(item) for item in field.get("prefixItems", ())}
+            return f"list of {count} ({', '.join(sorted(inner))})"
+        return f"list of {_kind(field.get('items', {}))}"
+    if kind in ("number", "integer"):
+        signs = (("exclusiveMinimum", ">"), ("minimum", "≥"), ("exclusiveMaximum", "<"), ("maximum", "≤"))
+        bounds = ", ".join(f"{sign} {field[key]:g}" for key, sign in signs if key in field)
+        return f"{'number' if kind == 'number' else 'whole number'} {bounds}".strip()
+    if kind == "object":
+        return "one event with its arguments"
+    return {"string": "text", "boolean": "true or false"}.get(str(kind), str(kind or "value"))
+
+
+def _flow(value: Any) -> str:
+    """YAML on one line."""
+    if isinstance(value, Mapping):
+        return "{" + ", ".join(f"{key}: {_flow(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_flow(inner) for inner in value) + "]"
+    if isinstance(value, float):
+        return f"{value:.4g}"
+    if isinstance(value, str):
+        return value if value.replace("_", "").isalnum() else json.dumps(value, ensure_ascii=False)
+    return json.dumps(value)
+
+
+def _family(entry: Entry) -> str:
+    return str(entry.module.__name__.rsplit(".", 2)[-2])
+
+
+def _star(entry: Entry) -> str:
+    return " \\*" if getattr(entry.module, "EVENT", False) else ""
+
+
+if __name__ == "__main__":
+    for page, write in PAGES.items():
+        page.parent.mkdir(parents=True, exist_ok=True)
+        page.write_text(write(), encoding="utf-8")
