@@ -257,6 +257,22 @@ def test_a_cloth_is_drawn_where_it_hangs():
     assert abs(rows.mean() - 90) < 12 and abs(columns.mean() - 160) < 12
 
 
+def test_a_cloth_wears_its_material():
+    """MuJoCo 4 keeps a flex's material by element, and its scene names none."""
+    spec = scene.new("cloth", time_step=0.002)
+    flex = spec.worldbody.make_flex(
+        "cloth", type="grid", dim=2, count=(6, 6, 1), spacing=(0.15, 0.15, 0.15), pos=(0, 0, 1), radius=0.01
+    )
+    flex.material = [materials.add(spec, "fabric_red")]
+    cameras.add(spec, "eye", position=(0, -1.2, 2.2), target=(0, 0, 1), fovy=45)
+    model = spec.compile()
+    with render.Frames(model, *SIZE) as frames:
+        image = frames.image(posed(model), "eye").astype(int)
+        assert frames.engine == "worldkit", frames.reason
+    red = (image[..., 0] > image[..., 1] + 30) & (image[..., 0] > image[..., 2] + 30)
+    assert red.sum() > 2000
+
+
 def test_coplanar_faces_do_not_flicker():
     """Of two faces in one plane the later geom shows everywhere, from any side."""
     spec = scene.new("coplanar", time_step=0.002)

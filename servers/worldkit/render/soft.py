@@ -52,6 +52,10 @@ class Soft:
         finish = self._finishes.get(int(material))
         return (finish, np.array(finish.look.rgba)) if finish else (plain(rgba), np.asarray(rgba))
 
+    def _flex_material(self, flex: int, material: int) -> int:
+        """A flex's material: MuJoCo 4 keeps one for each element, and its scene names none; the first one counts."""
+        return material if material >= 0 else int(self.model.flex_matid[self.model.flex_elemadr[flex]])
+
     def _triangle_shape(self, kind: str, index: int, points: np.ndarray, normals: np.ndarray) -> gl.Shape:
         vertices = np.zeros((len(points), 9), dtype=np.float32)
         vertices[:, :3], vertices[:, 4:7] = points, normals
@@ -92,7 +96,7 @@ class Soft:
                 start, count = int(scene.flexfaceadr[geom.objid]), int(scene.flexfaceused[geom.objid])
                 points = np.array(scene.flexface).reshape(-1, 9)[start : start + count].reshape(-1, 3)
                 normals = np.array(scene.flexnormal).reshape(-1, 9)[start : start + count].reshape(-1, 3)
-                finish, rgba = self._finish(geom.matid, geom.rgba)
+                finish, rgba = self._finish(self._flex_material(int(geom.objid), int(geom.matid)), geom.rgba)
                 self._draws.append(
                     (self._triangle_shape("flex", int(geom.objid), points, normals), len(rows), 1, finish)
                 )
