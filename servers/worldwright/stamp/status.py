@@ -1,9 +1,9 @@
 """The answer of `status`: every step, the outcome, and one next command."""
 
-from typing import Literal
+from typing import Any, Literal
 
 from ..model.frozen import Frozen
-from . import bundle, gates, scope
+from . import bundle, gates, iterations, scope
 from .refusal import Refusal
 from .state import State
 from .steps import Step, StepName, steps
@@ -48,6 +48,8 @@ def status(state: State) -> Status:
         state.program_sha256,
         state.plan_sha256,
     )
+    spent = ending is not None and iterations.spent(state)
+    same = same or spent
     outcome: Literal["open", "accepted", "blocked"] = "open"
     outside = list(scope.refusals(state))
     next_move = next((step.next_move for step in found.values() if not step.holds), "")
@@ -57,6 +59,8 @@ def status(state: State) -> Status:
         outcome, next_move = "accepted", f"worldwright stamp verify {state.place}"
     elif same:
         outcome, next_move = "blocked", f"change {state.place}/plan.md or {state.place}/simulation.py"
+        if spent:
+            next_move = f"worldwright stamp approve {state.place}"  # a person allows more repairs
     return Status(
         run=state.run.name,
         state=outcome,
@@ -84,6 +88,10 @@ def _notes(
     leftovers = list(state.run.folder.glob(f"{bundle.PREFIX}*"))
     if leftovers:
         notes.append(f"{len(leftovers)} unfinished acceptance(s) were left by a crash; the next accept removes them")
+    steps_back = ("roll_back", "review", "lint")
+    back: dict[str, Any] = next((e for e in reversed(state.journal) if e.get("action") in steps_back), {})
+    if back.get("action") == "roll_back" and state.key and back.get("key") == state.key.key:
+        notes.append(f"the patch of {back.get('worse')} was rolled back ({back.get('why')}): make another one")
     if outcome == "open" and any(step.status == "fails" for step in found.values()):
         notes += [f"repair: {refusal.cause}; {refusal.next_move}" for refusal in gates.refusals("repair", state)]
     if outcome == "open" and state.other_keys and not any(found[n].holds for n in found if n not in RELEASED):

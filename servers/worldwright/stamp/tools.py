@@ -50,6 +50,7 @@ def approve(
     run: RunName,
     by: Annotated[str, Field(description="Who read the plan")] = "user",
     auto: Annotated[bool, Field(description="Nobody read it: require every inferred value to be marked")] = False,
+    repairs: Annotated[int, Field(description="Repairs that may be ordered before the run is blocked", ge=1)] = 12,
 ) -> Recorded:
     """Approve the plan as it stands; code may be written and run against exactly these bytes.
 
@@ -62,7 +63,7 @@ def approve(
     gates.pass_through("approve", state)
     if auto:
         gates.pass_through("auto_approve", state)
-    state.run.log(by, "approve", plan_sha256=state.plan_sha256, by=by, auto=auto)
+    state.run.log(by, "approve", plan_sha256=state.plan_sha256, by=by, auto=auto, repairs=repairs)
     return _recorded(run, f"plan {state.plan_sha256[:16]} approved by {by}" + (" in auto mode" if auto else ""))
 
 
@@ -89,17 +90,25 @@ def review(run: RunName, verdict: Annotated[Verdict, Field(description="Three ch
     Needs scan, expectations and visual description of the current key. Judge every objective once and bind it to
     evidence that exists: `expect:<name>`, `scan:clean`, `visual:<camera or object>`, `still:<camera>`,
     `video:<camera>`, `physics:<fact>`. A pass is refused while an objective is refuted or unproved or an anomaly
-    blocks; a repair needs a cross check in another channel.
+    blocks; a repair needs a cross check in another channel. When a repair is ordered of a program that is worse than an
+    earlier one (`scan compare`), the earlier one is put back; when no repair is left, the run is blocked.
     """
-    from . import bindings, gates
+    from . import bindings, gates, iterations
     from .refusal import raise_if
 
     state = State.find(run)
     gates.pass_through("review", state)
     raise_if("review", bindings.problems(state, verdict), state.place)
     path = state.run.keep(_key(state), "review", verdict)
-    state.run.log(verdict.reviewer, "review", key=_key(state).key, outcome=verdict.outcome)
-    return _recorded(run, f"{verdict.outcome}, by {verdict.reviewer}", str(path.relative_to(state.run.folder)))
+    target = {"target": verdict.repair_target} if verdict.repair_target else {}
+    state.run.log(verdict.reviewer, "review", key=_key(state).key, outcome=verdict.outcome, **target)
+    what = f"{verdict.outcome}, by {verdict.reviewer}"
+    known = State(state.run)
+    if verdict.outcome == "repair" and (ending := iterations.end(known, verdict)):
+        what += f"; blocked: {ending.cause}"
+    elif back := iterations.after_review(known, verdict):
+        what += f"; worse than {back.better}, whose program is put back: {back.why}"
+    return _recorded(run, what, str(path.relative_to(state.run.folder)))
 
 
 def accept(run: RunName, timeout_s: Timeout = 40.0, progress: Progress = silent) -> Accepted:

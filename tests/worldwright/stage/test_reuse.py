@@ -86,7 +86,7 @@ def ran(planned: Path, copy: Copy) -> Path:
 @pytest.mark.parametrize(
     "change",
     [
-        ("pos=(0.0, 0.0, 0.5)", "pos=(0.0, 0.0, 0.4)"),
+        ("    return spec", "    spec.option.viscosity = 0.5\n    return spec"),
         ("    return spec", "    spec.option.impratio = 3.0\n    return spec"),
         ("    return spec", "    spec.option.iterations = 7\n    return spec"),
     ],

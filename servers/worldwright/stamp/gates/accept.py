@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from ...model.errors import WorldwrightError
 from ...model.run import sha256_file
-from .. import audited, bindings, interventions, scope
+from .. import audited, bindings, interventions, iterations, scope
 from ..needs import held
 from ..refusal import Refusal
 from ..state import State
@@ -57,6 +57,12 @@ def check(state: State) -> Iterator[Refusal]:
 
 def _blocked(state: State) -> Iterator[Refusal]:
     ending = state.blocked.value
+    if ending is not None and iterations.spent(state):
+        yield Refusal(
+            cause=f"the run is blocked: {ending.cause}",
+            next_move=f"a person approves the plan anew, which allows more repairs: worldwright stamp approve {state.place}",
+        )
+        return
     same = (state.program_sha256, state.plan_sha256)
     if ending is not None and (ending.program_sha256, ending.plan_sha256) == same:
         yield Refusal(

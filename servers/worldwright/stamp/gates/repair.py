@@ -1,6 +1,6 @@
 """The program may be patched: there is something to repair, repairs still help, and symbols are looked up first.
 
-Needed: fewer than 12 reviews have ordered a repair so far; and when the installed simulator does not know a name that
+Needed: fewer repairs have been ordered than the approval allows (12 unless it says otherwise); and when the installed simulator does not know a name that
 the program uses (WL101 to WL105, or an AttributeError of a pass), the journal has a citation newer than the error.
 
 Why: patching from memory repeats the memory's mistake, and a thirteenth patch of the same world is a sign that the plan
@@ -9,20 +9,19 @@ is wrong. Then the honest ending is `blocked`, with the cause.
 
 from collections.abc import Iterator
 
+from .. import iterations
 from ..refusal import Refusal
 from ..state import State
 
 CODE = "WG065"
-CAP = 12
 SYMBOLS = ("WL101", "WL102", "WL103", "WL104", "WL105")
 
 
 def check(state: State) -> Iterator[Refusal]:
     """Refusals for too many repairs, or for a simulator symbol that nobody looked up."""
-    repaired = {e.get("key") for e in state.journal if e.get("action") == "review" and e.get("outcome") == "repair"}
-    if len(repaired) >= CAP:
+    if iterations.spent(state):
         yield Refusal(
-            cause=f"{len(repaired)} repairs were ordered already (the cap is {CAP})",
+            cause=f"{len(iterations.ordered(state))} repairs were ordered already (the cap is {iterations.cap(state)})",
             next_move=f'worldwright stamp block {state.place} "CAUSE"',
         )
     unknown = _unknown_symbol(state)
