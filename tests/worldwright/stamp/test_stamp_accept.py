@@ -145,7 +145,7 @@ def test_instrumentation_that_changes_the_motion_is_refused(planned: Path, copy:
     without_film(folder)
     program = folder / "simulation.py"
     source = program.read_text(encoding="utf-8")
-    push = f'    {BEGIN}\n    spec.option.viscosity = 0.001\n    {END}\n    return spec'
+    push = f"    {BEGIN}\n    spec.option.viscosity = 0.001\n    {END}\n    return spec"
     pushed = source.replace("    return spec", push)
     program.write_text(pushed, encoding="utf-8")
     prepare(folder)
