@@ -72,6 +72,30 @@ def decides(field: str) -> bool:
     return not (field.startswith(LOOKS) or field.endswith(ENDINGS) or field in LOOKS_TOO)
 
 
+def compared(one: "mujoco.MjModel", other: "mujoco.MjModel") -> tuple[float, str]:
+    """(largest relative difference, name) over the fields that decide the motion; infinite where they cannot be compared.
+
+    Each array is measured by its own largest number, and not below one.
+    """
+    import numpy as np
+
+    worst, where = 0.0, ""
+    if _names(one) != _names(other):
+        return float("inf"), "the names"
+    for holder, twin, prefix in ((one, other, ""), (one.opt, other.opt, "opt.")):
+        for name in filter(decides, sorted(n for n in dir(holder) if not n.startswith("_"))):
+            a, b = getattr(holder, name), getattr(twin, name)
+            if not isinstance(a, (np.ndarray, bool, int, float, np.generic)) or name == "narena":
+                continue
+            a, b = np.asarray(a, float), np.asarray(b, float)
+            if a.shape != b.shape:
+                return float("inf"), prefix + name
+            apart = float(np.max(np.abs(a - b), initial=0.0)) / max(1.0, float(np.max(np.abs(a), initial=0.0)))
+            if not apart <= worst:
+                worst, where = apart, prefix + name
+    return worst, where
+
+
 def _fields(model: "mujoco.MjModel") -> "list[tuple[str, bytes]]":
     """(name, bytes) of everything that counts, in the order of the names."""
     import numpy as np

@@ -1,11 +1,11 @@
 """`program.main`: one command line for every generated program, and the passes behind it.
 
-    simulation.py --pass physics|still|video|view [--out DIR] [--from RECORDING]
+    simulation.py --pass physics|still|video|view|bundle [--out DIR] [--from RECORDING]
                   [--seed N] [--camera NAME]… [--duration S]
                   [--time-step-factor 0.5] [--without NAME]… [--weaken NAME=FACTOR]… [--reuse PASS]…
 
 physics simulates and records into `DIR/trajectory`; still and video draw recorded states (`--from`) and never step the
-physics; view opens a window. Every pass leaves `progress.json` while it runs, then `result.json`, or `error.json` and
+physics; view opens a window; bundle writes the world as one file that plain MuJoCo opens. Every pass leaves `progress.json` while it runs, then `result.json`, or `error.json` and
 exit status 1. Without arguments a program opens a window where there is a display, else simulates into `./out`.
 
 Importing a program runs nothing: `build()` alone gives the complete world, initial motion included (keyframe "start").
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
     from .trajectory import Recording
 
-PASSES = ("physics", "still", "video", "view")
+PASSES = ("physics", "still", "video", "view", "bundle")
 TRAJECTORY = "trajectory"
 
 
@@ -275,6 +275,22 @@ def _pictures(settings: _Settings, options: argparse.Namespace, out: Path) -> No
     sys.stdout.write(f"{', '.join(summary['cameras'])} in {out}\n")
 
 
+def _bundle(settings: _Settings, options: argparse.Namespace, out: Path) -> None:
+    """The world as one file."""
+    import mujoco
+
+    from . import portable, world
+    from .files import write_json
+
+    build_rng, _ = world.seeded(settings.seed if options.seed is None else options.seed)
+    made = world.as_built(settings.build, build_rng)
+    if isinstance(made, mujoco.MjModel):
+        raise ProgramError("build() returned a compiled model, which no XML can hold", "build()", "return the MjSpec")
+    facts = portable.write(made, out / portable.NAME)
+    write_json(out / "result.json", {"ok": True, "pass": "bundle", "file": portable.NAME, **facts})
+    sys.stdout.write(f"{out / portable.NAME}: {facts['files']} files, {facts['bytes'] / 1e6:.1f} MB\n")
+
+
 def _recording(options: argparse.Namespace, out: Path | None) -> "Recording":
     from . import trajectory
 
@@ -346,4 +362,5 @@ _PASSES: dict[str, Callable[[_Settings, argparse.Namespace, Any], None]] = {
     "still": _pictures,
     "video": _pictures,
     "view": _view,
+    "bundle": _bundle,
 }

@@ -35,6 +35,23 @@ def make(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjMod
     """Call `build()` or `build(rng)` and compile what it returns: an MjSpec, or an MjModel that is compiled already."""
     import mujoco
 
+    made = as_built(build, rng)
+    if isinstance(made, mujoco.MjModel):
+        return made
+    try:
+        return made.compile()
+    except ValueError as failure:
+        raise ProgramError(
+            f"the world does not compile: {failure}",
+            f"{getattr(build, '__name__', 'build')}()",
+            "repair what the compiler names",
+        ) from failure
+
+
+def as_built(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjSpec | mujoco.MjModel":
+    """What `build()` or `build(rng)` returns, which must be a world."""
+    import mujoco
+
     made = build(rng) if _positional(build) else build()
     if isinstance(made, mujoco.MjModel):
         return made
@@ -44,12 +61,7 @@ def make(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjMod
         raise ProgramError(
             f"{name}() returned {type(made).__name__}, not a world{end}", f"{name}()", "return a mujoco.MjSpec"
         )
-    try:
-        return made.compile()
-    except ValueError as failure:
-        raise ProgramError(
-            f"the world does not compile: {failure}", f"{name}()", "repair what the compiler names"
-        ) from failure
+    return made
 
 
 def controller(control: Callable[..., Any] | None, rng: "np.random.Generator") -> Callable[..., Any] | None:

@@ -28,9 +28,11 @@ def folder_name(stage: PassName, variant: str = "") -> str:
 def passed(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> dict[str, Any] | None:
     """The result of a pass that succeeded on this key; physics without its recording (a fresh clone) has not."""
     name = folder_name(stage, variant)
-    if stage == "physics" and not (run.evidence(key) / name / "trajectory" / "complete.json").is_file():
-        return None
     result = _read(run, key, f"{name}/result.json")
+    ending = "trajectory/complete.json"
+    recorded = stage == "physics" and (not variant or ending in (result.get("files") or {}))
+    if recorded and not (run.evidence(key) / name / ending).is_file():
+        return None
     return result if result.get("ok") else None
 
 

@@ -9,10 +9,11 @@ from typing import Literal
 from worldkit.files import write_atomic
 
 from ..model.errors import GateError
+from ..model.evidence import Environment
 from ..model.frozen import Frozen
 from ..model.journal import Journal
 from ..model.progress import Progress, silent
-from . import bundle, digest, gates, machine
+from . import bundle, digest, gates, machine, sampled, signing
 from .proof import Proved, prove
 from .state import State
 from .statement import (
@@ -64,17 +65,29 @@ class Accepted(Frozen):
         )
 
 
-def accept(state: State, timeout_s: float, progress: Progress = silent) -> Accepted:
-    """Accept the run, or say (as a `GateError`) why not; callable again after `proving` or a crash."""
+def accept(state: State, timeout_s: float, progress: Progress = silent, key: Path | None = None) -> Accepted:
+    """Accept the run, or say (as a `GateError`) why not; callable again after `proving` or a crash.
+
+    With `key`, an Ed25519 private key, the stamp is signed; a stamp that stands already is signed too.
+    """
+    signer = signing.private_key(key) if key else None
     with bundle.only_one(state.run):
         if steps(state)["accepted"].holds:
+            if signer is not None:
+                signing.sign(state.run.accepted, bundle.STAMP, signer)
             return _again(state)
         gates.pass_through("accept", state)
         stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
         program, plan = stripped.source.encode(), state.plan_bytes or b""
         folder = state.run.folder / "proof" / (state.key.key if state.key else "")
         proved = prove(
-            folder, program, plan, reason=f"copied from {state.run.name}", timeout_s=timeout_s, progress=progress
+            folder,
+            program,
+            plan,
+            reason=f"copied from {state.run.name}",
+            timeout_s=timeout_s,
+            progress=progress,
+            bundle=True,
         )
         if proved is None:
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
@@ -83,6 +96,8 @@ def accept(state: State, timeout_s: float, progress: Progress = silent) -> Accep
         try:
             statement = _assemble(state, stripped, proved, folder)
             stamp_sha256 = bundle.seal(folder, statement)
+            if signer is not None:
+                signing.sign(folder, bundle.STAMP, signer)
             bundle.publish(folder, state.run)
         finally:
             shutil.rmtree(folder, ignore_errors=True)
@@ -119,6 +134,9 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
     if state.run.prompt.is_file():
         write_atomic(folder / "prompt.md", state.run.prompt.read_bytes())
     write_atomic(folder / digest.NAME, digest.motion(proved.recording).model_dump_json() + "\n")
+    sampled.write(proved.recording, folder / sampled.NAME)
+    if proved.world is not None:
+        write_atomic(folder / proved.world.name, proved.world.read_bytes())
     kept = {f"{name}.json": state.folder / f"{name}.json" for name in REPORTS}
     kept |= {f"{name}.json": state.folder / name / "result.json" for name in state.passes}
     evidence = {}
@@ -151,6 +169,7 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
             plan_sha256=key.plan_sha256,
             prompt_sha256=bundle.sha256_file(state.run.prompt) if state.run.prompt.is_file() else "",
             stripped_lines=stripped.removed,
+            materials=_materials(state, environment),
         ),
         proof=Proof(
             trajectory_sha256=proved.trajectory_sha256,
@@ -158,6 +177,8 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
             simulated_s=proved.physics.summary.get("final_time"),
             wall_s=proved.physics.wall_s,
             sandbox=proved.physics.sandbox,
+            confinement=proved.physics.confinement,
+            no_world=proved.no_world,
         ),
         environment=environment,
         cpu=machine.cpu(),
@@ -186,6 +207,16 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
             by=str(approval.get("by", "")), time=str(approval.get("time", "")), auto=bool(approval.get("auto"))
         ),
     )
+
+
+def _materials(state: State, environment: Environment) -> dict[str, Digest]:
+    """What the world was made from, by name: the run's own files, the engine, the runtime and the catalog."""
+    reference = [p for p in state.run.folder.glob("reference.*") if p.is_file()]
+    files = (state.run.program, state.run.plan, state.run.prompt, state.run.journal, *reference)
+    found = {path.name: Digest(sha256=bundle.sha256_file(path)) for path in files if path.is_file()}
+    for name in ("simulator", "worldkit", "catalog"):
+        found[name] = Digest(sha256=getattr(environment, f"{name}_sha256"))
+    return found
 
 
 def _again(state: State) -> Accepted:

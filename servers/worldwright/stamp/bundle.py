@@ -13,10 +13,13 @@ from worldkit.files import write_atomic
 
 from ..model.errors import GateError
 from ..model.run import Run, sha256_file
+from . import signing
 from .statement import Digest, Statement, Subject
 
 STAMP = "stamp.json"
 SUMS = "SHA256SUMS"
+UNLISTED = (STAMP, SUMS, signing.ENVELOPE, signing.PUBLIC)
+"""What the stamp cannot list: itself, and what is made from it."""
 PREFIX = ".accepting-"
 
 
@@ -48,7 +51,7 @@ def subjects(folder: Path) -> tuple[Subject, ...]:
     return tuple(
         Subject(name=name, digest=Digest(sha256=sha256_file(folder / name)))
         for name in files_in(folder)
-        if name not in (STAMP, SUMS)
+        if name not in UNLISTED
     )
 
 
@@ -105,7 +108,7 @@ def damage(folder: Path, statement: Statement) -> list[str]:
         except OSError as cause:
             found.append(f"{name} cannot be read ({cause.strerror or cause})")
     try:
-        extra = [name for name in files_in(folder) if name not in listed and name not in (STAMP, SUMS)]
+        extra = [name for name in files_in(folder) if name not in listed and name not in UNLISTED]
         found += [f"{name} is not in the stamp" for name in extra]
         if (folder / SUMS).read_bytes() != _sums(statement, sha256_file(folder / STAMP)).encode():
             found.append(f"{SUMS} and {STAMP} do not match")

@@ -17,6 +17,8 @@ from ..model.run import Run
 from .kept import Kept
 
 POLL_S = 20.0
+WORLD = "world.mjz"
+"""As `worldkit.portable` names it."""
 
 
 @dataclass(frozen=True)
@@ -27,6 +29,10 @@ class Proved:
     physics: PassResult
     lint: LintReport
     recording: Path
+    world: Path | None = None
+    """The world as one file, when it was asked for and could be written."""
+    no_world: str = ""
+    """Why not."""
 
     @property
     def trajectory_sha256(self) -> str:
@@ -35,11 +41,18 @@ class Proved:
 
 
 def prove(
-    folder: Path, program: bytes, plan: bytes, *, reason: str, timeout_s: float, progress: Progress = silent
+    folder: Path,
+    program: bytes,
+    plan: bytes,
+    *,
+    reason: str,
+    timeout_s: float,
+    progress: Progress = silent,
+    bundle: bool = False,
 ) -> Proved | None:
-    """Lint and simulate `program` against `plan` in `folder`; None when the job needs more than `timeout_s`.
+    """Lint and simulate `program` against `plan` in `folder`; None when a job needs more than `timeout_s`.
 
-    A lint error or a failed pass is a `GateError`.
+    With `bundle` the world is also written as one file (a second job). A lint error or a failed pass is a `GateError`.
     """
     from ..lint import tools as lint
     from ..stage import tools as stage
@@ -74,7 +87,18 @@ def prove(
             next_move=job.next_move or "run it again; a program that runs once must run twice",
         )
     recording = run.evidence(key) / "physics" / "trajectory"
+    world, missing = None, ""
+    if bundle:
+        made = stage.run_variant(
+            run, "bundle", ("--pass", "bundle"), timeout_s=max(1.0, deadline - time.monotonic()), progress=progress
+        )
+        if not made.ended:
+            return None
+        found = stage.variant_folder(run, "bundle")
+        world, missing = (found / WORLD, "") if found else (None, made.message or made.code)
     proved = Proved(
+        world=world,
+        no_world=missing,
         run=run,
         physics=result.value,
         lint=LintReport(findings=tuple(report.findings), rules=report.rules),

@@ -36,6 +36,8 @@ class Source(Frozen):
     prompt_sha256: str = ""
     stripped_lines: tuple[int, ...] = ()
     """Lines of instrumentation that were taken out of the program."""
+    materials: dict[str, Digest] = {}
+    """SHA-256 of all it was made from, by name: the run's files, `simulator`, `worldkit` and `catalog`."""
 
 
 class Proof(Frozen):
@@ -46,6 +48,11 @@ class Proof(Frozen):
     simulated_s: float | None = None
     wall_s: float = 0.0
     sandbox: str = ""
+    """Level of the ladder it ran at."""
+    confinement: dict[str, str] = {}
+    """What enforced it."""
+    no_world: str = ""
+    """Why there is no `world.mjz`; empty when there is one."""
 
 
 class ExpectationVerdict(Frozen):

@@ -1,5 +1,6 @@
 """The tools of the stamp server."""
 
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
@@ -111,16 +112,23 @@ def review(run: RunName, verdict: Annotated[Verdict, Field(description="Three ch
     return _recorded(run, what, str(path.relative_to(state.run.folder)))
 
 
-def accept(run: RunName, timeout_s: Timeout = 40.0, progress: Progress = silent) -> Accepted:
+def accept(
+    run: RunName,
+    timeout_s: Timeout = 40.0,
+    key: Annotated[
+        Path | None, Field(description="Ed25519 private key (PEM or OpenSSH) to sign the stamp with")
+    ] = None,
+    progress: Progress = silent,
+) -> Accepted:
     """Stamp the world: strip instrumentation, lint and run it once more, write `accepted/` whole.
 
     Needs a passing review of this key, an approved and unchanged plan, no blocking anomaly and no undeclared
-    intervention. The stripped program must give the same trajectory hash in a fresh sandboxed run. Returns state
-    `proving` when that run takes longer than this call: call again.
+    intervention. The stripped program must give the same trajectory hash in a fresh sandboxed run. The folder
+    holds program, plan, films, trajectory and the world as one file that plain MuJoCo opens. Returns state `proving` when that run takes longer than this call: call again.
     """
     from .acceptance import accept as take
 
-    return take(State.find(run), timeout_s, progress)
+    return take(State.find(run), timeout_s, progress, key)
 
 
 def block(
@@ -151,7 +159,12 @@ def block(
 
 
 @reads
-def verify(run: RunName, timeout_s: Timeout = 40.0, progress: Progress = silent) -> Verification:
+def verify(
+    run: RunName,
+    timeout_s: Timeout = 40.0,
+    signer: Annotated[Path | None, Field(description="Public key that must have signed the stamp")] = None,
+    progress: Progress = silent,
+) -> Verification:
     """Prove an accepted world again: every checksum, then a fresh sandboxed run of the accepted program.
 
     The same build and processor family must repeat the trajectory bit for bit; another one must stay within a stated
@@ -160,7 +173,7 @@ def verify(run: RunName, timeout_s: Timeout = 40.0, progress: Progress = silent)
     """
     from .verification import verify as prove_again
 
-    return prove_again(run, timeout_s, progress)
+    return prove_again(run, timeout_s, progress, signer)
 
 
 def _key(state: State) -> EvidenceKey:

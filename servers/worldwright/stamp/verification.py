@@ -19,7 +19,7 @@ from ..model.frozen import Frozen
 from ..model.journal import Journal
 from ..model.progress import Progress, silent
 from ..model.run import Run
-from . import bundle, digest, machine
+from . import bundle, digest, machine, signing
 from .kept import Kept
 from .proof import Proved, prove
 from .state import State
@@ -60,10 +60,13 @@ class Verification(Frozen):
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
 
 
-def verify(name: str, timeout_s: float, progress: Progress = silent) -> Verification:
-    """Check and re-run an accepted world: a run folder that holds `accepted/`, or an accepted folder itself."""
+def verify(name: str, timeout_s: float, progress: Progress = silent, signer: Path | None = None) -> Verification:
+    """Check and re-run an accepted world: a run folder that holds `accepted/`, or an accepted folder itself.
+
+    With `signer`, a public key, the stamp must have been signed with it.
+    """
     run, folder = _locate(name)
-    checks, statement = static(run, folder), Kept.read(folder / bundle.STAMP, Statement).value
+    checks, statement = static(run, folder, signer), Kept.read(folder / bundle.STAMP, Statement).value
     if statement is None or not all(c.ok for c in checks):
         return _refuted(run, checks)
     here = _here()
@@ -134,12 +137,16 @@ def _locate(name: str) -> tuple[Run, Path]:
     return run, run.accepted
 
 
-def static(run: Run, folder: Path) -> list[Check]:
+def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:
     """What can be checked of an accepted folder without running anything."""
     kept = Kept.read(folder / bundle.STAMP, Statement)
     if kept.value is None:
         return [Check(name="stamp", ok=False, detail=kept.problem or "there is no stamp.json")]
-    return list(_static(run, folder, kept.value))
+    signed = signing.check(folder, bundle.STAMP, signer)
+    return [
+        *_static(run, folder, kept.value),
+        *([] if signed is None else [Check(name="signature", ok=signed[0], detail=signed[1])]),
+    ]
 
 
 def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:

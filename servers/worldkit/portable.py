@@ -1,0 +1,153 @@
+"""The world as one file that plain MuJoCo opens: an MJZ archive of the model's XML and everything it is made of.
+
+    import mujoco
+    model = mujoco.MjSpec.from_file("world.mjz").compile()
+
+Source: MuJoCo manual, "MJZ Archives" (the XML is `model.xml` in the archive's root). Painted textures, which live in
+memory, become PNG files; files named by absolute paths of this machine are taken in under short names, one per content.
+The archive is opened again here and compared with the world it was made of, array by array.
+"""
+
+import hashlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .errors import ProgramError
+from .motion_key import compared
+
+if TYPE_CHECKING:
+    import mujoco
+
+NAME = "world.mjz"
+TOLERANCE = 1e-6
+"""Relative difference that writing numbers as text may leave."""
+
+
+def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
+    """Write the world's archive; returns its facts.
+
+    Args:
+        spec: the world; its files and textures are rewritten in place.
+        path: of the archive, ending in `.mjz`.
+
+    Returns:
+        `files` in the archive, `bytes` of it, `differs` (largest relative difference of any array that decides the
+        motion between the archive's world and this one, with the array's name in `where`).
+
+    Raises:
+        ProgramError: the archive cannot be written, or does not open as the same world.
+    """
+    import zipfile
+
+    import mujoco
+
+    before = spec.compile()
+    take_in(spec)
+    try:
+        with _all_digits():
+            spec.encode(str(path), model=spec.compile())
+        after = mujoco.MjSpec.from_file(str(path)).compile()
+    except (ValueError, RuntimeError, mujoco.FatalError) as failure:
+        raise ProgramError(
+            f"the world cannot be written as one file: {failure}", str(path), "build it from what MJCF can say"
+        ) from failure
+    worst, where = compared(before, after)
+    if not worst <= TOLERANCE:
+        raise ProgramError(
+            f"the world does not survive being written as one file: {where} differs by {worst:.2g} of its size",
+            str(path),
+            "set it in the spec, not in the compiled model",
+        )
+    with zipfile.ZipFile(path) as archive:
+        names = sorted(archive.namelist())
+    return {"files": len(names), "bytes": path.stat().st_size, "differs": worst, "where": where}
+
+
+@contextmanager
+def _all_digits() -> Iterator[None]:
+    """Let the engine write numbers as exactly as a double holds them; it writes six digits otherwise.
+
+    The engine offers this to its own tests only (a symbol marked private), so where it is gone the archive is written
+    with six digits, and `differs` says what that does.
+    """
+    import ctypes
+
+    import mujoco
+
+    libraries = sorted(Path(mujoco.__file__).parent.glob("libmujoco*")) + sorted(
+        Path(mujoco.__file__).parent.glob("mujoco.dll")
+    )
+    try:
+        library = ctypes.CDLL(str(libraries[0]))
+        read, write = library._mjPRIVATE__get_xml_precision, library._mjPRIVATE__set_xml_precision
+    except (IndexError, OSError, AttributeError):
+        yield
+        return
+    usual = read()
+    write(17)
+    try:
+        yield
+    finally:
+        write(usual)
+
+
+def take_in(spec: "mujoco.MjSpec") -> None:
+    """Give the spec every file it names, and every texture it holds in memory, as an asset with a short name."""
+    folder = Path(spec.modelfiledir or ".")
+    for elements, fallback in (
+        (spec.meshes, spec.meshdir),
+        (spec.hfields, spec.meshdir),
+        (spec.skins, spec.meshdir),
+        (spec.textures, spec.texturedir),
+    ):
+        for element in elements:
+            if element.file:
+                element.file = _asset(spec, element.file, folder / (fallback or ""))
+    for texture in spec.textures:
+        if any(texture.cubefiles):
+            texture.cubefiles = [
+                _asset(spec, n, folder / (spec.texturedir or "")) if n else "" for n in texture.cubefiles
+            ]
+        elif not texture.file and (pixels := bytes(texture.data)):
+            _painted(spec, texture, pixels)
+    spec.meshdir = spec.texturedir = ""
+
+
+def _asset(spec: "mujoco.MjSpec", name: str, folder: Path) -> str:
+    """The asset's short name; its bytes are in the spec afterwards."""
+    held = spec.assets.get(name)
+    try:
+        content = bytes(held) if held is not None else (folder / name).read_bytes()  # an absolute name stays itself
+    except OSError as failure:
+        raise ProgramError(
+            f"a file of the world cannot be read: {failure.strerror or failure}", str(folder / name), "put it there"
+        ) from failure
+    short = f"assets/{hashlib.sha256(content).hexdigest()[:12]}{Path(name).suffix.lower()}"
+    spec.assets[short] = content
+    if name != short and held is not None:
+        del spec.assets[name]
+    return short
+
+
+def _painted(spec: "mujoco.MjSpec", texture: Any, pixels: bytes) -> None:
+    """Turn a texture's pixels in memory into a PNG among the assets; a cube's faces lie below each other."""
+    import cv2
+    import mujoco
+    import numpy as np
+
+    image = np.frombuffer(pixels, np.uint8).reshape(texture.height, texture.width, texture.nchannel)
+    order = {3: [2, 1, 0], 4: [2, 1, 0, 3]}.get(texture.nchannel)
+    good, coded = cv2.imencode(".png", image if order is None else image[..., order])
+    if not good:
+        raise ProgramError(
+            f"texture {texture.name} cannot be written as PNG", texture.name, "give it 1, 3 or 4 channels"
+        )
+    short = f"assets/{hashlib.sha256(coded.tobytes()).hexdigest()[:12]}.png"
+    spec.assets[short] = coded.tobytes()
+    texture.data = b""
+    texture.file = short
+    if texture.type != mujoco.mjtTexture.mjTEXTURE_2D:
+        texture.gridsize = (6, 1)
+        texture.gridlayout = "RLUDFB"
