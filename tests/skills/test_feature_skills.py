@@ -1,0 +1,54 @@
+"""What feature skills say to write into a plan is a plan: rows validate, expectations and looks exist."""
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+
+from worldkit.materials import LOOKS
+from worldwright.model.plan import Constant, InitialMotion, Intervention, Joint, Objective, SurfaceConstants
+from worldwright.scan.expecting import EXPECTATIONS
+
+REPO = Path(__file__).parents[2]
+PAGES = sorted([*(REPO / "skills").glob("*/SKILL.md"), *(REPO / "skills").glob("*/references/*.md")])
+ROWS = {"interventions": Intervention, "joints": Joint, "objectives": Objective}
+NAMED = {"materials": SurfaceConstants, "constants": Constant, "initial_motion": InitialMotion}
+BLOCKS = [
+    pytest.param(what, text, id=f"{page.relative_to(REPO / 'skills')}-{what}-{number}")
+    for page in PAGES
+    for number, (what, text) in enumerate(
+        re.findall(r"^```yaml (\w+)\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+    )
+]
+
+
+@pytest.mark.parametrize(("what", "text"), BLOCKS)
+def test_what_a_skill_puts_into_a_plan_belongs_there(what, text):
+    rows = yaml.safe_load(text)
+    if what in NAMED:
+        for row in rows.values():
+            NAMED[what].model_validate(row)
+        return
+    for row in rows:
+        made = ROWS[what].model_validate(row)
+        if what == "objectives":
+            for expected in made.expect:
+                for name, arguments in expected.items():
+                    EXPECTATIONS.find(name).Given.model_validate(arguments)
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(REPO / "skills")))
+def test_every_rule_a_page_names_exists(page):
+    text = page.read_text(encoding="utf-8")
+    sources = "".join(p.read_text(encoding="utf-8") for p in (REPO / "servers").rglob("*.py"))
+    for code in re.findall(r"\bW[A-Z]\d{3}\b", text):
+        assert f'"{code}"' in sources, code
+
+
+def test_the_looks_of_the_materials_skill_exist():
+    page = (REPO / "skills/materials/SKILL.md").read_text(encoding="utf-8")
+    families = page[page.index("## Looks") :]
+    named = re.findall(r"`([a-z]+(?:_[a-z]+)*)`", families)
+    assert len(named) > 50
+    assert [name for name in named if name not in LOOKS and name != "look"] == []
