@@ -11,15 +11,14 @@ Threshold: 2 % of the number; 20 ms, or three recorded rows, of delay. Blocking.
 Source: the facts on staging (fasteners released at 3.0 and 5.2 s, although the load passed the threshold at 0.97 s).
 """
 
-import re
 from collections.abc import Iterator
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
 from ...model.plan import Intervention
 from ...model.trajectory import Trajectory
+from ...model.trigger import Threshold, threshold
 from .. import analytic
 from ..sign import Case, Context, Sign
 from .seen_through import carrying
@@ -27,32 +26,6 @@ from .seen_through import carrying
 CODE = "WS310"
 NEEDS = ("loads", "interventions")
 TOLERANCE, DELAY_S = 0.02, 0.02
-TRIGGER = re.compile(
-    r"\b(?P<quantity>load|tension|contact force|speed|height)\b(?:\s+(?:of|on|in)\s+(?:the\s+)?(?P<name>[\w./-]+))?"
-    r"\s*(?P<sign>>=?|<=?|exceeds|above|over|below|under)\s*(?P<number>\d+(?:\.\d*)?(?:e-?\d+)?)\s*"
-    r"(?P<unit>kN|N|mm|cm|m/s|m)?\b",
-    re.IGNORECASE,
-)
-SCALE = {"kn": 1e3, "mm": 1e-3, "cm": 1e-2}
-
-
-class Threshold(NamedTuple):
-    """A trigger that can be checked."""
-
-    quantity: str
-    name: str
-    rising: bool
-    number: float
-
-
-def threshold(trigger: str) -> Threshold | None:
-    """The checkable part of a declared trigger, or None."""
-    found = TRIGGER.search(trigger)
-    if not found:
-        return None
-    number = float(found["number"]) * SCALE.get((found["unit"] or "").lower(), 1.0)
-    rising = found["sign"].lower() in (">", ">=", "exceeds", "above", "over")
-    return Threshold(found["quantity"].lower(), found["name"] or "", rising, number)
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:

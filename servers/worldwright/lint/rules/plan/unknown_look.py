@@ -1,0 +1,63 @@
+"""A look does not exist.
+
+What it does: compares `look` of objects and assets, and the `floor`, with worldkit's library and the form `#rrggbb`.
+
+Why is this bad: building the world fails at that object.
+
+Use instead: a look of the library, or a colour.
+"""
+
+import re
+from collections.abc import Iterator
+from difflib import get_close_matches
+from typing import Any
+
+from ...case import Changes
+from ...plan_view import Place, PlanView
+from ...problem import Problem
+from ...proof import Measured
+
+CODE = "WP122"
+SEVERITY = "error"
+GOOD: Changes = ({"assets": [{"name": "mug", "filename": "mug", "look": "#2f6f73"}]}, {})
+BAD: Changes = (
+    {"assets": [{"name": "mug", "filename": "mug", "look": "shiny-ish"}]},
+    {"visualization": {"floor": "wood_plank"}},
+    {"assets": [{"name": "mug", "filename": "mug", "look": "#2f6"}]},
+)
+
+
+def _made(change: dict[str, Any]) -> float:
+    """1 when worldkit makes the look of the case's asset, else 0."""
+    import mujoco
+
+    from worldkit import materials
+
+    try:
+        materials.add(mujoco.MjSpec(), change["assets"][0]["look"])
+    except ValueError:
+        return 0.0
+    return 1.0
+
+
+EVIDENCE = Measured("worldkit refuses the look", _made, 0.5)
+
+
+def check(view: PlanView) -> Iterator[Problem]:
+    """Looks of objects, of assets, of the floor."""
+    from worldkit.materials import LOOKS
+
+    used: list[tuple[Place, str | None]] = [
+        *((("scene_objects", i, "look"), row.look) for i, row in enumerate(view.plan.scene_objects)),
+        *((("assets", i, "look"), row.look) for i, row in enumerate(view.plan.assets)),
+        (("visualization", "floor"), view.plan.visualization.floor),
+    ]
+    for place, look in used:
+        if look is not None and look not in LOOKS and not re.fullmatch(r"#[0-9a-fA-F]{6}", look):
+            near = get_close_matches(look, list(LOOKS), n=3, cutoff=0.4)
+            fix = (
+                "did you mean " + ", ".join(near) + "?"
+                if near
+                else "name a look of worldkit.materials.LOOKS, or #rrggbb"
+            )
+            yield view.at(place, f"there is no look `{look}`", fix)

@@ -1,0 +1,69 @@
+"""What should move is in no camera's picture.
+
+What it does: compares the objects under `motion_expectations`, and what they are placed on or in, with the `subjects` of
+all cameras; a camera without subjects frames everything that moves.
+
+Why is this bad: the motion is claimed and measured, and nobody can see it: the review has nothing to look at.
+
+Use instead: the object among the subjects of at least one camera.
+"""
+
+from collections.abc import Iterator
+
+from ...case import Changes
+from ...plan_view import PlanView
+from ...problem import Problem
+from ...proof import Argued
+
+CODE = "WP125"
+SEVERITY = "warning"
+STEP = {
+    "description": "Build.",
+    "scene_objects": ["ramp", "crate"],
+    "assets": ["mug"],
+    "motion_expectations": ["crate"],
+}
+
+
+def _seen(*subjects: str) -> dict:
+    rows = [{"name": n, "view": v, "subjects": list(subjects)} for n, v in (("a", "perspective"), ("b", "top_down"))]
+    return {"implementation_steps": [{**STEP, "cameras": rows}]}
+
+
+GOOD: Changes = (_seen("crate"), _seen("ramp"), _seen())
+BAD: Changes = (_seen("mug"),)
+EVIDENCE = Argued("what a picture shows is judged by eyes; the world moves all the same")
+
+
+def check(view: PlanView) -> Iterator[Problem]:
+    """Movers of the whole plan against cameras of the whole plan."""
+    cameras = view.plan.cameras()
+    if (
+        not cameras
+        or view.plan.recording_mode.mode == "none"
+        or any(not c.subjects and c.target is None for c in cameras)
+    ):
+        return
+    if any(c.position is not None for c in cameras):  # what an explicit camera sees, the layout decides
+        return
+    seen = {name for camera in cameras for name in camera.subjects}
+    supports: dict[str, set[str]] = {}
+    for row in view.plan.topology.scene_predicates:
+        if row.object:
+            supports.setdefault(row.subject, set()).add(row.object)
+    for index, step in enumerate(view.plan.implementation_steps):
+        for name in step.motion_expectations:
+            if not _chain(name, supports) & seen:
+                place = ("implementation_steps", index, "motion_expectations")
+                yield view.at(place, f"no camera looks at {name}", "name it among a camera's subjects")
+
+
+def _chain(name: str, supports: dict[str, set[str]]) -> set[str]:
+    """An object and everything it is placed by, directly or not."""
+    found, waiting = set(), [name]
+    while waiting:
+        current = waiting.pop()
+        if current not in found:
+            found.add(current)
+            waiting += supports.get(current, ())
+    return found
