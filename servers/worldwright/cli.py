@@ -110,7 +110,7 @@ def verb(function: Callable[..., Any]) -> click.Command:
         parameters = [
             click.Argument([many], type=p.type, nargs=-1, required=True) if p.name == many else p for p in parameters
         ]
-    choices = click.Choice(["text", "json"])
+    choices = click.Choice(["text", "json", *getattr(function, "formats", ())])
     parameters.append(click.Option(["--format", "_format"], type=choices, default="text", help="How to print."))
 
     def run(_format: str, _batch: Path | None = None, **values: Any) -> None:
@@ -217,11 +217,19 @@ def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
 
 
 def show(result: Any, style: str) -> None:
-    """Print a result: JSON, or the model's own `text()` when it has one; pictures are written to files."""
+    """Print a result: JSON, a format of its own, or its `text()`, in colours on a terminal; pictures go to files."""
     if style == "json":
         click.echo(expose.to_json(result))
         return
     data = getattr(result, "data", result)
+    if style != "text":
+        click.echo(getattr(data, style)())
+        return
+    if sys.stdout.isatty() and "NO_COLOR" not in os.environ and hasattr(data, "rich"):
+        from rich.console import Console
+
+        Console(soft_wrap=True, highlight=False).print(data.rich())
+        return
     click.echo(data.text() if hasattr(data, "text") else expose.to_json(data))
 
 

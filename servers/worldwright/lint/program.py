@@ -1,6 +1,7 @@
 """What a program rule looks at: the tree, resolved names, folded values, inferred classes, MJCF and the plan."""
 
 import ast
+import re
 from collections.abc import Iterator
 from functools import cached_property
 from typing import Any
@@ -231,6 +232,21 @@ class Program:
         """A change that writes `text` behind a node."""
         whole = self.edit(node, text)
         return Edit(whole.end_line, whole.end_column, whole.end_line, whole.end_column, text)
+
+    def word_edit(self, line: int, old: str, new: str) -> Edit | None:
+        """A change of one word of a line; None when it does not stand there exactly once."""
+        text = self.lines[line - 1] if 0 < line <= len(self.lines) else ""
+        found = list(re.finditer(rf"(?<![\w.-]){re.escape(old)}(?![\w.-])", text))
+        if len(found) != 1:
+            return None
+        return Edit(line, found[0].start() + 1, line, found[0].end() + 1, new)
+
+    def literal(self, node: ast.AST | None) -> ast.Constant | None:
+        """The number in the source that an expression is, directly or by a name bound once; None when it is computed."""
+        if isinstance(node, ast.Name):
+            bound = self.scopes.bound(node)
+            node = bound[0] if len(bound) == 1 else None
+        return node if isinstance(node, ast.Constant) else None
 
     def _characters(self, line: int, offset: int) -> int:
         """The syntax tree counts bytes, editors count characters."""

@@ -1,10 +1,14 @@
 """Lint results as a person reads them: place, cause, the source line, and the fix."""
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..model.evidence import LintReport
 from ..model.finding import Finding
 from ..model.frozen import Frozen
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 MAX_FINDINGS = 80
 """A tool's answer stays below 20 KB."""
@@ -19,6 +23,33 @@ class ShownReport(LintReport):
     """Where the report was stored as evidence, when the program belongs to a run."""
     worlds: tuple[str, ...] = ()
     """How compiling went, per file whose world was wanted."""
+    fixed: tuple[str, ...] = ()
+    """What `fix` changed, per file."""
+
+    def sarif(self) -> str:
+        """As a SARIF 2.1 log."""
+        from .formats import sarif
+
+        return sarif(self.findings)
+
+    def github(self) -> str:
+        """As annotations of a GitHub workflow."""
+        from .formats import github
+
+        return github(self.findings)
+
+    def rich(self) -> "Text":
+        """The text in colours, for a terminal."""
+        from rich.text import Text
+
+        text = Text(self.text())
+        text.highlight_regex(r"(?m)^.*?: (?=error|warning|info )", "bold")
+        for word, style in (("error", "bold red"), ("warning", "bold yellow"), ("info", "cyan")):
+            text.highlight_regex(rf"(?<=: ){word} W[LMP][0-9]+ [a-z_]+", style)
+        text.highlight_regex(r"(?m)^  > .*$", "bold")
+        text.highlight_regex(r"(?m)^ +\| +\^$", "red")
+        text.highlight_regex(r"(?m)^    fix: .*$", "green")
+        return text
 
     def text(self) -> str:
         """The findings with excerpts, then one line of summary."""
@@ -29,7 +60,7 @@ class ShownReport(LintReport):
         files = f"{self.files} file{'s' * (self.files != 1)}"
         verdict = f"{errors} error{'s' * (errors != 1)}, {warnings} warning{'s' * (warnings != 1)}"
         clean = "clean" if not self.findings else verdict
-        parts += self.worlds
+        parts += [*self.fixed, *self.worlds]
         parts.append(f"{files}, {self.rules} rules: {clean}" + (f" (kept as {self.kept})" if self.kept else ""))
         return "\n".join(parts)
 

@@ -35,6 +35,7 @@ def check_program(
         bool | None,
         Field(description="Build the world in the sandbox and inspect it; default: for programs of ours and MJCF"),
     ] = None,
+    fix: Annotated[bool, Field(description="Apply the safe fixes first, in place")] = False,
 ) -> ShownReport:
     """May these programs run? Reads them; what they build is compiled in the sandbox and inspected there.
 
@@ -43,10 +44,10 @@ def check_program(
     the engine cannot carry are named. For a run's own simulation.py the report is kept as evidence, which the physics
     pass needs. Answer for a finding with `# worldwright: ignore[WL123] reason`.
     """
-    from . import engine
+    from . import engine, fixing
 
     found: list[Finding] = []
-    kept, worlds = "", []
+    kept, worlds, fixed = "", [], []
     rules = len(engine.program_rules()) + len(engine.model_rules())
     for file in files:
         if not file.exists():
@@ -62,13 +63,23 @@ def check_program(
             if committed is not None:
                 faults = engine.check_plan_rules(committed, str(chosen), line_of)
                 here += [fault for fault in faults if fault.severity == "error"]
+        if fix and (codes := fixing.fix(file, committed, True if chosen else None)):
+            fixed.append(f"{file.name}: {len(codes)} safe fix{'es' * (len(codes) > 1)} ({', '.join(codes)})")
+            key = _key(file.parent) if evidence else None
         looked, world = engine.check_program_file(file, committed, True if chosen else None, model)
         here += looked
         worlds += [world] if world else []
         if key is not None and key == _key(file.parent):  # else it was edited meanwhile: these findings are of neither
             kept = _keep(file.parent, key, here, rules)
         found += here
-    return ShownReport(findings=capped(found), rules=rules, files=len(files), kept=kept, worlds=tuple(worlds))
+    return ShownReport(
+        findings=capped(found),
+        rules=rules,
+        files=len(files),
+        kept=kept,
+        worlds=tuple(worlds),
+        fixed=tuple(fixed),
+    )
 
 
 @reads
@@ -156,4 +167,5 @@ def _case_text(case: object) -> str:
     return str(getattr(case, "source", case))
 
 
+check_plan.formats = check_program.formats = ("sarif", "github")  # type: ignore[attr-defined]
 TOOLS = (check_plan, check_program, explain, list_rules)

@@ -105,6 +105,15 @@ def advice(name: str) -> str:
     return ""
 
 
+def renamed(name: str) -> str | None:
+    """The bare new name, when the changelog says that this one was renamed and nothing else about it changed."""
+    for row in find(name):
+        for old, new in row.renamed.items():
+            if _bare(old) == _bare(name) and re.fullmatch(r"[\w.]+", new) and re.fullmatch(r"[\w.]+", old):
+                return new.rsplit(".", 1)[-1]
+    return None
+
+
 def mine(text: str) -> Iterator[Change]:
     """The rows of a changelog, in its order."""
     lines = text.splitlines()

@@ -29,6 +29,11 @@ BAD = (
     HEAD + "C = 0.1\nj.damping = C * 2\n",
     "import mujoco\nt = mujoco.MjSpec().add_tendon()\nt.stiffness = 100\n",
 )
+FIXED = (
+    HEAD + "j.stiffness[0] = 5.0\n",
+    HEAD + "C = 0.1\nj.damping[0] = C * 2\n",
+    "import mujoco\nt = mujoco.MjSpec().add_tendon()\nt.stiffness[0] = 100\n",
+)
 EVIDENCE = Raises(good=False)
 
 
@@ -38,5 +43,6 @@ def check(program: Program) -> Iterator[Problem]:
         if not (isinstance(target, ast.Attribute) and target.attr in ("stiffness", "damping")):
             continue
         if program.type_of(target.value) in ("MjsJoint", "MjsTendon") and isinstance(program.value(value), int | float):
+            edit = program.insertion_after(target, "[0]") if isinstance(statement, ast.Assign) else None
             fix = f"write .{target.attr}[0] = …, the linear coefficient"
-            yield at(statement, f"`{target.attr}` holds three coefficients, not one number", fix)
+            yield at(statement, f"`{target.attr}` holds three coefficients, not one number", fix, edit=edit)

@@ -32,6 +32,10 @@ BAD = (
     HEAD + "spec = scene.new('a', time_step=0.002)\nspec.option.timestep = 0.0005\n",
     Case("XML = '<mujoco><option timestep=\"0.01\"/></mujoco>'\n"),
 )
+FIXED = (
+    HEAD + "STEP = 0.002\nspec = scene.new('a', time_step=STEP)\n",
+    HEAD + "spec = scene.new('a', time_step=0.002)\nspec.option.timestep = 0.002\n",
+)
 EVIDENCE = Argued("any step simulates; that another one was approved, only the plan tells")
 
 
@@ -40,7 +44,9 @@ def check(program: Program) -> Iterator[Problem]:
     planned = program.plan.simulation_parameters.time_step if program.plan else None
     if not isinstance(planned, int | float):
         return
-    for value, line, _ in stated.time_steps(program):
+    for value, line, node in stated.time_steps(program):
         if isinstance(value, int | float) and not isclose(value, planned, rel_tol=1e-9):
             fix = f"write {planned}, or change simulation_parameters.time_step and have the plan approved again"
-            yield Problem(f"the time step is {value:g} s, the plan says {planned:g} s", fix, line)
+            literal = program.literal(node)
+            edit = program.edit(literal, repr(planned)) if literal is not None else None
+            yield Problem(f"the time step is {value:g} s, the plan says {planned:g} s", fix, line, edit=edit)

@@ -14,6 +14,7 @@ from difflib import get_close_matches
 from ....simulator import changelog, mjcf
 from ...case import Case
 from ...mjcf_text import Tag
+from ...naming import respelled
 from ...problem import Problem
 from ...program import Program
 from ...proof import Raises
@@ -39,6 +40,7 @@ BAD = (
     Case("<mujoco><worldbody><camera orthographic='true'/></worldbody></mujoco>", path="a.xml"),
     "import mujoco\nmujoco.MjModel.from_xml_string('<mujoco><worldbody><geom siz=\"1\"/></worldbody></mujoco>')\n",
 )
+FIXED = (Case("<mujoco><option timestep='0.001'/></mujoco>", path="a.xml"),)
 EVIDENCE = Raises("Schema violation", good=False)
 
 
@@ -54,14 +56,14 @@ def check(program: Program) -> Iterator[Problem]:
         while stack:
             tag, element = stack.pop()
             if tag.name != "mujocoinclude":
-                yield from _attributes(schema, tag, element)
+                yield from _attributes(program, tag, element)
             for child in tag.children:
                 inside = element.child(child.name)
                 if inside is not None:
                     stack.append((child, inside))
 
 
-def _attributes(schema: mjcf.Schema, tag: Tag, element: mjcf.Element) -> Iterator[Problem]:
+def _attributes(program: Program, tag: Tag, element: mjcf.Element) -> Iterator[Problem]:
     for name in tag.attributes:
         if name in element.attributes or ":" in name or name.startswith("xmlns"):
             continue
@@ -70,4 +72,7 @@ def _attributes(schema: mjcf.Schema, tag: Tag, element: mjcf.Element) -> Iterato
         hints = ([became] if became else []) + (["nearest: " + ", ".join(f"`{n}`" for n in near)] if near else [])
         fix = "; ".join(hints) or "it takes: " + ", ".join(sorted(element.attributes)[:40])
         version = mjcf.symbols.load().version
-        yield Problem(f"<{tag.name}> has no attribute `{name}` in MuJoCo {version}", fix, tag.line)
+        right = respelled(name, element.attributes)
+        edit = program.word_edit(tag.line, name, right) if right and right not in tag.attributes else None
+        message = f"<{tag.name}> has no attribute `{name}` in MuJoCo {version}"
+        yield Problem(message, fix, tag.line, edit=edit)

@@ -14,7 +14,8 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....simulator import changelog
-from ...problem import Problem, at
+from ...naming import respelled
+from ...problem import Edit, Problem, at
 from ...program import Program
 from ...proof import Raises
 
@@ -32,7 +33,9 @@ BAD = (
     "import mujoco\nspec = mujoco.MjSpec()\nspec.worldbody.add_body(position=[0, 0, 1])\n",
     "import mujoco\nspec = mujoco.MjSpec()\nspec.add_mesh(name='m', filename='m.stl')\n",
     "import mujoco as mj\nb = mj.MjSpec().worldbody.add_body()\nb.add_geom(mesh='m')\n",
+    "import mujoco\nspec = mujoco.MjSpec()\nspec.worldbody.add_geom(con_type=1)\n",
 )
+FIXED = (None, None, None, None, "import mujoco\nspec = mujoco.MjSpec()\nspec.worldbody.add_geom(contype=1)\n")
 EVIDENCE = Raises(good=False)
 
 
@@ -54,7 +57,12 @@ def check(program: Program) -> Iterator[Problem]:
             became = changelog.advice(keyword.arg)
             hints = ([became] if became else []) + (["nearest: " + ", ".join(f"`{n}`" for n in near)] if near else [])
             fix = "; ".join(hints) or "it takes: " + ", ".join(known[:30])
-            yield at(keyword.value, f"`{shown}` takes no `{keyword.arg}` in MuJoCo {table.version}", fix)
+            right = respelled(keyword.arg, known)
+            edit = None
+            if right is not None and right not in [k.arg for k in call.keywords]:
+                start = program.edit(keyword, "")
+                edit = Edit(start.line, start.column, start.line, start.column + len(keyword.arg), right)
+            yield at(keyword.value, f"`{shown}` takes no `{keyword.arg}` in MuJoCo {table.version}", fix, edit=edit)
 
 
 def _target(program: Program, call: ast.Call):

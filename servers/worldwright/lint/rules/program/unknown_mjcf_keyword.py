@@ -14,6 +14,7 @@ from difflib import get_close_matches
 
 from ....simulator import changelog, mjcf
 from ...case import Case
+from ...naming import respelled
 from ...problem import Problem
 from ...program import Program
 from ...proof import Raises
@@ -33,6 +34,7 @@ BAD = (
     Case("<mujoco><worldbody><geom type='cube' size='1 1 1'/></worldbody></mujoco>", path="a.xml"),
     "import mujoco\nmujoco.MjModel.from_xml_string('<mujoco><option cone=\"eliptic\"/></mujoco>')\n",
 )
+FIXED = (Case("<mujoco><option integrator='RK4'/></mujoco>", path="a.xml"),)
 EVIDENCE = Raises("invalid keyword", good=False)
 
 
@@ -57,4 +59,7 @@ def check(program: Program) -> Iterator[Problem]:
             ]
             hints = ([became] if became else []) + ([f"nearest: `{near[0]}`"] if near else [])
             hints.append("known: " + ", ".join(known))
-            yield Problem(f"`{value}` is no keyword of {tag.name}/{name}", "; ".join(hints), tag.line)
+            right = respelled(value, known)
+            edit = program.word_edit(tag.line, value, right) if right else None
+            message = f"`{value}` is no keyword of {tag.name}/{name}"
+            yield Problem(message, "; ".join(hints), tag.line, edit=edit)

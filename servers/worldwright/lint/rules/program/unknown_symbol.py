@@ -14,7 +14,8 @@ import ast
 from collections.abc import Iterator
 
 from ....simulator import changelog
-from ...problem import Problem, at
+from ...naming import respelled
+from ...problem import Edit, Problem, at
 from ...program import Program
 from ...proof import Raises
 
@@ -36,6 +37,14 @@ BAD = (
     "from mujoco import mju_rayFlex\n",
     "import mujoco\ndef control(model: mujoco.MjModel, data: mujoco.MjData):\n    return data.efc_diagApprox\n",
     "from worldkit import scene\nspec = scene.new('a', time_step=0.001)\nspec.add_body()\n",
+)
+FIXED = (
+    None,
+    None,
+    None,
+    "import mujoco\nspec = mujoco.MjSpec()\nspec.option.timestep = 0.001\n",
+    None,
+    "import mujoco\ndef control(model: mujoco.MjModel, data: mujoco.MjData):\n    return data.efc_diagA\n",
 )
 EVIDENCE = Raises(without=(5,), good=False)
 
@@ -110,4 +119,16 @@ def _missing(program: Program, node: ast.AST, shown: str, name: str, owner: str 
     elif owner is not None and name in table.owners:
         hints.append("it is a member of " + ", ".join(f"`{o}`" for o in table.owners[name][:4]))
     fix = "; ".join(hints) or f"look it up: worldwright retrieve symbol {name}"
-    return at(node, f"MuJoCo {table.version} has no `{shown}`", fix)
+    return at(node, f"MuJoCo {table.version} has no `{shown}`", fix, edit=_edit(program, node, name, owner))
+
+
+def _edit(program: Program, node: ast.AST, name: str, owner: str | None) -> Edit | None:
+    """Another spelling of the same name, or the name that the changelog says it has now."""
+    table = program.symbols
+    entry = table.names.get(owner, {}) if owner else {}
+    known = set(entry.get("members", ())) if owner else {n for n, e in table.names.items() if not e.get("private")}
+    right = respelled(name, known) or changelog.renamed(name)
+    if right is None or right not in known or not isinstance(node, ast.Attribute):
+        return None
+    whole = program.edit(node, right)
+    return Edit(whole.end_line, whole.end_column - len(name), whole.end_line, whole.end_column, right)

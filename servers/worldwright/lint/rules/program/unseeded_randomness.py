@@ -12,7 +12,7 @@ Use instead: `build(rng)` or `control(model, data, rng)`: worldkit passes a gene
 import ast
 from collections.abc import Iterator
 
-from ...problem import Problem, at
+from ...problem import Edit, Problem, at
 from ...program import Program
 from ...proof import Measured, executed
 
@@ -31,6 +31,13 @@ BAD = (
     "import random\nfrom worldkit import scene\nx = random.uniform(0, 1)\n",
     "from random import choice\nfrom worldkit import scene\nx = choice([1, 2])\n",
     "import numpy as np\nfrom worldkit import scene\nrng = np.random.default_rng(None)\n",
+)
+FIXED = (
+    None,
+    "import numpy as np\nfrom worldkit import scene\nrng = np.random.default_rng(0)\n",
+    None,
+    None,
+    "import numpy as np\nfrom worldkit import scene\nrng = np.random.default_rng(0)\n",
 )
 SEEDED = "import numpy as np\nx = np.random.default_rng(1).random(3)\n"
 EVIDENCE = Measured(
@@ -55,7 +62,11 @@ def check(program: Program) -> Iterator[Problem]:
         if full in GENERATORS:
             seed = call.args[0] if call.args else program.argument(call, "seed")
             if seed is None or (isinstance(seed, ast.Constant) and seed.value is None):
-                yield at(call, f"{full} is made without a seed", fix)
+                edit = program.edit(seed, "0") if seed is not None else None
+                if seed is None and not call.keywords and program.lines[(call.end_lineno or 1) - 1].isascii():
+                    end = (call.end_col_offset or 1) - 1  # before the bracket that closes the call
+                    edit = Edit(call.end_lineno or 1, end + 1, call.end_lineno or 1, end + 1, "0")
+                yield at(call, f"{full} is made without a seed", fix, edit=edit)
         elif full == "random.SystemRandom":
             yield at(call, "random.SystemRandom cannot be seeded", fix)
         elif name not in NOT_DRAWS and module in ("numpy.random", "random") and module not in seeded:
