@@ -17,16 +17,20 @@ import os
 import sys
 import typing
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import BaseModel
+from pydantic import BaseModel, Field, create_model
+from pydantic_core import to_json as to_json_bytes
 
 from .model.errors import WorldwrightError
 from .model.picture import Illustrated
 from .model.progress import Progress, silent
+from .paging import fit, lists
+from .schema import plain
 
 if TYPE_CHECKING:
     from mcp.server import MCPServer
+    from mcp_types import Tool
 
 SERVERS = {
     "retrieve": "What do the installed simulator, its manual and the catalog say about this?",
@@ -60,7 +64,11 @@ def build_server(name: str) -> "MCPServer":
 
     from . import __version__
 
-    server = MCPServer(f"worldwright-{name}", instructions=SERVERS[name], version=__version__, log_level="WARNING")
+    class Server(MCPServer):
+        async def list_tools(self) -> "list[Tool]":
+            return [_plain(tool) for tool in await super().list_tools()]
+
+    server = Server(f"worldwright-{name}", instructions=SERVERS[name], version=__version__, log_level="WARNING")
     for function in tools(name):
         read_only = bool(getattr(function, "read_only", False))
         server.add_tool(
@@ -70,6 +78,11 @@ def build_server(name: str) -> "MCPServer":
             annotations=ToolAnnotations(read_only_hint=read_only, open_world_hint=False, destructive_hint=False),
         )
     return server
+
+
+def _plain(tool: "Tool") -> "Tool":
+    output = plain(tool.output_schema) if tool.output_schema else None
+    return tool.model_copy(update={"input_schema": plain(tool.input_schema, optional=True), "output_schema": output})
 
 
 class Positional:
@@ -113,45 +126,67 @@ def description(function: Callable[..., Any]) -> str:
 
 
 def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Wrap a plain function for MCP: progress in, pictures and errors out."""
+    """Wrap a plain function for MCP: progress in, pictures, pages and errors out."""
     from anyio import from_thread
     from mcp.server.mcpserver import Context, Image
 
     listener = progress_parameter(function)
-    shows = hints(function).get("return") is Illustrated
+    returns = hints(function).get("return")
+    model = returns if inspect.isclass(returns) and issubclass(returns, BaseModel) else None
+    fields = lists(model) if model else ()
 
     @functools.wraps(function)
-    def tool(*args: Any, ctx: Context, **kwargs: Any) -> Any:
+    def tool(*args: Any, ctx: Context, page: int = 1, **kwargs: Any) -> Any:
         if listener:
             kwargs[listener] = functools.partial(_report, from_thread, ctx)
         try:
-            result = function(*args, **kwargs)
+            return _answer(function(*args, **kwargs), fields, page)
         except WorldwrightError as error:
             return _refusal(error)
         except Exception as error:  # a defect of ours must not look like an answer, nor end the server
             logging.getLogger(__name__).exception("%s failed", function.__name__)
             return _refusal(_internal(function.__name__, error))
-        if isinstance(result, Illustrated):
-            content: list[Any] = [result.data.model_dump_json(exclude_defaults=True)]
-            for picture in result.pictures:
-                content += [picture.caption, Image(data=picture.data, format=picture.format)]
-            return content
-        return result
 
     signature = inspect.signature(function)
     parameters = [p for p in signature.parameters.values() if p.name != listener]
-    context = inspect.Parameter("ctx", inspect.Parameter.KEYWORD_ONLY, annotation=Context)
     annotations = {k: v for k, v in hints(function).items() if k != listener}
-    if shows:
-        annotations["return"] = list[str | Image]
+    if fields:
+        annotations["page"] = Annotated[int, Field(description="Of a long answer, which page", ge=1)]
+        parameters.append(inspect.Parameter("page", inspect.Parameter.KEYWORD_ONLY, default=1))
+    parameters.append(inspect.Parameter("ctx", inspect.Parameter.KEYWORD_ONLY))
     annotations["ctx"] = Context
+    if returns is Illustrated:
+        annotations["return"] = list[str | Image]
+    elif model:
+        annotations["return"] = create_model(model.__name__, __base__=model, shortened=(str, ""))
     tool.__annotations__ = annotations
     tool.__signature__ = signature.replace(  # type: ignore[attr-defined]
-        parameters=[*(p.replace(annotation=annotations[p.name]) for p in parameters), context],
+        parameters=[p.replace(annotation=annotations[p.name]) for p in parameters],
         return_annotation=annotations.get("return", inspect.Signature.empty),
     )
     del tool.__wrapped__  # or the SDK would read the original signature
     return tool
+
+
+def _answer(result: Any, fields: tuple[str, ...], page: int) -> Any:
+    """A result as every client hands it on: pictures without, data with structured content; neither too long."""
+    from mcp.server.mcpserver import Image
+    from mcp_types import CallToolResult, TextContent
+
+    if isinstance(result, Illustrated):
+        content: list[Any] = [_line(fit(result.data.model_dump(mode="json", exclude_defaults=True)))]
+        for picture in result.pictures:
+            content += [picture.caption, Image(data=picture.data, format=picture.format)]
+        return content
+    if not isinstance(result, BaseModel):
+        return result
+    data = fit(result.model_dump(mode="json", by_alias=True), fields, page)
+    return CallToolResult(content=[TextContent(type="text", text=_line(data))], structured_content=data)
+
+
+def _line(data: Any) -> str:
+    """JSON without the spaces that a client's model would pay for."""
+    return to_json_bytes(data, inf_nan_mode="null").decode()
 
 
 def _report(from_thread: Any, ctx: Any, done: float, total: float, message: str = "") -> None:
@@ -170,12 +205,10 @@ def _internal(name: str, error: Exception) -> WorldwrightError:
 
 def _refusal(error: WorldwrightError) -> Any:
     """An error result. Clients read either the text or the structured content, so it stands in both."""
-    import json
-
     from mcp_types import CallToolResult, TextContent
 
     facts = error.to_dict()
-    text = TextContent(type="text", text=json.dumps(facts, ensure_ascii=False))
+    text = TextContent(type="text", text=_line(facts))
     return CallToolResult(content=[text], structured_content=facts, is_error=True)
 
 

@@ -86,7 +86,7 @@ def test_one_function_is_one_tool_with_its_types(server):
     assert set(properties) == {"text", "times", "voice"}
     assert properties["text"]["description"] == "What to say."
     assert properties["voice"]["enum"] == ["loud", "soft"]
-    assert tools["echo"].output_schema["properties"].keys() == {"words", "ok"}
+    assert tools["echo"].output_schema["properties"].keys() == {"words", "ok", "shortened"}
     assert tools["show"].output_schema is None
 
 

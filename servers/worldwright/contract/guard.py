@@ -24,9 +24,9 @@ import sys
 from pathlib import Path
 
 try:
-    from .roles import BY_AGENT, MAIN_TOOLS, RUNS, Role
+    from .roles import BY_AGENT, RESERVED, RUNS, Role
 except ImportError:  # started as a program: the folder of this file is on the path
-    from roles import BY_AGENT, MAIN_TOOLS, RUNS, Role  # type: ignore[no-redef]
+    from roles import BY_AGENT, RESERVED, RUNS, Role  # type: ignore[no-redef]
 
 SERVERS = frozenset({"retrieve", "lint", "place", "stage", "scan", "stamp"})
 WRITERS = frozenset({"write", "edit", "multiedit", "notebookedit", "apply_patch", "patch", "create", "str_replace"})
@@ -114,11 +114,16 @@ def _judge_mcp(kind: str, role: "Role | None") -> bool:
     if len(parts) < 3 or parts[1] not in SERVERS:
         return False
     name = f"{parts[1]}.{parts[2]}"
-    allowed = MAIN_TOOLS if role is None else role.tools
-    if name not in allowed:
-        who = "the main thread" if role is None else f"the {role.name} role"
-        raise DeniedError(f"{name} is not a tool of {who}; it has: {', '.join(allowed)}")
+    if role is None:
+        _refuse_reserved(name)
+    elif name not in role.tools:
+        raise DeniedError(f"{name} is not a tool of the {role.name} role; it has: {', '.join(role.tools)}")
     return name != "stamp.approve"  # whether a plan is approved, the person is asked
+
+
+def _refuse_reserved(name: str) -> None:
+    if name in RESERVED:
+        raise DeniedError(f"{name} is not a tool of the main thread: spawn the role whose it is, and let it report")
 
 
 def _targets(given: object) -> list[str]:
@@ -202,9 +207,7 @@ def _judge_command(words: list[str], who: str, project: Path, role: "Role | None
     if words[:2] == ["sed", "-n"] and len(words) > 3 and PRINTED.match(words[2]) and words[3][:1] != "-":
         return
     if role is None and words[0] in ("worldwright", ".venv/bin/worldwright", str(project / ".venv/bin/worldwright")):
-        verb = ".".join(words[1:3]).replace("-", "_")
-        if words[1:2] and words[1] in SERVERS and verb not in MAIN_TOOLS:
-            raise DeniedError(f"{verb} is not a tool of the main thread: the role whose it is reports for itself")
+        _refuse_reserved(".".join(words[1:3]).replace("-", "_"))
         return
     raise DeniedError(
         f"`{words[0]}` may write, and {who}: only looking commands ({', '.join(sorted(LOOKING))}, sed -n 1,9p)"

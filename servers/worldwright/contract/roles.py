@@ -77,6 +77,7 @@ CODE = Role(
         "retrieve.read",
         "retrieve.symbol",
         "retrieve.breaking_changes",
+        "retrieve.status",
         "lint.check_program",
         "lint.explain",
         "lint.list_rules",
@@ -148,14 +149,16 @@ the most. `blocked` only when no change of plan or program can help. Then call `
 Answer with the outcome, the target and the repair in two sentences.""",
     refuses=("editing anything", "two repairs at once", "passing what the numbers refute"),
 )
+COMMANDS = ("generate", "resume", "revise", "review", "verify", "build")
+"""Skills that a person types; the others are for the roles."""
 ROLES = (PLAN, CODE, VISUAL, REVIEW)
 BY_AGENT = {role.agent: role for role in ROLES}
 MAIN_TOOLS = (
     "stamp.status", "stamp.approve", "stamp.accept", "stamp.block", "stamp.verify",
-    "stage.start", "stage.wait", "stage.status", "stage.cancel",
-    "retrieve.search", "retrieve.read", "retrieve.symbol", "retrieve.breaking_changes", "retrieve.find_asset",
-    "retrieve.status", "lint.check_plan", "lint.check_program", "lint.explain", "lint.list_rules",
-    "place.check", "place.explain", "place.draw", "stage.frames", "stage.log",
-    "scan.scan", "scan.expect", "scan.query", "scan.plot", "scan.compare",
+    "stage.start", "stage.wait", "stage.status", "stage.cancel", "stage.frames",
+    "scan.query", "scan.plot", "scan.compare", "place.draw",
+    "retrieve.search", "retrieve.read", "retrieve.symbol",
 )  # fmt: skip
-"""Of the main thread: it orchestrates, approves in the person's name, stamps; it never reports for a role."""
+"""What the main thread is given: it orchestrates, looks, answers, approves in the person's name, stamps."""
+RESERVED = ("stamp.describe", "stamp.review", "stage.draft", "place.resolve", "place.settle")
+"""Tools that report in a role's name or write its file: the main thread may not call these, all others it may."""
