@@ -2,7 +2,7 @@
 
 from collections import Counter
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field
 
@@ -109,6 +109,17 @@ class Expected(ExpectReport):
         return "\n".join(lines)
 
 
+class Standing(Frozen):
+    """How good one iteration is; larger is better, the first place that differs decides."""
+
+    blocking: int
+    """Minus the number of blocking anomalies."""
+    objectives: int
+    """Two for each objective proved, one for each visual only or unproved."""
+    margins: float
+    """Mean margin of the expectations that both have, each as a share of its scale, -1 to 1."""
+
+
 class Comparison(Frozen):
     """Two iterations of a run, the better one named."""
 
@@ -118,11 +129,27 @@ class Comparison(Frozen):
     improved: tuple[str, ...] = ()
     """What the second does better."""
     worsened: tuple[str, ...] = ()
+    decided_by: Literal["blocking", "objectives", "margins", "nothing"] = "nothing"
+    """Blocking anomalies first, then objectives, then margins: the first that differs."""
+    ranks: tuple[Standing, ...] = ()
+    """Of the first and of the second."""
 
     def text(self) -> str:
         """The verdict and its reasons."""
         head = {"first": f"{self.first} is better", "second": f"{self.second} is better", "equal": "neither is better"}
-        return "\n".join([head[self.better], *(f"+ {t}" for t in self.improved), *(f"- {t}" for t in self.worsened)])
+        why = {
+            "blocking": ": fewer blocking anomalies",
+            "objectives": ": more objectives hold",
+            "margins": ": wider margins, all else alike",
+            "nothing": "",
+        }
+        return "\n".join(
+            [
+                head[self.better] + why[self.decided_by],
+                *(f"+ {t}" for t in self.improved),
+                *(f"- {t}" for t in self.worsened),
+            ]
+        )
 
 
 class PlotFacts(Frozen):
@@ -131,10 +158,13 @@ class PlotFacts(Frozen):
     quantity: str
     bodies: tuple[str, ...]
     window_s: tuple[float, float] | None
+    finding: str = ""
+    """The finding that is marked."""
 
     def text(self) -> str:
         """One line."""
-        return f"{self.quantity} of {', '.join(self.bodies) or 'the bodies that move most'}"
+        marked = f", with {self.finding} marked" if self.finding else ""
+        return f"{self.quantity} of {', '.join(self.bodies) or 'the bodies that move most'}{marked}"
 
 
 @several("run")
@@ -225,18 +255,34 @@ def query(
 def plot(
     run: RunName,
     quantity: Annotated[
-        Literal["height", "speed", "spin", "position", "energy", "contact_force", "penetration"],
-        Field(description="What to plot over time."),
-    ] = "height",
-    bodies: Annotated[list[str], Field(description="Bodies; empty: those that move most.")] = [],  # noqa: B006
+        Literal["auto", "height", "speed", "spin", "tilt", "position", "energy", "contact_force", "penetration"],
+        Field(description="What to plot over time; `auto`: what shows the finding, else the height."),
+    ] = "auto",
+    bodies: Annotated[list[str], Field(description="Bodies; empty: the finding's, else those that move most.")] = [],  # noqa: B006
     window: Window = "",
+    finding: Annotated[
+        str, Field(description="A finding of the scan to mark: code or name, `WS105` or `WS105:BODY`.")
+    ] = "",
 ) -> Illustrated:
-    """Plot a quantity over time as a picture, with the beginnings of contacts marked."""
-    from .plots import draw
+    """Plot a quantity over time as a picture, with the beginnings of contacts marked.
 
-    picture = draw(_subject(run)[3], quantity, tuple(bodies), _window(window))
-    facts = PlotFacts(quantity=quantity, bodies=tuple(bodies), window_s=_window(window))
-    return Illustrated(facts, (Picture(picture, f"{quantity} over time"),))
+    With `finding`, its stretch of time and its threshold are marked, and its bodies and surroundings are shown.
+    """
+    from . import engine, plots
+    from .sign import Context
+
+    _, _, plan, trajectory = _subject(run)
+    chosen, shown = None if quantity == "auto" else quantity, _window(window)
+    mark = None
+    if finding:
+        anomaly = plots.choose(engine.scan(trajectory, Context.of(plan)).anomalies, finding)
+        mark = plots.mark(trajectory, anomaly, chosen)
+        chosen, shown = cast(plots.Quantity, mark.quantity), shown or mark.view_s
+    named = tuple(bodies) or (mark.bodies if mark else ())
+    picture = plots.draw(trajectory, chosen or "height", named, shown, mark)
+    facts = PlotFacts(quantity=chosen or "height", bodies=named, window_s=shown, finding=mark.title if mark else "")
+    caption = f"{facts.quantity} over time" + (f"; {mark.title}, {mark.note}" if mark else "")
+    return Illustrated(facts, (Picture(picture, caption),))
 
 
 @reads
@@ -245,7 +291,10 @@ def compare(
     first: Annotated[str, Field(description="Evidence key of one iteration.")],
     second: Annotated[str, Field(description="Evidence key of the other.")],
 ) -> Comparison:
-    """Say which of two iterations is better, and what got better or worse, by anomalies and measured margins."""
+    """Say which of two iterations is better, and what got better or worse.
+
+    Fewer blocking anomalies decide first, then objectives, then the margins of the expectations.
+    """
     from .comparing import compare_reports
 
     folder = Run.find(run)

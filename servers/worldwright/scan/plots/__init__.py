@@ -1,5 +1,6 @@
 """Plots of a recording as PNG: clean axes with units, one colour a body, contacts marked along the time axis."""
 
 from .draw import QUANTITIES, Quantity, draw
+from .marking import Mark, choose, mark
 
-__all__ = ["QUANTITIES", "Quantity", "draw"]
+__all__ = ["QUANTITIES", "Mark", "Quantity", "choose", "draw", "mark"]
