@@ -34,7 +34,7 @@ examples: .venv/.dev ## Re-prove every accepted example
 	@for run in examples/*/; do $(BIN)/worldwright stamp verify $$run || exit 1; done
 
 test-faults: .venv/.dev ## kill -9 at a hundred random moments (make test does a few)
-	WORLDWRIGHT_KILLS=100 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/stage/test_faults.py
+	WORLDWRIGHT_KILLS=100 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/stage/test_faults.py tests/worldwright/stamp/test_stamp_faults.py
 
 test-conformance: .venv/.dev ## The official MCP suite over HTTP and the inspector over stdio, on all six servers (needs npm)
 	WORLDWRIGHT_CONFORMANCE=1 $(BIN)/python -m pytest tests/conformance -p no:xdist

@@ -23,6 +23,7 @@ from worldkit.files import write_json
 from ..model.errors import JobError
 from ..model.evidence import PassResult
 from ..model.run import Run, sha256_file
+from ..model.storage import FULL
 from . import family, models, sandbox
 from .gates import folder_name
 from .job import Job, JobStatus, Spec
@@ -302,9 +303,10 @@ def main() -> int:
     try:
         supervision.supervise()
     except BaseException as defect:
-        supervision.state(
-            "failed", code="internal", message=f"the supervisor failed: {type(defect).__name__}: {defect}"
-        )
+        code = "disk_full" if getattr(defect, "errno", None) in FULL else getattr(defect, "code", "internal")
+        code = code if code in ("disk_full", "not_writable") else "internal"
+        message = f"the supervisor failed: {type(defect).__name__}: {defect}"
+        supervision.state("failed", code=code, message=message, next_move=getattr(defect, "next_move", ""))
         raise
     return 0
 

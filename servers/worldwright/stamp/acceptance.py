@@ -13,6 +13,7 @@ from ..model.evidence import Environment
 from ..model.frozen import Frozen
 from ..model.journal import Journal
 from ..model.progress import Progress, silent
+from ..model.storage import writing
 from . import bundle, digest, gates, machine, sampled, signing
 from .proof import Proved, prove
 from .state import State
@@ -71,7 +72,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
     With `key`, an Ed25519 private key, the stamp is signed; a stamp that stands already is signed too.
     """
     signer = signing.private_key(key) if key else None
-    with bundle.only_one(state.run):
+    with writing("the accepted folder", state.run.folder), bundle.only_one(state.run):
         if steps(state)["accepted"].holds:
             if signer is not None:
                 signing.sign(state.run.accepted, bundle.STAMP, signer)

@@ -79,11 +79,19 @@ def draft_folder(run: Run) -> Path:
 
 
 def publish(folder: Path, run: Run) -> None:
-    """Make a finished bundle the run's accepted folder: one rename, after everything is on disk."""
+    """Make a finished bundle the run's accepted folder: one rename, after everything is on disk.
+
+    An older acceptance changes places with it in the same instant where the system can do that (Linux), so that a kill
+    at any moment leaves one whole accepted folder.
+    """
     for name in files_in(folder):
         _sync(folder / name)
     for path in (*(p for p in folder.rglob("*") if p.is_dir()), folder):
         _sync(path)
+    if run.accepted.exists() and _exchanged(folder, run.accepted):
+        _sync(run.folder)
+        shutil.rmtree(folder, ignore_errors=True)
+        return
     if run.accepted.exists():
         # the older acceptance is moved aside first: a rename cannot replace a folder that has files in it
         run.accepted.rename(run.folder / f"{PREFIX}older-{uuid.uuid4().hex[:8]}")
@@ -91,6 +99,18 @@ def publish(folder: Path, run: Run) -> None:
     _sync(run.folder)
     for older in run.folder.glob(f"{PREFIX}older-*"):
         shutil.rmtree(older, ignore_errors=True)
+
+
+def _exchanged(one: Path, other: Path) -> bool:
+    """Let two folders change places at once; False where the system cannot."""
+    import ctypes
+
+    try:
+        swap = ctypes.CDLL(None, use_errno=True).renameat2
+    except (AttributeError, OSError):
+        return False
+    here, exchange = -100, 2  # AT_FDCWD, RENAME_EXCHANGE
+    return swap(here, os.fsencode(one), here, os.fsencode(other), exchange) == 0
 
 
 def damage(folder: Path, statement: Statement) -> list[str]:

@@ -18,6 +18,7 @@ from ..model.errors import WorldwrightError
 from ..model.evidence import EvidenceKey
 from ..model.frozen import Frozen
 from ..model.run import SOURCE
+from ..model.storage import writing
 from ..model.verdict import Verdict
 from .kept import Kept
 from .state import Blocked, State
@@ -96,7 +97,8 @@ def restore(state: State, key: str, why: str) -> bool:
     program = _program(state, key)
     if program is None:
         return False
-    write_atomic(state.run.program, program)
+    with writing(state.run.program.name, state.run.folder):
+        write_atomic(state.run.program, program)
     state.run.log("stamp", "roll_back", key=key, worse=state.key.key if state.key else "", why=why)
     return True
 
@@ -117,7 +119,8 @@ def end(state: State, verdict: Verdict) -> Blocked | None:
         plan_sha256=now.plan_sha256,
         key=now.key.key if now.key else "",
     )
-    write_json(now.run.blocked, ending.model_dump(mode="json"))
+    with writing(now.run.blocked.name, now.run.folder):
+        write_json(now.run.blocked, ending.model_dump(mode="json"))
     now.run.log("stamp", "block", cause=ending.cause, key=ending.key)
     return ending
 

@@ -142,6 +142,7 @@ def block(
 
     from worldkit.files import write_json
 
+    from ..model.storage import writing
     from . import gates
 
     state = State.find(run)
@@ -153,7 +154,8 @@ def block(
         plan_sha256=state.plan_sha256,
         key=state.key.key if state.key else "",
     )
-    write_json(state.run.blocked, ending.model_dump(mode="json"))
+    with writing(state.run.blocked.name, state.run.folder):
+        write_json(state.run.blocked, ending.model_dump(mode="json"))
     state.run.log("stamp", "block", cause=cause, key=ending.key)
     return _recorded(run, f"blocked: {cause}", state.run.blocked.name)
 

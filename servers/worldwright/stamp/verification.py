@@ -19,6 +19,7 @@ from ..model.frozen import Frozen
 from ..model.journal import Journal
 from ..model.progress import Progress, silent
 from ..model.run import Run
+from ..model.storage import writing
 from . import bundle, digest, machine, signing
 from .kept import Kept
 from .proof import Proved, prove
@@ -71,8 +72,9 @@ def verify(name: str, timeout_s: float, progress: Progress = silent, signer: Pat
         return _refuted(run, checks)
     here = _here()
     differences = tuple(environment_differences(statement.predicate.environment, statement.predicate.cpu, here))
-    scratch = _scratch(folder, statement, here)
-    with bundle.only_one(Run(scratch)):
+    with writing("the copy to be run", Path(tempfile.gettempdir())):
+        scratch = _scratch(folder, statement, here)
+    with writing("the copy to be run", scratch), bundle.only_one(Run(scratch)):
         proof = scratch / "proof"
         try:
             proved = prove(

@@ -78,7 +78,19 @@ def test_verify_works_in_a_fresh_clone(accepted: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["simulation.py", "plan.md", "prompt.md", "stamp.json", "motion.json", "video/side.mp4"]
+    "name",
+    [
+        "simulation.py",
+        "plan.md",
+        "prompt.md",
+        "stamp.json",
+        "motion.json",
+        "video/side.mp4",
+        "trajectory.npz",
+        "world.mjz",
+        "SHA256SUMS",
+        "evidence/expect.json",
+    ],
 )
 def test_one_changed_byte_is_refused_without_running_anything(accepted: Path, copy: Copy, name: str) -> None:
     folder = copy(accepted)
