@@ -42,6 +42,8 @@ NOT_POSES = frozenset({"qacc", "energy"})
 
 def check(program: Program) -> Iterator[Problem]:
     """Every block of statements, one after the other; what a branch or a loop did is taken for an update."""
+    if not DERIVED & {n.attr for n in program.nodes(ast.Attribute)}:
+        return
     for holder in [program.tree, *program.nodes(ast.FunctionDef)]:
         yield from _block(program, holder.body)
 
