@@ -32,6 +32,10 @@ COMMANDS = {
         "worldwright.contract.lessons",
         "Root causes in runs' journals, and the skill or rule to write them into.",
     ),
+    "new-rule": (
+        "worldwright.new_rule",
+        "Scaffold a lint rule from a failed iteration in a run's journal: what one run met, no other should.",
+    ),
     "doctor": (
         "worldwright.doctor",
         "Check Python, OpenGL, the sandbox and the servers; name a fix for each problem.",

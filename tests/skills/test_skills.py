@@ -46,7 +46,7 @@ def test_a_skill_introduces_itself_and_is_short(path):
 
 @by_name
 def test_every_command_a_skill_names_exists(path):
-    found = re.findall(r"`(?:\S*/)?worldwright ([a-z]+)(?: ([a-z][a-z-]+))?\b", text_of(path))
+    found = re.findall(r"`(?:\S*/)?worldwright ([a-z]+(?:-[a-z]+)*)(?: ([a-z][a-z-]+))?\b", text_of(path))
     for server, verb in found:
         assert server in (*expose.SERVERS, *COMMANDS), server
         if server in expose.SERVERS and verb:

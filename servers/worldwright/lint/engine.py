@@ -48,6 +48,23 @@ def model_rules() -> tuple[Entry, ...]:
     return tuple(MODEL_RULES.values())
 
 
+NAMES = ("WL100", "WL101", "WL102", "WL103", "WL104", "WL105", "WL106")
+"""Rules about names: a program that fails them is not worth building."""
+SYMBOLS = (*NAMES, "WL107", "WL108", "WL109", "WL116", "WL117", "WL142", "WL151")
+"""Program rules about names and signatures of the installed build; the others are about silent mistakes and staging."""
+GROUPS = ("symbols", "mistakes", "model", "plan")
+
+
+def group(rule: Entry) -> str:
+    """Which of the four groups a rule is of."""
+    shelf = rule.module.__name__.rsplit(".", 2)[-2]
+    if shelf in ("model", "plan"):
+        return shelf
+    if rule.code.startswith(("WM", "WP")):  # a third party's
+        return "model" if rule.code.startswith("WM") else "plan"
+    return "symbols" if rule.code in SYMBOLS else "mistakes"
+
+
 def find(code: str) -> Entry:
     """A rule of any shelf by code or name; a `NotFoundError` lists the nearest."""
     for shelf in (PROGRAM_RULES, MODEL_RULES, PLAN_RULES):
@@ -163,10 +180,6 @@ def check_world(program: Program, outcome: "Outcome") -> list[Finding]:
             continue
         found += findings(rule, rule.check(view), program.path, answered)
     return in_order(found)
-
-
-NAMES = ("WL100", "WL101", "WL102", "WL103", "WL104", "WL105", "WL106")
-"""Rules about names: a program that fails them is not worth building."""
 
 
 def check_program_file(

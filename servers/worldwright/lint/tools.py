@@ -155,7 +155,8 @@ def _keep(folder: Path, key: EvidenceKey, found: list[Finding], rules: int) -> s
         rules=rules,
     )
     path = run.keep(key, "lint", report)
-    run.log("lint", "lint", key=key.key, ok=report.ok, findings=len(report.findings))
+    codes = sorted({finding.code for finding in report.findings if finding.severity == "error"})
+    run.log("lint", "lint", key=key.key, ok=report.ok, findings=len(report.findings), codes=codes)
     return str(path.relative_to(run.folder))
 
 
