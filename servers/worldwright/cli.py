@@ -38,7 +38,7 @@ COMMANDS = {
     ),
     "doctor": (
         "worldwright.doctor",
-        "Check Python, OpenGL, the sandbox and the servers; name a fix for each problem.",
+        "Check Python, OpenGL, the sandbox, the servers and the harnesses; name a fix for each problem.",
     ),
     "index": (
         "worldwright.retrieve.command",
