@@ -13,10 +13,8 @@ from pathlib import Path
 
 from ..model.plan import AssetRow, SceneObject
 
-_SIDES = re.compile(
-    "left|right|front|back|upper|lower|top|bottom|middle|centre|center|first|second|third|near|far|inner|outer|"
-    "north|south|east|west|[a-f]"
-)
+_SIDES = re.compile("left|right|upper|lower|middle|first|second|third|near|far|north|south|east|west|[a-f]")
+"""Words that tell alike things apart; a `top`, a `back` or a `leg` is a part, and is not judged."""
 _SCALED = frozenset({"toy", "model", "mini", "miniature", "giant", "huge", "tiny", "doll", "scale"})
 """Words that say that the usual size does not count."""
 _PLURALS = {

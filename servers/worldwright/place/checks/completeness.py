@@ -3,7 +3,7 @@
 import re
 
 from .. import categories
-from .layout import CONTACT_M, Layout
+from .layout import CONTACT_M, Layout, others
 
 TALL_M = 0.6
 """Higher things of a kind that usually stands on something may as well stand on the floor (a tall lamp, a tall vase)."""
@@ -24,6 +24,7 @@ def check(layout: Layout) -> None:
 
 
 def _on_the_ground(layout: Layout) -> None:
+    alike: dict[categories.Category, list[str]] = {}
     for placed in layout.scene.objects:
         category = layout.categories.get(placed.name)
         if (
@@ -34,14 +35,17 @@ def _on_the_ground(layout: Layout) -> None:
         ):
             continue
         if placed.name not in layout.hidden and abs(placed.position[2] - placed.size[2] / 2) <= CONTACT_M:
-            layout.problems.add(
-                "WP318",
-                "implied_support_missing",
-                f"`{placed.name}` stands on the bare ground; a {category.name} usually rests on something",
-                "add what it rests on (a table, a shelf, a bench) and PLACE-ON it, unless it was dropped there",
-                layout.path(placed.name),
-                severity="warning",
-            )
+            alike.setdefault(category, []).append(placed.name)
+    for category, names in alike.items():
+        layout.problems.add(
+            "WP318",
+            "implied_support_missing",
+            f"`{names[0]}`{others(names)} {'stand' if names[1:] else 'stands'} on the bare ground; a {category.name} usually "
+            "rests on something",
+            "add what it rests on (a table, a shelf, a bench) and PLACE-ON it, unless it was dropped there",
+            layout.path(names[0]),
+            severity="warning",
+        )
 
 
 def _spoken_of(layout: Layout) -> None:

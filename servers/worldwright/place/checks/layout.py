@@ -1,5 +1,6 @@
 """What the checks look at: the plan, its layout, and what several of them need."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -94,3 +95,8 @@ class Layout:
     def path(self, name: str) -> tuple[str | int, ...]:
         """The first row about an object."""
         return self.row_of.get(name, ("topology",))
+
+
+def others(alike: Sequence[object]) -> str:
+    """What follows the first of several that one finding is about: ` and 7 more`."""
+    return f" and {len(alike) - 1} more" if len(alike) > 1 else ""

@@ -5,7 +5,7 @@ from ...model.scene import PlacedObject
 from .. import categories
 from ..anchors import shown
 from ..categories import Category
-from .layout import Layout
+from .layout import Layout, others
 
 ABSURD = 3.0
 """Times outside its category's range: no variant of the thing is that size."""
@@ -18,26 +18,34 @@ KNEES_M = (0.15, 0.45)
 def check(layout: Layout) -> None:
     """WP316 for a height that its category does not have, WP317 for a seat that does not fit its table."""
     plan = layout.plan
-    for index, row in enumerate(plan.scene_objects):
-        _height(layout, row, row.size[2], ("scene_objects", index, "size"))
-    for asset in plan.assets:
-        if asset.name in plan.asset_dimensions:
-            _height(layout, asset, plan.asset_dimensions[asset.name], ("asset_dimensions", asset.name))
+    alike: dict[tuple[Category, float], list[tuple[str, tuple[str | int, ...]]]] = {}
+    heights: list[tuple[SceneObject | AssetRow, float, tuple[str | int, ...]]] = [
+        (row, row.size[2], ("scene_objects", index, "size")) for index, row in enumerate(plan.scene_objects)
+    ]
+    heights += [
+        (asset, plan.asset_dimensions[asset.name], ("asset_dimensions", asset.name))
+        for asset in plan.assets
+        if asset.name in plan.asset_dimensions
+    ]
+    for row, height, path in heights:
+        category = categories.of(row, row.name)
+        if category is not None and not category.low_m <= height <= category.high_m:
+            alike.setdefault((category, height), []).append((row.name, path))
+    for (category, height), rows in alike.items():
+        _height(layout, rows, category, height)
     _seats(layout)
 
 
-def _height(layout: Layout, row: SceneObject | AssetRow, height: float, path: tuple[str | int, ...]) -> None:
-    category = categories.of(row, row.name)
-    if category is None or category.low_m <= height <= category.high_m:
-        return
+def _height(layout: Layout, rows: list[tuple[str, tuple[str | int, ...]]], category: Category, height: float) -> None:
+    """One finding for all that are alike."""
     factor = category.low_m / height if height < category.low_m else height / category.high_m
     layout.problems.add(
         "WP316",
         "unlikely_height",
-        f"`{row.name}` is {shown(height)} m high; a {category.name} is {shown(category.low_m)} to {shown(category.high_m)} m "
+        f"`{rows[0][0]}`{others(rows)} {'are' if rows[1:] else 'is'} {shown(height)} m high; a {category.name} is {shown(category.low_m)} to {shown(category.high_m)} m "
         f"({category.source})",
         "correct its height, or say in its name that it is a `toy`, a `model` or `giant`",
-        path,
+        rows[0][1],
         severity="error" if factor > ABSURD else "warning",
     )
 

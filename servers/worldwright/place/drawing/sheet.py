@@ -14,6 +14,7 @@ from ..resolution import Resolution
 from ..vocabulary import BASE
 from . import palette
 from .canvas import Canvas, Colour, text_width
+from .families import stem
 from .labels import Rect
 from .silhouettes import Silhouette, silhouette
 from .view import View, metres
@@ -21,6 +22,8 @@ from .view import View, metres
 WIDTH = 1600
 _LEFT, _RIGHT, _HEAD, _BETWEEN = 76, 40, 138, 84
 _TALLEST = (900, 760)  # pixels: the two panels one above the other
+WIDE = 1.3
+"""Scenes that much wider (y) than deep (x) are seen from the front."""
 _ROOM = 78  # pixels around the objects, for names
 
 
@@ -37,16 +40,17 @@ def sheet(plan: Plan, resolution: Resolution, findings: tuple[Finding, ...]) -> 
     lines = _findings(findings, WIDTH - _LEFT - _RIGHT)
     low, high = _bounds(scene)
     span = (high[0] - low[0], high[1] - low[1], high[2] - low[2])
-    panels, scale = _panels(span)
+    across = 1 if span[1] > WIDE * span[0] else 0  # what runs across the second view: x from -Y, y from +X
+    panels, scale = _panels((max(span[0], span[across]), span[1], span[2]))
     bottom = max(panel[3] for panel in panels)
     canvas = Canvas(WIDTH, round(bottom) + 88 + 24 * len(lines), palette.PAPER)
     middle = tuple((a + b) / 2 for a, b in zip(low, high, strict=True))
     top = View(canvas, panels[0], scale, (middle[0], middle[1]))
-    side = View(canvas, panels[1], scale, (middle[0], middle[2]))
+    side = View(canvas, panels[1], scale, (middle[across], middle[2]))
     marks = flagged(findings, [o.name for o in scene.objects])
     _head(canvas, plan, scene)
     unnamed = _above(top, plan, scene, shapes, marks)
-    unnamed = max(unnamed, _beside(side, plan, scene, shapes, marks, resolution))
+    unnamed = max(unnamed, _beside(side, plan, scene, shapes, marks, resolution, across))
     if unnamed:
         note = f"{unnamed} names left out for want of room"
         canvas.text(note, (WIDTH - _RIGHT - text_width(note, 14), _HEAD - 38), 14, palette.QUIET)
@@ -86,17 +90,17 @@ def _bounds(scene: Scene) -> tuple[tuple[float, ...], tuple[float, ...]]:
 
 
 def _colours(plan: Plan, scene: Scene) -> dict[str, tuple[Colour, Colour]]:
-    """Fill and outline by object: scenery is sand, things have colours of their own."""
+    """Fill and outline by object: scenery is sand, things have the colour of their family."""
     fixed = set(fixed_objects(plan))
     colours: dict[str, tuple[Colour, Colour]] = {}
-    count = 0
+    families: dict[str, int] = {}
     for placed in scene.objects:
         if placed.name in fixed:
             colours[placed.name] = (palette.SCENERY, palette.SCENERY_EDGE)
         else:
-            colour = palette.THINGS[count % len(palette.THINGS)]
+            number = families.setdefault(stem(placed.name), len(families))
+            colour = palette.THINGS[number % len(palette.THINGS)]
             colours[placed.name] = (colour, palette.edge(colour))
-            count += 1
     return colours
 
 
@@ -188,31 +192,35 @@ def _motion(view: View, plan: Plan, scene: Scene) -> list[Rect]:
 
 
 def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str],
-            resolution: Resolution) -> int:  # fmt: skip
-    """The view from the right side (-Y), with the ground and what will drop."""
-    view.paper("From the side (from −Y)", ("x", "z"), ("front", "up"))
+            resolution: Resolution, across: int) -> int:  # fmt: skip
+    """The view from the right side (-Y) or the front (+X), with the ground and what will drop."""
+    if across:
+        view.paper("From the front (from +X)", ("y", "z"), ("left", "up"))
+    else:
+        view.paper("From the side (from −Y)", ("x", "z"), ("front", "up"))
     x0, _, x1, y1 = view.panel
     ground = view.pixel(0, 0)[1]
     view.canvas.rectangle((x0, ground), (x1, y1), palette.GROUND)
     view.canvas.line((x0, ground), (x1, ground), palette.SCENERY_EDGE, 1.6)
-    order = sorted(scene.objects, key=lambda o: (-o.bounds()[0][1], o.name))
-    polygons = {name: s.side for name, s in shapes.items()}
+    order = sorted(scene.objects, key=lambda o: (o.bounds()[1][0] if across else -o.bounds()[0][1], o.name))
+    polygons = {name: s.front if across else s.side for name, s in shapes.items()}
     _draw(view, order, polygons, plan, scene, marks)
     taken = [view.scale_bar()]
     for row in resolution.statements:
         drop = row.params.get("gap", 0.0) if row.code.startswith("PLACE-ON") else row.params.get("bottom", 0.0)
-        if drop and row.subject in shapes and (row.code != "HEIGHT" or row.reference == BASE):
-            taken += _drop(view, scene[row.subject], float(drop))
+        loose = row.subject in shapes and not scene[row.subject].fixed
+        if drop and loose and (row.code != "HEIGHT" or row.reference == BASE):
+            taken += _drop(view, scene[row.subject], float(drop), across)
     boxes = {o.name: view.extent(polygons[o.name]) for o in order}
     for name, mark in marks.items():
         _badge(view, boxes[name], mark)
     return view.names(boxes, taken, marks)
 
 
-def _drop(view: View, placed: PlacedObject, drop: float) -> list[Rect]:
+def _drop(view: View, placed: PlacedObject, drop: float, across: int) -> list[Rect]:
     """A dashed arrow from the lowest point to where the fall ends; returns the space its number takes."""
     low = placed.bounds()[0][2]
-    start, end = view.pixel(placed.position[0], low), view.pixel(placed.position[0], low - drop)
+    start, end = view.pixel(placed.position[across], low), view.pixel(placed.position[across], low - drop)
     if end[1] - start[1] < 14:
         return []
     view.canvas.dashes(start, end, palette.MOTION, 1.6)
@@ -255,7 +263,7 @@ def _findings(findings: tuple[Finding, ...], width: int) -> list[tuple[str, Colo
 
 def _foot(canvas: Canvas, y: float, lines: list[tuple[str, Colour, int]], scene: Scene, plan: Plan) -> None:
     if not lines:
-        rows = len(plan.topology.scene_predicates)
+        rows = len(plan.topology.scene_predicates) + len(plan.geometry_relations)
         canvas.text(f"No problems: all {rows} rows hold", (_LEFT, y), 15, palette.GOOD, 500)
     for index, (words, colour, weight) in enumerate(lines):
         canvas.text(words, (_LEFT, y + 24 * index), 15, colour, weight)

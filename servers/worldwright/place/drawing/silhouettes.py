@@ -1,7 +1,7 @@
 """What an object looks like from above and from the side: convex polygons, in metres of the world.
 
 Assets are drawn by their collision pieces, so that a mug has its handle and a chair its back; primitives by their
-shape. Sideways means seen from -Y: x to the right, z up.
+shape. Sideways means seen from -Y (x to the right, z up) or from +X (y to the right, z up).
 """
 
 from dataclasses import dataclass
@@ -18,11 +18,12 @@ from ..anchors import cos_sin
 
 @dataclass(frozen=True)
 class Silhouette:
-    """One object's outlines: polygons of (N, 2) points, from above (x, y) and from the side (x, z)."""
+    """One object's outlines: polygons of (N, 2) points, from above (x, y), from -Y (x, z) and from +X (y, z)."""
 
     name: str
     top: list[np.ndarray]
     side: list[np.ndarray]
+    front: list[np.ndarray]
 
 
 def silhouette(plan: Plan, placed: PlacedObject) -> Silhouette:
@@ -30,14 +31,15 @@ def silhouette(plan: Plan, placed: PlacedObject) -> Silhouette:
     row = next((row for row in plan.scene_objects if row.name == placed.name), None)
     clouds = _primitive(row) if row is not None else _asset(placed)
     c, s = cos_sin(placed.deg_z)
-    top, side = [], []
+    top, side, front = [], [], []
     for cloud in clouds:
         x = c * cloud[:, 0] - s * cloud[:, 1] + placed.position[0]
         y = s * cloud[:, 0] + c * cloud[:, 1] + placed.position[1]
         z = cloud[:, 2] + placed.position[2]
         top.append(_hull(np.stack([x, y], axis=1)))
         side.append(_hull(np.stack([x, z], axis=1)))
-    return Silhouette(placed.name, top, side)
+        front.append(_hull(np.stack([y, z], axis=1)))
+    return Silhouette(placed.name, top, side, front)
 
 
 def _hull(points: np.ndarray) -> np.ndarray:

@@ -7,6 +7,7 @@ import numpy as np
 
 from . import palette
 from .canvas import Canvas, Colour, Point, text_width
+from .families import CROWD, captions
 from .labels import Item, Rect, arrange
 
 
@@ -85,8 +86,9 @@ class View:
 
     def names(self, boxes: dict[str, Rect], taken: list[Rect], marks: dict[str, str]) -> int:
         """Write the names of objects; returns for how many there was no room."""
-        size = 15 if len(boxes) <= 40 else 12
-        items = [Item(name, box, text_width(name, size, 500) + 8, size + 6) for name, box in boxes.items()]
+        words = captions(boxes, marks)
+        size = 15 if len(words) <= CROWD else 12
+        items = [Item(name, boxes[name], text_width(text, size, 500) + 8, size + 6) for name, text in words.items()]
         x0, y0, x1, y1 = self.panel
         labels, left = arrange(items, (x0 + 4, y0 + 4, x1 - 4, y1 - 4), taken)
         for label in labels:
@@ -97,7 +99,7 @@ class View:
             a, b, c, d = label.box
             colour = {"error": palette.ERROR, "warning": palette.WARNING}.get(marks.get(label.name, ""), palette.TEXT)
             self.canvas.rectangle((a, b), (c, d), palette.PANEL, 0.72)
-            self.canvas.text(label.name, (a + 4, d - 6), size, colour, 500)
+            self.canvas.text(words[label.name], (a + 4, d - 6), size, colour, 500)
         return len(left)
 
 
