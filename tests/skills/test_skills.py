@@ -16,7 +16,7 @@ from worldwright.place.vocabulary import PREDICATES
 
 REPO = Path(__file__).parents[2]
 SKILLS = sorted((REPO / "skills").glob("*/SKILL.md"))
-PLANNING = [p for p in SKILLS if p.parent.name in ("plan-format", "coordinates")]
+PLANNING = [p for p in SKILLS if p.parent.name in ("plan-format", "coordinates", "layouts", "dimensions", "cameras")]
 by_name = pytest.mark.parametrize("path", SKILLS, ids=lambda p: p.parent.name)
 
 
@@ -30,7 +30,7 @@ def front(path: Path) -> dict:
 
 
 def test_the_planning_skills_are_there():
-    assert len(PLANNING) == 2
+    assert len(PLANNING) == 5
     assert all(front(path)["metadata"]["tier"] == "planning" for path in PLANNING)
 
 
@@ -76,6 +76,7 @@ def test_every_predicate_a_planning_skill_names_is_in_the_vocabulary(path):
 
 def test_the_coordinates_skill_tells_every_predicate_and_parameter():
     text = text_of(REPO / "skills/coordinates/SKILL.md")
+    assert "skills/coordinates/references/vocabulary.md" in text  # every relation template, with its formula
     for code, entry in PREDICATES.items():
         assert f"`{code}`" in text, code
         assert all(f"`{name}" in text for name in entry.PARAMS), code
@@ -167,3 +168,45 @@ def test_the_blocks_of_the_interventions_skill_run(tmp_path):
         getattr(trajectory.open(tmp_path / "out/trajectory").interventions, n) for n in ("kind", "value")
     )
     assert kind == "constraint" and value[1] > names["STRENGTH_N"]
+
+
+def test_the_blocks_of_the_layouts_skill_are_read():
+    from worldwright.model.density import read
+    from worldwright.model.observation import ImageObservation
+    from worldwright.model.plan_yaml import compose
+
+    text = text_of(REPO / "skills/layouts/SKILL.md")
+    blocks = re.findall(r"^```yaml\n(.*?)^```$", text, re.M | re.S)
+    rows, density, observation = (compose(b, 0, len(b), lambda *why: None).data() for b in blocks)
+    targets, clearances, wrong = read(density)
+    assert (set(targets), len(clearances), wrong) == ({"scene", "table"}, 2, [])
+    assert ImageObservation.model_validate(observation["image_observation"]).viewpoint == "side_minus_y"
+    sizes = {"table": [1.6, 0.9, 0.75], "plate": [0.27, 0.27, 0.03], "fork": [0.2, 0.02, 0.01]}
+    names = [*dict.fromkeys(row["subject"] for row in rows), "fork_2", "table"]
+    plan = Plan.model_validate(
+        {
+            "plan_type": "scene",
+            "simulation_parameters": {"time_step": 0.001, "simulation_duration": 1},
+            "objectives": [{"claim": "it stands"}],
+            "scene_objects": [{"name": n, "primitive": "box", "size": sizes[n.split("_")[0]]} for n in names],
+            "topology": {
+                "scene_predicates": [
+                    {"subject": "table", "predicate": "PLACE-ON-BASE", "params": {"x": 0, "y": 0}},
+                    *rows,
+                ]
+            },
+        }
+    )
+    scene = resolve(plan).scene
+    assert scene.ok, scene.findings
+    one, two = scene["fork_1"].position, scene["fork_2"].position
+    assert (one[0] + two[0], one[1] + two[1]) == pytest.approx((-0.8, 0.0))
+
+
+def test_the_cameras_skill_names_every_view():
+    from worldkit.cameras.views import VIEWS
+
+    text = text_of(REPO / "skills/cameras/SKILL.md")
+    for view in VIEWS:
+        kin = view.startswith(("camera_side_", "inside_"))
+        assert f"`{view}`" in text or kin, view

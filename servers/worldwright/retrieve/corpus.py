@@ -134,7 +134,9 @@ def _ours() -> Iterator[Document]:
             yield Document(root, f"worldkit/{file.relative_to(runtime).as_posix()}", file, "python")
     checkout = package.parents[1]  # skills/, examples/ and catalog/ stand beside servers/ in a checkout
     for folder, pattern, part in (
-        ("skills", "**/*.md", "skills"),
+        ("skills", "*/SKILL.md", "skills"),
+        ("skills", "*/references/*.md", "skills"),
+        ("skills", "*/references/*/plan.md", "examples"),
         ("examples", "*/plan.md", "examples"),
         ("examples", "*/simulation.py", "examples"),
         ("catalog", "*/asset.yaml", "catalog"),
