@@ -11,6 +11,8 @@ QUIET = ("time", "actor", "action")
 UNITS = {
     "m_s2": "m/s²",
     "m_s": "m/s",
+    "n_m": "N/m",
+    "n_s": "N·s",
     "rad_s": "rad/s",
     "deg_s": "°/s",
     "kg": "kg",

@@ -2,11 +2,16 @@
 
 from typing import Annotated, Any, NamedTuple
 
+import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from ..model.errors import WorldwrightError
 from ..model.frozen import Frozen
 from ..model.trajectory import Trajectory
+from .sign import spans
+
+HOP_S = 0.02
+"""A stiff contact under a sliding or standing body lets go for moments like this; it flies half a millimetre at most."""
 
 
 class Measured(NamedTuple):
@@ -158,6 +163,14 @@ def pair_rows(trajectory: Trajectory, one: str, other: str) -> Any:
     if touching is None:
         raise UnknowableError("no contacts were recorded")
     return touching
+
+
+def bridged(trajectory: Trajectory, touching: Any) -> Any:
+    """(R,) bool: in contact, with the hops of a chattering contact (up to `HOP_S`) counted as contact."""
+    found = np.array(touching, dtype=bool)
+    for start, stop in spans(found, bridge=max(1, round(HOP_S / max(trajectory.interval_s, 1e-9)))):
+        found[start:stop] = True
+    return found
 
 
 def masses(trajectory: Trajectory) -> Any:

@@ -208,18 +208,33 @@ def scan(
     return _scanned(run, report, **audited.model_dump(), acting=told[:MOST_TOLD])
 
 
-def expect(run: RunName) -> Expected:
+def expect(
+    run: RunName,
+    plan: Annotated[str, Field(description="For a lone recording: the plan.md whose objectives are measured.")] = "",
+) -> Expected:
     """Measure every objective of the plan on the recording: proved, refuted, visual only, or unproved.
 
     Each expectation reports what was measured, what was expected and the signed margin between them. The report is
-    kept as evidence of the current program and plan.
+    kept as evidence of the current program and plan. A lone recording is measured against the `plan` that is named.
     """
     from . import expecting
 
-    folder, key, plan, trajectory = _subject(run)
-    if plan is None or folder is None or key is None:
-        raise NotFoundError("there is no plan beside this recording", place=run, next_move="name a run folder instead")
-    report = expecting.expect(trajectory, plan)
+    folder, key, own, trajectory = _subject(run)
+    if folder is None or key is None or own is None:
+        if not plan:
+            raise NotFoundError(
+                "there is no plan beside this recording",
+                place=run,
+                next_move="name a plan.md as `plan`, or a run folder instead of the recording",
+            )
+        from ..model.plan_text import read_plan
+
+        return Expected.model_validate(expecting.expect(trajectory, read_plan(Path(plan)).plan).model_dump())
+    if plan:
+        raise NotFoundError(
+            "a run is measured against its own plan", place=plan, next_move="leave `plan` out, or name the recording"
+        )
+    report = expecting.expect(trajectory, own)
     folder.keep(key, "expect", report)
     folder.log("scan", "expect", key=key.key, ok=report.ok)
     return Expected.model_validate(report.model_dump())

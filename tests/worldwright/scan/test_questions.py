@@ -1,7 +1,9 @@
 """Questions, plots and comparisons: answers for a reviewer who doubts a picture."""
 
 import io
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -99,6 +101,42 @@ def test_the_ground_answers_too():
     assert not said.moved and said.touches[0].other == "body" and said.max_force_n == pytest.approx(G)
     struck = answer(collision(), "a", (0.4, 0.6))
     assert [touch.other for touch in struck.touches] == ["b"] and struck.touches[0].max_force_n == 100.0
+
+
+def test_a_foreign_recording_is_measured_against_a_plan(tmp_path):
+    ball = bouncing(1.0, 0.5)
+    path = interchange(ball, tmp_path / "ball.npz")
+    plan = Path(__file__).parents[1] / "model" / "good_plan.md"
+    text = re.sub(r"(?s)## objectives.*?(?=## implementation_steps)", OBJECTIVES, plan.read_text())
+    (tmp_path / "plan.md").write_text(text)
+    said = tools.expect(path, str(tmp_path / "plan.md"))
+    assert [o.status for o in said.objectives] == ["proved", "refuted", "visual_only", "unproved"]
+    assert not said.ok
+    assert said.text().splitlines()[-2] == "1 proved, 1 refuted, 1 visual only, 1 unproved"
+    assert "no contacts were recorded" in said.objectives[3].reason
+    with pytest.raises(NotFoundError, match="no plan beside") as refused:
+        tools.expect(path)
+    assert "plan" in refused.value.next_move
+
+
+OBJECTIVES = """## objectives
+
+```yaml
+- claim: It falls.
+  expect:
+    - falls: {body: ball, min_m: 0.9}
+    - bounces: {body: ball, min_count: 2, decays: true}
+- claim: It is fast.
+  expect:
+    - reaches_speed: {body: ball, min_m_s: 50}
+- claim: It is red.
+  visual_only: by eye
+- claim: It hits the floor.
+  expect:
+    - touches: {bodies: [ball, ground]}
+```
+
+"""
 
 
 # -- plots ---------------------------------------------------------------------------------------------------------

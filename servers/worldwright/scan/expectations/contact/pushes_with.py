@@ -1,7 +1,7 @@
 """Two bodies push on each other with a force in a given range.
 
 Measures the sum of the normal forces between them, newtons: the largest of all rows, or the mean over the rows in
-contact. A body at rest on level ground pushes with its weight, m g. Source: the engine's contact forces; statics.
+contact (hops of up to 20 ms included). A body at rest on level ground pushes with its weight, m g. Source: the engine's contact forces; statics.
 """
 
 from typing import Literal
@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from ....model.trajectory import Trajectory
 from ...analytic import G, falling, resting
-from ...measured import Measured, OfPair, UnknowableError, between, window
+from ...measured import Measured, OfPair, UnknowableError, between, bridged, window
 
 CODE = "WE146"
 
@@ -40,7 +40,7 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     mine = contacts.of_pair(*(trajectory.index(name) for name in given.bodies))
     np.add.at(force, contacts.row[mine], contacts.normal_force[mine])
     force = force[rows]
-    pushing = force > 0
+    pushing = bridged(trajectory, force > 0)
     value = float(force.max() if given.of == "max" else force[pushing].mean() if pushing.any() else 0.0)
     message = f"{' and '.join(given.bodies)} push with {value:.4g} N ({given.of})"
     return between(value, given.min_n, given.max_n, "N", message)

@@ -1,7 +1,7 @@
 """Two bodies in contact slide along each other.
 
 Measures the slip: the relative speed of the two surfaces at the contact points, tangential to the contact, summed up
-over the time in contact, metres. Rolling has none. Source: rigid-body kinematics, v + w x r at the contact point.
+over the time in contact (hops of up to 20 ms included), metres. Rolling has none. Source: rigid-body kinematics, v + w x r at the contact point.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ....model.trajectory import Trajectory
 from ...analytic import falling, rolling, sliding
-from ...measured import Measured, OfPair, UnknowableError, at_least, window
+from ...measured import Measured, OfPair, UnknowableError, at_least, bridged, window
 
 CODE = "WE143"
 EVENT = True
@@ -41,7 +41,11 @@ def slip(trajectory: Trajectory, pair: tuple[str, str], rows: slice) -> np.ndarr
     found, count = np.zeros(rows.stop - rows.start), np.zeros(rows.stop - rows.start)
     np.add.at(found, row - rows.start, np.linalg.norm(along, axis=1))
     np.add.at(count, row - rows.start, 1)
-    return found / np.maximum(count, 1)
+    speed, touching = found / np.maximum(count, 1), count > 0
+    if not touching.any():
+        return speed
+    rows_in = np.flatnonzero(touching)
+    return np.where(bridged(trajectory, touching), np.interp(np.arange(len(speed)), rows_in, speed[rows_in]), 0.0)
 
 
 def measure(trajectory: Trajectory, given: Given) -> Measured:

@@ -1,7 +1,8 @@
 """Some bodies lose mechanical energy, and never gain any on the way.
 
 Measures the share of the energy at the start of the window (kinetic, and potential of weight above the lowest height)
-that is gone at its end; the energy may never exceed an earlier value by more than `tolerance` of it.
+that is gone at its end; the energy may never exceed an earlier value by more than `tolerance` of it. What a soft contact
+takes and gives back within a tenth of a second is no gain.
 Source: the work-energy theorem with friction and inelastic impact.
 """
 
@@ -15,6 +16,20 @@ from ...measured import Measured, OfBodies, Tolerance, all_of, at_least, at_most
 
 CODE = "WE200"
 EVENT = True
+
+
+BLOW_S = 0.1
+
+
+def _filled(energy: np.ndarray, rows: int) -> np.ndarray:
+    """The energy with dips of up to so many rows filled: a sliding maximum, then a sliding minimum."""
+    reach = min(max(rows // 2, 0), (len(energy) - 1) // 2)
+    if not reach:
+        return energy
+    padded = np.pad(energy, reach, mode="edge")
+    high = np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).max(axis=1)
+    padded = np.pad(high, reach, mode="edge")
+    return np.lib.stride_tricks.sliding_window_view(padded, 2 * reach + 1).min(axis=1)
 
 
 class Given(OfBodies):
@@ -32,7 +47,8 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     if start <= 0:
         return at_least(0.0, given.min_share, "1", f"{', '.join(given.names)} have no energy to lose")
     lost = float(1 - energy[-1] / start)
-    gain = float((energy - np.minimum.accumulate(energy)).max() / start)
+    lasting = _filled(energy, round(BLOW_S / max(trajectory.interval_s, 1e-9)))
+    gain = float((lasting - np.minimum.accumulate(lasting)).max() / start)
     message = f"{', '.join(given.names)} lose {lost:.1%} of {start:.4g} J"
     return all_of(
         at_least(lost, given.min_share, "1", message),
