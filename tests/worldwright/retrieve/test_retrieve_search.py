@@ -13,7 +13,7 @@ from worldwright.model.errors import NotFoundError
 from worldwright.retrieve import index, tools
 
 QUESTIONS = [
-    ("sliding friction of a geom", {"body-geom-friction"}),
+    ("sliding friction of a geom", {"body-geom-friction", "sliding-rolling-spinning-down"}),
     ("how do I make a conveyor belt", {"body-geom-surfacevel"}),
     ("fast objects pass through thin walls", {"CTunneling", "option-flag-speculative", "coSpeculative"}),
     ("what are the arguments of mj_ray", {"mj_ray"}),
@@ -26,7 +26,10 @@ QUESTIONS = [
     ("simulation diverges, NaN in qacc", {"Divergence", "siErrorRecovery"}),
     ("headless rendering without a display", {"2-headless-contexts-on-linux-mujoco-gl"}),
     ("a spring that yields and stays bent", {"body-joint-springyield", "tendon-spatial-springyield"}),
-    ("buoyancy and drag in a fluid", {"viscous-drag", "body-geom-fluidcoef", "summary", "flEllipsoid", "flInertia"}),
+    (
+        "buoyancy and drag in a fluid",
+        {"viscous-drag", "body-geom-fluidcoef", "summary", "flEllipsoid", "flInertia", "buoyancy"},
+    ),
     ("size of a box geom, half sizes", {"body-geom-size", "geom-dimensions-reference"}),
     ("damping of a hinge joint", {"body-joint-damping"}),
     ("control between mj_step1 and mj_step2", {"stepping-pipeline-mj-step-vs-mj-step1-mj-step2", "mj_step1"}),
