@@ -7,7 +7,9 @@ from ..model.evidence import ExpectationResult
 from .chart import quantity
 from .material import Material, acting
 
-QUIET = ("time", "actor", "action")
+QUIET = ("time", "actor", "action", "chain", "reports", "result_sha256")
+"""Of a journal line: said elsewhere, or of use to machines only."""
+HASHES = ("program_sha256", "plan_sha256")
 UNITS = {
     "m_s2": "m/s²",
     "m_s": "m/s",
@@ -92,8 +94,13 @@ def facts(material: Material) -> list[Fact]:
 def story(material: Material) -> list[Event]:
     """The journal as readable lines, oldest first."""
     events = []
+    seen: dict[str, Any] = {}
     for entry in material.journal:
         rest = {k: v for k, v in entry.items() if k not in QUIET and v not in ("", None, [], {})}
+        for name in HASHES:  # every line has them: only a change is news
+            if rest.get(name) == seen.get(name):
+                rest.pop(name, None)
+            seen[name] = entry.get(name, seen.get(name))
         named = ((key.removesuffix("_sha256").replace("_", " "), _short(value)) for key, value in rest.items())
         detail = ", ".join(f"{name} {value}" for name, value in named)
         events.append(
@@ -115,6 +122,7 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("plan", source.plan_sha256),
             ("proof run", f"{proof.wall_s:.1f} s in the {proof.sandbox or 'unknown'} sandbox"),
             ("reviewed by", material.stamp.predicate.reviewer),
+            ("signed by", material.signer),
             ("approved by", f"{material.stamp.predicate.approval.by}, {material.stamp.predicate.approval.time}"),
         ]
         tables["Files"] = [(s.name, s.digest.sha256) for s in material.stamp.subject]

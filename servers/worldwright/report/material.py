@@ -16,6 +16,7 @@ from ..model.evidence import ExpectReport, LintReport, PassResult, ScanReport, V
 from ..model.plan import Plan
 from ..model.run import Run
 from ..model.verdict import Verdict
+from ..stamp import signing
 from ..stamp.interventions import Acted, acted
 from ..stamp.kept import Kept
 from ..stamp.state import State
@@ -51,6 +52,8 @@ class Material:
     review: Verdict | None = None
     stamp: Statement | None = None
     stamp_sha256: str = ""
+    signer: str = ""
+    """Whose key signed the stamp; empty when none did."""
     motion: series.Motion | None = None
     ledger: tuple[Acted, ...] | None = None
     """What acted according to the recording itself; stands in until a scan has written its report."""
@@ -77,6 +80,8 @@ def gather(run: Run) -> Material:
         from ..stamp.bundle import STAMP, sha256_file
 
         found.stamp, found.stamp_sha256 = accepted, sha256_file(run.accepted / STAMP)
+        signed = signing.check(run.accepted, STAMP)
+        found.signer = signed[1].split(";")[0] if signed else ""
     if state.key and state.folder.is_dir():
         found.origin = "current"
         _evidence(found, state.folder, state.folder, "result.json")

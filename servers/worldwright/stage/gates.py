@@ -1,7 +1,7 @@
 """What each pass needs before it may start, read from the run's files.
 
-Physics: this exact plan was approved and this exact program lints clean against it. Stills: physics succeeded on this
-key. Video: stills did.
+Physics: this exact plan was approved, this exact program lints clean against it, and a name that the simulator did not
+know was looked up. Stills: physics succeeded on this key. Video: stills did.
 """
 
 import json
@@ -10,6 +10,7 @@ from typing import Any
 
 from worldkit import lock
 
+from ..model import lookups
 from ..model.errors import GateError
 from ..model.evidence import EvidenceKey, PassName
 from ..model.run import Run
@@ -94,6 +95,12 @@ def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> N
             "the program has lint errors" if lint else "the program is not linted against this plan",
             place=str(run.program),
             next_move=f"worldwright lint check-program {run.program} --plan {run.plan}",
+        )
+    if unknown := lookups.owed(run.entries()):
+        raise GateError(
+            f"the simulator did not know a name of an earlier program ({unknown}), and nothing was looked up since",
+            place=str(run.program),
+            next_move=f"worldwright retrieve symbol NAME --run {run.folder}",
         )
 
 

@@ -223,6 +223,7 @@ class Supervision:
             sandbox=self.level,
             program_sha256=key.program_sha256,
             plan_sha256=key.plan_sha256,
+            **({} if result.ok else {"message": result.message[:300]}),
             **more,
         )
 

@@ -11,6 +11,7 @@ from worldwright.model.errors import GateError, NotFoundError
 from worldwright.model.evidence import ExpectReport, VisualDescription
 from worldwright.model.run import Run
 from worldwright.model.verdict import CrossCheck, ObjectiveVerdict, Verdict
+from worldwright.stage import tools as stage
 from worldwright.stamp import gates, measured
 from worldwright.stamp import tools as stamp
 
@@ -250,6 +251,14 @@ def test_repairs_are_capped_and_symbols_are_looked_up_first(planned: Path, copy:
         return " ".join(note for note in stamp.status(str(folder)).notes if note.startswith("repair:"))
 
     assert "mj_flyToTheMoon" in notes()
+    stamp.approve(str(folder), by="tester")
+    program.write_text(whole, encoding="utf-8")  # patched from memory
+    lint.check_program([program])
+    with pytest.raises(GateError, match="nothing was looked up since"):
+        stage.start(str(folder))
+    program.write_text(
+        whole.replace("    return spec", "    mujoco.mj_flyToTheMoon(spec)\n    return spec"), encoding="utf-8"
+    )
     run.log("retrieve", "cite", source="APIreference")
     assert notes() == ""
     for i in range(12):

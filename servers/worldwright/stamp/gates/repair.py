@@ -1,7 +1,8 @@
 """The program may be patched: there is something to repair, repairs still help, and symbols are looked up first.
 
-Needed: fewer repairs have been ordered than the approval allows (12 unless it says otherwise); and when the installed simulator does not know a name that
-the program uses (WL101 to WL105, or an AttributeError of a pass), the journal has a citation newer than the error.
+Needed: fewer repairs have been ordered than the approval allows (12 unless it says otherwise); and when the installed
+simulator does not know a name that the program uses (WL101 to WL105, or an AttributeError of a pass), the journal has a
+citation newer than the error. The physics gate asks for that citation too.
 
 Why: patching from memory repeats the memory's mistake, and a thirteenth patch of the same world is a sign that the plan
 is wrong. Then the honest ending is `blocked`, with the cause.
@@ -9,12 +10,12 @@ is wrong. Then the honest ending is `blocked`, with the cause.
 
 from collections.abc import Iterator
 
+from ...model.lookups import SYMBOLS
 from .. import iterations
 from ..refusal import Refusal
 from ..state import State
 
 CODE = "WG065"
-SYMBOLS = ("WL101", "WL102", "WL103", "WL104", "WL105")
 
 
 def check(state: State) -> Iterator[Refusal]:
