@@ -16,7 +16,7 @@ from pathlib import Path
 from worldkit.files import write_atomic
 
 NAME = "trajectory.npz"
-BYTES = 4_000_000
+BYTES = 2_000_000
 """Upper bound of the numbers in it, before compression."""
 
 
