@@ -14,6 +14,7 @@ from ..model.plan import Plan
 from .anchors import DOFS, CannotResolveError, Derivation, shown, wrap
 from .extents import boxes
 from .graph import Node, groups, order_within
+from .margins import measure
 from .resolution import Resolution, collected
 from .shots import shots
 from .statements import Locate, Problems, Statement, statements
@@ -39,7 +40,8 @@ def resolve(plan: Plan, *, file: str = "plan.md", locate: Locate = lambda *path:
         locate: line of a path in it (`PlanDocument.line_of`).
 
     Returns:
-        the layout; `scene.findings` has an error for each object that could not be placed.
+        the layout; `scene.findings` has an error for each object that could not be placed, and for each row that does not
+        hold at the poses found (a centre beyond the edge of its surface, a demanded side that is not kept).
     """
     with uncollected():
         return _Resolver(plan, Problems(file, locate)).resolve()
@@ -101,6 +103,7 @@ class _Resolver:
         placed = {name: box for name, box in self.boxes.items() if name not in self.failed}
         resolution = collected(self.plan, placed, rows, self.formulas, self.derived)
         resolution.shots = shots(resolution, self.problems)
+        resolution.margins = measure(resolution, self.problems)
         return resolution.told(self.problems.findings)
 
     def fail(self, names: set[str]) -> None:

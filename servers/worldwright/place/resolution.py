@@ -11,6 +11,7 @@ from ..model.scene import PlacedCamera, PlacedObject, Scene
 from .anchors import DOFS, Box, shown, wrap
 from .extents import fixed_objects
 from .graph import Node
+from .reports import RowMargin
 from .statements import Statement
 from .vocabulary import BASE, SCENE, base
 
@@ -36,6 +37,8 @@ class Resolution:
     """Formulas that each row contributed, by its path."""
     shots: dict[str, Shot] = field(default_factory=dict)
     """Cameras that a template placed, by name."""
+    margins: list[RowMargin] = field(default_factory=list)
+    """How well each row holds."""
 
     @cached_property
     def rows_at(self) -> dict[tuple[str | int, ...], list[Statement]]:

@@ -177,7 +177,7 @@ def _resolve(document: PlanDocument) -> engine.Resolution:
 
 
 def _need_all(document: PlanDocument, resolution: engine.Resolution) -> None:
-    if not resolution.scene.ok:
+    if len(resolution.scene.objects) < len(document.plan.object_names()):
         raise PlanError(
             "the layout cannot be resolved yet",
             findings=resolution.scene.findings,

@@ -16,7 +16,6 @@ from . import (
     framing,
     image,
     penetration,
-    rows,
     sizes,
     stale,
     supports,
@@ -25,7 +24,6 @@ from .layout import Layout
 from .marks import flagged
 
 CHECKS: tuple[Callable[[Layout], None], ...] = (
-    rows.check,
     below_ground.check,
     penetration.check,
     supports.check,
@@ -69,7 +67,7 @@ def check(
         rows=len({row.path for row in resolution.statements}),
         pairs_tested=layout.pairs_tested,
         findings=(*resolution.scene.findings, *layout.problems.findings),
-        margins=tuple(sorted(layout.margins, key=lambda m: m.margin)[:40]),
+        margins=tuple(sorted((*resolution.margins, *layout.margins), key=lambda m: m.margin)[:40]),
         views=tuple(layout.views),
     )
 

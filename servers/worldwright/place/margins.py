@@ -1,13 +1,14 @@
-"""Every row holds at the resolved poses: its signed margin is not negative."""
+"""How well every row holds at the resolved poses: what a row demands beyond the coordinates that it sets is measured too."""
 
-from ..anchors import TOLERANCE_DEG, TOLERANCE_M, CannotResolveError, shown
-from ..reports import RowMargin
-from .layout import Layout
+from .anchors import TOLERANCE_DEG, TOLERANCE_M, CannotResolveError, shown
+from .reports import RowMargin
+from .resolution import Resolution
+from .statements import Problems
 
 
-def check(layout: Layout) -> None:
-    """Measures every row whose objects are placed; WP301 where it is violated."""
-    resolution = layout.resolution
+def measure(resolution: Resolution, problems: Problems) -> list[RowMargin]:
+    """The signed margin of each row whose objects are placed; WP301 where one is violated."""
+    margins = []
     for row in resolution.statements:
         subject, reference = resolution.subject(row), resolution.reference(row)
         if subject is None or reference is None or not resolution.measurable(row):
@@ -16,15 +17,16 @@ def check(layout: Layout) -> None:
         try:
             margin = float(row.entry.holds(subject, reference, row.params))
         except CannotResolveError as error:
-            layout.problems.add("WP301", "row_does_not_hold", f"{row.label}: {error}", error.fix, row.path)
+            problems.add("WP301", "row_does_not_hold", f"{row.label}: {error}", error.fix, row.path)
             continue
         if margin < 0:
             tolerance = TOLERANCE_DEG if unit == "deg" else TOLERANCE_M
-            layout.problems.add(
+            problems.add(
                 "WP301",
                 "row_does_not_hold",
                 f"{row.label} is violated by {shown(tolerance - margin)} {unit}",
                 "change the row, or the rows that set the coordinates it speaks about",
                 row.path,
             )
-        layout.margins.append(RowMargin(row=row.label, line=row.line, margin=round(margin, 6), unit=unit))
+        margins.append(RowMargin(row=row.label, line=row.line, margin=round(margin, 6), unit=unit))
+    return margins
