@@ -89,7 +89,7 @@ def plan_rules() -> tuple[Entry, ...]:
 def check_source(source: sources.Source, plan: Plan | None = None, contract: bool | None = None) -> list[Finding]:
     """Findings of every program rule that applies, in the order of the lines."""
     program = Program(source, plan, contract)
-    answered = suppression.read(source.text) if source.tree is not None else ()
+    answered = suppression.of(source)
     found: list[Finding] = []
     for rule in program_rules():
         if applies(rule, program):
@@ -172,7 +172,7 @@ def check_world(program: Program, outcome: "Outcome") -> list[Finding]:
     from .compiled.view import ModelView
 
     view = ModelView(outcome, program, program.plan)
-    answered = suppression.read(program.source.text) if program.source.tree is not None else ()
+    answered = suppression.of(program.source)
     found: list[Finding] = []
     for rule in model_rules():
         needs_world = rule.CODE not in ALWAYS and outcome.status != "compiled"
@@ -182,8 +182,11 @@ def check_world(program: Program, outcome: "Outcome") -> list[Finding]:
     return in_order(found)
 
 
+LEAST_WALL_S = 2.0
+
+
 def check_program_file(
-    path: Path, plan: Plan | None, contract: bool | None = None, model: bool | None = None
+    path: Path, plan: Plan | None, contract: bool | None = None, model: bool | None = None, wall_s: float = 20.0
 ) -> tuple[list[Finding], str]:
     """Findings on one file, and in a few words how building its world went (empty: it was not wanted).
 
@@ -192,6 +195,7 @@ def check_program_file(
         plan: to compare with.
         contract: it is a program of ours (None: to be seen from its imports).
         model: build its world in the sandbox (None: for programs of ours and model files).
+        wall_s: time to build it, s.
     """
     source = sources.read(path)
     found = check_source(source, plan, contract)
@@ -202,7 +206,9 @@ def check_program_file(
         return found, f"{path.name}: the world is not built until its names are right"
     from .compiled import fetch
 
-    outcome = fetch.world(path, is_mjcf=source.is_mjcf)
+    if wall_s < LEAST_WALL_S:
+        return found, f"{path.name}: the world is not built: the call's time went into the files before it"
+    outcome = fetch.world(path, is_mjcf=source.is_mjcf, wall_s=wall_s)
     if outcome.status == "refused":
         return found, f"{path.name}: the world is not built: no sandbox confines here (worldwright doctor says why)"
     if outcome.status == "nothing":

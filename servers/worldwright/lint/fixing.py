@@ -64,7 +64,7 @@ def applied(text: str, edits: list[Edit]) -> str:
 def _edits(source: sources.Source, plan: Plan | None, contract: bool | None) -> list[tuple[str, Edit]]:
     """Edits of all rules that apply, without those that are answered for, and without overlaps."""
     program = Program(source, plan, contract)
-    answered = suppression.read(source.text) if source.tree is not None else ()
+    answered = suppression.of(source)
     found: list[tuple[str, Edit]] = []
     for rule in engine.program_rules():
         if engine.applies(rule, program):

@@ -10,6 +10,9 @@ from .problem import Problem
 
 MAX_BYTES = 512 * 1024
 """About ten thousand lines: no program a person reads is larger, and parsing stays under a second."""
+MAX_MODEL_BYTES = 4 * MAX_BYTES
+"""Model files are often written by other programs."""
+MODEL_SUFFIXES = (".xml", ".mjcf", ".urdf")
 
 
 @dataclass(frozen=True)
@@ -25,7 +28,7 @@ class Source:
     @property
     def is_mjcf(self) -> bool:
         """The file is a bare model, not a program."""
-        return self.path.lower().endswith((".xml", ".mjcf"))
+        return self.path.lower().endswith(MODEL_SUFFIXES)
 
 
 def read(path: Path | str) -> Source:
@@ -35,9 +38,10 @@ def read(path: Path | str) -> Source:
         if not path.is_file():
             raise FileNotFoundError(f"there is no file '{path}'")
         size = path.stat().st_size
-        if size > MAX_BYTES:
-            text = f"the file has {size:,} bytes; the limit is {MAX_BYTES:,}"
-            return Source(str(path), problem=Problem(text, "move data into the catalog; a program is code to read", 1))
+        limit = MAX_MODEL_BYTES if path.suffix.lower() in MODEL_SUFFIXES else MAX_BYTES
+        if size > limit:
+            text = f"the file has {size:,} bytes; the limit is {limit:,}"
+            return Source(str(path), problem=Problem(text, "move data into files of its own: meshes, the catalog", 1))
         data = path.read_bytes()
     except OSError as cause:
         raise NotFoundError(
@@ -64,7 +68,7 @@ def parse(text: str, path: str = "simulation.py") -> Source:
     lines = tuple(text.splitlines())
     if not text.strip():
         return Source(path, text, None, Problem("the file is empty", "draft a program: worldwright build plan.md", 1))
-    if path.lower().endswith((".xml", ".mjcf")):
+    if path.lower().endswith(MODEL_SUFFIXES):
         return Source(path, text, None, None, lines)
     try:
         with warnings.catch_warnings():

@@ -1,4 +1,7 @@
-"""`# worldwright: ignore[WL123] reason`: a finding someone looked at and answers for, kept visible as information."""
+"""`# worldwright: ignore[WL123] reason`: a finding someone looked at and answers for, kept visible as information.
+
+In a model file: `<!-- worldwright: ignore[WM112] reason -->`.
+"""
 
 import io
 import re
@@ -6,8 +9,11 @@ import tokenize
 from dataclasses import dataclass
 
 from .problem import Problem
+from .source import Source
 
 PATTERN = re.compile(r"#\s*worldwright:\s*ignore\s*(?:\[([^\]]*)\])?\s*(.*)$")
+
+IN_XML = re.compile(r"<!--\s*worldwright:\s*ignore\s*(?:\[([^\]]*)\])?\s*(.*?)\s*-->")
 
 
 @dataclass(frozen=True)
@@ -28,10 +34,29 @@ class Suppression:
         return problem.line <= place <= (problem.end_line or problem.line)
 
 
-def read(text: str) -> tuple[Suppression, ...]:
-    """Every suppression comment; the words inside strings do not count."""
-    if "worldwright:" not in text:
+def of(source: Source) -> tuple[Suppression, ...]:
+    """Every suppression comment of a program or a model file."""
+    if "worldwright:" not in source.text:
         return ()
+    if source.is_mjcf:
+        return _in_xml(source.text)
+    return read(source.text) if source.tree is not None else ()
+
+
+def _in_xml(text: str) -> tuple[Suppression, ...]:
+    """Comments of XML that stand on one line."""
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        match = IN_XML.search(line)
+        if match is not None:
+            codes = frozenset(code.strip() for code in (match[1] or "").split(",") if code.strip())
+            alone = not (line[: match.start()] + line[match.end() :]).strip()
+            found.append(Suppression(number, alone, codes, match[2].strip(" -:")))
+    return tuple(found)
+
+
+def read(text: str) -> tuple[Suppression, ...]:
+    """Every suppression comment of a program's text; the words inside strings do not count."""
     found = []
     try:
         for token in tokenize.generate_tokens(io.StringIO(text).readline):

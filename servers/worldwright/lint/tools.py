@@ -1,5 +1,6 @@
 """The tools of the lint server."""
 
+import time
 from pathlib import Path
 from typing import Annotated
 
@@ -11,6 +12,9 @@ from ..model.evidence import EvidenceKey, LintReport
 from ..model.finding import Finding
 from ..model.plan import Plan
 from .report import RuleDoc, RuleList, RuleSummary, ShownReport, capped
+
+WORLD_S, WORLDS_S = 20.0, 35.0
+"""To build one world, and all those of a call: a call returns within 45 s."""
 
 
 @reads
@@ -49,6 +53,7 @@ def check_program(
     found: list[Finding] = []
     kept, worlds, fixed = "", [], []
     rules = len(engine.program_rules()) + len(engine.model_rules())
+    deadline = time.monotonic() + WORLDS_S
     for file in files:
         if not file.exists():
             raise NotFoundError("there is no such program", place=str(file), next_move="name an existing file")
@@ -66,7 +71,8 @@ def check_program(
         if fix and (codes := fixing.fix(file, committed, True if chosen else None)):
             fixed.append(f"{file.name}: {len(codes)} safe fix{'es' * (len(codes) > 1)} ({', '.join(codes)})")
             key = _key(file.parent) if evidence else None
-        looked, world = engine.check_program_file(file, committed, True if chosen else None, model)
+        left = min(WORLD_S, deadline - time.monotonic())
+        looked, world = engine.check_program_file(file, committed, True if chosen else None, model, left)
         here += looked
         worlds += [world] if world else []
         if key is not None and key == _key(file.parent):  # else it was edited meanwhile: these findings are of neither

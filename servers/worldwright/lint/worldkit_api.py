@@ -47,7 +47,8 @@ def names(module: str) -> list[str] | None:
     except (OSError, SyntaxError, ValueError):
         return None
     if found is not None and path.name == "__init__.py":
-        found = sorted({*found, *(p.stem for p in path.parent.glob("*.py") if not p.stem.startswith("_"))})
+        inside = {p.stem for p in path.parent.glob("*.py")} | {p.parent.name for p in path.parent.glob("*/__init__.py")}
+        found = sorted({*found, *(name for name in inside if not name.startswith("_"))})
     return found
 
 

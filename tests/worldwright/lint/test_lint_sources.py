@@ -51,7 +51,44 @@ def test_hostile_files_give_one_finding(tmp_path, name):
 def test_programs_are_read_never_run(tmp_path, text):
     path = tmp_path / "simulation.py"
     path.write_text(text)
-    tools.check_program([path])
+    tools.check_program([path], model=False)
+
+
+@pytest.mark.parametrize(
+    ("name", "data"),
+    [
+        ("empty", b""),
+        ("binary", b"\x7fELF\x00\x01"),
+        ("latin1", "<mujoco model='é'/>".encode("latin-1")),
+        ("open", b"<mujoco><worldbody>"),
+        ("large", b"<mujoco>" + b"<!-- x -->" * 600_000 + b"</mujoco>"),
+        ("deep", b"<mujoco>" + b"<worldbody>" * 50_000),
+        ("long", b"<mujoco model='" + b"x" * 400_000 + b"'><"),
+        ("laughs", b"<!DOCTYPE m [<!ENTITY a 'aaaa'>]><mujoco model='&a;'/>"),
+    ],
+)
+def test_hostile_models_give_one_finding_quickly(tmp_path, name, data):
+    import time
+
+    path = tmp_path / "model.xml"
+    path.write_bytes(data)
+    began = time.monotonic()
+    report = tools.check_program([path])
+    assert time.monotonic() - began < 10
+    assert not report.ok and "WL100" in {f.code for f in report.findings}
+    assert report.text() and report.sarif() and report.github()
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_plans_give_findings_or_typed_errors(tmp_path, name):
+    from worldwright.model.errors import WorldwrightError
+
+    path = tmp_path / "plan.md"
+    path.write_bytes(HOSTILE[name])
+    try:
+        assert not tools.check_plan(path).ok
+    except WorldwrightError as error:
+        assert error.cause
 
 
 def test_deep_xml_and_entities_are_refused():

@@ -122,3 +122,16 @@ def test_a_failing_build_is_told_with_its_line(tmp_path):
     text = "import mujoco\nfrom worldkit import program\n\n\ndef build():\n    return mujoco.MjSpec().compile(3)\n\n\nif __name__ == '__main__':\n    program.main(build, duration=1.0)\n"
     found = tools.check_program([written(tmp_path, text)]).findings
     assert [(f.code, f.line) for f in found if f.code == "WM101"] == [("WM101", 6)]
+
+
+def test_a_model_file_answers_for_a_finding_in_a_comment(tmp_path):
+    text = (
+        "<mujoco><worldbody><geom type='plane' size='1 1 1'/>\n{0}\n"
+        "<body name='crate'><freejoint/><geom size='.1'/></body></worldbody></mujoco>"
+    )
+    plain, answered = "", "<!-- worldwright: ignore[WM112] a press fit -->"
+    found = tools.check_program([written(tmp_path, text.format(plain), "a.xml")]).findings
+    assert [(f.code, f.severity) for f in found] == [("WM112", "error")]
+    report = tools.check_program([written(tmp_path, text.format(answered), "b.xml")])
+    assert report.ok and [(f.code, f.severity) for f in report.findings] == [("WM112", "info")]
+    assert "a press fit" in report.findings[0].message

@@ -27,6 +27,7 @@ class Outcome:
 
     status: str
     """`compiled`; `nothing` (the program makes no world); `failed` (it raised); `timed_out`, `out_of_memory`, `died`;
+    `too_large` (the engine's compiler was still at it);
     `refused` (no sandbox here)."""
     arrays: "dict[str, np.ndarray]" = field(default_factory=dict)
     texts: dict[str, Any] = field(default_factory=dict)
@@ -59,11 +60,12 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S) -> Outco
         with contextlib.suppress(WorldwrightError):  # not well-formed: the compiler says it better
             reads += model_files(path)
     call = [sys.executable, "-s", str(here / "probe.py"), "mjcf" if is_mjcf else "program", str(path), "{out}"]
-    wanted = ("outcome.json", "facts.npz")
+    wanted = ("outcome.json", "facts.npz", "compiling")
     done = run_confined(call, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
     common: dict[str, Any] = {"wall_s": done.wall_s, "level": done.level}
     if done.status != "ended":
-        return Outcome(done.status, message=done.log[-500:], **common)
+        status = "too_large" if done.status == "timed_out" and "compiling" in done.files else done.status
+        return Outcome(status, message=done.log[-500:], **common)
     told = _object(done.files.get("outcome.json", b""))
     common["warnings"] = tuple(str(w) for w in told.get("warnings") or ())
     if "failure" in told:

@@ -27,7 +27,9 @@ class Enough(BaseException):
 class Capture:
     """Stands in for the few functions that make models, take steps, or take over the program."""
 
-    def __init__(self) -> None:
+    def __init__(self, mark: Path) -> None:
+        self.mark = mark
+        """A file that is there while the engine's compiler works."""
         self.models: list[Any] = []
         self.build: Any = None
         self.keywords: dict[str, Any] = {}
@@ -44,7 +46,11 @@ class Capture:
             original = getattr(owner, name)
 
             def made(*arguments: Any, _original: Any = original, **keywords: Any) -> Any:
-                model = _original(*arguments, **keywords)
+                self.mark.touch()
+                try:
+                    model = _original(*arguments, **keywords)
+                finally:
+                    self.mark.unlink(missing_ok=True)
                 self.models.append(model)
                 return model
 
@@ -68,11 +74,11 @@ class Capture:
         program.main = main  # type: ignore[assignment]
 
 
-def run(path: Path) -> tuple[Any, dict[str, Any]]:
+def run(path: Path, mark: Path) -> tuple[Any, dict[str, Any]]:
     """(model, facts) of a program's world; the model is None when it makes none."""
     import mujoco
 
-    capture = Capture()
+    capture = Capture(mark)
     capture.install(mujoco)
     sys.argv = [str(path)]
     sys.path.insert(0, str(path.parent))
@@ -122,10 +128,12 @@ def main(kind: str, path: Path, out: Path) -> None:
         warnings.simplefilter("always")
         try:
             if kind == "mjcf":
+                (out / "compiling").touch()
                 model = mujoco.MjSpec.from_file(str(path)).compile()
+                (out / "compiling").unlink()
                 outcome["made_by"] = "file"
             else:
-                model, more = run(path)
+                model, more = run(path, out / "compiling")
                 outcome.update(more)
         except BaseException as error:
             outcome.update(failure(error, path))

@@ -30,6 +30,10 @@ EVIDENCE = Raises()
 TOLD = {
     "timed_out": ("the world was still being built after {wall:.0f} s", "look for a loop that never ends at import"),
     "out_of_memory": ("building the world took more than 2 GB of memory", "build less, or refer to files"),
+    "too_large": (
+        "the engine was still compiling the world after {wall:.0f} s",
+        "nothing else was looked at: build less",
+    ),
     "died": ("the process that built the world died: {message}", "run the program, and correct what ends it"),
 }
 
@@ -39,7 +43,8 @@ def check(view: ModelView) -> Iterator[Problem]:
     outcome = view.outcome
     if outcome.status in TOLD:
         message, fix = TOLD[outcome.status]
-        yield Problem(message.format(wall=outcome.wall_s, message=outcome.message or "no word"), fix, 1)
+        said = message.format(wall=outcome.wall_s, message=outcome.message or "no word")
+        yield Problem(said, fix, 1, severity="warning" if outcome.status == "too_large" else None)
     if outcome.status == "failed":
         said = " ".join(outcome.message.split())[:400]
         line = outcome.line

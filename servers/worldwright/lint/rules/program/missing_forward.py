@@ -3,6 +3,8 @@
 What it does: follows `MjData` variables through a block: after `MjData(model)` or a write to `qpos`, reading `xpos`,
 `geom_xpos`, `site_xpos`, `sensordata`, `ncon`-dependent fields and the like, before anything is called with the data.
 
+A view that is only kept for later (`place = data.xpos[1]`) is no reading.
+
 Why is this bad: a fresh `MjData` holds zeros, and after a write to `qpos` the old poses: no error, wrong numbers.
 
 Use instead: `mujoco.mj_forward(model, data)` (or `mj_kinematics` for poses alone) in between.
@@ -28,6 +30,7 @@ GOOD = (
     HEAD + "for _ in range(3):\n    mujoco.mj_step(model, data)\nheight = data.xpos[1, 2]\n",
     HEAD + "height = data.qpos[2]\n",
     HEAD + "def height():\n    return data.xpos[1, 2]\n",
+    HEAD + "place = data.xpos[1]\nmujoco.mj_step(model, data)\nheight = place[2]\n",
 )
 BAD = (
     HEAD + "height = data.xpos[1, 2]\n",
@@ -98,11 +101,20 @@ def _field(program: Program, node: ast.AST) -> tuple[str, str] | None:
 
 
 def _read(program: Program, node: ast.AST) -> tuple[str, str] | None:
+    """(variable, field) where a derived value is really taken: a number, an operand, an argument; not a view kept."""
     if not (isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr in DERIVED - NOT_POSES):
         return None
+    named = isinstance(node.value, ast.Call)  # data.body('b').xpos is one row already
+    member = program.symbols.member("MjData", node.attr) or {}
+    left = 1 if named or " x " not in str(member.get("doc")) else 2
+    inner: ast.AST = node
     around = program.parent(node)
-    while isinstance(around, ast.Subscript) and isinstance(around.ctx, ast.Load):
-        around = program.parent(around)
-    if isinstance(around, ast.Subscript):  # it is written to: another rule
-        return None
-    return _field(program, node)
+    while isinstance(around, ast.Subscript) and around.value is inner:
+        if not isinstance(around.ctx, ast.Load):  # it is written to: another rule
+            return None
+        parts = around.slice.elts if isinstance(around.slice, ast.Tuple) else [around.slice]
+        left -= sum(not isinstance(part, ast.Slice | ast.List) for part in parts)
+        inner, around = around, program.parent(around)
+    used = isinstance(around, ast.BinOp | ast.Compare | ast.UnaryOp | ast.FormattedValue | ast.Attribute)
+    used = used or (isinstance(around, ast.Call) and inner in around.args)
+    return _field(program, node) if left <= 0 or used else None

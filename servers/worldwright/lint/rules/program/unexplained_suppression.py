@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterator
 
 from ... import suppression
+from ...case import Case
 from ...problem import Problem
 from ...program import Program
 from ...proof import Argued
@@ -22,20 +23,20 @@ GOOD = (
     "x = 1  # worldwright: ignore[WL135] it is a ghost, declared visual_only\n",
     "text = '# worldwright: ignore[WL135]'\n",
     "# worldwright: begin instrumentation\n",
+    Case("<mujoco>\n  <!-- worldwright: ignore[WM112] a press fit -->\n</mujoco>", path="a.xml"),
 )
 BAD = (
     "x = 1  # worldwright: ignore[WL135]\n",
     "x = 1  # worldwright: ignore everything\n",
     "x = 1  # worldwright: ignore[E501] long line\n",
+    Case("<mujoco>\n  <!-- worldwright: ignore[WM112] -->\n</mujoco>", path="a.xml"),
 )
 EVIDENCE = Argued("a comment does nothing when it runs; who reads it later misses the reason")
 
 
 def check(program: Program) -> Iterator[Problem]:
     """Every suppression comment."""
-    if program.source.is_mjcf:
-        return
-    for comment in suppression.read(program.source.text):
+    for comment in suppression.of(program.source):
         if not comment.codes or not all(re.fullmatch(r"W[LMP]\d{3}", code) for code in comment.codes):
             yield Problem("the comment names no rule to ignore", "name it: ignore[WL123] reason", comment.line)
         elif not comment.reason:
