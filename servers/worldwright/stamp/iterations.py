@@ -65,7 +65,7 @@ def spent(state: State) -> bool:
 def best(state: State) -> str:
     """Key of the best reviewed iteration of this plan and environment; empty without any."""
     found = ""
-    for key in _reviewed(state):
+    for key in reviewed(state):
         if not found or _compare(state, found, key).better != "first":
             found = key
     return found
@@ -125,7 +125,7 @@ def end(state: State, verdict: Verdict) -> Blocked | None:
     return ending
 
 
-def _reviewed(state: State) -> list[str]:
+def reviewed(state: State) -> list[str]:
     """Reviewed keys of this plan and environment whose reports and program are here, oldest review first."""
     if state.key is None:
         return []

@@ -92,6 +92,8 @@ def _notes(
     back: dict[str, Any] = next((e for e in reversed(state.journal) if e.get("action") in steps_back), {})
     if back.get("action") == "roll_back" and state.key and back.get("key") == state.key.key:
         notes.append(f"the patch of {back.get('worse')} was rolled back ({back.get('why')}): make another one")
+    if outcome == "open" and len(iterations.reviewed(state)) > 1 and (best := iterations.best(state)):
+        notes.append(f"best of {len(iterations.reviewed(state))} reviewed iterations: {best}")
     if outcome == "open" and any(step.status == "fails" for step in found.values()):
         notes += [f"repair: {refusal.cause}; {refusal.next_move}" for refusal in gates.refusals("repair", state)]
     if outcome == "open" and state.other_keys and not any(found[n].holds for n in found if n not in RELEASED):

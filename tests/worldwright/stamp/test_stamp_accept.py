@@ -166,12 +166,21 @@ def test_instrumentation_that_changes_the_motion_is_refused(planned: Path, copy:
     assert not (folder / "accepted").exists()
 
 
-def test_changed_evidence_is_refused(reviewed: Path, copy: Copy) -> None:
+@pytest.mark.parametrize(
+    "name",
+    ["video/side.mp4", "stills/overview.png", "physics/trajectory/state.arrows", "physics/trajectory/contacts.arrows"],
+)
+def test_an_edited_byte_of_the_evidence_is_refused(reviewed: Path, copy: Copy, name: str) -> None:
     folder = copy(reviewed)
-    film = Run(folder).evidence(stamp.status(str(folder)).key) / "video" / "side.mp4"
-    film.write_bytes(film.read_bytes()[:-1] + b"x")
-    with pytest.raises(GateError, match=r"video/side\.mp4 is not what the video pass wrote"):
+    path = Run(folder).evidence(stamp.status(str(folder)).key) / name
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 1
+    path.write_bytes(bytes(data))
+    with pytest.raises(GateError) as caught:
         stamp.accept(str(folder))
+    assert f"{name} is not what the {name.split('/')[0]} pass wrote" in caught.value.cause
+    assert "again" in caught.value.next_move
+    assert not (folder / "accepted").exists()
 
 
 def test_an_undeclared_intervention_is_refused(planned: Path, copy: Copy, prepare: Prepare) -> None:

@@ -27,7 +27,7 @@ from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
 Copy = Callable[[Path], Path]
-KILLS = int(os.environ.get("WORLDWRIGHT_KILLS", "4"))
+KILLS = int(os.environ.get("WORLDWRIGHT_KILLS", "2"))
 PIPELINE = """
 import sys
 from pathlib import Path
@@ -94,7 +94,7 @@ def test_a_kill_at_any_moment_from_lint_to_stamp_loses_nothing(approved: Path, t
     chance = random.Random(1000 + number)
     run = Run(shutil.copytree(approved, tmp_path / approved.name))
     before: dict[str, str] = {}
-    for _ in range(3):
+    for _ in range(2):
         process = subprocess.Popen(
             [sys.executable, "-c", PIPELINE, str(run.folder)],
             stdout=subprocess.DEVNULL,

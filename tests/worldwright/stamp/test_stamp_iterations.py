@@ -94,37 +94,27 @@ def test_a_worse_patch_is_rolled_back_and_repairs_end(world: Path) -> None:
     assert iterations.cap(State(run)) == 12
 
 
-def test_a_patch_that_no_number_shows_stays(world: Path) -> None:
+def test_the_best_so_far_follows_the_numbers_and_else_the_latest(world: Path) -> None:
     run, source = Run(world), (world / "simulation.py").read_text(encoding="utf-8")
-    iterate(world, source)
-    stamp.review(str(world), repair(run, "camera_placement"))
-    nearer = source.replace("    return spec", "    spec.visual.map.zfar = 60.0\n    return spec")
-    key = iterate(world, nearer)
-    answer = stamp.review(str(world), repair(run, "camera_placement"))
-    assert "put back" not in answer.what
-    assert run.program.read_text(encoding="utf-8") == nearer
-    assert iterations.best(State(run)) == key
-
-
-def test_a_better_patch_becomes_the_best(world: Path) -> None:
-    run, source = Run(world), (world / "simulation.py").read_text(encoding="utf-8")
+    stamp.approve(str(world), by="tester")
     bad = iterate(world, source.replace(END, HONEY.format(90.0)))
     stamp.review(str(world), repair(run))
     assert iterations.best(State(run)) == bad
     good = iterate(world, source)
-    stamp.review(str(world), repair(run, "visual_mismatch"))
+    stamp.review(str(world), repair(run, "camera_placement"))
     assert iterations.best(State(run)) == good
+    nearer = source.replace("    return spec", "    spec.visual.map.zfar = 60.0\n    return spec")
+    same = iterate(world, nearer)  # a patch that no number shows stays
+    assert "put back" not in stamp.review(str(world), repair(run, "camera_placement")).what
+    assert run.program.read_text(encoding="utf-8") == nearer
+    assert iterations.best(State(run)) == same
+    assert f"best of 3 reviewed iterations: {same}" in stamp.status(str(world)).notes
 
-
-def test_a_copy_that_was_changed_is_never_put_back(world: Path) -> None:
-    run, source = Run(world), (world / "simulation.py").read_text(encoding="utf-8")
-    good = iterate(world, source)
-    stamp.review(str(world), repair(run, "visual_mismatch"))
-    (run.evidence(good) / "source" / "simulation.py").write_text("print()")
-    low = source.replace(END, HONEY.format(90.0))
-    iterate(world, low)
-    assert "put back" not in stamp.review(str(world), repair(run)).what
-    assert run.program.read_text(encoding="utf-8") == low
+    for key in (good, same):  # a copy that was changed is never put back
+        (run.evidence(key) / "source" / "simulation.py").write_text("print()")
+    assert iterations.best(State(run)) == bad
+    assert not iterations.restore(State(run), good, "it was better")
+    assert run.program.read_text(encoding="utf-8") == nearer
 
 
 def test_in_auto_mode_a_new_approval_does_not_buy_more_repairs(tmp_path: Path) -> None:
