@@ -6,7 +6,10 @@ from pathlib import Path
 import pytest
 import yaml
 
+from worldwright.lint import tools
 from worldwright.model.plan import Plan
+from worldwright.model.plan_text import parse_plan
+from worldwright.place.engine import resolve
 from worldwright.scan.expecting import EXPECTATIONS
 
 REPO = Path(__file__).parents[2]
@@ -34,3 +37,19 @@ def test_the_rows_of_a_skill_are_valid(kind, body):
         for row in objective.expect:
             for name, arguments in row.items():
                 EXPECTATIONS.find(name).Given.model_validate(arguments)
+
+
+PLANS = [
+    pytest.param(found[1], id=f"{page.relative_to(REPO / 'skills')}")
+    for page in PAGES
+    for found in re.finditer(r"^~~~~markdown\n(.*?)^~~~~$", page.read_text(encoding="utf-8"), re.M | re.S)
+]
+
+
+@pytest.mark.parametrize("text", PLANS)
+def test_a_whole_plan_of_a_skill_can_be_committed_and_resolved(text, tmp_path):
+    plan = tmp_path / "plan.md"
+    plan.write_text(text, encoding="utf-8")
+    assert [f for f in tools.check_plan(plan).findings if f.severity == "error"] == []
+    scene = resolve(parse_plan(text).plan).scene
+    assert scene.ok, scene.findings
