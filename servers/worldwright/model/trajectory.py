@@ -267,7 +267,10 @@ class Trajectory:
             cut["loads"] = self.loads.before(row)
         if self.coordinates is not None:
             cut["coordinates"] = self.coordinates.before(row)
-        return replace(self, **cut)
+        made = replace(self, **cut)
+        if self.__dict__.get("finite"):
+            made.__dict__["finite"] = True  # what holds of all rows holds of the first ones
+        return made
 
     @cached_property
     def sha256(self) -> str:

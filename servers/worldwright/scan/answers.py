@@ -11,7 +11,7 @@ class Touch(Frozen):
     other: str
     first_s: float
     share: float
-    """Share of the window spent in contact."""
+    """Share of the window spent in contact, hops of up to 20 ms (as stiff contacts make) included."""
     max_force_n: float
     mean_force_n: float = 0.0
     """Over the rows in contact."""
@@ -47,7 +47,7 @@ class Answer(Frozen):
     touching: Literal["yes", "no", "unknown"] = "unknown"
     """`unknown`: the recording holds no contacts."""
     touching_share: float = 0.0
-    """Share of the window in which it touches anything."""
+    """Share of the window in which it touches anything, hops of up to 20 ms included."""
     max_force_n: float | None = None
     """Largest sum of the contact forces on it in one row; None: no forces were recorded."""
     max_force_at_s: float = 0.0

@@ -12,6 +12,8 @@ from ..model.trajectory import Trajectory
 from .measured import UnknowableError
 
 FEWEST_ROWS = 2
+MADE_OF_EVENTS = {"event", "events", "first", "then"}
+"""Arguments that hold events: such a claim inside another would be measured for every beginning of every beginning."""
 EXAMPLE = "{touches: {bodies: [ball, floor]}}"
 
 
@@ -24,6 +26,8 @@ def _known(value: dict[str, Any]) -> dict[str, Any]:
     events = {entry.name: entry for entry in EXPECTATIONS.values() if getattr(entry.module, "EVENT", False)}
     if name not in events:
         raise ValueError(f"`{name}` is no event; events: {', '.join(sorted(events))}")
+    if MADE_OF_EVENTS & set(events[name].Given.model_fields):
+        raise ValueError(f"`{name}` is made of events itself; name each of them with `happens_in_order`")
     if problem := argument_problem(name, arguments):
         raise ValueError(f"`{name}`: {'; '.join(problem)}")
     return value

@@ -65,7 +65,7 @@ def _unless_cut(trajectory: Trajectory, result: ExpectationResult) -> Expectatio
 
 def named(arguments: Any) -> dict[str, Any]:
     """The arguments as a mapping: a lone text is short for a body."""
-    return arguments if isinstance(arguments, dict) else {"body": arguments}
+    return {str(k): v for k, v in arguments.items()} if isinstance(arguments, dict) else {"body": arguments}
 
 
 def argument_problem(name: str, arguments: Any) -> tuple[str, str] | None:
@@ -99,11 +99,15 @@ def measure(trajectory: Trajectory, name: str, arguments: dict[str, Any]) -> Exp
         return unknown(f"{cause.cause}; {cause.next_move}")
     if problem := argument_problem(name, arguments):
         return unknown("; ".join(problem))
+    if not trajectory.finite:
+        return unknown("the recording is not finite; see the scan's finding `nan`, and repair the simulation first")
     try:
         with np.errstate(all="ignore"):
             found = entry.measure(trajectory, entry.Given.model_validate(arguments))
     except (NotFoundError, UnknowableError) as cause:
         return unknown(f"{cause.cause}; {cause.next_move}" if cause.next_move else cause.cause)
+    except np.linalg.LinAlgError as cause:
+        return unknown(f"no curve can be fitted to what was recorded: {cause}; look at it with `query` and `plot`")
     except Exception as defect:  # a defect of one expectation must neither prove nor refute anything
         return unknown(
             f"the expectation itself failed ({type(defect).__name__}: {defect}); report it with this recording"

@@ -7,6 +7,7 @@ import numpy as np
 from ..model.errors import NotFoundError
 from ..model.trajectory import Trajectory
 from .answers import Answer, Touch
+from .measured import bridged
 from .sign import spans
 
 STILL = 1e-3
@@ -122,7 +123,7 @@ def _contact(trajectory: Trajectory, index: int, rows: slice, notes: list[str]) 
     hard = int(pushed.argmax())
     return {
         "touching": "yes" if touching.any() else "no",
-        "touching_share": float(touching.mean()),
+        "touching_share": float(bridged(trajectory, touching).mean()),
         "max_force_n": float(pushed[hard]),
         "max_force_at_s": float(t[hard]),
     }
@@ -146,7 +147,7 @@ def _touches(trajectory: Trajectory, index: int, rows: slice) -> tuple[Touch, ..
                 other=trajectory.names[other] if other >= 0 else "ground",
                 first_s=float(trajectory.t[at[0]]),
                 last_s=float(trajectory.t[at[-1]]),
-                share=len(at) / max(rows.stop - rows.start, 1),
+                share=float(bridged(trajectory, np.isin(np.arange(rows.start, rows.stop), at)).mean()),
                 max_force_n=float(force.max()),
                 mean_force_n=float(force[at].mean()),
                 max_depth_m=float(here.depth_m[mine].max()),

@@ -98,7 +98,8 @@ class Expected(ExpectReport):
         for objective in self.objectives:
             lines.append(f"{objective.status.replace('_', ' '):<11} {objective.index}. {objective.claim}")
             for result in objective.expectations:
-                margin = f" (margin {result.margin:+.3g} {result.unit})" if result.margin is not None else ""
+                unit = "" if result.unit == "1" else f" {result.unit}"
+                margin = f" (margin {result.margin:+.3g}{unit})" if result.margin is not None else ""
                 lines.append(f"            {result.status:<7} {result.name}: {result.message}{margin}")
             if objective.status in ("visual_only", "unproved"):
                 lines.append(f"            {objective.reason}")

@@ -273,3 +273,51 @@ def test_an_objective_ends_up_in_one_of_four_states(expect, visual_only, status)
     result = _objective(resting(), 0, objective)
     assert result.status == status
     assert result.reason or status == "proved"
+
+
+def degenerate(t):
+    """Recordings that a formula may stumble over."""
+    zero = np.zeros_like
+    yield replace(t, pos=np.repeat(t.pos[:1], len(t.t), 0), linvel=zero(t.linvel), angvel=zero(t.angvel))
+    yield replace(t, pos=zero(t.pos), linvel=zero(t.linvel), angvel=zero(t.angvel))
+    yield replace(t, pos=np.where(np.arange(len(t.t))[:, None, None] > 3, np.nan, t.pos))
+    yield replace(t, pos=t.pos * 1e200, linvel=t.linvel * 1e200)
+    yield replace(t, quat=zero(t.quat))
+    yield replace(t, contacts=None, mechanics=type(t.mechanics)(), meta={}, loads=None, coordinates=None, energy=None)
+    yield replace(t, mechanics=replace(t.mechanics, gravity=np.zeros(3), mass=np.zeros(len(t.names))))
+    noise = np.random.default_rng(0).normal(size=(3, *t.pos.shape))
+    yield replace(t, pos=noise[0], linvel=noise[1], angvel=noise[2])
+
+
+@pytest.mark.parametrize("entry", EXPECTATIONS.values(), ids=lambda e: e.name)
+def test_nothing_recorded_ends_in_a_traceback_and_nan_proves_nothing(entry):
+    maker, arguments = entry.GOOD[0]
+    for k, recorded in enumerate(degenerate(maker())):
+        result = measure(recorded, entry.name, arguments)
+        assert "the expectation itself failed" not in result.message, (k, result.message)
+        assert result.status != "holds" or recorded.finite
+        assert type(result).model_validate_json(result.model_dump_json()).status == result.status
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    name=st.sampled_from(sorted(e.name for e in EXPECTATIONS.values())),
+    arguments=st.recursive(
+        st.none() | st.booleans() | st.floats() | st.integers() | st.text(max_size=5),
+        lambda inner: (
+            st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=6) | st.integers(), inner, max_size=3)
+        ),
+        max_leaves=6,
+    ),
+)
+def test_whatever_a_plan_says_is_told_not_raised(name, arguments):
+    problem = argument_problem(name, arguments)
+    assert problem is None or all(problem)
+    objective = Objective(claim="c", expect=({name: arguments},))
+    assert _objective(resting(), 0, objective).status in ("proved", "refuted", "unproved")
+
+
+def test_events_of_events_are_refused():
+    inner = {"happens_at": {"event": {"falls": {"body": "b", "min_m": 1}}, "at_s": 1, "tolerance_s": 1}}
+    problem = argument_problem("happens_at", {"event": inner, "at_s": 1, "tolerance_s": 1})
+    assert problem and "made of events itself" in problem[0]
