@@ -8,6 +8,7 @@ Common arguments:
     name: the plan object's name; becomes the body's name, and its geom's.
     pos: centre, metres, world frame.
     yaw_deg: rotation about world z, degrees counter-clockwise from +X.
+    tilt_deg: rotation of the shape about the body's own x, before the yaw (90 lays a cylinder along y); not for containers.
     mass: kilograms, or `density` in kg/m^3 (MuJoCo's default, 1000, when neither is given).
     look: a name from `worldkit.materials`, or `#rrggbb`.
     surface: contact properties from `worldkit.contacts.surface`.
@@ -73,6 +74,8 @@ def container(spec: "mujoco.MjSpec", name: str, *, size: Vec3, wall: float, **co
         "right": ((0, t - y, t), (x - wall, t, z - t)),
     }
     body, properties = _body(spec, name, **common)
+    if "quat" in properties:
+        raise ValueError(f"container {name}: a container cannot be tilted; leave out tilt_deg")
     mass = properties.pop("mass", None)
     total = sum(half[0] * half[1] * half[2] for _, half in slabs.values())
     for side, (offset, half) in slabs.items():
@@ -112,6 +115,7 @@ def _body(
     *,
     pos: Vec3,
     yaw_deg: float = 0.0,
+    tilt_deg: float = 0.0,
     mass: float | None = None,
     density: float | None = None,
     look: str = "plastic_white",
@@ -141,6 +145,9 @@ def _body(
     elif not fixed and not visual_only and parent is None:
         body.add_freejoint(name=name)
     properties: dict[str, Any] = {"material": materials.add(spec, look), **(surface or {})}
+    if tilt_deg:
+        turn = math.radians(tilt_deg) / 2
+        properties["quat"] = (math.cos(turn), math.sin(turn), 0.0, 0.0)
     if visual_only:
         properties |= {"contype": 0, "conaffinity": 0, "mass": 0.0, "group": 2}
     elif mass is not None:

@@ -96,3 +96,18 @@ def test_visual_only_bodies_touch_nothing_and_weigh_nothing():
     assert model.nv == 0
     assert model.geom("ghost").contype[0] == model.geom("ghost").conaffinity[0] == 0
     assert model.body("ghost").mass[0] == 0
+
+
+@given(st.floats(-180, 180), angle)
+@settings(max_examples=30, deadline=None)
+def test_a_tilted_shape_is_turned_about_its_own_x_before_the_yaw(tilt, yaw):
+    spec = mujoco.MjSpec()
+    bodies.cylinder(spec, "log", diameter=0.2, height=1.0, pos=(1, 2, 3), yaw_deg=yaw, tilt_deg=tilt)
+    _, data = compiled(spec)
+    along = data.geom("log").xmat.reshape(3, 3)[:, 2]
+    s, c = np.sin(np.radians(tilt)), np.cos(np.radians(tilt))
+    yawed = np.radians(yaw)
+    assert np.allclose(along, [s * np.sin(yawed), -s * np.cos(yawed), c], atol=1e-6)
+    assert np.allclose(data.geom("log").xpos, (1, 2, 3))
+    with pytest.raises(ValueError, match="cannot be tilted"):
+        bodies.container(spec, "tub", size=(1, 1, 1), wall=0.1, pos=(0, 0, 0), tilt_deg=10)

@@ -214,6 +214,8 @@ class _Writer:
         }
         function, keywords = shapes[row.primitive]
         keywords |= self.common(row.name, placed)
+        if row.deg_x:
+            keywords["tilt_deg"] = row.deg_x
         if row.look:
             keywords["look"] = row.look
         if row.material:

@@ -11,12 +11,12 @@ from collections.abc import Iterator
 from enum import StrEnum
 from typing import Any, Literal
 
-from pydantic import Field, field_validator, model_validator
+from pydantic import Field, field_validator
 
 from .frozen import Frozen
+from .objects import AssetRow, SceneObject, Vec3
 from .observation import REFERENCE_VIEW, ImageObservation
 
-Vec3 = tuple[float, float, float]
 TO_CLARIFY = "TO_CLARIFY"
 Unresolved = Literal["TO_CLARIFY"]
 
@@ -176,64 +176,6 @@ class Step(Frozen):
     """Cameras to review the step by; a plain string is a view template and names the camera too."""
     motion_expectations: tuple[str, ...] = ()
     """Objects that are expected to move."""
-
-
-Primitive = Literal["box", "sphere", "cylinder", "capsule", "ellipsoid", "plane", "box_container"]
-
-
-class SceneObject(Frozen):
-    """A procedural primitive or a generated boundary."""
-
-    name: str
-    role: str = ""
-    construction_source: Literal["procedural_primitive", "generated_boundary"] = "procedural_primitive"
-    primitive: Primitive
-    size: Vec3
-    """Full extents in metres along the object's own x, y, z (never half extents)."""
-    wall_thickness: float | None = Field(None, gt=0)
-    """Metres, for `box_container` only."""
-    fixed: bool = False
-    dynamic: bool = True
-    material: str | None = None
-    """Key into `simulation_parameters.materials`."""
-    look: str | None = None
-    """Name of a worldkit look, e.g. `wood_oak`; or `#rrggbb`."""
-    visual_only: str | None = None
-    """Why the object is drawn without being simulated, when it is."""
-    description: str = ""
-
-    @field_validator("size")
-    @classmethod
-    def _positive(cls, value: Vec3) -> Vec3:
-        if not all(0 < extent < float("inf") for extent in value):
-            raise ValueError(f"every extent must be a positive, finite number of metres, got {value}")
-        return value
-
-    @model_validator(mode="after")
-    def _walled(self) -> "SceneObject":
-        if (self.primitive == "box_container") != (self.wall_thickness is not None):
-            raise ValueError("`wall_thickness` is needed by a box_container, and only by it")
-        return self
-
-
-class AssetRow(Frozen):
-    """A catalog mesh or a simulator-native wrapper, `count` times."""
-
-    name: str
-    type: Literal["mesh", "mjcf", "urdf", "wrapper"] = "mesh"
-    filename: str
-    """The exact catalog key."""
-    count: int = Field(1, ge=1, le=10_000)
-    fixed: bool = False
-    is_dynamic: bool = True
-    material: str | None = None
-    """Key into `simulation_parameters.materials`; None: the catalog's own constants."""
-    look: str | None = None
-
-    @property
-    def instances(self) -> tuple[str, ...]:
-        """Object names: `name` alone, or `name_1` … `name_N`."""
-        return (self.name,) if self.count == 1 else tuple(f"{self.name}_{i + 1}" for i in range(self.count))
 
 
 class Position(Frozen):

@@ -56,8 +56,27 @@ def _primitive(row: SceneObject) -> Box:
         return known[name]
 
     floor = row.construction_source == "generated_boundary" and row.wall_thickness is not None
+    if row.deg_x:
+        return _tilted(row)
     shape = ellipse and sx == sy
     return Box(row.name, row.size, round=shape, surface=surface, surfaces=lambda: surfaces, floor_datum=floor)
+
+
+def _tilted(row: SceneObject) -> Box:
+    """A tilted primitive: the box around it; only a box on another of its faces has a level top."""
+    extents = row.extents
+    level = row.primitive == "box" and row.deg_x % 90 == 0
+    top = Surface("top", extents[2], extents[:2])
+
+    def surface(name: str | None) -> Surface:
+        if not level:
+            raise KeyError(f"{row.name} is tilted by {row.deg_x:g} deg and has no level surface")
+        if name not in (None, "top"):
+            raise KeyError(f"{row.name} has no surface {name!r}; it has: top")
+        return top
+
+    ball = row.primitive == "sphere"
+    return Box(row.name, extents, round=ball, surface=surface, surfaces=lambda: [top] if level else [])
 
 
 def _asset(plan: Plan, row: AssetRow) -> Box:

@@ -45,6 +45,8 @@ def footprint(placed: PlacedObject, row: SceneObject | None) -> Polygon:
     x, y, _ = placed.position
     if row is None:
         return turned(list(_asset(placed.kind, placed.size[2])[0]), x, y, placed.deg_z)
+    if row.deg_x:
+        return turned(_lowest(row), x, y, placed.deg_z)
     if row.primitive in ("sphere", "ellipsoid", "capsule"):
         return [(x, y)]
     if row.primitive == "cylinder":
@@ -57,7 +59,8 @@ def shadow(placed: PlacedObject, row: SceneObject | None) -> Polygon:
     x, y, _ = placed.position
     if row is None:
         return turned(list(_asset(placed.kind, placed.size[2])[2]), x, y, placed.deg_z)
-    shape = ellipse if row.primitive in ("sphere", "ellipsoid", "capsule", "cylinder") else rectangle
+    curved = row.primitive in ("sphere", "ellipsoid", "capsule", "cylinder") and not row.deg_x
+    shape = ellipse if curved else rectangle
     return turned(shape(*placed.size[:2]), x, y, placed.deg_z)
 
 
@@ -91,6 +94,15 @@ def _asset(
     everything = [(float(x), float(y)) for cloud in clouds for x, y, _ in cloud]
     centre = (entry.inertia_com[0] * scale, entry.inertia_com[1] * scale)
     return tuple(hull(points)), centre, tuple(hull(everything))
+
+
+def _lowest(row: SceneObject) -> Polygon:
+    """The lowest points of a tilted primitive, own frame: an edge, a line or a face."""
+    from .drawing.silhouettes import primitive_clouds
+
+    (cloud,) = primitive_clouds(row)
+    low = float(cloud[:, 2].min())
+    return hull([(float(x), float(y)) for x, y, z in cloud if z <= low + SLICE_M / 2])
 
 
 def hull(points: list[tuple[float, float]]) -> Polygon:
@@ -128,6 +140,11 @@ def clipped(polygon: Polygon, window: Polygon) -> Polygon:
 
 def inset(polygon: Polygon, point: tuple[float, float]) -> float:
     """Distance of a point to the edge of a convex polygon, metres; negative outside."""
+    if len(polygon) == 2:
+        (ax, ay), (bx, by) = polygon
+        along = ((point[0] - ax) * (bx - ax) + (point[1] - ay) * (by - ay)) / max(math.dist(*polygon) ** 2, 1e-18)
+        along = min(max(along, 0.0), 1.0)
+        return -math.dist((ax + along * (bx - ax), ay + along * (by - ay)), point)
     if len(polygon) < 3:
         return -min((math.dist(p, point) for p in polygon), default=math.inf)
     margins = []

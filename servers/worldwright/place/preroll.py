@@ -115,6 +115,8 @@ def _build(request: dict[str, Any]) -> Any:
 def _primitive(bodies: Any, spec: Any, row: dict[str, Any], common: dict[str, Any]) -> None:
     x, _, z = row["size"]
     kind = row["primitive"]
+    if row["tilt_deg"]:
+        common = common | {"tilt_deg": row["tilt_deg"]}
     if kind in ("cylinder", "capsule"):
         getattr(bodies, kind)(spec, diameter=x, height=z, **common)
     elif kind == "sphere":

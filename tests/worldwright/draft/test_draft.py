@@ -7,7 +7,7 @@ from worldwright.draft import draft
 from worldwright.draft.source import Raw, call, constant_name, literal
 from worldwright.model.errors import PlanError
 from worldwright.model.plan import Plan
-from worldwright.model.scene import PlacedObject, Scene
+from worldwright.model.scene import PlacedCamera, PlacedObject, Scene
 
 PENDULUM = {
     "title": "A pendulum swings",
@@ -135,3 +135,11 @@ def test_the_draft_is_formatted_and_lints_clean(tmp_path):
     for command in (["format", "--check", "--diff"], ["check", "--select", "E,F,W"]):
         done = subprocess.run([sys.executable, "-m", "ruff", *command, *options, path], capture_output=True, text=True)
         assert done.returncode == 0, done.stdout
+
+
+def test_tilts_and_the_cameras_that_templates_place_are_written():
+    rows = [{**row, "deg_x": 90} if row["name"] == "puck" else row for row in PENDULUM["scene_objects"]]
+    shot = PlacedCamera(name="side", template="side_minus_y", position=(0, -3, 1), target=(0, 0, 1), fovy_deg=30)
+    source = draft(plan(scene_objects=rows), LAYOUT.model_copy(update={"cameras": (shot,)})).source
+    assert "tilt_deg=90.0" in source
+    assert "position=(0.0, -3.0, 1.0), target=(0.0, 0.0, 1.0)" in source

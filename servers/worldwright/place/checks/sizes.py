@@ -20,7 +20,7 @@ def check(layout: Layout) -> None:
     plan = layout.plan
     alike: dict[tuple[Category, float], list[tuple[str, tuple[str | int, ...]]]] = {}
     heights: list[tuple[SceneObject | AssetRow, float, tuple[str | int, ...]]] = [
-        (row, row.size[2], ("scene_objects", index, "size")) for index, row in enumerate(plan.scene_objects)
+        (row, row.extents[2], ("scene_objects", index, "size")) for index, row in enumerate(plan.scene_objects)
     ]
     heights += [
         (asset, plan.asset_dimensions[asset.name], ("asset_dimensions", asset.name))

@@ -29,7 +29,7 @@ class Silhouette:
 def silhouette(plan: Plan, placed: PlacedObject) -> Silhouette:
     """The outlines of a placed object; its box when the catalog cannot be read."""
     row = next((row for row in plan.scene_objects if row.name == placed.name), None)
-    clouds = _primitive(row) if row is not None else _asset(placed)
+    clouds = primitive_clouds(row) if row is not None else _asset(placed)
     c, s = cos_sin(placed.deg_z)
     top, side, front = [], [], []
     for cloud in clouds:
@@ -44,6 +44,15 @@ def silhouette(plan: Plan, placed: PlacedObject) -> Silhouette:
 
 def _hull(points: np.ndarray) -> np.ndarray:
     return cv2.convexHull(points.astype(np.float32)).reshape(-1, 2).astype(float)
+
+
+def primitive_clouds(row: SceneObject) -> list[np.ndarray]:
+    """The corners of a primitive after its tilt, each (N, 3), around its centre, metres."""
+    if not row.deg_x:
+        return _primitive(row)
+    c, s = cos_sin(row.deg_x)
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    return [cloud @ turn.T for cloud in _primitive(row)]
 
 
 def _primitive(row: SceneObject) -> list[np.ndarray]:
