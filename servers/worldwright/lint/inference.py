@@ -1,6 +1,7 @@
 """Which class of the simulator an expression is an instance of, as far as the source says it beyond doubt."""
 
 import ast
+from functools import cached_property
 
 from ..simulator.symbols import Symbols
 from . import worldkit_api
@@ -30,7 +31,9 @@ class Inference:
             return self._name(node, depth)
         if isinstance(node, ast.Attribute):
             owner = self.type_of(node.value, depth + 1)
-            member = self.symbols.member(owner, node.attr) if owner else None
+            if owner is None:
+                return self._of_self(node, depth)
+            member = self.symbols.member(owner, node.attr)
             if member is not None and member["kind"] == "field":
                 return self.symbols.class_name(member.get("returns"))
             return None
@@ -40,6 +43,45 @@ class Inference:
             one, other = self.type_of(node.body, depth + 1), self.type_of(node.orelse, depth + 1)
             return one if one == other else None
         return None
+
+    def _of_self(self, node: ast.Attribute, depth: int) -> str | None:
+        """`self.data`, when every assignment to it in the class agrees."""
+        around = self._class_of_self(node.value)
+        if around is None:
+            return None
+        bound = self._attributes.get((around, node.attr), [])
+        found = {None if value is None else self.type_of(value, depth + 1) for value in bound}
+        return found.pop() if len(found) == 1 else None
+
+    def _class_of_self(self, node: ast.AST) -> ast.ClassDef | None:
+        """The class whose instance a name is: the first parameter of one of its methods."""
+        if not isinstance(node, ast.Name):
+            return None
+        method = self.scopes.scope_of(node)
+        if not isinstance(method, ast.FunctionDef | ast.AsyncFunctionDef):
+            return None
+        around = self.scopes.parents.get(method)
+        first = next(iter([*method.args.posonlyargs, *method.args.args]), None)
+        if not isinstance(around, ast.ClassDef) or first is None or first.arg != node.id:
+            return None
+        return (
+            None if any(isinstance(d, ast.Name) and d.id == "staticmethod" for d in method.decorator_list) else around
+        )
+
+    @cached_property
+    def _attributes(self) -> dict[tuple[ast.ClassDef, str], list[ast.expr | None]]:
+        """What each attribute of each class is assigned in its methods; None stands for something that is not known."""
+        found: dict[tuple[ast.ClassDef, str], list[ast.expr | None]] = {}
+        for kind in (ast.Assign, ast.AnnAssign, ast.AugAssign):
+            for statement in self.scopes.nodes.get(kind, []):
+                targets = statement.targets if isinstance(statement, ast.Assign) else [statement.target]  # type: ignore[attr-defined]
+                for target in targets:
+                    for one in target.elts if isinstance(target, ast.Tuple | ast.List) else [target]:
+                        if not isinstance(one, ast.Attribute) or (around := self._class_of_self(one.value)) is None:
+                            continue
+                        value = statement.value if one is target and kind is not ast.AugAssign else None  # type: ignore[attr-defined]
+                        found.setdefault((around, one.attr), []).append(value)
+        return found
 
     def _call(self, node: ast.Call, depth: int) -> str | None:
         full = self.scopes.dotted(node.func)

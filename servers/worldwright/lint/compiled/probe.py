@@ -42,6 +42,8 @@ class Capture:
             (mujoco.MjModel, "from_xml_path"),
             (mujoco.MjModel, "from_binary_path"),
             (mujoco.MjSpec, "compile"),
+            (mujoco.MjSpec, "from_string"),
+            (mujoco.MjSpec, "from_file"),
         ):
             original = getattr(owner, name)
 
@@ -51,7 +53,8 @@ class Capture:
                     model = _original(*arguments, **keywords)
                 finally:
                     self.mark.unlink(missing_ok=True)
-                self.models.append(model)
+                if isinstance(model, mujoco.MjModel):
+                    self.models.append(model)
                 return model
 
             setattr(owner, name, made if name == "compile" else staticmethod(made))

@@ -23,21 +23,28 @@ HEAD = (
     'import mujoco\nmodel = mujoco.MjModel.from_xml_string(\'<mujoco><worldbody><body><freejoint/><geom size=".1"/></body>'
     "</worldbody></mujoco>')\ndata = mujoco.MjData(model)\nlog = []\nfor _ in range(100):\n    mujoco.mj_step(model, data)\n"
 )
+CLASS = (
+    "import mujoco\nclass Env:\n    def __init__(self, path):\n        self.model = mujoco.MjModel.from_xml_path(path)\n"
+    "        self.data = mujoco.MjData(self.model)\n        self.log = []\n    def step(self):\n"
+)
 GOOD = (
     HEAD + "    log.append(data.qpos.copy())\n",
     HEAD + "    log.append(data.qpos[2])\n",
     HEAD + "    log.append(data.xpos[1, 2])\n",
     HEAD + "    log.append(float(data.time))\n",
+    CLASS + "        self.log.append(self.data.time)\n",
 )
 BAD = (
     HEAD + "    log.append(data.qpos)\n",
     HEAD + "    log.append((data.time, data.qpos[:3]))\n",
     HEAD + "    log.append(data.xpos[1])\n",
+    CLASS + "        self.log.append(self.data.qpos)\n",
 )
 FIXED = (
     HEAD + "    log.append(data.qpos.copy())\n",
     HEAD + "    log.append((data.time, data.qpos[:3].copy()))\n",
     HEAD + "    log.append(data.xpos[1].copy())\n",
+    CLASS + "        self.log.append(self.data.qpos.copy())\n",
 )
 EVIDENCE = Measured("first and last entry are the same", lambda s: float(abs(_ends(s)).max()), 0.1, "m")
 
