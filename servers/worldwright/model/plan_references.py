@@ -16,6 +16,10 @@ WORLD = "world"
 GROUND = "ground"
 """The ground plane's geom, and the material of the ground."""
 _RESERVED = (BASE, WORLD, GROUND)
+_ACTED_ON = "acted on"
+_WORDS = {"reference": "object", "parent": "object", "side": "object", "object or row": "object"} | {
+    _ACTED_ON: "object or joint"
+}
 _SAFE = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,62}")
 
 
@@ -105,6 +109,7 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
         "material": (materials, "simulation_parameters.materials"),
         "object or row": ([*objects, *rows], "scene_objects or assets"),
         "object or joint": ([*objects, *joints], "scene_objects, assets or topology.joints"),
+        _ACTED_ON: ([*objects, *joints], "scene_objects, assets or topology.joints"),
         "body or camera": ([*objects, *cameras], "scene_objects, assets or the cameras of implementation_steps"),
         "reference": ([*objects, BASE], "scene_objects or assets"),
         "parent": ([*objects, WORLD], "scene_objects or assets"),
@@ -114,10 +119,11 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
     for kind, name, path in _uses(data):
         known, owner = kinds[kind]
         if isinstance(name, str) and name not in sets[kind] and not any(section in owner for section in unread):
-            near = get_close_matches(name, known, n=1, cutoff=0.6)
-            word = {"reference": "object", "parent": "object", "side": "object", "object or row": "object"}.get(
-                kind, kind
-            )
+            # An actuator, a weld or a tendon is named by the program alone; what is all but a name of the plan is a slip.
+            near = get_close_matches(name, known, n=1, cutoff=0.88 if kind == _ACTED_ON else 0.6)
+            if kind == _ACTED_ON and not near:
+                continue
+            word = _WORDS.get(kind, kind)
             yield Problem(
                 "WP013",
                 "unknown_reference",
@@ -143,7 +149,7 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
     for key in _at(data, parameters, "initial_motion"):
         yield "object or joint", key, (parameters, "initial_motion", key)
     for row, path in _rows(data, parameters, "interventions"):
-        yield from _each("object or joint", row, path, "bodies")
+        yield from _each(_ACTED_ON, row, path, "bodies")
     for row, path in _rows(data, "implementation_steps"):
         yield from _each("asset", row, path, "assets")
         yield from _each("scene object", row, path, "scene_objects")

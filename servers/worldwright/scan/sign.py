@@ -56,7 +56,7 @@ class Context:
     interventions: tuple[Intervention, ...] = ()
     duration_s: float | None = None
     rests: tuple[str, ...] = ()
-    """Bodies that an objective claims to come to rest or to stay."""
+    """Bodies that an objective claims to come to rest or to stay, up to the end."""
     plan: Plan | None = None
     """The whole plan, for what is asked seldom."""
 
@@ -66,13 +66,13 @@ class Context:
         if plan is None:
             return cls()
         rests: list[str] = []
+        duration = plan.simulation_parameters.simulation_duration
         for objective in plan.objectives:
             for expectation in objective.expect:
                 for name in ("comes_to_rest", "stays"):
                     arguments = expectation.get(name)
-                    if isinstance(arguments, dict):
+                    if isinstance(arguments, dict) and not _ends_early(arguments.get("window_s"), duration):
                         rests += [arguments.get("body") or "", *_strings(arguments.get("bodies"))]
-        duration = plan.simulation_parameters.simulation_duration
         return cls(
             planned=True,
             movers=plan.movers(),
@@ -91,6 +91,12 @@ class Context:
     def acts_on(self, body: str, kinds: Iterable[str]) -> bool:
         """Whether the plan declares any of these kinds on the body."""
         return any(self.declares(kind, body) for kind in kinds)
+
+
+def _ends_early(window_s: object, duration: object) -> bool:
+    """Whether an expectation speaks of a stretch that is over before the simulation is: at the end all may move again."""
+    end = window_s[1] if isinstance(window_s, (list, tuple)) and len(window_s) == 2 else None
+    return isinstance(end, (int, float)) and isinstance(duration, (int, float)) and end < duration
 
 
 def _strings(value: object) -> list[str]:

@@ -97,3 +97,12 @@ def test_the_error_shows_the_first_problem_and_holds_all(tmp_path):
     assert len(refusal.value.findings) == 2
     assert "2 problems" in str(refusal.value)
     assert "somewhere/plan.md" in str(refusal.value)
+
+
+def test_an_intervention_may_name_what_only_the_program_has():
+    row = "interventions: [{kind: control, bodies: [NAME], law: 60 N, source: its data sheet}]"
+    text = GOOD.replace("time_step: 0.002", f"time_step: 0.002\n{row}")
+    for name in ("winch", "ball_motor", "ball"):  # an actuator of the program; the plan's own
+        assert parse_plan(text.replace("NAME", name)).plan.simulation_parameters.interventions[0].bodies == (name,)
+    with pytest.raises(PlanError, match="did you mean `ball`"):  # all but the plan's own name: a slip
+        parse_plan(text.replace("NAME", "balls"))
