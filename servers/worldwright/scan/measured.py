@@ -7,7 +7,7 @@ from pydantic import AfterValidator, ConfigDict, Field, model_validator
 
 from ..model.errors import WorldwrightError
 from ..model.frozen import Frozen
-from ..model.trajectory import Trajectory
+from ..model.trajectory import WORLD_NAMES, Trajectory
 from .sign import spans
 
 HOP_S = 0.02
@@ -157,12 +157,33 @@ def last_rows(trajectory: Trajectory, rows: slice, seconds: float) -> slice:
     return slice(max(rows.start, start), rows.stop)
 
 
+def contacts_of(trajectory: Trajectory, one: str, other: str) -> Any:
+    """(N,) bool: the contacts between two bodies; a geom's name means that geom alone, the world's own names all of it.
+
+    Raises:
+        UnknowableError: no contacts were recorded.
+    """
+    contacts = trajectory.contacts
+    if contacts is None:
+        raise UnknowableError("no contacts were recorded")
+
+    def mine(name: str, body: Any, geom: Any) -> Any:
+        found = body == trajectory.index(name)
+        geoms = trajectory.mechanics.geom_names
+        alone = name in geoms and name not in trajectory.names and name not in WORLD_NAMES
+        return found & (geom == geoms.index(name)) if alone and geom is not None else found
+
+    first, second = (contacts.body1, contacts.geom1), (contacts.body2, contacts.geom2)
+    return (mine(one, *first) & mine(other, *second)) | (mine(one, *second) & mine(other, *first))
+
+
 def pair_rows(trajectory: Trajectory, one: str, other: str) -> Any:
     """(T,) bool: the two touch; needs recorded contacts."""
-    touching = trajectory.touching_pair(trajectory.index(one), trajectory.index(other))
-    if touching is None:
-        raise UnknowableError("no contacts were recorded")
-    return touching
+    mask = contacts_of(trajectory, one, other)
+    assert trajectory.contacts is not None
+    found = np.zeros(len(trajectory.t), dtype=bool)
+    found[trajectory.contacts.row[mask & trajectory.contacts.live]] = True
+    return found
 
 
 def bridged(trajectory: Trajectory, touching: Any) -> Any:

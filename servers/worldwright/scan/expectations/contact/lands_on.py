@@ -4,13 +4,12 @@ Measures how much earlier its first touch with `support` comes than its first to
 (touching nothing else counts to the end of the window). Source: the engine's contacts.
 """
 
-import numpy as np
 from pydantic import Field
 
 from ....model.trajectory import Trajectory
 from ...analytic import bouncing, falling
 from ...known.contacts import caught
-from ...measured import Measured, Name, OfBody, UnknowableError, at_least, body_index, window
+from ...measured import Measured, Name, OfBody, UnknowableError, at_least, body_index, contacts_of, window
 
 CODE = "WE147"
 EVENT = True
@@ -24,7 +23,7 @@ class Given(OfBody):
 
 def measure(trajectory: Trajectory, given: Given) -> Measured:
     """How much earlier."""
-    body, support = body_index(trajectory, given.body), trajectory.index(given.support)
+    body = body_index(trajectory, given.body)
     contacts, touching = trajectory.contacts, trajectory.touching
     if contacts is None or touching is None:
         raise UnknowableError("no contacts were recorded")
@@ -36,7 +35,7 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     own = contacts.live & ((contacts.body1 == body) | (contacts.body2 == body))
     own &= (contacts.row >= aloft) & (contacts.row < rows.stop)
     row = contacts.row[own]
-    right = np.where(contacts.body1[own] == body, contacts.body2[own], contacts.body1[own]) == support
+    right = contacts_of(trajectory, given.body, given.support)[own]
     if not right.any():
         return at_least(float(t[aloft]) - end - 1e-9, 0.0, "s", f"{given.body} never touches {given.support}")
     landed = float(t[row[right].min()])

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 
 from ....model.trajectory import Trajectory
 from ...analytic import G, falling, resting
-from ...measured import Measured, OfPair, UnknowableError, between, bridged, window
+from ...measured import Measured, OfPair, UnknowableError, between, bridged, contacts_of, window
 
 CODE = "WE146"
 
@@ -37,7 +37,7 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
         raise UnknowableError("no contact forces were recorded")
     rows = window(trajectory, given.window_s)
     force = np.zeros(len(trajectory.t))
-    mine = contacts.of_pair(*(trajectory.index(name) for name in given.bodies))
+    mine = contacts_of(trajectory, *given.bodies)
     np.add.at(force, contacts.row[mine], contacts.normal_force[mine])
     force = force[rows]
     pushing = bridged(trajectory, force > 0)

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from ....model.trajectory import Trajectory
 from ...analytic import bouncing, collision, resting
-from ...measured import Measured, OfPair, Tolerance, pair_rows, window
+from ...measured import Measured, OfPair, Tolerance, contacts_of, pair_rows, window
 
 CODE = "WE140"
 EVENT = True
@@ -53,7 +53,7 @@ def _closing(trajectory: Trajectory, names: tuple[str, str], row: int, touch: in
     one, other = (trajectory.index(name) for name in names)
     normal, contacts = np.array([0.0, 0.0, 1.0]), trajectory.contacts
     if contacts is not None and contacts.normal is not None:
-        mine = np.flatnonzero((contacts.row == touch) & contacts.of_pair(one, other))
+        mine = np.flatnonzero((contacts.row == touch) & contacts_of(trajectory, *names))
         if len(mine):
             normal = contacts.normal[mine].mean(axis=0) * (1.0 if contacts.body1[mine[0]] == one else -1.0)
     velocity = [trajectory.com_velocity[row, b] if b >= 0 else np.zeros(3) for b in (one, other)]

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ....model.trajectory import Trajectory
 from ...analytic import falling, rolling, sliding
-from ...measured import Measured, OfPair, UnknowableError, at_least, bridged, window
+from ...measured import Measured, OfPair, UnknowableError, at_least, bridged, contacts_of, window
 
 CODE = "WE143"
 EVENT = True
@@ -27,7 +27,7 @@ def slip(trajectory: Trajectory, pair: tuple[str, str], rows: slice) -> np.ndarr
     if contacts is None or contacts.position is None or contacts.normal is None:
         raise UnknowableError("no contact points were recorded")
     one, other = (trajectory.index(name) for name in pair)
-    mine = contacts.live & contacts.of_pair(one, other) & (contacts.row >= rows.start) & (contacts.row < rows.stop)
+    mine = contacts.live & contacts_of(trajectory, *pair) & (contacts.row >= rows.start) & (contacts.row < rows.stop)
     row, point, normal = contacts.row[mine], contacts.position[mine], contacts.normal[mine]
 
     def surface(body: int) -> np.ndarray:

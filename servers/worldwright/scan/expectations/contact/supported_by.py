@@ -9,7 +9,7 @@ from pydantic import Field
 
 from ....model.trajectory import Trajectory
 from ...analytic import falling, resting
-from ...measured import Measured, Name, OfBody, UnknowableError, body_index, last_rows, window
+from ...measured import Measured, Name, OfBody, UnknowableError, body_index, contacts_of, last_rows, window
 
 CODE = "WE114"
 
@@ -23,12 +23,14 @@ class Given(OfBody):
 
 def measure(trajectory: Trajectory, given: Given) -> Measured:
     """The share of its weight that the support carries."""
-    body, support = body_index(trajectory, given.body), trajectory.index(given.support)
+    body = body_index(trajectory, given.body)
     contacts, mass = trajectory.contacts, trajectory.mechanics.mass
     if contacts is None or contacts.force is None or mass is None:
         raise UnknowableError("no contact forces or masses were recorded")
     rows = last_rows(trajectory, window(trajectory, given.window_s), 0.1)
-    chosen = contacts.of_pair(body, support) & (contacts.row >= rows.start) & (contacts.row < rows.stop)
+    chosen = (
+        contacts_of(trajectory, given.body, given.support) & (contacts.row >= rows.start) & (contacts.row < rows.stop)
+    )
     sign = np.where(contacts.body2[chosen] == body, 1.0, -1.0)
     lift = float((contacts.force[chosen, 2] * sign).sum()) / (rows.stop - rows.start)
     weight = float(mass[body] * np.linalg.norm(trajectory.gravity))

@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 
 from ....model.trajectory import Trajectory
 from ...analytic import G, falling, resting
-from ...measured import Measured, Name, OfBody, Point, UnknowableError, between, body_index, window
+from ...measured import Measured, Name, OfBody, Point, UnknowableError, between, body_index, contacts_of, window
 
 CODE = "WE204"
 EVENT = True
@@ -35,12 +35,12 @@ class Given(OfBody):
 
 def measure(trajectory: Trajectory, given: Given) -> Measured:
     """The impulse."""
-    body, other = body_index(trajectory, given.body), trajectory.index(given.other)
+    body = body_index(trajectory, given.body)
     contacts = trajectory.contacts
     if contacts is None or contacts.force is None:
         raise UnknowableError("no contact forces were recorded")
     rows = window(trajectory, given.window_s, 2)
-    mine = contacts.of_pair(body, other) & (contacts.row >= rows.start) & (contacts.row < rows.stop)
+    mine = contacts_of(trajectory, given.body, given.other) & (contacts.row >= rows.start) & (contacts.row < rows.stop)
     force = np.zeros((rows.stop - rows.start, 3))
     sign = np.where(contacts.body2[mine] == body, 1.0, -1.0)
     np.add.at(force, contacts.row[mine] - rows.start, contacts.force[mine] * sign[:, None])
