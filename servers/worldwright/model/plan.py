@@ -362,8 +362,9 @@ class Plan(Frozen):
             if position == TO_CLARIFY:
                 yield f"topology.body_positions.{body}"
         for row in self.topology.scene_predicates:
-            if TO_CLARIFY in (row.position, row.orientation):
+            if TO_CLARIFY in (row.position, row.orientation, *row.params.values()):
                 yield f"topology.scene_predicates: {row.subject} {row.predicate}"
         for relation in self.geometry_relations:
-            if relation.parameters == TO_CLARIFY:
+            given = relation.parameters
+            if given == TO_CLARIFY or (isinstance(given, dict) and TO_CLARIFY in given.values()):
                 yield f"geometry_relations: {relation.relation_name} {relation.body_a}"

@@ -22,12 +22,14 @@ from .vocabulary import BASE, CAMERA_FAMILY, base
 
 AGREE = 1e-6
 """Two rows may set the same coordinate if they differ by less: metres or degrees."""
+ALL_THREE = "PLACE-ANYWHERE, COPY-GROUP with `offset`, or a relation template (adjacent_*, centered_on_ref, base) sets all three"
 MISSING = {
-    "x": "FRONT-OF or BACK-OF with `gap`, ALIGN-FRONT, ALIGN-BACK or ALIGN-CENTER-FB, PLACE-ON with `offset`, or "
-    "PLACE-ON-BASE with `x`",
-    "y": "LEFT-OF or RIGHT-OF with `gap`, ALIGN-LEFT, ALIGN-RIGHT or ALIGN-CENTER-LR, PLACE-ON with `offset`, or "
-    "PLACE-ON-BASE with `y`",
-    "z": "PLACE-ON-BASE, PLACE-ON, or HEIGHT with `bottom`, `center` or `top`",
+    "x": "FRONT-OF or BACK-OF with `gap`, ALIGN-FRONT, ALIGN-BACK or ALIGN-CENTER-FB, PLACE-ON or PLACE-IN with `offset`, "
+    f"SYMMETRY-ALONG, or PLACE-ON-BASE with `x`; {ALL_THREE}",
+    "y": "LEFT-OF or RIGHT-OF with `gap`, ALIGN-LEFT, ALIGN-RIGHT or ALIGN-CENTER-LR, PLACE-ON or PLACE-IN with `offset`, "
+    f"SYMMETRY-ALONG, or PLACE-ON-BASE with `y`; {ALL_THREE}",
+    "z": "PLACE-ON-BASE, PLACE-ON, PLACE-IN, or HEIGHT with `bottom`, `center` or `top`; flush_with_platform_top and "
+    f"floating_box_at_surface set it too; {ALL_THREE}",
 }
 
 

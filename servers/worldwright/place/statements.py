@@ -139,7 +139,7 @@ class _Reader:
                     path,
                 )
                 continue
-            if relation.parameters == TO_CLARIFY:
+            if _unclear(relation.parameters):
                 self.unclear(relation.body_a, path)
             elif self.exists(relation.body_a, path):
                 given = relation.parameters if isinstance(relation.parameters, dict) else {}
@@ -263,7 +263,7 @@ class _Reader:
                 path,
             )
             return
-        if relation.parameters == TO_CLARIFY:
+        if _unclear(relation.parameters):
             self.unclear(name, path)
             self.spoiled.discard(name)
             return
@@ -297,6 +297,11 @@ class _Reader:
             f"there is no object `{reference}`",
             f"did you mean `{near[0]}`?" if near else f"known: {BASE}, {', '.join(sorted(self.known))}",
         )
+
+
+def _unclear(parameters: Any) -> bool:
+    """Whether a relation, or one of its parameters, is still open."""
+    return bool(parameters == TO_CLARIFY or (isinstance(parameters, dict) and TO_CLARIFY in parameters.values()))
 
 
 def _names(value: Any) -> tuple[str, ...]:

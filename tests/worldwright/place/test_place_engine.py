@@ -330,3 +330,22 @@ def test_any_rows_give_poses_or_findings(rows):
     placed = {o.name for o in scene.objects}
     assert placed == set(BOXES) or not scene.ok
     assert all(f.message and f.fix for f in scene.findings)
+
+
+def test_an_open_parameter_blocks_and_is_listed():
+    open_rows = plan(
+        {"a": (1, 1, 1), "b": (1, 1, 1)},
+        [ROOT, ("b", "PLACE-ON", "a", {"offset": TO_CLARIFY})],
+        geometry_relations=[
+            {
+                "relation_name": "adjacent_plus_x_centers",
+                "body_a": "b",
+                "body_b": "a",
+                "parameters": {"gap": TO_CLARIFY},
+            }
+        ],
+    )
+    assert len(list(open_rows.unresolved())) == 2
+    scene = resolve(open_rows).scene
+    assert [f.code for f in scene.findings] == ["WP210", "WP210"]
+    assert [o.name for o in scene.objects] == ["a"]
