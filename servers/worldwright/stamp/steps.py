@@ -155,7 +155,9 @@ def _pass(state: State, stage: Literal["physics", "stills", "video"], command: s
     if not kept.value.ok:
         where = f" at {kept.value.place}" if kept.value.place else ""
         return "fails", f"{kept.value.code}{where}: {kept.value.message}", kept.value.next_move or command
-    return "holds", f"{kept.value.wall_s:.1f} s in the {kept.value.sandbox or 'unknown'} sandbox", ""
+    told = f"{kept.value.wall_s:.1f} s in the {kept.value.sandbox or 'unknown'} sandbox"
+    source = kept.value.summary.get("reused_from")
+    return "holds", f"recording of {source} taken over: only what is seen differs" if source else told, ""
 
 
 def _scan(state: State) -> Answer:

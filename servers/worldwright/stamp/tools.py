@@ -115,7 +115,7 @@ def review(run: RunName, verdict: Annotated[Verdict, Field(description="Three ch
 def accept(
     run: RunName,
     timeout_s: Timeout = 40.0,
-    key: Annotated[
+    signing_key: Annotated[
         Path | None, Field(description="Ed25519 private key (PEM or OpenSSH) to sign the stamp with")
     ] = None,
     progress: Progress = silent,
@@ -128,7 +128,7 @@ def accept(
     """
     from .acceptance import accept as take
 
-    return take(State.find(run), timeout_s, progress, key)
+    return take(State.find(run), timeout_s, progress, signing_key)
 
 
 def block(

@@ -63,6 +63,8 @@ def test_a_camera_repair_takes_the_recording_over_to_acceptance(planned: Path, c
     meta = json.loads((here / "trajectory" / "meta.json").read_text())
     assert "close" in meta["cameras"]
 
+    step = next(s for s in stamp.status(str(folder)).steps if s.name == "physics")
+    assert step.detail == f"recording of {first_key} taken over: only what is seen differs"
     for name in ("stills", "video"):
         physics(folder, stage=name)
     assert (here.parent / "stills" / "close.png").is_file()

@@ -94,7 +94,7 @@ def keys(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Path]:
 def test_a_signed_stamp_says_by_whom(accepted: Path, copy: Copy, keys: dict[str, Path], kind: str) -> None:
     folder = copy(accepted)
     before = sha256_file(folder / "accepted" / "stamp.json")
-    assert stamp.accept(str(folder), key=keys[kind]).ok
+    assert stamp.accept(str(folder), signing_key=keys[kind]).ok
     assert sha256_file(folder / "accepted" / "stamp.json") == before
     assert stamp.status(str(folder)).state == "accepted"
     inner, run = folder / "accepted", Run(folder)
@@ -117,7 +117,7 @@ def test_an_edited_byte_of_the_signature_or_the_stamp_is_noticed(
     accepted: Path, copy: Copy, keys: dict[str, Path]
 ) -> None:
     folder = copy(accepted)
-    stamp.accept(str(folder), key=keys["pem"])
+    stamp.accept(str(folder), signing_key=keys["pem"])
     inner = folder / "accepted"
     for name in (signing.ENVELOPE, signing.PUBLIC, "stamp.json"):
         path = inner / name
@@ -141,11 +141,11 @@ def test_a_locked_key_needs_its_password(
 ) -> None:
     folder = copy(accepted)
     with pytest.raises(signing.SigningError, match="password") as caught:
-        stamp.accept(str(folder), key=keys["locked"])
+        stamp.accept(str(folder), signing_key=keys["locked"])
     assert signing.PASSWORD in caught.value.next_move
     monkeypatch.setenv(signing.PASSWORD, "open sesame")
-    assert stamp.accept(str(folder), key=keys["locked"]).ok
+    assert stamp.accept(str(folder), signing_key=keys["locked"]).ok
     with pytest.raises(signing.SigningError, match="cannot be read"):
-        stamp.accept(str(folder), key=folder / "nothing")
+        stamp.accept(str(folder), signing_key=folder / "nothing")
     with pytest.raises(signing.SigningError):
-        stamp.accept(str(folder), key=folder / "plan.md")
+        stamp.accept(str(folder), signing_key=folder / "plan.md")
