@@ -75,6 +75,12 @@ def clean(tmp_path: Path) -> dict[str, str]:
         "ANTHROPIC_API_KEY": "dummy",
         "OPENAI_API_KEY": "dummy",
         "IS_SANDBOX": "1",
+        # Offline: whatever looks beyond loopback finds a closed door.
+        "HTTP_PROXY": "http://127.0.0.1:9",
+        "HTTPS_PROXY": "http://127.0.0.1:9",
+        "NO_PROXY": "127.0.0.1,localhost",
+        "npm_config_registry": "http://127.0.0.1:9",
+        "npm_config_fetch_retries": "0",  # OpenCode waits for an npm package of its own before it loads plugins
     }
 
 

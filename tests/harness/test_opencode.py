@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 from model_server import Model
-from script import Call, Say, Script
+from script import ROLES, Call, Say, Script
 from story import story
 
 
@@ -43,27 +43,59 @@ def spawn(role):
     return [[Call("task", given)]]
 
 
-def test_the_permissions_hold_for_every_role(harnesses, project, clean):
-    forbidden = ["README.md", "runs/ball/journal.jsonl", "runs/ball/../../x.md"]
+FORBIDDEN = [
+    "README.md",
+    "runs/ball/journal.jsonl",
+    "runs/ball/../../x.md",
+    "runs/link/simulation.py",
+    "runs/link/plan.md",
+]
+
+
+def test_the_scopes_hold_for_every_role(harnesses, project, clean):
+    (project / "runs").mkdir()
+    (project / "outside").mkdir()
+    (project / "runs/link").symlink_to(project / "outside")
+    shell = [
+        Call("bash", {"command": "mkdir -p runs/ball && echo x > runs/ball/plan.md", "description": "write"}),
+        Call("bash", {"command": "echo x > notes.md", "workdir": str(project / "runs"), "description": "write"}),
+    ]
     turns = {
-        "main": [[write(project, "runs/ball/plan.md")], *spawn("plan"), *spawn("code")],
+        "main": [
+            [write(project, "runs/ball/plan.md")],
+            *([call] for call in shell),
+            *(turn for role in ROLES for turn in spawn(role)),
+        ],
         "plan": [
             [write(project, "runs/ball/plan.md")],
-            *([write(project, p)] for p in [*forbidden, "runs/ball/simulation.py"]),
+            *([write(project, p)] for p in [*FORBIDDEN, "runs/ball/simulation.py"]),
         ],
         "code": [
             [write(project, "runs/ball/simulation.py")],
-            *([write(project, p)] for p in [*forbidden, "runs/ball/plan.md"]),
+            *([write(project, p)] for p in [*FORBIDDEN, "runs/ball/plan.md"]),
         ],
+        "visual": [[Call("stamp_accept", {"run": "runs/ball"})], [write(project, "runs/ball/plan.md")]],
+        "review": [[Call("stage_start", {"run": "runs/ball"})], [write(project, "runs/ball/plan.md")]],
     }
     script = Script(turns)
     before = (project / "README.md").read_text()
     opencode(harnesses, project, clean, script, "do what the script says")
+    assert sorted(p.name for p in (project / "runs").iterdir()) == ["ball", "link"]
     assert sorted(p.name for p in (project / "runs/ball").iterdir()) == ["plan.md", "simulation.py"], dict(
         script.results
     )
+    assert not list((project / "outside").iterdir())
     assert (project / "README.md").read_text() == before and not (project / "x.md").exists()
-    assert not any(tool in script.tools["plan"] for tool in ("bash", "task"))
+    for role in ROLES:
+        assert not any(tool in script.tools[role] for tool in ("bash", "task"))
+    assert all("scope guard" in text or "permission" in text.lower() for text in script.results["main"][:3])
+
+
+def test_a_broken_guard_denies(harnesses, project, clean):
+    (project / "servers/worldwright/contract/roles.py").write_text("raise RuntimeError('broken')\n")
+    script = Script({"main": [[Call("bash", {"command": "touch notes.md", "description": "touch"})]]})
+    opencode(harnesses, project, clean, script, "write a note")
+    assert not (project / "notes.md").exists() and "scope guard failed or denied" in script.results["main"][0]
 
 
 @pytest.mark.slow

@@ -101,7 +101,8 @@ def judge(event: dict, project: Path) -> bool:
             _judge_write(path, base, project, role)
         return role is not None
     if kind in SHELLS:
-        _judge_shell(_command(given), base, project, role)
+        folder = given.get("workdir") or given.get("cwd") or "." if isinstance(given, dict) else "."
+        _judge_shell(_command(given), base / str(folder), project, role)
     elif role is not None and kind in READERS and not role.reads_files:
         raise DeniedError(f"the {role.name} role sees only what its tools show it: {', '.join(role.tools)}")
     elif role is not None and (kind in ("agent", "task", "spawn_agent") or kind.startswith(COLLABORATION)):

@@ -31,6 +31,7 @@ def files() -> dict[str, str]:
         ".codex/config.toml": _codex_config(),
         ".codex/hooks.json": _json(_codex_hooks()),
         ".opencode/opencode.json": _json(_opencode_config()),
+        ".opencode/plugins/guard.js": _opencode_plugin(),
     }
     for role in ROLES:
         found[f".claude/agents/{role.agent}.md"] = _claude_agent(role)
@@ -170,6 +171,35 @@ def _opencode_agent(role: Role) -> str:
         else:
             lines.append(f'  "{key}": {value}')
     return "\n".join([*lines, "---"]) + "\n" + instructions(role)
+
+
+def _opencode_plugin() -> str:
+    """OpenCode's permissions know patterns only; its plugin asks the guard too, which resolves links and reads shells."""
+    return f"""// {GENERATED}
+import {{ spawnSync }} from "node:child_process";
+import {{ join }} from "node:path";
+
+const agents = new Map();
+const ours = /^({"|".join(SERVERS)})_(.+)$/;
+
+export const WriteScope = async ({{ directory, worktree }}) => ({{
+  "chat.params": async (input) => {{
+    agents.set(input.sessionID, input.agent?.name ?? input.agent);
+  }},
+  "tool.execute.before": async (input, output) => {{
+    const event = {{
+      tool_name: input.tool.replace(ours, "mcp__$1__$2"),
+      tool_input: output.args,
+      cwd: directory,
+      agent_type: agents.get(input.sessionID) ?? "",
+    }};
+    const root = worktree && worktree !== "/" ? worktree : directory;
+    const told = {{ input: JSON.stringify(event), encoding: "utf8", timeout: 20000 }};
+    const done = spawnSync("python3", [join(root, "{GUARD}")], told);
+    if (done.status !== 0) throw new Error(`scope guard failed or denied: ${{done.stderr}}`);
+  }},
+}});
+"""
 
 
 def _opencode_config() -> dict[str, object]:

@@ -172,6 +172,14 @@ def test_the_main_thread_changes_nothing_under_runs_by_the_shell(project, comman
     assert verdict(project, "shell", {"command": ["bash", "-lc", command]})
 
 
+def test_a_shell_is_judged_where_it_runs(project):
+    for key in ("workdir", "cwd"):
+        assert verdict(project, "bash", {"command": "rm plan.md", key: "runs/ball"})
+        assert verdict(project, "bash", {"command": "rm plan.md", key: str(project / "runs")})
+        assert verdict(project, "bash", {"command": "rm plan.md", key: "src"}) is None
+    assert verdict(project, "Bash", {"command": "rm plan.md"}, cwd=project / "runs/ball")
+
+
 @pytest.mark.parametrize(
     "command",
     [

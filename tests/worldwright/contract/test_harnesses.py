@@ -62,10 +62,12 @@ def test_every_file_is_well_formed():
             json.loads(text)
         elif name.endswith(".toml"):
             tomllib.loads(text)
+        elif name.endswith(".js"):
+            assert "tool.execute.before" in text and harnesses.GUARD in text
         else:
             header = yaml.safe_load(text.split("---\n")[1])
             assert header["description"]
-    assert len(files) == 5 + 3 * len(ROLES)
+    assert len(files) == 6 + 3 * len(ROLES)
 
 
 def test_a_claude_agent_lists_its_tools_only():
