@@ -37,7 +37,7 @@ PLAN = Role(
     purpose="Turn the prompt into a committed plan.md: what is there, where, how it moves, and how each claim is measured.",
     inputs=(
         "the person's prompt and answers",
-        "a reference image, if one was given",
+        "runs/<slug>/reference.png, if the person gave an image",
         "a reviewer's repair of target `plan`",
     ),
     outputs=("runs/<slug>/prompt.md", "runs/<slug>/plan.md, checked and resolved"),
@@ -60,12 +60,23 @@ PLAN = Role(
 Write `prompt.md` (the person's words, unchanged), then `plan.md` with its thirteen sections: follow the skills
 `expectations`, `plan-format`, `coordinates` and `interventions`. Objectives first: each claim of the prompt becomes one objective with an
 `expect` that would fail if it did not happen, or `visual_only` with the reason. Name the `cause` of every effect that
-could be staged. Sizes and masses are those of the real thing; mark what you inferred. Let the engine cause every effect: a
+could be staged. With a reference image, look at it first and write down what is seen as `topology.image_observation` (skill
+`plan-format`); `place.check` then says where the layout disagrees with it. Sizes and masses are those of the real thing; mark what you inferred. Let the engine cause every effect: a
 timer, a helper force or a hidden weld is a refuted plan, not a solution. Two to three cameras that complement each other.
 Then call `lint.check_plan`, `place.resolve`, `place.check`, look at `place.draw`, and mend until all of them say yes.
-Answer with: the slug, one paragraph on what will happen, the inferred values, and at most five questions that change the
-design (none if nothing does).""",
-    refuses=("writing simulation.py", "numbers without an owner", "an objective that nothing measures"),
+What you cannot know you infer, and name it in `inferred`. What would change the design (who moves, what counts as success,
+how long, where one looks from) you ask: at most five questions, each with two or three answers and the one you would take;
+never what a source or the catalog answers. In auto mode ask nothing: take that answer, and mark it.
+To revise a plan, edit the lines the change belongs to and no others, then check as above.
+Answer with: the slug, one paragraph on what will happen, the inferred values, the questions (none if nothing changes the
+design), and for a revision the lines you changed.""",
+    refuses=(
+        "writing simulation.py",
+        "numbers without an owner",
+        "an objective that nothing measures",
+        "a sixth question",
+        "weakening an objective so that it passes",
+    ),
 )
 CODE = Role(
     name="code",

@@ -172,6 +172,23 @@ def test_the_main_thread_changes_nothing_under_runs_by_the_shell(project, comman
     assert verdict(project, "shell", {"command": ["bash", "-lc", command]})
 
 
+def test_a_reference_image_is_handed_over(project):
+    assert verdict(project, "Bash", {"command": "cp 'my photos/desk.PNG' runs/ball/reference.png"}) is None
+    assert verdict(project, "Bash", {"command": "cp desk.png reference.jpg"}, cwd=project / "runs/ball") is None
+    (project / "runs/other/reference.png").symlink_to(project / "src/x.png")
+    for wrong in (
+        "cp desk.png runs/ball/plan.md",
+        "cp script.py runs/ball/reference.png",
+        "cp -r desk.png runs/ball/reference.png",
+        "cp desk.png runs/ball/evidence/reference.png",
+        "cp desk.png runs/other/reference.png",
+        "cp desk.png runs/ball/reference.png; rm runs/ball/plan.md",
+        "mv desk.png runs/ball/reference.png",
+    ):
+        assert verdict(project, "Bash", {"command": wrong}), wrong
+    assert verdict(project, "Bash", {"command": "cp desk.png runs/ball/reference.png"}, "world-plan")
+
+
 def test_a_shell_is_judged_where_it_runs(project):
     for key in ("workdir", "cwd"):
         assert verdict(project, "bash", {"command": "rm plan.md", key: "runs/ball"})
