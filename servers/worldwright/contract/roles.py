@@ -58,12 +58,13 @@ PLAN = Role(
     reads_files=True,
     instructions="""
 Write `prompt.md` (the person's words, unchanged), then `plan.md` with its thirteen sections: follow the skills
-`expectations`, `plan-format`, `coordinates` and `interventions`. Objectives first: each claim of the prompt becomes one objective with an
-`expect` that would fail if it did not happen, or `visual_only` with the reason. Name the `cause` of every effect that
-could be staged. With a reference image, look at it first and write down what is seen as `topology.image_observation` (skill
-`plan-format`); `place.check` then says where the layout disagrees with it. Sizes and masses are those of the real thing; mark what you inferred. Let the engine cause every effect: a
-timer, a helper force or a hidden weld is a refuted plan, not a solution. Two to three cameras that complement each other.
-Then call `lint.check_plan`, `place.resolve`, `place.check`, look at `place.draw`, and mend until all of them say yes.
+`plan-format`, `coordinates` and `interventions`. With a reference image, look at it first and write down what is seen as
+`topology.image_observation` (skill `layouts`); `place.check` then says where the layout disagrees with it. Objectives
+first: each claim of the prompt becomes one objective with an `expect` that would fail if it did not happen, or
+`visual_only` with the reason. Name the `cause` of every effect that could be staged. Sizes and masses are those of the real
+thing; mark what you inferred. Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan,
+not a solution. Two to three cameras that complement each other. Then call `lint.check_plan`, `place.resolve`,
+`place.check`, look at `place.draw`, and mend until all of them say yes.
 What you cannot know you infer, and name it in `inferred`. What would change the design (who moves, what counts as success,
 how long, where one looks from) you ask: at most five questions, each with two or three answers and the one you would take;
 never what a source or the catalog answers. In auto mode ask nothing: take that answer, and mark it.

@@ -58,6 +58,35 @@ def verdict(outcome, objectives, **more):
     )
 
 
+def revise(harness, run, plan, seen):
+    """The accepted world is changed by its plan: a higher drop; the old bundle stays until the new one replaces it."""
+    stamp = harness.project / run / "accepted/stamp.json"
+    before, program = stamp.read_bytes(), (harness.project / run / "simulation.py").read_text()
+    text = (harness.project / plan).read_text()
+    harness.write("world-plan", str(plan), text.replace("bottom: 0.45", "bottom: 0.6"))
+    assert harness.call("world-plan", "place.resolve", plan=plan).ok
+    assert harness.call("world-plan", "lint.check_plan", plan=plan).ok
+    assert harness.call("", "stamp.status", run=run).state != "accepted" and stamp.read_bytes() == before
+    harness.call("", "stamp.approve", run=run, by="user")
+    drafted = harness.call("world-code", "stage.draft", run=run)
+    assert drafted.outcome != "written"  # its author's patch is not thrown away
+    patched = program.replace("0.5]", "0.65]") if "0.5]" in program else program.replace("0.5)", "0.65)")
+    assert patched != program
+    harness.write("world-code", f"{run}/simulation.py", patched)
+    assert harness.call("world-code", "lint.check_program", files=[Path(run) / "simulation.py"], plan=plan).ok
+    harness.run_pass("world-code", run, "physics")
+    for stage in ("stills", "video"):
+        harness.run_pass("", run, stage)
+    harness.call("world-visual", "stamp.describe", run=run, description=seen)
+    harness.call("world-review", "scan.scan", run=run)
+    harness.call("world-review", "scan.expect", run=run)
+    objectives = [(True, ("expect:falls",)), (True, ("visual:overview",))]
+    harness.call("world-review", "stamp.review", run=run, verdict=verdict("pass", objectives))
+    while not getattr(harness.call("", "stamp.accept", run=run), "ok", True):
+        pass
+    assert stamp.read_bytes() != before and harness.call("", "stamp.status", run=run).state == "accepted"
+
+
 def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_plan):
     from worldwright.model.evidence import VisualDescription
 
@@ -132,10 +161,12 @@ def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_pla
     assert harness.call("", "stamp.status", run=run).state == "accepted"
     assert harness.call("", "stamp.verify", run=run).ok
 
+    revise(harness, run, plan, seen)
+
     # every role did its part, and the journal says which
     assert {agent for agent, _ in harness.used} == {"main", *BY_AGENT}
     actions = [json.loads(line)["action"] for line in (tmp_path / run / "journal.jsonl").read_text().splitlines()]
-    assert actions.count("review") == 2 and "cite" in actions and actions.count("draft") == 1
+    assert actions.count("review") == 3 and "cite" in actions and actions.count("accept") == 2
 
     from worldwright.contract.lessons import collect
     from worldwright.model.run import Run
