@@ -7,7 +7,7 @@ from typing import Any
 import anyio
 import mcp
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from worldwright import expose
@@ -23,9 +23,11 @@ ANSWERS = st.fixed_dictionaries(
         "note": WORDS,
     }
 )
+CALM = settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
 FIELDS = ("findings", "margins")
 
 
+@CALM
 @given(ANSWERS)
 def test_all_pages_together_are_the_answer(answer):
     found: dict[str, list[Any]] = {field: [] for field in FIELDS}
@@ -45,6 +47,7 @@ def test_all_pages_together_are_the_answer(answer):
         assert "shortened" not in part
 
 
+@CALM
 @given(st.recursive(st.text(max_size=3000), lambda inner: st.lists(inner, max_size=20) | st.dictionaries(WORDS, inner)))
 def test_whatever_is_too_long_is_shortened_and_says_so(value):
     answer = {"deep": {"value": value}}
