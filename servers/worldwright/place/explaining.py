@@ -11,7 +11,8 @@ def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
     waiting = [name]
     references: dict[str, set[str]] = {}
     for row in resolution.statements:
-        references.setdefault(row.subject, set()).update(row.needs())
+        if row.pins:  # what a row only demands gives no number
+            references.setdefault(row.subject, set()).update(row.needs())
     while waiting:
         current = waiting.pop()
         if current not in needed:

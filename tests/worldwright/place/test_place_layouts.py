@@ -59,6 +59,19 @@ def test_every_number_traces_to_a_row(plan):
     assert rebuilt.chain[-1].formulas == scene.objects[-1].provenance
 
 
+@pytest.mark.parametrize("name", ["stacks-and-bridges", "workshop-bench"])
+def test_it_becomes_a_whole_program(name):
+    from worldwright.draft.program import draft
+
+    plan = read_plan(LAYOUTS / name / "plan.md").plan
+    drafted = draft(plan, resolve(plan).scene)
+    assert drafted.complete
+    names: dict = {"__name__": "drafted"}
+    exec(compile(drafted.source, "simulation.py", "exec"), names)
+    model = names["build"]().compile()
+    assert model.nbody == len(plan.object_names()) + 1
+
+
 def counted(name: str) -> tuple[int, int]:
     plan = read_plan(LAYOUTS / name / "plan.md").plan
     layout = Layout(plan, resolve(plan), Problems("plan.md", lambda *path: None), exact=False)

@@ -12,7 +12,7 @@ relative to the old one; without `offset` the leader has rows of its own (a plat
 Source: paper, predicate algebra, grouping (the excerpt is silent on parameters; these are ours).
 """
 
-from ..anchors import TOLERANCE_DEG, TOLERANCE_M, Box, CannotResolveError, Derivation, cos_sin, shown, wrap
+from ..anchors import TOLERANCE_DEG, TOLERANCE_M, Box, CannotResolveError, Derivation, cos_sin, shown, total, wrap
 from ..parameters import Parameter
 from ..vocabulary import Case, Expansion
 
@@ -121,13 +121,36 @@ def _pose(dof: str, subject: Box, reference: Box, params: dict) -> float:
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
     """The copied coordinate."""
     value = _pose(dof, subject, reference, params)
-    name = "deg_z" if dof == "yaw" else dof
     if "offset" in params:
-        return Derivation(value, f"{name} = {reference.name}.{name} moved by the copy = {shown(value)}")
-    turn = wrap(params["leader"].get("yaw") - reference.get("yaw"))
-    how = f"{params['leader'].name} + ({params['original'].name} - {reference.name})"
-    turned = f", turned by {shown(turn)} deg" if turn else ""
-    return Derivation(value, f"{name} = {how}{turned} = {shown(value)}")
+        if dof == "yaw":
+            turn_deg = ("turn_deg", params.get("turn_deg", 0.0))
+            return _angle(value, (f"{reference.name}.deg_z", reference.get(dof)), turn_deg)
+        if dof == "z":
+            return total(
+                "z", (f"{reference.name}.min_z", reference.low("z")), (f"{subject.name}.half_z", subject.half("z"))
+            )
+        return total(
+            dof, (f"{reference.name}.center_{dof}", reference.get(dof)), ("offset", params["offset"]["xy".index(dof)])
+        )
+    original, leader = params["original"], params["leader"]
+    between = f"({original.name} - {reference.name})"
+    if dof == "yaw":
+        gained = original.get("yaw") - reference.get("yaw")
+        return _angle(value, (f"{leader.name}.deg_z", leader.get("yaw")), (between, gained))
+    if dof == "z":
+        rise = original.low("z") - reference.low("z")
+        half = (f"{subject.name}.half_z", subject.half("z"))
+        return total("z", (f"{leader.name}.min_z", leader.low("z")), (f"{between}.min_z", rise), half)
+    turn = wrap(leader.get("yaw") - reference.get("yaw"))
+    turned = f" turned by {shown(turn)} deg" if turn else ""
+    return total(dof, (f"{leader.name}.center_{dof}", leader.get(dof)), (f"{between}{turned}", value - leader.get(dof)))
+
+
+def _angle(value: float, first: tuple[str, float], second: tuple[str, float]) -> Derivation:
+    """A sum of two angles, told within (-180, 180]."""
+    formula = total("deg_z", first, second).formula
+    again = "" if formula.endswith(f" = {shown(value)}") else f" = {shown(value)}"
+    return Derivation(value, formula + again)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
