@@ -199,7 +199,11 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         if data.efc_type[row] == mujoco.mjtConstraint.mjCNSTR_EQUALITY:
             residual[data.efc_id[row]] += data.efc_pos[row] ** 2
     low, high = _extents(model, data)
+    home = mujoco.MjData(model)  # where it was built, before a joint's initial position moves it
+    mujoco.mj_kinematics(model, home)
     return {
+        "home_xpos": home.xpos.copy(),
+        "home_xmat": home.xmat.reshape(-1, 3, 3).copy(),
         "qpos": data.qpos.copy(),
         "qvel": data.qvel.copy(),
         "xpos": data.xpos.copy(),

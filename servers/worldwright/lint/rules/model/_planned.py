@@ -25,6 +25,25 @@ def centre(view: ModelView, body: int) -> np.ndarray:
     return view.xpos[body] + view.xmat[body] @ ((view.body_high[body] + view.body_low[body]) / 2)
 
 
+def home(view: ModelView, body: int) -> tuple[np.ndarray, np.ndarray]:
+    """Origin and centre of a body, (3,) each, world frame, m, where it was built: the pose that the plan resolves.
+
+    A joint of the plan with an initial position starts away from it, and takes along what hangs on it.
+    """
+    place, turn = view.home_xpos[body], view.home_xmat[body]
+    return place, place + turn @ ((view.body_high[body] + view.body_low[body]) / 2)
+
+
+def starts_away(view: ModelView, plan: Plan, body: int) -> bool:
+    """Whether the plan lets a joint of the body, or of what carries it, start elsewhere than where it was built."""
+    motions = plan.simulation_parameters.initial_motion
+    moved = {j.child for j in plan.topology.joints if j.name in motions and motions[j.name].joint_position}
+    names = view.texts["names"]["body"]
+    while body > 0 and names[body] not in moved:
+        body = int(view.body_parentid[body])
+    return body > 0
+
+
 def places(plan: Plan) -> dict[str, tuple[float, float, float]]:
     """The resolved centre of every placed object, world frame, m."""
     found = {
