@@ -287,3 +287,31 @@ def test_a_settled_pose_written_by_hand_is_found(plan):
     found = [f for f in tools.check(plan).findings if f.code == "WP305" and f.severity == "error"]
     assert len(found) == 1
     assert "0.2 m" in found[0].message
+
+
+OBSERVED = """gravity_axis: -z
+image_observation:
+  image: reference.png
+  viewpoint: side_minus_y
+  visible: [table, chair, {name: laptop, described: open}]
+  relations:
+    - {subject: toast, relation: on, object: plate}
+    - {subject: apple, relation: inside, object: bowl}
+    - {subject: bowl, relation: behind, object: plate}
+    - {subject: lamp, relation: right_of, object: laptop}
+  facing:
+    - {subject: chair, direction: away}
+    - {subject: laptop, toward: chair}
+"""
+
+
+def test_a_plan_with_an_image_is_compared_with_it(breakfast):
+    text = breakfast.read_text(encoding="utf-8").replace("gravity_axis: -z\n", OBSERVED, 1)
+    breakfast.write_text(text, encoding="utf-8")
+    report = tools.check(breakfast)
+    (finding,) = report.findings
+    assert finding.code == "WP321"
+    assert "`lamp` right_of `laptop`" in finding.message
+    assert "1.1 m" in finding.message
+    assert "relation: right_of" in text.splitlines()[finding.line - 1]
+    assert report.views[0].camera == "reference_view"
