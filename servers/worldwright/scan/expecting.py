@@ -22,13 +22,17 @@ TIMES = ("window_s", "before_s", "after_s", "at_s")
 
 def expect(trajectory: Trajectory, plan: Plan) -> ExpectReport:
     """Every objective with its measurements."""
-    results = tuple(_objective(trajectory, number, objective) for number, objective in enumerate(plan.objectives))
+    duration = plan.simulation_parameters.simulation_duration
+    end = None if isinstance(duration, str) else duration
+    results = tuple(_objective(trajectory, number, objective, end) for number, objective in enumerate(plan.objectives))
     return ExpectReport(trajectory_sha256=trajectory.sha256, objectives=results)
 
 
-def _objective(trajectory: Trajectory, index: int, objective: Objective) -> ObjectiveResult:
+def _objective(
+    trajectory: Trajectory, index: int, objective: Objective, duration_s: float | None = None
+) -> ObjectiveResult:
     measured = tuple(
-        _unless_cut(trajectory, measure(trajectory, name, named(arguments)))
+        _unless_cut(trajectory, measure(trajectory, name, named(arguments)), duration_s)
         for row in objective.expect
         for name, arguments in row.items()
     )
@@ -51,13 +55,19 @@ def _objective(trajectory: Trajectory, index: int, objective: Objective) -> Obje
     )
 
 
-def _unless_cut(trajectory: Trajectory, result: ExpectationResult) -> ExpectationResult:
-    """What holds so far is not proved while the recording ends before the time that the claim speaks of."""
+def _unless_cut(trajectory: Trajectory, result: ExpectationResult, duration_s: float | None) -> ExpectationResult:
+    """What holds so far is not proved while the recording ends before the time that the claim speaks of.
+
+    A claim about a state that lasts (no event, no window) speaks of the whole simulation.
+    """
     if result.status != "holds":
         return result
     late = max((float(np.max(v)) for key in TIMES if (v := result.arguments.get(key)) is not None), default=0.0)
+    lasting = not getattr(EXPECTATIONS[result.name].module, "EVENT", False) and "window_s" not in result.arguments
+    if lasting and duration_s is not None:
+        late = max(late, duration_s)
     end = float(trajectory.t[-1])
-    if late <= end + max(2 * trajectory.interval_s, 1e-9):
+    if late <= end + max(2 * trajectory.interval_s, 1e-3 * late):
         return result
     message = f"the recording ends at {end:.3f} s, the claim speaks of {late:g} s; so far: {result.message}"
     return result.model_copy(update={"status": "unknown", "message": message})

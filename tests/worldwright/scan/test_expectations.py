@@ -321,3 +321,19 @@ def test_events_of_events_are_refused():
     inner = {"happens_at": {"event": {"falls": {"body": "b", "min_m": 1}}, "at_s": 1, "tolerance_s": 1}}
     problem = argument_problem("happens_at", {"event": inner, "at_s": 1, "tolerance_s": 1})
     assert problem and "made of events itself" in problem[0]
+
+
+@pytest.mark.parametrize(
+    ("row", "duration", "status"),
+    [
+        ({"stays": {"body": "body", "max_m": 0.1}}, 2.0, "proved"),
+        ({"stays": {"body": "body", "max_m": 0.1}}, 5.0, "unproved"),
+        ({"stays": {"body": "body", "max_m": 0.1, "window_s": [0, 1]}}, 5.0, "proved"),
+        ({"touches": {"bodies": ["body", "ground"]}}, 5.0, "proved"),
+    ],
+)
+def test_a_state_that_lasts_is_not_proved_by_a_recording_that_was_cut_off(row, duration, status):
+    objective = Objective(claim="c", expect=(row,))
+    result = _objective(resting(), 0, objective, duration)
+    assert result.status == status
+    assert status == "proved" or "the recording ends at 2.000 s, the claim speaks of 5 s" in result.reason
