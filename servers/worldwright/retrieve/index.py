@@ -9,7 +9,7 @@ import sqlite3
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -132,6 +132,8 @@ def open_index(progress: Progress = silent) -> Index:
         _build(path, found, progress)
         _tidy(path)
         _usable.cache_clear()
+    with suppress(OSError):
+        path.touch()  # another installation may be tidying: this one is in use
     return Index(path)
 
 
@@ -191,8 +193,9 @@ def _tidy(current: Path) -> None:
     """Remove indexes of older contents, keeping the newest few (others may still have them open)."""
     try:
         old = sorted(current.parent.glob("retrieve-*.sqlite"), key=lambda p: p.stat().st_mtime, reverse=True)
+        unused = [p for p in old if p != current and p.stat().st_mtime < time.time() - 3600]
         abandoned = [p for p in current.parent.glob(".retrieve-*") if p.stat().st_mtime < time.time() - 3600]
     except OSError:
         return
-    for path in [p for p in old if p != current][KEPT - 1 :] + abandoned:
+    for path in unused[KEPT - 1 :] + abandoned:
         path.unlink(missing_ok=True)
