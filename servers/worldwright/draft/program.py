@@ -4,10 +4,12 @@ The module's constants carry the plan's numbers; `build()` adds the objects in p
 initial motion. Same plan in, same bytes out.
 """
 
+import math
 from dataclasses import dataclass
 
+from ..model.drives import Actuator, End
 from ..model.errors import PlanError
-from ..model.plan import AssetRow, Joint, Plan, SceneObject
+from ..model.plan import AssetRow, Joint, Plan, SceneObject, Vec3
 from ..model.scene import PlacedObject, Scene
 from .source import Raw, bullet, call, comment, constant_name, literal, plain, slug
 
@@ -70,7 +72,9 @@ class _Writer:
 
     def program(self) -> str:
         """The whole file."""
-        body = "\n\n".join(part for part in (self.objects(), self.cameras(), self.motion()) if part)
+        body = "\n\n".join(
+            part for part in (self.objects(), self.tendons(), self.actuators(), self.cameras(), self.motion()) if part
+        )
         surfaces = self.surfaces()
         control = self.control()
         entry = self.entry(bool(control))
@@ -106,7 +110,7 @@ class _Writer:
             "What the plan claims of it:",
             *(bullet(objective.claim) for objective in self.plan.objectives),
             "",
-            "Drafted from plan.md, which owns every number below: change it there and draft again, or patch this file.",
+            "Drafted from plan.md, which owns every number of the world: change it there and draft again, or patch this file.",
             "Frame: z up, +X front; metres, kilograms, seconds. Positions are centres, sizes are full extents.",
             '"""',
             "",
@@ -138,7 +142,8 @@ class _Writer:
             keywords: dict = {"friction": m.friction, "torsional": m.torsional_friction, "rolling": m.rolling_friction}
             if m.restitution is not None:
                 keywords["restitution"] = m.restitution
-                # The stiffest contact this time step resolves: the least overlap, the firmest grip.
+                # The stiffest contact this time step resolves: the least overlap, the firmest grip. The damping is chosen
+                # for that constant, so the stated restitution holds.
                 keywords["time_constant"] = Raw("2 * TIME_STEP")
             if m.density is not None:
                 keywords["density"] = m.density
@@ -295,6 +300,48 @@ class _Writer:
         lines.append(call("assets.add", Raw("spec"), row.filename, indent=8, **pose, **keywords))
         return "\n".join(lines)
 
+    def tendons(self) -> str:
+        """Ropes and springs, between points of the bodies where they were placed."""
+        lines = []
+        for row in self.plan.topology.tendons:
+            self.modules.add("tendons")
+            ends = [(end.body, self.point(end)) for end in row.ends]
+            keywords: dict = {"stiffness": row.stiffness} if row.stiffness else {}
+            keywords |= {k: getattr(row, k) for k in ("length", "slack", "damping") if getattr(row, k)}
+            keywords |= {"diameter": row.diameter} | ({"look": row.look} if row.look else {})
+            made = "tendons.spring" if row.stiffness else "tendons.rope"
+            lines.append(call(made, Raw("spec"), row.name, ends, **keywords))
+        return "\n".join(lines)
+
+    def point(self, end: End) -> Vec3:
+        """Where an end is fastened, world frame."""
+        if end.body == "world":
+            return end.offset
+        placed = self.scene[end.body]
+        sides = {"front": (1, 0, 0), "left": (0, 1, 0), "top": (0, 0, 1)}
+        sides |= {"back": (-1, 0, 0), "right": (0, -1, 0), "bottom": (0, 0, -1), "center": (0, 0, 0)}
+        own = [
+            side * extent / 2 + more for side, extent, more in zip(sides[end.at], placed.size, end.offset, strict=True)
+        ]
+        yaw = math.radians(placed.deg_z)
+        turned = (
+            own[0] * math.cos(yaw) - own[1] * math.sin(yaw),
+            own[0] * math.sin(yaw) + own[1] * math.cos(yaw),
+            own[2],
+        )
+        x, y, z = (round(float(c) + t, 9) + 0.0 for c, t in zip(placed.position, turned, strict=True))
+        return x, y, z
+
+    def actuators(self) -> str:
+        """Motors and servos on the joints."""
+        lines = []
+        for row in self.plan.topology.actuators:
+            self.modules.add("actuators")
+            keywords: dict = {"joint": row.joint}
+            keywords |= {k: getattr(row, k) for k in ("gain", "damping", "limit") if getattr(row, k)}
+            lines.append(call(f"actuators.{row.kind}", Raw("spec"), row.name, **keywords))
+        return "\n".join(lines)
+
     def cameras(self) -> str:
         """The cameras of every step."""
         rows = self.plan.cameras()
@@ -346,18 +393,31 @@ class _Writer:
         return "\n".join([*lines, "        },", "    )"])
 
     def control(self) -> str:
-        """A marked `control` function when the plan declares interventions."""
-        if not self.parameters.interventions:
+        """The `control` function: constant controls of the plan's actuators; what else it declares is marked."""
+        driven = {row.name: row for row in self.plan.topology.actuators if row.control is not None}
+        if not self.parameters.interventions and not driven:
             return ""
         lines = ["\ndef control(model: mujoco.MjModel, data: mujoco.MjData) -> None:"]
         lines.append('    """What the plan declares to act on the state besides the engine."""')
+        for name, row in driven.items():
+            value = constant_name(row.control) if isinstance(row.control, str) else literal(row.control)
+            lines.append(f"    data.actuator({literal(name)}).ctrl[0] = {value}")
         for item in self.parameters.interventions:
             text = (
                 f"{item.kind} on {', '.join(item.bodies)}: {item.law} (trigger: {item.trigger}; source: {item.source})"
             )
+            if item.kind == "control" and driven and set(item.bodies) <= self.driven_names(driven):
+                lines.insert(2, comment(text))
+                continue
             self.leave(f"declared intervention: {text}", "its law, in control()")
             lines.append(comment(f"AUTHOR: {text}"))
         return "\n".join(lines) + "\n"
+
+    def driven_names(self, driven: dict[str, Actuator]) -> set[str]:
+        """The actuators whose control the plan gives, their joints, and the bodies on those."""
+        joints = {row.joint for row in driven.values()}
+        children = {joint.child for joint in self.plan.topology.joints if joint.name in joints}
+        return {*driven, *joints, *children}
 
     def entry(self, control: bool) -> str:
         """The call that hands the world to the runtime."""

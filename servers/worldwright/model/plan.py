@@ -13,6 +13,7 @@ from typing import Any, Literal
 
 from pydantic import Field, field_validator
 
+from .drives import Actuator, Tendon
 from .frozen import Frozen
 from .objects import AssetRow, SceneObject, Vec3
 from .observation import REFERENCE_VIEW, ImageObservation
@@ -147,7 +148,7 @@ class Objective(Frozen):
     @field_validator("cause", mode="before")
     @classmethod
     def _one_cause(cls, value: Any) -> Any:
-        return (value,) if isinstance(value, str) else value
+        return (value,) if isinstance(value, str) else tuple(value) if isinstance(value, list) else value
 
 
 class CameraRow(Frozen):
@@ -255,6 +256,8 @@ class Topology(Frozen):
     body_positions: dict[str, Position | Unresolved] = {}
     """Absolute centres (pure multibody plans)."""
     joints: tuple[Joint, ...] = ()
+    tendons: tuple[Tendon, ...] = ()
+    actuators: tuple[Actuator, ...] = ()
     scene_predicates: tuple[PredicateRow, ...] = ()
     image_observation: ImageObservation | None = None
     """What the reference image shows, when there is one."""

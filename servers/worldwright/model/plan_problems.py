@@ -56,8 +56,8 @@ def value_problems(error: ValidationError, nodes: dict[str, Node]) -> list[Probl
     problems = []
     for path, details in by_path.items():
         inner = any(len(other) > len(path) and other[: len(path)] == path for other in by_path)
-        if inner and all(_wrong_type(d) for d in details):
-            continue  # a union complains once per branch: the branch that got furthest says what is wrong
+        if inner and all(_wrong_type(d) or d["type"] in ("too_short", "too_long") for d in details):
+            continue  # an item that is wrong is not counted; a union complains once per branch: the branch that got furthest says what is wrong
         problems.append(_problem(path, details, nodes))
     return problems
 
@@ -128,7 +128,8 @@ def _wrong_length(path: Path, length: int, least: int | None = None) -> Problem:
 
 def _unknown_key(path: Path) -> Problem:
     key, owner = str(path[-1]), annotation_at(path[:-1])
-    known = list(owner.model_fields) if isinstance(owner, type) and issubclass(owner, BaseModel) else []
+    mappings = [b for b in _branches(owner) if isinstance(b, type) and issubclass(b, BaseModel)]
+    known = [name for mapping in mappings for name in mapping.model_fields]
     near = get_close_matches(key, known, n=1, cutoff=0.6)
     if key in _OWNERS and path[0] in ("scene_objects", "assets"):
         fix = _OWNERS[key] + "; "

@@ -18,7 +18,7 @@ GROUND = "ground"
 _RESERVED = (BASE, WORLD, GROUND)
 _ACTED_ON = "acted on"
 _WORDS = {"reference": "object", "parent": "object", "side": "object", "object or row": "object"} | {
-    _ACTED_ON: "object or joint"
+    _ACTED_ON: "object, joint, tendon or actuator"
 }
 _SAFE = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,62}")
 
@@ -62,6 +62,12 @@ def _declared(data: dict[str, Any]) -> Iterator[Problem]:
                 "WP012", "duplicate_name", path, f"`{name}` is already the name of {other}", "rename the joint"
             )
         seen.setdefault(name, path)
+    for kind in ("tendons", "actuators"):
+        for name, path in _named(data, "topology", kind):
+            if name in seen or name in first:
+                other = dotted(seen.get(name) or first[name])
+                yield Problem("WP012", "duplicate_name", path, f"`{name}` is already the name of {other}", "rename it")
+            seen.setdefault(name, path)
     cameras: dict[str, Any] = {}
     for name, path, row in _cameras(data):
         if name in cameras and cameras[name] != row:
@@ -80,6 +86,8 @@ def _declared(data: dict[str, Any]) -> Iterator[Problem]:
         *_objects(data),
         *_named(data, "assets"),
         *_named(data, "topology", "joints"),
+        *_named(data, "topology", "tendons"),
+        *_named(data, "topology", "actuators"),
         *((name, path) for name, path, _ in _cameras(data)),
         *materials,
     ):
@@ -98,7 +106,9 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
     objects = [name for name, _ in (*_objects(data), *_instances(data))]
     rows = [name for name, _ in _named(data, "assets")]
     joints = [name for name, _ in _named(data, "topology", "joints")]
+    moved = [name for kind in ("joints", "tendons", "actuators") for name, _ in _named(data, "topology", kind)]
     cameras = [name for name, _, _ in _cameras(data)]
+    constants = list(_at(data, "simulation_parameters", "constants"))
     materials = list(_at(data, "simulation_parameters", "materials"))
     scene = [name for name, _ in _objects(data)]
     kinds: dict[str, tuple[list[str], str]] = {
@@ -109,7 +119,9 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
         "material": (materials, "simulation_parameters.materials"),
         "object or row": ([*objects, *rows], "scene_objects or assets"),
         "object or joint": ([*objects, *joints], "scene_objects, assets or topology.joints"),
-        _ACTED_ON: ([*objects, *joints], "scene_objects, assets or topology.joints"),
+        _ACTED_ON: ([*objects, *moved], "scene_objects, assets or topology"),
+        "joint": (joints, "topology.joints"),
+        "constant": (constants, "simulation_parameters.constants"),
         "body or camera": ([*objects, *cameras], "scene_objects, assets or the cameras of implementation_steps"),
         "reference": ([*objects, BASE], "scene_objects or assets"),
         "parent": ([*objects, WORLD], "scene_objects or assets"),
@@ -168,6 +180,14 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
     for row, path in _rows(data, "topology", "joints"):
         yield from _one("parent", row, path, "parent")
         yield from _one("object", row, path, "child")
+    for row, path in _rows(data, "topology", "tendons"):
+        for end, place in _list(row, path, "ends"):
+            if isinstance(end, dict):
+                yield from _one("parent", end, place, "body")
+    for row, path in _rows(data, "topology", "actuators"):
+        yield from _one("joint", row, path, "joint")
+        if isinstance(row.get("control"), str):
+            yield "constant", row["control"], (*path, "control")
     for row, path in _rows(data, "topology", "scene_predicates"):
         yield from _one("object", row, path, "subject")
         yield from _one("reference", row, path, "object")

@@ -143,3 +143,43 @@ def test_tilts_and_the_cameras_that_templates_place_are_written():
     source = draft(plan(scene_objects=rows), LAYOUT.model_copy(update={"cameras": (shot,)})).source
     assert "tilt_deg=90.0" in source
     assert "position=(0.0, -3.0, 1.0), target=(0.0, 0.0, 1.0)" in source
+
+
+def towing(**row) -> Plan:
+    motor = {"name": "winch", "joint": "rail", "control": "pull", **row}
+    return plan(
+        simulation_parameters={
+            **PENDULUM["simulation_parameters"],
+            "initial_motion": {},
+            "constants": {"pull": {"value": 12.0, "unit": "N", "source": "the prompt"}},
+            "interventions": [{"kind": "control", "bodies": ["winch"], "law": "constant pull of 12 N", "source": "the prompt"}],
+        },
+        topology={
+            "joints": [{"name": "rail", "type": "slide", "child": "arm", "axis": [1, 0, 0]}],
+            "actuators": [motor],
+            "tendons": [
+                {"name": "rope", "slack": 0.2, "ends": [{"body": "arm", "at": "front"}, {"body": "puck", "at": "back"}]},
+                {"name": "coil", "stiffness": 50.0, "ends": [{"offset": [0, 0, 3]}, {"body": "bob", "at": "top"}]},
+            ],
+        },
+    )  # fmt: skip
+
+
+def test_ropes_springs_and_motors_are_drafted_whole():
+    made = draft(towing(), LAYOUT)
+    assert made.complete, made.open_places
+    assert "tendons.rope(" in made.source and '("arm", (0.01, 0.0, 1.5)), ("puck", (0.95, 0.0, 0.015))' in made.source
+    assert "tendons.spring(" in made.source and '("world", (0.0, 0.0, 3.0)), ("bob", (0.0, 0.0, 1.0))' in made.source
+    assert 'actuators.motor(spec, "winch", joint="rail")' in made.source
+    assert 'data.actuator("winch").ctrl[0] = PULL' in made.source
+    names: dict = {"__name__": "drafted"}
+    exec(compile(made.source, "drafted", "exec"), names)
+    model = names["build"]().compile()
+    assert (model.ntendon, model.nu) == (2, 1)
+    assert model.tendon_range[model.tendon("rope").id, 1] > 0.2
+
+
+def test_a_control_without_a_value_is_left_to_the_author():
+    made = draft(towing(control=None), LAYOUT)
+    assert any("control on winch" in place for place in made.open_places)
+    assert "actuators.motor" in made.source and "AUTHOR:" in made.source

@@ -1,0 +1,106 @@
+"""Ropes and springs between points of bodies, described in world coordinates at the initial pose.
+
+A rope is a spatial tendon with an upper limit: slack it does nothing, taut it pulls with whatever force keeps its length.
+A spring pulls when it is longer than its rest length and pushes when it is shorter.
+
+>>> tendons.rope(spec, "leash", [("world", (0, 0, 2)), ("lamp", (0, 0, 1.2))], slack=0.1)
+"""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from .joints import Vec3
+
+if TYPE_CHECKING:
+    import mujoco
+
+End = tuple[str, Vec3]
+"""Name of a body, or `world`; and a world-frame point at the initial pose, m."""
+
+
+def rope(
+    spec: "mujoco.MjSpec",
+    name: str,
+    ends: Sequence[End],
+    *,
+    length: float | None = None,
+    slack: float = 0.0,
+    diameter: float = 0.01,
+    look: str = "#c9b48a",
+) -> "mujoco.MjsTendon":
+    """A line that cannot be longer than `length` (m); None: the way at the start plus `slack` (m).
+
+    Args:
+        spec: the world, with its bodies already there.
+        name: of the tendon.
+        ends: two points or more; those between are guides that it runs through without friction.
+        length: metres.
+        slack: metres.
+        diameter: as drawn, m; it touches nothing.
+        look: a name from `worldkit.materials`, or `#rrggbb`.
+
+    Raises:
+        ValueError: a body that is not there, fewer than two ends, or a length below the way at the start.
+
+    Source: MuJoCo manual, XML reference, `tendon/spatial` (`range`, `solreflimit`).
+    """
+    import mujoco
+
+    made, way = _line(spec, name, ends, diameter, look)
+    longest = way + slack if length is None else length
+    if longest < way * (1 - 1e-9):
+        raise ValueError(f"rope {name}: it is {way:.4g} m long at the start, more than its {longest:.4g} m")
+    made.limited = mujoco.mjtLimited.mjLIMITED_TRUE
+    made.range = (0.0, longest)
+    # Two steps to the limit's time constant: the stiffest that the time step resolves, so that a rope is no rubber band.
+    made.solref_limit = (2 * spec.option.timestep, 1.0)
+    return made
+
+
+def spring(
+    spec: "mujoco.MjSpec",
+    name: str,
+    ends: Sequence[End],
+    *,
+    stiffness: float,
+    length: float | None = None,
+    damping: float = 0.0,
+    diameter: float = 0.01,
+    look: str = "steel_brushed",
+) -> "mujoco.MjsTendon":
+    """A linear spring of `stiffness` (N/m) that rests at `length` (m; None: as long as at the start).
+
+    `damping` (N·s/m) acts along its whole length. The other arguments are those of `rope`. Source: MuJoCo manual, `tendon/spatial` (`stiffness`, `springlength`).
+    """
+    made, way = _line(spec, name, ends, diameter, look)
+    rest = way if length is None else length
+    made.stiffness[0] = stiffness
+    made.damping[0] = damping
+    made.springlength = (rest, rest)
+    return made
+
+
+def _line(
+    spec: "mujoco.MjSpec", name: str, ends: Sequence[End], diameter: float, look: str
+) -> "tuple[mujoco.MjsTendon, float]":
+    """The tendon through its sites, and its length at the initial pose."""
+    import itertools
+
+    import numpy as np
+
+    from . import materials
+    from .bodies import world_pose
+
+    if len(ends) < 2:
+        raise ValueError(f"tendon {name}: it needs two ends, got {len(ends)}")
+    made = spec.add_tendon(name=name, width=diameter / 2, material=materials.add(spec, look))
+    points = [np.asarray(point, dtype=float) for _, point in ends]
+    for k, (owner, point) in enumerate(zip((body for body, _ in ends), points, strict=True)):
+        body = spec.worldbody if owner == "world" else spec.body(owner)
+        if body is None:
+            known = ", ".join(b.name for b in spec.bodies)
+            raise ValueError(f"tendon {name}: there is no body {owner!r} to fasten it to; known: {known}")
+        origin, rotation = world_pose(body)
+        site = body.add_site(name=f"{name}_{k}", pos=rotation.T @ (point - origin), size=(diameter / 2,) * 3, group=4)
+        made.wrap_site(site.name)
+    return made, float(sum(np.sqrt(((b - a) ** 2).sum()) for a, b in itertools.pairwise(points)))

@@ -1,0 +1,70 @@
+"""What a plan's `topology` fastens and drives: ropes and springs between bodies, motors and servos on joints."""
+
+from typing import Literal
+
+from pydantic import Field, model_validator
+
+from .frozen import Frozen
+from .objects import Vec3
+
+Side = Literal["center", "top", "bottom", "left", "right", "front", "back"]
+
+
+class End(Frozen):
+    """Where a tendon is fastened: the middle of a side of a body's bounding box, or a point of the world."""
+
+    body: str = "world"
+    at: Side = "center"
+    """Of the body, at its initial pose: front is +X, left is +Y, top is +Z."""
+    offset: Vec3 = (0.0, 0.0, 0.0)
+    """Metres from there, in the body's frame; for `world`, the point itself."""
+
+
+class Tendon(Frozen):
+    """A rope (no longer than `length`) or a spring (`stiffness`) from one body to another."""
+
+    name: str
+    ends: tuple[End, ...] = Field(min_length=2)
+    """From first to last; those between are guides it runs through."""
+    length: float | None = Field(None, gt=0)
+    """Metres: a rope cannot be longer, a spring rests at it; None: as long as it is at the start."""
+    slack: float = Field(0.0, ge=0)
+    """Metres that a rope is longer than the way at the start; only without `length`."""
+    stiffness: float = Field(0.0, ge=0)
+    """N/m: makes it a spring, which pulls when longer than `length` and pushes when shorter."""
+    damping: float = Field(0.0, ge=0)
+    """N·s/m; of a spring only: a slack rope brakes nothing."""
+    diameter: float = Field(0.01, gt=0)
+    """Metres, as it is drawn."""
+    look: str | None = None
+
+    @model_validator(mode="after")
+    def _one_length(self) -> "Tendon":
+        if self.length is not None and self.slack:
+            raise ValueError("give `length` or `slack`, not both: slack is measured from the length at the start")
+        if not self.stiffness and self.damping:
+            raise ValueError("`damping` needs `stiffness`: a rope only holds, a spring is damped")
+        return self
+
+
+class Actuator(Frozen):
+    """A motor or servo on a joint. What it does is an intervention of kind `control`: declare it too."""
+
+    name: str
+    joint: str
+    kind: Literal["motor", "position", "velocity"] = "motor"
+    """A motor's control is its force, N or N·m; a servo's, the position (m or rad) or velocity it holds."""
+    control: float | str | None = None
+    """A number, or the name of one of `constants`, given at every step; None: the code role writes the law."""
+    gain: float | None = Field(None, gt=0)
+    """Of a servo: N/m or N·m/rad (position), N·s/m or N·m·s/rad (velocity)."""
+    damping: float = Field(0.0, ge=0)
+    """Of a position servo, N·s/m or N·m·s/rad."""
+    limit: float | None = Field(None, gt=0)
+    """The most it can exert, N or N·m."""
+
+    @model_validator(mode="after")
+    def _geared(self) -> "Actuator":
+        if (self.kind != "motor") != (self.gain is not None):
+            raise ValueError("`gain` is needed by a position or velocity servo, and only by them")
+        return self
