@@ -9,6 +9,7 @@ import functools
 import inspect
 import json
 import os
+import re
 import sys
 import types
 import typing
@@ -114,10 +115,15 @@ def verb(function: Callable[..., Any]) -> click.Command:
         parameters = [
             click.Argument([many], type=p.type, nargs=-1, required=True) if p.name == many else p for p in parameters
         ]
+    if _illustrated(annotations.get("return")) and "out" not in annotations:
+        text = "A folder to write the pictures into; without it they are only named."
+        parameters.append(
+            click.Option(["--save", "_save"], type=click.Path(path_type=Path, file_okay=False), help=text)
+        )
     choices = click.Choice(["text", "json", *getattr(function, "formats", ())])
     parameters.append(click.Option(["--format", "_format"], type=choices, default="text", help="How to print."))
 
-    def run(_format: str, _batch: Path | None = None, **values: Any) -> None:
+    def run(_format: str, _batch: Path | None = None, _save: Path | None = None, **values: Any) -> None:
         arguments = {name: _value(annotations[name], value) for name, value in values.items() if value is not None}
         if _batch is not None:
             sys.exit(report_errors(lambda: _each(function, _batch, arguments), _format))
@@ -127,6 +133,7 @@ def verb(function: Callable[..., Any]) -> click.Command:
             raise click.UsageError(f"give a {batch[0]}, or --batch FILE with one a line")
         result = report_errors(lambda: _call(function, arguments, listener is not None), _format)
         show(result, _format)
+        _pictures(result, _save, _format)
         sys.exit(expose.exit_code(result))
 
     return click.Command(
@@ -135,6 +142,32 @@ def verb(function: Callable[..., Any]) -> click.Command:
         params=parameters,
         help=expose.description(function),
     )
+
+
+def _illustrated(annotation: Any) -> bool:
+    from .model.picture import Illustrated
+
+    kind = typing.get_origin(annotation) or annotation
+    return inspect.isclass(kind) and issubclass(kind, Illustrated)
+
+
+def _pictures(result: Any, folder: Path | None, style: str) -> None:
+    """Write the pictures of a result into a folder, or say on the side how to get them."""
+    from .model.picture import Illustrated
+
+    if not isinstance(result, Illustrated) or not result.pictures:
+        return
+    if folder is None:
+        click.echo(f"{len(result.pictures)} pictures: --save FOLDER writes them", err=True)
+        return
+    from worldkit.files import write_atomic
+
+    for number, picture in enumerate(result.pictures, 1):
+        words = re.sub(r"[^a-z0-9]+", "-", picture.caption.split(" (")[0].split(", row")[0].lower()).strip("-")
+        path = folder / f"{number:02}-{words[:40]}.{'jpg' if picture.format == 'jpeg' else picture.format}"
+        folder.mkdir(parents=True, exist_ok=True)
+        write_atomic(path, picture.data)
+        click.echo(str(path), err=style != "text")
 
 
 def _call(function: Callable[..., Any], arguments: dict[str, Any], listens: bool) -> Any:
@@ -221,7 +254,7 @@ def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
 
 
 def show(result: Any, style: str) -> None:
-    """Print a result: JSON, a format of its own, or its `text()`, in colours on a terminal; pictures go to files."""
+    """Print a result: JSON, a format of its own, or its `text()`, in colours on a terminal."""
     if style == "json":
         click.echo(expose.to_json(result))
         return

@@ -144,7 +144,7 @@ class _Writer:
                 keywords["restitution"] = m.restitution
                 # The stiffest contact this time step resolves: the least overlap, the firmest grip. The damping is chosen
                 # for that constant, so the stated restitution holds.
-                keywords["time_constant"] = Raw("2 * TIME_STEP")
+                keywords["time_constant"] = Raw("4 * TIME_STEP")
             if m.density is not None:
                 keywords["density"] = m.density
             target = f"{constant_name(name)} = contacts.surface"

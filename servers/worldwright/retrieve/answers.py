@@ -97,7 +97,9 @@ class SymbolAnswer(Frozen):
 
     def text(self) -> str:
         """Signature, documentation, and what became of it."""
-        lines = [f"{self.symbol}: {'exists' if self.exists else 'does not exist'} in MuJoCo {self.version}"]
+        ours = self.exists and all(one.name.startswith("worldkit.") for one in self.definitions)
+        where = "worldkit" if ours else f"MuJoCo {self.version}" + ("" if self.exists else ", nor in worldkit")
+        lines = [f"{self.symbol}: {'exists' if self.exists else 'does not exist'} in {where}"]
         for one in self.definitions:
             lines += ["", f"{one.kind} {one.name}"]
             lines += [f"    {line}" for line in one.signature.splitlines()]

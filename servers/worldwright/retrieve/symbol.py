@@ -21,6 +21,8 @@ def look_up(index: Index, name: str) -> SymbolAnswer:
     asked = name.strip()
     found = [*_mjcf(asked), *_python(table, asked)]
     found = [_with_manual(index, one) for one in found[:MAX_DEFINITIONS]]
+    if not found:
+        found = list(_runtime(index, asked))[:MAX_DEFINITIONS]
     word = re.split(r"[./\s<>]+", asked.strip("<>/ \t"))[-1].split("=")[0]
     changes = [row for row in changelog.find(word) if row.weight(word) >= 2][:3]
     return SymbolAnswer(
@@ -62,6 +64,29 @@ def _python(table: Symbols, asked: str) -> Iterator[Definition]:
     member = table.member(owner, path[-1]) if owner else None
     if member is not None:
         yield _definition(f"{owner}.{path[-1]}", member, table)
+
+
+def _runtime(index: Index, asked: str) -> Iterator[Definition]:
+    """Names of worldkit, which programs import beside the simulator: `worldkit.contacts.surface`, `joints.Slide`."""
+    path = re.sub(r"\(.*\)$", "", asked).split(".")
+    if len(path) == 1:  # a bare word is asked of the simulator
+        return
+    path = path[1:] if path[0] == "worldkit" else path
+    if not 1 <= len(path) <= 3 or not all(re.fullmatch(r"\w+", part) for part in path):
+        return
+    module, name = "/".join(path[:-1]), path[-1]
+    for piece in index.labelled(name):
+        inside = piece.path.removeprefix("worldkit/")
+        if piece.part != "python" or inside == piece.path or piece.anchor.split(".")[-1] != name:
+            continue
+        if module and inside not in (f"{module}.py", f"{module}/__init__.py"):
+            continue
+        words = piece.text[:MAX_WORDS]
+        steps = [*inside.removesuffix(".py").removesuffix("/__init__").split("/"), name]
+        steps = steps[:-1] if steps[-2] == name else steps
+        dotted = ".".join(("worldkit", *steps))
+        kind = "module" if dotted.count(".") == len(inside.removesuffix("/__init__.py").split("/")) else "name"
+        yield Definition(kind=kind, name=dotted, documentation=words, citations=(piece.citation,))
 
 
 def _class(table: Symbols, name: str) -> str:
@@ -146,7 +171,15 @@ def _described(index: Index, one: Definition) -> list[Piece]:
         c_name = path[0].replace("Mj", "mj", 1) if path[0].startswith("Mj") else path[0]
         labels = [f"{path[0]}.{path[-1]}", path[-1], c_name] if len(path) > 1 else [path[0], c_name]
     for label in labels:
-        found = [piece for piece in index.labelled(label) if label in piece.anchor]
+        # Of other packages a name like `joint` or `target` says nothing about the simulator's.
+        of_python = one.kind not in ("element", "attribute")
+        found = [
+            piece
+            for piece in index.labelled(label)
+            if label in piece.anchor
+            and piece.root.startswith("mujoco")
+            and not (of_python and ("XMLreference" in piece.path or piece.path.startswith("rendering/")))
+        ]
         if found:
             return found[:3]
     return []

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 BUDGET_BYTES = 700_000
 """Base64 adds a third on the wire."""
 COLUMNS, CELL_WIDTH = 4, 320
+LARGE_COLUMNS, LARGE_CELL_WIDTH = 3, 428
+"""Of the sheet of a camera that was asked for alone."""
 Show = Literal["all", "stills", "sheet", "key"]
 
 
@@ -23,7 +25,7 @@ class Shown(Frozen):
     cameras: tuple[str, ...]
     captions: tuple[str, ...]
     moments: dict[str, float] = {}
-    """Times of setup, event and aftermath, s."""
+    """Times of setup, event and aftermath, s, by the motion energy of the recording (or of the film without one)."""
 
     def text(self) -> str:
         """One caption a line."""
@@ -91,11 +93,11 @@ def _images(
         if show in ("all", "sheet"):
             frames = list(moments(film, count))
             stamps = ", ".join(f"{time_s:.2f}" for time_s, _ in frames)
-            yield f"{name}: contact sheet, row by row, at {stamps} s", sheet(frames)
+            yield f"{name}: contact sheet, row by row, at {stamps} s", sheet(frames, large=len(cameras) == 1)
         if three and show in ("all", "key"):
-            named = {"setup": three.setup, "event": three.event, "aftermath": three.aftermath}
+            named = {"setup": three.setup, "event": three.event, "aftermath": three.aftermath, "end": 1e9}
             for (word, _), (time_s, image) in zip(named.items(), at(film, list(named.values())), strict=True):
-                yield f"{name}: {word} at {time_s:.2f} s (by motion energy of the {three.source})", image
+                yield f"{name}: {word} at {time_s:.2f} s", image
 
 
 def moments(film: Path, count: int) -> list[tuple[float, Any]]:
@@ -128,23 +130,24 @@ def at(film: Path, times_s: list[float]) -> list[tuple[float, Any]]:
     return found
 
 
-def sheet(frames: list[tuple[float, Any]]) -> Any:
+def sheet(frames: list[tuple[float, Any]], large: bool = False) -> Any:
     """Frames on one picture, row by row, each with its time in a corner: RGB uint8."""
     import cv2
     import numpy as np
 
-    height = round(frames[0][1].shape[0] * CELL_WIDTH / frames[0][1].shape[1])
-    columns = min(COLUMNS, len(frames))
+    most, cell_width = (LARGE_COLUMNS, LARGE_CELL_WIDTH) if large else (COLUMNS, CELL_WIDTH)
+    height = round(frames[0][1].shape[0] * cell_width / frames[0][1].shape[1])
+    columns = min(most, len(frames))
     rows = -(-len(frames) // columns)
-    page = np.full((rows * (height + 4) + 4, columns * (CELL_WIDTH + 4) + 4, 3), 255, np.uint8)
+    page = np.full((rows * (height + 4) + 4, columns * (cell_width + 4) + 4, 3), 255, np.uint8)
     for index, (time_s, image) in enumerate(frames):
-        cell = cv2.resize(image, (CELL_WIDTH, height), interpolation=cv2.INTER_AREA)
+        cell = cv2.resize(image, (cell_width, height), interpolation=cv2.INTER_AREA)
         label, font = f"{time_s:.2f} s", cv2.FONT_HERSHEY_SIMPLEX
         (width, tall), _ = cv2.getTextSize(label, font, 0.45, 1)
         cv2.rectangle(cell, (4, 4), (12 + width, 14 + tall), (255, 255, 255), -1)
         cv2.putText(cell, label, (8, 9 + tall), font, 0.45, (20, 20, 20), 1, cv2.LINE_AA)
-        top, left = 4 + index // columns * (height + 4), 4 + index % columns * (CELL_WIDTH + 4)
-        page[top : top + height, left : left + CELL_WIDTH] = cell
+        top, left = 4 + index // columns * (height + 4), 4 + index % columns * (cell_width + 4)
+        page[top : top + height, left : left + cell_width] = cell
     return page
 
 

@@ -168,7 +168,7 @@ def frames(
     count: Annotated[int, Field(description="Pictures on a contact sheet.", ge=1, le=24)] = 8,
     show: Annotated[
         Literal["all", "stills", "sheet", "key"],
-        Field(description="Stills, contact sheets, key frames (setup, event, aftermath), or all of them."),
+        Field(description="Stills, contact sheets, key frames (setup, event, aftermath, end), or all of them."),
     ] = "all",
 ) -> Illustrated:
     """Show the current program's pictures: stills, a contact sheet of each film with the times, and key frames.

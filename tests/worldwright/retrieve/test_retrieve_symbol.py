@@ -84,3 +84,20 @@ def test_assets_are_found_by_what_they_are():
     assert found.assets[0].key == "mug" and 0.05 < found.assets[0].height_m < 0.2
     none = tools.find_asset("zeppelin")
     assert not none.ok and "mug" in none.known
+
+
+@pytest.mark.parametrize(
+    "asked", ["worldkit.contacts.surface", "contacts.surface", "worldkit.joints.Slide", "worldkit.actuators"]
+)
+def test_names_of_the_runtime_are_known_too(asked):
+    answer = tools.symbol(asked)
+    assert answer.exists and answer.definitions[0].name == "worldkit." + asked.removeprefix("worldkit.")
+    assert "in worldkit" in answer.text() and answer.definitions[0].citations
+
+
+def test_what_neither_has_is_said_of_both():
+    assert "nor in worldkit" in tools.symbol("worldkit.levers.Lever").text()
+
+
+def test_a_name_is_not_explained_by_its_namesake():
+    assert not any("renderer" in c for d in tools.symbol("MjsActuator.target").definitions for c in d.citations)

@@ -42,7 +42,7 @@ def test_everything_is_shown_with_its_time_and_fits_the_wire(filmed):
 
 def test_one_kind_and_one_camera(filmed, reviewed):
     assert len(frames(str(reviewed), camera="side", show="sheet", count=24).pictures) == 1
-    assert len(frames(str(reviewed), show="key").pictures) == 6
+    assert len(frames(str(reviewed), show="key").pictures) == 8
     with pytest.raises(NotFoundError, match="rear"):
         frames(str(reviewed), camera="rear")
 
