@@ -286,6 +286,7 @@ def _bundle(settings: _Settings, options: argparse.Namespace, out: Path) -> None
     made = world.as_built(settings.build, build_rng)
     if isinstance(made, mujoco.MjModel):
         raise ProgramError("build() returned a compiled model, which no XML can hold", "build()", "return the MjSpec")
+    world.finish(made, "build()")
     facts = portable.write(made, out / portable.NAME)
     write_json(out / "result.json", {"ok": True, "pass": "bundle", "file": portable.NAME, **facts})
     sys.stdout.write(f"{out / portable.NAME}: {facts['files']} files, {facts['bytes'] / 1e6:.1f} MB\n")

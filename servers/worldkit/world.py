@@ -5,6 +5,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
+from . import sliding
 from .errors import ProgramError
 from .motion import START
 
@@ -32,19 +33,26 @@ def seeded(seed: int) -> "tuple[np.random.Generator, np.random.Generator]":
 
 
 def make(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjModel":
-    """Call `build()` or `build(rng)` and compile what it returns: an MjSpec, or an MjModel that is compiled already."""
+    """Call `build()` or `build(rng)` and compile what it returns: an MjSpec, or an MjModel that is compiled already.
+
+    A spec gets explicit pairs where sliding bodies would hop (`worldkit.sliding`).
+    """
     import mujoco
 
     made = as_built(build, rng)
     if isinstance(made, mujoco.MjModel):
         return made
+    return finish(made, f"{getattr(build, '__name__', 'build')}()")
+
+
+def finish(spec: "mujoco.MjSpec", place: str) -> "mujoco.MjModel":
+    """Compile a spec, after giving it the pairs that keep sliding bodies down; `place` is where it was made."""
     try:
-        return made.compile()
+        model = spec.compile()
+        return spec.compile() if sliding.add_pairs(spec, model) else model
     except ValueError as failure:
         raise ProgramError(
-            f"the world does not compile: {failure}",
-            f"{getattr(build, '__name__', 'build')}()",
-            "repair what the compiler names",
+            f"the world does not compile: {failure}", place, "repair what the compiler names"
         ) from failure
 
 

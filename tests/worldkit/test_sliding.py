@@ -1,0 +1,91 @@
+"""Sliding bodies stay down, stop where Coulomb says, and mix their surfaces as MuJoCo mixes them."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from worldkit import bodies, contacts, scene, sliding, world
+
+STEP = 0.001
+
+
+def crate(friction: float = 0.4, other: float = 0.4, speed: float = 2.0) -> mujoco.MjSpec:
+    floor = contacts.surface(friction=other, restitution=0.2, time_constant=4 * STEP)
+    own = contacts.surface(friction=friction, restitution=0.1, time_constant=4 * STEP)
+    spec = scene.new("t", time_step=STEP, gravity=(0, 0, -9.81), setting="studio", floor_surface=floor)
+    bodies.box(spec, "crate", size=(0.45, 0.35, 0.35), pos=(0, 0, 0.175), mass=12, surface=own)
+    return spec
+
+
+def slide(model: mujoco.MjModel, speed: float = 2.0) -> tuple[float, float, float]:
+    """Highest lift in m, way in m, share of rows in contact while it moves."""
+    data = mujoco.MjData(model)
+    for _ in range(50):
+        mujoco.mj_step(model, data)
+    data.qvel[0], start, lift, touching = speed, data.qpos[0], 0.0, []
+    for _ in range(1000):
+        mujoco.mj_step(model, data)
+        lift = max(lift, data.qpos[2] - 0.175)
+        if abs(data.qvel[0]) > 0.05:
+            touching.append(data.nefc > 0)
+    return lift, data.qpos[0] - start, float(np.mean(touching))
+
+
+def test_a_sliding_crate_stays_down_and_stops_where_coulomb_says():
+    hops, _, seldom = slide(crate().compile())
+    lift, way, often = slide(world.make(lambda: crate(), world.seeded(0)[0]))
+    assert hops > 0.003, "the engine's own contact no longer throws it up: this module may go"
+    assert lift < 0.0003 and often > 2 * seldom
+    assert way == pytest.approx(2.0**2 / (2 * 0.4 * 9.81), rel=0.01)
+
+
+def test_it_does_not_creep_on_a_slope():
+    def ramp() -> mujoco.MjSpec:
+        spec = crate()
+        spec.option.gravity = (9.81 * np.sin(np.radians(15)), 0, -9.81 * np.cos(np.radians(15)))
+        return spec
+
+    _, way, _ = slide(world.make(ramp, world.seeded(0)[0]), speed=0.0)
+    assert way < 3e-4
+
+
+def test_a_pair_has_what_mujoco_would_have_mixed():
+    def build() -> mujoco.MjSpec:
+        return crate(friction=0.3, other=0.6)
+
+    def touch(model: mujoco.MjModel) -> tuple:
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        one = data.contact[0]
+        return tuple(np.concatenate([one.friction, one.solref, one.solimp, [one.dim, one.includemargin]]))
+
+    assert touch(world.make(build, world.seeded(0)[0])) == pytest.approx(touch(build().compile()))
+
+
+def test_filters_are_kept():
+    def build() -> mujoco.MjSpec:
+        spec = crate()
+        spec.add_exclude(bodyname1="world", bodyname2="crate")
+        return spec
+
+    assert world.make(build, world.seeded(0)[0]).npair == 0
+    assert sliding.add_pairs(build(), build().compile()) == 0
+
+
+def test_soft_and_bouncy_surfaces_are_left_alone():
+    def build() -> mujoco.MjSpec:
+        spec = scene.new("t", time_step=STEP, gravity=(0, 0, -9.81), setting="studio")
+        bodies.sphere(spec, "ball", diameter=0.1, pos=(0, 0, 0.05), mass=1)
+        return spec
+
+    assert world.make(build, world.seeded(0)[0]).npair == 0
+
+
+def test_nameless_geoms_get_a_name():
+    def build() -> mujoco.MjSpec:
+        spec = crate()
+        spec.geoms[-1].name = ""
+        return spec
+
+    model = world.make(build, world.seeded(0)[0])
+    assert model.npair == 1 and model.pair_geom1[0] != model.pair_geom2[0]
