@@ -88,6 +88,6 @@ def test_a_repetition_that_fails_ends_the_audit_with_its_reason(run, tmp_path):
 
 def test_a_lone_recording_cannot_be_repeated(run):
     (recording,) = run.glob("evidence/*/physics/trajectory")
-    assert tools.scan(str(recording)).anomalies == ()
+    assert not [a for a in tools.scan(str(recording)).anomalies if a.severity == "blocking"]
     with pytest.raises(NotFoundError, match="no program to repeat"):
         tools.scan(str(recording), causes=True)
