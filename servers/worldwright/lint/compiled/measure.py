@@ -199,6 +199,7 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         if data.efc_type[row] == mujoco.mjtConstraint.mjCNSTR_EQUALITY:
             residual[data.efc_id[row]] += data.efc_pos[row] ** 2
     low, high = _extents(model, data)
+    own_low, own_high = _extents(model, data, rigid=True)
     home = mujoco.MjData(model)  # where it was built, before a joint's initial position moves it
     mujoco.mj_kinematics(model, home)
     return {
@@ -220,6 +221,8 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "equality_residual": np.sqrt(residual),
         "body_low": low,
         "body_high": high,
+        "own_low": own_low,
+        "own_high": own_high,
         "geom_volume": np.array([_volume(model, g) for g in range(model.ngeom)]),
         "actuator_invweight": _actuator_invweight(model, data),
     }
@@ -255,8 +258,11 @@ def _actuator_invweight(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarra
     return found
 
 
-def _extents(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
-    """(nbody, 3) corners of the box around a body and all it carries, in the body's own frame; NaN without geoms."""
+def _extents(model: mujoco.MjModel, data: mujoco.MjData, rigid: bool = False) -> tuple[np.ndarray, np.ndarray]:
+    """(nbody, 3) corners of the box around a body and all it carries, in the body's own frame; NaN without geoms.
+
+    `rigid`: around it and what is fixed to it alone, without what moves on joints against it.
+    """
     low, high = np.full((model.nbody, 3), np.inf), np.full((model.nbody, 3), -np.inf)
     chains = {0: [0]}
     for body in range(1, model.nbody):
@@ -267,6 +273,8 @@ def _extents(model: mujoco.MjModel, data: mujoco.MjData) -> tuple[np.ndarray, np
         points = _support(model, geom)
         frame, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
         for body in chains[int(model.geom_bodyid[geom])][1:]:
+            if rigid and model.body_weldid[body] != model.body_weldid[model.geom_bodyid[geom]]:
+                continue
             turn = data.xmat[body].reshape(3, 3).T
             centre, axes = turn @ (place - data.xpos[body]), turn @ frame
             if points.ndim == 2:  # vertices

@@ -15,9 +15,40 @@ THREE = (
 """The world of `case.SOUND_PLAN`."""
 
 
+CART = (
+    HEAD + "<body name='car' pos='0 0 .3'><freejoint/><geom type='box' size='.5 .2 .1' mass='10'/>"
+    "<body name='wheel' pos='.3 .3 -.1'><joint name='axle' axis='0 1 0'/><geom type='ellipsoid' size='.2 .05 .2' mass='2'/>"
+    "</body></body></worldbody></mujoco>"
+)
+"""A thing of the plan that carries another one on a joint."""
+CART_PLAN: dict[str, object] = {
+    "topology": {"joints": [{"name": "axle", "type": "hinge", "parent": "car", "child": "wheel", "axis": [0, 1, 0]}]},
+    "simulation_parameters": {"masses": {"car": 10, "wheel": 2}, "initial_motion": None, "materials": None},
+    "scene_objects": [
+        {"name": "car", "primitive": "box", "size": [1, 0.4, 0.2]},
+        {"name": "wheel", "primitive": "ellipsoid", "size": [0.4, 0.1, 0.4]},
+    ],
+}
+
+
 def extent(view: ModelView, body: int) -> np.ndarray:
-    """(3,) full extents of a body and what it carries, along its own axes, m."""
+    """(3,) full extents of a body and what it carries, along its own axes, m; without parts that the plan sizes itself."""
+    if parts(view, body):
+        return view.own_high[body] - view.own_low[body]
     return view.body_high[body] - view.body_low[body]
+
+
+def parts(view: ModelView, body: int) -> list[int]:
+    """What hangs on a body and is an object of the plan with numbers of its own; of nested ones only the first."""
+    assert view.plan is not None
+    names, found = frozenset(view.plan.object_names()), []
+    for other in range(1, len(view.body_parentid)):
+        above = other
+        while above > 0 and above != body and (above == other or view.texts["names"]["body"][above] not in names):
+            above = int(view.body_parentid[above])
+        if above == body != other and view.texts["names"]["body"][other] in names:
+            found.append(other)
+    return found
 
 
 def centre(view: ModelView, body: int) -> np.ndarray:

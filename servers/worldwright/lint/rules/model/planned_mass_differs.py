@@ -13,15 +13,16 @@ from collections.abc import Iterator
 from ...compiled.view import ModelView
 from ...problem import Problem
 from ...proof import Measured, model_of
-from ._planned import THREE
+from ._planned import CART, CART_PLAN, THREE, parts
 
 CODE = "WM154"
 SEVERITY = "error"
 SCOPE = "plan"
-GOOD = (THREE,)
+GOOD = (THREE, (CART, CART_PLAN))
 BAD = (
     THREE.replace("mass='.35'/>", "mass='.35'/><geom size='.04' contype='0' conaffinity='0'/>"),
     THREE.replace("mass='.35'", "mass='350'"),
+    (CART.replace("mass='10'", "mass='12'"), CART_PLAN),
 )
 EVIDENCE = Measured("what is only drawn adds its weight", lambda s: float(model_of(s).body_mass[3]), 0.1, "kg")
 SHARE = 0.02
@@ -36,7 +37,7 @@ def check(view: ModelView) -> Iterator[Problem]:
             body = view.root_named(name)
             if body is None or not view.moving[body]:
                 continue
-            built = float(view.body_subtreemass[body])
+            built = float(view.body_subtreemass[body] - sum(view.body_subtreemass[part] for part in parts(view, body)))
             if abs(built - planned) > SHARE * planned:
                 message = f"{name} weighs {built:.4g} kg, the plan says {planned:g} kg"
                 yield view.at("body", body, message, "give the mass to one geom, and none to what is only drawn")

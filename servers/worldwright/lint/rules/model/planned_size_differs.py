@@ -16,13 +16,17 @@ import numpy as np
 from ...compiled.view import ModelView
 from ...problem import Problem
 from ...proof import Measured, model_of
-from ._planned import THREE, extent
+from ._planned import CART, CART_PLAN, THREE, extent
 
 CODE = "WM151"
 SEVERITY = "error"
 SCOPE = "plan"
-GOOD = (THREE,)
-BAD = (THREE.replace("size='.2 .15 .1'", "size='.4 .3 .2'"), THREE.replace("size='.04 .05'", "size='.04 .1'"))
+GOOD = (THREE, (CART, CART_PLAN))
+BAD = (
+    THREE.replace("size='.2 .15 .1'", "size='.4 .3 .2'"),
+    THREE.replace("size='.04 .05'", "size='.04 .1'"),
+    (CART.replace("size='.5 .2 .1'", "size='.5 .35 .2'"), CART_PLAN),
+)
 EVIDENCE = Measured("the crate is eight times as heavy", lambda s: float(model_of(s).body_mass[2]), 50.0, "kg")
 SHARE, LEAST_M = 0.03, 1e-3
 
