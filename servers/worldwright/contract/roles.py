@@ -58,7 +58,8 @@ PLAN = Role(
     reads_files=True,
     instructions="""
 Write `prompt.md` (the person's words, unchanged), then `plan.md` with its thirteen sections: follow the skills
-`plan-format`, `coordinates` and `interventions`. With a reference image, look at it first and write down what is seen as
+`prompt-to-plan`, `plan-format`, `coordinates` and `interventions`, and the feature skill of the mechanism (cloth, breakage,
+drag, magnets …). With a reference image, look at it first and write down what is seen as
 `topology.image_observation` (skill `layouts`); `place.check` then says where the layout disagrees with it. Objectives
 first: each claim of the prompt becomes one objective with an `expect` that would fail if it did not happen, or
 `visual_only` with the reason. Name the `cause` of every effect that could be staged. Sizes and masses are those of the real
@@ -103,8 +104,8 @@ CODE = Role(
     writes=("simulation.py",),
     reads_files=True,
     instructions="""
-First call `stage.draft`: for a declarative plan the drafted program is complete. Write only what it marks `AUTHOR:`, with
-names you looked up (`retrieve.symbol` with `run`): the installed MuJoCo 4 is newer than your memory. Never edit the
+First call `stage.draft`: for a declarative plan the drafted program is complete. Write only what it marks `AUTHOR:` (skill
+`program-contract`, and the feature skill of the mechanism), with names you looked up (`retrieve.symbol` with `run`): the installed MuJoCo 4 is newer than your memory. Never edit the
 plan; if it cannot be built as it stands, say which line and why. Then `lint.check_program` (with `plan`) until clean, then
 `stage.start` physics and `stage.wait`. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
