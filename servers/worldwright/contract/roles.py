@@ -127,7 +127,9 @@ VISUAL = Role(
     instructions="""
 Call `stage.frames` (stills first, then `show: key`). For each camera say what is seen: which objects, where, how they are
 lit, what overlaps, what is cut off, what changes from frame to frame, what looks odd. Describe; never judge, never guess
-what was meant, never say that something works. Then call `stamp.describe` once with the description.
+what was meant, never say that something works. Ask `show: sheet` of one camera when the key frames leave something open. Then call `stamp.describe` once:
+`{"author": "world-visual", "summary": "…", "cameras": {"side": "…"}, "objects": {"box": "…"}, "concerns": ["cut off at the left"]}`;
+leave `objectives` out: you do not know them. What the answer says of next steps is for the orchestrator.
 Answer with one paragraph.""",
     refuses=("a verdict", "reading the plan or the program"),
 )
@@ -154,11 +156,17 @@ REVIEW = Role(
     writes=(),
     reads_files=True,
     instructions="""
-Call `scan.scan` (with `causes` when objectives name a cause) and `scan.expect`, look at `stage.frames`, read the visual
+Call `scan.scan` with `refine` (and `causes` when objectives name a cause) and `scan.expect`, look at `stage.frames`, read the visual
 description in the evidence. Bind each objective to the evidence that decides it. A claim of one channel ("the scene is
 frozen", "it went through the wall") is tested in another (`scan.query`) before it may order a repair. If all objectives
 are met and nothing blocks: outcome `pass`. Otherwise one repair: the one target, and the one change that most likely mends
-the most. `blocked` only when no change of plan or program can help. Then call `stamp.review` once.
+the most. `blocked` only when no change of plan or program can help. Then call `stamp.review` once:
+`{"reviewer": "world-review", "outcome": "repair", "numeric": "…", "visual": "…", "plan": "…",
+"objectives": [{"index": 0, "met": true, "evidence": ["expect:moves", "still:side"]}, …],
+"cross_checks": [{"claim": "it floats", "channel": "visual", "tested_in": "numeric", "confirmed": false, "note": "…"}],
+"repair_target": "solver_or_time_step", "repair": "the one change, word for word"}`; targets: physical_parameters, initial_motion,
+object_settlement, object_placement, scale, camera_placement, visual_mismatch, missing_object, simulator_symbol,
+solver_or_time_step, undeclared_intervention, plan. A pass has neither target nor repair.
 Answer with the outcome, the target and the repair in two sentences.""",
     refuses=("editing anything", "two repairs at once", "passing what the numbers refute"),
 )

@@ -6,6 +6,7 @@ from pathlib import Path
 from types import FunctionType
 from typing import TYPE_CHECKING
 
+from ..model.errors import NotFoundError
 from ..model.finding import Finding
 from ..model.plan import Plan
 from ..shelf import Entry, Shelf
@@ -66,12 +67,18 @@ def group(rule: Entry) -> str:
 
 
 def find(code: str) -> Entry:
-    """A rule of any shelf by code or name; a `NotFoundError` lists the nearest."""
+    """A rule of any shelf by code or name; a `NotFoundError` lists the nearest, or says where a code of scan is told."""
     for shelf in (PROGRAM_RULES, MODEL_RULES, PLAN_RULES):
         for key in (code.upper(), code.lower()):
             if key in shelf:
                 return shelf[key]
     prefix = code.upper()[:2]
+    if prefix in ("WS", "WE") and code[2:].isdigit():
+        page = "review/references/anomalies" if prefix == "WS" else "expectations/references/vocabulary"
+        raise NotFoundError(
+            f"{code} is no lint rule but {'an anomaly check of scan' if prefix == 'WS' else 'an expectation'}",
+            next_move=f"its page: `worldwright retrieve read skills/{page}.md`",
+        )
     return {"WP": PLAN_RULES, "WM": MODEL_RULES}.get(prefix, PROGRAM_RULES).find(code)
 
 
