@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 PER_RULE = 20
 """Hits of one rule shown per file: the rest would say the same."""
 
+MOST_COUNTED = 100
+"""Further hits that are counted: looking up near names for thousands of them would take long."""
+
 SCOPES = ("file", "any", "contract", "plan")
 """What a program rule needs: any file, a parsed program or model, a program of ours, or a plan to compare with."""
 
@@ -134,6 +137,8 @@ def findings(
         seen.add((problem.line, problem.message))
         if len(seen) > PER_RULE:
             more += 1
+            if more >= MOST_COUNTED:
+                break
             continue
         answer = next((s for s in answered if s.covers(rule.code, problem)), None)
         yield Finding(
@@ -152,7 +157,7 @@ def findings(
             code=rule.code,
             name=rule.name,
             severity=rule.SEVERITY,
-            message=f"{more} more of the same",
+            message=f"{more}{'+' * (more >= MOST_COUNTED)} more of the same",
             fix=f"see `worldwright lint explain {rule.code}`",
             file=file,
         )
