@@ -177,8 +177,8 @@ BY_AGENT = {role.agent: role for role in ROLES}
 MAIN_TOOLS = (
     "stamp.status", "stamp.approve", "stamp.accept", "stamp.block", "stamp.verify",
     "stage.start", "stage.wait", "stage.status", "stage.cancel", "stage.frames",
-    "scan.query", "scan.plot", "scan.compare", "place.draw",
-    "retrieve.search", "retrieve.read", "retrieve.symbol",
+    "scan.query", "scan.plot", "scan.compare",
+    "retrieve.search", "retrieve.read",
 )  # fmt: skip
 """What the main thread is given: it orchestrates, looks, answers, approves in the person's name, stamps."""
 RESERVED = ("stamp.describe", "stamp.review", "stage.draft", "place.resolve", "place.settle")
