@@ -1,6 +1,7 @@
 """Ranking by meaning, where the `semantic` extra is installed (`make test-semantic` installs it and runs these)."""
 
 import importlib.util
+import uuid
 from pathlib import Path
 
 import pytest
@@ -39,7 +40,8 @@ def test_what_is_embedded_is_never_embedded_again():
 
 def test_a_new_text_costs_only_itself(tmp_path, monkeypatch):
     page = tmp_path / "notes.md"
-    page.write_text("# Squeaky hinges\n\nOil the squeaky hinge of the garden gate.\n")
+    once = uuid.uuid4().hex  # what was ever embedded on this machine is never embedded again
+    page.write_text(f"# Squeaky hinges\n\nOil the squeaky hinge of the garden gate.\n\nNote {once}.\n")
     monkeypatch.setenv("WORLDWRIGHT_SOURCES", str(tmp_path))
     assert len(preparing.missing(open_index())) == 1
     ranker.BACKGROUND.adopt(ranker.wait(), open_index())
