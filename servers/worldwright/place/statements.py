@@ -117,8 +117,21 @@ class _Reader:
         }
 
     def rows(self) -> Iterator[Statement]:
+        leaders: dict[str, Path] = {}
         for index, row in enumerate(self.plan.topology.scene_predicates):
             path: Path = ("topology", "scene_predicates", index)
+            if row.predicate in ("GROUP", "COPY-GROUP") and _names(row.params.get("members")):
+                if row.subject in leaders:
+                    self.spoiled.add(row.subject)
+                    self.problems.add(
+                        "WP212",
+                        "second_group",
+                        f"`{row.subject}` leads a group already: which one would be copied depends on the order of rows",
+                        "name all members in one row, or let another object lead",
+                        path,
+                    )
+                    continue
+                leaders[row.subject] = path
             unclear = TO_CLARIFY in (row.position, row.orientation) or TO_CLARIFY in row.params.values()
             if unclear:
                 self.unclear(row.subject, path)

@@ -53,13 +53,16 @@ def worlds(draw, most=7):
         ("tub", "PLACE-ON-BASE", None, {"x": 0, "y": 0}),
         ("o0", "PLACE-ON-BASE", None, {"x": draw(metres), "y": 4}),
     ]
-    relations = []
+    relations, leaders = [], set()
     for index in range(1, draw(st.integers(2, most))):
         name, ref = f"o{index}", f"o{draw(st.integers(0, index - 1))}"
         size = draw(sizes_of)
         offset = [draw(metres), draw(metres)]
         way = draw(st.sampled_from(["on", "in", "any", "copy", "mirror", "relation", "beside"]))
+        if way == "copy" and ref in leaders:
+            way = "on"  # one group each
         if way == "copy":
+            leaders |= {ref, name}
             size = next(o["size"] for o in objects if o["name"] == ref)
         objects.append(box(name, size))
         if way == "on":
@@ -293,3 +296,11 @@ def test_any_plan_gives_poses_or_typed_findings(rows, relations):
     assert all(f.message and f.fix and f.code.startswith("WP") for f in scene.findings)
     for placed_object in scene.objects:
         assert all(map(math.isfinite, (*placed_object.position, placed_object.deg_z)))
+
+
+def test_a_leader_leads_one_group():
+    objects = [box(name, (0.1, 0.1, 0.1)) for name in ("a", "b", "c")]
+    rows = [(name, "PLACE-ON-BASE", None, {"x": k, "y": 0}) for k, name in enumerate("abc")]
+    rows += [("a", "GROUP", None, {"members": ["b"]}), ("a", "GROUP", None, {"members": ["c"]})]
+    found = resolve(plan(objects, rows)).scene.findings
+    assert [finding.code for finding in found] == ["WP212"] and "leads a group already" in found[0].message
