@@ -7,7 +7,7 @@ What the plan claims of it:
 - In the end it lies still on the ground.
 - A textured basketball on a wooden court floor, its shadow shrinking to meet it.
 
-Drafted from plan.md, which owns every number below: change it there and draft again, or patch this file.
+Drafted from plan.md, which owns every number of the world: change it there and draft again, or patch this file.
 Frame: z up, +X front; metres, kilograms, seconds. Positions are centres, sizes are full extents.
 """
 
@@ -21,9 +21,9 @@ GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
 
 # rubber: FIBA Official Basketball Rules, equipment: dropped from 1800 mm, the top of the ball rebounds to 1200-1400 mm;
 # e = sqrt(1.15 / 1.8)
-RUBBER = contacts.surface(friction=0.6, torsional=0.005, rolling=0.001, restitution=0.8, time_constant=2 * TIME_STEP)
+RUBBER = contacts.surface(friction=0.6, torsional=0.005, rolling=0.001, restitution=0.8, time_constant=4 * TIME_STEP)
 # ground: the same test is made on a wooden playing floor: the constant belongs to the pair
-GROUND = contacts.surface(friction=0.6, torsional=0.005, rolling=0.001, restitution=0.8, time_constant=2 * TIME_STEP)
+GROUND = contacts.surface(friction=0.6, torsional=0.005, rolling=0.001, restitution=0.8, time_constant=4 * TIME_STEP)
 
 
 def build() -> mujoco.MjSpec:

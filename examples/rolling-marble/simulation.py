@@ -6,7 +6,7 @@ What the plan claims of it:
 - The mugs stand still.
 - The picture reads as a marble rolling over a wooden table.
 
-Drafted from plan.md, which owns every number below: change it there and draft again, or patch this file.
+Drafted from plan.md, which owns every number of the world: change it there and draft again, or patch this file.
 Frame: z up, +X front; metres, kilograms, seconds. Positions are centres, sizes are full extents.
 """
 
@@ -20,9 +20,9 @@ GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
 
 # glass: CRC Handbook: glass on wood, sliding friction 0.2 to 0.5; a marble's rolling resistance on a hard table is
 # below 0.001 of its radius
-GLASS = contacts.surface(friction=0.4, torsional=0.001, rolling=1e-05, restitution=0.6, time_constant=2 * TIME_STEP)
+GLASS = contacts.surface(friction=0.4, torsional=0.001, rolling=1e-05, restitution=0.6, time_constant=4 * TIME_STEP)
 # oak: the same pair of surfaces: the constants belong to both
-OAK = contacts.surface(friction=0.4, torsional=0.001, rolling=1e-05, restitution=0.6, time_constant=2 * TIME_STEP)
+OAK = contacts.surface(friction=0.4, torsional=0.001, rolling=1e-05, restitution=0.6, time_constant=4 * TIME_STEP)
 
 
 def build() -> mujoco.MjSpec:

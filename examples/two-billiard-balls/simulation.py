@@ -8,7 +8,7 @@ What the plan claims of it:
 - The balls stay on the bed of the table and sink into nothing.
 - The scene reads as a real pool table in a warmly lit room, with both balls clearly visible.
 
-Drafted from plan.md, which owns every number below: change it there and draft again, or patch this file.
+Drafted from plan.md, which owns every number of the world: change it there and draft again, or patch this file.
 Frame: z up, +X front; metres, kilograms, seconds. Positions are centres, sizes are full extents.
 """
 
@@ -16,18 +16,18 @@ import mujoco
 
 from worldkit import assets, cameras, contacts, motion, program, scene
 
-TIME_STEP = 0.00025  # s
+TIME_STEP = 0.000125  # s
 DURATION = 3.0  # s
 GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
 BALL_RADIUS = 0.028575  # m; WPA equipment specification: diameter 2.25 in
 
 # phenolic: D. Alciatore, Physical properties of pool balls: ball-ball friction 0.03-0.08, restitution 0.92-0.98
 PHENOLIC = contacts.surface(
-    friction=0.06, torsional=0.0005, rolling=1e-05, restitution=0.95, time_constant=2 * TIME_STEP
+    friction=0.06, torsional=0.0005, rolling=1e-05, restitution=0.95, time_constant=4 * TIME_STEP
 )
 # cloth: D. Alciatore, Physical properties: ball-cloth sliding 0.15-0.4, rolling resistance 0.005-0.015 times the
 # radius, drop restitution 0.5
-CLOTH = contacts.surface(friction=0.2, torsional=0.001, rolling=0.00028, restitution=0.5, time_constant=2 * TIME_STEP)
+CLOTH = contacts.surface(friction=0.2, torsional=0.001, rolling=0.00028, restitution=0.5, time_constant=4 * TIME_STEP)
 
 
 def build() -> mujoco.MjSpec:

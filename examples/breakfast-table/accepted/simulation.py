@@ -7,7 +7,7 @@ What the plan claims of it:
 - The mug and the laptop never meet, and nothing sinks into anything.
 - A warm, believable breakfast table, every object recognisable.
 
-Drafted from plan.md, which owns every number below: change it there and draft again, or patch this file.
+Drafted from plan.md, which owns every number of the world: change it there and draft again, or patch this file.
 Frame: z up, +X front; metres, kilograms, seconds. Positions are centres, sizes are full extents.
 """
 
@@ -21,15 +21,15 @@ GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
 
 # bread: FAO/INFOODS density database: toasted white bread 0.25-0.30 g/ml
 BREAD = contacts.surface(
-    friction=0.6, torsional=0.005, rolling=0.0001, restitution=0.1, time_constant=2 * TIME_STEP, density=280.0
+    friction=0.6, torsional=0.005, rolling=0.0001, restitution=0.1, time_constant=4 * TIME_STEP, density=280.0
 )
 # butter: FAO/INFOODS density database: butter 0.911 g/ml
 BUTTER = contacts.surface(
-    friction=0.5, torsional=0.005, rolling=0.0001, restitution=0.1, time_constant=2 * TIME_STEP, density=911.0
+    friction=0.5, torsional=0.005, rolling=0.0001, restitution=0.1, time_constant=4 * TIME_STEP, density=911.0
 )
 # card: a 410 g packet of cereal of 0.19 x 0.06 x 0.30 m; The Engineering ToolBox: paper on wood 0.3-0.5
 CARD = contacts.surface(
-    friction=0.4, torsional=0.005, rolling=0.0001, restitution=0.2, time_constant=2 * TIME_STEP, density=120.0
+    friction=0.4, torsional=0.005, rolling=0.0001, restitution=0.2, time_constant=4 * TIME_STEP, density=120.0
 )
 
 
