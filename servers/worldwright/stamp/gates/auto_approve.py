@@ -34,7 +34,8 @@ def check(state: State) -> Iterator[Refusal]:
             )
     said = _numbers(state)
     for name, values in _chosen(state.plan):
-        marked = any(name == mark or name.startswith(mark + ".") for mark in marks)
+        # Marking a part (`initial_motion.pivot.joint_position`) marks what the person is shown with it.
+        marked = any(name == mark or name.startswith(mark + ".") or mark.startswith(name + ".") for mark in marks)
         if not marked and not all(any(abs(v - s) <= 1e-9 * max(1, abs(s)) for s in said) for v in values):
             yield Refusal(
                 cause=f"{SECTION}{name} was chosen by the planner and is not marked",
