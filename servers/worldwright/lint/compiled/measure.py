@@ -199,7 +199,8 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         if data.efc_type[row] == mujoco.mjtConstraint.mjCNSTR_EQUALITY:
             residual[data.efc_id[row]] += data.efc_pos[row] ** 2
     low, high = _extents(model, data)
-    own_low, own_high = _extents(model, data, rigid=True)
+    own_low, own_high = _extents(model, data, "rigid")
+    bare_low, bare_high = _extents(model, data, "bare")
     home = mujoco.MjData(model)  # where it was built, before a joint's initial position moves it
     mujoco.mj_kinematics(model, home)
     return {
@@ -223,6 +224,8 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "body_high": high,
         "own_low": own_low,
         "own_high": own_high,
+        "bare_low": bare_low,
+        "bare_high": bare_high,
         "geom_volume": np.array([_volume(model, g) for g in range(model.ngeom)]),
         "actuator_invweight": _actuator_invweight(model, data),
     }
@@ -258,10 +261,10 @@ def _actuator_invweight(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarra
     return found
 
 
-def _extents(model: mujoco.MjModel, data: mujoco.MjData, rigid: bool = False) -> tuple[np.ndarray, np.ndarray]:
+def _extents(model: mujoco.MjModel, data: mujoco.MjData, scope: str = "all") -> tuple[np.ndarray, np.ndarray]:
     """(nbody, 3) corners of the box around a body and all it carries, in the body's own frame; NaN without geoms.
 
-    `rigid`: around it and what is fixed to it alone, without what moves on joints against it.
+    `scope` rigid: around it and what is fixed to it, without what moves on joints against it; bare: its own geoms alone.
     """
     low, high = np.full((model.nbody, 3), np.inf), np.full((model.nbody, 3), -np.inf)
     chains = {0: [0]}
@@ -273,7 +276,9 @@ def _extents(model: mujoco.MjModel, data: mujoco.MjData, rigid: bool = False) ->
         points = _support(model, geom)
         frame, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
         for body in chains[int(model.geom_bodyid[geom])][1:]:
-            if rigid and model.body_weldid[body] != model.body_weldid[model.geom_bodyid[geom]]:
+            if scope == "bare" and body != model.geom_bodyid[geom]:
+                continue
+            if scope == "rigid" and model.body_weldid[body] != model.body_weldid[model.geom_bodyid[geom]]:
                 continue
             turn = data.xmat[body].reshape(3, 3).T
             centre, axes = turn @ (place - data.xpos[body]), turn @ frame

@@ -21,6 +21,25 @@ CART = (
     "</body></body></worldbody></mujoco>"
 )
 """A thing of the plan that carries another one on a joint."""
+LADLE = (
+    HEAD
+    + "<body name='stick' pos='0 0 1'><joint name='pivot' axis='0 1 0'/><geom type='box' size='.01 .01 .3' mass='1'/>"
+    "<body name='disc' pos='0 0 -.3'><geom type='cylinder' size='.1 .02' euler='90 0 0' mass='2'/></body></body></worldbody></mujoco>"
+)
+"""A thing of the plan that is welded to another one, and lies on its side."""
+LADLE_PLAN: dict[str, object] = {
+    "topology": {
+        "joints": [
+            {"name": "pivot", "type": "hinge", "child": "stick", "axis": [0, 1, 0]},
+            {"name": "glue", "type": "weld", "parent": "stick", "child": "disc"},
+        ]
+    },
+    "simulation_parameters": {"masses": {"stick": 1, "disc": 2}, "initial_motion": None, "materials": None},
+    "scene_objects": [
+        {"name": "stick", "primitive": "box", "size": [0.02, 0.02, 0.6]},
+        {"name": "disc", "primitive": "cylinder", "size": [0.2, 0.2, 0.04], "deg_x": 90},
+    ],
+}
 CART_PLAN: dict[str, object] = {
     "topology": {"joints": [{"name": "axle", "type": "hinge", "parent": "car", "child": "wheel", "axis": [0, 1, 0]}]},
     "simulation_parameters": {"masses": {"car": 10, "wheel": 2}, "initial_motion": None, "materials": None},
@@ -33,7 +52,10 @@ CART_PLAN: dict[str, object] = {
 
 def extent(view: ModelView, body: int) -> np.ndarray:
     """(3,) full extents of a body and what it carries, along its own axes, m; without parts that the plan sizes itself."""
-    if parts(view, body):
+    carried = parts(view, body)
+    if any(view.body_weldid[part] == view.body_weldid[body] for part in carried):
+        return view.bare_high[body] - view.bare_low[body]
+    if carried:
         return view.own_high[body] - view.own_low[body]
     return view.body_high[body] - view.body_low[body]
 

@@ -16,12 +16,12 @@ import numpy as np
 from ...compiled.view import ModelView
 from ...problem import Problem
 from ...proof import Measured, model_of
-from ._planned import CART, CART_PLAN, THREE, extent
+from ._planned import CART, CART_PLAN, LADLE, LADLE_PLAN, THREE, extent
 
 CODE = "WM151"
 SEVERITY = "error"
 SCOPE = "plan"
-GOOD = (THREE, (CART, CART_PLAN))
+GOOD = (THREE, (CART, CART_PLAN), (LADLE, LADLE_PLAN))
 BAD = (
     THREE.replace("size='.2 .15 .1'", "size='.4 .3 .2'"),
     THREE.replace("size='.04 .05'", "size='.04 .1'"),
@@ -38,7 +38,7 @@ def check(view: ModelView) -> Iterator[Problem]:
         body = view.root_named(row.name)
         if body is None or row.primitive == "plane":
             continue
-        yield from _compared(view, body, np.array(row.size), extent(view, body))
+        yield from _compared(view, body, np.array(row.extents), extent(view, body))
     for asset in view.plan.assets:
         height = view.plan.asset_dimensions.get(asset.name)
         for name in asset.instances:
