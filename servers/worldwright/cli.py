@@ -133,7 +133,8 @@ def verb(function: Callable[..., Any]) -> click.Command:
             raise click.UsageError(f"give a {batch[0]}, or --batch FILE with one a line")
         result = report_errors(lambda: _call(function, arguments, listener is not None), _format)
         show(result, _format)
-        _pictures(result, _save, _format)
+        if "out" not in annotations:
+            _pictures(result, _save, _format)
         sys.exit(expose.exit_code(result))
 
     return click.Command(
@@ -158,7 +159,10 @@ def _pictures(result: Any, folder: Path | None, style: str) -> None:
     if not isinstance(result, Illustrated) or not result.pictures:
         return
     if folder is None:
-        click.echo(f"{len(result.pictures)} pictures: --save FOLDER writes them", err=True)
+        count = len(result.pictures)
+        click.echo(
+            f"{count} picture{'s' if count > 1 else ''}: --save FOLDER writes {'them' if count > 1 else 'it'}", err=True
+        )
         return
     from worldkit.files import write_atomic
 

@@ -143,12 +143,18 @@ class Objective(Frozen):
     """What the claim is an effect of: bodies, actuators, joints, tendons, constraints, `gravity`, `wind`, or an
     intervention such as `force:rocket`. Without it, `expect` must fail (`scan --causes`)."""
     effect: str = ""
-    """The effect in words; where it names one of the expectations, that one is the effect."""
+    """The effect in words, or a list of expectations; where it names expectations, those are the effect."""
 
     @field_validator("cause", mode="before")
     @classmethod
     def _one_cause(cls, value: Any) -> Any:
         return (value,) if isinstance(value, str) else tuple(value) if isinstance(value, list) else value
+
+    @field_validator("effect", mode="before")
+    @classmethod
+    def _one_text(cls, value: Any) -> Any:
+        several = isinstance(value, list | tuple) and all(isinstance(name, str) for name in value)
+        return ", ".join(value) if several else value
 
 
 class CameraRow(Frozen):

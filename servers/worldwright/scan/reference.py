@@ -32,6 +32,21 @@ recording, whatever the plan claims. *Needs* names the channels without which a 
 """
 
 
+_AUDITS = """
+## The audits
+
+Not checks of one recording: they repeat the physics (`worldwright scan scan RUN --refine --causes`).
+
+| code | finding | what it means |
+|---|---|---|
+| WS311 | `numerical_artefact` | a claim holds at the plan's time step and fails at half of it, or the other way round |
+| WS321 | `effect_without_cause` | the effect comes although its declared cause was taken away: it was staged |
+| WS322 | `effect_unmoved` | the cause was weakened and the effect neither came later nor measured differently: it was timed |
+| WS323 | `timed_trigger` | what the plan declares as a consequence acts at the same moment whatever happens |
+| WS324 | `cause_untested` | a declared cause could not be tested: the effect has no expectation, or nothing of the cause can be removed |
+"""
+
+
 def vocabulary() -> str:
     """The page of expectations."""
     families = {name: [e for e in EXPECTATIONS.values() if _family(e) == name] for name in FAMILIES}
@@ -56,7 +71,7 @@ def anomalies() -> str:
     for entry in CHECKS.values():
         needs = ", ".join(f"`{name}`" for name in entry.NEEDS) or "poses alone"
         parts += ["", f"## {entry.code} {entry.name}", "", entry.doc, "", f"Needs: {needs}."]
-    return "\n".join(parts) + "\n"
+    return "\n".join(parts) + "\n" + _AUDITS
 
 
 PAGES = {VOCABULARY: vocabulary, ANOMALIES: anomalies}
