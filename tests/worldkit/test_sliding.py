@@ -28,7 +28,7 @@ def slide(model: mujoco.MjModel, speed: float = 2.0) -> tuple[float, float, floa
         lift = max(lift, data.qpos[2] - 0.175)
         if abs(data.qvel[0]) > 0.05:
             touching.append(data.nefc > 0)
-    return lift, data.qpos[0] - start, float(np.mean(touching))
+    return lift, data.qpos[0] - start, float(np.mean(touching or [0.0]))
 
 
 def test_a_sliding_crate_stays_down_and_stops_where_coulomb_says():
