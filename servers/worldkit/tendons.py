@@ -16,8 +16,8 @@ if TYPE_CHECKING:
 
 LIMIT_S = 0.016
 """Time constant of a rope's limit, s. Stiffer, a taut rope rattles: a box of 10 kg towed at 0.2 m/s was pulled by 0 to 250 N
-at 2 ms, by 0 to 60 N at 16 ms, on average by its friction either way; a weight that falls into it at 2.4 m/s stretches it by
-4 cm for a moment."""
+at 2 ms, by 0 to 60 N at 16 ms, on average by its friction either way; a weight of 2 kg that falls 0.3 m into it stretches it
+by 13 mm for a moment."""
 End = tuple[str, Vec3]
 """Name of a body, or `world`; and a world-frame point at the initial pose, m."""
 
