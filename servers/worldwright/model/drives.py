@@ -11,13 +11,13 @@ Side = Literal["center", "top", "bottom", "left", "right", "front", "back"]
 
 
 class End(Frozen):
-    """Where a tendon is fastened: the middle of a side of a body's bounding box, or a point of the world."""
+    """Where a tendon is fastened: the middle of a side of a body (of its `size`), or a point of the world."""
 
     body: str = "world"
     at: Side = "center"
-    """Of the body, at its initial pose: front is +X, left is +Y, top is +Z."""
+    """Of the body itself, turned with it: front is its own +X, left +Y, top +Z, before `deg_x` and the yaw."""
     offset: Vec3 = (0.0, 0.0, 0.0)
-    """Metres from there, in the body's frame; for `world`, the point itself."""
+    """Metres from there, along the same axes; for `world`, the point itself."""
 
 
 class Tendon(Frozen):

@@ -1,0 +1,21 @@
+"""What the parts of a draft ask of the file they are written into, and what they leave to its author."""
+
+from dataclasses import dataclass, field
+
+
+@dataclass
+class Needs:
+    """Collected while the parts are written."""
+
+    modules: set[str] = field(default_factory=set)
+    """Modules of worldkit that the program imports."""
+    open_places: list[str] = field(default_factory=list)
+    """What must still be written by hand."""
+
+    def use(self, *modules: str) -> None:
+        """Import these modules of worldkit."""
+        self.modules.update(modules)
+
+    def leave(self, why: str, what: str) -> None:
+        """Note a place for the author."""
+        self.open_places.append(f"{why}: {what}")

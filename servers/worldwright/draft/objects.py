@@ -1,0 +1,157 @@
+"""The things of a world: primitives and catalog assets, each with its pose, mass, look, surface and joint."""
+
+from ..model.errors import PlanError
+from ..model.plan import AssetRow, Joint, Plan, SceneObject
+from ..model.scene import PlacedObject, Scene
+from .needs import Needs
+from .source import Raw, call, comment, constant_name, literal
+
+
+class Objects:
+    """Writes the objects of a plan, parents before children, otherwise in plan order."""
+
+    def __init__(self, plan: Plan, scene: Scene, needs: Needs) -> None:
+        self.plan = plan
+        self.scene = scene
+        self.needs = needs
+        self.parameters = plan.simulation_parameters
+        self.joint_of: dict[str, Joint] = {}
+        self.loops: list[Joint] = []
+        for joint in plan.topology.joints:
+            if joint.child in self.joint_of:
+                self.loops.append(joint)
+            else:
+                self.joint_of[joint.child] = joint
+
+    def written(self) -> str:
+        """Every scene object and asset."""
+        parts = [
+            self.scene_object(item) if isinstance(item, SceneObject) else self.asset(item) for item in self.ordered()
+        ]
+        for joint in self.loops:
+            self.needs.leave(
+                f"joint {joint.name} closes a loop on {joint.child}", "spec.add_equality(...) between its bodies"
+            )
+            parts.append(comment(f"AUTHOR: joint {joint.name} closes a loop: add an equality constraint for it."))
+        if self.plan.plan_type == "fsi_in_scene":
+            self.needs.leave("the plan couples a fluid with solids", "the fluid's medium and its coupling")
+            parts.append(comment("AUTHOR: add the fluid and its coupling to the solids here."))
+        return "\n".join(part for part in parts if part)
+
+    def ordered(self) -> list[SceneObject | AssetRow]:
+        """Plan order, except that a joint's parent comes before its child."""
+        rows: list[SceneObject | AssetRow] = [*self.plan.scene_objects, *self.plan.assets]
+        by_name = {row.name: row for row in rows}
+        done: dict[str, SceneObject | AssetRow] = {}
+
+        def visit(row: SceneObject | AssetRow, trail: tuple[str, ...]) -> None:
+            if row.name in done:
+                return
+            joint = self.joint_of.get(row.name)
+            if joint is not None and joint.parent in by_name:
+                if joint.parent in trail:
+                    cycle = " -> ".join((*trail, joint.parent))
+                    raise PlanError(f"the joints form a cycle: {cycle}", next_move="make one of its bodies the root")
+                visit(by_name[joint.parent], (*trail, row.name))
+            done[row.name] = row
+
+        for row in rows:
+            visit(row, (row.name,))
+        return list(done.values())
+
+    def scene_object(self, row: SceneObject) -> str:
+        """One primitive."""
+        self.needs.use("bodies")
+        placed = self.scene[row.name]
+        x, _, z = row.size
+        shapes: dict[str, tuple[str, dict]] = {
+            "box": ("box", {"size": row.size}),
+            "plane": ("box", {"size": row.size}),
+            "sphere": ("sphere", {"diameter": x}),
+            "cylinder": ("cylinder", {"diameter": x, "height": z}),
+            "capsule": ("capsule", {"diameter": x, "height": z}),
+            "ellipsoid": ("ellipsoid", {"size": row.size}),
+            "box_container": ("container", {"size": row.size, "wall": row.wall_thickness}),
+        }
+        function, keywords = shapes[row.primitive]
+        keywords |= self.common(row.name, placed)
+        if row.deg_x:
+            keywords["tilt_deg"] = row.deg_x
+        if row.look:
+            keywords["look"] = row.look
+        if row.material:
+            keywords["surface"] = Raw(constant_name(row.material))
+        if row.visual_only:
+            keywords["visual_only"] = True
+        elif row.fixed or not row.dynamic:
+            keywords["fixed"] = True
+        keywords |= self.joint(row.name)
+        note = row.description or row.role
+        lines = [comment(note)] if note else []
+        return "\n".join([*lines, call(f"bodies.{function}", Raw("spec"), row.name, **keywords)])
+
+    def common(self, name: str, placed: PlacedObject) -> dict:
+        """Pose and mass, the same for every kind of object."""
+        keywords: dict = {"pos": tuple(float(v) for v in placed.position)}
+        if placed.deg_z:
+            keywords["yaw_deg"] = float(placed.deg_z)
+        if name in self.parameters.masses:
+            keywords["mass"] = self.parameters.masses[name]
+        return keywords
+
+    def joint(self, name: str) -> dict:
+        """How an object is attached, when the plan says so."""
+        row = self.joint_of.get(name)
+        if row is None:
+            return {}
+        parent = {} if row.parent == "world" else {"parent": row.parent}
+        if row.type == "weld":
+            return {**parent, "fixed": True}
+        self.needs.use("joints")
+        keywords: dict = {}
+        if row.anchor is not None:
+            keywords["anchor"] = row.anchor
+        if row.type != "ball":
+            keywords["axis"] = row.axis
+            unit = "deg" if row.type == "hinge" else "m"
+            if row.range is not None:
+                keywords[f"range_{unit}"] = row.range
+            keywords |= {k: getattr(row, k) for k in ("stiffness", "frictionloss") if getattr(row, k)}
+            if row.spring_rest:
+                keywords[f"rest_{unit}"] = row.spring_rest
+        if row.damping:
+            keywords["damping"] = row.damping
+        made = call(f"joints.{row.type.capitalize()}", row.name, indent=0, **keywords)
+        return {**parent, "joint": Raw(" ".join(made.split()).replace("( ", "(").replace(", )", ")"))}
+
+    def asset(self, row: AssetRow) -> str:
+        """A catalog asset; several instances become a table of poses and one loop."""
+        if row.type != "mesh" or any(name in self.joint_of for name in row.instances):
+            what = f"a {row.type} asset" if row.type != "mesh" else "an asset on a joint"
+            self.needs.leave(f"{row.name} is {what}", "import it and attach it to the world")
+            return comment(f"AUTHOR: add {row.name} ({row.filename}): {what} is not drafted.")
+        self.needs.use("assets")
+        keywords: dict = {"height": self.plan.asset_dimensions[row.name]}
+        if row.material:
+            keywords["surface"] = Raw(constant_name(row.material))
+        if row.look:
+            keywords["look"] = row.look
+        if row.fixed or not row.is_dynamic:
+            keywords["fixed"] = True
+        if row.count == 1:
+            pose = self.common(row.name, self.scene[row.name])
+            return call("assets.add", Raw("spec"), row.filename, name=row.name, **pose, **keywords)
+        table = constant_name(row.name).lower() + "_poses"
+        lines = [f"    {table} = {{  # name: (centre, yaw in degrees)"]
+        for name in row.instances:
+            placed = self.scene[name]
+            lines.append(
+                f"        {literal(name)}: ({literal(tuple(map(float, placed.position)))}, {float(placed.deg_z)}),"
+            )
+        lines += ["    }", f"    for name, (pos, yaw_deg) in {table}.items():"]
+        masses = {self.parameters.masses.get(n, self.parameters.masses.get(row.name)) for n in row.instances}
+        if len(masses) == 1 and (mass := masses.pop()) is not None:
+            keywords["mass"] = mass
+        pose = {"name": Raw("name"), "pos": Raw("pos"), "yaw_deg": Raw("yaw_deg")}
+        lines.append(call("assets.add", Raw("spec"), row.filename, indent=8, **pose, **keywords))
+        return "\n".join(lines)
