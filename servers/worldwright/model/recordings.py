@@ -12,7 +12,8 @@ from .coordinates import Coordinates
 from .errors import RecordingError
 from .loads import Loads
 from .mechanics import Mechanics
-from .trajectory import OPTIONAL_SHAPES, SHAPES, Contacts, Interventions, Trajectory
+from .records import Contacts, Interventions
+from .trajectory import OPTIONAL_SHAPES, SHAPES, Trajectory
 
 Array = np.ndarray
 

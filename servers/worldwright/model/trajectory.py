@@ -24,6 +24,7 @@ from .coordinates import Coordinates
 from .errors import NotFoundError, RecordingError
 from .loads import Loads
 from .mechanics import Mechanics
+from .records import Contacts, Interventions
 
 Array = np.ndarray
 STANDARD_GRAVITY = 9.80665
@@ -35,62 +36,6 @@ WORLD_NAMES = ("world", "ground", "floor")
 """Names by which the world itself may be meant where a body is asked for."""
 SHAPES = {"pos": (3,), "quat": (4,), "linvel": (3,), "angvel": (3,)}
 OPTIONAL_SHAPES = {"energy": "T,2", "ncon": "T", "max_penetration": "T", "contact_force_sum": "T,B"}
-
-
-@dataclass(frozen=True)
-class Contacts:
-    """N contact points, in the order of their rows."""
-
-    row: Array
-    """(N,) recorded row each belongs to."""
-    body1: Array
-    """(N,) index of the first body."""
-    body2: Array
-    """(N,) index of the second body."""
-    depth_m: Array
-    """(N,) penetration depth, positive when the surfaces overlap."""
-    normal_force: Array
-    """(N,) N, along the normal."""
-    force: Array | None = None
-    """(N, 3) N, on the second body, world frame."""
-    position: Array | None = None
-    """(N, 3) m."""
-    normal: Array | None = None
-    """(N, 3) unit vector from the first to the second body."""
-    geom1: Array | None = None
-    """(N,) geom rows in the mechanics, when known."""
-    geom2: Array | None = None
-
-    @property
-    def live(self) -> Array:
-        """(N,) bool: pushes or overlaps, rather than only being near."""
-        return (self.normal_force > 0) | (self.depth_m > 0)
-
-    def of_pair(self, one: int, other: int) -> Array:
-        """(N,) bool: between these two bodies, either way round."""
-        return ((self.body1 == one) & (self.body2 == other)) | ((self.body1 == other) & (self.body2 == one))
-
-    def take(self, mask: Array) -> "Contacts":
-        """Only the contacts where `mask` (N,) is true."""
-        return Contacts(
-            **{f.name: None if getattr(self, f.name) is None else getattr(self, f.name)[mask] for f in fields(self)}
-        )
-
-
-@dataclass(frozen=True)
-class Interventions:
-    """K records of something acting on the state besides the engine's own step."""
-
-    time: Array
-    """(K,) s."""
-    kind: Sequence[str]
-    """(K,) force, torque, control, pose, velocity, mocap, constraint, parameter or callback."""
-    target: Sequence[str]
-    """(K,) body, actuator, constraint or model field."""
-    value: Array
-    """(K, 6) in the kind's own unit, zero-padded."""
-    work_j: Array
-    """(K,) J done on the system."""
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,8 @@ from typing import Any
 import numpy as np
 
 from ..model.mechanics import Mechanics
-from ..model.trajectory import STANDARD_GRAVITY, Contacts, Interventions, Trajectory
+from ..model.records import Contacts, Interventions
+from ..model.trajectory import STANDARD_GRAVITY, Trajectory
 
 Array = np.ndarray
 G = STANDARD_GRAVITY

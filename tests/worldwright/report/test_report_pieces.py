@@ -7,7 +7,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.model.trajectory import Contacts, Trajectory
+from worldwright.model.records import Contacts
+from worldwright.model.trajectory import Trajectory
 from worldwright.report import chart, series, text
 from worldwright.report.facts import _named, strength
 from worldwright.report.progress import bar

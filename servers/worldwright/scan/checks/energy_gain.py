@@ -18,7 +18,8 @@ import numpy as np
 
 from ...model.finding import AnomalySeverity
 from ...model.plan import Intervention
-from ...model.trajectory import Interventions, Trajectory
+from ...model.records import Interventions
+from ...model.trajectory import Trajectory
 from .. import analytic, flight
 from ..sign import Case, Context, Sign, SkipError
 
