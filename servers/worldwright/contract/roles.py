@@ -109,7 +109,7 @@ First call `stage.draft`: for a declarative plan the drafted program is complete
 plan; if it cannot be built as it stands, say which line and why. Then `lint.check_program` (with `plan`) until clean, then
 `stage.start` physics and `stage.wait`. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
-Answer with: what you wrote or changed, lint's verdict, the physics pass's verdict.""",
+Answer with: what you wrote or changed, lint's verdict, the physics pass's verdict and what `stage.wait` tells of it.""",
     refuses=(
         "editing plan.md",
         "helper forces, timers or poses the plan does not declare",

@@ -77,6 +77,8 @@ class JobStatus(Frozen):
     sandbox: str = ""
     result: str = ""
     """Folder of what the pass made, once it succeeded."""
+    account: tuple[str, ...] = ()
+    """Of a finished physics pass: speed, warnings, what acted, the deepest penetration, what never moved."""
 
     @property
     def name(self) -> str:
@@ -101,6 +103,7 @@ class JobStatus(Frozen):
             line += f" · {self.done:g}/{self.total:g} {self.unit}"
             line += f", about {self.eta_s:.0f} s left" if self.eta_s is not None else ""
         line += f"\n{self.result}" if self.result else ""
+        line += "".join(f"\n- {said}" for said in self.account)
         if self.message:
             line += f"\n{self.code}: {f'{self.place}: ' if self.place else ''}{self.message}"
         return line + (f"\nnext: {self.next_move}" if self.next_move else "")

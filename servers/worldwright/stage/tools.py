@@ -110,6 +110,7 @@ def start(
     """
     from ..model import environment
     from . import models
+    from .account import with_account
     from .launch import launch
 
     if model is not None:
@@ -122,7 +123,8 @@ def start(
         folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
     limits: dict[str, Any] = {"wall_s": wall_s, "memory_mb": memory_mb, "cpu_s": cpu_s}
-    return launch(folder, key, stage, force=force, **limits, file_mb=file_mb, disk_mb=disk_mb)
+    job = launch(folder, key, stage, force=force, **limits, file_mb=file_mb, disk_mb=disk_mb)
+    return with_account(folder, job) if job.cached else job
 
 
 @reads
@@ -132,22 +134,36 @@ def wait(
     timeout_s: Annotated[float, Field(description="Return after this long at the latest.", gt=0, le=40)] = 40,
     progress: Progress = silent,
 ) -> JobStatus:
-    """Wait until a job ends, or `timeout_s` has passed, reporting progress on the way; call again while it runs."""
+    """Wait until a job ends, or `timeout_s` has passed, reporting progress on the way; call again while it runs.
+
+    Of a finished physics pass it tells what the recording shows at a glance: engine warnings, what acted besides the
+    engine's step, the deepest penetration, the speed, and which movers never moved.
+    """
+    from .account import with_account
     from .variants import follow
 
-    return follow(Job.find(Run.find(run), job), timeout_s, progress)
+    folder = Run.find(run)
+    return with_account(folder, follow(Job.find(folder, job), timeout_s, progress))
 
 
 @reads
 def status(run: RunName) -> RunStages:
-    """Which passes have succeeded for the current program and plan, and how the latest jobs stand."""
+    """Which passes have succeeded for the current program and plan, and how the latest jobs stand.
+
+    The latest physics pass comes with what its recording shows at a glance, as `wait` tells it.
+    """
     from ..model import environment
     from . import gates
+    from .account import with_account
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
     passed = tuple(stage for stage in PASSES if gates.passed(folder, key, stage) is not None)
-    return RunStages(key=key.key, passed=passed, jobs=tuple(job.read() for job in Job.all(folder)[:10]))
+    jobs = [job.read() for job in Job.all(folder)[:10]]
+    newest = next((n for n, job in enumerate(jobs) if job.stage == "physics" and not job.variant), None)
+    if newest is not None:
+        jobs[newest] = with_account(folder, jobs[newest])
+    return RunStages(key=key.key, passed=passed, jobs=tuple(jobs))
 
 
 def cancel(run: RunName, job: JobName = None) -> JobStatus:

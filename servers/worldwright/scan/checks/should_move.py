@@ -14,13 +14,12 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...model.trajectory import Trajectory
+from ...model.travel import least_m, stays_put, travel
 from .. import analytic
 from ..sign import Case, Context, Sign, SkipError
 
 CODE = "WS111"
 NEEDS = ("pos",)
-SIZE_FRACTION = 0.02
-TURN_RAD = np.radians(2.0)
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -34,19 +33,12 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             yield Sign(name, whole, 0.0, 1.0, "bodies", "blocking", message)
             continue
         b = trajectory.names.index(name)
-        moved, turned = travel(trajectory, b)
-        limit = SIZE_FRACTION * float(trajectory.size_m[b])
-        if moved < limit and turned < TURN_RAD:
+        if stays_put(trajectory, b):
+            moved, turned = travel(trajectory, b)
+            limit = least_m(trajectory, b)
             turns = f"{np.degrees(turned):.2g} degrees"
             message = f"the plan expects {name} to move, but it moves {moved:.3g} m and turns {turns}"
             yield Sign(name, whole, moved, limit, "m", "blocking", message)
-
-
-def travel(trajectory: Trajectory, b: int) -> tuple[float, float]:
-    """How far a body gets from its first position (m) and orientation (rad)."""
-    away = trajectory.pos[:, b] - trajectory.pos[0, b]
-    cosine = np.abs(trajectory.quat[:, b] @ trajectory.quat[0, b])
-    return float(np.sqrt((away**2).sum(axis=1)).max()), float(2 * np.arccos(np.clip(cosine.min(), 0.0, 1.0)))
 
 
 GOOD = (
