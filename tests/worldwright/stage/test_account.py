@@ -79,9 +79,7 @@ def test_what_acted_is_told_with_whether_it_was_meant(plan):
         "acted besides the engine's step: force on body 0.1-0.109 s, up to 5 N (UNDECLARED)",
         "declared, but never acted: torque on body (trigger: once it stands)",
     ]
-    assert list(account(moved, None, {})) == [
-        "acted besides the engine's step: force on body 0.1-0.109 s, up to 5 N"
-    ]
+    assert list(account(moved, None, {})) == ["acted besides the engine's step: force on body 0.1-0.109 s, up to 5 N"]
     cut = replace(moved, complete=False)
     assert not any("never acted" in line for line in account(cut, meant, {}))
 
