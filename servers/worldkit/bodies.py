@@ -22,10 +22,18 @@ from typing import TYPE_CHECKING, Any
 
 from . import joints
 from .joints import Vec3
+from .parts import laid_out, slabs_of
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import mujoco
     import numpy as np
+
+    from .parts import Matrix, Part
+
+DRAWN = {"contype": 0, "conaffinity": 0, "mass": 0.0, "group": 2}
+"""Of geoms that are drawn and not simulated."""
 
 
 def box(spec: "mujoco.MjSpec", name: str, *, size: Vec3, **common: Any) -> "mujoco.MjsBody":
@@ -62,17 +70,7 @@ def container(spec: "mujoco.MjSpec", name: str, *, size: Vec3, wall: float, **co
 
     A given mass is shared between the five slabs in proportion to their volumes.
     """
-    x, y, z = (extent / 2 for extent in size)
-    t = wall / 2
-    if not 0 < wall < min(x, y, 2 * z):
-        raise ValueError(f"container {name}: walls of {wall} m do not fit into {size} m")
-    slabs = {
-        "floor": ((0, 0, t - z), (x, y, t)),
-        "front": ((x - t, 0, t), (t, y, z - t)),
-        "back": ((t - x, 0, t), (t, y, z - t)),
-        "left": ((0, y - t, t), (x - wall, t, z - t)),
-        "right": ((0, t - y, t), (x - wall, t, z - t)),
-    }
+    slabs = slabs_of(name, size, wall)
     body, properties = _body(spec, name, **common)
     if "quat" in properties:
         raise ValueError(f"container {name}: a container cannot be tilted; leave out tilt_deg")
@@ -81,6 +79,45 @@ def container(spec: "mujoco.MjSpec", name: str, *, size: Vec3, wall: float, **co
     for side, (offset, half) in slabs.items():
         share = {} if mass is None else {"mass": mass * half[0] * half[1] * half[2] / total}
         _geom(body, f"{name}_{side}", "mjGEOM_BOX", half, pos=offset, **properties, **share)
+    return body
+
+
+def compound(
+    spec: "mujoco.MjSpec", name: str, *, parts: "Sequence[Part]", mass: float | None = None, **common: Any
+) -> "mujoco.MjsBody":
+    """One rigid body of several primitives: a ladder of rails and rungs, a suitcase with wheels and a handle.
+
+    Its origin is the centre of the box around all parts, after `tilt_deg`; its centre of mass and its inertia follow from
+    the parts. Geoms are called `name/part`. `look` and `surface` are those of parts without their own.
+
+    Args:
+        spec: the world under construction.
+        name: body name.
+        parts: see `worldkit.parts.Part`.
+        mass: kilograms of the whole; parts that give no mass of their own share what is left (`Whole.masses`).
+        common: as for every body (`pos`, `yaw_deg`, `tilt_deg`, `fixed`, `parent`, `joint` …).
+
+    Raises:
+        ValueError: parts that cannot be laid out, or masses that contradict each other.
+    """
+    from . import materials
+
+    surface, drawn = common.pop("surface", None) or {}, bool(common.get("visual_only"))
+    whole = laid_out(name, parts, common.pop("tilt_deg", 0.0))
+    try:
+        masses = whole.masses(mass, common.pop("density", None) or surface.get("density"))
+    except ValueError as error:
+        raise ValueError(f"compound {name}: {error}") from error
+    body, properties = _body(spec, name, **common)
+    for solid, weight in zip(whole.solids, masses, strict=True):
+        # A part's own surface replaces the body's whole: a contact without restitution must not inherit a spring.
+        own = properties | (surface if solid.part.surface is None else solid.part.surface)
+        own.pop("density", None)
+        if solid.part.look is not None:
+            own["material"] = materials.add(spec, solid.part.look)
+        own |= DRAWN if drawn or solid.part.visual_only else {"mass": weight}
+        pose = {"pos": solid.centre, "quat": _quat(solid.rotation)}
+        _geom(body, solid.name, f"mjGEOM_{solid.shape.upper()}", solid.half, **own, **pose)
     return body
 
 
@@ -149,7 +186,7 @@ def _body(
         turn = math.radians(tilt_deg) / 2
         properties["quat"] = (math.cos(turn), math.sin(turn), 0.0, 0.0)
     if visual_only:
-        properties |= {"contype": 0, "conaffinity": 0, "mass": 0.0, "group": 2}
+        properties |= DRAWN
     elif mass is not None:
         properties["mass"] = mass
     elif density is not None:
@@ -162,11 +199,20 @@ def _relative(rotation: "np.ndarray", quat: tuple[float, float, float, float]) -
     import mujoco
     import numpy as np
 
-    frame, inverse, local = np.zeros(4), np.zeros(4), np.zeros(4)
-    mujoco.mju_mat2Quat(frame, rotation.ravel())
-    mujoco.mju_negQuat(inverse, frame)
+    inverse, local = np.zeros(4), np.zeros(4)
+    mujoco.mju_negQuat(inverse, _quat(rotation))
     mujoco.mju_mulQuat(local, inverse, np.asarray(quat))
     return local
+
+
+def _quat(rotation: "np.ndarray | Matrix") -> "np.ndarray":
+    """The quaternion (wxyz) of a rotation matrix."""
+    import mujoco
+    import numpy as np
+
+    quat = np.zeros(4)
+    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(rotation, dtype=float).ravel())
+    return quat
 
 
 def _geom(body: "mujoco.MjsBody", name: str, kind: str, half: tuple, **properties: Any) -> None:

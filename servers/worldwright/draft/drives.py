@@ -45,8 +45,10 @@ def point(end: End, plan: Plan, scene: Scene) -> Vec3:
     placed = scene[end.body]
     row = next((row for row in plan.scene_objects if row.name == end.body), None)
     size, tilt_deg = (placed.size, 0.0) if row is None else (row.size, row.deg_x)
+    away = row.tilt_shift if row is not None else (0.0, 0.0, 0.0)
     x, y, z = (side * extent / 2 + more for side, extent, more in zip(SIDES[end.at], size, end.offset, strict=True))
     y, z = _turned(y, z, tilt_deg)
+    x, y, z = x + away[0], y + away[1], z + away[2]
     x, y = _turned(x, y, placed.deg_z)
     cx, cy, cz = (float(c) for c in placed.position)
     return (round(cx + x, 9) + 0.0, round(cy + y, 9) + 0.0, round(cz + z, 9) + 0.0)

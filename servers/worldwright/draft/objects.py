@@ -1,5 +1,7 @@
 """The things of a world: primitives and catalog assets, each with its pose, mass, look, surface and joint."""
 
+from dataclasses import fields
+
 from ..model.errors import PlanError
 from ..model.plan import AssetRow, Joint, Plan, SceneObject
 from ..model.scene import PlacedObject, Scene
@@ -60,7 +62,7 @@ class Objects:
         return list(done.values())
 
     def scene_object(self, row: SceneObject) -> str:
-        """One primitive."""
+        """One primitive, or one compound of several."""
         self.needs.use("bodies")
         placed = self.scene[row.name]
         x, _, z = row.size
@@ -71,6 +73,7 @@ class Objects:
             "cylinder": ("cylinder", {"diameter": x, "height": z}),
             "capsule": ("capsule", {"diameter": x, "height": z}),
             "ellipsoid": ("ellipsoid", {"size": row.size}),
+            "compound": ("compound", {"parts": Raw(f"{constant_name(row.name).lower()}_parts")}),
             "box_container": ("container", {"size": row.size, "wall": row.wall_thickness}),
         }
         function, keywords = shapes[row.primitive]
@@ -88,7 +91,27 @@ class Objects:
         keywords |= self.joint(row.name)
         note = row.description or row.role
         lines = [comment(note)] if note else []
+        if row.parts:
+            lines.append(self.parts(row))
         return "\n".join([*lines, call(f"bodies.{function}", Raw("spec"), row.name, **keywords)])
+
+    def parts(self, row: SceneObject) -> str:
+        """The parts of a compound as a table of their own."""
+        self.needs.use("parts")
+        lines = [f"    {constant_name(row.name).lower()}_parts = ("]
+        for part in row.parts:
+            made = part.part()
+            keywords: dict = {"size": made.size}
+            for item in fields(made):
+                value = getattr(made, item.name)
+                if item.name not in ("name", "shape", "size") and value != item.default:
+                    keywords[item.name] = value
+            if part.look:
+                keywords["look"] = part.look
+            if part.material:
+                keywords["surface"] = Raw(constant_name(part.material))
+            lines.append(call("parts.Part", made.name, made.shape, indent=8, tail=",", **keywords))
+        return "\n".join([*lines, "    )"])
 
     def common(self, name: str, placed: PlacedObject) -> dict:
         """Pose and mass, the same for every kind of object."""

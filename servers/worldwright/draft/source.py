@@ -31,8 +31,8 @@ def literal(value: Any) -> str:
     return repr(value)
 
 
-def call(function: str, *positional: Any, indent: int = 4, **keywords: Any) -> str:
-    """A call statement; one argument a line when it would not fit on one.
+def call(function: str, *positional: Any, indent: int = 4, tail: str = "", **keywords: Any) -> str:
+    """A call statement, with `tail` behind it; one argument a line when it would not fit on one.
 
     >>> print(call("f", "a", size=(1.0, 2.0), indent=0))
     f("a", size=(1.0, 2.0))
@@ -40,14 +40,14 @@ def call(function: str, *positional: Any, indent: int = 4, **keywords: Any) -> s
     parts = [literal(value) for value in positional]
     parts += [f"{name}={literal(value)}" for name, value in keywords.items()]
     pad = " " * indent
-    line = f"{pad}{function}({', '.join(parts)})"
+    line = f"{pad}{function}({', '.join(parts)}){tail}"
     if len(line) <= WIDTH:
         return line
     inner = pad + "    "
     joined = ", ".join(parts)
     if len(inner + joined) <= WIDTH:
-        return f"{pad}{function}(\n{inner}{joined}\n{pad})"
-    return f"{pad}{function}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{pad})"
+        return f"{pad}{function}(\n{inner}{joined}\n{pad}){tail}"
+    return f"{pad}{function}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{pad}){tail}"
 
 
 def comment(text: str, indent: int = 4) -> str:

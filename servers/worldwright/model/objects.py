@@ -1,17 +1,28 @@
-"""What a plan is made of: primitives with a size, and catalog assets.
+"""What a plan is made of: primitives with a size, compounds of them, and catalog assets.
 
 Full extents in metres along the object's own axes (z up, +X front); see `plan` for the frame and for who owns which number.
 """
 
 import math
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field, field_validator, model_validator
 
-from .frozen import Frozen
+from worldkit.parts import Whole, laid_out, plus, rotation, turned
 
-Vec3 = tuple[float, float, float]
-Primitive = Literal["box", "sphere", "cylinder", "capsule", "ellipsoid", "plane", "box_container"]
+from .frozen import Frozen
+from .parts import ObjectPart, Vec3
+
+Primitive = Literal["box", "sphere", "cylinder", "capsule", "ellipsoid", "plane", "box_container", "compound"]
+AGREES_M = 1e-3
+"""How far the `size` of a compound may be from the box around its parts."""
+
+
+def _tupled(value: Any) -> Any:
+    """Lists as tuples: behind a `before` validator, pydantic takes JSON for Python, where a list is strictly no tuple."""
+    if isinstance(value, dict):
+        return {key: _tupled(item) for key, item in value.items()}
+    return tuple(_tupled(item) for item in value) if isinstance(value, list | tuple) else value
 
 
 def tilted(primitive: str, size: Vec3, deg_x: float) -> Vec3:
@@ -42,7 +53,10 @@ class SceneObject(Frozen):
     construction_source: Literal["procedural_primitive", "generated_boundary"] = "procedural_primitive"
     primitive: Primitive
     size: Vec3
-    """Full extents in metres along the object's own x, y, z (never half extents)."""
+    """Full extents in metres along the object's own x, y, z (never half extents); of a compound the box around its parts,
+    and may be left out."""
+    parts: tuple[ObjectPart, ...] = ()
+    """Of a `compound`: the primitives that together are one rigid body."""
     wall_thickness: float | None = Field(None, gt=0)
     """Metres, for `box_container` only."""
     deg_x: float = Field(0.0, ge=-180, le=180)
@@ -56,6 +70,19 @@ class SceneObject(Frozen):
     visual_only: str | None = None
     """Why the object is drawn without being simulated, when it is."""
     description: str = ""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _sized_by_parts(cls, data: Any) -> Any:
+        """A compound without a size has that of its parts; what is wrong with these is told where it stands."""
+        if not isinstance(data, dict) or data.get("primitive") != "compound" or "size" in data:
+            return _tupled(data)
+        try:
+            parts = [ObjectPart.model_validate(row) for row in data.get("parts") or ()]
+            size = laid_out(str(data.get("name")), [row.part() for row in parts]).extents
+        except (ValueError, TypeError):
+            size = (1.0, 1.0, 1.0)
+        return _tupled({**data, "size": size})
 
     @field_validator("size")
     @classmethod
@@ -72,9 +99,36 @@ class SceneObject(Frozen):
             raise ValueError(f"a {self.primitive} cannot be tilted: remove `deg_x`")
         return self
 
+    @model_validator(mode="after")
+    def _of_parts(self) -> "SceneObject":
+        if (self.primitive == "compound") != bool(self.parts):
+            raise ValueError("`parts` are needed by a compound, and only by it: a list of at least one primitive")
+        if self.parts:
+            box = self.whole(0.0).extents
+            if max(abs(a - b) for a, b in zip(box, self.size, strict=True)) > AGREES_M:
+                told = ", ".join(f"{extent:g}" for extent in box)
+                raise ValueError(
+                    f"the box around its parts measures [{told}] m, not {list(self.size)}: leave `size` out"
+                )
+        return self
+
+    def whole(self, deg_x: float | None = None) -> Whole:
+        """The parts of a compound in the frame of their box, by default after its tilt."""
+        return laid_out(self.name, [row.part() for row in self.parts], self.deg_x if deg_x is None else deg_x)
+
+    @property
+    def tilt_shift(self) -> Vec3:
+        """Where the centre of a compound's own box lies from that of the box after its tilt, metres; nil for primitives."""
+        if not self.parts or not self.deg_x:
+            return (0.0, 0.0, 0.0)
+        x, y, z = turned(rotation(self.deg_x), self.whole(0.0).shift)
+        return plus(self.whole().shift, (-x, -y, -z))
+
     @property
     def extents(self) -> Vec3:
         """Full extents of its bounding box along its own x, y, z after the tilt, metres."""
+        if self.parts:
+            return self.whole().extents
         return self.size if not self.deg_x else tilted(self.primitive, self.size, self.deg_x)
 
 

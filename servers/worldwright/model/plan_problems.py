@@ -25,6 +25,9 @@ _MOTION = "initial velocities live in simulation_parameters.initial_motion, by o
 _OWNERS = dict.fromkeys(("position", "pos", "orientation", "yaw", "rotation", "deg_z"), _POSE)
 _OWNERS |= dict.fromkeys(("friction", "restitution", "density", "rolling_friction"), _SURFACE)
 _OWNERS |= dict.fromkeys(("velocity", "linear", "angular", "initial_velocity"), _MOTION)
+_PART = "its place in the object is its `offset` [x, y, z] in metres, its turn `deg_x`, `deg_y`, `deg_z`"
+_OF_PARTS = dict.fromkeys(("position", "pos", "orientation", "yaw", "rotation"), _PART)
+_OF_PARTS |= dict.fromkeys(("count", "step", "copies"), "write `repeat: {count: …, step: [x, y, z]}`")
 _OWNERS |= {
     "mass": "masses live in simulation_parameters.masses, by object name",
     "color": "write `look`: the name of a worldkit look, or `#rrggbb`",
@@ -131,8 +134,9 @@ def _unknown_key(path: Path) -> Problem:
     mappings = [b for b in _branches(owner) if isinstance(b, type) and issubclass(b, BaseModel)]
     known = [name for mapping in mappings for name in mapping.model_fields]
     near = get_close_matches(key, known, n=1, cutoff=0.6)
-    if key in _OWNERS and path[0] in ("scene_objects", "assets"):
-        fix = _OWNERS[key] + "; "
+    owners = _OF_PARTS | {k: v for k, v in _OWNERS.items() if k not in _OF_PARTS} if "parts" in path else _OWNERS
+    if key in owners and path[0] in ("scene_objects", "assets"):
+        fix = owners[key] + "; "
     elif near:
         fix = f"did you mean `{near[0]}`? "
     else:

@@ -89,6 +89,7 @@ def _declared(data: dict[str, Any]) -> Iterator[Problem]:
         *_named(data, "topology", "tendons"),
         *_named(data, "topology", "actuators"),
         *((name, path) for name, path, _ in _cameras(data)),
+        *_part_names(data),
         *materials,
     ):
         if not _SAFE.fullmatch(name):
@@ -171,8 +172,9 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
                 yield from _each("object", camera, place, "subjects")
     for section in ("scene_objects", "assets"):
         for row, path in _rows(data, section):
-            if row.get("material") is not None:
-                yield "material", row["material"], (*path, "material")
+            yield from _one("material", row, path, "material")
+            for part, place in _parts(row, path):
+                yield from _one("material", part, place, "material")
     for key in _dict(data.get("asset_dimensions")):
         yield "asset row", key, ("asset_dimensions", key)
     for key in _at(data, "topology", "body_positions"):
@@ -241,6 +243,18 @@ def _named(data: dict[str, Any], *path: str) -> Iterator[tuple[str, Path]]:
 
 def _objects(data: dict[str, Any]) -> Iterator[tuple[str, Path]]:
     return _named(data, "scene_objects")
+
+
+def _parts(row: dict[str, Any], path: Path) -> Iterator[tuple[dict[str, Any], Path]]:
+    """The parts of a compound object."""
+    return ((part, place) for part, place in _list(row, path, "parts") if isinstance(part, dict))
+
+
+def _part_names(data: dict[str, Any]) -> Iterator[tuple[str, Path]]:
+    for row, path in _rows(data, "scene_objects"):
+        for part, place in _parts(row, path):
+            if isinstance(part.get("name"), str):
+                yield part["name"], (*place, "name")
 
 
 def _instances(data: dict[str, Any]) -> Iterator[tuple[str, Path]]:

@@ -23,6 +23,8 @@ class PlacedObject(Frozen):
     """Its extents do not change with yaw (spheres, upright cylinders)."""
     fixed: bool = False
     supported_by: str | None = None
+    weight: str = ""
+    """Of a compound: its mass, and its centre of mass before its yaw."""
     provenance: tuple[str, ...] = ()
     """The rows and formulas that gave its numbers, first to last."""
 

@@ -30,7 +30,7 @@ def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
                 size_source=sources.get(o.name, ""),
                 position=o.position,
                 deg_z=o.deg_z,
-                formulas=o.provenance,
+                formulas=(*o.provenance, o.weight) if o.weight else o.provenance,
             )
             for o in (*chain, resolution.scene[name])
         ),
@@ -39,7 +39,10 @@ def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
 
 def _sizes(plan: Plan) -> dict[str, str]:
     """Who owns each object's size."""
-    owners = {row.name: "size given in scene_objects" for row in plan.scene_objects}
+    owners = {
+        row.name: f"the box around its {len(row.parts)} parts" if row.parts else "size given in scene_objects"
+        for row in plan.scene_objects
+    }
     for row in plan.assets:
         height = plan.asset_dimensions.get(row.name)
         owners |= dict.fromkeys(

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..model.plan import AssetRow, Plan, SceneObject
+from . import compounds
 from .anchors import Box, Surface
 
 Unsized = tuple[str, str, tuple[str | int, ...]]
@@ -55,6 +56,8 @@ def _primitive(row: SceneObject) -> Box:
             raise KeyError(f"{row.name} has no surface {name!r}; it has: {', '.join(known)}")
         return known[name]
 
+    if row.parts:
+        return compounds.box(row)
     floor = row.construction_source == "generated_boundary" and row.wall_thickness is not None
     if row.deg_x:
         return _tilted(row)

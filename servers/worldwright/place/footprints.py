@@ -5,10 +5,12 @@ Hibbeler, Engineering Mechanics: Statics, chapter 5 (equilibrium of a rigid body
 """
 
 import math
+from contextlib import suppress
 from functools import lru_cache
 
 from ..model.plan import Plan, SceneObject
 from ..model.scene import PlacedObject
+from ..model.weights import weight
 from .anchors import Surface, cos_sin
 
 Polygon = list[tuple[float, float]]
@@ -45,7 +47,7 @@ def footprint(placed: PlacedObject, row: SceneObject | None) -> Polygon:
     x, y, _ = placed.position
     if row is None:
         return turned(list(_asset(placed.kind, placed.size[2])[0]), x, y, placed.deg_z)
-    if row.deg_x:
+    if row.deg_x or row.parts:
         return turned(_lowest(row), x, y, placed.deg_z)
     if row.primitive in ("sphere", "ellipsoid", "capsule"):
         return [(x, y)]
@@ -59,14 +61,20 @@ def shadow(placed: PlacedObject, row: SceneObject | None) -> Polygon:
     x, y, _ = placed.position
     if row is None:
         return turned(list(_asset(placed.kind, placed.size[2])[2]), x, y, placed.deg_z)
+    if row.parts:
+        return turned(hull([(u, v) for u, v, _ in _cloud(row)]), x, y, placed.deg_z)
     curved = row.primitive in ("sphere", "ellipsoid", "capsule", "cylinder") and not row.deg_x
     shape = ellipse if curved else rectangle
     return turned(shape(*placed.size[:2]), x, y, placed.deg_z)
 
 
-def centre_of_mass(placed: PlacedObject, row: SceneObject | None) -> tuple[float, float]:
-    """Its place in the plane, world frame, metres."""
+def centre_of_mass(placed: PlacedObject, row: SceneObject | None, plan: Plan) -> tuple[float, float]:
+    """Its place in the plane, world frame, metres; the centre of its box when the masses of its parts contradict."""
     x, y, _ = placed.position
+    if row is not None and row.parts:
+        with suppress(ValueError):
+            own = weight(plan, row).centre[:2]
+            return turned([own], x, y, placed.deg_z)[0]
     if row is not None:
         return (x, y)
     return turned([_asset(placed.kind, placed.size[2])[1]], x, y, placed.deg_z)[0]
@@ -97,12 +105,17 @@ def _asset(
 
 
 def _lowest(row: SceneObject) -> Polygon:
-    """The lowest points of a tilted primitive, own frame: an edge, a line or a face."""
+    """The lowest points of a tilted primitive or of a compound, own frame: an edge, a line or a face."""
+    cloud = _cloud(row)
+    low = min(z for _, _, z in cloud)
+    return hull([(x, y) for x, y, z in cloud if z <= low + SLICE_M / 2])
+
+
+def _cloud(row: SceneObject) -> list[tuple[float, float, float]]:
+    """The corners of an object, own frame."""
     from .drawing.silhouettes import primitive_clouds
 
-    (cloud,) = primitive_clouds(row)
-    low = float(cloud[:, 2].min())
-    return hull([(float(x), float(y)) for x, y, z in cloud if z <= low + SLICE_M / 2])
+    return [(float(x), float(y), float(z)) for cloud in primitive_clouds(row) for x, y, z in cloud]
 
 
 def hull(points: list[tuple[float, float]]) -> Polygon:

@@ -123,10 +123,21 @@ def _primitive(bodies: Any, spec: Any, row: dict[str, Any], common: dict[str, An
         bodies.sphere(spec, diameter=x, **common)
     elif kind == "ellipsoid":
         bodies.ellipsoid(spec, size=row["size"], **common)
+    elif kind == "compound":
+        parts = [_part(values) for values in row["parts"]]
+        bodies.compound(spec, parts=parts, **common)
     elif kind == "box_container":
         bodies.container(spec, size=row["size"], wall=row["wall"], **common)
     else:
         bodies.box(spec, size=row["size"], **common)
+
+
+def _part(values: dict[str, Any]) -> Any:
+    from worldkit import contacts
+    from worldkit.parts import Part
+
+    surface = values["surface"]
+    return Part(**(values | {"surface": contacts.surface(**surface) if surface else None}))
 
 
 def _owner(model: Any, geom: int) -> str:

@@ -20,6 +20,7 @@ class Layout(Scene):
         for o in self.objects:
             x, y, z = o.position
             lines.append(f"{o.name:<{width}}  {x:9.4f} {y:9.4f} {z:9.4f}  {o.deg_z:8.2f}  {o.supported_by or '-'}")
+        lines += [f"{o.name}: {o.weight}" for o in self.objects if o.weight]
         lines += [str(finding) for finding in self.findings]
         ending = f"poses written to {self.plan}" if self.written else "nothing written"
         return "\n".join([*lines, f"{len(self.objects)} objects placed; {ending}"])

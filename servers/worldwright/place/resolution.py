@@ -2,12 +2,14 @@
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from ..model.finding import Finding
 from ..model.plan import Plan, SettledOffset
 from ..model.scene import PlacedCamera, PlacedObject, Scene
+from ..model.weights import weight
 from .anchors import DOFS, Box, shown, wrap
 from .extents import fixed_objects
 from .graph import Node
@@ -104,6 +106,7 @@ def collected(
     kinds = {row.name: "scene_object" for row in plan.scene_objects}
     kinds |= {name: row.filename for row in plan.assets for name in row.instances}
     supports = _supports(rows)
+    weights = dict(_weights(plan))
     turned = {row.subject for row in rows if "yaw" in row.pins}
 
     def provenance(name: str) -> Iterator[str]:
@@ -131,11 +134,20 @@ def collected(
             round=box.round,
             fixed=name in fixed,
             supported_by=supports.get(name),
+            weight=weights.get(name, ""),
             provenance=tuple(provenance(name)),
         )
         for name, box in _ordered(placed, rows)
     )
     return Resolution(Scene(objects=objects), {o.name: placed[o.name] for o in objects}, rows, dict(derived))
+
+
+def _weights(plan: Plan) -> Iterator[tuple[str, str]]:
+    """What each compound weighs, in words; nothing where its masses contradict each other, which the linter tells."""
+    for row in plan.scene_objects:
+        if row.parts and not row.visual_only:
+            with suppress(ValueError):
+                yield row.name, str(weight(plan, row))
 
 
 def _shifted(offset: SettledOffset) -> str:

@@ -117,6 +117,7 @@ def _request(plan: Plan, scene: Scene, names: set[str], loose: bool) -> dict[str
                 "primitive": row.primitive if isinstance(row, SceneObject) else None,
                 "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
                 "size": row.size if isinstance(row, SceneObject) else placed.size,
+                "parts": _parts(plan, row),
                 "tilt_deg": row.deg_x if isinstance(row, SceneObject) else 0.0,
                 "position": placed.position,
                 "deg_z": placed.deg_z,
@@ -131,6 +132,13 @@ def _request(plan: Plan, scene: Scene, names: set[str], loose: bool) -> dict[str
         "time_step": min(step if isinstance(step, float) else 0.002, 0.002),
         "ground": None if loose else (_surface(plan, "ground") if ground else {}),
     }
+
+
+def _parts(plan: Plan, row: SceneObject | AssetRow) -> list[dict[str, Any]]:
+    """Arguments of `worldkit.parts.Part` for each part of a compound."""
+    if not isinstance(row, SceneObject):
+        return []
+    return [vars(part.part()) | {"surface": _surface(plan, part.material)} for part in row.parts]
 
 
 def _surface(plan: Plan, material: str | None) -> dict[str, float] | None:

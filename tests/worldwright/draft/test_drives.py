@@ -52,3 +52,28 @@ def test_the_order_is_tilt_then_yaw():
     # +Z of the plank turns to -Y by the tilt, and that to +X by the yaw.
     assert point(End(body="plank", at="top"), plan, scene) == pytest.approx((1.05, 2, 3))
     assert math.dist(point(End(body="plank", at="left"), plan, scene), (1, 2, 3.1)) < 1e-9
+
+
+def test_an_end_on_a_tilted_compound_moves_with_its_box():
+    from worldkit import bodies
+
+    row = {
+        "name": "plank",
+        "primitive": "compound",
+        "deg_x": 40,
+        "parts": [
+            {"name": "bar", "primitive": "box", "size": [0.4, 0.2, 0.1], "offset": [0, 0, 0.05]},
+            {"name": "hook", "primitive": "box", "size": [0.02, 0.02, 0.2], "offset": [0, 0.09, 0.2]},
+        ],
+    }
+    base, scene = world(0, 25)
+    plan = Plan.model_validate(base.model_dump() | {"scene_objects": [row]})
+    made = plan.scene_objects[0]
+    spec = mujoco.MjSpec()
+    bodies.compound(spec, "plank", parts=[p.part() for p in made.parts], pos=(1, 2, 3), yaw_deg=25, tilt_deg=40)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    hook = data.geom("plank/hook")
+    tip = hook.xpos + hook.xmat.reshape(3, 3) @ (0, 0, 0.1)
+    assert point(End(body="plank", at="top", offset=(0, 0.09, 0)), plan, scene) == pytest.approx(tip, abs=1e-8)

@@ -2,6 +2,7 @@
 
 from collections import defaultdict
 
+from ...model.plan import SceneObject
 from ...model.scene import PlacedObject
 from ..anchors import TOLERANCE_M, Box, Surface, shown
 from ..footprints import area_of, centre_of_mass, clipped, footprint, hull, inset, rows, turned
@@ -24,8 +25,10 @@ def check(layout: Layout) -> None:
         if placed.fixed or name in layout.held or name in layout.hidden:
             continue
         low = placed.position[2] - placed.size[2] / 2
+        row = scene_rows.get(name)
         if low <= CONTACT_M:
-            continue  # its own footprint, on the ground
+            _own_base(layout, placed, row)
+            continue
         contacts: list[tuple[Box, Surface]] = []
         for other in below[name]:
             contacts += _planes(layout.resolution.boxes[other], low)
@@ -33,8 +36,7 @@ def check(layout: Layout) -> None:
             if not placed.supported_by:
                 _floats(layout, placed, low)
             continue
-        row = scene_rows.get(name)
-        centre = centre_of_mass(placed, row)
+        centre = centre_of_mass(placed, row, layout.plan)
         own = footprint(placed, row)
         touching = []
         for box, surface in contacts:
@@ -53,6 +55,14 @@ def check(layout: Layout) -> None:
         margin = inset(hull(touching), centre)
         if margin < -SURE_M:
             _tips(layout, placed, [box.name for box, _ in contacts], -margin)
+
+
+def _own_base(layout: Layout, placed: PlacedObject, row: SceneObject | None) -> None:
+    """On the ground only a compound can stand beside its own centre of mass: its parts differ in weight."""
+    if row is not None and row.parts:
+        margin = inset(footprint(placed, row), centre_of_mass(placed, row, layout.plan))
+        if margin < -SURE_M:
+            _tips(layout, placed, ["ground"], -margin)
 
 
 def _scenery(layout: Layout, touching: dict[str, list[str]]) -> None:

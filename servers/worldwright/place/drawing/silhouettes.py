@@ -47,7 +47,9 @@ def _hull(points: np.ndarray) -> np.ndarray:
 
 
 def primitive_clouds(row: SceneObject) -> list[np.ndarray]:
-    """The corners of a primitive after its tilt, each (N, 3), around its centre, metres."""
+    """The corners of a primitive, or of each part of a compound, after its tilt: (N, 3), around its centre, metres."""
+    if row.parts:
+        return [_solid(s.shape, s.half) @ np.array(s.rotation).T + np.array(s.centre) for s in row.whole().solids]
     if not row.deg_x:
         return _primitive(row)
     c, s = cos_sin(row.deg_x)
@@ -66,6 +68,20 @@ def _primitive(row: SceneObject) -> list[np.ndarray]:
         ball, shift = _ball(x, y, x), np.array([0.0, 0.0, straight])
         return [np.concatenate([ball + shift, ball - shift])]
     return [_box(x, y, z)]
+
+
+def _solid(shape: str, half: tuple[float, float, float]) -> np.ndarray:
+    """The corners of a solid by MuJoCo's half sizes, around its own centre."""
+    x, y, z = half
+    if shape == "box":
+        return _box(x, y, z)
+    if shape == "cylinder":
+        return _tube(x, x, y)
+    if shape == "capsule":
+        ball = _ball(x, x, x)
+        shift = np.array([0.0, 0.0, y])
+        return np.concatenate([ball + shift, ball - shift])
+    return _ball(x, x, x) if shape == "sphere" else _ball(x, y, z)
 
 
 def _box(x: float, y: float, z: float) -> np.ndarray:

@@ -1,6 +1,7 @@
 """A compiled body weighs something else than the plan says.
 
-What it does: compares the mass of each body, with all it carries, with the plan's `masses`: more than 2 % apart.
+What it does: compares the mass of each body, with all it carries, with the plan's `masses`, or with those of a compound's
+parts: more than 2 % apart.
 
 Why is this bad: every collision and every load comes out differently. Geoms that are only drawn weigh as much as any,
 unless their mass is zero.
@@ -10,6 +11,8 @@ Use instead: `mass=` on one geom and `mass=0` on those that are only drawn.
 
 from collections.abc import Iterator
 
+from ....model.plan import Plan
+from ....model.weights import weight
 from ...compiled.view import ModelView
 from ...problem import Problem
 from ...proof import Measured, model_of
@@ -32,12 +35,19 @@ def check(view: ModelView) -> Iterator[Problem]:
     """Every mass of the plan; a row's mass is that of each of its instances."""
     assert view.plan is not None
     instances = {a.name: a.instances for a in view.plan.assets}
-    for row, planned in view.plan.simulation_parameters.masses.items():
+    for row, planned in (*view.plan.simulation_parameters.masses.items(), *_of_parts(view.plan)):
         for name in instances.get(row, (row,)):
             body = view.root_named(name)
             if body is None or not view.moving[body]:
                 continue
             built = float(view.body_subtreemass[body] - sum(view.body_subtreemass[part] for part in parts(view, body)))
             if abs(built - planned) > SHARE * planned:
-                message = f"{name} weighs {built:.4g} kg, the plan says {planned:g} kg"
+                message = f"{name} weighs {built:.4g} kg, the plan says {planned:.6g} kg"
                 yield view.at("body", body, message, "give the mass to one geom, and none to what is only drawn")
+
+
+def _of_parts(plan: Plan) -> Iterator[tuple[str, float]]:
+    """Compounds that weigh what their parts do."""
+    for row in plan.scene_objects:
+        if row.parts and row.name not in plan.simulation_parameters.masses:
+            yield row.name, weight(plan, row).mass_kg

@@ -35,6 +35,11 @@ def check(view: PlanView) -> Iterator[Problem]:
         odd = [extent for extent in row.size if not LEAST_M <= extent <= MOST_M]
         if odd and row.primitive != "plane":
             yield view.at(("scene_objects", index, "size"), f"{row.name} measures {odd[0]:g} m", "give sizes in metres")
+        for number, part in enumerate(row.parts):
+            odd = [extent for extent in part.size if not LEAST_M <= extent <= MOST_M]
+            if odd:
+                place = ("scene_objects", index, "parts", number, "size")
+                yield view.at(place, f"part {part.name} of {row.name} measures {odd[0]:g} m", "give sizes in metres")
     for name, height in view.plan.asset_dimensions.items():
         if not LEAST_M <= height <= MOST_M:
             yield view.at(("asset_dimensions", name), f"{name} is {height:g} m tall", "give heights in metres")

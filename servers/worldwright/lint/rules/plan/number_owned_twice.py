@@ -1,7 +1,8 @@
 """A number has two owners.
 
 What it does: finds sizes given a second time (in predicate parameters, or in `asset_dimensions` for a scene object),
-masses given for a row and its instances, and positions given both by `body_positions` and by predicates.
+masses given for a row and its instances, or for a compound and its parts, and positions given both by `body_positions` and
+by predicates.
 
 Why is this bad: when they differ, nobody knows which one is meant, and an edit changes only one of them.
 
@@ -10,6 +11,7 @@ Use instead: sizes in `scene_objects[].size` and `asset_dimensions`; masses once
 
 from collections.abc import Iterator
 
+from ....model.weights import weight
 from ...case import Changes
 from ...plan_view import Place, PlanView
 from ...problem import Problem
@@ -31,6 +33,17 @@ BAD: Changes = (
         "assets": [{"name": "mug", "filename": "mug", "count": 2}],
         "simulation_parameters": {"masses": {"mug": 0.3, "mug_1": 0.4}},
     },
+    {
+        "scene_objects": [
+            {"name": "ramp", "primitive": "box", "size": [2.0, 1.0, 0.2], "fixed": True, "dynamic": False},
+            {
+                "name": "crate",
+                "primitive": "compound",
+                "parts": [{"name": "lid", "primitive": "box", "size": [0.4, 0.3, 0.2], "mass": 2.0}],
+            },
+        ],
+        "simulation_parameters": {"masses": {"crate": 3.0}},
+    },
 )
 EVIDENCE = Argued("either number simulates; which one was meant, nobody can tell")
 SIZES = frozenset({"size", "extents", "dimensions", "radius", "diameter", "width", "depth", "length"})
@@ -50,6 +63,15 @@ def check(view: PlanView) -> Iterator[Problem]:
         if row.subject in plan.topology.body_positions:
             place = ("topology", "body_positions", row.subject)
             yield view.at(place, f"`{row.subject}` is placed twice", "keep the predicates, or the absolute position")
+    for index, item in enumerate(plan.scene_objects):
+        if item.parts:
+            try:
+                weight(plan, item)
+            except ValueError as error:
+                message = f"the mass of `{item.name}` contradicts those of its parts: {error}"
+                yield view.at(
+                    ("scene_objects", index, "parts"), message, "give the whole or the parts a mass, or correct one"
+                )
     masses = plan.simulation_parameters.masses
     for asset in plan.assets:
         if asset.count > 1 and asset.name in masses:

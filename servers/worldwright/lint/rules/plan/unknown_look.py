@@ -1,6 +1,6 @@
 """A look does not exist.
 
-What it does: compares `look` of objects and assets, and the `floor`, with worldkit's library and the form `#rrggbb`.
+What it does: compares `look` of objects, of their parts and of assets, and the `floor`, with worldkit's library and the form `#rrggbb`.
 
 Why is this bad: building the world fails at that object.
 
@@ -24,6 +24,17 @@ BAD: Changes = (
     {"assets": [{"name": "mug", "filename": "mug", "look": "shiny-ish"}]},
     {"visualization": {"floor": "wood_plank"}},
     {"assets": [{"name": "mug", "filename": "mug", "look": "#2f6"}]},
+    {
+        "scene_objects": [
+            {"name": "ramp", "primitive": "box", "size": [2.0, 1.0, 0.2], "fixed": True, "dynamic": False},
+            {
+                "name": "crate",
+                "primitive": "compound",
+                "material": "wood",
+                "parts": [{"name": "lid", "primitive": "box", "size": [0.4, 0.3, 0.2], "look": "wood_oka"}],
+            },
+        ]
+    },
 )
 
 
@@ -44,11 +55,16 @@ EVIDENCE = Measured("worldkit refuses the look", _made, 0.5)
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Looks of objects, of assets, of the floor."""
+    """Looks of objects, of parts, of assets, of the floor."""
     from worldkit.materials import LOOKS
 
     used: list[tuple[Place, str | None]] = [
         *((("scene_objects", i, "look"), row.look) for i, row in enumerate(view.plan.scene_objects)),
+        *(
+            (("scene_objects", i, "parts", k, "look"), part.look)
+            for i, row in enumerate(view.plan.scene_objects)
+            for k, part in enumerate(row.parts)
+        ),
         *((("assets", i, "look"), row.look) for i, row in enumerate(view.plan.assets)),
         (("visualization", "floor"), view.plan.visualization.floor),
     ]

@@ -1,6 +1,7 @@
 """A moving object has no mass the plan would answer for.
 
-What it does: looks for a mass or a material density for every scene object that moves.
+What it does: looks for a mass or a material density for every scene object that moves, and for every part of a compound
+without a mass as a whole.
 
 Why is this bad: MuJoCo then assumes 1000 kg/m^3, the density of water, for cardboard and steel alike: momentum, impact
 and what holds what all follow from it.
@@ -19,12 +20,23 @@ CODE = "WP108"
 SEVERITY = "error"
 BOX = {"name": "crate", "primitive": "box", "size": [0.4, 0.3, 0.2]}
 RAMP = {"name": "ramp", "primitive": "box", "size": [2, 1, 0.2], "fixed": True, "dynamic": False}
+BARBELL = {
+    "name": "crate",
+    "primitive": "compound",
+    "parts": [
+        {"name": "bar", "primitive": "cylinder", "size": [0.03, 0.03, 0.4], "deg_y": 90, "mass": 2.0},
+        {"name": "plate", "primitive": "sphere", "size": [0.2, 0.2, 0.2], "repeat": {"count": 2, "step": [0.4, 0, 0]}},
+    ],
+}
 GOOD: Changes = (
+    {"scene_objects": [RAMP, BARBELL], "simulation_parameters": {"masses": {"crate": 12.0}}},
+    {"scene_objects": [RAMP, {**BARBELL, "material": "wood"}]},
     {},
     {"scene_objects": [RAMP, BOX], "simulation_parameters": {"masses": {"crate": 3.0}}},
     {"scene_objects": [RAMP, {**BOX, "visual_only": "a marker"}]},
 )
 BAD: Changes = (
+    {"scene_objects": [RAMP, BARBELL]},
     {"scene_objects": [RAMP, BOX]},
     {
         "scene_objects": [RAMP, {**BOX, "material": "wood"}],
@@ -46,7 +58,24 @@ def check(view: PlanView) -> Iterator[Problem]:
     for index, row in enumerate(view.plan.scene_objects):
         if not view.moves(row) or row.name in parameters.masses:
             continue
-        material = parameters.materials.get(row.material or "")
-        if material is None or material.density is None:
+        if row.parts:
+            yield from _parts(view, index)
+            continue
+        if not _dense(view, row.material):
             fix = f"add `{row.name}: <kg>` to simulation_parameters.masses, or give its material a density"
             yield view.at(("scene_objects", index), f"moving object `{row.name}` has neither mass nor density", fix)
+
+
+def _parts(view: PlanView, index: int) -> Iterator[Problem]:
+    """Parts of a compound without a mass as a whole."""
+    row = view.plan.scene_objects[index]
+    for number, part in enumerate(row.parts):
+        if part.mass is None and part.visual_only is None and not _dense(view, part.material or row.material):
+            fix = f"give it `mass` or a material with a density, or all of `{row.name}` a mass in masses"
+            message = f"part `{part.name}` of moving object `{row.name}` has neither mass nor density"
+            yield view.at(("scene_objects", index, "parts", number), message, fix)
+
+
+def _dense(view: PlanView, material: str | None) -> bool:
+    found = view.plan.simulation_parameters.materials.get(material or "")
+    return found is not None and found.density is not None
