@@ -18,8 +18,9 @@ def box(row: SceneObject) -> Box:
     bottom = -whole.extents[2] / 2
     tops = [found for solid in whole.solids if (found := _top(row.name, solid, bottom)) is not None]
     known = {surface.name: surface for surface in tops}
-    insides = [s.name.removeprefix(f"{row.name}/").removesuffix("_floor") for s in whole.solids if _floor(s)]
-    known |= {"inside": known[name] for name in insides[:1] if name in known}
+    floors = [found for solid in whole.solids if _floor(solid) and (found := _top(row.name, solid, bottom)) is not None]
+    if floors:
+        known["inside"] = floors[0]
     highest = [s for s in tops if abs(s.height_m - whole.extents[2]) < EXACT]
     if highest:
         largest = max(highest, key=lambda s: s.extents[0] * s.extents[1])
