@@ -105,11 +105,25 @@ def _build(request: dict[str, Any]) -> Any:
                 spec.delete(geom)
         else:
             _primitive(bodies, spec, row, common)
+        if row.get("moved"):
+            _move(spec.body(row["name"]), *row["moved"])
     if request["cameras"]:
         from . import sight
 
         sight.add_cameras(spec, request["cameras"])
     return spec.compile()
+
+
+def _move(body: Any, rotation: Any, shift: Any) -> None:
+    """Take a body, with all its parts, through x' = R x + t in the world."""
+    import mujoco
+    import numpy as np
+
+    turn, quat = np.zeros(4), np.zeros(4)
+    mujoco.mju_mat2Quat(turn, np.asarray(rotation, dtype=float).ravel())
+    mujoco.mju_mulQuat(quat, turn, np.asarray(body.quat, dtype=float))
+    body.pos = np.asarray(rotation) @ np.asarray(body.pos, dtype=float) + np.asarray(shift)
+    body.quat = quat
 
 
 def _primitive(bodies: Any, spec: Any, row: dict[str, Any], common: dict[str, Any]) -> None:

@@ -12,6 +12,8 @@ class Layout(Scene):
     plan: str = ""
     written: bool = False
     """Whether the plan file was changed."""
+    at_start: tuple[str, ...] = ()
+    """Ropes and springs against their ends' distance, and joints that do not start at rest as laid out."""
 
     def text(self) -> str:
         """A table of poses, then the findings."""
@@ -21,9 +23,14 @@ class Layout(Scene):
             x, y, z = o.position
             lines.append(f"{o.name:<{width}}  {x:9.4f} {y:9.4f} {z:9.4f}  {o.deg_z:8.2f}  {o.supported_by or '-'}")
         lines += [f"{o.name}: {o.weight}" for o in self.objects if o.weight]
+        lines += self.at_start
         lines += [str(finding) for finding in self.findings]
         ending = f"poses written to {self.plan}" if self.written else "nothing written"
         return "\n".join([*lines, f"{len(self.objects)} objects placed; {ending}"])
+
+
+ROWS, VIEWS = 12, 24
+"""Rows and views that are printed; the data holds all."""
 
 
 class RowMargin(Frozen):
@@ -60,7 +67,9 @@ class CheckReport(Frozen):
     """Pairs whose boxes overlap, tested with their exact collision shapes."""
     findings: tuple[Finding, ...] = ()
     margins: tuple[RowMargin, ...] = ()
-    """Of the rows, tightest first; at most 40."""
+    """Of every row, tightest first."""
+    at_start: tuple[str, ...] = ()
+    """Ropes and springs against their ends' distance, and joints that do not start at rest as laid out."""
     views: tuple[Seen, ...] = ()
     """What each camera sees of its subjects."""
 
@@ -72,11 +81,17 @@ class CheckReport(Frozen):
     def text(self) -> str:
         """The findings, then the tightest rows."""
         lines = [str(finding) for finding in self.findings]
-        lines += [f"{m.margin:+9.4f} {m.unit:<3} {m.row}" for m in self.margins[:8]]
+        lines += self.at_start
+        lines += [f"{m.margin:+9.4f} {m.unit:<3} {m.row}" for m in self.margins[:ROWS]]
+        if len(self.margins) > ROWS:
+            left = len(self.margins) - ROWS
+            lines.append(f"… and {left} more rows, none tighter (all of them: --format json)")
         lines += [
             f"{v.camera}: {v.object} {v.pixels} pixels ({v.share:.1%}), {v.in_frame:.0%} in frame, {v.hidden:.0%} hidden"
-            for v in self.views[:24]
+            for v in self.views[:VIEWS]
         ]
+        if len(self.views) > VIEWS:
+            lines.append(f"… and {len(self.views) - VIEWS} more views (all of them: --format json)")
         verdict = "holds" if self.ok else "does not hold"
         return "\n".join(
             [*lines, f"{self.objects} objects, {self.rows} rows, {self.pairs_tested} close pairs: the layout {verdict}"]
@@ -109,8 +124,8 @@ class SettleReport(Frozen):
     duration_s: float
     objects: tuple[Settled, ...] = ()
     """Those that moved most come first; a tool's answer has at most 60."""
-    held: tuple[str, ...] = ()
-    """Not let go: on joints, or drawn only."""
+    held: dict[str, str] = {}
+    """Not let go, and why: on a joint, carrying one, or drawn only."""
     findings: tuple[Finding, ...] = ()
     deepest_m: float = 0.0
     """Largest penetration at the start."""
@@ -131,6 +146,8 @@ class SettleReport(Frozen):
             f"{o.speed_m_s:7.3f}"
             for o in self.objects
         ]
+        lines += [f"{name}: not let go, {why}" for name, why in list(self.held.items())[:ROWS]]
+        lines += [f"… and {len(self.held) - ROWS} more are not let go"] if len(self.held) > ROWS else []
         lines += [str(finding) for finding in self.findings]
         return "\n".join(
             [

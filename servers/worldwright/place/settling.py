@@ -8,7 +8,7 @@ from ..model.scene import Scene
 from .anchors import shown, wrap
 from .reports import Settled, SettleReport
 from .statements import Locate, Problems
-from .world import drawn_only, jointed, simulate
+from .world import simulate, why_held
 
 SLIDE_M = 0.02
 TILT_DEG = 3.0
@@ -30,7 +30,7 @@ def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: f
         JobError: the pre-roll failed.
     """
     problems = Problems(file, locate)
-    held = sorted((jointed(plan) | drawn_only(plan)) & {o.name for o in scene.objects})
+    held = why_held(plan, scene)
     result = simulate(plan, scene, duration_s=duration_s)
     gaps = {
         row.subject: float(row.params.get("gap", 0.0))
@@ -77,7 +77,7 @@ def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: f
     return SettleReport(
         duration_s=duration_s,
         objects=tuple(moved),
-        held=tuple(held),
+        held=held,
         findings=tuple(problems.findings),
         deepest_m=round(deepest, 6),
     )

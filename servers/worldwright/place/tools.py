@@ -13,7 +13,7 @@ from ..model.finding import Finding
 from ..model.picture import Illustrated, Picture
 from ..model.plan_text import PlanDocument, read_plan
 from ..model.run import Run, sha256_file
-from . import checks, engine, explaining, settling, writing
+from . import checks, engine, explaining, settling, start, writing
 from .reports import CheckReport, Drawing, Explanation, Layout, SettleReport
 
 PlanPath = Annotated[Path, Field(description="The plan.md, its run folder, or the run's name.")]
@@ -44,6 +44,7 @@ def resolve(
         findings=resolution.scene.findings,
         plan=document.file,
         written=written,
+        at_start=tuple(start.told(document.plan, resolution.scene)),
     )
 
 
@@ -53,7 +54,8 @@ def check(plan: PlanPath) -> CheckReport:
 
     Measures every row (signed margin in metres or degrees), finds objects that penetrate each other (boxes first, then
     the exact collision shapes), reach below the ground, start in mid-air, and poses in the plan that are older than
-    its rows. Changes nothing.
+    its rows. Tells how slack each rope is at the start, and what the start angles of joints put inside something.
+    Changes nothing.
     """
     document = _read(plan)
     return checks.check(document.plan, _resolve(document), file=document.file, locate=document.line_of)

@@ -5,13 +5,14 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from ..model.errors import JobError
 from ..model.plan import AssetRow, Plan, SceneObject
 from ..model.scene import Scene
+from .start import Motion
 
 LIMIT_S = 40.0
 
@@ -19,6 +20,17 @@ LIMIT_S = 40.0
 def jointed(plan: Plan) -> set[str]:
     """Objects that a joint holds, and their parents: the pre-roll leaves them where they are."""
     return {name for joint in plan.topology.joints for name in (joint.parent, joint.child)} - {"world"}
+
+
+def why_held(plan: Plan, scene: Scene) -> dict[str, str]:
+    """What is not let go, and why: what joints hold and carry would fall apart without them, which the pre-roll lacks."""
+    reasons: dict[str, str] = {}
+    for joint in plan.topology.joints:
+        reasons.setdefault(joint.child, f"on {joint.type} {joint.name} of {joint.parent}")
+    for joint in plan.topology.joints:
+        reasons.setdefault(joint.parent, f"carries {joint.child} by {joint.type} {joint.name}")
+    reasons |= dict.fromkeys(drawn_only(plan), "drawn only")
+    return {o.name: reasons[o.name] for o in scene.objects if o.name in reasons}
 
 
 def drawn_only(plan: Plan) -> set[str]:
@@ -37,6 +49,8 @@ def simulate(
     pairs: Sequence[tuple[str, str]] = (),
     far_m: float = 0.0,
     cameras: Sequence[dict[str, Any]] = (),
+    ground: bool = False,
+    moved: Mapping[str, Motion] | None = None,
 ) -> dict[str, Any]:
     """Run the pre-roll on resolved objects (see `preroll.answer`).
 
@@ -44,18 +58,23 @@ def simulate(
         plan: the plan, for materials, masses and gravity.
         scene: its layout.
         only: these objects alone; None for all that are simulated.
-        loose: give fixed things a free joint too, so that contacts between them are seen; there is then no ground.
+        loose: give fixed things a free joint too, so that contacts between them are seen; there is then no ground,
+            unless `ground` asks for it.
         duration_s: how long to let go.
         everything: also what is only drawn.
         pairs, far_m: measure the distances of these objects, up to so many metres.
         cameras: measure what these see (`sight`).
+        moved: rigid motions to start from, by name (`start.motions`); others start where they are placed.
 
     Raises:
         JobError: the process failed, diverged, or took longer than 40 s.
     """
     hidden = drawn_only(plan)
     names = {o.name for o in scene.objects if (everything or o.name not in hidden) and (only is None or o.name in only)}
-    request = _request(plan, scene, names, loose) | {"duration_s": duration_s}
+    request = _request(plan, scene, names, loose and not ground, loose) | {"duration_s": duration_s}
+    for row in request["objects"]:
+        motion = (moved or {}).get(row["name"])
+        row["moved"] = None if motion is None else [motion.rotation, motion.shift]
     request |= {"pairs": list(pairs), "far_m": far_m, "cameras": list(cameras)}
     with tempfile.TemporaryDirectory(prefix="worldwright-preroll-") as folder:
         out = Path(folder) / "answer.json"
@@ -97,7 +116,7 @@ def simulate(
     return result
 
 
-def _request(plan: Plan, scene: Scene, names: set[str], loose: bool) -> dict[str, Any]:
+def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: bool) -> dict[str, Any]:
     parameters = plan.simulation_parameters
     held = jointed(plan)
     step = parameters.time_step
@@ -130,7 +149,7 @@ def _request(plan: Plan, scene: Scene, names: set[str], loose: bool) -> dict[str
         "objects": objects,
         "gravity": parameters.gravity_vector,
         "time_step": min(step if isinstance(step, float) else 0.002, 0.002),
-        "ground": None if loose else (_surface(plan, "ground") if ground else {}),
+        "ground": None if floating else (_surface(plan, "ground") if ground else {}),
     }
 
 

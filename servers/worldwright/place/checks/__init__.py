@@ -18,6 +18,7 @@ from . import (
     penetration,
     sizes,
     stale,
+    start_pose,
     supports,
 )
 from .layout import Layout
@@ -26,6 +27,7 @@ from .marks import flagged
 CHECKS: tuple[Callable[[Layout], None], ...] = (
     below_ground.check,
     penetration.check,
+    start_pose.check,
     supports.check,
     containment.check,
     clearance.check,
@@ -67,7 +69,8 @@ def check(
         rows=len({row.path for row in resolution.statements}),
         pairs_tested=layout.pairs_tested,
         findings=(*resolution.scene.findings, *layout.problems.findings),
-        margins=tuple(sorted((*resolution.margins, *layout.margins), key=lambda m: m.margin)[:40]),
+        margins=tuple(sorted((*resolution.margins, *layout.margins), key=lambda m: m.margin)),
+        at_start=tuple(layout.at_start),
         views=tuple(layout.views),
     )
 

@@ -24,7 +24,7 @@ def check(layout: Layout) -> None:
     if not layout.exact or not cameras or not layout.scene.objects or len(layout.scene.objects) > MOST_OBJECTS:
         return
     try:
-        result = simulate(layout.plan, layout.scene, everything=True, cameras=cameras)
+        result = simulate(layout.plan, layout.scene, everything=True, cameras=cameras, moved=layout.moved)
     except JobError as error:
         layout.problems.add(
             "WP312",

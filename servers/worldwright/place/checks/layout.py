@@ -10,6 +10,7 @@ from .. import categories
 from ..overlaps import overlapping
 from ..reports import RowMargin, Seen
 from ..resolution import Resolution
+from ..start import Motion, motions
 from ..statements import Problems
 from ..world import drawn_only, jointed
 
@@ -30,6 +31,7 @@ class Layout:
     margins: list[RowMargin] = field(default_factory=list)
     views: list[Seen] = field(default_factory=list)
     pairs_tested: int = 0
+    at_start: list[str] = field(default_factory=list)
 
     @property
     def scene(self) -> Scene:
@@ -45,6 +47,11 @@ class Layout:
     def held(self) -> set[str]:
         """Objects on joints."""
         return jointed(self.plan)
+
+    @cached_property
+    def moved(self) -> dict[str, Motion]:
+        """How what is on joints gets from its layout to where it starts."""
+        return motions(self.plan, self.scene)
 
     @cached_property
     def movers(self) -> set[str]:

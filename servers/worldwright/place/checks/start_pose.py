@@ -1,0 +1,68 @@
+"""What holds at the very start: ropes are long enough, and what `initial_motion` swings aside swings into nothing."""
+
+from ...model.errors import JobError
+from ..anchors import shown
+from ..start import filtered, hung, told
+from ..world import drawn_only, simulate
+from .layout import OVERLAP_M, Layout
+
+STRETCH_M = 1e-3
+"""What `initial_motion` may stretch a taut rope by: less a rope's own softness takes."""
+GROUND = "ground"
+
+
+def check(layout: Layout) -> None:
+    """WP324 for a rope shorter than its way at the start, WP325 for parts that collide at the start pose of their joints."""
+    plan = layout.plan
+    layout.at_start += told(plan, layout.scene)
+    for index, tendon in enumerate(plan.topology.tendons):
+        rope = next((one for one in hung(plan, layout.scene) if one.tendon.name == tendon.name), None)
+        if rope is None or tendon.stiffness:
+            continue
+        too_short = rope.length_m < rope.laid_m * (1 - 1e-9)
+        if too_short or rope.slack_m < -STRETCH_M:
+            where = "as laid out" if too_short else "at the start angle of its joint"
+            way_m = rope.laid_m if too_short else rope.way_m
+            layout.problems.add(
+                "WP324",
+                "rope_too_short",
+                f"rope `{tendon.name}` is {shown(round(rope.length_m, 4))} m long, but {where} its ends are "
+                f"{shown(round(way_m, 4))} m apart",
+                f"give `length: {shown(round(way_m, 4) + 1e-4)}` or more, say `slack` instead, or bring its ends nearer",
+                ("topology", "tendons", index),
+            )
+    if layout.moved and layout.exact:
+        _collisions(layout)
+
+
+def _collisions(layout: Layout) -> None:
+    """The exact shapes at the start pose; what the engine lets overlap, and what overlaps as laid out, is left out."""
+    fixed = {o.name for o in layout.scene.objects if o.fixed}
+    free = filtered(layout.plan, fixed)
+    moved = {n for n in layout.moved if n not in drawn_only(layout.plan)}
+    try:
+        found = simulate(layout.plan, layout.scene, loose=True, ground=True, moved=layout.moved)["contacts"]
+        touching = [
+            (a, b, depth)
+            for a, b, depth in found
+            if depth > OVERLAP_M and {a, b} & moved and (GROUND in (a, b) or not free(a, b))
+        ]
+        if not touching:
+            return
+        laid = simulate(layout.plan, layout.scene, loose=True, ground=True)["contacts"]
+    except JobError as error:
+        layout.problems.add(
+            "WP325", "collides_at_start", f"the start pose could not be tested: {error.cause}", error.next_move
+        )
+        return
+    before = {(a, b): depth for a, b, depth in laid}
+    path = ("simulation_parameters", "initial_motion")
+    for first, second, depth in touching:
+        if depth > before.get((first, second), 0.0) + OVERLAP_M:
+            layout.problems.add(
+                "WP325",
+                "collides_at_start",
+                f"where `initial_motion` starts them, `{first}` and `{second}` are {shown(round(depth, 4))} m inside each other",
+                "start the joint at another position, or move one of them aside (`place draw` shows the start pose)",
+                path,
+            )
