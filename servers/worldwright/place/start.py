@@ -162,7 +162,7 @@ def told(plan: Plan, scene: Scene) -> Iterator[str]:
         parts = []
         if start.joint_position:
             below = [n for n in moved if joint in list(_above(plan, n))]
-            carried = f", which moves {', '.join(below[:6])}" if below else ""
+            carried = f" (with it {', '.join(below[:6])})" if below else ""
             parts.append(f"{shown(start.joint_position)} {'deg' if degrees else 'm'} from its layout{carried}")
         if start.joint_velocity:
             parts.append(f"{shown(start.joint_velocity)} {'rad/s' if degrees else 'm/s'}")

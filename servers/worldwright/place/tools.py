@@ -142,7 +142,11 @@ def draw(
     plan: PlanPath,
     out: Annotated[Path | None, Field(description="PNG file to write the picture to.")] = None,
 ) -> Illustrated:
-    """Draw the layout: seen from above and from the side on one scale, labelled, fronts as arrows, problems in red."""
+    """Draw the layout: seen from above and from the side on one scale, labelled, fronts as arrows, problems in red.
+
+    Shows what moves and holds, too: joints with their axis, ropes (sagging by their slack) and springs, velocities and swung
+    poses at the start in blue, and where cameras stand with how wide they see.
+    """
     from .drawing import sheet
 
     document = _read(plan)

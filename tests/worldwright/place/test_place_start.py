@@ -104,7 +104,7 @@ def test_a_slide_starts_along_its_axis():
 def test_what_starts_inside_something_is_named_and_what_only_hangs_beside_it_is_not():
     apart = checked(made(initial=start(20)))
     assert not [f for f in apart.findings if f.code == "WP325"]
-    assert apart.at_start == ("joint `pivot` starts at 20 deg from its layout, which moves rod, bob",)
+    assert apart.at_start == ("joint `pivot` starts at 20 deg from its layout (with it rod, bob)",)
     # At -20 deg the bob is 0.85 sin 20 = 0.29 m in front of the pivot: inside a post at 0.3 m.
     inside = [f for f in checked(made(initial=start(-20), post_x=0.3)).findings if f.code == "WP325"]
     assert any("`bob` and `post`" in f.message for f in inside)

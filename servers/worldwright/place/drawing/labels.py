@@ -1,6 +1,10 @@
 """Where names go, so that all can be read: inside their object, or beside it on a thin leader, never on one another."""
 
+import math
 from dataclasses import dataclass
+from itertools import pairwise
+
+from .canvas import Colour
 
 Rect = tuple[float, float, float, float]
 """x0, y0, x1, y1 in pixels, y down."""
@@ -32,12 +36,34 @@ class Item:
 
 
 @dataclass(frozen=True)
+class Note:
+    """Words about a mark, and the pixels it covers."""
+
+    words: str
+    box: Rect
+    colour: Colour
+    ink: tuple[Rect, ...] = ()
+    """What no label may cover."""
+
+
+@dataclass(frozen=True)
 class Label:
     """A placed label; `leader` is the line from the label to the object, when it stands away from it."""
 
     name: str
     box: Rect
     leader: tuple[tuple[float, float], tuple[float, float]] | None
+
+
+def inked(*points: tuple[float, float], half: float = 4.0) -> tuple[Rect, ...]:
+    """Small boxes along a line through points, for labels to keep clear of."""
+    found: list[Rect] = []
+    for (x0, y0), (x1, y1) in pairwise(points):
+        count = max(1, round(math.hypot(x1 - x0, y1 - y0) / (2 * half)))
+        for k in range(count + 1):
+            x, y = x0 + (x1 - x0) * k / count, y0 + (y1 - y0) * k / count
+            found.append((x - half, y - half, x + half, y + half))
+    return tuple(found)
 
 
 def arrange(items: list[Item], panel: Rect, taken: list[Rect]) -> tuple[list[Label], list[str]]:

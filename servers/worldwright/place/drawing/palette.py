@@ -15,6 +15,11 @@ ERROR: Colour = (208, 48, 48)
 WARNING: Colour = (205, 132, 16)
 GOOD: Colour = (46, 128, 84)
 MOTION: Colour = (36, 98, 190)
+SWUNG: Colour = (118, 160, 222)
+JOINT: Colour = (128, 52, 150)
+ROPE: Colour = (138, 92, 40)
+SPRING: Colour = (20, 128, 128)
+LENS: Colour = (92, 104, 122)
 THINGS: tuple[Colour, ...] = (
     (111, 163, 204),
     (236, 160, 92),

@@ -1,7 +1,5 @@
 """The whole sheet: title, the view from above and the one from the side (on one scale), and what is wrong."""
 
-import math
-
 import numpy as np
 
 from ...model.finding import Finding
@@ -11,11 +9,14 @@ from ..anchors import cos_sin
 from ..checks import flagged
 from ..extents import fixed_objects
 from ..resolution import Resolution
+from ..start import motions, way
 from ..vocabulary import BASE
 from . import palette
 from .canvas import Canvas, Colour, text_width
 from .families import stem
-from .labels import Rect
+from .labels import Note, Rect
+from .lenses import cameras
+from .mechanics import joints, start_pose, tendons, velocities
 from .silhouettes import Silhouette, silhouette
 from .view import View, metres
 
@@ -38,7 +39,7 @@ def sheet(plan: Plan, resolution: Resolution, findings: tuple[Finding, ...]) -> 
     scene = resolution.scene
     shapes = {o.name: silhouette(plan, o) for o in scene.objects}
     lines = _findings(findings, WIDTH - _LEFT - _RIGHT)
-    low, high = _bounds(scene)
+    low, high = _bounds(scene, plan)
     span = (high[0] - low[0], high[1] - low[1], high[2] - low[2])
     across = 1 if span[1] > WIDE * span[0] else 0  # what runs across the second view: x from -Y, y from +X
     panels, scale = _panels((max(span[0], span[across]), span[1], span[2]))
@@ -46,7 +47,7 @@ def sheet(plan: Plan, resolution: Resolution, findings: tuple[Finding, ...]) -> 
     canvas = Canvas(WIDTH, round(bottom) + 88 + 24 * len(lines), palette.PAPER)
     middle = tuple((a + b) / 2 for a, b in zip(low, high, strict=True))
     top = View(canvas, panels[0], scale, (middle[0], middle[1]))
-    side = View(canvas, panels[1], scale, (middle[across], middle[2]))
+    side = View(canvas, panels[1], scale, (middle[across], middle[2]), (across, 2))
     marks = flagged(findings, [o.name for o in scene.objects])
     _head(canvas, plan, scene)
     unnamed = _above(top, plan, scene, shapes, marks)
@@ -77,9 +78,17 @@ def _panels(span: tuple[float, float, float]) -> tuple[tuple[Rect, Rect], float]
     return ((_LEFT, _HEAD, WIDTH - _RIGHT, first), (_LEFT, second, WIDTH - _RIGHT, second + tall[1])), stacked
 
 
-def _bounds(scene: Scene) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """The space to show: every object, the ground, and never less than a few centimetres."""
+def _bounds(scene: Scene, plan: Plan | None = None) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    """The space to show: every object (with a plan, also where it starts), the ground, and never less than a few centimetres."""
     boxes = [o.bounds() for o in scene.objects] or [((-0.5, -0.5, 0.0), (0.5, 0.5, 0.5))]
+    if plan is not None:
+        for name, motion in motions(plan, scene).items():
+            outlines = silhouette(plan, scene[name], motion)
+            flat, upright = np.concatenate(outlines.top), np.concatenate(outlines.side)
+            x, y, z = flat[:, 0], flat[:, 1], upright[:, 1]
+            boxes.append(((x.min(), y.min(), z.min()), (x.max(), y.max(), z.max())))
+        for tendon in plan.topology.tendons:
+            boxes += [(point, point) for point in way(plan, scene, tendon) or ()]
     low = [min(b[0][i] for b in boxes) for i in range(3)]
     high = [max(b[1][i] for b in boxes) for i in range(3)]
     low[2] = min(low[2], 0.0)
@@ -144,11 +153,17 @@ def _above(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], 
     polygons = {name: s.top for name, s in shapes.items()}
     _draw(view, order, polygons, plan, scene, marks, fronts=True)
     taken = [view.scale_bar()]
-    taken += _motion(view, plan, scene)
+    notes = [*_mechanics(view, plan, scene), *cameras(view, plan, scene)]
     boxes = {o.name: view.extent(polygons[o.name]) for o in order}
     for name, mark in marks.items():
         _badge(view, boxes[name], mark)
-    return view.names(boxes, taken, marks)
+    return view.names(boxes, taken, marks, notes)
+
+
+def _mechanics(view: View, plan: Plan, scene: Scene) -> list[Note]:
+    """What moves and what holds, drawn over the objects."""
+    start_pose(view, plan, scene)
+    return [*tendons(view, plan, scene), *joints(view, plan, scene), *velocities(view, plan, scene)]
 
 
 def _front(view: View, placed: PlacedObject) -> None:
@@ -166,31 +181,6 @@ def _front(view: View, placed: PlacedObject) -> None:
     view.canvas.arrow(start, end, palette.TEXT, 1.6, 8)
 
 
-def _motion(view: View, plan: Plan, scene: Scene) -> list[Rect]:
-    """Initial velocities as arrows with their speed; returns the space the numbers take."""
-    placed = {o.name: o for o in scene.objects}
-    starts = {n: m.linear for n, m in plan.simulation_parameters.initial_motion.items() if n in placed}
-    fastest = max((math.hypot(*v) for v in starts.values()), default=0.0)
-    taken: list[Rect] = []
-    for name, velocity in starts.items():
-        speed = math.hypot(*velocity)
-        if math.hypot(velocity[0], velocity[1]) < 1e-9:
-            continue
-        x, y, _ = placed[name].position
-        ux, uy = velocity[0] / speed, velocity[1] / speed
-        length = 40 + 70 * speed / fastest
-        a = view.pixel(x, y)
-        b = (a[0] + ux * length, a[1] - uy * length)
-        view.canvas.arrow(a, b, palette.MOTION, 2.2, 10)
-        words = f"{speed:.2g} m/s"
-        wide = text_width(words, 14, 500)
-        at = ((a[0] + b[0] - wide) / 2 + uy * 26, (a[1] + b[1]) / 2 - 8 + ux * 0)
-        view.canvas.text(words, at, 14, palette.MOTION, 500)
-        taken.append((at[0] - 3, at[1] - 14, at[0] + wide + 3, at[1] + 4))
-        taken.append((min(a[0], b[0]), min(a[1], b[1]) - 3, max(a[0], b[0]), max(a[1], b[1]) + 3))
-    return taken
-
-
 def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str],
             resolution: Resolution, across: int) -> int:  # fmt: skip
     """The view from the right side (-Y) or the front (+X), with the ground and what will drop."""
@@ -206,6 +196,7 @@ def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette],
     polygons = {name: s.front if across else s.side for name, s in shapes.items()}
     _draw(view, order, polygons, plan, scene, marks)
     taken = [view.scale_bar()]
+    notes = _mechanics(view, plan, scene)
     for row in resolution.statements:
         drop = row.params.get("gap", 0.0) if row.code.startswith("PLACE-ON") else row.params.get("bottom", 0.0)
         loose = row.subject in shapes and not scene[row.subject].fixed
@@ -214,7 +205,7 @@ def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette],
     boxes = {o.name: view.extent(polygons[o.name]) for o in order}
     for name, mark in marks.items():
         _badge(view, boxes[name], mark)
-    return view.names(boxes, taken, marks)
+    return view.names(boxes, taken, marks, notes)
 
 
 def _drop(view: View, placed: PlacedObject, drop: float, across: int) -> list[Rect]:

@@ -14,6 +14,7 @@ import numpy as np
 from ...model.plan import Plan, SceneObject
 from ...model.scene import PlacedObject
 from ..anchors import cos_sin
+from ..start import Motion
 
 
 @dataclass(frozen=True)
@@ -26,8 +27,8 @@ class Silhouette:
     front: list[np.ndarray]
 
 
-def silhouette(plan: Plan, placed: PlacedObject) -> Silhouette:
-    """The outlines of a placed object; its box when the catalog cannot be read."""
+def silhouette(plan: Plan, placed: PlacedObject, motion: Motion | None = None) -> Silhouette:
+    """The outlines of a placed object, or of where a motion takes it; its box when the catalog cannot be read."""
     row = next((row for row in plan.scene_objects if row.name == placed.name), None)
     clouds = primitive_clouds(row) if row is not None else _asset(placed)
     c, s = cos_sin(placed.deg_z)
@@ -36,6 +37,8 @@ def silhouette(plan: Plan, placed: PlacedObject) -> Silhouette:
         x = c * cloud[:, 0] - s * cloud[:, 1] + placed.position[0]
         y = s * cloud[:, 0] + c * cloud[:, 1] + placed.position[1]
         z = cloud[:, 2] + placed.position[2]
+        if motion is not None:
+            x, y, z = np.array(motion.rotation) @ np.stack([x, y, z]) + np.array(motion.shift)[:, None]
         top.append(_hull(np.stack([x, y], axis=1)))
         side.append(_hull(np.stack([x, z], axis=1)))
         front.append(_hull(np.stack([y, z], axis=1)))

@@ -1,14 +1,19 @@
 """One view of the layout: a panel of paper with a grid in metres, on which objects are drawn in order."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from ...model.objects import Vec3
 from . import palette
 from .canvas import Canvas, Colour, Point, text_width
 from .families import CROWD, captions
-from .labels import Item, Rect, arrange
+from .labels import Item, Note, Rect, arrange
+from .silhouettes import Silhouette
+
+_MARKED = {"error": palette.ERROR, "warning": palette.WARNING}
 
 
 @dataclass(frozen=True)
@@ -21,6 +26,16 @@ class View:
     """Pixels per metre."""
     middle: Point
     """The world point in the middle of the panel."""
+    axes: tuple[int, int] = (0, 1)
+    """Which world coordinates run to the right and up."""
+
+    def at(self, point: Vec3) -> Point:
+        """Where a point of the world lies on the picture."""
+        return self.pixel(point[self.axes[0]], point[self.axes[1]])
+
+    def of(self, outlines: Silhouette) -> list[np.ndarray]:
+        """The outlines that belong to this view."""
+        return {(0, 1): outlines.top, (0, 2): outlines.side, (1, 2): outlines.front}[self.axes]
 
     def pixel(self, u: float, v: float) -> Point:
         """Where a world point lies on the picture."""
@@ -84,22 +99,29 @@ class View:
         self.canvas.text(words, ((x0 + x1 - text_width(words, 14)) / 2, y1 - 9), 14, palette.TEXT, 500)
         return (x0 - 6, y1 - 28, x1 + 6, y1 + 10)
 
-    def names(self, boxes: dict[str, Rect], taken: list[Rect], marks: dict[str, str]) -> int:
-        """Write the names of objects; returns for how many there was no room."""
+    def names(
+        self, boxes: dict[str, Rect], taken: list[Rect], marks: dict[str, str], notes: Sequence[Note] = ()
+    ) -> int:
+        """Write the names of objects and the notes of marks; returns for how many there was no room."""
         words = captions(boxes, marks)
         size = 15 if len(words) <= CROWD else 12
         items = [Item(name, boxes[name], text_width(text, size, 500) + 8, size + 6) for name, text in words.items()]
+        colours = {name: _MARKED[mark] for name, mark in marks.items() if mark in _MARKED}
+        for number, note in enumerate(notes):
+            key = f"{number}\n"  # no object has such a name
+            words[key], colours[key] = note.words, note.colour
+            items.append(Item(key, note.box, text_width(note.words, size, 500) + 8, size + 6))
         x0, y0, x1, y1 = self.panel
-        labels, left = arrange(items, (x0 + 4, y0 + 4, x1 - 4, y1 - 4), taken)
+        ink = [rect for note in notes for rect in note.ink]
+        labels, left = arrange(items, (x0 + 4, y0 + 4, x1 - 4, y1 - 4), [*taken, *ink])
         for label in labels:
             if label.leader is not None:
                 self.canvas.line(*label.leader, palette.QUIET, 1.0)
                 self.canvas.dot(label.leader[1], 2.4, palette.QUIET)
         for label in labels:
             a, b, c, d = label.box
-            colour = {"error": palette.ERROR, "warning": palette.WARNING}.get(marks.get(label.name, ""), palette.TEXT)
             self.canvas.rectangle((a, b), (c, d), palette.PANEL, 0.72)
-            self.canvas.text(words[label.name], (a + 4, d - 6), size, colour, 500)
+            self.canvas.text(words[label.name], (a + 4, d - 6), size, colours.get(label.name, palette.TEXT), 500)
         return len(left)
 
 
