@@ -165,18 +165,9 @@ def _body(
     """Create the body with its joint; returns it with the keyword arguments of its geoms."""
     import math
 
-    import numpy as np
-
     from . import materials
 
-    owner = spec.worldbody if parent is None else spec.body(parent)
-    if owner is None:
-        known = ", ".join(b.name for b in spec.bodies if b.name != "world")
-        raise ValueError(f"body {name}: its parent {parent!r} is not in the world yet; known: {known or 'none'}")
-    origin, rotation = world_pose(owner)
-    half = math.radians(yaw_deg) / 2
-    body = owner.add_body(name=name, pos=rotation.T @ (np.asarray(pos, dtype=float) - origin))
-    body.quat = _relative(rotation, (math.cos(half), 0.0, 0.0, math.sin(half)))
+    body = placed(spec, name, pos, yaw_deg, parent)
     if joint is not None:
         joints.attach(body, joint)
     elif not fixed and not visual_only and parent is None:
@@ -192,6 +183,40 @@ def _body(
     elif density is not None:
         properties["density"] = density
     return body, properties
+
+
+def placed(spec: "mujoco.MjSpec", name: str, pos: Vec3, yaw_deg: float, parent: str | None = None) -> "mujoco.MjsBody":
+    """A new body, without geoms and joints, at a pose of the world frame.
+
+    Raises:
+        ValueError: the parent is not in the world; the message lists the bodies that are.
+    """
+    owner, local, quat = pose_below(spec, name, pos, yaw_deg, parent)
+    body = owner.add_body(name=name, pos=local)
+    body.quat = quat
+    return body
+
+
+def pose_below(
+    spec: "mujoco.MjSpec", name: str, pos: Vec3, yaw_deg: float, parent: str | None
+) -> "tuple[mujoco.MjsBody, np.ndarray, np.ndarray]":
+    """The body that `name` belongs to, and the position (3,) and quaternion (4,) of a pose of the world in its frame.
+
+    Raises:
+        ValueError: the parent is not in the world; the message lists the bodies that are.
+    """
+    import math
+
+    import numpy as np
+
+    owner = spec.worldbody if parent is None else spec.body(parent)
+    if owner is None:
+        known = ", ".join(b.name for b in spec.bodies if b.name != "world")
+        raise ValueError(f"body {name}: its parent {parent!r} is not in the world yet; known: {known or 'none'}")
+    origin, rotation = world_pose(owner)
+    half = math.radians(yaw_deg) / 2
+    quat = _relative(rotation, (math.cos(half), 0.0, 0.0, math.sin(half)))
+    return owner, rotation.T @ (np.asarray(pos, dtype=float) - origin), quat
 
 
 def _relative(rotation: "np.ndarray", quat: tuple[float, float, float, float]) -> "np.ndarray":

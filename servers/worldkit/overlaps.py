@@ -4,7 +4,7 @@ Contact masks, exclusions and disabled contacts can make a body sink through a f
 No contact is recorded then, so the recording alone cannot tell; the geometry can. Some rows of a finished recording
 are shown again, and the distances of the visible geoms that cannot collide are measured.
 
-Left out: bodies of one kinematic tree or tied by an equality (joints may overlap), pairs that touch in that row through
+Left out: bodies of one kinematic tree, on a hinge of a fixed body or tied by an equality (joints may overlap), pairs that touch in that row through
 other geoms, and a mesh whose body collides by hulls of its own (its convex hull is not its shape).
 """
 
@@ -112,7 +112,7 @@ def _candidates(model: "mujoco.MjModel") -> "np.ndarray":
     listed = np.sort(np.stack([model.pair_geom1, model.pair_geom2], axis=1), axis=1).astype(np.int64)
     named = np.isin(low * model.ngeom + high, listed[:, 0] * model.ngeom + listed[:, 1])
     can = named | ((masks != 0) & ~excluded)
-    free = ~np.isin(signature, _ties(model)) & (~can | off)
+    free = ~np.isin(signature, [*_ties(model), *_hinged(model)]) & (~can | off)
     return np.stack([one[free], other[free]], axis=1)
 
 
@@ -122,6 +122,22 @@ def _signature(model: "mujoco.MjModel", one: "np.ndarray", other: "np.ndarray") 
 
     first, second = model.geom_bodyid[one].astype(np.int64), model.geom_bodyid[other].astype(np.int64)
     return (np.minimum(first, second) << 16) + np.maximum(first, second)
+
+
+def _hinged(model: "mujoco.MjModel") -> list[int]:
+    """Signatures of the bodies that turn on hinges or a ball in a body that stands fixed, and of that body.
+
+    A fixed parent is no part of its child's tree; a loose one would be, and its joint holds the two together all the same.
+    """
+    import mujoco
+
+    turning = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_BALL))
+    found = []
+    for body in range(1, model.nbody):
+        parent, first, count = (int(v[body]) for v in (model.body_parentid, model.body_jntadr, model.body_jntnum))
+        if parent and count and all(kind in turning for kind in model.jnt_type[first : first + count]):
+            found.append((parent << 16) + body)
+    return found
 
 
 def _ties(model: "mujoco.MjModel") -> list[int]:

@@ -18,6 +18,7 @@ import click
 
 from worldkit.files import write_atomic
 
+from .model import imported
 from .model.errors import GateError, JobError, WorldwrightError
 from .model.evidence import PASSES
 from .model.progress import Progress
@@ -302,5 +303,7 @@ def _copy(source: Run, folder: Path) -> Run:
     for path in (source.prompt, source.plan):
         if path.is_file():
             write_atomic(target.folder / path.name, path.read_bytes())
+    for name, content in imported.beside(source.folder).items():
+        write_atomic(target.folder / name, content)
     target.log("build", "plan", origin_sha256=origin)
     return target

@@ -8,12 +8,20 @@ import yaml
 
 from worldkit.materials import LOOKS
 from worldwright.lint.tools import check_program
+from worldwright.model.drives import Actuator
+from worldwright.model.objects import AssetRow
 from worldwright.model.plan import Constant, InitialMotion, Intervention, Joint, Objective, SurfaceConstants
 from worldwright.scan.expecting import EXPECTATIONS
 
 REPO = Path(__file__).parents[2]
 PAGES = sorted([*(REPO / "skills").glob("*/SKILL.md"), *(REPO / "skills").glob("*/references/*.md")])
-ROWS = {"interventions": Intervention, "joints": Joint, "objectives": Objective}
+ROWS = {
+    "actuators": Actuator,
+    "assets": AssetRow,
+    "interventions": Intervention,
+    "joints": Joint,
+    "objectives": Objective,
+}
 NAMED = {"materials": SurfaceConstants, "constants": Constant, "initial_motion": InitialMotion}
 BLOCKS = [
     pytest.param(what, text, id=f"{page.relative_to(REPO / 'skills')}-{what}-{number}")

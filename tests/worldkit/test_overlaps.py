@@ -74,3 +74,15 @@ def test_the_lowest_point_over_a_plane(kind, tmp_path):
     mujoco.mj_forward(model, data)
     assert data.ncon
     assert data.contact.dist.min() == pytest.approx(-1e-4, abs=2e-5)
+
+
+@pytest.mark.parametrize(("joint", "left_out"), [("hinge", True), ("slide", False)])
+def test_a_link_may_overlap_the_fixed_base_it_turns_on(joint, left_out, tmp_path):
+    spec = empty(gravity=0)
+    base = spec.worldbody.add_body(name="base", pos=(0, 0, 1))
+    base.add_geom(name="base", type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.1, 0.1, 0.1))
+    link = base.add_body(name="link", pos=(0, 0, 0.1))
+    link.add_joint(type=getattr(mujoco.mjtJoint, f"mjJNT_{joint.upper()}"), axis=(0, 1, 0))
+    link.add_geom(name="link", type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=(0.05, 0.1, 0))
+    spec.add_exclude(bodyname1="base", bodyname2="link")
+    assert (found(spec, tmp_path / "t", 10) == []) == left_out

@@ -3,6 +3,8 @@
 import math
 from typing import TYPE_CHECKING, Any
 
+from ..bodies import placed
+from ..joints import Joint, attach
 from .catalog import find
 from .entry import Asset, Piece
 
@@ -25,6 +27,8 @@ def add(
     mass: float | None = None,
     surface: dict[str, Any] | None = None,
     look: str | None = None,
+    parent: str | None = None,
+    joint: "Joint | None" = None,
 ) -> "mujoco.MjsBody":
     """Add catalog asset `key` to the world as body `name` and return the body.
 
@@ -43,11 +47,13 @@ def add(
         mass: kilograms; default `Asset.mass_at(height)`, or `surface["density"]` times the substance's volume.
         surface: keyword arguments for the collision geoms, from `worldkit.contacts.surface`; default the entry's own
             constants (a pool table's cushions differ from its bed).
+        parent: name of the body it belongs to, which must be there already; None is the world.
+        joint: how it moves against its parent; None for a loose asset means a free joint, for one with a parent none.
         look: one of the asset's own looks, else a name of `worldkit.materials` or `#rrggbb` for its main materials.
 
     Raises:
         UnknownAssetError, AssetError: no such asset, or a malformed one.
-        ValueError: a height or mass that is not positive, or an unknown look.
+        ValueError: a height or mass that is not positive, an unknown look, or a parent that is not there.
     """
     asset = find(key)
     scale = asset.scale(height)
@@ -57,13 +63,14 @@ def add(
         mass = density * asset.solid_volume * scale**3 if density else asset.mass_at(height)
     if not 0 < mass < math.inf:
         raise ValueError(f"asset {name} ({key}): mass must be a positive, finite number of kilograms, got {mass}")
-    half = math.radians(yaw_deg) / 2
-    body = spec.worldbody.add_body(name=name, pos=pos, quat=(math.cos(half), 0.0, 0.0, math.sin(half)))
+    body = placed(spec, name, pos, yaw_deg, parent)
     body.mass = mass
     body.ipos = [scale * x for x in asset.inertia_com]
     body.fullinertia = [mass * scale**2 * x for x in asset.inertia_per_kg]
     body.explicitinertial = True
-    if not fixed:
+    if joint is not None:
+        attach(body, joint)
+    elif not fixed and parent is None:
         body.add_freejoint()
     worn = _materials(spec, asset, look)
     for mesh, material in asset.visual:

@@ -64,6 +64,8 @@ def actuators(plan: Plan, needs: Needs) -> str:
     """Motors and servos on the joints."""
     lines = []
     for row in plan.topology.actuators:
+        if row.kind == "imported":
+            continue
         needs.use("actuators")
         keywords: dict = {"joint": row.joint}
         keywords |= {k: getattr(row, k) for k in ("gain", "damping", "limit") if getattr(row, k)}

@@ -12,6 +12,11 @@ class Needs:
     open_places: list[str] = field(default_factory=list)
     """What must still be written by hand."""
 
+    texts: dict[str, str] = field(default_factory=dict)
+    """Constants that hold the text of a model, by name."""
+    joint_kinds: dict[str, str] = field(default_factory=dict)
+    """Of the plan's joints, and of those inside the models it brings in."""
+
     def use(self, *modules: str) -> None:
         """Import these modules of worldkit."""
         self.modules.update(modules)

@@ -1,12 +1,13 @@
-"""The things of a world: primitives and catalog assets, each with its pose, mass, look, surface and joint."""
+"""The things of a world, each with its pose, mass, look, surface and joint: primitives here, assets in `imports`."""
 
 from dataclasses import fields
 
 from ..model.errors import PlanError
 from ..model.plan import AssetRow, Joint, Plan, SceneObject
 from ..model.scene import PlacedObject, Scene
+from . import imports
 from .needs import Needs
-from .source import Raw, call, comment, constant_name, literal
+from .source import Raw, call, comment, constant_name
 
 
 class Objects:
@@ -24,11 +25,13 @@ class Objects:
                 self.loops.append(joint)
             else:
                 self.joint_of[joint.child] = joint
+            needs.joint_kinds[joint.name] = joint.type
 
     def written(self) -> str:
         """Every scene object and asset."""
         parts = [
-            self.scene_object(item) if isinstance(item, SceneObject) else self.asset(item) for item in self.ordered()
+            self.scene_object(item) if isinstance(item, SceneObject) else imports.written(self, item)
+            for item in self.ordered()
         ]
         for joint in self.loops:
             self.needs.leave(
@@ -43,18 +46,21 @@ class Objects:
     def ordered(self) -> list[SceneObject | AssetRow]:
         """Plan order, except that a joint's parent comes before its child."""
         rows: list[SceneObject | AssetRow] = [*self.plan.scene_objects, *self.plan.assets]
-        by_name = {row.name: row for row in rows}
+        by_name = {name: row for row in rows for name in getattr(row, "instances", (row.name,))}
         done: dict[str, SceneObject | AssetRow] = {}
 
         def visit(row: SceneObject | AssetRow, trail: tuple[str, ...]) -> None:
             if row.name in done:
                 return
-            joint = self.joint_of.get(row.name)
-            if joint is not None and joint.parent in by_name:
-                if joint.parent in trail:
-                    cycle = " -> ".join((*trail, joint.parent))
+            for name in getattr(row, "instances", (row.name,)):
+                joint = self.joint_of.get(name)
+                parent = by_name.get(joint.parent) if joint is not None else None
+                if parent is None or parent is row:
+                    continue
+                if parent.name in trail:
+                    cycle = " -> ".join((*trail, parent.name))
                     raise PlanError(f"the joints form a cycle: {cycle}", next_move="make one of its bodies the root")
-                visit(by_name[joint.parent], (*trail, row.name))
+                visit(parent, (*trail, parent.name))
             done[row.name] = row
 
         for row in rows:
@@ -146,35 +152,3 @@ class Objects:
             keywords["damping"] = row.damping
         made = call(f"joints.{row.type.capitalize()}", row.name, indent=0, **keywords)
         return {**parent, "joint": Raw(" ".join(made.split()).replace("( ", "(").replace(", )", ")"))}
-
-    def asset(self, row: AssetRow) -> str:
-        """A catalog asset; several instances become a table of poses and one loop."""
-        if row.type != "mesh" or any(name in self.joint_of for name in row.instances):
-            what = f"a {row.type} asset" if row.type != "mesh" else "an asset on a joint"
-            self.needs.leave(f"{row.name} is {what}", "import it and attach it to the world")
-            return comment(f"AUTHOR: add {row.name} ({row.filename}): {what} is not drafted.")
-        self.needs.use("assets")
-        keywords: dict = {"height": self.plan.asset_dimensions[row.name]}
-        if row.material:
-            keywords["surface"] = Raw(constant_name(row.material))
-        if row.look:
-            keywords["look"] = row.look
-        if row.fixed or not row.is_dynamic:
-            keywords["fixed"] = True
-        if row.count == 1:
-            pose = self.common(row.name, self.scene[row.name])
-            return call("assets.add", Raw("spec"), row.filename, name=row.name, **pose, **keywords)
-        table = constant_name(row.name).lower() + "_poses"
-        lines = [f"    {table} = {{  # name: (centre, yaw in degrees)"]
-        for name in row.instances:
-            placed = self.scene[name]
-            lines.append(
-                f"        {literal(name)}: ({literal(tuple(map(float, placed.position)))}, {float(placed.deg_z)}),"
-            )
-        lines += ["    }", f"    for name, (pos, yaw_deg) in {table}.items():"]
-        masses = {self.parameters.masses.get(n, self.parameters.masses.get(row.name)) for n in row.instances}
-        if len(masses) == 1 and (mass := masses.pop()) is not None:
-            keywords["mass"] = mass
-        pose = {"name": Raw("name"), "pos": Raw("pos"), "yaw_deg": Raw("yaw_deg")}
-        lines.append(call("assets.add", Raw("spec"), row.filename, indent=8, **pose, **keywords))
-        return "\n".join(lines)

@@ -74,7 +74,7 @@ class _Writer:
             self.motion(),
         )
         body = "\n\n".join(part for part in parts if part)
-        surfaces = self.surfaces()
+        surfaces = self.surfaces() + self.texts()
         control = drives.control(plan, needs)
         entry = self.entry(bool(control))
         imports = "import math\n\n" if "math." in body else ""
@@ -150,6 +150,14 @@ class _Writer:
             lines.append(call(target, indent=0, **keywords))
         return "\n".join(lines) + "\n"
 
+    def texts(self) -> str:
+        """The models that the plan brings in, as they are."""
+        made = []
+        for name, text in self.needs.texts.items():
+            plain_text = "\\" not in text and '"' * 3 not in text
+            made.append(f'{name} = """{text}"""' if plain_text else f"{name} = {literal(text)}")
+        return "".join(f"\n{line}\n" for line in made)
+
     def build_head(self) -> str:
         """`def build()` up to the empty world."""
         show = self.plan.visualization
@@ -199,7 +207,6 @@ class _Writer:
         if not self.parameters.initial_motion:
             return ""
         self.needs.use("motion")
-        kinds = {joint.name: joint.type for joint in self.plan.topology.joints}
         lines = ["    motion.launch(", "        spec,", "        {"]
         for name, start in self.parameters.initial_motion.items():
             keywords: dict = {}
@@ -208,7 +215,7 @@ class _Writer:
             if any(start.angular):
                 keywords["angular"] = start.angular
             if start.joint_position is not None:
-                degrees = kinds.get(name) == "hinge"
+                degrees = self.needs.joint_kinds.get(name) == "hinge"
                 value = literal(start.joint_position)
                 keywords["position"] = Raw(f"math.radians({value})") if degrees else start.joint_position
             if start.joint_velocity is not None:

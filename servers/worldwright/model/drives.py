@@ -52,8 +52,9 @@ class Actuator(Frozen):
 
     name: str
     joint: str
-    kind: Literal["motor", "position", "velocity"] = "motor"
-    """A motor's control is its force, N or N·m; a servo's, the position (m or rad) or velocity it holds."""
+    kind: Literal["motor", "position", "velocity", "imported"] = "motor"
+    """A motor's control is its force, N or N·m; a servo's, the position (m or rad) or velocity it holds. `imported`: it comes
+    with a model file, which owns its gains; those of a file that no row names are left out."""
     control: float | str | None = None
     """A number, or the name of one of `constants`, given at every step; None: the code role writes the law."""
     gain: float | None = Field(None, gt=0)
@@ -65,6 +66,8 @@ class Actuator(Frozen):
 
     @model_validator(mode="after")
     def _geared(self) -> "Actuator":
-        if (self.kind != "motor") != (self.gain is not None):
+        if (self.kind in ("position", "velocity")) != (self.gain is not None):
             raise ValueError("`gain` is needed by a position or velocity servo, and only by them")
+        if self.kind == "imported" and (self.damping or self.limit):
+            raise ValueError("the file of an imported actuator owns its damping and limit: remove them here")
         return self

@@ -138,7 +138,7 @@ class AssetRow(Frozen):
     name: str
     type: Literal["mesh", "mjcf", "urdf", "wrapper"] = "mesh"
     filename: str
-    """The exact catalog key."""
+    """The exact catalog key; of an mjcf or urdf the file, relative to the plan's folder or the catalog."""
     count: int = Field(1, ge=1, le=10_000)
     fixed: bool = False
     is_dynamic: bool = True

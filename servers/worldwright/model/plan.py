@@ -9,6 +9,8 @@ the axis-aligned bounding box. Source: the reference paper's appendix "Plan Form
 
 from collections.abc import Iterator
 from enum import StrEnum
+from functools import cached_property
+from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import Field, field_validator
@@ -318,13 +320,26 @@ class Plan(Frozen):
     scene_objects: tuple[SceneObject, ...] = ()
     assets: tuple[AssetRow, ...] = ()
     asset_dimensions: dict[str, float] = {}
-    """Real-world height in metres by asset row name: the single source of metric scale."""
+    """Real-world height in metres by asset row name: the single source of metric scale (a model file has its own)."""
     layout_density: dict[str, Any] = {}
     topology: Topology = Topology()
     visualization: Visualization = Visualization()
     recording_mode: RecordingMode = RecordingMode()
     clarifications_needed: tuple[str, ...] = ()
     geometry_relations: tuple[RelationRow, ...] = ()
+
+    @cached_property
+    def folder(self) -> Path | None:
+        """Where the plan was read from, and where the files lie that its assets name; None for a plan made in memory.
+
+        No part of the plan: two are equal wherever they lie.
+        """
+        return None
+
+    def read_from(self, folder: Path) -> "Plan":
+        """The same plan, knowing its folder."""
+        self.__dict__["folder"] = folder
+        return self
 
     def object_names(self) -> tuple[str, ...]:
         """Every placed thing: scene objects, then asset instances, in plan order."""

@@ -100,7 +100,9 @@ def read_plan(path: Path | str) -> PlanDocument:
         if b"\0" in data:
             _refuse(str(path), "this is a binary file, not a text", "name the plan.md", line)
         _refuse(str(path), f"byte 0x{data[cause.start]:02x} is not UTF-8", "save the file as UTF-8", line)
-    return parse_plan(text, str(path))
+    document = parse_plan(text, str(path))
+    document.plan.read_from(path.parent)
+    return document
 
 
 def parse_plan(text: str, file: str = "plan.md") -> PlanDocument:

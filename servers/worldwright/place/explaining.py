@@ -1,5 +1,6 @@
 """The chain of rows and formulas from the base to an object's numbers."""
 
+from ..model.imported import is_model
 from ..model.plan import Plan
 from .reports import Explained, Explanation
 from .resolution import Resolution
@@ -44,6 +45,9 @@ def _sizes(plan: Plan) -> dict[str, str]:
         for row in plan.scene_objects
     }
     for row in plan.assets:
+        if is_model(row):
+            owners |= dict.fromkeys(row.instances, f"the box around the rest pose of {row.filename}")
+            continue
         height = plan.asset_dimensions.get(row.name)
         owners |= dict.fromkeys(
             row.instances, f"catalog `{row.filename}` scaled to {height:g} m height (asset_dimensions)"

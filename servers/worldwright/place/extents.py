@@ -7,10 +7,14 @@ Scene objects own their `size` (full extents). Assets are scaled uniformly from 
 from collections.abc import Iterator
 from dataclasses import replace
 
+from ..model.errors import PlanError
+from ..model.imported import is_model, load
 from ..model.plan import AssetRow, Plan, SceneObject
 from . import compounds
-from .anchors import Box, Surface
+from .anchors import Box, Surface, no_surface
 
+AGREES = 0.01
+"""How far a given height may be from a model's own, as a share."""
 Unsized = tuple[str, str, tuple[str | int, ...]]
 """Why an object has no size: cause, fix, and the path in the plan."""
 
@@ -83,6 +87,8 @@ def _tilted(row: SceneObject) -> Box:
 
 
 def _asset(plan: Plan, row: AssetRow) -> Box:
+    if is_model(row):
+        return _model(plan, row)
     from worldkit import assets
 
     if row.name not in plan.asset_dimensions:
@@ -111,6 +117,24 @@ def _asset(plan: Plan, row: AssetRow) -> Box:
     pieces = entry.collision
     ball = len(pieces) == 1 and pieces[0].type == "sphere"
     return Box(row.name, size, round=ball, surface=surface, surfaces=surfaces)
+
+
+def _model(plan: Plan, row: AssetRow) -> Box:
+    """A model by the box around its rest pose; it is metric, so a height can only agree."""
+    try:
+        size = load(row, plan.folder).extents
+    except PlanError as error:
+        raise _UnknownSizeError(error.cause, error.next_move, "filename") from error
+    height = plan.asset_dimensions.get(row.name, size[2])
+    if abs(height - size[2]) > AGREES * size[2]:
+        raise _UnknownSizeError(
+            f"{row.filename} is {size[2]:g} m high as it stands there, not {height:g} m",
+            f"remove `{row.name}` from asset_dimensions: the file owns its size, and is not scaled",
+        )
+    top = Surface("top", size[2], size[:2])
+    return Box(
+        row.name, size, surface=lambda name: top if name in (None, "top") else no_surface(name), surfaces=lambda: [top]
+    )
 
 
 def fixed_objects(plan: Plan) -> Iterator[str]:

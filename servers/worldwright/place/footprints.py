@@ -46,7 +46,8 @@ def footprint(placed: PlacedObject, row: SceneObject | None) -> Polygon:
     """Where the object touches a plane that it stands on, world frame; a point for a ball."""
     x, y, _ = placed.position
     if row is None:
-        return turned(list(_asset(placed.kind, placed.size[2])[0]), x, y, placed.deg_z)
+        own = _asset(placed.kind, placed.size[2])
+        return turned(list(own[0]) if own else rectangle(*placed.size[:2]), x, y, placed.deg_z)
     if row.deg_x or row.parts:
         return turned(_lowest(row), x, y, placed.deg_z)
     if row.primitive in ("sphere", "ellipsoid", "capsule"):
@@ -60,7 +61,8 @@ def shadow(placed: PlacedObject, row: SceneObject | None) -> Polygon:
     """Everything below the object, world frame: what it covers seen from above."""
     x, y, _ = placed.position
     if row is None:
-        return turned(list(_asset(placed.kind, placed.size[2])[2]), x, y, placed.deg_z)
+        own = _asset(placed.kind, placed.size[2])
+        return turned(list(own[2]) if own else rectangle(*placed.size[:2]), x, y, placed.deg_z)
     if row.parts:
         return turned(hull([(u, v) for u, v, _ in _cloud(row)]), x, y, placed.deg_z)
     curved = row.primitive in ("sphere", "ellipsoid", "capsule", "cylinder") and not row.deg_x
@@ -73,11 +75,11 @@ def centre_of_mass(placed: PlacedObject, row: SceneObject | None, plan: Plan) ->
     x, y, _ = placed.position
     if row is not None and row.parts:
         with suppress(ValueError):
-            own = weight(plan, row).centre[:2]
-            return turned([own], x, y, placed.deg_z)[0]
+            return turned([weight(plan, row).centre[:2]], x, y, placed.deg_z)[0]
     if row is not None:
         return (x, y)
-    return turned([_asset(placed.kind, placed.size[2])[1]], x, y, placed.deg_z)[0]
+    own = _asset(placed.kind, placed.size[2])
+    return turned([own[1] if own else (0.0, 0.0)], x, y, placed.deg_z)[0]
 
 
 def rows(plan: Plan) -> dict[str, SceneObject]:
@@ -88,12 +90,18 @@ def rows(plan: Plan) -> dict[str, SceneObject]:
 @lru_cache(maxsize=512)
 def _asset(
     key: str, height: float
-) -> tuple[tuple[tuple[float, float], ...], tuple[float, float], tuple[tuple[float, float], ...]]:
-    """The polygon of an asset's lowest points, its centre of mass, and the polygon of all its points; own frame."""
+) -> tuple[tuple[tuple[float, float], ...], tuple[float, float], tuple[tuple[float, float], ...]] | None:
+    """The polygon of an asset's lowest points, its centre of mass, and the polygon of all its points; own frame.
+
+    None for a model file: it counts as the box around it.
+    """
     from worldkit import assets
 
     from .drawing.silhouettes import asset_clouds
 
+    known = assets.keys()
+    if key not in known:
+        return None
     entry = assets.find(key)
     clouds = asset_clouds(key, height)
     low = min(float(cloud[:, 2].min()) for cloud in clouds)

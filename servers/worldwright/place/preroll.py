@@ -70,7 +70,8 @@ def _distance(model: Any, data: Any, first: str, second: str, far_m: float) -> f
     import mujoco
     import numpy as np
 
-    geoms = [np.flatnonzero(model.geom_bodyid == model.body(name).id) for name in (first, second)]
+    owners = np.array([_owner(model, geom) for geom in range(model.ngeom)])
+    geoms = [np.flatnonzero(owners == name) for name in (first, second)]
     return min(
         (mujoco.mj_geomDistance(model, data, a, b, far_m, None) for a in geoms[0] for b in geoms[1]), default=far_m
     )
@@ -79,7 +80,7 @@ def _distance(model: Any, data: Any, first: str, second: str, far_m: float) -> f
 def _build(request: dict[str, Any]) -> Any:
     import mujoco
 
-    from worldkit import assets, bodies, contacts
+    from worldkit import assets, bodies, contacts, models
 
     spec = mujoco.MjSpec()
     spec.option.timestep = request["time_step"]
@@ -99,7 +100,9 @@ def _build(request: dict[str, Any]) -> Any:
             "surface": contacts.surface(**row["surface"]) if row["surface"] else None,
             "mass": row["mass"],
         }
-        if row["asset"]:
+        if row["model"]:
+            models.attach(spec, **row["model"], **{k: v for k, v in common.items() if k != "mass"})
+        elif row["asset"]:
             body = assets.add(spec, row["asset"], height=row["size"][2], **common)
             for geom in [geom for geom in body.geoms if geom.contype == 0 and geom.conaffinity == 0]:
                 spec.delete(geom)
@@ -155,7 +158,8 @@ def _part(values: dict[str, Any]) -> Any:
 
 
 def _owner(model: Any, geom: int) -> str:
-    body = int(model.geom_bodyid[geom])
+    """The object that a geom belongs to: the body at the root of its tree, for objects stand on their own here."""
+    body = int(model.body_rootid[model.geom_bodyid[geom]])
     return "ground" if body == 0 else str(model.body(body).name)
 
 

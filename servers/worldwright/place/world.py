@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from ..model.errors import JobError
+from ..model.imported import is_model, load
 from ..model.plan import AssetRow, Plan, SceneObject
 from ..model.scene import Scene
 from .start import Motion
@@ -132,7 +133,8 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
         objects.append(
             {
                 "name": placed.name,
-                "asset": row.filename if isinstance(row, AssetRow) else None,
+                "asset": row.filename if isinstance(row, AssetRow) and not is_model(row) else None,
+                "model": _model(plan, row),
                 "primitive": row.primitive if isinstance(row, SceneObject) else None,
                 "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
                 "size": row.size if isinstance(row, SceneObject) else placed.size,
@@ -151,6 +153,14 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
         "time_step": min(step if isinstance(step, float) else 0.002, 0.002),
         "ground": None if floating else (_surface(plan, "ground") if ground else {}),
     }
+
+
+def _model(plan: Plan, row: SceneObject | AssetRow) -> dict[str, Any] | None:
+    """Text and catalog folder of a model file."""
+    if not isinstance(row, AssetRow) or not is_model(row):
+        return None
+    model = load(row, plan.folder)
+    return {"text": model.text, "folder": model.folder}
 
 
 def _parts(plan: Plan, row: SceneObject | AssetRow) -> list[dict[str, Any]]:

@@ -8,6 +8,7 @@ from typing import Literal
 
 from worldkit.files import write_atomic
 
+from ..model import imported
 from ..model.errors import GateError
 from ..model.evidence import Environment
 from ..model.frozen import Frozen
@@ -89,6 +90,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             timeout_s=timeout_s,
             progress=progress,
             bundle=True,
+            beside=imported.beside(state.run.folder),
         )
         if proved is None:
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
@@ -134,6 +136,8 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
     write_atomic(folder / "plan.md", state.plan_bytes or b"")
     if state.run.prompt.is_file():
         write_atomic(folder / "prompt.md", state.run.prompt.read_bytes())
+    for name, content in imported.beside(state.run.folder).items():
+        write_atomic(folder / name, content)
     write_atomic(folder / digest.NAME, digest.motion(proved.recording).model_dump_json() + "\n")
     sampled.write(proved.recording, folder / sampled.NAME)
     if proved.world is not None:

@@ -5,6 +5,7 @@ a later call while its job is still running, or after a crash: it is addressed b
 """
 
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -49,10 +50,11 @@ def prove(
     timeout_s: float,
     progress: Progress = silent,
     bundle: bool = False,
+    beside: Mapping[str, bytes] | None = None,
 ) -> Proved | None:
     """Lint and simulate `program` against `plan` in `folder`; None when a job needs more than `timeout_s`.
 
-    With `bundle` the world is also written as one file (a second job). A lint error or a failed pass is a `GateError`.
+    `beside` are files that the plan names, by relative path. With `bundle` the world is also written as one file (a second job). A lint error or a failed pass is a `GateError`.
     """
     from ..lint import tools as lint
     from ..stage import tools as stage
@@ -62,6 +64,8 @@ def prove(
     if _bytes(run.program) != program or _bytes(run.plan) != plan:
         write_atomic(run.program, program)
         write_atomic(run.plan, plan)
+        for name, content in (beside or {}).items():
+            write_atomic(folder / name, content)
     key = run.evidence_key(_environment_sha256())
     if not any(e.get("action") == "approve" and e.get("plan_sha256") == key.plan_sha256 for e in run.entries()):
         run.log("stamp", "approve", plan_sha256=key.plan_sha256, by=reason)

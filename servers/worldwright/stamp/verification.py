@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
+from ..model import imported
 from ..model.errors import GateError, NotFoundError, WorldwrightError
 from ..model.evidence import Environment, ExpectReport
 from ..model.frozen import Frozen
@@ -84,6 +85,7 @@ def verify(name: str, timeout_s: float, progress: Progress = silent, signer: Pat
                 reason=f"stamped as {statement.predicate.run}",
                 timeout_s=timeout_s,
                 progress=progress,
+                beside=imported.beside(folder),
             )
         except GateError as error:
             shutil.rmtree(proof, ignore_errors=True)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ....model.imported import is_model
 from ....model.plan import Plan, Position
 from ...compiled.view import ModelView
 
@@ -95,6 +96,14 @@ def starts_away(view: ModelView, plan: Plan, body: int) -> bool:
     while body > 0 and names[body] not in moved:
         body = int(view.body_parentid[body])
     return body > 0
+
+
+def opened(plan: Plan, name: str) -> bool:
+    """Whether the plan lets a joint inside a model start away from its rest pose: the box around it is then another one."""
+    if not any(is_model(row) and name in row.instances for row in plan.assets):
+        return False
+    motions = plan.simulation_parameters.initial_motion.items()
+    return any(joint.startswith(f"{name}_") and start.joint_position for joint, start in motions)
 
 
 def places(plan: Plan) -> dict[str, tuple[float, float, float]]:

@@ -15,7 +15,7 @@ import numpy as np
 from ...compiled.view import ModelView
 from ...problem import Problem
 from ...proof import Argued
-from ._planned import THREE, centre, home, places, starts_away
+from ._planned import THREE, centre, home, opened, places, starts_away
 
 CODE = "WM152"
 SEVERITY = "error"
@@ -45,7 +45,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     assert view.plan is not None
     for name, planned in places(view.plan).items():
         body = view.root_named(name)
-        if body is None:
+        if body is None or opened(view.plan, name):
             continue
         away = starts_away(view, view.plan, body)
         options = home(view, body) if away else (view.xpos[body], centre(view, body))

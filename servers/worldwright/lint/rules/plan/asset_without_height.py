@@ -11,6 +11,7 @@ Use instead: one entry `name: height in metres` per asset row.
 
 from collections.abc import Iterator
 
+from ....model.imported import is_model
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
@@ -31,7 +32,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     """Every asset row, then every height."""
     heights = view.plan.asset_dimensions
     for index, row in enumerate(view.plan.assets):
-        if row.name not in heights:
+        if row.name not in heights and not is_model(row):
             yield view.at(
                 ("assets", index),
                 f"asset `{row.name}` has no height",

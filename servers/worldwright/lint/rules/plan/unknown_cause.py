@@ -12,6 +12,7 @@ Use instead: the plan's own names; declare an intervention before naming it as a
 from collections.abc import Iterator
 from difflib import get_close_matches
 
+from ....model.imported import all_of
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
@@ -41,6 +42,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     """Each part of each cause."""
     plan = view.plan
     known = {*WORLD, *plan.object_names(), *(a.name for a in plan.assets), *(j.name for j in plan.topology.joints)}
+    known |= {name for _, _, model in all_of(plan) for name in model.names()}
     for item in plan.simulation_parameters.interventions:
         known |= {f"{item.kind}:{target}" for target in item.bodies} | {item.kind, *item.bodies}
     for index, objective in enumerate(plan.objectives):

@@ -1,0 +1,343 @@
+"""A URDF or MJCF model as an object of a world: its text, attached at a planned pose under a planned name.
+
+    ARM = '<robot name="arm"> … </robot>'
+    models.attach(spec, ARM, name="arm", pos=(0, 0, 1.05), fixed=True)
+
+The text is part of the program, so that the program's evidence covers it. Its root body becomes `arm`; everything else in it
+is called `arm_` and its own name: joint `shoulder` is `arm_shoulder`. `pos` is the centre of the box around the model in its
+own rest pose, as for every object of a plan.
+"""
+
+import xml.etree.ElementTree as ElementTree
+from collections.abc import Collection
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from .bodies import pose_below
+from .joints import Joint
+from .joints import attach as attach_joint
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+Vec3 = tuple[float, float, float]
+MOST_BYTES = 2_000_000
+_TAGS = """robot link joint inertial visual collision geometry origin mass inertia box sphere cylinder capsule mesh material
+color texture parent child axis limit dynamics mimic safety_controller calibration mujoco transmission gazebo"""
+URDF_TAGS = frozenset(_TAGS.split())
+"""What a URDF may say; MuJoCo passes over anything else in silence."""
+
+
+def attach(
+    spec: "mujoco.MjSpec",
+    text: str,
+    *,
+    name: str,
+    pos: Vec3,
+    yaw_deg: float = 0.0,
+    fixed: bool = False,
+    surface: dict[str, Any] | None = None,
+    look: str | None = None,
+    folder: str | None = None,
+    actuators: Collection[str] | None = None,
+    parent: str | None = None,
+    joint: Joint | None = None,
+) -> "mujoco.MjsBody":
+    """Add the model of `text` to the world and return its root body, which is called `name`.
+
+    Only the root body and what hangs on it come along, with their actuators, sensors, tendons and equalities; floors,
+    lights, cameras, keyframes and options stay behind: the world has its own.
+
+    Args:
+        spec: the world under construction.
+        text: a URDF (`<robot>`) or MJCF (`<mujoco>`) model with exactly one root body.
+        name: of the root body; everything else is called `name_` and its own name.
+        pos: world position of the centre of the box around it in its rest pose, metres.
+        yaw_deg: rotation about world z, degrees counter-clockwise from +X.
+        fixed: it stands where it is put: a free joint of its root is taken away. Otherwise a root without a joint gets a
+            free one. Links next to a fixed root do not collide with it, as they would not with a free one.
+        surface: contact properties of all its colliding geoms, from `worldkit.contacts.surface`; None: its own.
+        look: of geoms without a material of their own; None: `plastic_white`.
+        folder: folder of the catalog in which its mesh and texture files lie.
+        actuators: its own names of those that come along; None: all of them.
+        parent: name of the body its root belongs to; None is the world.
+        joint: how its root moves against its parent, besides joints of its own.
+
+    Raises:
+        ValueError: the text is no model, has several roots, or names files without `folder`; the message says which.
+    """
+    import mujoco
+
+    from . import materials
+
+    rest = _rest(parsed(text, name, folder), name)
+    child = parsed(text, name, folder)
+    root = _root(child, name)
+    _adopt(child, spec)
+    _strip(child, root, fixed or parent is not None or joint is not None)
+    for actuator in [] if actuators is None else [a for a in child.actuators if a.name not in actuators]:
+        child.delete(actuator)
+    before = root.name
+    owner, pose, quat = pose_below(spec, name, pos, yaw_deg, parent)
+    body = owner.add_frame().attach_body(root, f"{name}_", "")
+    _put(body, rest, pose, quat)
+    if joint is not None:
+        attach_joint(body, joint)
+    elif not fixed and parent is None and not body.joints:
+        body.add_freejoint()
+    for own in body.joints:
+        if own.type == mujoco.mjtJoint.mjJNT_FREE:
+            own.name = name
+    _rename(spec, f"{name}_{before}", body, name)
+    for part in (body, *_below(body)):
+        for number, geom in enumerate(part.geoms):
+            geom.name = geom.name or f"{part.name}/{number}"
+            if not geom.material and geom.rgba[:3].tolist() == [0.5, 0.5, 0.5]:
+                geom.material = materials.add(spec, look or "plastic_white")
+            if surface and (geom.contype or geom.conaffinity):
+                for key, value in surface.items():
+                    if key != "density":
+                        setattr(geom, key, value)
+    if fixed:
+        for part in body.bodies:
+            spec.add_exclude(bodyname1=name, bodyname2=part.name)
+    return body
+
+
+def facts(text: str, name: str, folder: str | None = None) -> dict[str, Any]:
+    """What a plan needs to know of a model, names as they will be in the world.
+
+    Returns:
+        `extents` (3, m, of its rest pose), `mass` (kg), `bodies`, `actuators` and `geoms` (names), `joints` (name to kind:
+        hinge, slide, ball, free), `moves` (whether any part moves against its root).
+    """
+    import mujoco
+
+    spec = mujoco.MjSpec()
+    body = attach(spec, text, name=name, pos=(0, 0, 0), folder=folder)
+    model = spec.compile()
+    kinds = {mujoco.mjtJoint(k): word for k, word in enumerate(("free", "ball", "slide", "hinge"))}
+    joints = {model.joint(j).name: kinds[mujoco.mjtJoint(model.jnt_type[j])] for j in range(model.njnt)}
+    return {
+        "extents": [round(float(v), 6) for v in _rest(parsed(text, name, folder), name).extents],
+        "mass": float(model.body_subtreemass[model.body(body.name).id]),
+        "bodies": [model.body(b).name for b in range(1, model.nbody)],
+        "geoms": [model.geom(g).name for g in range(model.ngeom)],
+        "actuators": [model.actuator(a).name for a in range(model.nu)],
+        "joints": joints,
+    }
+
+
+def parsed(text: str, name: str, folder: str | None = None) -> "mujoco.MjSpec":
+    """The model as a spec of its own, its files found in the catalog.
+
+    Raises:
+        ValueError: it is not a model, has a tag that is none, or names files that are not there.
+    """
+    import mujoco
+
+    _checked(text, name)
+    try:
+        child = mujoco.MjSpec.from_string(text)
+    except ValueError as error:
+        raise ValueError(f"model {name}: {' '.join(str(error).split())}") from error
+    for item in (*child.meshes, *child.textures, *child.hfields):
+        if not item.file:
+            continue
+        if folder is None:
+            raise ValueError(
+                f"model {name}: it reads the file {item.file!r}; a program reads no files: use primitives, or put the model and "
+                "its files into a folder of the catalog"
+            )
+        item.file = str(_found(item.file, child, name, folder))
+    return child
+
+
+def _checked(text: str, name: str) -> None:
+    """Refuse what the engine would pass over in silence, or read from elsewhere."""
+    if len(text.encode()) > MOST_BYTES:
+        raise ValueError(f"model {name}: it is larger than {MOST_BYTES // 1_000_000} MB")
+    if "<!DOCTYPE" in text or "<!ENTITY" in text:
+        raise ValueError(f"model {name}: it declares a document type; remove it")
+    try:
+        tree = ElementTree.fromstring(text.strip())
+    except ElementTree.ParseError as error:
+        raise ValueError(f"model {name}: it is not XML: {error}") from error
+    if tree.tag not in ("robot", "mujoco"):
+        raise ValueError(f"model {name}: its root is <{tree.tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
+    if any(node.tag == "include" for node in tree.iter()):
+        raise ValueError(f"model {name}: it includes another file; write its content there")
+    waiting = [tree] if tree.tag == "robot" else []
+    while waiting:
+        node = waiting.pop()
+        if node.tag not in URDF_TAGS:
+            known = ", ".join(sorted(URDF_TAGS))
+            raise ValueError(f"model {name}: a URDF has no element <{node.tag}>; known: {known}")
+        if node.tag not in ("transmission", "gazebo", "mujoco"):  # not read, or the engine's own
+            waiting += list(node)
+
+
+def _found(file: str, child: "mujoco.MjSpec", name: str, folder: str) -> Path:
+    """A file of a model in the catalog."""
+    from .assets import catalog_root
+
+    home = (catalog_root() / folder).resolve()
+    stem = file.removeprefix("package://")
+    for place in (home / (child.meshdir or "") / stem, home / stem, home / Path(stem).name):
+        path = place.resolve()
+        if path.is_file() and path.is_relative_to(home):
+            if path.suffix.lower() not in (".obj", ".png"):
+                raise ValueError(
+                    f"model {name}: {file} is neither .obj nor .png, which are all that evidence covers: convert it"
+                )
+            return path
+    raise ValueError(f"model {name}: its file {file!r} is not in the catalog's folder {folder!r}")
+
+
+def _root(child: "mujoco.MjSpec", name: str) -> "mujoco.MjsBody":
+    roots = list(child.worldbody.bodies)
+    if len(roots) != 1:
+        named = ", ".join(body.name or "(without a name)" for body in roots) or "none"
+        raise ValueError(f"model {name}: it must have exactly one root body, it has {len(roots)}: {named}")
+    roots[0].name = roots[0].name or "root"
+    return roots[0]
+
+
+def _below(body: "mujoco.MjsBody") -> "list[mujoco.MjsBody]":
+    return [found for part in body.bodies for found in (part, *_below(part))]
+
+
+def _adopt(child: "mujoco.MjSpec", spec: "mujoco.MjSpec") -> None:
+    """Time step, gravity, solver: the world's own count, which the engine would remark on for each that differs."""
+    for key in dir(spec.option):
+        if not key.startswith("_"):
+            setattr(child.option, key, getattr(spec.option, key))
+
+
+def _strip(child: "mujoco.MjSpec", root: "mujoco.MjsBody", fixed: bool) -> None:
+    """Cameras, lights and keyframes are the world's; a fixed root has no free joint."""
+    import mujoco
+
+    for item in (*child.cameras, *child.lights, *child.keys):
+        child.delete(item)
+    for joint in list(root.joints) if fixed else []:
+        if joint.type == mujoco.mjtJoint.mjJNT_FREE:
+            child.delete(joint)
+
+
+def _rename(spec: "mujoco.MjSpec", before: str, body: "mujoco.MjsBody", after: str) -> None:
+    """Give the root its planned name, wherever it is referred to."""
+    import mujoco
+
+    body.name = after
+    bodies = (mujoco.mjtObj.mjOBJ_BODY, mujoco.mjtObj.mjOBJ_XBODY)
+    referring: list[tuple[Any, tuple[str, ...]]] = [(item, ("bodyname1", "bodyname2")) for item in spec.excludes]
+    referring += [(item, ("name1", "name2")) for item in spec.equalities if item.objtype in bodies]
+    referring += [(item, ("objname",)) for item in spec.sensors if item.objtype in bodies]
+    referring += [(item, ("refname",)) for item in spec.sensors if item.reftype in bodies]
+    referring += [(item, ("target",)) for item in spec.actuators if item.trntype == mujoco.mjtTrn.mjTRN_BODY]
+    for item, keys in referring:
+        for key in keys:
+            if getattr(item, key) == before:
+                setattr(item, key, after)
+
+
+@dataclass(frozen=True)
+class _Rest:
+    """A model as it stands in its own file: the box around what is drawn or touched (planes aside), and its root's pose."""
+
+    low: "np.ndarray"
+    high: "np.ndarray"
+    pos: "np.ndarray"
+    quat: "np.ndarray"
+
+    @property
+    def extents(self) -> "np.ndarray":
+        return self.high - self.low
+
+
+def _put(body: "mujoco.MjsBody", rest: _Rest, pos: "np.ndarray", quat: "np.ndarray") -> None:
+    """Pose the root so that the centre of the box is at `pos`, its parent's frame, turned by `quat`."""
+    import mujoco
+    import numpy as np
+
+    away, turned = np.zeros(3), np.zeros(4)
+    mujoco.mju_rotVecQuat(away, rest.pos - (rest.low + rest.high) / 2, quat)
+    mujoco.mju_mulQuat(turned, quat, rest.quat)
+    body.alt.type = mujoco.mjtOrientation.mjORIENTATION_QUAT
+    body.pos, body.quat = pos + away, turned
+
+
+def _rest(child: "mujoco.MjSpec", name: str) -> _Rest:
+    """The root of a model with all that hangs on it, compiled alone."""
+    import mujoco
+    import numpy as np
+
+    root = _root(child, name)
+    spec = mujoco.MjSpec()
+    _adopt(child, spec)
+    before = root.name
+    spec.worldbody.add_frame().attach_body(root, "model_", "")
+    try:
+        model = spec.compile()
+    except ValueError as error:
+        raise ValueError(f"model {name}: {' '.join(str(error).split())}") from error
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    for g in range(model.ngeom):
+        kind = mujoco.mjtGeom(model.geom_type[g])
+        if kind == mujoco.mjtGeom.mjGEOM_PLANE:
+            continue
+        turn = data.geom_xmat[g].reshape(3, 3)
+        if kind == mujoco.mjtGeom.mjGEOM_MESH:
+            first = model.mesh_vertadr[model.geom_dataid[g]]
+            cloud = (
+                model.mesh_vert[first : first + model.mesh_vertnum[model.geom_dataid[g]]] @ turn.T + data.geom_xpos[g]
+            )
+            low, high = np.minimum(low, cloud.min(axis=0)), np.maximum(high, cloud.max(axis=0))
+            continue
+        reach, middle = _reach(kind, model.geom_size[g], turn, model.geom_aabb[g]), data.geom_xpos[g]
+        low, high = np.minimum(low, middle - reach), np.maximum(high, middle + reach)
+    if not np.isfinite(low).all():
+        raise ValueError(f"model {name}: it has no geoms, so that nobody could see or touch it")
+    top = model.body(f"model_{before}").id
+    return _Rest(low, high, model.body_pos[top].copy(), model.body_quat[top].copy())
+
+
+def _reach(kind: Any, size: "np.ndarray", turn: "np.ndarray", aabb: "np.ndarray") -> "np.ndarray":
+    """Half extents (3,) of the box around a primitive along the world's axes, m."""
+    import mujoco
+    import numpy as np
+
+    x, y, z = size
+    along = np.abs(turn[:, 2])
+    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
+        return np.full(3, x)
+    if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
+        return y * along + x
+    if kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
+        return y * along + x * np.sqrt(np.clip(1 - along**2, 0, 1))
+    if kind == mujoco.mjtGeom.mjGEOM_ELLIPSOID:
+        return np.sqrt(turn**2 @ np.array((x, y, z)) ** 2)
+    return np.abs(turn) @ aabb[3:]
+
+
+def main() -> None:
+    """Answer on standard output what is asked on standard input: the arguments of `facts`, as JSON."""
+    import json
+    import sys
+    import warnings
+
+    warnings.simplefilter("ignore")
+    try:
+        answer = facts(**json.load(sys.stdin))
+    except ValueError as error:
+        answer = {"error": str(error)}
+    json.dump(answer, sys.stdout)
+
+
+if __name__ == "__main__":
+    main()
