@@ -283,6 +283,8 @@ def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter
     if required:
         return click.Argument([parameter.name], type=_click_type(item), nargs=-1 if many else 1, required=True)
     if any(isinstance(mark, expose.Positional) for mark in typing.get_args(annotation)[1:]):
+        if many:  # click takes no default for as many as there are: none at all is the empty list
+            return click.Argument([parameter.name], type=_click_type(item), nargs=-1, required=False)
         return click.Argument([parameter.name], type=_click_type(item), required=False, default=default)
     flag = ("--" if len(parameter.name) > 1 else "-") + parameter.name.replace("_", "-")
     if item is bool:

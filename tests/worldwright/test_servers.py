@@ -57,6 +57,7 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "settle": {"plan": plan},
             "explain": {"plan": plan, "object": "ball"},
             "draw": {"plan": plan},
+            "reckon": {"expressions": ["v = fall_speed(0.3)"], "plan": plan},
         },
         "stage": {
             "draft": {"run": run},

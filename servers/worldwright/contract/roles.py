@@ -53,6 +53,7 @@ PLAN = Role(
         "place.settle",
         "place.explain",
         "place.draw",
+        "place.reckon",
     ),
     writes=("plan.md", "prompt.md"),
     reads_files=True,

@@ -187,6 +187,29 @@ class Explanation(Frozen):
         return "\n".join(lines)
 
 
+class Value(Frozen):
+    """One reckoned row."""
+
+    name: str
+    expression: str
+    value: float
+    """To six digits; a comparison is 1 or 0."""
+
+
+class Reckoned(Frozen):
+    """What the expressions come to."""
+
+    values: tuple[Value, ...] = ()
+    g: float
+    """m/s^2, that the closed forms used last."""
+    forms: tuple[str, ...] = ()
+    """Every closed form, when nothing was asked."""
+
+    def text(self) -> str:
+        """One line each."""
+        return "\n".join([*(f"{v.name} = {v.value:g}    # {v.expression}" for v in self.values), *self.forms])
+
+
 class Drawing(Frozen):
     """A picture of the layout, and what it marks."""
 

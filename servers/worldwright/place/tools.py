@@ -7,14 +7,14 @@ from pydantic import Field
 
 from worldkit.files import write_atomic
 
-from ..expose import reads
+from ..expose import Positional, reads
 from ..model.errors import NotFoundError, PlanError
 from ..model.finding import Finding
 from ..model.picture import Illustrated, Picture
 from ..model.plan_text import PlanDocument, read_plan
 from ..model.run import Run, sha256_file
 from . import checks, engine, explaining, settling, start, writing
-from .reports import CheckReport, Drawing, Explanation, Layout, SettleReport
+from .reports import CheckReport, Drawing, Explanation, Layout, Reckoned, SettleReport
 
 PlanPath = Annotated[Path, Field(description="The plan.md, its run folder, or the run's name.")]
 
@@ -165,6 +165,33 @@ def draw(
     return Illustrated(data, (Picture(picture, f"Layout of {document.plan.title or document.file}"),))
 
 
+@reads
+def reckon(
+    expressions: Annotated[
+        list[str],
+        Field(description="`name = expression`, in order; later ones may use earlier names. Empty: list the forms."),
+        Positional(),
+    ] = [],  # noqa: B006 (read only)
+    plan: Annotated[
+        Path | None, Field(description="A plan, run folder or run: its gravity is g, its constants are known.")
+    ] = None,
+) -> Reckoned:
+    """Reckon what should happen: evaluate sums like `v = sqrt(2*g*h)`, then `t = v/g`, in SI units.
+
+    Knows g, pi, math functions (sin takes radians) and closed forms, the same that the scan measures by: fall_time, fall_speed,
+    flight_time, flight_range, bounce_height, pendulum_period, body_pendulum_period, spring_period, spring_launch_speed,
+    slope_acceleration, rolling_acceleration, sliding_distance, rolling_distance, tipping_angle, tipping_force,
+    collision_speed, precession_rate, inertia_ball. Without expressions it lists all with their arguments. A comparison
+    (`mu > w/h`) comes to 1 or 0.
+    """
+    from . import reckoning
+
+    document = None if plan is None else _read(plan)
+    if document is None:
+        return reckoning.reckon(expressions)
+    return reckoning.reckon(expressions, document.plan, document.file)
+
+
 def _save(document: PlanDocument, text: str, action: str) -> None:
     """Write a plan, and note it in its run's journal."""
     path = Path(document.file)
@@ -192,4 +219,4 @@ def _need_all(document: PlanDocument, resolution: engine.Resolution) -> None:
         )
 
 
-TOOLS = (resolve, check, settle, explain, draw)
+TOOLS = (resolve, check, settle, explain, draw, reckon)

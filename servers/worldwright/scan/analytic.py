@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ..model.closed_forms import fall_speed
 from ..model.mechanics import Mechanics
 from ..model.records import Contacts, Interventions
 from ..model.trajectory import STANDARD_GRAVITY, Trajectory
@@ -136,7 +137,7 @@ def bouncing(
     """
     t = clock(seconds)
     z, v, touch = np.zeros_like(t), np.zeros_like(t), np.zeros(len(t), dtype=bool)
-    speed = float(np.sqrt(2 * G * height))
+    speed = fall_speed(height, G)
     start, rise = -speed / G, speed
     while rise / G > 2 * DT and start < seconds:
         end = start + 2 * rise / G

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ...model.closed_forms import fall_time
 from ...model.trajectory import Trajectory
 from ..analytic import G, Touch, clock, motion
 
@@ -14,7 +15,7 @@ def caught(height: float = 1.0, seconds: float = 1.5, slips: float = 0.0, **more
     It lands after sqrt(2 h / g). With `slips` (m) it then creeps upwards by so much until the end.
     """
     t = clock(seconds)
-    land = np.sqrt(2 * height / G)
+    land = fall_time(height, G)
     flying = t < land
     z = np.where(flying, 0.3 + height - G * t**2 / 2, 0.3 + slips * (t - land) / (seconds - land))
     v = np.where(flying, -G * t, slips / (seconds - land))

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from ...model.closed_forms import rolling_acceleration, slope_acceleration
 from ...model.trajectory import Trajectory
 from ..analytic import DT, G, Touch, clock, motion
 
@@ -54,7 +55,7 @@ def downhill(
 ) -> Trajectory:
     """A block sliding, or a solid ball rolling, down an incline: a = g (sin - mu cos), or 5/7 g sin."""
     t, slope = clock(seconds), np.radians(angle_deg)
-    a = 5 / 7 * G * np.sin(slope) if rolls else G * max(np.sin(slope) - friction * np.cos(slope), 0.0)
+    a = rolling_acceleration(angle_deg, g=G) if rolls else slope_acceleration(angle_deg, friction, G)
     way = np.array([np.cos(slope), 0.0, -np.sin(slope)])
     pos = np.array([0.0, 0.0, 10.0]) + (a * t**2 / 2)[:, None] * way
     spin = np.stack([0 * t, (a * t / 0.05 if rolls else 0 * t), 0 * t], axis=1)[:, None]

@@ -8,6 +8,7 @@ gives on the way is allowed for. Source: Hooke's law, conservation of energy: v 
 import numpy as np
 from pydantic import Field, model_validator
 
+from ....model.closed_forms import spring_energy
 from ....model.trajectory import Trajectory
 from ...analytic import sliding
 from ...energetics import kinetic, potential
@@ -44,7 +45,7 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     gained = moving - moving[0] + weight - weight[0]
     top = int(moving.argmax())
     if given.stiffness_n_m and given.compression_m:
-        stored = given.stiffness_n_m * given.compression_m**2 / 2
+        stored = spring_energy(given.stiffness_n_m, given.compression_m)
     else:
         stored = _released(trajectory, rows, top)
     names = ", ".join(given.names)

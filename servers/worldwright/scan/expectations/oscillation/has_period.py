@@ -9,6 +9,7 @@ series for finite amplitudes.
 import numpy as np
 from pydantic import Field, model_validator
 
+from ....model.closed_forms import pendulum_period, spring_period
 from ....model.trajectory import Trajectory
 from ...analytic import sliding, swinging
 from ...channels import OfSignal
@@ -61,16 +62,16 @@ def _expected(trajectory: Trajectory, given: Given) -> float:
     if given.period_s:
         return given.period_s
     if given.pendulum_m:
-        g, a = float(np.linalg.norm(trajectory.gravity)), np.radians(given.amplitude_deg)
+        g = float(np.linalg.norm(trajectory.gravity))
         if g == 0:
             raise UnknowableError("a pendulum needs gravity, this recording has none")
-        return float(2 * np.pi * np.sqrt(given.pendulum_m / g) * (1 + a**2 / 16 + 11 * a**4 / 3072))
+        return pendulum_period(given.pendulum_m, given.amplitude_deg, g)
     mass = given.mass_kg
     if mass is None:
         if not given.body:
             raise UnknowableError("a joint has no mass of its own", next_move="give mass_kg")
         mass = float(masses(trajectory)[body_index(trajectory, given.body)])
-    return float(2 * np.pi * np.sqrt(mass / (given.stiffness_n_m or 1.0)))
+    return spring_period(given.stiffness_n_m or 1.0, mass)
 
 
 GOOD = (

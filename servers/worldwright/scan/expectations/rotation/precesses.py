@@ -9,6 +9,7 @@ Source: the heavy symmetric top in steady precession (fast spin).
 import numpy as np
 from pydantic import Field, model_validator
 
+from ....model.closed_forms import precession_rate
 from ....model.mechanics import rotation
 from ....model.trajectory import Trajectory
 from ...channels import AXES, direction_of
@@ -80,8 +81,8 @@ def _theory(trajectory: Trajectory, given: Given, rows: slice, axis: np.ndarray)
         own = rotation(facts.inertia_quat[body]).T @ own
     inertia = float(facts.inertia[body] @ own**2)
     spin = float((trajectory.angvel[rows, body] * axis).sum(axis=1).mean())
-    weight = float(masses(trajectory)[body] * np.linalg.norm(trajectory.gravity))
-    return weight * (given.arm_m or 0.0) / (inertia * spin) if spin else np.inf
+    mass, g = float(masses(trajectory)[body]), float(np.linalg.norm(trajectory.gravity))
+    return precession_rate(mass, given.arm_m or 0.0, inertia, spin, g) if spin else np.inf
 
 
 TOP = 9.80665 * 0.05 / (0.4 * 0.05**2 * 100.0)
