@@ -19,12 +19,9 @@ class Objects:
         self.needs = needs
         self.parameters = plan.simulation_parameters
         self.joint_of: dict[str, Joint] = {}
-        self.loops: list[Joint] = []
+        self.loops = plan.topology.loops()
         for joint in plan.topology.joints:
-            if joint.child in self.joint_of:
-                self.loops.append(joint)
-            else:
-                self.joint_of[joint.child] = joint
+            self.joint_of.setdefault(joint.child, joint)
             needs.joint_kinds[joint.name] = joint.type
 
     def written(self) -> str:
@@ -33,11 +30,7 @@ class Objects:
             self.scene_object(item) if isinstance(item, SceneObject) else imports.written(self, item)
             for item in self.ordered()
         ]
-        for joint in self.loops:
-            self.needs.leave(
-                f"joint {joint.name} closes a loop on {joint.child}", "spec.add_equality(...) between its bodies"
-            )
-            parts.append(comment(f"AUTHOR: joint {joint.name} closes a loop: add an equality constraint for it."))
+        parts += [self.loop(joint) for joint in self.loops]
         if self.plan.plan_type == "fsi_in_scene":
             self.needs.leave("the plan couples a fluid with solids", "the fluid's medium and its coupling")
             parts.append(comment("AUTHOR: add the fluid and its coupling to the solids here."))
@@ -127,6 +120,26 @@ class Objects:
         if name in self.parameters.masses:
             keywords["mass"] = self.parameters.masses[name]
         return keywords
+
+    def loop(self, row: Joint) -> str:
+        """A joint that closes a loop, as constraints between bodies that are there."""
+        extras = [key for key in ("range", "stiffness", "damping", "frictionloss") if getattr(row, key)]
+        if row.type == "slide" or extras:
+            why = f"a slide joint or one with {' and '.join(extras)}" if extras else "a slide joint"
+            self.needs.leave(
+                f"joint {row.name} closes a loop on {row.child} as {why}, which no constraint of the engine is",
+                f"list it before the other joint of {row.child}, so that this other one closes the loop",
+            )
+            return comment(
+                f"AUTHOR: joint {row.name} closes a loop as {why}: list it first in the plan, or build it here."
+            )
+        self.needs.use("loops")
+        keywords: dict = {"child": row.child} | ({} if row.parent == "world" else {"parent": row.parent})
+        if row.type != "weld" and row.anchor is not None:
+            keywords["anchor"] = row.anchor
+        if row.type == "hinge":
+            keywords["axis"] = row.axis
+        return call(f"loops.{row.type}", Raw("spec"), row.name, **keywords)
 
     def joint(self, name: str) -> dict:
         """How an object is attached, when the plan says so."""

@@ -272,6 +272,16 @@ class Topology(Frozen):
     settled: dict[str, SettledOffset] = {}
     """Small displacements that `place settle --write` found, by object."""
 
+    def loops(self) -> tuple[Joint, ...]:
+        """Joints whose child hangs on an earlier one already: each closes a loop, and is a constraint without coordinate."""
+        hung: set[str] = set()
+        found = []
+        for joint in self.joints:
+            if joint.child in hung:
+                found.append(joint)
+            hung.add(joint.child)
+        return tuple(found)
+
 
 class Visualization(Frozen):
     """Section `visualization`: how the world is shown."""

@@ -27,8 +27,19 @@ SWING = THREE[: THREE.index("<keyframe>")] + "</mujoco>"
 SWING = SWING.replace(
     "<freejoint/><geom type='box'", "<joint name='swing' axis='0 1 0' range='-45 45' pos='.3 0 1'/><geom type='box'"
 )
-GOOD = ((SWING, PLAN),)
+FOUR = (
+    THREE[: THREE.index("<body name='mug'")] + "<body name='mug' pos='.5 0 .25'><joint name='turn' axis='0 1 0'/>"
+    "<geom type='cylinder' size='.04 .05' mass='.35'/></body></worldbody>{}</mujoco>"
+)
+LOOP = [
+    {"name": "turn", "type": "hinge", "child": "mug", "axis": [0, 1, 0]},
+    {"name": "pin", "type": "ball", "parent": "crate", "child": "mug"},
+]
+LOOPED = {"topology": {"joints": LOOP}, "simulation_parameters": {"initial_motion": None}}
+TIE = "<equality><connect name='pin' body1='mug' body2='crate' anchor='0 0 0'/></equality>"
+GOOD = ((SWING, PLAN), (FOUR.format(TIE), LOOPED))
 BAD = (
+    (FOUR.format(""), LOOPED),
     (SWING.replace("-45 45", "-0.785 0.785"), PLAN),
     (SWING.replace("'swing'", "'pivot'"), PLAN),
     (SWING.replace("axis='0 1 0' range='-45 45'", "type='slide' axis='0 1 0'"), PLAN),
@@ -41,7 +52,13 @@ def check(view: ModelView) -> Iterator[Problem]:
     """Every joint of the plan but welds, which are no joints to the engine."""
     assert view.plan is not None
     names = view.texts["names"]["joint"]
+    loops = view.plan.topology.loops()
     for row in view.plan.topology.joints:
+        if row in loops:
+            if row.name not in view.texts["names"]["equality"]:
+                message = f"joint `{row.name}` of the plan closes a loop, and no constraint of that name does"
+                yield view.of_world(message, f"add it by `worldkit.loops.{row.type}`", row.name, row.child)
+            continue
         if row.type == "weld":
             continue
         if row.name not in names:
