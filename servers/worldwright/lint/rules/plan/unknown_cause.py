@@ -26,6 +26,10 @@ GOOD: Changes = (
     {"objectives": [{**CLAIM, "cause": "gravity"}]},
     {"objectives": [{**CLAIM, "cause": ["ramp + gravity"]}]},
     {"objectives": [{**CLAIM, "cause": "force:crate"}], "simulation_parameters": PUSH},
+    {
+        "objectives": [{**CLAIM, "cause": "leash"}],
+        "topology": {"tendons": [{"name": "leash", "ends": [{"body": "crate"}, {"body": "ramp"}]}]},
+    },
 )
 BAD: Changes = (
     {"objectives": [{**CLAIM, "cause": "slope"}]},
@@ -42,6 +46,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     """Each part of each cause."""
     plan = view.plan
     known = {*WORLD, *plan.object_names(), *(a.name for a in plan.assets), *(j.name for j in plan.topology.joints)}
+    known |= {row.name for row in (*plan.topology.tendons, *plan.topology.actuators)}
     known |= {name for _, _, model in all_of(plan) for name in model.names()}
     for item in plan.simulation_parameters.interventions:
         known |= {f"{item.kind}:{target}" for target in item.bodies} | {item.kind, *item.bodies}

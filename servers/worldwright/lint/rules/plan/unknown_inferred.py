@@ -2,13 +2,14 @@
 
 What it does: resolves every dotted name under `inferred`.
 
-Why is this bad: the list tells the user which numbers to audit. A name that leads nowhere hides the number it was meant
-for.
+Why is this bad: the list tells the user which numbers to audit, and auto mode which were chosen. A name that leads nowhere
+hides the number it was meant for.
 
 Use instead: the dotted path as it stands in `simulation_parameters`, or from the section on.
 """
 
 from collections.abc import Iterator
+from difflib import get_close_matches
 from typing import Any
 
 from ...case import Changes
@@ -17,7 +18,7 @@ from ...problem import Problem
 from ...proof import Argued
 
 CODE = "WP124"
-SEVERITY = "warning"
+SEVERITY = "error"
 GOOD: Changes = ({"simulation_parameters": {"inferred": ["materials.wood.friction", "simulation_duration"]}}, {})
 BAD: Changes = (
     {"simulation_parameters": {"inferred": ["materials.steel.friction"]}},
@@ -33,9 +34,20 @@ def check(view: PlanView) -> Iterator[Problem]:
         parts = name.replace("[", ".").replace("]", "").split(".")
         if not any(_leads(root, parts) for root in (whole["simulation_parameters"], whole)):
             place = ("simulation_parameters", "inferred", index)
-            yield view.at(
-                place, f"`{name}` leads to nothing in the plan", "write its path, e.g. materials.wood.friction"
-            )
+            near = get_close_matches(name, _paths(whole["simulation_parameters"]), n=3, cutoff=0.6)
+            near = near or get_close_matches(name, _paths(whole), n=3, cutoff=0.6)
+            meant = f"did you mean {', '.join(near)}?" if near else "write its path, e.g. materials.wood.friction"
+            yield view.at(place, f"`{name}` leads to nothing in the plan", meant)
+
+
+def _paths(value: Any, above: str = "", room: int = 4) -> list[str]:
+    """The dotted names of everything in a plan, rows of lists by their name."""
+    rows: list[tuple[str, Any]] = list(value.items()) if isinstance(value, dict) else []
+    if isinstance(value, list | tuple):
+        rows = [(str(row.get("name", i)), row) for i, row in enumerate(value[:200]) if isinstance(row, dict)]
+    own = [f"{above}{key}" for key, _ in rows]
+    inside = [_paths(part, f"{above}{key}.", room - 1) for key, part in rows] if room else []
+    return [*own, *(path for paths in inside for path in paths)]
 
 
 def _leads(value: Any, parts: list[str]) -> bool:

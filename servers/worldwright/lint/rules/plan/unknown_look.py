@@ -1,6 +1,6 @@
 """A look does not exist.
 
-What it does: compares `look` of objects, of their parts and of assets, and the `floor`, with worldkit's library and the form `#rrggbb`.
+What it does: compares `look` of objects, of their parts, of assets and of ropes, and the `floor`, with worldkit's library and the form `#rrggbb`.
 
 Why is this bad: building the world fails at that object.
 
@@ -8,7 +8,7 @@ Use instead: a look of the library, or a colour.
 """
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 from typing import Any
 
@@ -23,6 +23,7 @@ GOOD: Changes = ({"assets": [{"name": "mug", "filename": "mug", "look": "#2f6f73
 BAD: Changes = (
     {"assets": [{"name": "mug", "filename": "mug", "look": "shiny-ish"}]},
     {"visualization": {"floor": "wood_plank"}},
+    {"topology": {"tendons": [{"name": "leash", "ends": [{"body": "crate"}, {"body": "ramp"}], "look": "bogus"}]}},
     {"assets": [{"name": "mug", "filename": "mug", "look": "#2f6"}]},
     {
         "scene_objects": [
@@ -55,7 +56,7 @@ EVIDENCE = Measured("worldkit refuses the look", _made, 0.5)
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Looks of objects, of parts, of assets, of the floor."""
+    """Looks of objects, of parts, of assets, of ropes, of the floor."""
     from worldkit.materials import LOOKS
 
     used: list[tuple[Place, str | None]] = [
@@ -66,14 +67,27 @@ def check(view: PlanView) -> Iterator[Problem]:
             for k, part in enumerate(row.parts)
         ),
         *((("assets", i, "look"), row.look) for i, row in enumerate(view.plan.assets)),
+        *((("topology", "tendons", i, "look"), row.look) for i, row in enumerate(view.plan.topology.tendons)),
         (("visualization", "floor"), view.plan.visualization.floor),
     ]
     for place, look in used:
         if look is not None and look not in LOOKS and not re.fullmatch(r"#[0-9a-fA-F]{6}", look):
-            near = get_close_matches(look, list(LOOKS), n=3, cutoff=0.4)
+            near = _alike(look, LOOKS) or get_close_matches(look, list(LOOKS), n=3, cutoff=0.55)
             fix = (
                 "did you mean " + ", ".join(near) + "?"
                 if near
-                else "name a look of worldkit.materials.LOOKS, or #rrggbb"
+                else f"or #rrggbb; kinds: {_kinds(LOOKS)} (all: worldwright retrieve read worldkit/materials/catalogue.py)"
             )
             yield view.at(place, f"there is no look `{look}`", fix)
+
+
+def _alike(look: str, looks: Iterable[str]) -> list[str]:
+    """Looks that share a word with it: of `oak`, `wood_oak`; of `green_felt`, `felt_green`."""
+    words = set(look.lower().replace("-", "_").split("_"))
+    shared = {name: len(words & set(name.split("_"))) for name in looks}
+    return [name for name in sorted(shared, key=lambda name: -shared[name]) if shared[name]][:3]
+
+
+def _kinds(looks: Iterable[str]) -> str:
+    """The first words of all looks."""
+    return ", ".join(dict.fromkeys(name.partition("_")[0] for name in looks))
