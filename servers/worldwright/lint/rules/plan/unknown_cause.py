@@ -46,7 +46,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     """Each part of each cause."""
     plan = view.plan
     known = {*WORLD, *plan.object_names(), *(a.name for a in plan.assets), *(j.name for j in plan.topology.joints)}
-    known |= {row.name for row in (*plan.topology.tendons, *plan.topology.actuators)}
+    known |= {row.name for row in plan.topology.tendons} | {row.name for row in plan.topology.actuators}
     known |= {name for _, _, model in all_of(plan) for name in model.names()}
     for item in plan.simulation_parameters.interventions:
         known |= {f"{item.kind}:{target}" for target in item.bodies} | {item.kind, *item.bodies}
