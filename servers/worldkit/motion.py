@@ -3,12 +3,14 @@
 The motion is stored in the model itself, as keyframe "start", so that `build()` alone gives a complete world.
 """
 
-from collections.abc import Mapping
+import copy
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     import mujoco
+    import numpy as np
 
 Vec3 = tuple[float, float, float]
 START = "start"
@@ -33,6 +35,8 @@ class Launch:
 
 def launch(spec: "mujoco.MjSpec", motions: Mapping[str, Launch]) -> None:
     """Add keyframe "start": the initial pose with these velocities. Call it last, when every body is there.
+
+    Joints of a closed loop that are not named move along with those that are (`follow_loops`).
 
     Args:
         spec: the finished world.
@@ -67,10 +71,52 @@ def launch(spec: "mujoco.MjSpec", motions: Mapping[str, Launch]) -> None:
             qvel[v + 3 : v + 6] = local
         else:
             qvel[v : v + 3] = local
+    follow_loops(model, qpos, qvel, [_joint(model, name) for name in motions])
     key = spec.add_key(name=START)
     key.qpos, key.qvel = qpos, qvel
     if model.nmocap:
         key.mpos, key.mquat = data.mocap_pos.ravel(), data.mocap_quat.ravel()
+
+
+def follow_loops(model: "mujoco.MjModel", qpos: "np.ndarray", qvel: "np.ndarray", started: Sequence[int]) -> None:
+    """Let the other hinges, slides and balls of a closed loop move along with those that were started, in place.
+
+    One pin of a linkage given a speed leaves the others at rest only if the loop were torn: the engine would mend that within a
+    step, by a blow that takes energy. Of the speeds that keep J v = 0 for the connects and welds, J being their Jacobian, the
+    smallest are taken; where none do, nothing changes. Free bodies are left as they are: what is glued together and thrown is
+    started part by part.
+
+    Args:
+        model: the finished world.
+        qpos: (nq,) the start.
+        qvel: (nv,) the speeds given; changed in place.
+        started: ids of the joints whose speed is given.
+
+    Source: R. Featherstone, Rigid Body Dynamics Algorithms, section 8.2 (loop constraints on velocities).
+    """
+    import mujoco
+    import numpy as np
+
+    ties = (int(mujoco.mjtEq.mjEQ_CONNECT), int(mujoco.mjtEq.mjEQ_WELD))
+    if not np.isin(model.eq_type[model.eq_active0.astype(bool)], ties).any() or not qvel.any():
+        return
+    kinds, joints = model.jnt_type[model.dof_jntid], model.dof_jntid
+    follows = (kinds != int(mujoco.mjtJoint.mjJNT_FREE)) & ~np.isin(joints, list(started))
+    model = copy.copy(model)
+    model.opt.jacobian = mujoco.mjtJacobian.mjJAC_DENSE
+    data = mujoco.MjData(model)
+    data.qpos[:] = qpos
+    mujoco.mj_forward(model, data)
+    tied = (data.efc_type == int(mujoco.mjtConstraint.mjCNSTR_EQUALITY)) & np.isin(
+        model.eq_type[data.efc_id % model.neq], ties
+    )
+    rows = data.efc_J.reshape(-1, model.nv)[tied]
+    pulled = rows @ qvel
+    if np.abs(pulled).max(initial=0.0) < 1e-9:
+        return
+    found = np.linalg.lstsq(rows[:, follows], -pulled, rcond=1e-9)[0]
+    if np.abs(rows[:, follows] @ found + pulled).max() < 1e-6 * np.abs(pulled).max():
+        qvel[follows] += found
 
 
 def _joint(model: "mujoco.MjModel", name: str) -> int:

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from worldkit import bodies, joints, loops
+from worldkit import bodies, joints, loops, motion
 
 CRANK, COUPLER, ROCKER, GROUND = 0.1, 0.3, 0.25, 0.3
 """A crank-rocker by Grashof: shortest and longest link are together shorter than the other two."""
@@ -134,3 +134,43 @@ def test_a_loop_to_the_world_takes_a_body_turned_and_named():
 def test_what_cannot_be_tied_is_said(call, says):
     with pytest.raises(ValueError, match=says):
         call(two())
+
+
+def started(speed):
+    spec = linkage()
+    motion.launch(spec, {"crank_pin": motion.Launch(velocity=speed)})
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+def test_the_rest_of_a_linkage_starts_with_the_pin_that_is_given_a_speed():
+    model, data = started(2.0)
+    step = 1e-6
+    ends = [closed_form(1.0 + s * step) for s in (-1, 1)]
+    angle = [np.arctan2(c[1], c[0] - GROUND) for _, c in ends]
+    tilt = [np.arctan2(*(c - b)[::-1]) for b, c in ends]
+    rocker, coupler = (2.0 * (v[1] - v[0]) / (2 * step) for v in (angle, tilt))
+    assert data.joint("crank_pin").qvel[0] == 2.0
+    assert data.joint("rocker_pin").qvel[0] == pytest.approx(rocker, rel=1e-5)
+    assert data.joint("coupler_pin").qvel[0] == pytest.approx(coupler - 2.0, rel=1e-5)
+    model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_ENERGY)
+    mujoco.mj_forward(model, data)
+    before = data.energy[1]
+    for _ in range(20):
+        mujoco.mj_step(model, data)
+    assert data.energy[1] == pytest.approx(before, rel=2e-3)  # no blow at the start
+
+
+def test_without_a_loop_nothing_else_is_started():
+    spec = two()
+    bodies.box(spec, "bob", size=(0.1, 0.1, 0.1), pos=(2, 0, 1), joint=joints.Hinge("swing", axis=(0, 1, 0)))
+    motion.launch(spec, {"swing": motion.Launch(velocity=1.0)})
+    assert np.count_nonzero(spec.key("start").qvel) == 1
+    spec = two()  # what is glued and thrown is started part by part
+    bodies.sphere(spec, "ball", diameter=0.1, pos=(0.3, 0, 1.15))
+    loops.weld(spec, "glue", child="ball", parent="arm")
+    motion.launch(spec, {"arm": motion.Launch(linear=(1, 0, 0))})
+    assert np.count_nonzero(spec.key("start").qvel) == 1
