@@ -1,15 +1,14 @@
 """The plan may be approved without a person: every value that a planner chose is marked as inferred.
 
 A value needs no mark when the prompt states it or when it names its source. This covers what changes the outcome: the
-time step, the duration, masses, starting motion, non-standard gravity, and material constants. Each mark must name a
-value that exists.
+time step, the duration, masses, starting motion, non-standard gravity, and material constants. That each mark names a
+value that exists is `WP124`.
 
 Why: in auto mode nobody reads the plan before the code is written, so what was assumed must be readable afterwards.
 """
 
 import re
 from collections.abc import Iterator
-from typing import Any
 
 from ...model.plan import Plan
 from ..refusal import Refusal
@@ -21,17 +20,10 @@ STANDARD_GRAVITY = {-9.81, -9.80665, -9.8}
 
 
 def check(state: State) -> Iterator[Refusal]:
-    """Refusals for values that have neither a source, nor the prompt's word, nor a mark; and for empty marks."""
+    """Refusals for values that have neither a source, nor the prompt's word, nor a mark (marks that lead nowhere are WP124)."""
     if state.plan is None:
         return
     marks = tuple(mark.removeprefix(SECTION) for mark in state.plan.simulation_parameters.inferred)
-    parameters = state.plan.simulation_parameters.model_dump()
-    for mark in marks:
-        if not _exists(parameters, mark) and not _exists(state.plan.model_dump(), mark):
-            yield Refusal(
-                cause=f"`inferred` marks {mark}, which is not in the plan",
-                next_move=f"correct the name in {state.place}/plan.md",
-            )
     said = _numbers(state)
     for name, values in _chosen(state.plan):
         # Marking a part (`initial_motion.pivot.joint_position`) marks what the person is shown with it.
@@ -70,20 +62,3 @@ def _numbers(state: State) -> set[float]:
     except OSError:
         return set()
     return {float(number) for number in re.findall(r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?", text)}
-
-
-def _exists(tree: Any, dotted: str) -> bool:
-    """Whether a dotted name leads somewhere (keys may themselves hold dots)."""
-    if not dotted:
-        return True
-    if isinstance(tree, dict):
-        return any(
-            dotted == key or (dotted.startswith(f"{key}.") and _exists(value, dotted[len(str(key)) + 1 :]))
-            for key, value in tree.items()
-        )
-    if isinstance(tree, list | tuple):
-        head, _, rest = dotted.partition(".")
-        named = [v for v in tree if isinstance(v, dict) and v.get("name") == head]
-        index = [tree[int(head)]] if head.isdigit() and int(head) < len(tree) else []
-        return any(_exists(value, rest) for value in [*named, *index])
-    return False

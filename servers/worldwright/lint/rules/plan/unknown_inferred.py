@@ -19,7 +19,14 @@ from ...proof import Argued
 
 CODE = "WP124"
 SEVERITY = "error"
-GOOD: Changes = ({"simulation_parameters": {"inferred": ["materials.wood.friction", "simulation_duration"]}}, {})
+GOOD: Changes = (
+    {
+        "simulation_parameters": {
+            "inferred": ["materials.wood.friction", "simulation_duration", "scene_objects.crate.size"]
+        }
+    },
+    {},
+)
 BAD: Changes = (
     {"simulation_parameters": {"inferred": ["materials.steel.friction"]}},
     {"simulation_parameters": {"inferred": ["duration"]}},
@@ -51,17 +58,17 @@ def _paths(value: Any, above: str = "", room: int = 4) -> list[str]:
 
 
 def _leads(value: Any, parts: list[str]) -> bool:
-    """Whether a dotted path leads somewhere; rows of a list may be named by number or by name."""
-    for part in parts:
-        if isinstance(value, dict) and part in value:
-            value = value[part]
-        elif isinstance(value, list | tuple):
-            found = [
-                v for i, v in enumerate(value) if str(i) == part or (isinstance(v, dict) and v.get("name") == part)
-            ]
-            if not found:
-                return False
-            value = found[0]
-        else:
-            return False
-    return True
+    """Whether a dotted path leads somewhere; rows of a list may be named by number or by name, keys may hold dots."""
+    if not parts:
+        return True
+    if isinstance(value, dict):
+        keys = ((".".join(parts[:n]), parts[n:]) for n in range(1, len(parts) + 1))
+        return any(key in value and _leads(value[key], rest) for key, rest in keys)
+    if isinstance(value, list | tuple):
+        named = (v for i, v in enumerate(value) if str(i) == parts[0] or _name(v) == parts[0])
+        return any(_leads(v, parts[1:]) for v in named)
+    return False
+
+
+def _name(row: Any) -> Any:
+    return row.get("name") if isinstance(row, dict) else None
