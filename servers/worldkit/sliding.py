@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 GRIP = 50.0
 """1/s: damping of slip per unit mass."""
+FIRM = 150.0
+"""1/s: a contact in MuJoCo's own format (time constant, damping ratio) brakes slip harder than this when it is firmer than
+the engine's default (105 1/s), which is left alone."""
 MOST = 1500
 """Pairs of one world; in a crowd beyond that, contacts stay as they are."""
 
@@ -46,20 +49,20 @@ def add_pairs(spec: "mujoco.MjSpec", model: "mujoco.MjModel") -> int:
         pair = spec.add_pair(geomname1=names[one], geomname2=names[other])
         pair.condim = int(max(model.geom_condim[one], model.geom_condim[other]))
         pair.friction = friction[[0, 0, 1, 2, 2]]
-        pair.solref = np.minimum(model.geom_solref[one], model.geom_solref[other])
+        pair.solref = _mixed(model.geom_solref[one], model.geom_solref[other])
         pair.solimp = (model.geom_solimp[one] + model.geom_solimp[other]) / 2
         pair.solreffriction = (-1.0, -GRIP)
     return len(pairs)
 
 
 def _pairs(model: "mujoco.MjModel") -> "np.ndarray":
-    """(P, 2) geoms that can collide, whose contact is in the direct format and brakes slip harder than `GRIP`."""
+    """(P, 2) geoms that can collide, and whose contact brakes slip harder than `GRIP`, or `FIRM` in MuJoCo's own format."""
     import mujoco
     import numpy as np
 
     plain = (
-        (model.geom_solref[:, 0] < 0)
-        & (model.geom_margin == 0)
+        (model.geom_margin == 0)
+        & (model.geom_solmix == 1)
         & (model.geom_gap == 0)
         & (model.geom_friction[:, 0] > 0)
         & ~model.geom_surfacevel.reshape(model.ngeom, -1).any(axis=1)
@@ -80,13 +83,24 @@ def _pairs(model: "mujoco.MjModel") -> "np.ndarray":
         # The world is everybody's parent, and yet collides with its children.
         keep &= ~((one != 0) & (other != 0) & ((above[rows] == other) | (above[columns] == one)))
     keep &= model.geom_priority[rows] == model.geom_priority[columns]
-    # More damping is the smaller number, and the smaller of two counts.
-    keep &= np.minimum(model.geom_solref[rows, 1], model.geom_solref[columns, 1]) < -GRIP
+    solref = _mixed(model.geom_solref[rows], model.geom_solref[columns])
+    width = (model.geom_solimp[rows, 1] + model.geom_solimp[columns, 1]) / 2
+    direct = solref[:, 0] <= 0
+    time_constant = np.maximum(np.where(direct, 1.0, solref[:, 0]), 2 * model.opt.timestep)  # as the engine raises it
+    keep &= np.where(direct, -solref[:, 1] > GRIP, 2 / (width * time_constant) > FIRM)
     bodies = np.sort(model.geom_bodyid[np.stack([rows, columns], axis=1)], axis=1).astype(np.int64)
     keep &= ~np.isin((bodies[:, 0] << 16) + bodies[:, 1], np.asarray(model.exclude_signature, dtype=np.int64))
     listed = {frozenset(p) for p in zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)}
     found = np.stack([rows, columns], axis=1)[keep]
     return found if not listed else np.array([p for p in found if frozenset(p.tolist()) not in listed]).reshape(-1, 2)
+
+
+def _mixed(one: "np.ndarray", other: "np.ndarray") -> "np.ndarray":
+    """(…, 2) solref of a contact: the mean of two in MuJoCo's own format, else the smaller numbers (more damping)."""
+    import numpy as np
+
+    own = (one[..., :1] > 0) & (other[..., :1] > 0)
+    return np.where(own, (one + other) / 2, np.minimum(one, other))
 
 
 def _named(spec: "mujoco.MjSpec") -> list[str]:

@@ -39,6 +39,21 @@ def test_a_sliding_crate_stays_down_and_stops_where_coulomb_says():
     assert way == pytest.approx(2.0**2 / (2 * 0.4 * 9.81), rel=0.01)
 
 
+@pytest.mark.parametrize("restitution", [None, 0.0])
+def test_a_firm_contact_that_states_no_rebound_slides_as_well(restitution: float | None):
+    def build() -> mujoco.MjSpec:
+        floor = contacts.surface(friction=0.4, time_constant=4 * STEP)
+        own = contacts.surface(friction=0.4, restitution=restitution, time_constant=4 * STEP)
+        spec = scene.new("t", time_step=STEP, gravity=(0, 0, -9.81), setting="studio", floor_surface=floor)
+        bodies.box(spec, "crate", size=(0.45, 0.35, 0.35), pos=(0, 0, 0.175), mass=12, surface=own)
+        return spec
+
+    hops, _, _ = slide(build().compile())
+    lift, way, _ = slide(world.make(build, world.seeded(0)[0]))
+    assert hops > 0.003 and lift < 0.0003
+    assert way == pytest.approx(2.0**2 / (2 * 0.4 * 9.81), rel=0.01)
+
+
 def test_it_does_not_creep_on_a_slope():
     def ramp() -> mujoco.MjSpec:
         spec = crate()
@@ -49,9 +64,14 @@ def test_it_does_not_creep_on_a_slope():
     assert way < 3e-4
 
 
-def test_a_pair_has_what_mujoco_would_have_mixed():
+@pytest.mark.parametrize("firm", [("crate",), ("floor",), ("crate", "floor")])
+def test_a_pair_has_what_mujoco_would_have_mixed(firm: tuple[str, ...]):
     def build() -> mujoco.MjSpec:
-        return crate(friction=0.3, other=0.6)
+        spec = crate(friction=0.3, other=0.6)
+        for geom in spec.geoms:
+            if ("floor" if geom.type == mujoco.mjtGeom.mjGEOM_PLANE else "crate") not in firm:
+                geom.solref = (0.006, 1.0)
+        return spec
 
     def touch(model: mujoco.MjModel) -> tuple:
         data = mujoco.MjData(model)

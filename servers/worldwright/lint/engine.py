@@ -56,6 +56,7 @@ NAMES = ("WL100", "WL101", "WL102", "WL103", "WL104", "WL105", "WL106")
 """Rules about names: a program that fails them is not worth building."""
 SYMBOLS = (*NAMES, "WL107", "WL108", "WL109", "WL116", "WL117", "WL142", "WL151")
 """Program rules about names and signatures of the installed build; the others are about silent mistakes and staging."""
+SKILLS = Path(__file__).parents[3] / "skills"
 GROUPS = ("symbols", "mistakes", "model", "plan")
 
 
@@ -82,7 +83,21 @@ def find(code: str) -> Entry:
             f"{code} is no lint rule but {'an anomaly check of scan' if prefix == 'WS' else 'an expectation'}",
             next_move=f"its page: `worldwright retrieve read skills/{page}.md`",
         )
+    if prefix == "WP" and code[2:3] in ("0", "2", "3") and code[2:].isdigit():
+        told = _told_in(code.upper())
+        raise NotFoundError(
+            f"{code.upper()} is no lint rule but a finding of {'the plan reader' if code[2] == '0' else 'place'}",
+            next_move=f"its page: `worldwright retrieve read {told}`" if told else "`worldwright retrieve search` for its words",
+        )
     return {"WP": PLAN_RULES, "WM": MODEL_RULES}.get(prefix, PROGRAM_RULES).find(code)
+
+
+def _told_in(code: str) -> str | None:
+    """The skill whose table of findings has a code, or None."""
+    for page in sorted(SKILLS.glob("*/SKILL.md")):
+        if any(line.startswith("| `WP") and f"`{code}`" in line for line in page.read_text("utf-8").splitlines()):
+            return f"skills/{page.parent.name}/{page.name}"
+    return None
 
 
 def all_rules() -> tuple[Entry, ...]:

@@ -163,7 +163,9 @@ def _remedy(path: Path, value: Any) -> str:
             return f"did you mean `{near[0]}`?"
         if choices:
             return f"write one of {', '.join(choices)}"
-    if kind.startswith("text") and isinstance(value, bool | int | float):
+    if kind.startswith("text") and isinstance(value, bool):
+        return "write the reason in words"  # `visual_only: true` asks for more than yes
+    if kind.startswith("text") and isinstance(value, int | float):
         return f'put it in quotes: "{value}"'
     if value is None:
         return "give it a value, or remove the line"

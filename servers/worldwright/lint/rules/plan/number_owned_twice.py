@@ -24,7 +24,12 @@ REST = [
     {"subject": "ramp", "predicate": "PLACE-ON-BASE"},
     {"subject": "mug", "predicate": "PLACE-ON", "object": "ramp"},
 ]
-GOOD: Changes = ({}, {"topology": {"scene_predicates": [{**ON, "params": {"gap": 0.01}}, *REST]}})
+LEADS = {"subject": "crate", "predicate": "GROUP", "params": {"members": ["mug"], "within": 3.0}}
+GOOD: Changes = (
+    {},
+    {"topology": {"scene_predicates": [{**ON, "params": {"gap": 0.01}}, *REST]}},
+    {"topology": {"scene_predicates": [LEADS, *REST], "body_positions": {"crate": {"x": 0, "y": 0, "z": 1}}}},
+)
 BAD: Changes = (
     {"asset_dimensions": {"crate": 0.2}},
     {"topology": {"scene_predicates": [{**ON, "params": {"size": [0.4, 0.3, 0.2]}}, *REST]}},
@@ -60,7 +65,7 @@ def check(view: PlanView) -> Iterator[Problem]:
         for key in SIZES & set(row.params):
             place = ("topology", "scene_predicates", index, "params", key)
             yield view.at(place, f"`{key}` of `{row.subject}` has its owner elsewhere", "sizes live with the object")
-        if row.subject in plan.topology.body_positions:
+        if row.predicate != "GROUP" and row.subject in plan.topology.body_positions:  # a group places nothing
             place = ("topology", "body_positions", row.subject)
             yield view.at(place, f"`{row.subject}` is placed twice", "keep the predicates, or the absolute position")
     for index, item in enumerate(plan.scene_objects):

@@ -1,7 +1,7 @@
 """An objective's cause names nothing that the plan has.
 
-What it does: resolves every `cause` of an objective: objects, asset rows, joints, `gravity`, `wind`, `control`, or
-`kind:target` of an intervention; several may be joined by `+`.
+What it does: resolves every `cause` of an objective: objects, asset rows, joints, tendons, actuators, `gravity`, `wind`,
+`control`, or `kind:target` of an intervention; several may be joined by `+`.
 
 Why is this bad: the causal audit takes the cause away and looks whether the effect vanishes. What is not there cannot be
 taken away, so the objective stays without that proof.
@@ -22,14 +22,17 @@ CODE = "WP115"
 SEVERITY = "warning"
 CLAIM = {"claim": "It slides.", "expect": [{"moves": {"body": "crate", "min_m": 0.1}}]}
 PUSH = {"interventions": [{"kind": "force", "bodies": ["crate"], "law": "F = 3 N", "source": "catalogue of the winch"}]}
+
+
+def _tow(name: str) -> dict:
+    return {"name": name, "ends": [{"body": "crate"}, {"offset": [3.0, 0.0, 0.2]}], "slack": 0.5}
+
+
 GOOD: Changes = (
     {"objectives": [{**CLAIM, "cause": "gravity"}]},
     {"objectives": [{**CLAIM, "cause": ["ramp + gravity"]}]},
     {"objectives": [{**CLAIM, "cause": "force:crate"}], "simulation_parameters": PUSH},
-    {
-        "objectives": [{**CLAIM, "cause": "leash"}],
-        "topology": {"tendons": [{"name": "leash", "ends": [{"body": "crate"}, {"body": "ramp"}]}]},
-    },
+    {"objectives": [{**CLAIM, "cause": "tow+tow_2"}], "topology": {"tendons": [_tow("tow"), _tow("tow_2")]}},
 )
 BAD: Changes = (
     {"objectives": [{**CLAIM, "cause": "slope"}]},

@@ -1,7 +1,7 @@
 """What should move is in no camera's picture.
 
-What it does: compares the objects under `motion_expectations`, and what they are placed on or in, with the `subjects` of
-all cameras; a camera without subjects frames everything that moves.
+What it does: compares the objects under `motion_expectations`, and what they are placed on or in or welded to, with the
+`subjects` of all cameras; a camera without subjects frames everything that moves.
 
 Why is this bad: the motion is claimed and measured, and nobody can see it: the review has nothing to look at.
 
@@ -30,7 +30,12 @@ def _seen(*subjects: str) -> dict:
     return {"implementation_steps": [{**STEP, "cameras": rows}]}
 
 
-GOOD: Changes = (_seen("crate"), _seen("ramp"), _seen())
+GOOD: Changes = (
+    _seen("crate"),
+    _seen("ramp"),
+    _seen(),
+    {**_seen("mug"), "topology": {"joints": [{"name": "glue", "type": "weld", "parent": "crate", "child": "mug"}]}},
+)
 BAD: Changes = (_seen("mug"),)
 EVIDENCE = Argued("what a picture shows is judged by eyes; the world moves all the same")
 
@@ -51,6 +56,10 @@ def check(view: PlanView) -> Iterator[Problem]:
     for row in view.plan.topology.scene_predicates:
         if row.object:
             supports.setdefault(row.subject, set()).add(row.object)
+    for joint in view.plan.topology.joints:
+        if joint.type == "weld":  # one body: who sees it, sees its parts
+            supports.setdefault(joint.child, set()).add(joint.parent)
+            supports.setdefault(joint.parent, set()).add(joint.child)
     for index, step in enumerate(view.plan.implementation_steps):
         for name in step.motion_expectations:
             if not _chain(name, supports) & seen:
