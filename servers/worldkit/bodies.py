@@ -10,6 +10,7 @@ Common arguments:
     yaw_deg: rotation about world z, degrees counter-clockwise from +X.
     tilt_deg: rotation of the shape about the body's own x, before the yaw (90 lays a cylinder along y); not for containers.
     mass: kilograms, or `density` in kg/m^3 (MuJoCo's default, 1000, when neither is given).
+    hollow: all of the mass in the surface, as of a ball full of air; with `mass`, since a shell's density has another unit.
     look: a name from `worldkit.materials`, or `#rrggbb`.
     surface: contact properties from `worldkit.contacts.surface`.
     fixed: part of the scenery (no degrees of freedom).
@@ -155,6 +156,7 @@ def _body(
     tilt_deg: float = 0.0,
     mass: float | None = None,
     density: float | None = None,
+    hollow: bool = False,
     look: str = "plastic_white",
     surface: dict[str, Any] | None = None,
     fixed: bool = False,
@@ -164,6 +166,8 @@ def _body(
 ) -> "tuple[mujoco.MjsBody, dict[str, Any]]":
     """Create the body with its joint; returns it with the keyword arguments of its geoms."""
     import math
+
+    import mujoco
 
     from . import materials
 
@@ -182,6 +186,10 @@ def _body(
         properties["mass"] = mass
     elif density is not None:
         properties["density"] = density
+    if hollow:
+        if mass is None:
+            raise ValueError(f"body {name}: a hollow body needs its mass; a density would be one per area")
+        properties["typeinertia"] = mujoco.mjtGeomInertia.mjINERTIA_SHELL
     return body, properties
 
 

@@ -18,6 +18,8 @@ LIMIT_S = 0.016
 """Time constant of a rope's limit, s. Stiffer, a taut rope rattles: a box of 10 kg towed at 0.2 m/s was pulled by 0 to 250 N
 at 2 ms, by 0 to 60 N at 16 ms, on average by its friction either way; a weight of 2 kg that falls 0.3 m into it stretches it
 by 13 mm for a moment."""
+ROUNDED_M = 2e-4
+"""What the ends of a rope that starts taut may be too far apart, m: coordinates on paper are rounded to a tenth of a mm."""
 End = tuple[str, Vec3]
 """Name of a body, or `world`; and a world-frame point at the initial pose, m."""
 
@@ -29,10 +31,13 @@ def rope(
     *,
     length: float | None = None,
     slack: float = 0.0,
+    time_constant: float = LIMIT_S,
     diameter: float = 0.01,
     look: str = "#c9b48a",
 ) -> "mujoco.MjsTendon":
     """A line that cannot be longer than `length` (m); None: the way at the start plus `slack` (m).
+
+    A `length` short by up to `ROUNDED_M` is taken for the way at the start: a rope that begins taut.
 
     Args:
         spec: the world, with its bodies already there.
@@ -40,6 +45,7 @@ def rope(
         ends: two points or more; those between are guides that it runs through without friction.
         length: metres.
         slack: metres.
+        time_constant: of its limit, s; shorter is firmer, four time steps the least.
         diameter: as drawn, m; it touches nothing.
         look: a name from `worldkit.materials`, or `#rrggbb`.
 
@@ -52,11 +58,14 @@ def rope(
 
     made, way = _line(spec, name, ends, diameter, look)
     longest = way + slack if length is None else length
-    if longest < way * (1 - 1e-9):
-        raise ValueError(f"rope {name}: it is {way:.4g} m long at the start, more than its {longest:.4g} m")
+    if longest < way - ROUNDED_M:
+        raise ValueError(
+            f"rope {name}: its ends are {way:.6g} m apart at the start, {1000 * (way - longest):.3g} mm more than its "
+            f"{longest:.6g} m"
+        )
     made.limited = mujoco.mjtLimited.mjLIMITED_TRUE
-    made.range = (0.0, longest)
-    made.solref_limit = (max(4 * spec.option.timestep, LIMIT_S), 1.0)
+    made.range = (0.0, max(longest, way))
+    made.solref_limit = (max(4 * spec.option.timestep, time_constant), 1.0)
     return made
 
 

@@ -111,3 +111,16 @@ def test_a_tilted_shape_is_turned_about_its_own_x_before_the_yaw(tilt, yaw):
     assert np.allclose(data.geom("log").xpos, (1, 2, 3))
     with pytest.raises(ValueError, match="cannot be tilted"):
         bodies.container(spec, "tub", size=(1, 1, 1), wall=0.1, pos=(0, 0, 0), tilt_deg=10)
+
+
+@pytest.mark.parametrize("hollow", [False, True])
+def test_a_hollow_ball_has_the_inertia_of_its_shell(hollow):
+    spec = mujoco.MjSpec()
+    bodies.sphere(spec, "ball", diameter=0.22, pos=(0, 0, 1), mass=0.43, hollow=hollow)
+    model, _ = compiled(spec)
+    assert model.body("ball").inertia == pytest.approx(np.full(3, (2 / 3 if hollow else 2 / 5) * 0.43 * 0.11**2))
+
+
+def test_a_hollow_body_without_a_mass_is_refused():
+    with pytest.raises(ValueError, match="a hollow body needs its mass"):
+        bodies.sphere(mujoco.MjSpec(), "ball", diameter=0.22, pos=(0, 0, 1), density=65.0, hollow=True)

@@ -89,3 +89,18 @@ def test_servos_hold_what_they_are_told():
     assert np.isclose(data.joint("rail").qvel[0], 0.5)
     with pytest.raises(ValueError, match="no joint 'rial'"):
         actuators.motor(cart(), "push", joint="rial")
+
+
+def test_a_rope_may_begin_taut_although_its_ends_were_rounded():
+    spec = world()
+    made = tendons.rope(spec, "short", [("world", (0, 0, 2)), ("world", (0, 0, 1))], length=0.9999)
+    assert made.range[1] == 1.0
+    with pytest.raises(ValueError, match=r"1\.000000 m|1 m apart at the start, 1 mm more than its 0\.999 m"):
+        tendons.rope(spec, "shorter", [("world", (0, 0, 2)), ("world", (0, 0, 1))], length=0.999)
+
+
+def test_a_rope_holds_as_soon_as_it_is_told_and_not_sooner_than_four_steps():
+    spec = world()
+    ends = [("world", (0, 0, 2)), ("world", (0, 0, 1))]
+    assert tendons.rope(spec, "firm", ends, time_constant=0.01).solref_limit[0] == 0.01
+    assert tendons.rope(spec, "firmer", ends, time_constant=1e-9).solref_limit[0] == 4 * spec.option.timestep

@@ -27,7 +27,7 @@ def tendons(plan: Plan, scene: Scene, needs: Needs) -> str:
         needs.use("tendons")
         ends = [(end.body, point(end, plan, scene)) for end in row.ends]
         keywords: dict = {"stiffness": row.stiffness} if row.stiffness else {}
-        keywords |= {k: getattr(row, k) for k in ("length", "slack", "damping") if getattr(row, k)}
+        keywords |= {k: getattr(row, k) for k in ("length", "slack", "damping", "time_constant") if getattr(row, k)}
         keywords |= {"diameter": row.diameter} | ({"look": row.look} if row.look else {})
         made = "tendons.spring" if row.stiffness else "tendons.rope"
         lines.append(call(made, Raw("spec"), row.name, ends, **keywords))

@@ -79,6 +79,8 @@ class Objects:
         keywords |= self.common(row.name, placed)
         if row.deg_x:
             keywords["tilt_deg"] = row.deg_x
+        if row.hollow:
+            keywords["hollow"] = True
         if row.look:
             keywords["look"] = row.look
         if row.material:

@@ -4,6 +4,7 @@ The module's constants carry the plan's numbers; `build()` adds the objects in p
 initial motion. Same plan in, same bytes out.
 """
 
+import re
 from dataclasses import dataclass
 
 from ..model.errors import PlanError
@@ -22,6 +23,9 @@ class Draft:
     source: str
     open_places: tuple[str, ...]
     """What must still be written by hand; empty when the draft is complete."""
+    unread: tuple[str, ...] = ()
+    """Constants of the plan that the program names and never reads: paper work behind other numbers, or what a step's
+    description asks for and no field of the plan says."""
 
     @property
     def complete(self) -> bool:
@@ -50,7 +54,13 @@ def draft(plan: Plan, scene: Scene) -> Draft:
             next_move="add rows for them under topology.scene_predicates, then `worldwright place resolve`",
         )
     writer = _Writer(plan, scene)
-    return Draft(writer.program(), tuple(writer.needs.open_places))
+    source = writer.program()
+    unread = [
+        name
+        for name in plan.simulation_parameters.constants
+        if len(re.findall(rf"\b{constant_name(name)}\b", source)) == 1
+    ]
+    return Draft(source, tuple(writer.needs.open_places), tuple(unread))
 
 
 class _Writer:
@@ -141,9 +151,9 @@ class _Writer:
             keywords: dict = {"friction": m.friction, "torsional": m.torsional_friction, "rolling": m.rolling_friction}
             if m.restitution is not None:
                 keywords["restitution"] = m.restitution
-                # The stiffest contact this time step resolves: the least overlap, the firmest grip. The damping is chosen
-                # for that constant, so the stated restitution holds.
-                keywords["time_constant"] = Raw("4 * TIME_STEP")
+            # Little overlap and a firm grip, also where no rebound is stated; the damping is chosen for this constant, so
+            # that a stated restitution holds.
+            keywords["time_constant"] = Raw("4 * TIME_STEP")
             if m.density is not None:
                 keywords["density"] = m.density
             target = f"{constant_name(name)} = contacts.surface"
@@ -172,7 +182,10 @@ class _Writer:
         if "ground" in self.parameters.materials:
             keywords["floor_surface"] = Raw("GROUND")
         head = f'\ndef build() -> mujoco.MjSpec:\n    """The world at t = 0: {self.summary()}."""\n'
-        return head + call("spec = scene.new", self.name, **keywords)
+        made = head + call("spec = scene.new", self.name, **keywords)
+        if self.parameters.impratio is not None:
+            made += f"\n    spec.option.impratio = {literal(self.parameters.impratio)}"
+        return made
 
     def cameras(self) -> str:
         """The cameras of every step."""

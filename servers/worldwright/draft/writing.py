@@ -18,6 +18,8 @@ class Written:
     lines: int
     open_places: tuple[str, ...] = ()
     """What the draft leaves to its author."""
+    unread: tuple[str, ...] = ()
+    """Constants of the plan that it reads nowhere."""
 
 
 def write_program(run: Run, actor: str = "build") -> Written:
@@ -45,7 +47,7 @@ def write_program(run: Run, actor: str = "build") -> Written:
         if not any(e.get("action") == "draft" and e.get("program_sha256") == present for e in run.entries()):
             return Written("kept", len(run.program.read_text(encoding="utf-8", errors="replace").splitlines()))
         if run.program.read_text(encoding="utf-8") == drafted.source:
-            return Written("unchanged", lines, tuple(drafted.open_places))
+            return Written("unchanged", lines, drafted.open_places, drafted.unread)
     write_atomic(run.program, drafted.source)
     run.log(actor, "draft", program_sha256=sha256_file(run.program), open_places=list(drafted.open_places))
-    return Written("written", lines, tuple(drafted.open_places))
+    return Written("written", lines, drafted.open_places, drafted.unread)

@@ -87,7 +87,9 @@ def find(code: str) -> Entry:
         told = _told_in(code.upper())
         raise NotFoundError(
             f"{code.upper()} is no lint rule but a finding of {'the plan reader' if code[2] == '0' else 'place'}",
-            next_move=f"its page: `worldwright retrieve read {told}`" if told else "`worldwright retrieve search` for its words",
+            next_move=f"its page: `worldwright retrieve read {told}`"
+            if told
+            else "`worldwright retrieve search` for its words",
         )
     return {"WP": PLAN_RULES, "WM": MODEL_RULES}.get(prefix, PROGRAM_RULES).find(code)
 

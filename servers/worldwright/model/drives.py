@@ -34,6 +34,8 @@ class Tendon(Frozen):
     """N/m: makes it a spring, which pulls when longer than `length` and pushes when shorter."""
     damping: float = Field(0.0, ge=0)
     """N·s/m; of a spring only: a slack rope brakes nothing."""
+    time_constant: float | None = Field(None, gt=0)
+    """s; of a rope only: how soon it holds when it runs taut. None: 16 ms, which tows quietly; a swing wants four steps."""
     diameter: float = Field(0.01, gt=0)
     """Metres, as it is drawn."""
     look: str | None = None
@@ -44,6 +46,8 @@ class Tendon(Frozen):
             raise ValueError("give `length` or `slack`, not both: slack is measured from the length at the start")
         if not self.stiffness and self.damping:
             raise ValueError("`damping` needs `stiffness`: a rope only holds, a spring is damped")
+        if self.stiffness and self.time_constant is not None:
+            raise ValueError("`time_constant` is a rope's: a spring has its stiffness and damping")
         return self
 
 

@@ -61,6 +61,8 @@ class SceneObject(Frozen):
     """Metres, for `box_container` only."""
     deg_x: float = Field(0.0, ge=-180, le=180)
     """Tilt about its own x, degrees, before any yaw: 90 lays a cylinder along y. Not for containers and planes."""
+    hollow: bool = False
+    """All of its mass in its surface, as of a football; needs `masses`. Of one primitive only."""
     fixed: bool = False
     dynamic: bool = True
     material: str | None = None
@@ -95,6 +97,8 @@ class SceneObject(Frozen):
     def _walled(self) -> "SceneObject":
         if (self.primitive == "box_container") != (self.wall_thickness is not None):
             raise ValueError("`wall_thickness` is needed by a box_container, and only by it")
+        if self.hollow and self.primitive in ("box_container", "plane", "compound"):
+            raise ValueError(f"a {self.primitive} has no one surface to be hollow in: remove `hollow`")
         if self.deg_x and self.primitive in ("box_container", "plane"):
             raise ValueError(f"a {self.primitive} cannot be tilted: remove `deg_x`")
         return self

@@ -109,6 +109,9 @@ class SimulationParameters(Frozen):
     gravity: float | Vec3 = -9.81
     """m/s^2: a float is the acceleration along +z."""
     integrator: Literal["euler", "implicit", "implicitfast", "rk4", "discrete"] = "implicitfast"
+    impratio: float | None = Field(None, ge=1)
+    """How much harder friction holds than the normal force, as a ratio of impedances; 10 keeps a leaning ladder's feet from
+    creeping. None: 1, the engine's own."""
     seed: int = 0
     materials: dict[str, SurfaceConstants] = {}
     masses: dict[str, float] = {}

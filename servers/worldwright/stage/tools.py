@@ -61,10 +61,16 @@ class Drafted(Frozen):
     lines: int
     open_places: tuple[str, ...] = ()
     """What is left to the author, each marked `AUTHOR:` in the file."""
+    unread: tuple[str, ...] = ()
+    """Constants of the plan that the draft reads nowhere."""
 
     def text(self) -> str:
-        """One line, and the open places."""
+        """One line, the open places, and the constants without a reader."""
         left = "".join(f"\n- AUTHOR: {place}" for place in self.open_places)
+        if self.outcome != "kept" and not self.open_places:
+            left = ", no open places"
+        if self.unread:
+            left += f"\n- read nowhere: {', '.join(self.unread)}; does a step's description ask for them?"
         return f"{self.file}: {self.outcome}, {self.lines} lines{left}"
 
 
@@ -84,6 +90,7 @@ def draft(run: RunName) -> Drafted:
             "outcome": written.outcome,
             "lines": written.lines,
             "open_places": written.open_places,
+            "unread": written.unread,
         }
     )
 

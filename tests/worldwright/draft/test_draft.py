@@ -183,3 +183,26 @@ def test_a_control_without_a_value_is_left_to_the_author():
     made = draft(towing(control=None), LAYOUT)
     assert any("control on winch" in place for place in made.open_places)
     assert "actuators.motor" in made.source and "AUTHOR:" in made.source
+
+
+def test_what_the_plan_says_of_shells_feet_and_surfaces_is_drafted():
+    parameters = {
+        **PENDULUM["simulation_parameters"],
+        "impratio": 10,
+        "masses": {"bob": 2.0, "puck": 0.2},
+        "materials": {
+            "steel": {"density": 7850, "friction": 0.4, "source": "handbook"},
+            "ice": {"friction": 0.1, "restitution": 0.2, "source": "handbook"},
+        },
+        "constants": {
+            "share": {"value": 0.6667, "unit": "", "source": "a shell"},
+            "pull": {"value": 3.0, "unit": "N", "source": "the winch"},
+        },
+    }
+    topology = {**PENDULUM["topology"], "actuators": [{"name": "winch", "joint": "pivot", "control": "pull"}]}
+    objects = [*PENDULUM["scene_objects"][:2], {**PENDULUM["scene_objects"][2], "hollow": True}]
+    drafted = draft(plan(simulation_parameters=parameters, scene_objects=objects, topology=topology), LAYOUT)
+    assert "spec.option.impratio = 10" in drafted.source
+    assert drafted.source.count("hollow=True") == 1
+    assert drafted.source.count("time_constant=4 * TIME_STEP") == 2
+    assert drafted.unread == ("share",)

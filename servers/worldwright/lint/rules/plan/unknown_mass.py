@@ -1,7 +1,7 @@
 """A moving object has no mass the plan would answer for.
 
 What it does: looks for a mass or a material density for every scene object that moves, and for every part of a compound
-without a mass as a whole.
+without a mass as a whole; and for the mass of every `hollow` one, since a shell's density is not its substance's.
 
 Why is this bad: MuJoCo then assumes 1000 kg/m^3, the density of water, for cardboard and steel alike: momentum, impact
 and what holds what all follow from it.
@@ -34,10 +34,12 @@ GOOD: Changes = (
     {},
     {"scene_objects": [RAMP, BOX], "simulation_parameters": {"masses": {"crate": 3.0}}},
     {"scene_objects": [RAMP, {**BOX, "visual_only": "a marker"}]},
+    {"scene_objects": [RAMP, {**BOX, "hollow": True}], "simulation_parameters": {"masses": {"crate": 3.0}}},
 )
 BAD: Changes = (
     {"scene_objects": [RAMP, BARBELL]},
     {"scene_objects": [RAMP, BOX]},
+    {"scene_objects": [RAMP, {**BOX, "material": "wood", "hollow": True}]},
     {
         "scene_objects": [RAMP, {**BOX, "material": "wood"}],
         "simulation_parameters": {"materials": {"wood": {"density": None}}},
@@ -61,7 +63,10 @@ def check(view: PlanView) -> Iterator[Problem]:
         if row.parts:
             yield from _parts(view, index)
             continue
-        if not _dense(view, row.material):
+        if row.hollow:
+            fix = f"add `{row.name}: <kg>` to simulation_parameters.masses"
+            yield view.at(("scene_objects", index), f"hollow object `{row.name}` has no mass", fix)
+        elif not _dense(view, row.material):
             fix = f"add `{row.name}: <kg>` to simulation_parameters.masses, or give its material a density"
             yield view.at(("scene_objects", index), f"moving object `{row.name}` has neither mass nor density", fix)
 
