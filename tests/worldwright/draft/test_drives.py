@@ -42,8 +42,8 @@ def test_an_end_lies_on_the_side_of_the_tilted_shape_that_worldkit_builds(deg_x,
     mujoco.mj_kinematics(model, data)
     offset = (0.01, -0.02, 0.03)
     own = np.array(SIDES[side]) * SIZE / 2 + offset
-    # The compiler may turn the geom into its principal axes only for meshes: a box keeps the frame it was given.
-    # and drops a tilt of a ten-thousandth of a degree, which is why this is not exact.
+    # The compiler may turn the geom into its principal axes only for meshes: a box keeps the frame it was given,
+    # but drops a tilt of a ten-thousandth of a degree, which is why this is not exact.
     wanted = data.geom("plank").xpos + data.geom("plank").xmat.reshape(3, 3) @ own
     assert point(End(body="plank", at=side, offset=offset), plan, scene) == pytest.approx(wanted, abs=1e-5)
 
