@@ -80,7 +80,10 @@ class Root(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Name the known commands when an unknown one is typed."""
+        """Name the known commands when an unknown one is typed; `stage.frames`, as agents call it, is `stage frames`."""
+        server, dot, tool = args[0].partition(".") if args else ("", "", "")
+        if dot and server in expose.SERVERS:
+            args = [server, tool.replace("_", "-"), *args[1:]]
         if args and args[0] not in self.list_commands(ctx) and not args[0].startswith("-"):
             ctx.fail(f"there is no command '{args[0]}'; known: {', '.join(self.list_commands(ctx))}")
         return super().resolve_command(ctx, args)

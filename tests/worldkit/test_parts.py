@@ -131,7 +131,9 @@ def test_each_part_has_its_own_friction_look_and_grip():
     label = model.geom("it/label")
     assert (label.contype[0], label.conaffinity[0], label.group[0]) == (0, 0, 2)
     assert model.body("it").mass[0] == pytest.approx(2.0)
-    assert sliding.add_pairs(spec, model) == 2  # shell and foot on the ground, whose damper counts for both; not the label
+    assert (
+        sliding.add_pairs(spec, model) == 2
+    )  # shell and foot on the ground, whose damper counts for both; not the label
     pair = spec.pairs[0]
     assert {pair.geomname1, pair.geomname2} == {"ground", "it/shell"}
 

@@ -1,4 +1,4 @@
-"""Which moments of a world are worth a look: its setup, its event and its aftermath, by motion energy.
+"""Which moments of a world are worth a look: its setup, its event, its aftermath and one on the way, by motion energy.
 
 The event is where the bodies' velocities change most, weighed by their masses: a blow, a break, a let-go. (Their energy
 would not do: an elastic collision keeps it.) The aftermath is where the kinetic energy has calmed down for good (or the
@@ -21,13 +21,22 @@ WINDOW_S = 1 / 24
 
 @dataclass(frozen=True)
 class Moments:
-    """Three times in seconds."""
+    """Times in seconds."""
 
     setup: float
     event: float
     aftermath: float
+    end: float
     source: str
     """`recording` or `film`."""
+
+    def named(self) -> dict[str, float]:
+        """The four to show, in the order of their times: with `midway`, the middle of the longer of the two stretches before
+        and after the event; what never calms down has an `end` instead of an `aftermath`."""
+        midway = max(((self.setup, self.event), (self.event, self.aftermath)), key=lambda span: span[1] - span[0])
+        last = "aftermath" if self.aftermath < self.end else "end"
+        times = {"setup": self.setup, "midway": sum(midway) / 2, "event": self.event, last: self.aftermath}
+        return dict(sorted(times.items(), key=lambda item: item[1]))
 
 
 def of_recording(folder: Path) -> Moments:
@@ -74,10 +83,10 @@ def _choose(t: "np.ndarray", energy: "np.ndarray", change: "np.ndarray", source:
     usable = len(t) >= 3 and np.isfinite(energy).all() and np.isfinite(change).all() and change.max() > 0
     if not usable:
         last = float(t[-1]) if len(t) else 0.0
-        return Moments(0.0, last / 2, last, source)
+        return Moments(0.0, last / 2, last, last, source)
     event = int(change.argmax()) + 1
     restless = np.flatnonzero(energy > CALM * energy.max())
     aftermath = int(restless[-1]) + 1 if len(restless) else 0
     if aftermath <= event or aftermath >= len(t):
         aftermath = len(t) - 1
-    return Moments(float(t[0]), float(t[event]), float(t[aftermath]), source)
+    return Moments(float(t[0]), float(t[event]), float(t[aftermath]), float(t[-1]), source)

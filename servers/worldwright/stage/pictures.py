@@ -25,21 +25,28 @@ class Shown(Frozen):
     cameras: tuple[str, ...]
     captions: tuple[str, ...]
     moments: dict[str, float] = {}
-    """Times of setup, event and aftermath, s, by the motion energy of the recording (or of the film without one)."""
+    """Times of the key frames, s, by the motion energy of the recording (or of the film without one)."""
 
     def text(self) -> str:
         """One caption a line."""
         return "\n".join(self.captions)
 
 
-def contact(evidence: Path, camera: str | None, count: int, show: Show = "all") -> Illustrated:
+def contact(
+    evidence: Path,
+    camera: str | None,
+    count: int,
+    show: Show = "all",
+    window_s: tuple[float, float] = (0.0, 1e9),
+) -> Illustrated:
     """Pictures of one key's stills and films, scaled down until they fit the budget.
 
     Args:
         evidence: the folder of one key.
         camera: one camera; all when None.
-        count: pictures on a contact sheet.
+        count: pictures on a contact sheet; a single one is shown as large as it fits.
         show: which kinds.
+        window_s: what of a film its contact sheet shows.
     """
     known = sorted({p.stem for p in (*evidence.glob("stills/*.png"), *evidence.glob("video/*.mp4"))})
     if camera is not None and camera not in known:
@@ -57,14 +64,14 @@ def contact(evidence: Path, camera: str | None, count: int, show: Show = "all") 
     cameras = [camera] if camera else known
     films = [film for name in cameras if (film := evidence / "video" / f"{name}.mp4").is_file()]
     three = _moments(evidence, films) if films and show in ("all", "key") else None
-    images = list(_images(evidence, cameras, count, show, three))
+    images = list(_images(evidence, cameras, count, show, three, window_s))
     if not images:
         raise NotFoundError(
             "there is no film yet", place=str(evidence / "video"), next_move="run the video pass, or show stills"
         )
     share = BUDGET_BYTES // len(images)
     pictures = tuple(Picture(_jpeg(image, share), caption, "jpeg") for caption, image in images)
-    times = {"setup": three.setup, "event": three.event, "aftermath": three.aftermath} if three else {}
+    times = three.named() if three else {}
     return Illustrated(
         Shown(cameras=tuple(cameras), captions=tuple(p.caption for p in pictures), moments=times), pictures
     )
@@ -80,7 +87,12 @@ def _moments(evidence: Path, films: list[Path]) -> "Moments":
 
 
 def _images(
-    evidence: Path, cameras: list[str], count: int, show: Show, three: "Moments | None"
+    evidence: Path,
+    cameras: list[str],
+    count: int,
+    show: Show,
+    three: "Moments | None",
+    window_s: tuple[float, float],
 ) -> Iterator[tuple[str, Any]]:
     """(caption, RGB uint8 (H, W, 3)) of everything asked for that exists."""
     for name in cameras:
@@ -91,25 +103,31 @@ def _images(
         if not film.is_file():
             continue
         if show in ("all", "sheet"):
-            frames = list(moments(film, count))
-            stamps = ", ".join(f"{time_s:.2f}" for time_s, _ in frames)
-            yield f"{name}: contact sheet, row by row, at {stamps} s", sheet(frames, large=len(cameras) == 1)
+            frames = moments(film, count, window_s)
+            if len(frames) == 1:
+                yield f"{name}: at {frames[0][0]:.2f} s", frames[0][1]
+            else:
+                stamps = ", ".join(f"{time_s:.2f}" for time_s, _ in frames)
+                yield f"{name}: contact sheet, row by row, at {stamps} s", sheet(frames, large=len(cameras) == 1)
         if three and show in ("all", "key"):
-            named = {"setup": three.setup, "event": three.event, "aftermath": three.aftermath, "end": 1e9}
-            for (word, _), (time_s, image) in zip(named.items(), at(film, list(named.values())), strict=True):
+            named = three.named()
+            if show == "all" and still.is_file():
+                del named["setup"]  # the still shows it, and better
+            for word, (time_s, image) in zip(named, at(film, list(named.values())), strict=True):
                 yield f"{name}: {word} at {time_s:.2f} s", image
 
 
-def moments(film: Path, count: int) -> list[tuple[float, Any]]:
-    """(time in seconds, RGB uint8 (H, W, 3)) at `count` evenly spread moments, first and last frame included."""
+def moments(film: Path, count: int, window_s: tuple[float, float] = (0.0, 1e9)) -> list[tuple[float, Any]]:
+    """(time in seconds, RGB uint8 (H, W, 3)) at `count` evenly spread moments of a window, its ends included."""
     import av
 
     with av.open(str(film)) as container:
         stream = container.streams.video[0]
         total = stream.frames or sum(1 for _ in container.decode(stream))
         rate = float(stream.average_rate or 24)
-    spread = [round(i * (total - 1) / max(count - 1, 1)) / rate for i in range(count)] if count > 1 else [0.0]
-    return at(film, spread)
+    first, last = (min(max(round(time_s * rate), 0), total - 1) for time_s in window_s)
+    count = min(count, last - first + 1)
+    return at(film, [round(first + i * (last - first) / max(count - 1, 1)) / rate for i in range(count)])
 
 
 def at(film: Path, times_s: list[float]) -> list[tuple[float, Any]]:

@@ -191,13 +191,16 @@ def frames(
     count: Annotated[int, Field(description="Pictures on a contact sheet.", ge=1, le=24)] = 8,
     show: Annotated[
         Literal["all", "stills", "sheet", "key"],
-        Field(description="Stills, contact sheets, key frames (setup, event, aftermath, end), or all of them."),
+        Field(description="Stills, contact sheets, key frames (setup, midway, event, aftermath), or all of them."),
     ] = "all",
+    start_s: Annotated[float, Field(description="Contact sheets begin at this time.", ge=0)] = 0.0,
+    end_s: Annotated[float | None, Field(description="And end at this one; None is the film's end.", ge=0)] = None,
 ) -> Illustrated:
     """Show the current program's pictures: stills, a contact sheet of each film with the times, and key frames.
 
     Key frames are chosen by motion energy: the setup, the event (where it changes fastest) and the aftermath (where
-    it has calmed down). Together under 1 MB; with many cameras, name one to see it larger.
+    it has calmed down), with one on the way there. `count: 1` shows one frame, at `start_s`, as large as it fits.
+    Together under 1 MB; with many cameras, name one to see it larger.
     """
     from ..model import environment
     from .pictures import contact
@@ -206,7 +209,9 @@ def frames(
     evidence = folder.evidence(folder.evidence_key(environment.current().sha256()))
     if not any((evidence / name).is_dir() for name in ("stills", "video")) and folder.accepted.is_dir():
         evidence = folder.accepted  # a fresh clone keeps the accepted pictures only
-    return contact(evidence, camera, count, show)
+    if end_s is not None and end_s < start_s:
+        raise NotFoundError(f"the sheet would end at {end_s:g} s, before it begins", next_move="give end_s >= start_s")
+    return contact(evidence, camera, count, show, (start_s, 1e9 if end_s is None else end_s))
 
 
 @reads

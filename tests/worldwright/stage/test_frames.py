@@ -31,10 +31,11 @@ def test_everything_is_shown_with_its_time_and_fits_the_wire(filmed):
     kinds = [
         word
         for caption in shown.data.captions
-        for word in ("still", "sheet", "setup", "event", "aftermath")
+        for word in ("still", "sheet", "setup", "event", "aftermath", "midway", "end")
         if word in caption
     ]
-    assert kinds == ["still", "sheet", "setup", "event", "aftermath"] * 2
+    assert kinds[:2] == ["still", "sheet"] and {"midway", "event"} < set(kinds) and "setup" not in kinds
+    assert len(kinds) == 2 * 5 and kinds[:5] == kinds[5:]
     assert sum(len(base64.b64encode(picture.data)) for picture in shown.pictures) < 1_000_000
     assert shown.data.moments["event"] > 0
     assert all(picture.data.startswith(b"\xff\xd8") for picture in shown.pictures)
@@ -45,6 +46,25 @@ def test_one_kind_and_one_camera(filmed, reviewed):
     assert len(frames(str(reviewed), show="key").pictures) == 8
     with pytest.raises(NotFoundError, match="rear"):
         frames(str(reviewed), camera="rear")
+
+
+def test_a_stretch_of_a_film_and_a_single_frame_of_it(filmed, reviewed):
+    sheet_of = frames(str(reviewed), camera="side", show="sheet", count=24, start_s=0.1, end_s=0.2).data.captions[0]
+    times = [float(word) for word in sheet_of.rpartition(" at ")[2].removesuffix(" s").split(", ")]
+    assert (
+        2 <= len(times) <= 24 and times[0] == pytest.approx(0.1, abs=0.03) and times[-1] == pytest.approx(0.2, abs=0.03)
+    )
+    assert len(set(times)) == len(times)
+    alone = frames(str(reviewed), camera="side", show="sheet", count=1, start_s=0.2)
+    assert alone.data.captions == (f"side: at {times[-1]:.2f} s",)
+    with pytest.raises(NotFoundError, match="before it begins"):
+        frames(str(reviewed), start_s=0.2, end_s=0.1)
+
+
+def test_what_never_calms_down_is_shown_midway():
+    restless = moments._choose(np.arange(5.0), np.ones(5), np.array([0, 1.0, 0, 0]), "film")
+    assert restless.aftermath == restless.end == 4 and list(restless.named()) == ["setup", "midway", "event", "end"]
+    assert sorted(restless.named().values()) == list(restless.named().values())
 
 
 def test_a_film_alone_still_has_its_moments(filmed):
