@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from . import linkage
+from . import assemblies, linkage
 from .linkage import Joint, Rope, Tie
 
 Array = np.ndarray
@@ -47,6 +47,12 @@ class Mechanics:
     """(B,) bool: drawn without being simulated."""
     parent: Array | None = None
     """(B,) index of the parent body, -1 for the world."""
+    jointed: Array | None = None
+    """(B,) bool: has a joint of its own; a body without is welded to its parent (see `model.assemblies`)."""
+    whole_free: Array | None = None
+    """(B,) bool: `free` is true of the rigid assembly that each belongs to."""
+    whole_unforced: Array | None = None
+    """(B,) bool: `unforced` is true of that assembly."""
     geom_names: tuple[str, ...] = ()
     geom_body: Array | None = None
     """(G,) index of the body that owns each geom, -1 for the world."""
@@ -90,7 +96,7 @@ class Mechanics:
         option = meta.get("option") or {}
         drives = _drives(meta, option)
         tied = _tied(meta, names, rows)
-        free, unforced = None, None
+        free = unforced = jointed = whole_free = whole_unforced = None
         joints = [row.get("joints", row.get("joint_types")) for row in bodies]
         if all(j is not None for j in joints) and dynamic is not None:
             moving_child = {int(p) for p, d in zip(parent, dynamic, strict=True) if p >= 0 and d}
@@ -98,6 +104,11 @@ class Mechanics:
             still_air = not ({"fluid", "plugins", "flexes"} & set(drives))
             quiet = np.array([not row.get("gravcomp") and not row.get("damping") for row in bodies])
             unforced = free & quiet & ~tied["driven"] & still_air
+            kinds = [[_joint_type(joint) for joint in own or ()] for own in joints]
+            jointed = np.array([bool(own) for own in kinds], dtype=bool)
+            head = assemblies.heads(parent, jointed)
+            whole_free = assemblies.loose(head, parent, kinds, dynamic, tied["bound"])
+            whole_unforced = whole_free & ~assemblies.any_member(head, ~quiet | tied["driven"]) & still_air
         return cls(
             mass=_column(bodies, "mass", float),
             com=_column(bodies, "ipos", float, "com"),
@@ -111,6 +122,9 @@ class Mechanics:
             mocap=_column(bodies, "mocap", bool),
             visual_only=_visual_only(meta, bodies, names),
             parent=parent,
+            jointed=jointed,
+            whole_free=whole_free,
+            whole_unforced=whole_unforced,
             geom_names=geoms.names,
             geom_body=geoms.body,
             geom_half_extents=geoms.half,
@@ -246,8 +260,12 @@ def _visual_only(meta: Mapping[str, Any], bodies: list[dict[str, Any]], names: S
     return np.array([bool(row.get("visual_only")) or name in listed for row, name in zip(bodies, names, strict=True)])
 
 
+def _joint_type(joint: Any) -> str:
+    return str(joint.get("type", "") if isinstance(joint, dict) else joint)
+
+
 def _is_free(joints: Sequence[Any]) -> bool:
-    return len(joints) == 1 and str(joints[0].get("type", "") if isinstance(joints[0], dict) else joints[0]) == "free"
+    return [_joint_type(joint) for joint in joints] == ["free"]
 
 
 def _tied(meta: Mapping[str, Any], names: Sequence[str], rows: list[dict[str, Any]]) -> dict[str, Array]:

@@ -20,6 +20,7 @@ from typing import Any
 
 import numpy as np
 
+from . import assemblies
 from .coordinates import Coordinates
 from .errors import NotFoundError, RecordingError
 from .loads import Loads
@@ -190,6 +191,14 @@ class Trajectory:
             f"there is no body '{name}' in this recording",
             next_move=f"name one of: {', '.join(self.names) or '(none)'}, or 'world'",
         )
+
+    def members(self, body: int) -> tuple[int, ...]:
+        """A body and all that is welded on below it: one rigid body; itself alone where joints are not known."""
+        facts = self.mechanics
+        if body < 0 or facts.jointed is None or facts.parent is None:
+            return (body,)
+        found = assemblies.heads(facts.parent, facts.jointed, (body,))
+        return tuple(int(b) for b in np.flatnonzero(found == body))
 
     def rows(self, start_s: float | None = None, end_s: float | None = None) -> slice:
         """The rows from `start_s` to `end_s` inclusive; at least one row."""

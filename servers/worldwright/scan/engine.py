@@ -8,6 +8,7 @@ from ..model.evidence import CheckRun, ScanReport
 from ..model.finding import Anomaly
 from ..model.trajectory import Trajectory
 from ..shelf import Entry, Shelf
+from . import wholes
 from .sign import Context, Sign, SkipError
 
 CHECKS = Shelf("worldwright.scan.checks", {"NEEDS": tuple, "GOOD": tuple, "BAD": tuple, "check": FunctionType})
@@ -42,6 +43,8 @@ def run_check(entry: Entry, trajectory: Trajectory, context: Context) -> tuple[C
     if missing:
         return outcome("skipped", f"the recording has no {', '.join(missing)}"), []
     try:
+        if getattr(entry.module, "WHOLE", False):
+            context, trajectory = wholes.asked_of_wholes(context, trajectory), wholes.assembled(trajectory)
         with np.errstate(all="ignore"):
             signs = list(entry.check(trajectory, context))
     except SkipError as reason:

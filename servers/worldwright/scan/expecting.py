@@ -12,7 +12,9 @@ from ..model.evidence import ExpectationResult, ExpectReport, ObjectiveResult
 from ..model.plan import Objective, Plan
 from ..model.trajectory import Trajectory
 from ..shelf import Shelf
+from .declared import mentioned
 from .measured import UnknowableError
+from .wholes import as_named
 
 EXPECTATIONS = Shelf(
     "worldwright.scan.expectations", {"Given": type, "measure": FunctionType, "GOOD": tuple, "BAD": tuple}
@@ -113,7 +115,7 @@ def measure(trajectory: Trajectory, name: str, arguments: dict[str, Any]) -> Exp
         return unknown("the recording is not finite; see the scan's finding `nan`, and repair the simulation first")
     try:
         with np.errstate(all="ignore"):
-            found = entry.measure(trajectory, entry.Given.model_validate(arguments))
+            found = entry.measure(as_named(trajectory, mentioned(arguments)), entry.Given.model_validate(arguments))
     except (NotFoundError, UnknowableError) as cause:
         return unknown(f"{cause.cause}; {cause.next_move}" if cause.next_move else cause.cause)
     except np.linalg.LinAlgError as cause:

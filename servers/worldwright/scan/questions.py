@@ -9,6 +9,7 @@ from ..model.trajectory import Trajectory
 from .answers import Answer, Touch
 from .measured import bridged
 from .sign import spans
+from .wholes import assembled
 
 STILL = 1e-3
 """Of a body's own size: what moves less has not moved. Likewise in radians."""
@@ -19,12 +20,16 @@ MOST_RESTS = 6
 
 
 def answer(trajectory: Trajectory, body: str, window_s: tuple[float, float] | None) -> Answer:
-    """Everything asked about one body in one window.
+    """Everything asked about one body, with what is welded on below it, in one window.
 
     Raises:
         NotFoundError: no such body, or the window lies outside the recording.
     """
     index = trajectory.index(body)
+    if len(members := trajectory.members(index)) > 1:
+        # Its own parts count as the body; whom it touches is told as it was recorded.
+        trajectory = assembled(trajectory, {index, *range(len(trajectory.names))} - ({*members} - {index}))
+        index = trajectory.index(body)
     rows = _rows(trajectory, window_s)
     t = trajectory.t[rows]
     notes: list[str] = []

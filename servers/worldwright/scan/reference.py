@@ -24,11 +24,19 @@ Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan
 kilograms, seconds, newtons, degrees; world frame, z up. A margin is in the unit of what is measured, and positive when the
 claim holds. Those marked with a star are **events**: they come true at a moment, so they can be ordered
 (`happens_before` …) and their causes tested. `window_s: [start, end]` restricts any of them to a stretch of time.
+
+A body means the whole rigid thing: what touches a part that is welded to it (a child without a joint of its own) touches it,
+and it weighs what all of it weighs. So `lands_on: {body: toy, support: table}` holds when the toy's foot lands first,
+and `never_touches: {bodies: [ball, toy]}` fails when the ball touches the foot. A part's own name means that part alone, with
+what is welded on below it; where both are named (`touches: {bodies: [hammer, hammer_head]}`), the part no longer counts
+for the rest. Bodies on joints never count for the one they hang on.
 """
 _ANOMALIES = """# The anomaly checks
 
 Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan/checks`; change those. Each looks at every
-recording, whatever the plan claims. *Needs* names the channels without which a check is skipped, and says so.
+recording, whatever the plan claims. *Needs* names the channels without which a check is skipped, and says so. *Of wholes*
+are checks that take bodies welded to each other (without joints between them) for the one rigid body that they are, called
+by the name of the one that carries the others; the other checks look at each body as it was recorded.
 """
 
 
@@ -70,8 +78,12 @@ def anomalies() -> str:
     parts += [f"| {e.code} | `{e.name}` | {e.summary} |" for e in CHECKS.values()]
     for entry in CHECKS.values():
         needs = ", ".join(f"`{name}`" for name in entry.NEEDS) or "poses alone"
-        parts += ["", f"## {entry.code} {entry.name}", "", entry.doc, "", f"Needs: {needs}."]
+        parts += ["", f"## {entry.code} {entry.name}", "", entry.doc, "", f"Needs: {needs}.{_of_wholes(entry)}"]
     return "\n".join(parts) + "\n" + _AUDITS
+
+
+def _of_wholes(entry: Entry) -> str:
+    return " Of wholes." if getattr(entry.module, "WHOLE", False) else ""
 
 
 PAGES = {VOCABULARY: vocabulary, ANOMALIES: anomalies}

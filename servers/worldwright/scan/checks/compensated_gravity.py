@@ -3,7 +3,7 @@
 What it means: `gravcomp` holds up a boom, a figure or a vessel that nothing else carries. It is a force like any other.
 
 Formula: the body's `gravcomp` is not 0; a share of 1 cancels its weight. Declared by an intervention of kind `force` or
-`parameter` on the body.
+`parameter` on the body, or on the one that it is welded to.
 Threshold: none. Blocking with a plan; without one a warning.
 Source: MuJoCo manual, body/gravcomp; the facts on staging (boom gravity cancelled).
 """
@@ -15,6 +15,7 @@ from ...model.trajectory import Trajectory
 from .. import analytic
 from ..declared import weighs
 from ..sign import Case, Context, Sign
+from ..wholes import head_names
 
 CODE = "WS301"
 NEEDS = ("meta",)
@@ -22,12 +23,12 @@ NEEDS = ("meta",)
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each compensated body."""
-    window = (trajectory.t[0], trajectory.t[-1])
+    window, head = (trajectory.t[0], trajectory.t[-1]), head_names(trajectory)
     for body in trajectory.meta.get("bodies") or ():
         share = float(body.get("gravcomp") or 0.0)
         if share and body.get("mass", 1.0) > 0:
             name = str(body["name"])
-            declared = context.acts_on(name, ("force", "parameter"))
+            declared = any(context.acts_on(said, ("force", "parameter")) for said in (name, head.get(name, name)))
             message = f"{share:.0%} of the weight of {name} is cancelled by gravcomp"
             yield Sign(name, window, share, 0.0, "of its weight", weighs(context, declared), message)
 

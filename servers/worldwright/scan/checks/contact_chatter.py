@@ -6,7 +6,8 @@ the pictures and feeds energy into everything stacked above. Bouncing decays, an
 Formula: over windows of 0.5 s, the body stays within a tenth of r (and turns less than 0.2 rad) while its vertical
 velocity (or its angular velocity times r) changes sign more than 10 times with contact in between; u is its rms there.
 Chatter when at least 1 s of such windows has u > 0.02 sqrt(g r) and the last third keeps 0.6 of the first third's u.
-Likewise six hops on one spot, none higher than r, whose last third keeps 0.8 of the first third's height: a warning.
+Likewise six hops on one spot (higher than both ends), none higher than r, whose last third keeps 0.8 of the first
+third's height: a warning.
 Threshold: 0.02 sqrt(g r) is a hop of r / 5000, about what a picture begins to show; 0.2 sqrt(g r) blocks.
 Source: the reference paper's scanner; the manual on contact stiffness against the time step.
 """
@@ -23,6 +24,7 @@ from ..survey import survey
 
 CODE = "WS106"
 NEEDS = ("linvel", "touching")
+WHOLE = True
 WINDOW_S = 0.5
 MINIMUM_S = 1.0
 REVERSALS = 10
@@ -89,8 +91,11 @@ def _hops(trajectory: Trajectory, b: int, touching: np.ndarray) -> Iterator[Sign
     flights = flights[(flights[:, 0] > 0) & (flights[:, 1] < len(touching))]
     if len(flights) < HOPS:
         return
+    # A hop goes up and comes down again: a body that swings down (or is lifted) about its edge, letting go now and then,
+    # changes its height between two touches as well.
     height, edges = trajectory.pos[:, b, 2].copy(), flights.ravel()
-    rise = np.maximum.reduceat(height, edges)[::2] - np.minimum.reduceat(height, edges)[::2]
+    ends = np.maximum(height[flights[:, 0] - 1], height[flights[:, 1]])
+    rise = np.maximum.reduceat(height, edges)[::2] - ends
     real = rise > 0.01 * trajectory.size_m[b]
     flights, rise = flights[real], rise[real]
     if len(rise) < HOPS or rise.max() > trajectory.size_m[b]:
@@ -154,7 +159,20 @@ def _buzzing(decay: float) -> Case:
     return Case("a box buzzing at 40 Hz", replace(still, pos=pos, linvel=speed))
 
 
+def _swinging_down() -> Case:
+    """A plank that falls over about one end, which lets go of the ground for moments, with hops too low to see."""
+    t = analytic.clock(2.0)
+    fall = np.clip(t - 0.5, 0.0, 1.0)
+    height = 0.6 - 0.5 * fall**2
+    pos = np.stack([0 * t, 0 * t, height], axis=1)
+    speed = np.stack([0 * t, 0 * t, np.where((t > 0.5) & (t < 1.5), -fall, 0.0)], axis=1)
+    lets_go = (t > 0.5) & (t < 1.5) & (np.arange(len(t)) % 40 > 4)
+    made = analytic.motion(t, pos, speed, size_m=1.2, touches=[(-1, 0, ~lets_go, 1e-5, 9.81)], free=False)
+    return Case("a plank that falls over about its end", made)
+
+
 GOOD = (
+    _swinging_down,
     lambda: Case("a body at rest", analytic.resting()),
     lambda: Case("a bouncing ball coming to rest", analytic.bouncing()),
     lambda: Case("a rolling ball", analytic.rolling()),

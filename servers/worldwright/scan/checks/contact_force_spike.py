@@ -21,6 +21,7 @@ from ..survey import survey
 
 CODE = "WS127"
 NEEDS = ("linvel", "touching")
+WHOLE = True
 FACTOR = 100.0
 BLOW_S = 0.05
 

@@ -23,6 +23,7 @@ from ..survey import survey
 
 CODE = "WS123"
 NEEDS = ("linvel",)
+WHOLE = True
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:

@@ -3,7 +3,8 @@
 What it means: the contact is too soft for the load or the speed, the bodies were placed inside each other, or the step
 is too long for how fast they meet. It looks like clipping, and overlaps at the start burst apart.
 
-Formula: depth / t, with t the half-thickness of the thinner geom that moves (half the smallest extent).
+Formula: depth / t, with t the half-thickness of the thinner geom that moves (half the smallest extent): of that part
+alone, whatever it is welded to, since it is the part that is seen inside the other.
 Threshold: a tenth for 0.1 s or 0.3 at any moment warns; 0.3 for 0.1 s, or 1 at any moment (half of the body is
 inside), blocks.
 Source: the manual on soft contacts and `solref`, `solimp`; the reference paper's checks on clipping.

@@ -22,6 +22,7 @@ from ..sign import Case, Context, Sign
 
 CODE = "WS107"
 NEEDS = ("linvel",)
+WHOLE = True
 SPEED_FRACTION = 0.02
 
 

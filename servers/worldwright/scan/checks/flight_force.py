@@ -23,6 +23,7 @@ from ..sign import Case, Context, Sign
 
 CODE = "WS113"
 NEEDS = ("touching", "mechanics.unforced")
+WHOLE = True
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:

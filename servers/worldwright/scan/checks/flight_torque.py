@@ -23,6 +23,7 @@ from ..survey import survey
 
 CODE = "WS114"
 NEEDS = ("touching", "mechanics.unforced", "mechanics.inertia", "mechanics.inertia_quat")
+WHOLE = True
 MINIMUM_ROWS = 5
 WARN, BLOCK = 0.1, 0.3
 

@@ -23,6 +23,7 @@ from ..survey import survey
 
 CODE = "WS124"
 NEEDS = ("linvel", "touching")
+WHOLE = True
 HELD_S = 0.3
 
 

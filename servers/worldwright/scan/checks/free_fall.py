@@ -23,6 +23,7 @@ from ..survey import survey
 
 CODE = "WS119"
 NEEDS = ("linvel",)
+WHOLE = True
 ROWS = 8
 SECONDS = 0.08
 LONG_ROWS = 12

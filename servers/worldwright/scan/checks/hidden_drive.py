@@ -4,7 +4,7 @@ What it means: these do work on bodies from inside the engine, so the ledger of 
 a gust can be what the prompt asks for; then the plan says it.
 
 Formula: `option.wind` is not 0 in a medium with density or viscosity; a geom has a surface velocity or adhesion; the model
-has engine plugins. Declared by an intervention of kind `force`, `parameter`, `control` or `solver` naming the body (for
+has engine plugins. Declared by an intervention of kind `force`, `parameter`, `control` or `solver` naming the body or the one it is welded to (for
 wind: `wind` or `world`; for plugins: `world`), or as an objective's cause.
 Threshold: none. Blocking with a plan; without one a remark.
 Source: MuJoCo manual, option/wind, geom/surfacevel, geom/adhesion; the facts on staging.
@@ -16,6 +16,7 @@ from dataclasses import replace
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign
+from ..wholes import head_names
 
 CODE = "WS315"
 NEEDS = ("meta",)
@@ -28,13 +29,13 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     drives = []
     if any(option.get("wind") or ()) and (option.get("density") or option.get("viscosity")):
         drives.append(("wind", "a wind blows", ("wind", "world")))
-    told = set()
+    told, head = set(), head_names(trajectory)
     for geom in trajectory.meta.get("geoms") or ():
         for key, what in (("surfacevel", "has a moving surface"), ("adhesion", "attracts what it touches")):
             body = str(geom.get("body"))
             if geom.get(key) and (body, key) not in told:
                 told.add((body, key))
-                drives.append((body, f"{body} {what}", (body, str(geom["name"]))))
+                drives.append((body, f"{body} {what}", (body, head.get(body, body), str(geom["name"]))))
     if trajectory.meta.get("has_plugin"):
         drives.append(("world", "an engine plugin acts", ("world", "plugin")))
     causes = {name for objective in context.plan.objectives for name in objective.cause} if context.plan else set()

@@ -19,6 +19,7 @@ from ..sign import Case, Context, Sign
 
 CODE = "WS130"
 NEEDS = ("mechanics.mass", "mechanics.half_extents", "mechanics.free")
+WHOLE = True
 LIGHT, HEAVY = 0.05, 60_000.0
 SMALL_M, LARGE_M = 1e-5, 200.0
 

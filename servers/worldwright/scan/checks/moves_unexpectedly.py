@@ -1,7 +1,7 @@
 """A body moves that the plan does not expect to move.
 
 What it means: it was placed unstably, is too light, was dragged along, or the plan forgot it. A body that the plan
-fixes must never move at all.
+fixes must never move at all. A part is expected to move where the body that it is welded to is, and the other way round.
 
 Formula: the largest distance from its first position, against half of the bounding radius (a fixed body: 1e-6 of it).
 Severity: blocking for a fixed body; otherwise a warning when it moves before anything that is expected to move has
@@ -17,6 +17,7 @@ from ...model.finding import AnomalySeverity
 from ...model.trajectory import Trajectory
 from .. import analytic
 from ..sign import Case, Context, Sign, SkipError
+from ..wholes import asked_of_wholes, assembled
 
 CODE = "WS112"
 NEEDS = ("pos",)
@@ -26,24 +27,33 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield the bodies that leave their places unasked."""
     if not context.movers and not context.fixed:
         raise SkipError("no plan says which bodies move")
-    for b, name in enumerate(trajectory.names):
-        fixed = name in context.fixed
-        if not fixed and (name in context.movers or not context.movers or not trajectory.moves_freely[b]):
+    for b in (trajectory.names.index(name) for name in context.fixed if name in trajectory.names):
+        yield from _moves(trajectory, b, 1e-6 * float(trajectory.size_m[b]), "blocking", "although the plan fixes it")
+    asked, whole = asked_of_wholes(context, trajectory), assembled(trajectory)
+    for b, name in enumerate(whole.names):
+        if not context.movers or name in context.fixed or name in asked.movers or not whole.moves_freely[b]:
             continue
-        away = np.sqrt(((trajectory.pos[:, b] - trajectory.pos[0, b]) ** 2).sum(axis=1))
-        limit = (1e-6 if fixed else 0.5) * float(trajectory.size_m[b])
+        limit = 0.5 * float(whole.size_m[b])
+        away = _away(whole, b)
         if away.max() <= limit:
             continue
-        start = int(np.argmax(away > limit))
-        severity: AnomalySeverity
-        if fixed:
-            severity, why = "blocking", "although the plan fixes it"
-        elif _was_hit(trajectory, context, b, start):
-            severity, why = "info", "after being touched by what moves"
+        if _was_hit(whole, asked, b, int(np.argmax(away > limit))):
+            yield from _moves(whole, b, limit, "info", "after being touched by what moves")
         else:
-            severity, why = "warn", "although nothing that should move touched it and no step expects it"
-        message = f"{name} moves {away.max():.3g} m, {why}"
-        yield Sign(name, (trajectory.t[start], trajectory.t[-1]), away.max(), limit, "m", severity, message)
+            why = "although nothing that should move touched it and no step expects it"
+            yield from _moves(whole, b, limit, "warn", why)
+
+
+def _away(trajectory: Trajectory, b: int) -> np.ndarray:
+    """(T,) m: from where it first was."""
+    return np.sqrt(((trajectory.pos[:, b] - trajectory.pos[0, b]) ** 2).sum(axis=1))
+
+
+def _moves(trajectory: Trajectory, b: int, limit: float, severity: AnomalySeverity, why: str) -> Iterator[Sign]:
+    away, name = _away(trajectory, b), trajectory.names[b]
+    if away.max() > limit:
+        window = (trajectory.t[int(np.argmax(away > limit))], trajectory.t[-1])
+        yield Sign(name, window, away.max(), limit, "m", severity, f"{name} moves {away.max():.3g} m, {why}")
 
 
 def _was_hit(trajectory: Trajectory, context: Context, b: int, row: int) -> bool:

@@ -3,7 +3,7 @@
 What it means: a weld or a connection to the world carries what the picture ascribes to something else, or holds what an
 objective says is free.
 
-Formula: an equality that is on at the start and ties a body of the plan to the world or to scenery; a flex with vertices
+Formula: an equality that is on at the start and ties a body of the plan (or a part welded to one) to the world or to scenery; a flex with vertices
 on static bodies. Declared by an intervention of kind `constraint` naming the equality, the body or the flex, or by a
 `weld` among the plan's joints.
 Threshold: none. Blocking with a plan; without one silent for equalities (models are full of them).
@@ -19,6 +19,7 @@ from ...model.trajectory import Trajectory
 from .. import analytic
 from ..declared import cast
 from ..sign import Case, Context, Sign
+from ..wholes import head_names
 from .seen_through import carrying
 
 CODE = "WS306"
@@ -29,16 +30,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each tie and each pinned flex that the plan does not declare."""
     if not context.planned:
         return
-    meta, names = trajectory.meta, cast(context)
+    meta, names, head = trajectory.meta, cast(context), head_names(trajectory)
     fixed = {"world", *(b["name"] for b in meta.get("bodies") or () if not b.get("dynamic") and not b.get("mocap"))}
     welds = {j.child for j in context.plan.topology.joints if j.type == "weld"} if context.plan else set()
     for column, tie in enumerate(meta.get("equalities") or ()):
         ends = list(tie.get("bodies") or ())
         free = [name for name in ends if name not in fixed]
-        if not tie.get("active") or len(free) == len(ends) or not set(free) & names or set(free) & welds:
+        wholes = {*free, *(head.get(name, name) for name in free)}  # who holds a part holds the body it is welded to
+        if not tie.get("active") or len(free) == len(ends) or not wholes & names or wholes & welds:
             continue
         held = free[0]
-        if any(context.declares("constraint", name) for name in (tie["name"], held)):
+        if any(context.declares("constraint", name) for name in (tie["name"], *wholes)):
             continue
         force = trajectory.loads.eq_force[:, column] if trajectory.loads is not None else np.zeros(1)
         peak = float(force.max(initial=0.0))

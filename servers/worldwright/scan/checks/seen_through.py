@@ -4,7 +4,7 @@ What it means: contact masks, an exclusion or disabled contacts keep them apart 
 inside the other. No contact is recorded, so penetration checks see nothing.
 
 Formula: the recording's list of overlaps: the signed distance of visible geoms that cannot collide, at 24 instants.
-Threshold: 2 mm, and 5 % of the smaller geom's radius (see `worldkit.overlaps`). Blocking for a body of the plan.
+Threshold: 2 mm, and 5 % of the smaller geom's radius (see `worldkit.overlaps`). Blocking for a body of the plan, its parts included.
 Source: the facts on staging (visible geoms that never collide).
 """
 
@@ -19,6 +19,7 @@ from ...model.trajectory import Trajectory
 from .. import analytic
 from ..declared import cast, drawn_only, weighs
 from ..sign import Case, Context, Sign
+from ..wholes import head_names
 
 CODE = "WS304"
 NEEDS = ("loads.overlaps",)
@@ -28,13 +29,13 @@ THRESHOLD_M = 2e-3
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each pair of bodies once, at its deepest."""
     assert trajectory.loads is not None and trajectory.loads.overlaps is not None
-    names, told = cast(context), set()
+    names, told, head = cast(context), set(), head_names(trajectory)
     for seen in trajectory.loads.overlaps:
         pair = frozenset(seen["bodies"])
         if pair in told or any(drawn_only(context, trajectory.meta, n) for n in (*seen["bodies"], *seen["geoms"])):
             continue
         told.add(pair)
-        mine = next((n for n in seen["bodies"] if n in names), "")
+        mine = next((n for n in seen["bodies"] if n in names or head.get(n, n) in names), "")
         body = mine or next(n for n in reversed(seen["bodies"]))
         one, other = seen["bodies"]
         declared = any(context.acts_on(n, ("parameter", "solver")) for n in pair)

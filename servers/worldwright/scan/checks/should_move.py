@@ -5,7 +5,7 @@ picture shows, the event did not happen.
 
 Formula: the largest distance from its first position, and the largest turn from its first orientation.
 Threshold: 2 % of the bounding radius and 2 degrees: less cannot be seen. Blocking: the plan lists the body under
-`motion_expectations`.
+`motion_expectations`. A part that is welded to another body moves as far as that carries it, and turns as it does.
 Source: the reference paper's plan format, `motion_expectations`.
 """
 

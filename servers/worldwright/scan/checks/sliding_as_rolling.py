@@ -21,6 +21,7 @@ from ..survey import survey
 
 CODE = "WS125"
 NEEDS = ("touching", "mechanics.geom_type", "mechanics.geom_friction", "mechanics.unforced")
+WHOLE = True
 HELD_S = 0.4
 FRICTION = 0.05
 

@@ -20,6 +20,7 @@ from .sliding_as_rolling import FRICTION, HELD_S, shaped, steady_slide
 
 CODE = "WS126"
 NEEDS = ("touching", "mechanics.geom_type", "mechanics.geom_friction", "mechanics.unforced")
+WHOLE = True
 ROUND = frozenset({"sphere", "capsule", "cylinder", "ellipsoid"})
 
 

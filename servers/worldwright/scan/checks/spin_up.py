@@ -21,6 +21,7 @@ from ..survey import survey
 
 CODE = "WS128"
 NEEDS = ("angvel",)
+WHOLE = True
 ROWS = 10
 
 

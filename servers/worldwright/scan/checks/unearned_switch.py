@@ -81,7 +81,8 @@ def measured(trajectory: Trajectory, asked: Threshold, switched: str) -> np.ndar
     touches = trajectory.contacts
     if touches is None:
         return None
-    mine = (touches.body1 == body) | (touches.body2 == body)
+    members = trajectory.members(body)  # what touches a welded part touches the body
+    mine = np.isin(touches.body1, members) | np.isin(touches.body2, members)
     return np.bincount(touches.row[mine], touches.normal_force[mine], minlength=len(trajectory.t))
 
 

@@ -46,9 +46,11 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
 
 
 def weights(trajectory: Trajectory) -> dict[str, float]:
-    """Weight of each body, N, by name."""
+    """Weight of each body with all that is welded on below it, N, by name."""
     g = float(np.sqrt((trajectory.gravity**2).sum()))
-    return {str(b["name"]): float(b.get("mass") or 0.0) * g for b in trajectory.meta.get("bodies") or ()}
+    own = {str(b["name"]): float(b.get("mass") or 0.0) * g for b in trajectory.meta.get("bodies") or ()}
+    members = {name: [trajectory.names[m] for m in trajectory.members(b)] for b, name in enumerate(trajectory.names)}
+    return {name: sum(own.get(part, 0.0) for part in members.get(name, [name])) for name in own}
 
 
 def _line(tension: float) -> Trajectory:

@@ -3,8 +3,8 @@
 What it means: none of its geoms can collide, so it passes through whatever it meets; what looks like a contact is
 something else, a hand-written spring or a written pose.
 
-Formula: a body that moves, has visible geoms, and none that collides (by mask or by pair), and is not tied to the tree of
-one that does; declared `visual_only` it is scenery.
+Formula: a body that moves, has visible geoms, and none that collides (by mask or by pair), and is not welded to one that
+does (a label on a box; what passes through the label itself, `seen_through` reports); declared `visual_only` it is scenery.
 Threshold: none. Blocking for a body of the plan; without a plan a warning for loose bodies.
 Source: the facts on staging (contype 0, a body passing through the floor).
 """
@@ -16,6 +16,7 @@ from ...model.trajectory import Trajectory
 from .. import analytic
 from ..declared import cast, drawn_only, weighs
 from ..sign import Case, Context, Sign
+from ..wholes import head_names
 
 CODE = "WS303"
 NEEDS = ("meta",)
@@ -25,6 +26,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     """Yield each body that nothing can touch."""
     meta, names = trajectory.meta, cast(context)
     window = (trajectory.t[0], trajectory.t[-1])
+    head = head_names(trajectory)
     shown: dict[str, int] = {}
     collides: set[str] = set()
     for geom in meta.get("geoms") or ():
@@ -32,11 +34,16 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             return
         shown[geom["body"]] = shown.get(geom["body"], 0) + bool(geom["visible"])
         if geom["collides"]:
-            collides.add(geom["body"])
+            collides.add(head.get(str(geom["body"]), str(geom["body"])))
     for body in meta.get("bodies") or ():
         name = str(body["name"])
         loose = body.get("joints") == ["free"]
-        if not body.get("dynamic") or not shown.get(name) or name in collides or drawn_only(context, meta, name):
+        if (
+            not body.get("dynamic")
+            or not shown.get(name)
+            or head.get(name, name) in collides
+            or drawn_only(context, meta, name)
+        ):
             continue
         if not (name in names if context.planned else loose):
             continue

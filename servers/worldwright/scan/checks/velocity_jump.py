@@ -22,6 +22,7 @@ from ..survey import survey
 
 CODE = "WS118"
 NEEDS = ("linvel",)
+WHOLE = True
 ROWS = 4
 
 
