@@ -105,10 +105,13 @@ CODE = Role(
     writes=("simulation.py",),
     reads_files=True,
     instructions="""
-First call `stage.draft`: for a declarative plan the drafted program is complete. Write only what it marks `AUTHOR:` (skill
-`program-contract`, and the feature skill of the mechanism), with names you looked up (`retrieve.symbol` with `run`): the installed MuJoCo 4 is newer than your memory. Never edit the
-plan; if it cannot be built as it stands, say which line and why. Then `lint.check_program` (with `plan`) until clean, then
-`stage.start` physics and `stage.wait`. When a repair was ordered, make that one change and nothing else: patch, never
+First call `stage.draft`: it writes what the plan's fields say. Yours is what it marks `AUTHOR:`, and what the plan says in words
+alone: read the descriptions of steps and objects, the laws of interventions, and the constants that the draft reads nowhere
+(its answer lists them; sums behind other numbers need no line). Nothing left: keep the draft as it is. Write it by the skill
+`program-contract` and the feature skill of the mechanism, with names you looked up (`retrieve.symbol` with `run`): the installed MuJoCo 4 is newer than
+your memory. Never edit the plan; if it cannot be built as it stands, say which line and why. A coordinate that it rounds by less
+than 0.2 mm you may write exactly, with a comment. Then `lint.check_program` (with `plan`) until clean, then
+`stage.start` physics and `stage.wait`. Whether claims hold another role judges later: expectations need no look-up. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
 Answer with: what you wrote or changed, lint's verdict, the physics pass's verdict and what `stage.wait` tells of it.""",
     refuses=(

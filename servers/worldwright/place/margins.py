@@ -25,7 +25,8 @@ def measure(resolution: Resolution, problems: Problems) -> list[RowMargin]:
                 "WP301",
                 "row_does_not_hold",
                 f"{row.label} is violated by {shown(tolerance - margin)} {unit}",
-                "change the row, or the rows that set the coordinates it speaks about",
+                "change the row, or the rows that set the coordinates it speaks about"
+                + ("; across two supports: bridge_between_a_and_b, or HEIGHT" if row.code == "PLACE-ON" else ""),
                 row.path,
             )
         margins.append(RowMargin(row=row.label, line=row.line, margin=round(margin, 6), unit=unit))

@@ -85,7 +85,8 @@ def _scenery(layout: Layout, touching: dict[str, list[str]]) -> None:
             "scenery_in_mid_air",
             f"`{name}` is fixed {shown(placed.position[2] - placed.size[2] / 2)} m up, touches nothing that stands, and nothing "
             f"holds it (below it is {below})",
-            "put it on or against something fixed (a wall, a post, a ceiling), or add what it hangs from",
+            "put it on or against something fixed (a wall, a post, a ceiling), or add what it hangs from; what is `visual_only` "
+            "holds nothing",
             layout.path(name),
             severity="warning",
         )

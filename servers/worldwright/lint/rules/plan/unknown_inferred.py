@@ -1,6 +1,6 @@
 """`inferred` lists a value that the plan does not have.
 
-What it does: resolves every dotted name under `inferred`.
+What it does: resolves every dotted name under `inferred`; rows of lists go by their name, placement rows by their subject.
 
 Why is this bad: the list tells the user which numbers to audit, and auto mode which were chosen. A name that leads nowhere
 hides the number it was meant for.
@@ -25,11 +25,17 @@ GOOD: Changes = (
             "inferred": ["materials.wood.friction", "simulation_duration", "scene_objects.crate.size"]
         }
     },
+    {
+        "simulation_parameters": {
+            "inferred": ["topology.scene_predicates.crate", "topology.scene_predicates.crate.params"]
+        }
+    },
     {},
 )
 BAD: Changes = (
     {"simulation_parameters": {"inferred": ["materials.steel.friction"]}},
     {"simulation_parameters": {"inferred": ["duration"]}},
+    {"simulation_parameters": {"inferred": ["topology.scene_predicates.crane"]}},
 )
 EVIDENCE = Argued("the list is for the user who approves the plan; no run reads it")
 
@@ -51,7 +57,7 @@ def _paths(value: Any, above: str = "", room: int = 4) -> list[str]:
     """The dotted names of everything in a plan, rows of lists by their name."""
     rows: list[tuple[str, Any]] = list(value.items()) if isinstance(value, dict) else []
     if isinstance(value, list | tuple):
-        rows = [(str(row.get("name", i)), row) for i, row in enumerate(value[:200]) if isinstance(row, dict)]
+        rows = [(str(_name(row) or i), row) for i, row in enumerate(value[:200]) if isinstance(row, dict)]
     own = [f"{above}{key}" for key, _ in rows]
     inside = [_paths(part, f"{above}{key}.", room - 1) for key, part in rows] if room else []
     return [*own, *(path for paths in inside for path in paths)]
@@ -71,4 +77,4 @@ def _leads(value: Any, parts: list[str]) -> bool:
 
 
 def _name(row: Any) -> Any:
-    return row.get("name") if isinstance(row, dict) else None
+    return row.get("name", row.get("subject")) if isinstance(row, dict) else None
