@@ -22,7 +22,27 @@ from ...proof import Argued
 CODE = "WP128"
 SEVERITY = "warning"
 LASTING = frozenset(
-    ["stays", "stays_within", "stays_upright", "stays_in_contact", "stays_intact", "stays_together", "stays_contained", "never_touches", "never_faster_than", "no_penetration", "conserves", "follows_parabola", "moves_straight", "accelerates_at", "keeps_speed", "keeps_axis", "keeps_length", "rolls_without_slipping", "spins_at_constant_rate"]
+    [
+        "stays",
+        "stays_within",
+        "stays_upright",
+        "stays_in_contact",
+        "stays_intact",
+        "stays_together",
+        "stays_contained",
+        "never_touches",
+        "never_faster_than",
+        "no_penetration",
+        "conserves",
+        "follows_parabola",
+        "moves_straight",
+        "accelerates_at",
+        "keeps_speed",
+        "keeps_axis",
+        "keeps_length",
+        "rolls_without_slipping",
+        "spins_at_constant_rate",
+    ]
 )
 """True of every beginning of a recording that they are true of."""
 FALLS = {"falls": {"body": "crate", "min_m": 0.2}}
