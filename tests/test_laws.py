@@ -85,3 +85,8 @@ def test_the_top_level_is_what_the_customer_fixed():
     }
     allowed = fixed | {"README.md", "LICENSE", "Makefile"}
     assert {name for name in top if not name.startswith(".")} == allowed
+
+
+def test_no_module_is_too_long_to_read_at_once():
+    lengths = {path: len(path.read_text(encoding="utf-8").splitlines()) for path in SERVERS.rglob("*.py")}
+    assert {str(path.relative_to(SERVERS)): n for path, n in lengths.items() if n > 400} == {}

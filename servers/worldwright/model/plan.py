@@ -18,7 +18,8 @@ from pydantic import Field, field_validator
 from .drives import Actuator, Tendon
 from .frozen import Frozen
 from .objects import AssetRow, SceneObject, Vec3
-from .observation import REFERENCE_VIEW, ImageObservation
+from .observation import ImageObservation
+from .steps import CameraRow, Step, seen_as_in_image
 
 TO_CLARIFY = "TO_CLARIFY"
 Unresolved = Literal["TO_CLARIFY"]
@@ -160,34 +161,6 @@ class Objective(Frozen):
     def _one_text(cls, value: Any) -> Any:
         several = isinstance(value, list | tuple) and all(isinstance(name, str) for name in value)
         return ", ".join(value) if several else value
-
-
-class CameraRow(Frozen):
-    """A camera: a named view of its subjects, or an explicit position and target."""
-
-    name: str
-    view: str | None = None
-    """A camera template, e.g. `perspective`, `side_minus_y`, `top_down`."""
-    subjects: tuple[str, ...] = ()
-    """Objects to frame; empty: everything that moves."""
-    position: Vec3 | None = None
-    target: Vec3 | None = None
-    fovy: float = Field(40.0, gt=1, lt=170)
-    """Vertical field of view, degrees."""
-    follow: bool = False
-    """Keep the subjects centred as they move, instead of framing all the space they cross."""
-
-
-class Step(Frozen):
-    """One implementation step."""
-
-    description: str
-    assets: tuple[str, ...] = ()
-    scene_objects: tuple[str, ...] = ()
-    cameras: tuple[CameraRow | str, ...] = ()
-    """Cameras to review the step by; a plain string is a view template and names the camera too."""
-    motion_expectations: tuple[str, ...] = ()
-    """Objects that are expected to move."""
 
 
 class Position(Frozen):
@@ -365,25 +338,9 @@ class Plan(Frozen):
             for camera in step.cameras:
                 row = CameraRow(name=camera, view=camera) if isinstance(camera, str) else camera
                 seen.setdefault(row.name, row)
-        return self._as_observed(list(seen.values()))
-
-    def _as_observed(self, rows: list[CameraRow]) -> tuple[CameraRow, ...]:
-        """The viewpoint of the image configures the first camera: an open one takes it, else one is put before it."""
-        observed = self.topology.image_observation
-        if observed is None:
-            return tuple(rows)
         placed = {relation.body_a: relation.relation_name for relation in self.geometry_relations}
-        if rows:
-            first = rows[0]
-            view = placed.get(first.name, first.view)
-            if view == observed.viewpoint:
-                return tuple(rows)
-            if view is None and first.position is None:
-                return (first.model_copy(update={"view": observed.viewpoint}), *rows[1:])
-        names = self.object_names()
-        subjects = tuple(v.name for v in observed.visible if v.name in names)
-        view_of_image = CameraRow(name=REFERENCE_VIEW, view=observed.viewpoint, subjects=subjects)
-        return (view_of_image, *(row for row in rows if row.name != REFERENCE_VIEW))
+        observed = self.topology.image_observation
+        return seen_as_in_image(tuple(seen.values()), observed, placed, self.object_names())
 
     def movers(self) -> tuple[str, ...]:
         """Objects that some step expects to move."""

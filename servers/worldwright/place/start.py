@@ -12,6 +12,7 @@ from itertools import pairwise
 from typing import Any
 
 from ..model.drives import Tendon
+from ..model.fastening import point
 from ..model.objects import Vec3
 from ..model.plan import Joint, Plan
 from ..model.scene import Scene
@@ -90,8 +91,6 @@ def way(plan: Plan, scene: Scene, tendon: Tendon, moved: dict[str, Motion] | Non
         tendon: a row of `topology.tendons`.
         moved: of `motions`, for the way at the start; None: as laid out.
     """
-    from ..draft.drives import point
-
     points = []
     for end in tendon.ends:
         try:

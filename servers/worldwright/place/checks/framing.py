@@ -3,7 +3,7 @@
 from typing import Any
 
 from ...model.errors import JobError
-from ...model.plan import CameraRow
+from ...model.steps import CameraRow
 from ..reports import Seen
 from ..world import simulate
 from .layout import Layout

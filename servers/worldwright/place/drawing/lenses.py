@@ -7,8 +7,9 @@ import math
 
 import numpy as np
 
-from ...model.plan import CameraRow, Plan
+from ...model.plan import Plan
 from ...model.scene import Scene
+from ...model.steps import CameraRow
 from . import palette
 from .canvas import Point
 from .labels import Note

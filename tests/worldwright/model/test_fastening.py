@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from worldwright.draft.drives import SIDES, point
 from worldwright.model.drives import End
+from worldwright.model.fastening import SIDES, point
 from worldwright.model.plan import Plan
 from worldwright.model.scene import PlacedObject, Scene
 
