@@ -151,13 +151,22 @@ class AssetHit(Frozen):
     score: float = 0.0
 
 
+class LookHit(Frozen):
+    """A surface that anything can wear, as `look`."""
+
+    name: str
+    description: str
+
+
 class AssetList(Frozen):
-    """Catalog entries, best first."""
+    """Catalog entries, best first, and looks for what is built of primitives instead."""
 
     query: str
     assets: tuple[AssetHit, ...] = ()
     known: tuple[str, ...] = ()
     """Every key, when nothing fits."""
+    looks: tuple[LookHit, ...] = ()
+    """Looks whose words fit."""
 
     @property
     def ok(self) -> bool:
@@ -165,12 +174,16 @@ class AssetList(Frozen):
         return bool(self.assets)
 
     def text(self) -> str:
-        """One asset a line."""
-        if not self.assets:
-            return f"no asset fits '{self.query}'; known: {', '.join(self.known) or '(none)'}"
-        return "\n".join(
+        """One asset a line, then the looks."""
+        lines = [
             f"{a.key:16} {a.height_m:g} m high, {a.mass_kg:.3g} kg  {a.category}: {a.description}" for a in self.assets
-        )
+        ]
+        if not lines:
+            known = ", ".join(self.known) or "(none)"
+            lines = [f"no asset fits '{self.query}': build it of primitives (known: {known})"]
+        if self.looks:
+            lines.append("looks: " + "; ".join(f"{look.name} ({look.description})" for look in self.looks))
+        return "\n".join(lines)
 
 
 class RetrieveStatus(Frozen):

@@ -111,7 +111,9 @@ def _document(wanted: Citation) -> corpus.Document:
         same_package = not package or document.root.startswith(package + "-")
         if same_package and wanted.path in (document.path, document.path.removeprefix("doc/")):
             return document
-    near = get_close_matches(wanted.path, [d.path for d in found], n=3, cutoff=0.4)
+    package_of = wanted.path.removesuffix(".py") + "/__init__.py"  # a module that has become a package
+    near = [d.path for d in found if d.path == package_of]
+    near += get_close_matches(wanted.path, [d.path for d in found if d.path not in near], n=3, cutoff=0.4)
     raise NotFoundError(
         f"there is no document '{wanted.path}' in the corpus",
         place=f"{wanted.root}/{wanted.path}" if wanted.root else wanted.path,

@@ -19,7 +19,7 @@ from ..model.progress import Progress, silent
 from ..simulator.cache import cache_folder
 from . import corpus, words
 
-FORMAT = "2"
+FORMAT = "3"
 """Part of the index's name: changes when its tables or the cutting do."""
 WEIGHTS = "5.0, 2.5, 1.0"
 """BM25 weights of the columns title, names, body."""

@@ -55,5 +55,5 @@ def _function(
     else:
         body = node.body[0]
         signature = " ".join(line.strip() for line in lines[first - 1 : body.lineno - 1]) or lines[first - 1]
-        shown, last = f"{signature}\n{doc}", body.end_lineno or last
+        shown = f"{signature}\n{doc}"  # what is searched; a citation of it opens the whole function
     yield Chunk(name, f"{title} > {name}", first, last, shown, (name, name.rsplit(".", 1)[-1]))

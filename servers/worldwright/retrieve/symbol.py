@@ -86,7 +86,20 @@ def _runtime(index: Index, asked: str) -> Iterator[Definition]:
         steps = steps[:-1] if steps[-2] == name else steps
         dotted = ".".join(("worldkit", *steps))
         kind = "module" if dotted.count(".") == len(inside.removesuffix("/__init__.py").split("/")) else "name"
+        if "**common" in words.partition("\n")[0]:
+            words += "\n" + _common(index, inside)
         yield Definition(kind=kind, name=dotted, documentation=words, citations=(piece.citation,))
+
+
+def _common(index: Index, inside: str) -> str:
+    """What `**common` stands for: the paragraph of a module's own words that says so."""
+    module = inside.removesuffix(".py").removesuffix("/__init__").rsplit("/", 1)[-1]
+    for piece in index.labelled(module):
+        if piece.path.endswith(inside) and piece.part == "python":
+            found = re.search(r"^Common arguments:\n(?:[ \t]+.*\n?)+", piece.text, re.M)
+            if found:
+                return found[0].rstrip()
+    return ""
 
 
 def _class(table: Symbols, name: str) -> str:

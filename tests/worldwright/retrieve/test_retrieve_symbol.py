@@ -4,6 +4,7 @@ import pytest
 from click.testing import CliRunner
 
 from worldwright import cli
+from worldwright.model.errors import NotFoundError
 from worldwright.retrieve import tools
 
 
@@ -84,6 +85,40 @@ def test_assets_are_found_by_what_they_are():
     assert found.assets[0].key == "mug" and 0.05 < found.assets[0].height_m < 0.2
     none = tools.find_asset("zeppelin")
     assert not none.ok and "mug" in none.known
+    assert tools.find_asset("wooden tables").assets[0].key == "table"
+
+
+@pytest.mark.parametrize("asked", ["stone pebble rock", "fist hand paddle", "bowls player's hat"])
+def test_a_word_that_only_begins_alike_finds_nothing(asked):
+    found = tools.find_asset(asked)
+    assert [asset.key for asset in found.assets] == (["bowl"] if "bowls" in asked else [])
+    assert found.ok or "build it of primitives" in found.text()
+
+
+@pytest.mark.parametrize(
+    ("asked", "look"),
+    [("soccer ball", "football"), ("two tennis balls", "tennis_ball"), ("pebbles", "stone"), ("brass weight", "brass")],
+)
+def test_looks_that_fit_come_along(asked, look):
+    found = tools.find_asset(asked)
+    assert found.looks[0].name == look and look in found.text()
+
+
+def test_a_body_says_what_its_common_arguments_are():
+    (box,) = tools.symbol("worldkit.bodies.box").definitions
+    assert "yaw_deg: rotation" in box.documentation and "hollow:" in box.documentation
+    assert "yaw_deg" not in tools.symbol("worldkit.contacts.surface").text()
+
+
+def test_a_citation_of_a_function_opens_all_of_it():
+    (one,) = tools.symbol("worldkit.tendons.rope").definitions
+    assert tools.read(one.citations[0]).content.rstrip().endswith("return made")
+
+
+def test_a_module_that_is_a_package_now_is_found():
+    with pytest.raises(NotFoundError) as told:
+        tools.read("worldkit/cameras.py")
+    assert "worldkit/cameras/__init__.py" in str(told.value.next_move)
 
 
 @pytest.mark.parametrize(
