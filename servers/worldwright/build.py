@@ -18,7 +18,7 @@ import click
 
 from worldkit.files import write_atomic
 
-from .model import imported
+from .model import approval, imported
 from .model.errors import GateError, JobError, WorldwrightError
 from .model.evidence import PASSES
 from .model.progress import Progress
@@ -91,8 +91,7 @@ def _place(run: Run) -> str:
 def _approve(run: Run, options: Options) -> str:
     from .stamp.tools import approve
 
-    plan_sha256 = sha256_file(run.plan)
-    if any(e.get("action") == "approve" and e.get("plan_sha256") == plan_sha256 for e in run.entries()):
+    if approval.standing(run.entries(), sha256_file(run.plan), approval.model_hashes(run)) is not None:
         return "already approved"
     if not (options.approve or options.auto):
         raise Stopped(

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from worldkit.files import write_atomic
 
-from ..model.errors import GateError
+from ..model import approval
 from ..model.run import Run, sha256_file
 from ..model.scene import Scene
 
@@ -26,19 +26,13 @@ def write_program(run: Run, actor: str = "build") -> Written:
     """Draft the program of the plan as it stands.
 
     Raises:
-        GateError: the plan is not approved as it stands.
+        GateError: the plan is not approved as it stands, or a model file that it names changed since.
     """
     from ..model.plan_text import read_plan
     from ..place.tools import resolve
     from . import draft
 
-    plan_sha256 = sha256_file(run.plan)
-    if not any(e.get("action") == "approve" and e.get("plan_sha256") == plan_sha256 for e in run.entries()):
-        raise GateError(
-            "the plan is not approved as it stands, so no code may be written for it",
-            place=str(run.plan),
-            next_move=f"worldwright stamp approve {run.folder}",
-        )
+    approval.require(run, "no code may be written for this plan")
     layout = Scene(objects=resolve(run.plan, write=False).objects)
     drafted = draft(read_plan(run.plan).plan, layout)
     lines = len(drafted.source.splitlines())

@@ -108,7 +108,7 @@ def beside(folder: Path) -> dict[str, bytes]:
     """The files that the plan of a run folder names, by path relative to it; nothing when it cannot be read."""
     from .plan_text import read_plan
 
-    with suppress(WorldwrightError):
+    with suppress(WorldwrightError, OSError):
         return {path.as_posix(): (folder / path).read_bytes() for path in files(read_plan(folder / "plan.md").plan)}
     return {}
 

@@ -1,6 +1,6 @@
 """What each pass needs before it may start, read from the run's files.
 
-Physics: this exact plan was approved, this exact program lints clean against it, and a name that the simulator did not
+Physics: this exact plan was approved, with the model files that it names, this exact program lints clean against it, and a name that the simulator did not
 know was looked up. Stills: physics succeeded on this key. Video: stills did.
 """
 
@@ -10,7 +10,7 @@ from typing import Any
 
 from worldkit import lock
 
-from ..model import lookups
+from ..model import approval, lookups
 from ..model.errors import GateError
 from ..model.evidence import EvidenceKey, PassName
 from ..model.run import Run
@@ -83,12 +83,7 @@ def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> N
         return
     if run.source == run.model:  # somebody's model makes no claim that a person would have to approve
         return
-    if not any(e.get("action") == "approve" and e.get("plan_sha256") == key.plan_sha256 for e in run.entries()):
-        raise GateError(
-            "this plan is not approved",
-            place=str(run.plan),
-            next_move=f"read it, then `worldwright stamp approve {run.folder}`",
-        )
+    approval.require(run, "the physics pass needs an approval")
     lint = _read(run, key, "lint.json")
     if not lint or any(f.get("severity") == "error" for f in lint.get("findings", ())):
         raise GateError(

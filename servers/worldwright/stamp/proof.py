@@ -11,6 +11,7 @@ from pathlib import Path
 
 from worldkit.files import write_atomic
 
+from ..model import approval
 from ..model.errors import GateError
 from ..model.evidence import LintReport, PassResult
 from ..model.progress import Progress, silent
@@ -67,8 +68,9 @@ def prove(
         for name, content in (beside or {}).items():
             write_atomic(folder / name, content)
     key = run.evidence_key(_environment_sha256())
-    if not any(e.get("action") == "approve" and e.get("plan_sha256") == key.plan_sha256 for e in run.entries()):
-        run.log("stamp", "approve", plan_sha256=key.plan_sha256, by=reason)
+    models = approval.model_hashes(run)
+    if approval.standing(run.entries(), key.plan_sha256, models) is None:
+        run.log("stamp", "approve", plan_sha256=key.plan_sha256, by=reason, models=models)
     report = lint.check_program([run.program], plan=run.plan)
     errors = [f for f in report.findings if f.severity == "error"]
     if errors:

@@ -7,6 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from ..model import approval
 from ..model.audits import CausesReport, InterventionReport, RefineReport
 from ..model.errors import NotFoundError, PlanError, WorldwrightError
 from ..model.evidence import (
@@ -227,10 +228,17 @@ class State:
 
     @property
     def approval(self) -> dict[str, Any] | None:
-        """The latest approval of exactly this plan."""
-        wanted = self.plan_sha256
-        found = [e for e in self.journal if e.get("action") == "approve" and e.get("plan_sha256") == wanted]
-        return found[-1] if wanted and found else None
+        """The latest approval of exactly this plan and of the model files that it names."""
+        found = approval.standing(self.journal, self.plan_sha256, self.model_hashes)
+        return None if found is None else dict(found)
+
+    @cached_property
+    def model_hashes(self) -> dict[str, str]:
+        """SHA-256 of the model files beside the plan that it names, by path relative to it."""
+        try:
+            return approval.model_hashes(self.run)
+        except (WorldwrightError, OSError, ValueError, RecursionError):
+            return {}
 
     @property
     def trajectory_sha256(self) -> str:

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from typing import Literal
 
+from ..model import approval
 from ..model.frozen import Frozen
 from . import audited
 from .bundle import damage
@@ -101,6 +102,8 @@ def _approved(state: State) -> Answer:
     if state.approval:
         auto = ", in auto mode" if state.approval.get("auto") else ""
         return "holds", f"by {state.approval.get('by', 'unknown')}{auto}, {state.approval.get('time', '')}", ""
+    if names := approval.changed(state.journal, state.plan_sha256, state.model_hashes):
+        return "missing", f"{', '.join(names)}, which the plan names, changed after it was approved", command
     if any(entry.get("action") == "approve" for entry in state.journal):
         return "missing", "the plan was changed after it was approved", command
     return "missing", "nobody has approved the plan", command

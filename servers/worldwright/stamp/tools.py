@@ -55,6 +55,8 @@ def approve(
 ) -> Recorded:
     """Approve the plan as it stands; code may be written and run against exactly these bytes.
 
+    The model files beside it that its mjcf and urdf rows name are approved with it: one that changes needs a new approval.
+
     Needs a plan that reads, lints without error and leaves nothing TO_CLARIFY. Use `by=user` only for a person's own
     word; in auto mode, values that neither the prompt nor a source states must be listed in `inferred`.
     """
@@ -64,8 +66,10 @@ def approve(
     gates.pass_through("approve", state)
     if auto:
         gates.pass_through("auto_approve", state)
-    state.run.log(by, "approve", plan_sha256=state.plan_sha256, by=by, auto=auto, repairs=repairs)
-    return _recorded(run, f"plan {state.plan_sha256[:16]} approved by {by}" + (" in auto mode" if auto else ""))
+    facts = {"models": state.model_hashes} if state.model_hashes else {}
+    state.run.log(by, "approve", plan_sha256=state.plan_sha256, by=by, auto=auto, repairs=repairs, **facts)
+    what = "".join(f", with {name}" for name in state.model_hashes) + (" in auto mode" if auto else "")
+    return _recorded(run, f"plan {state.plan_sha256[:16]} approved by {by}{what}")
 
 
 def describe(
