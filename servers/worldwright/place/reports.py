@@ -90,6 +90,8 @@ class CheckReport(Frozen):
             f"{v.camera}: {v.object} {v.pixels} pixels ({v.share:.1%}), {v.in_frame:.0%} in frame, {v.hidden:.0%} hidden"
             for v in self.views[:VIEWS]
         ]
+        if self.views:
+            lines.append("views are of the start; the run frames the whole way, and what moves far comes out smaller")
         if len(self.views) > VIEWS:
             lines.append(f"… and {len(self.views) - VIEWS} more views (all of them: --format json)")
         verdict = "holds" if self.ok else "does not hold"

@@ -159,7 +159,7 @@ def find_asset(
     query: Annotated[str, Field(description="What the object is, e.g. `coffee cup` or `something to sit on`")],
     k: Annotated[int, Field(description="How many", ge=1, le=25)] = 5,
 ) -> AssetList:
-    """Find a catalog asset by what it is; gives keys, real sizes and masses for the plan's `assets`."""
+    """Find a catalog asset by what it is; gives keys, real sizes and masses for the plan's `assets`; and looks."""
     from .assets import find
 
     return find(query[:300], max(1, min(k, 25)))
