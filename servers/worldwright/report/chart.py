@@ -9,6 +9,9 @@ from dataclasses import dataclass
 
 from .series import Line, Touch
 
+LEAST_SPAN = 0.02
+"""An axis spans at least this share of its largest value."""
+
 
 @dataclass(frozen=True)
 class Tick:
@@ -132,6 +135,10 @@ def _room(low: float, high: float) -> tuple[float, float]:
     if high <= low:
         pad = max(abs(low) * 0.1, 0.01)
         return low - pad, high + pad
+    least = LEAST_SPAN * max(abs(low), abs(high))
+    if high - low < least:  # what hardly changes is drawn as hardly changing, not as its rounding
+        middle = (low + high) / 2
+        low, high = middle - least / 2, middle + least / 2
     pad = 0.06 * (high - low)
     return (low if low == 0 else low - pad), high + pad
 

@@ -128,3 +128,12 @@ def test_the_progress_bar_is_a_progress_and_silent_without_a_terminal(capsys) ->
         progress(0, 10, "physics")
         progress(10, 10)
     assert capsys.readouterr().out == ""
+
+
+def test_what_hardly_changes_is_drawn_flat_and_every_tick_differs():
+    ball = series.Line("marble", [0.0, 1.0, 2.0], [0.7579, 0.75791, 0.7579])
+    drawn = chart.over_time("Height", "m", [ball], 2.0, {})
+    labels = [tick.label for tick in drawn.y_ticks]
+    assert len(set(labels)) == len(labels) > 1
+    heights = [float(point.split(",")[1]) for point in drawn.curves[0].points.split()]
+    assert max(heights) - min(heights) < 5  # of a thousand
