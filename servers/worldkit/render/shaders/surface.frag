@@ -288,7 +288,9 @@ void main() {
         float f = 0.04 + 0.96 * fifth(1.0 - nv);
         vec3 through = refract(-v, n, 1.0 / 1.45);
         vec3 centre = vec3(row0.w, row1.w, row2.w);
-        vec3 exit_point = world + through * extent * (BALL == 1 ? 2.0 * max(-dot(n, through), 0.05) : 0.35);
+        float dip = max(-dot(n, through), 0.05);
+        float thin = 2.0 * min(size.x, min(size.y, abs(size.z))) / dip;  // the way through a pane, however wide it is
+        vec3 exit_point = world + through * (BALL == 1 ? 2.0 * extent * dip : min(0.35 * extent, thin));
         vec3 onward = BALL == 1 ? refract(through, normalize(centre - exit_point), 1.45) : -v;
         if (dot(onward, onward) < 0.5) onward = through;
         float t = onward.z < -0.02 ? min((exit_point.z - support.w) / -onward.z, 6.0 * extent) : 3.0 * extent;
