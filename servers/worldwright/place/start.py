@@ -149,9 +149,10 @@ def hung(plan: Plan, scene: Scene) -> Iterator[Hung]:
 
 
 def told(plan: Plan, scene: Scene) -> Iterator[str]:
-    """A line for each rope, spring and joint that does not start at its layout's pose or at rest."""
+    """A line for each rope and spring, each joint that does not start at its layout's pose or at rest, and each loop."""
     yield from (one.text for one in hung(plan, scene))
     moved = motions(plan, scene)
+    yield from _closed(plan, scene, moved)
     joints = {joint.name: joint for joint in plan.topology.joints}
     for name, start in plan.simulation_parameters.initial_motion.items():
         joint = joints.get(name)
@@ -166,6 +167,26 @@ def told(plan: Plan, scene: Scene) -> Iterator[str]:
         if start.joint_velocity:
             parts.append(f"{shown(start.joint_velocity)} {'rad/s' if degrees else 'm/s'}")
         yield f"joint `{name}` starts at {' and at '.join(parts)}"
+
+
+def _closed(plan: Plan, scene: Scene, moved: dict[str, Motion]) -> Iterator[str]:
+    """How many joints the start pose leaves out because they close loops, and how far the ends of each are apart in it."""
+    loops, count = plan.topology.loops(), len(plan.topology.joints)
+    centres = {o.name: o.position for o in scene.objects}
+    if loops:
+        which = "1 closes a loop" if len(loops) == 1 else f"{len(loops)} close loops"
+        yield f"{count} joints, of which {which} and no pose hangs on: {', '.join(f'`{j.name}`' for j in loops)}"
+    for joint in loops:
+        anchor = joint.anchor or centres.get(joint.child)
+        if anchor is None:
+            continue
+        ends = [moved.get(name, Motion())(anchor) for name in (joint.parent, joint.child)]
+        gap = math.dist(*ends)
+        if gap > 1e-6:
+            yield (
+                f"joint `{joint.name}` closes a loop whose ends are {_mm(gap)} m apart at the start: "
+                "the engine pulls them together at once; give the loop's other joints their `joint_position` too"
+            )
 
 
 def _above(plan: Plan, name: str) -> Iterator[Joint]:

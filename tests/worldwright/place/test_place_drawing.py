@@ -1,16 +1,20 @@
 """The picture shows what moves and what holds, and no label covers a mark or another label."""
 
 import itertools
+import shutil
+from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
 from worldwright.model.plan import Plan
+from worldwright.model.plan_text import read_plan
 from worldwright.place.drawing import palette, sheet, view
 from worldwright.place.drawing.sheet import _bounds as bounds
 from worldwright.place.engine import resolve
 
+MODELS = Path(__file__).parents[1] / "draft" / "models"
 BUSY = {
     "title": "Everything at once",
     "plan_type": "mbs",
@@ -159,3 +163,14 @@ def test_the_paper_reaches_as_far_as_what_swings_aside():
     # The hand, 0.9 m below the pivot, swings to 0.9 m in front of it; the post's edge is at 0.65 m.
     assert bounds(scene)[1][0] == pytest.approx(0.65)
     assert bounds(scene, plan)[1][0] == pytest.approx(0.9)
+
+
+def test_a_box_that_stands_for_a_model_says_so(monkeypatch, tmp_path):
+    shutil.copytree(MODELS, tmp_path, dirs_exist_ok=True)
+    shutil.copytree(MODELS, tmp_path / "parts")
+    plan = read_plan(tmp_path / "plan.md").plan
+    told = []
+    text = view.Canvas.text
+    monkeypatch.setattr(view.Canvas, "text", lambda self, words, *more: told.append(words) or text(self, words, *more))
+    sheet(plan, resolve(plan), ())
+    assert {"arm (urdf)", "chest_1 (mjcf chest)", "chest_2 (mjcf chest)", "table", "mug"} <= set(told)

@@ -183,3 +183,13 @@ def test_check_holds_every_row_and_says_how_many_it_does_not_print():
     report = check(big, laid(big), locate=lambda *path: None, exact=False)
     assert len(report.margins) == len(names) + 3
     assert "… and 36 more rows, none tighter" in report.text()
+
+
+def test_a_loop_says_which_joints_it_leaves_out_and_whether_its_ends_meet():
+    pin = {"name": "pin", "type": "hinge", "child": "bob", "axis": [1, 0, 0], "anchor": [0, 0, 0.25]}
+    (line,) = checked(made((PIVOT, GLUE, pin))).at_start
+    assert line == "3 joints, of which 1 closes a loop and no pose hangs on: `pin`"
+    lines = checked(made((PIVOT, GLUE, pin), start(20))).at_start
+    # The bob swings away from the pin in the world: a chord of 0.85 m by 20 degrees.
+    apart = 2 * 0.85 * math.sin(math.radians(10))
+    assert any(f"whose ends are {apart:.4f} m apart at the start" in line for line in lines), lines

@@ -3,6 +3,7 @@
 import numpy as np
 
 from ...model.finding import Finding
+from ...model.imported import is_model
 from ...model.plan import Plan
 from ...model.scene import PlacedObject, Scene
 from ..anchors import cos_sin
@@ -157,7 +158,17 @@ def _above(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], 
     boxes = {o.name: view.extent(polygons[o.name]) for o in order}
     for name, mark in marks.items():
         _badge(view, boxes[name], mark)
-    return view.names(boxes, taken, marks, notes)
+    return view.names(boxes, taken, marks, notes, _models(plan))
+
+
+def _models(plan: Plan) -> dict[str, str]:
+    """What stands in the drawing as the box of a model of its own, by instance: its type, and its row where that differs."""
+    return {
+        name: row.type if name == row.name else f"{row.type} {row.name}"
+        for row in plan.assets
+        if is_model(row)
+        for name in row.instances
+    }
 
 
 def _mechanics(view: View, plan: Plan, scene: Scene) -> list[Note]:
@@ -205,7 +216,7 @@ def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette],
     boxes = {o.name: view.extent(polygons[o.name]) for o in order}
     for name, mark in marks.items():
         _badge(view, boxes[name], mark)
-    return view.names(boxes, taken, marks, notes)
+    return view.names(boxes, taken, marks, notes, _models(plan))
 
 
 def _drop(view: View, placed: PlacedObject, drop: float, across: int) -> list[Rect]:

@@ -1,7 +1,7 @@
 """One view of the layout: a panel of paper with a grid in metres, on which objects are drawn in order."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,10 +100,19 @@ class View:
         return (x0 - 6, y1 - 28, x1 + 6, y1 + 10)
 
     def names(
-        self, boxes: dict[str, Rect], taken: list[Rect], marks: dict[str, str], notes: Sequence[Note] = ()
+        self,
+        boxes: dict[str, Rect],
+        taken: list[Rect],
+        marks: dict[str, str],
+        notes: Sequence[Note] = (),
+        kinds: Mapping[str, str] | None = None,
     ) -> int:
-        """Write the names of objects and the notes of marks; returns for how many there was no room."""
+        """Write the names of objects, with what is said of some (`kinds`), and the notes of marks.
+
+        Returns for how many there was no room.
+        """
         words = captions(boxes, marks)
+        words = {name: f"{text} ({kinds[name]})" if kinds and name in kinds else text for name, text in words.items()}
         size = 15 if len(words) <= CROWD else 12
         items = [Item(name, boxes[name], text_width(text, size, 500) + 8, size + 6) for name, text in words.items()]
         colours = {name: _MARKED[mark] for name, mark in marks.items() if mark in _MARKED}
