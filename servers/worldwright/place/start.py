@@ -11,6 +11,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any
 
+from worldkit.tendons import ROUNDED_M
+
 from ..model.drives import Tendon
 from ..model.fastening import point
 from ..model.objects import Vec3
@@ -131,7 +133,7 @@ class Hung:
             return f"spring `{name}`: {size} at rest: {does}"
         does = (
             "taut"
-            if abs(slack) < 1e-6
+            if abs(slack) < ROUNDED_M
             else f"slack by {_mm(slack)} m"
             if slack > 0
             else f"too short by {_mm(-slack)} m"

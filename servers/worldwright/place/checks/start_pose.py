@@ -1,5 +1,7 @@
 """What holds at the very start: ropes are long enough, and what `initial_motion` swings aside swings into nothing."""
 
+from worldkit.tendons import ROUNDED_M
+
 from ...model.errors import JobError
 from ..anchors import shown
 from ..start import filtered, hung, told
@@ -19,7 +21,7 @@ def check(layout: Layout) -> None:
         rope = next((one for one in hung(plan, layout.scene) if one.tendon.name == tendon.name), None)
         if rope is None or tendon.stiffness:
             continue
-        too_short = rope.length_m < rope.laid_m * (1 - 1e-9)
+        too_short = rope.length_m < rope.laid_m - ROUNDED_M
         if too_short or rope.slack_m < -STRETCH_M:
             where = "as laid out" if too_short else "at the start angle of its joint"
             way_m = rope.laid_m if too_short else rope.way_m
