@@ -84,9 +84,12 @@ def describe(
 
     state = State.find(run)
     gates.pass_through("describe", state)
+    again = (state.run.evidence(_key(state)) / "visual.json").is_file()
     path = state.run.keep(_key(state), "visual", description)
     state.run.log(description.author, "describe", key=_key(state).key)
-    return _recorded(run, f"described by {description.author}", str(path.relative_to(state.run.folder)))
+    what = f"described by {description.author}" + (", in place of an earlier description" if again else "")
+    # No next move: it would tell the witness what the numbers say, and the next description would know.
+    return Recorded(run=state.run.name, what=what, file=str(path.relative_to(state.run.folder)))
 
 
 def review(run: RunName, verdict: Annotated[Verdict, Field(description="Three channels, one verdict")]) -> Recorded:

@@ -175,6 +175,14 @@ def test_the_measured_review_says_that_nobody_looked(reviewed: Path) -> None:
     assert "not judged" in verdict.objectives[1].note
 
 
+def test_a_witness_is_told_nothing_of_what_the_numbers_say(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    first = stamp.describe(str(folder), VisualDescription(author="me", summary="a ball"))
+    second = stamp.describe(str(folder), VisualDescription(author="me", summary="a red ball"))
+    assert first.next_move == second.next_move == ""
+    assert "in place of an earlier description" in second.what
+
+
 def test_an_object_in_no_picture_is_a_concern_and_fails_its_objective(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
     path = evidence(folder) / "stills" / "visibility.json"
