@@ -22,11 +22,13 @@ GRAVITY = (0.0, 0.0, -9.81)  # m/s^2
 PULL_SPEED = 0.25  # m/s; inferred: a slow hauling speed; 0.25 m of slack is taken up in about a second
 
 # crate_wood: OpenStax, College Physics, table 5.1: wood on wood, kinetic 0.3
-CRATE_WOOD = contacts.surface(friction=0.3, torsional=0.005, rolling=0.0001)
+CRATE_WOOD = contacts.surface(friction=0.3, torsional=0.005, rolling=0.0001, time_constant=4 * TIME_STEP)
 # ground: the same pair: wood on wood, kinetic 0.3
-GROUND = contacts.surface(friction=0.3, torsional=0.005, rolling=0.0001)
+GROUND = contacts.surface(friction=0.3, torsional=0.005, rolling=0.0001, time_constant=4 * TIME_STEP)
 # rail_steel: Gere, Mechanics of Materials, appendix (density); OpenStax, table 5.1: steel on steel, dry, kinetic 0.3
-RAIL_STEEL = contacts.surface(friction=0.3, torsional=0.005, rolling=0.0001, density=7850.0)
+RAIL_STEEL = contacts.surface(
+    friction=0.3, torsional=0.005, rolling=0.0001, time_constant=4 * TIME_STEP, density=7850.0
+)
 
 
 def build() -> mujoco.MjSpec:

@@ -74,7 +74,7 @@ def build() -> mujoco.MjSpec:
     assets.add(spec, "lamp", name="lamp", pos=(-0.58, 0.24, 0.975), height=0.45)
     assets.add(spec, "laptop", name="laptop", pos=(0.52, 0.06, 0.862), yaw_deg=-122.911034, height=0.224)
 
-    cameras.add(spec, "overview", view="perspective", subjects=("table", "chair"))
+    cameras.add(spec, "overview", view="perspective", subjects=("table", "chair", "lamp", "cereal_box"))
     cameras.add(spec, "side", view="side_minus_y", subjects=("table", "chair"))
     cameras.add(spec, "above", view="top_down", subjects=("table",))
     cameras.add(spec, "close", view="close_up", subjects=("plate", "mug", "bowl", "toast"), fovy=35.0)
