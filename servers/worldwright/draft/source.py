@@ -47,7 +47,44 @@ def call(function: str, *positional: Any, indent: int = 4, tail: str = "", **key
     joined = ", ".join(parts)
     if len(inner + joined) <= WIDTH:
         return f"{pad}{function}(\n{inner}{joined}\n{pad}){tail}"
-    return f"{pad}{function}(\n" + "".join(f"{inner}{part},\n" for part in parts) + f"{pad}){tail}"
+    return f"{pad}{function}(\n" + "".join(f"{_folded(part, inner)},\n" for part in parts) + f"{pad}){tail}"
+
+
+def _folded(argument: str, pad: str) -> str:
+    """One argument on lines of its own: a call or a tuple that is too long is folded in turn.
+
+    >>> print(_folded('movers=("' + "a" * 60 + '", "' + "b" * 60 + '")', "    ").replace("a" * 60, "a").replace("b" * 60, "b"))
+        movers=(
+            "a",
+            "b",
+        )
+    """
+    start = argument.find("(")
+    if len(pad + argument) < WIDTH or start < 0 or not argument.endswith(")") or '"' in argument[:start]:
+        return pad + argument
+    items, inner = _items(argument[start + 1 : -1]), pad + "    "
+    joined = ", ".join(items)
+    called = start > 0 and (argument[start - 1].isalnum() or argument[start - 1] == "_")
+    if (
+        called and len(inner + joined) <= WIDTH
+    ):  # a formatter keeps arguments together where it can, but not the items of a tuple
+        return f"{pad}{argument[: start + 1]}\n{inner}{joined}\n{pad})"
+    return f"{pad}{argument[: start + 1]}\n" + "".join(f"{_folded(item, inner)},\n" for item in items) + f"{pad})"
+
+
+def _items(text: str) -> list[str]:
+    """The items of a call or tuple: `text` cut at the commas outside of brackets and strings."""
+    items, depth, quoted, last, previous = [], 0, False, 0, ""
+    for at, char in enumerate(text):
+        if char == '"' and previous != "\\":
+            quoted = not quoted
+        elif not quoted:
+            depth += (char in "([{") - (char in ")]}")
+            if char == "," and depth == 0:
+                items.append(text[last:at].strip())
+                last = at + 1
+        previous = "" if previous == "\\" else char
+    return [*items, rest] if (rest := text[last:].strip()) else items
 
 
 def comment(text: str, indent: int = 4) -> str:

@@ -206,3 +206,32 @@ def test_what_the_plan_says_of_shells_feet_and_surfaces_is_drafted():
     assert drafted.source.count("hollow=True") == 1
     assert drafted.source.count("time_constant=4 * TIME_STEP") == 2
     assert drafted.unread == ("share",)
+
+
+def test_a_long_draft_is_as_a_formatter_would_leave_it(tmp_path):
+    import shutil
+    import subprocess
+    import sys
+
+    names = [f"a_thing_with_a_long_name_{i}" for i in range(8)]
+    rows = [{"name": n, "primitive": "sphere", "size": [0.1, 0.1, 0.1], "material": "steel"} for n in names]
+    step = {**PENDULUM["implementation_steps"][0], "motion_expectations": names}
+    hinge = {**PENDULUM["topology"]["joints"][1], "range": [-10, 170], "stiffness": 1.3, "spring_rest": 200}
+    hinge |= {"name": "a_shoulder_of_some_length", "child": names[0], "frictionloss": 0.125}
+    long = plan(
+        scene_objects=rows,
+        implementation_steps=[step],
+        topology={"joints": [hinge]},
+        simulation_parameters={**PENDULUM["simulation_parameters"], "initial_motion": {}, "masses": {}},
+    )
+    places = tuple(
+        PlacedObject(name=n, kind="scene_object", size=(0.1,) * 3, position=(i, 0, 1)) for i, n in enumerate(names)
+    )
+    file = tmp_path / "drafted.py"
+    file.write_text(draft(long, Scene(objects=places)).source)
+    ruff = shutil.which("ruff") or [sys.executable, "-m", "ruff"]
+    command = [ruff] if isinstance(ruff, str) else ruff
+    done = subprocess.run(
+        [*command, "format", "--check", "--isolated", "--line-length", "120", file], capture_output=True, text=True
+    )
+    assert done.returncode == 0, done.stdout
