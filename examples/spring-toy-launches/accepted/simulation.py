@@ -279,5 +279,16 @@ if __name__ == "__main__":
         duration=DURATION,
         fps=60,
         size=(960, 720),
-        movers=("foot", "ring_1", "ring_2", "ring_3", "ring_4", "head", "ear_left", "ear_right", "eye_left", "eye_right"),
+        movers=(
+            "foot",
+            "ring_1",
+            "ring_2",
+            "ring_3",
+            "ring_4",
+            "head",
+            "ear_left",
+            "ear_right",
+            "eye_left",
+            "eye_right",
+        ),
     )

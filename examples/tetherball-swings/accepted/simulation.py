@@ -104,7 +104,15 @@ def build() -> mujoco.MjSpec:
         mass=0.41,
         look="leather_black",
         surface=GLOVE_LEATHER,
-        joint=joints.Hinge("shoulder", anchor=(2.241, -0.21, 1.459), axis=(0.0, 0.0, -1.0), range_deg=(-10.0, 170.0), stiffness=1.3, rest_deg=200.0, damping=0.03),
+        joint=joints.Hinge(
+            "shoulder",
+            anchor=(2.241, -0.21, 1.459),
+            axis=(0.0, 0.0, -1.0),
+            range_deg=(-10.0, 170.0),
+            stiffness=1.3,
+            rest_deg=200.0,
+            damping=0.03,
+        ),
     )
     # swings the glove
     bodies.capsule(
