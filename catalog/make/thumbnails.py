@@ -14,7 +14,8 @@ def draw(key: str, catalog: Path) -> bytes:
     import cv2
     import mujoco
 
-    from worldkit import assets, cameras, render, scene
+    from worldengine.film.drawn_frames import Frames
+    from worldkit import assets, cameras, scene
 
     spec = scene.new(key, time_step=0.002, setting="studio")
     height = assets.find(key).metric_height
@@ -25,7 +26,7 @@ def draw(key: str, catalog: Path) -> bytes:
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     width = SIZE * SUPERSAMPLE * 16 // 9
-    with render.Frames(model, width, SIZE * SUPERSAMPLE) as frames:
+    with Frames(model, width, SIZE * SUPERSAMPLE) as frames:
         picture = frames.image(data, "thumbnail", quality="still")
     left = (picture.shape[1] - picture.shape[0]) // 2
     square = picture[:, left : left + picture.shape[0]] if not _wide(key) else picture

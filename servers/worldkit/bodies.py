@@ -15,15 +15,17 @@ Common arguments:
     surface: contact properties from `worldkit.contacts.surface`.
     fixed: part of the scenery (no degrees of freedom).
     parent: name of the body it belongs to; None is the world.
-    joint: how it moves against its parent; None for a loose body means a free joint.
+    joint: how it moves against its parent, or several joints, the one that moves first in front; None for a loose body means a free joint.
     visual_only: drawn but not simulated (no mass, no contact); declare why in the plan.
 """
 
+import hashlib
 from typing import TYPE_CHECKING, Any
 
 from . import joints
 from .joints import Vec3
-from .parts import laid_out, slabs_of
+from .parts import WATER, laid_out, slabs_of
+from .poses import world_pose
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -31,10 +33,13 @@ if TYPE_CHECKING:
     import mujoco
     import numpy as np
 
-    from .parts import Matrix, Part
+    from .forms import Form
+    from .parts import Part
 
 DRAWN = {"contype": 0, "conaffinity": 0, "mass": 0.0, "group": 2}
-"""Of geoms that are drawn and not simulated."""
+"""Keyword arguments of geoms that are drawn and not simulated."""
+COLLIDES = {"mass": 0.0, "group": 3}
+"""Keyword arguments of the pieces of a form, whose weight is its body's own; group 3 is not drawn by default."""
 
 
 def box(spec: "mujoco.MjSpec", name: str, *, size: Vec3, **common: Any) -> "mujoco.MjsBody":
@@ -102,6 +107,7 @@ def compound(
         ValueError: parts that cannot be laid out, or masses that contradict each other.
     """
     from . import materials
+    from .turning import quaternion
 
     surface, drawn = common.pop("surface", None) or {}, bool(common.get("visual_only"))
     whole = laid_out(name, parts, common.pop("tilt_deg", 0.0))
@@ -117,28 +123,73 @@ def compound(
         if solid.part.look is not None:
             own["material"] = materials.add(spec, solid.part.look)
         own |= DRAWN if drawn or solid.part.visual_only else {"mass": weight}
-        pose = {"pos": solid.centre, "quat": _quat(solid.rotation)}
+        pose = {"pos": solid.centre, "quat": quaternion(solid.rotation)}
         _geom(body, solid.name, f"mjGEOM_{solid.shape.upper()}", solid.half, **own, **pose)
     return body
 
 
-def world_pose(body: "mujoco.MjsBody") -> "tuple[np.ndarray, np.ndarray]":
-    """World position (3,) and rotation matrix (3, 3) of a body of a spec, from the poses of its ancestors."""
+def formed(spec: "mujoco.MjSpec", name: str, *, form: "Form", **common: Any) -> "mujoco.MjsBody":
+    """A body of a `worldkit.forms` shape: a cone, a ring, a bowl, a pipe, a hill.
+
+    Its origin is the centre of the box around it, after `tilt_deg`. It is drawn as a mesh (`name/look`, without contact) and
+    collides as convex pieces (`name`, or `name/1` … when there are several), which leave its cavities open. Mass, centre of
+    mass and inertia are those of the solid that is drawn.
+
+    Args:
+        spec: the world under construction.
+        name: body name.
+        form: from `worldkit.forms`.
+        common: as for every body (`pos`, `yaw_deg`, `tilt_deg`, `mass`, `look`, `surface` …); `hollow` is not among them.
+
+    Raises:
+        ValueError: `hollow` is asked for: a vessel or a pipe has a wall instead.
+    """
+    import numpy as np
+
+    if common.pop("hollow", False):
+        raise ValueError(f"body {name}: a form cannot be hollow; give a lathe or a tube a wall")
+    shape = form.tilted(common.pop("tilt_deg", 0.0))
+    body, properties = _body(spec, name, **common)
+    material = properties.pop("material")
+    vertices, normals, faces = shape.drawn()
+    drawn = _mesh(spec, vertices, normals, faces)
+    look = {**DRAWN, "contype": 0, "conaffinity": 0, "material": material}
+    _geom(body, f"{name}/look", "mjGEOM_MESH", (0, 0, 0), meshname=drawn, **look)
+    if common.get("visual_only"):
+        return body
+    mass = properties.pop("mass", None)
+    density = properties.pop("density", WATER)
+    body.mass = shape.volume * density if mass is None else mass
+    body.ipos = shape.centre_of_mass
+    six = shape.inertia[(0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)]
+    body.fullinertia = body.mass * six
+    body.explicitinertial = True
+    for number, piece in enumerate(shape.pieces, start=1):
+        label = name if len(shape.pieces) == 1 else f"{name}/{number}"
+        if isinstance(piece, np.ndarray):
+            _geom(body, label, "mjGEOM_MESH", (0, 0, 0), meshname=_mesh(spec, piece), **properties, **COLLIDES)
+            continue
+        ball = not (piece.end - piece.start).any()
+        kind = "mjGEOM_SPHERE" if ball else "mjGEOM_CAPSULE" if piece.capped else "mjGEOM_CYLINDER"
+        ends = {"pos": piece.start} if ball else {"fromto": [*piece.start, *piece.end]}
+        _geom(body, label, kind, (piece.radius, 0, 0), **properties, **COLLIDES, **ends)
+    return body
+
+
+def _mesh(spec: "mujoco.MjSpec", vertices: "np.ndarray", normals: "np.ndarray | None" = None, faces: Any = None) -> str:
+    """The name of a mesh asset of these vertices (N, 3), m, added once; without faces it is their convex hull."""
     import mujoco
     import numpy as np
 
-    position, rotation = np.zeros(3), np.eye(3)
-    chain = []
-    node = body
-    while node is not None and node.name != "world":
-        chain.append(node)
-        node = node.parent
-    for link in reversed(chain):
-        local = np.zeros(9)
-        mujoco.mju_quat2Mat(local, np.asarray(link.quat, dtype=float))
-        position = position + rotation @ np.asarray(link.pos, dtype=float)
-        rotation = rotation @ local.reshape(3, 3)
-    return position, rotation
+    exact = np.round(vertices, 9) + 0.0
+    called = f"{'drawn' if faces is not None else 'hull'}_{hashlib.sha256(exact.tobytes()).hexdigest()[:16]}"
+    if spec.mesh(called) is None:
+        made = spec.add_mesh(name=called, uservert=exact.ravel())
+        made.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX
+        if faces is not None and normals is not None:
+            made.usernormal, made.userface, made.userfacenormal = normals.ravel(), faces.ravel(), faces.ravel()
+            made.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
+    return called
 
 
 def _single(spec: "mujoco.MjSpec", name: str, kind: str, half: tuple, **common: Any) -> "mujoco.MjsBody":
@@ -161,7 +212,7 @@ def _body(
     surface: dict[str, Any] | None = None,
     fixed: bool = False,
     parent: str | None = None,
-    joint: joints.Joint | None = None,
+    joint: "joints.Joint | Sequence[joints.Joint] | None" = None,
     visual_only: bool = False,
 ) -> "tuple[mujoco.MjsBody, dict[str, Any]]":
     """Create the body with its joint; returns it with the keyword arguments of its geoms."""
@@ -173,7 +224,8 @@ def _body(
 
     body = placed(spec, name, pos, yaw_deg, parent)
     if joint is not None:
-        joints.attach(body, joint)
+        for one in joint if isinstance(joint, list | tuple) else (joint,):
+            joints.attach(body, one)
     elif not fixed and not visual_only and parent is None:
         body.add_freejoint(name=name)
     properties: dict[str, Any] = {"material": materials.add(spec, look), **(surface or {})}
@@ -217,35 +269,15 @@ def pose_below(
 
     import numpy as np
 
+    from .turning import about, conjugate, product, quaternion
+
     owner = spec.worldbody if parent is None else spec.body(parent)
     if owner is None:
         known = ", ".join(b.name for b in spec.bodies if b.name != "world")
         raise ValueError(f"body {name}: its parent {parent!r} is not in the world yet; known: {known or 'none'}")
     origin, rotation = world_pose(owner)
-    half = math.radians(yaw_deg) / 2
-    quat = _relative(rotation, (math.cos(half), 0.0, 0.0, math.sin(half)))
+    quat = product(conjugate(quaternion(rotation)), about((0.0, 0.0, 1.0), math.radians(yaw_deg)))
     return owner, rotation.T @ (np.asarray(pos, dtype=float) - origin), quat
-
-
-def _relative(rotation: "np.ndarray", quat: tuple[float, float, float, float]) -> "np.ndarray":
-    """A world-frame quaternion (wxyz) as seen from a frame with this rotation matrix."""
-    import mujoco
-    import numpy as np
-
-    inverse, local = np.zeros(4), np.zeros(4)
-    mujoco.mju_negQuat(inverse, _quat(rotation))
-    mujoco.mju_mulQuat(local, inverse, np.asarray(quat))
-    return local
-
-
-def _quat(rotation: "np.ndarray | Matrix") -> "np.ndarray":
-    """The quaternion (wxyz) of a rotation matrix."""
-    import mujoco
-    import numpy as np
-
-    quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(rotation, dtype=float).ravel())
-    return quat
 
 
 def _geom(body: "mujoco.MjsBody", name: str, kind: str, half: tuple, **properties: Any) -> None:

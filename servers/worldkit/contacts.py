@@ -11,7 +11,7 @@ How two surfaces mix, by MuJoCo's rules for geoms of equal priority (manual, "Co
     friction, torsional, rolling: the larger of the two counts; the contact gets the larger `condim`.
     restitution: the *less* bouncy of the two stated values counts (element-wise minimum of the direct solref, and
         more damping is the smaller number), provided both have the same `time_constant`. A surface that states no
-        restitution has no say: the other's value counts.
+        restitution does not count: the other's value does.
 
 How long a contact lasts and how deep it gets is set by `time_constant` (1 / sqrt(k)): a body arriving at speed `v`
 dips in by about `v * time_constant` and leaves after about `3 * time_constant`. The default suits time steps up to
@@ -29,10 +29,15 @@ What to know:
 
 from functools import lru_cache
 from math import atan, exp, log, pi, sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import mujoco
 
 TIME_CONSTANT_S = 0.004
 """Default of the time constant of a contact that states its restitution."""
+REACH_M = 1e-3
+"""How far an adhesive surface reaches, m."""
 STEP_SHARE = 0.25
 """Time step over time constant at which the restitution comes out without bias."""
 IMPEDANCE = 0.99
@@ -47,6 +52,7 @@ def surface(
     restitution: float | None = None,
     time_constant: float | None = None,
     density: float | None = None,
+    adhesion: float = 0.0,
 ) -> dict[str, Any]:
     """Keyword arguments for `add_geom(**surface(...))`.
 
@@ -59,11 +65,18 @@ def surface(
         time_constant: 1 / natural frequency of the contact, seconds: longer is softer. Default 0.004 with a stated
             restitution, else MuJoCo's 0.02.
         density: kg/m^3, handed through.
+        adhesion: N with which it holds at each contact point (a box's face has four of them, a ball one); it reaches 1 mm.
+            What hangs by it alone is not held sideways: measured, a wind moves it as if nothing rubbed.
 
     Raises:
         ValueError: a number outside its range.
     """
-    for name, value in (("friction", friction), ("torsional", torsional), ("rolling", rolling)):
+    for name, value in (
+        ("friction", friction),
+        ("torsional", torsional),
+        ("rolling", rolling),
+        ("adhesion", adhesion),
+    ):
         if not 0 <= value < float("inf"):
             raise ValueError(f"contacts.surface: {name} must be zero or positive and finite, got {value}")
     if restitution is not None and not 0 <= restitution <= 1:
@@ -75,6 +88,8 @@ def surface(
         # 6 resists rolling and spinning too, 4 spinning, 3 sliding alone, 1 nothing: the least that says it all.
         "condim": 6 if rolling else 4 if torsional else 3 if friction else 1,
     }
+    if adhesion:
+        properties |= {"adhesion": adhesion, "gap": REACH_M}
     if density is not None:
         properties["density"] = density
     if restitution is not None:
@@ -85,6 +100,35 @@ def surface(
     elif time_constant is not None:
         properties["solref"] = (time_constant, 1.0)
     return properties
+
+
+def pair(spec: "mujoco.MjSpec", one: str, other: str, **constants: Any) -> "list[mujoco.MjsPair]":
+    """What two bodies do to each other, instead of what their surfaces say; `ground` is the world.
+
+    `constants` are those of `surface`. Every geom of the one that collides is paired with every one of the other.
+
+    Raises:
+        ValueError: a body that is not there, or that has no named geom that collides.
+    """
+    properties = surface(**constants)
+    properties.pop("density", None)
+    slide, spin, roll = properties.pop("friction")
+    made = []
+    for first in _touchable(spec, one):
+        for second in _touchable(spec, other):
+            kept = {**properties, "friction": (slide, slide, spin, roll, roll)}
+            made.append(spec.add_pair(name=f"{first} on {second}", geomname1=first, geomname2=second, **kept))
+    return made
+
+
+def _touchable(spec: "mujoco.MjSpec", name: str) -> list[str]:
+    body = spec.worldbody if name in ("ground", "world") else spec.body(name)
+    if body is None:
+        raise ValueError(f"contacts.pair: there is no body {name!r}; known: {', '.join(b.name for b in spec.bodies)}")
+    found = [geom.name for geom in body.geoms if geom.name and (geom.contype or geom.conaffinity)]
+    if not found:
+        raise ValueError(f"contacts.pair: {name!r} has no named geom that collides")
+    return found
 
 
 def spring_and_damper(restitution: float, time_constant: float) -> tuple[float, float]:

@@ -33,3 +33,9 @@ class DivergedError(WorldkitError):
     """The simulation blew up: a position, velocity or acceleration stopped being a sane number."""
 
     code = "diverged"
+
+
+class SeamError(WorldkitError):
+    """There is no such entry of a seam (a renderer, a solver, a source of assets), or it lacks what its protocol names."""
+
+    code = "seam"

@@ -19,7 +19,11 @@ Vec3 = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Hinge:
-    """Rotation about `axis` through `anchor`; range in degrees, stiffness N·m/rad, damping N·m·s/rad, loss N·m."""
+    """Rotation about `axis` through `anchor`; range in degrees, stiffness N·m/rad, damping N·m·s/rad, loss N·m.
+
+    How its range stops it: `stop_s`, the time constant in s (longer is softer; None: MuJoCo's 0.02), and `stop_restitution`, the
+    ratio of the speeds after and before (None: it hardly rebounds).
+    """
 
     name: str
     anchor: Vec3 | None = None
@@ -29,11 +33,13 @@ class Hinge:
     damping: float = 0.0
     frictionloss: float = 0.0
     rest_deg: float = 0.0
+    stop_s: float | None = None
+    stop_restitution: float | None = None
 
 
 @dataclass(frozen=True)
 class Slide:
-    """Translation along `axis`; range in metres, stiffness N/m, damping N·s/m, loss N."""
+    """Translation along `axis`; range in metres, stiffness N/m, damping N·s/m, loss N; its stop as of a `Hinge`."""
 
     name: str
     anchor: Vec3 | None = None
@@ -43,6 +49,8 @@ class Slide:
     damping: float = 0.0
     frictionloss: float = 0.0
     rest_m: float = 0.0
+    stop_s: float | None = None
+    stop_restitution: float | None = None
 
 
 @dataclass(frozen=True)
@@ -68,7 +76,7 @@ def attach(body: "mujoco.MjsBody", joint: Joint) -> "mujoco.MjsJoint":
     import mujoco
     import numpy as np
 
-    from .bodies import world_pose
+    from .poses import world_pose
 
     origin, rotation = world_pose(body)
     anchor = origin if joint.anchor is None else np.asarray(joint.anchor, dtype=float)
@@ -92,5 +100,17 @@ def attach(body: "mujoco.MjsBody", joint: Joint) -> "mujoco.MjsJoint":
     if limits is not None:
         made.limited = mujoco.mjtLimited.mjLIMITED_TRUE
         made.range = limits
+        _stop(made, joint)
     made.springref = rest
     return made
+
+
+def _stop(made: "mujoco.MjsJoint", joint: Hinge | Slide) -> None:
+    """How the range of a joint stops it: a contact's spring and damper, which see a joint as a contact's normal."""
+    from . import contacts
+
+    surface = contacts.surface(restitution=joint.stop_restitution, time_constant=joint.stop_s)
+    if "solref" in surface:
+        made.solref_limit = surface["solref"]
+    if "solimp" in surface:
+        made.solimp_limit = surface["solimp"]

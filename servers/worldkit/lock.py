@@ -72,7 +72,7 @@ def verify() -> None:
     if not path:
         return
     found = differences(json.loads(Path(path).read_text(encoding="utf-8")), observe())
-    os.environ[VARIABLE] = ""  # a program's own helpers run in what was checked already
+    os.environ[VARIABLE] = ""  # a program's own helpers run in an environment that was checked already
     if not found:
         return
     from .files import write_json

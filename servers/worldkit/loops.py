@@ -22,7 +22,7 @@ SOLREF = (0.004, 1.0)
 SOLIMP = (0.99, 0.999, 0.001, 0.5, 2.0)
 """A pin gives way by microns, not by the millimetre that MuJoCo's default allows."""
 SHARE = 0.5
-"""A hinge is two points on its axis, this share of the child's size to either side of the anchor."""
+"""A hinge is two points on its axis; each lies this share of the child's size from the anchor."""
 
 
 def ball(
@@ -73,7 +73,7 @@ def weld(spec: "mujoco.MjSpec", name: str, *, child: str, parent: str | None = N
 
     tie = _tie(spec, name, mujoco.mjtEq.mjEQ_WELD, child, parent)
     data = [0.0] * len(tie.data)  # a relative pose of zeros is that of the pose in which the world is built
-    data[10] = 1.0  # torque counts as much as force
+    data[10] = 1.0  # a torque counts as much as a force
     tie.data = data
     return [tie]
 
@@ -81,14 +81,19 @@ def weld(spec: "mujoco.MjSpec", name: str, *, child: str, parent: str | None = N
 def _connect(
     spec: "mujoco.MjSpec", name: str, child: str, parent: str | None, point: "np.ndarray"
 ) -> "mujoco.MjsEquality":
-    """One point; its anchor is stored in the child's frame, the engine finds the parent's at the built pose."""
+    """Connect one point; its anchor is stored in the child's frame, and the engine finds the parent's at the built pose."""
     import mujoco
 
-    from .bodies import world_pose
+    from .poses import world_pose
 
     tie = _tie(spec, name, mujoco.mjtEq.mjEQ_CONNECT, child, parent)
     origin, rotation = world_pose(spec.body(child))
-    tie.data = [*(rotation.T @ (point - origin)), *[0.0] * (len(tie.data) - 3)]
+    data = [0.0] * len(tie.data)
+    data[:3] = rotation.T @ (point - origin)
+    data[10] = (
+        1.0  # a connection does not use it, but MJCF reads it back as one, and the world must survive being written
+    )
+    tie.data = data
     return tie
 
 
@@ -110,10 +115,10 @@ def _tie(spec: "mujoco.MjSpec", name: str, kind: Any, child: str, parent: str | 
 
 
 def _anchor(spec: "mujoco.MjSpec", child: str, anchor: Vec3 | None) -> "np.ndarray":
-    """(3,) m, world frame."""
+    """The anchor (3,), m, in the world frame."""
     import numpy as np
 
-    from .bodies import world_pose
+    from .poses import world_pose
 
     body = spec.body(child)
     if anchor is not None or body is None:

@@ -27,7 +27,7 @@ MOST_BYTES = 2_000_000
 _TAGS = """robot link joint inertial visual collision geometry origin mass inertia box sphere cylinder capsule mesh material
 color texture parent child axis limit dynamics mimic safety_controller calibration mujoco transmission gazebo"""
 URDF_TAGS = frozenset(_TAGS.split())
-"""What a URDF may say; MuJoCo passes over anything else in silence."""
+"""Elements that a URDF may have; MuJoCo ignores any other silently."""
 
 
 def attach(
@@ -107,7 +107,7 @@ def attach(
 
 
 def facts(text: str, name: str, folder: str | None = None) -> dict[str, Any]:
-    """What a plan needs to know of a model, names as they will be in the world.
+    """What a plan needs to know of a model, with the names that it gets in the world.
 
     Returns:
         `extents` (3, m, of its rest pose), `mass` (kg), `bodies`, `actuators` and `geoms` (names), `joints` (name to kind:
@@ -156,7 +156,7 @@ def parsed(text: str, name: str, folder: str | None = None) -> "mujoco.MjSpec":
 
 
 def _checked(text: str, name: str) -> None:
-    """Refuse what the engine would pass over in silence, or read from elsewhere."""
+    """Refuse what the engine would ignore silently, or read from elsewhere."""
     if len(text.encode()) > MOST_BYTES:
         raise ValueError(f"model {name}: it is larger than {MOST_BYTES // 1_000_000} MB")
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
@@ -181,7 +181,8 @@ def _checked(text: str, name: str) -> None:
 
 def _found(file: str, child: "mujoco.MjSpec", name: str, folder: str) -> Path:
     """A file of a model in the catalog."""
-    from .assets import catalog_root
+    from .assets.catalog import take
+    from .assets.root import catalog_root
 
     home = (catalog_root() / folder).resolve()
     stem = file.removeprefix("package://")
@@ -192,6 +193,7 @@ def _found(file: str, child: "mujoco.MjSpec", name: str, folder: str) -> Path:
                 raise ValueError(
                     f"model {name}: {file} is neither .obj nor .png, which are all that evidence covers: convert it"
                 )
+            take(path.relative_to(catalog_root()).parts[0])
             return path
     raise ValueError(f"model {name}: its file {file!r} is not in the catalog's folder {folder!r}")
 
@@ -210,14 +212,14 @@ def _below(body: "mujoco.MjsBody") -> "list[mujoco.MjsBody]":
 
 
 def _adopt(child: "mujoco.MjSpec", spec: "mujoco.MjSpec") -> None:
-    """Time step, gravity, solver: the world's own count, which the engine would remark on for each that differs."""
+    """Give the model the world's time step, gravity and solver; the engine would warn about each that differs."""
     for key in dir(spec.option):
         if not key.startswith("_"):
             setattr(child.option, key, getattr(spec.option, key))
 
 
 def _strip(child: "mujoco.MjSpec", root: "mujoco.MjsBody", fixed: bool) -> None:
-    """Cameras, lights and keyframes are the world's; a fixed root has no free joint."""
+    """Remove cameras, lights and keyframes, which the world has of its own, and the free joint of a fixed root."""
     import mujoco
 
     for item in (*child.cameras, *child.lights, *child.keys):
@@ -299,7 +301,9 @@ def _rest(child: "mujoco.MjSpec", name: str) -> _Rest:
             )
             low, high = np.minimum(low, cloud.min(axis=0)), np.maximum(high, cloud.max(axis=0))
             continue
-        reach, middle = _reach(kind, model.geom_size[g], turn, model.geom_aabb[g]), data.geom_xpos[g]
+        # The box of a height field does not have its middle where its frame is.
+        reach = _reach(kind, model.geom_size[g], turn, model.geom_aabb[g])
+        middle = data.geom_xpos[g] + turn @ model.geom_aabb[g, :3]
         low, high = np.minimum(low, middle - reach), np.maximum(high, middle + reach)
     if not np.isfinite(low).all():
         raise ValueError(f"model {name}: it has no geoms, so that nobody could see or touch it")
@@ -326,7 +330,7 @@ def _reach(kind: Any, size: "np.ndarray", turn: "np.ndarray", aabb: "np.ndarray"
 
 
 def main() -> None:
-    """Answer on standard output what is asked on standard input: the arguments of `facts`, as JSON."""
+    """Read the arguments of `facts` as JSON on standard input, and write its result on standard output."""
     import json
     import sys
     import warnings

@@ -81,10 +81,10 @@ def launch(spec: "mujoco.MjSpec", motions: Mapping[str, Launch]) -> None:
 def follow_loops(model: "mujoco.MjModel", qpos: "np.ndarray", qvel: "np.ndarray", started: Sequence[int]) -> None:
     """Let the other hinges, slides and balls of a closed loop move along with those that were started, in place.
 
-    One pin of a linkage given a speed leaves the others at rest only if the loop were torn: the engine would mend that within a
-    step, by a blow that takes energy. Of the speeds that keep J v = 0 for the connects and welds, J being their Jacobian, the
-    smallest are taken; where none do, nothing changes. Free bodies are left as they are: what is glued together and thrown is
-    started part by part.
+    When one pin of a linkage has a speed and the others do not, the loop tears: the engine would close it within a step, by a
+    blow that takes energy. Of the speeds that keep J v = 0 for the connects and welds, J being their Jacobian, the
+    smallest are taken; where none do, nothing changes. Free bodies are left as they are: of bodies that are glued together and
+    thrown, each is given its own motion.
 
     Args:
         model: the finished world.

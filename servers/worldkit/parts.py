@@ -9,7 +9,7 @@
     bodies.compound(spec, "ladder", parts=ladder, mass=8.0, pos=(0, 0, 1.0))
 
 Offsets are measured from any point of the object that is convenient, such as the middle of its base: the whole is
-centred on the box around its parts, which is what `pos` speaks of. Metres, kilograms, degrees; no simulator is imported.
+centred on the box around its parts, whose centre `pos` gives. Metres, kilograms, degrees; no simulator is imported.
 """
 
 import math
@@ -70,11 +70,11 @@ class Solid:
     rotation: Matrix
     part: Part
     share: float = 1.0
-    """Of its part's volume: one slab of a container has less than all of it."""
+    """Its share of its part's volume: less than one for a slab of a container."""
 
     @property
     def volume(self) -> float:
-        """m^3."""
+        """Its volume, m^3."""
         x, y, z = self.half
         return {
             "box": 8 * x * y * z,
@@ -91,7 +91,7 @@ class Solid:
         return (a, b, c)
 
     def _reach(self, row: Vec3) -> float:
-        """How far it reaches along one axis of the body, given as seen from its own frame."""
+        """How far it reaches, m, along an axis of the body that is given in the solid's own frame."""
         x, y, z = self.half
         along = abs(row[2])
         if self.shape == "box":
@@ -197,7 +197,7 @@ def laid_out(name: str, parts: Sequence[Part], tilt_deg: float = 0.0) -> Whole:
 
 
 def rotation(deg_x: float = 0.0, deg_y: float = 0.0, deg_z: float = 0.0) -> Matrix:
-    """About x, then y, then z, the axes staying where they are; exact at quarter turns."""
+    """The rotation about x, then y, then z, with axes that stay where they are; exact at quarter turns."""
     (cx, sx), (cy, sy), (cz, sz) = (_cos_sin(deg) for deg in (deg_x, deg_y, deg_z))
     about_x = ((1.0, 0.0, 0.0), (0.0, cx, -sx), (0.0, sx, cx))
     about_y = ((cy, 0.0, sy), (0.0, 1.0, 0.0), (-sy, 0.0, cy))
@@ -206,7 +206,7 @@ def rotation(deg_x: float = 0.0, deg_y: float = 0.0, deg_z: float = 0.0) -> Matr
 
 
 def product(first: Matrix, second: Matrix) -> Matrix:
-    """Of two rotations: the second is applied first."""
+    """The product of two rotations: the second is applied first."""
     columns = [turned(first, (row[0], row[1], row[2])) for row in zip(*second, strict=True)]
     a, b, c = zip(*columns, strict=True)
     return (a, b, c)

@@ -1,21 +1,25 @@
-"""The world as one file that plain MuJoCo opens: an MJZ archive of the model's XML and everything it is made of.
+"""The world as one file: an MJZ archive of the model's XML and everything it is made of. It *is* the world.
 
     import mujoco
     model = mujoco.MjSpec.from_file("world.mjz").compile()
 
-Source: MuJoCo manual, "MJZ Archives" (the XML is `model.xml` in the archive's root). Painted textures, which live in
-memory, become PNG files; files named by absolute paths of this machine are taken in under short names, one per content.
-The archive is opened again here and compared with the world it was made of, array by array.
+What is simulated, filmed and certified is the model that is compiled from this file, by a process that never sees the
+program. Plain MuJoCo opens it anywhere. Two builds of one world give the same bytes: entries are stored in the order of
+their names, uncompressed and without dates.
+
+Source: MuJoCo manual, "MJZ Archives" (the XML is `model.xml` in the archive's root). Painted textures, which live in memory,
+become PNG files; files with absolute paths on this machine are stored under short names, one per content. The
+archive is opened again here and compared with the world it was made of, array by array.
 """
 
 import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
+from .alike import compared
 from .errors import ProgramError
-from .motion_key import compared
 
 if TYPE_CHECKING:
     import mujoco
@@ -23,6 +27,8 @@ if TYPE_CHECKING:
 NAME = "world.mjz"
 TOLERANCE = 1e-6
 """Relative difference that writing numbers as text may leave."""
+XML = "model.xml"
+MOST_BYTES = 4 << 30
 
 
 def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
@@ -33,22 +39,25 @@ def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
         path: of the archive, ending in `.mjz`.
 
     Returns:
-        `files` in the archive, `bytes` of it, `differs` (largest relative difference of any array that decides the
-        motion between the archive's world and this one, with the array's name in `where`).
+        `files` in the archive, `bytes` and `sha256` of it, `differs` (largest relative difference of any array that
+        decides the motion between the archive's world and this one, with the array's name in `where`).
 
     Raises:
         ProgramError: the archive cannot be written, or does not open as the same world.
     """
-    import zipfile
-
     import mujoco
+
+    from .whole_digits import whole_digits
 
     before = spec.compile()
     take_in(spec)
     try:
+        model = spec.compile()
         with _all_digits():
-            spec.encode(str(path), model=spec.compile())
-        after = mujoco.MjSpec.from_file(str(path)).compile()
+            text = spec.to_xml()
+        used = {name: bytes(content) for name, content in spec.assets.items() if name in text}
+        _store({XML: whole_digits(text, spec, model).encode(), **used}, path)
+        after = read(path)
     except (ValueError, RuntimeError, mujoco.FatalError) as failure:
         raise ProgramError(
             f"the world cannot be written as one file: {failure}", str(path), "build it from what MJCF can say"
@@ -60,14 +69,58 @@ def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
             str(path),
             "set it in the spec, not in the compiled model",
         )
-    with zipfile.ZipFile(path) as archive:
-        names = sorted(archive.namelist())
-    return {"files": len(names), "bytes": path.stat().st_size, "differs": worst, "where": where}
+    content = path.read_bytes()
+    sha256 = hashlib.sha256(content).hexdigest()
+    return {"files": 1 + len(used), "bytes": len(content), "sha256": sha256, "differs": worst, "where": where}
+
+
+def read(path: Path) -> "mujoco.MjModel":
+    """The model compiled from an archive; where the archive lies leaves no trace in it.
+
+    Raises:
+        ValueError: it is no archive, or what is in it does not compile.
+    """
+    return spec(path).compile()
+
+
+def spec(path: Path) -> "mujoco.MjSpec":
+    """The world of an archive as it was built, not compiled yet; raises ValueError as `read` does."""
+    import zipfile
+
+    import mujoco
+
+    try:
+        with zipfile.ZipFile(path) as archive:
+            if sum(entry.file_size for entry in archive.infolist()) > MOST_BYTES:
+                raise ValueError(f"its files are larger than {MOST_BYTES >> 20} MB")
+            listed = archive.namelist()
+            if odd := [
+                name
+                for name in listed
+                if name != PurePosixPath(name).as_posix() or not {"..", "/"}.isdisjoint(PurePosixPath(name).parts)
+            ]:
+                raise ValueError(f"its entry {odd[0]!r} is no plain name: other readers could open another world")
+            if len(set(listed)) < len(listed):
+                raise ValueError("an entry is in it twice: other readers could open another world")
+            files = {name: archive.read(name) for name in listed}
+        text = files.pop(XML).decode()
+    except (OSError, KeyError, zipfile.BadZipFile, RuntimeError, NotImplementedError) as cause:
+        raise ValueError(f"it is no archive of a world: {cause}") from cause
+    return mujoco.MjSpec.from_string(text, assets=files)
+
+
+def _store(files: dict[str, bytes], path: Path) -> None:
+    """Write an archive whose bytes depend on the content alone."""
+    import zipfile
+
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
+        for name in sorted(files, key=lambda name: (name != XML, name)):
+            archive.writestr(zipfile.ZipInfo(name), files[name])
 
 
 @contextmanager
 def _all_digits() -> Iterator[None]:
-    """Let the engine write numbers as exactly as a double holds them; it writes six digits otherwise.
+    """Within the block, let the engine write numbers as exactly as a double holds them; otherwise it writes six digits.
 
     The engine offers this to its own tests only (a symbol marked private), so where it is gone the archive is written
     with six digits, and `differs` says what that does.

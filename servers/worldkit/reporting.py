@@ -1,4 +1,4 @@
-"""What a pass tells the outside while it runs (`progress.json`) and when it fails (`error.json`)."""
+"""What a pass writes for others while it runs (`progress.json`) and when it fails (`error.json`)."""
 
 import json
 import linecache
@@ -24,7 +24,7 @@ class Progress:
         self._write(0)
 
     def __call__(self, done: int, total: int | None = None) -> None:
-        """Tell how far it is."""
+        """Report how much is done."""
         now = time.perf_counter()
         if now < self._next and done != (total or self._total):
             return
@@ -67,7 +67,9 @@ def failure(error: BaseException, program: str, caller_line: int | None) -> dict
 
 
 def report_failure(error: BaseException, program: str, caller_line: int | None, out: Path | None) -> None:
-    """Write `error.json` (when there is a folder) and tell standard error: our own errors briefly, others in full."""
+    """Write `error.json` (when there is a folder) and print the error to standard error: our own errors briefly, others
+    in full.
+    """
     facts = failure(error, program, caller_line)
     if isinstance(error, WorldkitError):
         sys.stderr.write(f"{error}\n")

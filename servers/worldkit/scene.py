@@ -36,7 +36,7 @@ def _pick(kind: str, name: str, known: Mapping[str, Any]) -> Any:
 
 
 def _lights(spec: mujoco.MjSpec, setting: Setting) -> None:
-    """Lights for MuJoCo's own viewers; `worldkit.render` knows the setting's true ones."""
+    """Lights for MuJoCo's own viewers; `worldengine.film.renderers` knows the setting's true ones."""
     import mujoco
 
     def add(name: str, light: Any, shadow: bool, gain: float) -> None:

@@ -43,9 +43,9 @@ class Setting:
     """Brightness of the surroundings as a light source."""
     exposure: float
     fade: tuple[float, float]
-    """Where the ground begins to melt into the surroundings, and where it has, in radii of the scene."""
+    """Where the ground begins to fade into the surroundings, and where the fade ends, in radii of the scene."""
     pool: tuple[float, float]
-    """Where the key light begins to fall off, and where it has, in radii of the scene."""
+    """Where the key light begins to fall off, and where the fall-off ends, in radii of the scene."""
     haze_m: float
     """Distance at which haze hides 63 % of what is behind, metres; 0: clear air."""
     vignette: float

@@ -19,7 +19,7 @@ LIMIT_S = 0.016
 at 2 ms, by 0 to 60 N at 16 ms, on average by its friction either way; a weight of 2 kg that falls 0.3 m into it stretches it
 by 13 mm for a moment."""
 ROUNDED_M = 2e-4
-"""What the ends of a rope that starts taut may be too far apart, m: coordinates on paper are rounded to a tenth of a mm."""
+"""Distance, m, by which the ends of a taut rope may be too far apart: plans round coordinates to a tenth of a millimetre."""
 End = tuple[str, Vec3]
 """Name of a body, or `world`; and a world-frame point at the initial pose, m."""
 
@@ -76,16 +76,24 @@ def spring(
     *,
     stiffness: float,
     length: float | None = None,
+    pretension: float = 0.0,
     damping: float = 0.0,
     diameter: float = 0.01,
     look: str = "steel_brushed",
 ) -> "mujoco.MjsTendon":
     """A linear spring of `stiffness` (N/m) that rests at `length` (m; None: as long as at the start).
 
-    `damping` (N·s/m) acts along its whole length. The other arguments are those of `rope`. Source: MuJoCo manual, `tendon/spatial` (`stiffness`, `springlength`).
+    With `pretension` (N), instead of `length`, it pulls with that force at the start. `damping` (N·s/m) acts along its whole length. The other arguments are those of `rope`. Source: MuJoCo manual, `tendon/spatial` (`stiffness`, `springlength`).
     """
     made, way = _line(spec, name, ends, diameter, look)
-    rest = way if length is None else length
+    if pretension and (length is not None or pretension > stiffness * way):
+        said = (
+            "give `length` or `pretension`"
+            if length is not None
+            else f"{stiffness * way:.4g} N is the most it can have"
+        )
+        raise ValueError(f"spring {name}: a pretension of {pretension:g} N: {said}")
+    rest = way - pretension / stiffness if length is None else length
     made.stiffness[0] = stiffness
     made.damping[0] = damping
     made.springlength = (rest, rest)
@@ -101,7 +109,7 @@ def _line(
     import numpy as np
 
     from . import materials
-    from .bodies import world_pose
+    from .poses import world_pose
 
     if len(ends) < 2:
         raise ValueError(f"tendon {name}: it needs two ends, got {len(ends)}")

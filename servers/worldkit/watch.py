@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 BULKY = (
     "mesh_", "tex_", "bvh_", "hfield_", "skin_", "oct_", "name", "text_", "path", "key_", "B_", "M_", "D_", "map",
 )  # fmt: skip
-"""Assets and look-ups that a simulation does not edit (prefixes); too large to compare every step."""
+"""Prefixes of assets and tables that a simulation does not edit and that are too large to compare at every step."""
 SHAPES = ("mesh_vert", "mesh_normal", "mesh_graph", "mesh_polyvert", "mesh_polynormal", "hfield_data", "hfield_size")
 """Bulky assets that collisions read."""
 LOOKS = ("_rgba", "_matid", "_group", "mat_", "light_", "cam_", "vis_", "_castshadow", "site_size", "_material")
-"""Parts of names of arrays that only change the picture."""
+"""Parts of the names of arrays that change only the picture."""
 OWNERS = {
     "body": "body", "jnt": "joint", "dof": "dof", "geom": "geom", "site": "site", "cam": "camera", "light": "light",
     "mat": "material", "pair": "pair", "eq": "equality", "tendon": "tendon", "actuator": "actuator", "sensor": "sensor",
@@ -44,15 +44,15 @@ class Edit:
 
     array: str
     index: "np.ndarray"
-    """Into the flattened array."""
+    """Indices into the flattened array."""
     values: "np.ndarray"
     """New values at those places."""
     looks_only: bool
-    """It changes the picture, not the motion."""
+    """Whether it changes only the picture, not the motion."""
 
 
 class Watch:
-    """Remembers a model's arrays and options, and tells what differs from one `changes()` to the next."""
+    """Remembers a model's arrays and options, and finds what differs from one `changes()` to the next."""
 
     def __init__(self, model: "mujoco.MjModel", bulky: bool = False) -> None:
         """With `bulky`, watch the large assets that shape the motion instead of everything else."""
@@ -75,7 +75,7 @@ class Watch:
             run.append((name, array))
         if run:
             self._add_block(run)
-        # Arrays are views into the model's options, which stay where they are; numbers are asked for anew.
+        # Arrays are views into the model's options, which stay where they are; numbers are read again.
         self._option_names = () if bulky else tuple(name for name in OPTIONS if hasattr(model.opt, name))
         self._options = self._read_options()
         memory = None if bulky else _memory_of_options(model)
@@ -143,7 +143,7 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, "np.ndarray
     """
     import numpy as np
 
-    from .describe import names
+    from .naming import names
 
     if edit.array.startswith("opt."):
         return [(edit.array, edit.index, edit.values)]
@@ -157,7 +157,7 @@ def owner_of(model: "mujoco.MjModel", edit: Edit) -> list[tuple[str, "np.ndarray
     bodies = names(model, "body", model.nbody)
     if kind == "dof":
         labels = [f"{bodies[b]}" for b in model.dof_bodyid]
-    elif kind in ("flex",):
+    elif kind == "flex":
         labels = [f"{kind}_{i}" for i in range(len(array))]
     else:
         labels = names(model, kind, len(array))
@@ -233,7 +233,7 @@ def comparison(one: "np.ndarray", other: "np.ndarray") -> Callable[[], bool]:
 
 @cache
 def _memcmp() -> Any:
-    """The C library's `memcmp`, called without letting go of the interpreter; None where it cannot be found."""
+    """The C library's `memcmp`, called without releasing the interpreter's lock; None where it cannot be found."""
     import ctypes
 
     try:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 MOST_STEPS = 100_000_000
 STATE_BYTES = 1 << 30
-"""Beyond this size of state rows, not every step is recorded."""
+"""Bytes of state rows above which not every step is recorded."""
 
 
 def seeded(seed: int) -> "tuple[np.random.Generator, np.random.Generator]":
@@ -27,7 +27,7 @@ def seeded(seed: int) -> "tuple[np.random.Generator, np.random.Generator]":
     if seed < 0:
         raise ProgramError(f"the seed must be zero or positive, got {seed}", "--seed", "use any non-negative integer")
     random.seed(seed)
-    np.random.seed(seed % 2**32)  # for programs that draw from numpy's global generator all the same
+    np.random.seed(seed % 2**32)  # noqa: NPY002 - for programs that draw from numpy's global generator all the same
     first, second = np.random.SeedSequence(seed).spawn(2)
     return np.random.default_rng(first), np.random.default_rng(second)
 
@@ -51,13 +51,49 @@ def finish(spec: "mujoco.MjSpec", place: str) -> "mujoco.MjModel":
         model = spec.compile()
         return spec.compile() if sliding.add_pairs(spec, model) else model
     except ValueError as failure:
+        cause, move = str(failure), "repair what the compiler names"
+        if installed := callbacks():
+            cause += (
+                f" (the engine asks what this program installed by set_{', set_'.join(installed)} while it compiles)"
+            )
+            move = "take it out: `control(model, data)` is called at every step"
+        raise ProgramError(f"the world does not compile: {cause}", place, move) from failure
+
+
+def callbacks() -> list[str]:
+    """Names of the engine's callbacks that something has installed in this process, e.g. `mjcb_control`."""
+    import mujoco
+
+    asked = [name for name in dir(mujoco) if name.startswith("get_mjcb_")]
+    return [name.removeprefix("get_") for name in asked if getattr(mujoco, name)() is not None]
+
+
+def spec_of(build: Callable[..., Any], rng: "np.random.Generator") -> "tuple[mujoco.MjSpec, mujoco.MjModel | None]":
+    """What `build()` or `build(rng)` returns as a spec; with the model, where it returned one that is compiled already.
+
+    Raises:
+        ProgramError: it returned no world, or a compiled model that came from no spec.
+    """
+    import mujoco
+
+    from .compiled_from import watched
+
+    with watched() as compiled:
+        made = as_built(build, rng)
+    if isinstance(made, mujoco.MjSpec):
+        return made, None
+    found = [spec for model, spec in compiled if model is made]
+    if not found:
         raise ProgramError(
-            f"the world does not compile: {failure}", place, "repair what the compiler names"
-        ) from failure
+            "build() returned a compiled model that came from no spec, which no file can hold",
+            "build()",
+            "return the MjSpec",
+        )
+    return found[0], made
 
 
 def as_built(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjSpec | mujoco.MjModel":
-    """What `build()` or `build(rng)` returns, which must be a world."""
+    """Call `build()` or `build(rng)`; what it returns must be a world."""
     import mujoco
 
     made = build(rng) if _positional(build) else build()
@@ -121,7 +157,7 @@ def record_every(model: "mujoco.MjModel", steps: int) -> int:
 
 def check_cast(model: "mujoco.MjModel", movers: Iterable[str], visual_only: Iterable[str]) -> None:
     """The named bodies must exist; the message lists the ones that do."""
-    from .describe import names
+    from .naming import names
 
     bodies = names(model, "body", model.nbody)[1:]
     geoms = names(model, "geom", model.ngeom)

@@ -1,6 +1,6 @@
 """The command line: `worldwright <server> <verb> …`, and the few commands that span servers.
 
-A server's verbs are its tool functions. Only the group that is called is imported, so `--help` and a lint run start
+A server's verbs are its tool functions. Only the called group is imported, so `--help` and a lint run start
 fast. Exit codes: 0 yes, 1 the answer is no (findings, a failed pass), 2 the call could
 not be answered (its cause and the next move are printed), 3 a defect of ours.
 """
@@ -21,17 +21,28 @@ import click
 
 from . import expose
 from .model.errors import WorldwrightError
+from .model.evidence import came
 
 COMMANDS = {
-    "build": (
-        "worldwright.build",
-        "Plan in, accepted world out: resolve, draft, lint, run, scan, review, stamp.",
+    "go": (
+        "worldwright.go",
+        "Advance a run as far as it goes without a decision; with --accept from a plan to an accepted world.",
     ),
+    "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
+    "gallery": (
+        "worldwright.gallery.command",
+        "The accepted worlds under examples/: keep one, prove, build or accept all.",
+    ),
+    "keys": ("worldwright.stamp.keys", "The key that signs what is accepted here, and the keys that are known."),
     "contract": ("worldwright.contract.command", "The roles of a run in each harness's own files: sync, check, show."),
     "lessons": (
         "worldwright.contract.lessons",
         "Root causes in runs' journals, and the skill or rule to write them into.",
+    ),
+    "new": (
+        "worldwright.scaffolds.new_entry",
+        "Scaffold an entry of any shelf: rule, check, expectation, predicate, relation, gate, section.",
     ),
     "new-rule": (
         "worldwright.new_rule",
@@ -80,7 +91,7 @@ class Root(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """Name the known commands when an unknown one is typed; `stage.frames`, as agents call it, is `stage frames`."""
+        """List the known commands when an unknown one is typed; agents' `stage.frames` means `stage frames`."""
         server, dot, tool = args[0].partition(".") if args else ("", "", "")
         if dot and server in expose.SERVERS:
             args = [server, tool.replace("_", "-"), *args[1:]]
@@ -156,7 +167,7 @@ def _illustrated(annotation: Any) -> bool:
 
 
 def _pictures(result: Any, folder: Path | None, style: str) -> None:
-    """Write the pictures of a result into a folder, or say on the side how to get them."""
+    """Write the pictures of a result into a folder, or tell on standard error how to get them."""
     from .model.picture import Illustrated
 
     if not isinstance(result, Illustrated) or not result.pictures:
@@ -178,18 +189,21 @@ def _pictures(result: Any, folder: Path | None, style: str) -> None:
 
 
 def _call(function: Callable[..., Any], arguments: dict[str, Any], listens: bool) -> Any:
-    if not (listens and sys.stderr.isatty()):
-        return expose.call(function, arguments)
-    from .report.progress import bar
+    from .contract import harnesses
 
-    with bar() as progress:
-        return expose.call(function, arguments, progress)
+    with came.entered(came.by_command(harnesses.around())):
+        if not (listens and sys.stderr.isatty()):
+            return expose.call(function, arguments)
+        from .report.bar import bar
+
+        with bar() as progress:
+            return expose.call(function, arguments, progress)
 
 
 def _one_by_one(
     function: Callable[..., Any], parameter: str, arguments: dict[str, Any], style: str, listens: bool
 ) -> int:
-    """Call a tool for every value of a parameter; the exit code is the worst. One that fails does not stop the rest."""
+    """Call a tool for every value of a parameter; the exit code is the worst one. A failure does not stop the rest."""
     worst = 0
     for value in arguments[parameter]:
         try:
@@ -213,8 +227,8 @@ def _line(result: Any) -> str:
 
 
 def _each(function: Callable[..., Any], lines: Path, arguments: dict[str, Any]) -> int:
-    """Call a tool for every line of a file; the exit code is the worst of the answers'."""
-    from .report.progress import bar
+    """Call a tool for every line of a file; the exit code is the worst one."""
+    from .report.bar import bar
 
     parameter, before = function.batch  # type: ignore[attr-defined]
     try:
@@ -247,7 +261,7 @@ def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
                 click.echo(str(finding), err=True)
             click.echo(f"{error.code}: {error}", err=True)
         sys.exit(2)
-    except Exception as error:  # a defect of ours: say so, keep the traceback for those who ask
+    except Exception as error:  # it is a defect of ours; the traceback is for those who ask
         if os.environ.get("WORLDWRIGHT_DEBUG"):
             raise
         click.echo(f"internal: {type(error).__name__}: {error}", err=True)
@@ -286,7 +300,7 @@ def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter
     if required:
         return click.Argument([parameter.name], type=_click_type(item), nargs=-1 if many else 1, required=True)
     if any(isinstance(mark, expose.Positional) for mark in typing.get_args(annotation)[1:]):
-        if many:  # click takes no default for as many as there are: none at all is the empty list
+        if many:  # click takes no default for a variadic argument: without values it gives an empty list
             return click.Argument([parameter.name], type=_click_type(item), nargs=-1, required=False)
         return click.Argument([parameter.name], type=_click_type(item), required=False, default=default)
     flag = ("--" if len(parameter.name) > 1 else "-") + parameter.name.replace("_", "-")
@@ -323,7 +337,7 @@ def _click_type(kind: Any) -> Any:
 
 
 def _value(annotation: Any, value: Any) -> Any:
-    """Turn what click parsed into what the function takes; models arrive as JSON text or as @file."""
+    """Turn a value from click into the function's argument; models arrive as JSON text or as @file."""
     from pydantic import TypeAdapter, ValidationError
 
     kind, _ = _unwrap(annotation)

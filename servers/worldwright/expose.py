@@ -5,28 +5,29 @@ typed arguments (`Annotated[Path, Field(description=…)]`; a pydantic model arr
 returns a pydantic model, or `Illustrated` when it shows pictures. Failures are `WorldwrightError`s. Nothing here knows
 what any server does.
 
-Pictures are sent as a list of text and images without structured content: that is the one shape which every coding
-harness passes on to its model.
+Pictures are sent as a list of text and images without structured content, the only form that every coding harness passes
+on to its model.
 """
 
 import functools
 import importlib
 import inspect
 import logging
-import os
-import sys
 import typing
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import BaseModel, Field, create_model
+from pydantic import BaseModel, Field, ValidationError, create_model
 from pydantic_core import to_json as to_json_bytes
 
+from . import arguments as arguments_of
 from .model.errors import WorldwrightError
+from .model.evidence import came
 from .model.picture import Illustrated
 from .model.progress import Progress, silent
 from .paging import fit, lists
 from .schema import plain
+from .wire import streams
 
 if TYPE_CHECKING:
     from mcp.server import MCPServer
@@ -68,6 +69,25 @@ def build_server(name: str) -> "MCPServer":
         async def list_tools(self) -> "list[Tool]":
             return [_plain(tool) for tool in await super().list_tools()]
 
+        async def call_tool(self, name: str, arguments: dict[str, Any], context: Any = None) -> Any:
+            from mcp.server.mcpserver.exceptions import ToolError
+
+            known = {tool.name: tool.input_schema for tool in await self.list_tools()}
+            try:
+                arguments_of.check(name, arguments, known)
+                return await super().call_tool(name, arguments, context)
+            except arguments_of.ArgumentError as error:
+                return _refusal(error)
+            except ToolError as error:
+                if isinstance(error.__cause__, ValidationError):
+                    return _refusal(arguments_of.invalid(name, error.__cause__, known[name]))
+                raise
+
+        async def run_stdio_async(self) -> None:
+            async with streams() as (incoming, outgoing):
+                inner = self._lowlevel_server
+                await inner.run(incoming, outgoing, inner.create_initialization_options())
+
     server = Server(f"worldwright-{name}", instructions=SERVERS[name], version=__version__, log_level="WARNING")
     for function in tools(name):
         read_only = bool(getattr(function, "read_only", False))
@@ -86,7 +106,7 @@ def _plain(tool: "Tool") -> "Tool":
 
 
 class Positional:
-    """Marks a parameter that may be left out and still is given by its place on the command line."""
+    """Marks a parameter that may be left out and yet has a place on the command line."""
 
 
 def reads(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -96,11 +116,11 @@ def reads(function: Callable[..., Any]) -> Callable[..., Any]:
 
 
 def batched(parameter: str, before: Callable[[Progress], None] | None = None) -> Callable[..., Any]:
-    """Give a tool's command `--batch FILE`: one value of `parameter` a line, one JSON result a line.
+    """Give a tool's command `--batch FILE`: one value of `parameter` per line, one JSON result per line.
 
     Args:
         parameter: the tool's argument that each line fills.
-        before: called once ahead of the first line.
+        before: it is called once before the first line.
     """
 
     def mark(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -111,7 +131,7 @@ def batched(parameter: str, before: Callable[[Progress], None] | None = None) ->
 
 
 def several(parameter: str) -> Callable[..., Any]:
-    """Let a tool's command take many values of `parameter`: one call each, as JSON one line each."""
+    """Let a tool's command take many values of `parameter`, with one call and one line of JSON for each."""
 
     def mark(function: Callable[..., Any]) -> Callable[..., Any]:
         function.several = parameter  # type: ignore[attr-defined]
@@ -121,7 +141,7 @@ def several(parameter: str) -> Callable[..., Any]:
 
 
 def description(function: Callable[..., Any]) -> str:
-    """What an agent reads about a tool: its docstring, unwrapped."""
+    """The text that an agent reads about a tool: its docstring, unwrapped."""
     return inspect.cleandoc(function.__doc__ or "").strip()
 
 
@@ -137,15 +157,20 @@ def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
 
     @functools.wraps(function)
     def tool(*args: Any, ctx: Context, page: int = 1, **kwargs: Any) -> Any:
+        spoken = came.by_client(_client(ctx), function.__name__, kwargs)
         if listener:
             kwargs[listener] = functools.partial(_report, from_thread, ctx)
         try:
-            return _answer(function(*args, **kwargs), fields, page)
+            with came.entered(spoken):
+                return _answer(function(*args, **kwargs), fields, page)
         except WorldwrightError as error:
             return _refusal(error)
+        except OSError as error:
+            return _refusal(
+                arguments_of.too_long(function.__name__, error, kwargs) or _failed(function.__name__, error)
+            )
         except Exception as error:  # a defect of ours must not look like an answer, nor end the server
-            logging.getLogger(__name__).exception("%s failed", function.__name__)
-            return _refusal(_internal(function.__name__, error))
+            return _refusal(_failed(function.__name__, error))
 
     signature = inspect.signature(function)
     parameters = [p for p in signature.parameters.values() if p.name != listener]
@@ -164,12 +189,12 @@ def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
         parameters=[p.replace(annotation=annotations[p.name]) for p in parameters],
         return_annotation=annotations.get("return", inspect.Signature.empty),
     )
-    del tool.__wrapped__  # or the SDK would read the original signature
+    del tool.__wrapped__  # otherwise the SDK would read the original signature
     return tool
 
 
 def _answer(result: Any, fields: tuple[str, ...], page: int) -> Any:
-    """A result as every client hands it on: pictures without, data with structured content; neither too long."""
+    """A result as every client passes it on: pictures without structured content, data with it, neither too long."""
     from mcp.server.mcpserver import Image
     from mcp_types import CallToolResult, TextContent
 
@@ -185,7 +210,7 @@ def _answer(result: Any, fields: tuple[str, ...], page: int) -> Any:
 
 
 def _line(data: Any) -> str:
-    """JSON without the spaces that a client's model would pay for."""
+    """JSON without spaces, for which a client's model would pay."""
     return to_json_bytes(data, inf_nan_mode="null").decode()
 
 
@@ -196,7 +221,16 @@ def _report(from_thread: Any, ctx: Any, done: float, total: float, message: str 
         return
 
 
-def _internal(name: str, error: Exception) -> WorldwrightError:
+def _client(ctx: Any) -> str:
+    """The name that the client gave itself; empty when it gave none."""
+    try:
+        return str(ctx.session.client_params.client_info.name)[:80]
+    except AttributeError:
+        return ""
+
+
+def _failed(name: str, error: Exception) -> WorldwrightError:
+    logging.getLogger(__name__).exception("%s failed", name)  # noqa: LOG004 - its caller handles one
     return WorldwrightError(
         f"{name} failed inside Worldwright: {type(error).__name__}: {error}",
         next_move="this is a defect of ours, not of your input: report it with the traceback on standard error",
@@ -204,7 +238,7 @@ def _internal(name: str, error: Exception) -> WorldwrightError:
 
 
 def _refusal(error: WorldwrightError) -> Any:
-    """An error result. Clients read either the text or the structured content, so it stands in both."""
+    """An error result, both as text and as structured content, since clients read only one of them."""
     from mcp_types import CallToolResult, TextContent
 
     facts = error.to_dict()
@@ -218,18 +252,19 @@ def serve(name: str, transport: str = "stdio", host: str = "127.0.0.1", port: in
     if transport == "http":
         server.run("streamable-http", host=host, port=port)
         return
-    # Engines below us print to the process's standard output, which here is the protocol's wire: keep a private copy
-    # of the wire and let every stray print land on standard error.
-    wire = os.dup(1)
-    os.dup2(2, 1)
-    sys.stdout = os.fdopen(wire, "w", encoding="utf-8", buffering=1)
     server.run("stdio")
 
 
 def call(function: Callable[..., Any], arguments: dict[str, Any], progress: Progress = silent) -> Any:
     """Call a tool function as the command line does."""
     listener = progress_parameter(function)
-    return function(**arguments, **({listener: progress} if listener else {}))
+    try:
+        return function(**arguments, **({listener: progress} if listener else {}))
+    except OSError as error:
+        refused = arguments_of.too_long(function.__name__, error, arguments)
+        if refused is None:
+            raise
+        raise refused from error
 
 
 def exit_code(result: Any) -> int:

@@ -1,7 +1,7 @@
-"""`worldwright new-rule RUN`: a lint rule scaffolded from a failed iteration, so that no other run meets the same cause.
+"""`worldwright new-rule RUN` scaffolds a lint rule from a failed iteration, so that no other run meets the same cause.
 
 Without `--name` it lists what failed in the run's journal. With it, a module is written on a shelf of rules: docstring,
-code, cases and evidence are laid out, the failure and the lines of the program it happened at are quoted, and everything
+code, cases and evidence are laid out, the failure and its lines of the program are quoted, and everything
 left to the author is marked `AUTHOR:`. The new rule finds nothing until it is written, and its tests fail until then.
 Source: the reference paper's write-back of root causes.
 """
@@ -19,13 +19,13 @@ from worldkit.files import write_atomic
 
 from .cli import report_errors
 from .model.errors import NotFoundError, WorldwrightError
-from .model.run import Run
+from .model.evidence.run import Run
 
 RULES = Path(__file__).parent / "lint" / "rules"
-PREFIXES = {"program": "WL", "model": "WM", "plan": "WP"}
+PREFIXES = {"program": "WL", "model": "WM", "run": "WR", "plan": "WP"}
 NAME = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)+")
 AROUND = 4
-"""Lines of the program quoted on each side of the place that failed."""
+"""So many lines of the program are quoted on each side of the failed one."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def failures(run: Run) -> list[Failure]:
 
 
 def _pass(run: Run, number: int, entry: dict) -> Failure:
-    """A failed pass: the program's own words, and the lines it failed at."""
+    """Read a failed pass: the program's own words, and the lines at which it failed."""
     folder = run.jobs / str(entry.get("job"))
     result = _json(folder / "result.json")
     place, said = str(result.get("place", "")), str(result.get("message", ""))
@@ -78,7 +78,7 @@ def _pass(run: Run, number: int, entry: dict) -> Failure:
 
 
 def _kept(run: Run, key: str, action: str) -> str:
-    """The first thing that a kept report complains of."""
+    """The first complaint of a kept report."""
     report = _json(run.folder / "evidence" / key / f"{action}.json")
     for anomaly in report.get("anomalies") or ():
         return str(anomaly.get("message", ""))
@@ -106,23 +106,23 @@ def next_code(shelf: str, rules: Path) -> str:
     return f"{prefix}{max([n for n in used if n != 199]) + 1}"
 
 
-HEAD = '''"""AUTHOR: what is wrong, in one sentence.
+RULE_HEAD = '''"""AUTHOR: what is wrong, in one sentence.
 
 What it does: AUTHOR: what it looks for, and where it stays silent.
 
-Why is this bad: AUTHOR: what happens, as the installed simulator showed it. Seen in run {slug}, journal entry {number}:
-{what}: {why}
+Why is this bad: AUTHOR: what happens, as the installed simulator showed it.{seen}
 
 Use instead: AUTHOR: the right form.
 """
 '''
+EMPTY_PROGRAM = "AUTHOR = 'the smallest program'\n"
 BODIES = {
     "program": '''
 from collections.abc import Iterator
 
 from ...problem import Problem
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
+from ...harm import Argued
 
 CODE = "{code}"
 SEVERITY = "warning"
@@ -142,7 +142,7 @@ from collections.abc import Iterator
 
 from ...compiled.view import ModelView
 from ...problem import Problem
-from ...proof import Argued
+from ...harm import Argued
 
 CODE = "{code}"
 SEVERITY = "warning"
@@ -157,13 +157,32 @@ def check(view: ModelView) -> Iterator[Problem]:
     """AUTHOR: yield a Problem for every hit."""
     yield from ()
 ''',
+    "run": '''
+from collections.abc import Iterator
+
+from ...harm import Argued
+from ...observed.run_view import Run
+from ...problem import Problem
+
+CODE = "{code}"
+SEVERITY = "warning"
+# AUTHOR: cut BAD down to the fewest lines that show the fault; GOOD is the same, done right. Both are run under watch.
+GOOD = ("import mujoco\\n",)
+BAD = ({excerpt},)
+EVIDENCE = Argued("AUTHOR: replace this by Raises, Warns or Measured, or say why no run can show the harm")
+
+
+def check(run: Run) -> Iterator[Problem]:
+    """AUTHOR: yield from run.say(EVENT, message, fix); a module of lint/observed/inside tells the event."""
+    yield from ()
+''',
     "plan": '''
 from collections.abc import Iterator
 
 from ...case import Changes
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
+from ...harm import Argued
 
 CODE = "{code}"
 SEVERITY = "warning"
@@ -178,6 +197,26 @@ def check(view: PlanView) -> Iterator[Problem]:
     yield from ()
 ''',
 }
+
+
+def quoted(failure: Failure, slug: str = "") -> tuple[str, str]:
+    """(the failure for a rule's docstring, its lines of the program as a literal)."""
+    source = "\n".join(failure.excerpt.splitlines()) + "\n" if failure.excerpt else EMPTY_PROGRAM
+    why = " ".join(failure.why.replace("\\", "/").replace('"""', "'''").split())[:400]
+    where = f"run {slug}, " if slug else ""
+    return f" Seen in {where}journal entry {failure.number}:\n{failure.what}: {why}", repr(source)
+
+
+def chosen(run: Path, entry: int | None) -> Failure:
+    """A failure of a run by the number of its entry, or the latest; a `NotFoundError` lists the known ones."""
+    found = failures(folder := Run.find(str(run)))
+    meant = [failure for failure in found if entry is None or failure.number == entry]
+    if not meant:
+        known = "\n".join(f"{f.number:4}  {f.what}: {f.why.splitlines()[0] if f.why else ''}" for f in found)
+        raise NotFoundError(
+            "there is no such failure", place=str(folder.folder), next_move=f"name one of:\n{known or '(none)'}"
+        )
+    return meant[-1]
 
 
 def scaffold(run: Run, failure: Failure, name: str, shelf: str, rules: Path | None = None) -> Path:
@@ -198,11 +237,9 @@ def scaffold(run: Run, failure: Failure, name: str, shelf: str, rules: Path | No
         )
     if not (rules / shelf).is_dir():
         raise NotFoundError("this is no source checkout: there is no shelf to write on", place=str(rules / shelf))
-    source = "\n".join(failure.excerpt.splitlines()) + "\n" if failure.excerpt else "AUTHOR = 'the smallest program'\n"
-    why = " ".join(failure.why.replace("\\", "/").replace('"""', "'''").split())[:400]
-    said = HEAD.format(slug=run.folder.name, number=failure.number, what=failure.what, why=why)
-    text = said + BODIES[shelf].format(code=next_code(shelf, rules), excerpt=repr(source))
-    ast.parse(text)  # a quoted failure must not make the shelf unreadable
+    seen, excerpt = quoted(failure, run.folder.name)
+    text = (RULE_HEAD + BODIES[shelf]).format(code=next_code(shelf, rules), seen=seen, excerpt=excerpt)
+    ast.parse(text)  # a quoted failure must not make the shelf unloadable
     path = rules / shelf / f"{name}.py"
     write_atomic(path, text)
     return path
@@ -222,12 +259,7 @@ def command(run: Path, name: str | None, entry: int | None, shelf: str) -> None:
         if name is None:
             click.echo(known or "nothing failed in this run")
             return 0
-        chosen = [f for f in found if entry is None or f.number == entry]
-        if not chosen:
-            raise NotFoundError(
-                "there is no such failure", place=str(folder.folder), next_move=f"name one of:\n{known or '(none)'}"
-            )
-        path = scaffold(folder, chosen[-1], name, shelf)
+        path = scaffold(folder, chosen(run, entry), name, shelf)
         click.echo(f"{path}: fill in what is marked AUTHOR:, then")
         click.echo("    python -m pytest -q tests/worldwright/lint -k CODE     # its cases and its evidence")
         click.echo("    python -m worldwright.lint.reference                   # the page of rules")

@@ -1,4 +1,4 @@
-"""Answers that every client hands on whole: at most 20 KB of text each, the rest by page, and nothing dropped in silence.
+"""Cut answers so that every client passes them on whole: at most 20 KB of text each, the rest by page, no silent loss.
 
 Coding harnesses cut longer results in the middle, save them to a file or reset the call. A tool whose answer holds lists of
 things (findings, objects, jobs) therefore takes `page`; whatever else still grows too long is shortened, and the answer says
@@ -16,7 +16,7 @@ from .model.errors import NotFoundError
 
 LIMIT_BYTES = 20_000
 ROOM_BYTES = 500
-"""Kept free for `shortened` itself."""
+"""So many bytes are kept free for `shortened` itself."""
 
 
 def size(value: Any) -> int:
@@ -25,7 +25,7 @@ def size(value: Any) -> int:
 
 
 def lists(answer: type[BaseModel]) -> tuple[str, ...]:
-    """The fields of an answer that hold things, findings before all others: what its pages are made of."""
+    """The fields of an answer that hold things, findings first, of which its pages are made."""
     found = [name for name, field in answer.model_fields.items() if _holds_things(field.annotation)]
     return tuple(sorted(found, key=lambda name: name not in ("findings", "anomalies")))
 
@@ -37,12 +37,12 @@ def _holds_things(kind: Any) -> bool:
 
 
 def fit(data: dict[str, Any], fields: tuple[str, ...] = (), page: int = 1) -> dict[str, Any]:
-    """The answer, or the page of it, that fits; `shortened` is there when it is not the whole.
+    """The answer, or a page of it, that fits; it has `shortened` if it is not complete.
 
     Args:
         data: an answer as JSON data.
         fields: its lists of things, which are turned into pages one after the other.
-        page: which page, from 1.
+        page: the number of the page, from 1.
 
     Raises:
         NotFoundError: there is no such page.
@@ -76,7 +76,7 @@ def fit(data: dict[str, Any], fields: tuple[str, ...] = (), page: int = 1) -> di
 
 
 def _pages(sizes: list[int], room: int) -> list[tuple[int, int]]:
-    """Consecutive ranges that each fill the room as far as whole items do; one item at least."""
+    """Consecutive ranges of whole items that each fit into the room, or are one item."""
     pages, start, used = [], 0, 0
     for index, one in enumerate(sizes):
         if index > start and used + one > room:
@@ -87,7 +87,7 @@ def _pages(sizes: list[int], room: int) -> list[tuple[int, int]]:
 
 
 def _longest(value: Any, path: tuple[Any, ...]) -> tuple[tuple[Any, ...], Any]:
-    """Where the list or text lies that takes the most room, not counting lists that hold a longer one."""
+    """The path to the list or text that takes the most room, except lists that hold a longer one, and its value."""
     parts = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     inner = max((_longest(part, (*path, key)) for key, part in parts), key=lambda found: size(found[1]), default=None)
     own = isinstance(value, str) or (isinstance(value, list) and len(value) > 1)

@@ -1,4 +1,4 @@
-"""Tool schemas without what costs a reader tokens and tells it nothing.
+"""Write tool schemas without what costs a reader tokens and tells it nothing.
 
 pydantic names every field twice (`title`) and writes an optional argument as a union with null. A client that leaves such
 an argument out means the same, so that is what the schema says; null is still taken.
@@ -11,8 +11,8 @@ def plain(schema: dict[str, Any], optional: bool = False) -> dict[str, Any]:
     """A JSON schema that takes the same objects, in fewer words.
 
     Args:
-        schema: as pydantic writes it.
-        optional: also write `X | None = None` as an optional X, as fits arguments; answers do hold nulls.
+        schema: a schema by pydantic.
+        optional: also write `X | None = None` as an optional X, which fits arguments; answers do hold nulls.
     """
     found: dict[str, Any] = {}
     for key, value in schema.items():

@@ -1,4 +1,6 @@
-"""`worldwright serve NAME`: one MCP server over stdio, or over streamable HTTP on the loopback interface."""
+"""`worldwright serve NAME` runs one MCP server over stdio, or over streamable HTTP on the loopback interface."""
+
+import threading
 
 import click
 
@@ -12,8 +14,9 @@ from . import expose
 @click.option("--port", type=int, default=8000, show_default=True, help="Port to bind (http).")
 def command(name: str, transport: str, host: str, port: int) -> None:
     """Run one MCP server over stdio or streamable HTTP."""
-    if name == "retrieve":  # a server lives long enough for loading the model of meanings to pay
-        from .retrieve.semantic.ranker import BACKGROUND
+    if name == "retrieve":  # a server lives long enough for missing vectors to be made beside it
+        from .retrieve.semantic import ranker
 
-        BACKGROUND.enabled = True
+        ranker.LASTING.set()
+        threading.Thread(target=ranker.warm, daemon=True).start()
     expose.serve(name, transport, host, port)

@@ -11,15 +11,18 @@ import tempfile
 from pathlib import Path
 
 from click.testing import CliRunner
+from figures import Figure, report
 
 from worldwright.cli import main as worldwright
 from worldwright.lint.tools import check_program
-from worldwright.model import environment
-from worldwright.model.run import Run, sha256_file
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.stage.tools import start, wait
 
 PLAN = Path(__file__).parents[2] / "examples/breakfast-table/plan.md"
 SECONDS = 60
+GOAL = 0.2
+"""Of the first pass: what start-up, hashing and copying may take."""
 
 
 def main() -> int:
@@ -53,13 +56,16 @@ def main() -> int:
     print(f"a camera repair costs {second['wall_s'] / first['wall_s']:.1%} of the first pass, and no step")
     same = second["rows"] == first["rows"] and second["sha256"] == first["sha256"]
     good = same and second["simulated"] == 0 and first["simulated"] > 0 and third["simulated"] > 0
-    return 0 if good else 1
+    if not good:
+        print("the camera repair was simulated again, or the repaired physics was not")
+        return 1
+    return report(Figure("camera repair / first pass", second["wall_s"] / first["wall_s"], GOAL))
 
 
 def _physics(run: Run, source: str) -> dict:
     run.program.write_text(source, encoding="utf-8")
     check_program([run.program], plan=run.plan)
-    job = start(str(run.folder), wall_s=600)
+    job = start(str(run.folder))
     while not job.ended:
         job = wait(str(run.folder), job=job.job)
     if job.state != "succeeded":

@@ -14,6 +14,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from figures import Figure, report
+
 GOAL = 0.8
 PROGRAM = """
 import sys
@@ -70,8 +72,7 @@ def main() -> int:
             taken[cores] = film(program, whole, chosen) - film(program, short, chosen)
             print(f"{cores} core{'s' if cores > 1 else ''}: {taken[cores]:.2f} s for 47 more frames")
     speed = taken[1] / taken[count]
-    print(f"{speed:.2f} times as fast on {count} cores = {speed / count:.2f} n (goal {GOAL})")
-    return 1 if speed < GOAL * count else 0
+    return report(Figure(f"speed of a film on {count} cores, a core", speed / count, GOAL, "x", at_least=True))
 
 
 if __name__ == "__main__":

@@ -27,7 +27,9 @@ def node() -> dict[str, str]:
     stamp = FOLDER / "installed"
     if not stamp.is_file() or stamp.read_text() != "\n".join(PINNED):
         if shutil.which("npm") is None:
-            pytest.fail("the protocol's judges need npm: install Node.js, or leave this target out")
+            pytest.fail(
+                "the protocol's judges come from npm: run `bash .ci/system.sh suites`, or leave this target out"
+            )
         FOLDER.mkdir(parents=True, exist_ok=True)
         (FOLDER / "package.json").write_text("{}")
         install = ["npm", "install", "--ignore-scripts", "--no-audit", "--no-fund", *PINNED]

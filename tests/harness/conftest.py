@@ -29,13 +29,13 @@ def harnesses() -> dict[str, Path]:
     """The harnesses' programs, installed once."""
     if not all(path.is_file() for path in BINARIES.values()):
         if shutil.which("npm") is None:
-            pytest.skip("npm is not installed")
+            pytest.fail("the harnesses come from npm: run `bash .ci/system.sh suites`, or leave this target out")
         FOLDER.mkdir(parents=True, exist_ok=True)
         (FOLDER / "package.json").write_text("{}")
         command = ["npm", "install", "--ignore-scripts", "--no-audit", "--no-fund", *PACKAGES]
         done = subprocess.run(command, cwd=FOLDER, capture_output=True, text=True)
         if done.returncode:
-            pytest.skip(f"the harnesses cannot be installed here: {done.stderr[-300:]}")
+            pytest.fail(f"npm could not install the harnesses: {done.stderr[-300:]}")
     return BINARIES
 
 
@@ -56,16 +56,26 @@ def project(tmp_path: Path) -> Path:
             continue
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(source, target, follow_symlinks=False)
-    (folder / ".venv").symlink_to(REPO / ".venv")
+    (folder / ".venv").mkdir()  # a folder as in a checkout: Codex protects none that is itself a link
+    for entry in (REPO / ".venv").iterdir():
+        (folder / ".venv" / entry.name).symlink_to(entry)
+    (folder / "runs").mkdir()
     subprocess.run(["git", "init", "-q"], cwd=folder, check=True)
     return folder
 
 
+@pytest.fixture(scope="session")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What every home may share: tables of the installed packages, which are minutes of work to make for each anew."""
+    return tmp_path_factory.mktemp("cache")
+
+
 @pytest.fixture
-def clean(tmp_path: Path) -> dict[str, str]:
+def clean(tmp_path: Path, cache: Path) -> dict[str, str]:
     """An environment with nothing of this machine's settings: an empty home, a path, dummy keys."""
     home, scratch = tmp_path / "home", tmp_path / "scratch"
-    home.mkdir()
+    (home / ".cache").mkdir(parents=True)
+    (home / ".cache" / "worldwright").symlink_to(cache)  # a variable would not reach the servers that Codex starts
     scratch.mkdir()
     return {
         "HOME": str(home),

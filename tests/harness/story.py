@@ -7,6 +7,27 @@ from typing import Any
 from script import Call, Lazy, Say, Turn
 
 RUN = "runs/ball"
+TRIES = (
+    "echo x > runs/ball/evidence/k/scan.json",
+    "p=run; echo x > ${p}s/ball/evidence/k/new.json",
+    "python3 -c \"open('r'+'uns/ball/journal.jsonl','a').write('x')\"",
+    "rm -r ru*/ball/accepted/stamp.json",
+    "mkdir -p runs/new/accepted",
+    "echo raise >> servers/worldwright/contract/guard.py",
+    "echo x > examples/x 2>/dev/null; echo x > notes.md; cat runs/ball/journal.jsonl",
+)
+"""Commands by which an agent would write evidence, acceptance, the journal or the suite; the last one only works elsewhere."""
+
+
+def evidence(project: Path) -> dict[str, bytes]:
+    """All that no shell may change, after it was made where it is missing."""
+    for name in ("evidence/k/scan.json", "accepted/stamp.json", "journal.jsonl"):
+        path = project / RUN / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        if not path.exists():
+            path.write_text("chained\n", encoding="utf-8")
+    paths = [*(project / "runs").rglob("*"), *(project / "servers/worldwright/contract").rglob("*.py")]
+    return {str(path): path.read_bytes() for path in paths if path.is_file()}
 
 
 def story(
@@ -34,7 +55,9 @@ def story(
         [
             tool(
                 "stamp", "describe", run=RUN,
-                description={"author": "world-visual", "summary": "a red ball above a pale floor", "cameras": {"overview": "a ball"}},
+                description={"author": "world-visual", "summary": "a red ball above a pale floor", "cameras": {"overview": "a ball", "side": "a ball"}, "objects": {"ball": "red"},
+                             "named": [{"seen": "a red ball", "camera": "overview"}], "event": "it falls", "belief": 8,
+                             "betrays": ["an empty floor", "a flat sky", "no dust"]},
             )
         ],
         [Say("described")],
@@ -49,6 +72,10 @@ def story(
                 "objectives": [
                     {"index": 0, "met": True, "evidence": ["expect:falls"]},
                     {"index": 1, "met": met, "evidence": ["visual:overview"]},
+                ],
+                "recognised": [
+                    {"wanted": "ball", "seen_as": "a red ball", "same": True},
+                    {"wanted": "event", "seen_as": "it falls", "same": True},
                 ],
                 "cross_checks": [{"claim": "it moves", "channel": "visual", "tested_in": "numeric", "confirmed": True}],
                 **more,

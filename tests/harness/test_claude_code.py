@@ -6,10 +6,10 @@ import subprocess
 import pytest
 from model_server import Model
 from script import ROLES, Call, Say, Script
-from story import story
+from story import TRIES, evidence, story
 
 
-def claude(harnesses, project, clean, script, prompt, timeout=240):
+def claude(harnesses, project, clean, script, prompt, timeout=900):
     """Run one headless session; returns its result."""
     with Model(script) as model:
         done = subprocess.run(
@@ -40,7 +40,6 @@ def spawn(role):
 
 
 def test_the_guard_holds_for_every_role(harnesses, project, clean):
-    (project / "runs").mkdir()
     (project / "outside").mkdir()
     (project / "runs/link").symlink_to(project / "outside")
     forbidden = [
@@ -53,7 +52,6 @@ def test_the_guard_holds_for_every_role(harnesses, project, clean):
     turns = {
         "main": [
             [write(project, "runs/ball/plan.md")],
-            [Call("Bash", {"command": "mkdir -p runs/ball && echo x > runs/ball/plan.md", "description": "write"})],
             *(turn for role in ROLES for turn in spawn(role)),
             [Call("mcp__stamp__review", {"run": "runs/ball"})],
         ],
@@ -78,8 +76,29 @@ def test_the_guard_holds_for_every_role(harnesses, project, clean):
         assert "scope guard" not in first
         assert len(others) == 6 and all("scope guard" in text for text in others)
     main = script.results["main"]
-    assert "scope guard" in main[0] and "scope guard" in main[1] and "scope guard" in main[-1]
+    assert "scope guard" in main[0] and "scope guard" in main[-1]
     assert not any(tool in script.tools[role] for role in ("visual", "review") for tool in ("Write", "Edit", "Bash"))
+
+
+def test_the_shell_writes_neither_evidence_nor_the_suite(harnesses, project, clean):
+    """The person allows every command, and the model asks for the sandbox to be left out."""
+    settings = project / ".claude/settings.json"
+    allowed = json.loads(settings.read_text())
+    allowed["permissions"]["allow"] = ["Bash"]
+    settings.write_text(json.dumps(allowed))
+    home = project.parent / "home" / ".claude.json"
+    home.write_text(json.dumps({"projects": {str(project): {"hasTrustDialogAccepted": True}}}))
+    calls = [
+        Call("Bash", {"command": command, "description": "try", "dangerouslyDisableSandbox": True}) for command in TRIES
+    ]
+    script = Script({"main": [*([call] for call in calls), [Say("tried")]]})
+    before = evidence(project)
+    claude(harnesses, project, clean, script, "do what the script says")
+    assert evidence(project) == before
+    results = script.results["main"]
+    assert len(results) == len(TRIES)
+    assert all("Read-only file system" in text for text in results[:-1]), results
+    assert (project / "notes.md").is_file() and "chained" in results[-1]  # other work goes on, and so does looking
 
 
 def test_a_broken_guard_denies(harnesses, project, clean):
@@ -111,6 +130,10 @@ def test_a_sentence_becomes_a_stamped_world(harnesses, project, clean, small_pla
     assert result["result"].startswith("accepted"), said
     assert (project / "runs/ball/accepted/stamp.json").is_file(), said
     done = subprocess.run(
-        [project / ".venv/bin/worldwright", "stamp", "verify", "runs/ball"], cwd=project, capture_output=True, text=True
+        [project / ".venv/bin/worldwright", "stamp", "verify", "runs/ball"],
+        cwd=project,
+        env=clean,
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 0, done.stdout

@@ -11,7 +11,7 @@ from itertools import count
 import pytest
 from model_server import Model
 from script import ROLES, Call, Say, Script
-from story import story
+from story import TRIES, evidence, story
 
 CODE_MODE, DIRECT = "gpt-6.1-sol", "gpt-5.5"
 TRUSTED = "--dangerously-bypass-hook-trust"
@@ -36,7 +36,7 @@ trust_level = "trusted"
 ''')
 
 
-def codex(harnesses, project, clean, script, prompt, *options, model=CODE_MODE, more="", timeout=300):
+def codex(harnesses, project, clean, script, prompt, *options, model=CODE_MODE, more="", timeout=900):
     """Run one headless session; returns what it printed."""
     with Model(script) as server:
         configure(project, clean, server.url, model, more)
@@ -133,14 +133,19 @@ def scopes():
 def check_scopes(script, project):
     assert sorted(p.name for p in (project / "runs/ball").iterdir()) == ["plan.md", "simulation.py"]
     assert not list((project / "outside").iterdir()) and not (project / "x.md").exists()
-    assert all("scope guard" in text for text in script.results["main"][:3]), script.results["main"]
+    patched, shelled, reviewed = script.results["main"][:3]
+    assert "scope guard" in patched and "Permission denied" in shelled and "scope guard" in reviewed, script.results[
+        "main"
+    ]
     for role in ROLES:
         results = list(script.results[role])
         if role in ("plan", "code"):
             assert "scope guard" not in results.pop(0)
         looked, *others = results
         assert ("Worldwright" in looked) == (role != "visual"), looked
-        assert len(others) >= 8 and all("scope guard" in text for text in others), others
+        assert len(others) >= 8
+        for text in others:
+            assert "scope guard" in text or (role != "visual" and "Permission denied" in text), others
 
 
 @pytest.fixture
@@ -161,6 +166,41 @@ def test_the_guard_holds_for_every_role(harnesses, tempting, clean, model):
     codex(harnesses, tempting, clean, script, "do what the script says", TRUSTED, model=model)
     check_scopes(script, tempting)
     assert (tempting / "README.md").read_text() == before
+
+
+@pytest.mark.parametrize("agent", ["main", "code"])
+@pytest.mark.parametrize("model", [CODE_MODE, DIRECT])
+def test_the_shell_writes_neither_evidence_nor_the_suite(harnesses, tempting, clean, model, agent):
+    (tempting / "notes.md").write_text("")  # by shell the project's own folder takes no new files
+    script = Script({})
+    tries = [[Call("exec_command", {"cmd": command})] for command in TRIES]
+    script.turns[agent] = [*tries, [Say("tried")]]
+    if agent != "main":
+        script.turns["main"] = (spawn if model == CODE_MODE else spawn_directly(script))(agent)
+    before = evidence(tempting)
+    codex(harnesses, tempting, clean, script, "do what the script says", TRUSTED, model=model)
+    assert evidence(tempting) == before
+    results = script.results[agent]
+    assert len(results) == len(TRIES)
+    assert all("Permission denied" in text or "Read-only" in text for text in results[:-1]), results
+    assert (tempting / "notes.md").read_text() == "x\n" and "chained" in results[-1]
+
+
+def test_a_shell_that_goes_on_listening_is_confined_too(harnesses, tempting, clean):
+    script = Script({})
+
+    def typed():
+        session = re.search(r'session_id"?:\s*(\d+)', script.results["main"][-1]).group(1)
+        line = {"session_id": int(session), "chars": "echo x > runs/ball/plan.md; echo typed\n", "yield_time_ms": 3000}
+        return [Call("write_stdin", line)]
+
+    script.turns["main"] = [
+        [Call("exec_command", {"cmd": "bash", "tty": True, "yield_time_ms": 500})],
+        typed,
+        [Say("tried")],
+    ]
+    codex(harnesses, tempting, clean, script, "do what the script says", TRUSTED)
+    assert "typed" in script.results["main"][-1] and not (tempting / "runs/ball/plan.md").exists()
 
 
 def test_a_role_starts_no_agents(harnesses, tempting, clean):
@@ -221,6 +261,10 @@ def test_a_sentence_becomes_a_stamped_world(harnesses, project, clean, small_pla
     assert "# Generate a world from a sentence" in script.first["main"]
     assert "a ball is dropped" not in script.first["visual"]
     done = subprocess.run(
-        [project / ".venv/bin/worldwright", "stamp", "verify", "runs/ball"], cwd=project, capture_output=True, text=True
+        [project / ".venv/bin/worldwright", "stamp", "verify", "runs/ball"],
+        cwd=project,
+        env=clean,
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 0, done.stdout

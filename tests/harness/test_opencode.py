@@ -7,13 +7,13 @@ import subprocess
 import pytest
 from model_server import Model
 from script import ROLES, Call, Say, Script
-from story import story
+from story import TRIES, evidence, story
 
 
-def opencode(harnesses, project, clean, script, *arguments, timeout=300):
+def opencode(harnesses, project, clean, script, *arguments, timeout=900):
     """Run one headless session; returns what it printed."""
     if shutil.which("rg", path=clean["PATH"]) is None:
-        pytest.skip("OpenCode needs ripgrep (Debian: ripgrep)")
+        pytest.fail("OpenCode needs ripgrep: run `bash .ci/system.sh suites`")
     with Model(script) as model:
         path = project / ".opencode/opencode.json"
         config = json.loads(path.read_text())
@@ -53,7 +53,6 @@ FORBIDDEN = [
 
 
 def test_the_scopes_hold_for_every_role(harnesses, project, clean):
-    (project / "runs").mkdir()
     (project / "outside").mkdir()
     (project / "runs/link").symlink_to(project / "outside")
     shell = [
@@ -91,6 +90,19 @@ def test_the_scopes_hold_for_every_role(harnesses, project, clean):
     assert all("scope guard" in text or "permission" in text.lower() for text in script.results["main"][:3])
 
 
+def test_the_shell_writes_neither_evidence_nor_the_suite(harnesses, project, clean):
+    (project / "notes.md").write_text("")  # by shell the project's own folder takes no new files
+    calls = [Call("bash", {"command": command, "description": "try"}) for command in TRIES]
+    script = Script({"main": [*([call] for call in calls), [Say("tried")]]})
+    before = evidence(project)
+    opencode(harnesses, project, clean, script, "do what the script says")
+    assert evidence(project) == before
+    results = script.results["main"]
+    assert len(results) == len(TRIES)
+    assert all("ermission denied" in text for text in results[:-1]), results
+    assert (project / "notes.md").read_text() == "x\n" and "chained" in results[-1]
+
+
 def test_a_broken_guard_denies(harnesses, project, clean):
     (project / "servers/worldwright/contract/roles.py").write_text("raise RuntimeError('broken')\n")
     script = Script({"main": [[Call("bash", {"command": "touch notes.md", "description": "touch"})]]})
@@ -113,6 +125,10 @@ def test_a_sentence_becomes_a_stamped_world(harnesses, project, clean, small_pla
     assert (project / "runs/ball/accepted/stamp.json").is_file(), said
     assert [Say("accepted")] not in script.turns["main"]
     done = subprocess.run(
-        [project / ".venv/bin/worldwright", "stamp", "verify", "runs/ball"], cwd=project, capture_output=True, text=True
+        [project / ".venv/bin/worldwright", "stamp", "verify", "runs/ball"],
+        cwd=project,
+        env=clean,
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 0, done.stdout

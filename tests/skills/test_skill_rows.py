@@ -7,10 +7,10 @@ import pytest
 import yaml
 
 from worldwright.lint import tools
-from worldwright.model.plan import Plan
-from worldwright.model.plan_text import parse_plan
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.plan_text import parse_plan
 from worldwright.place.engine import resolve
-from worldwright.scan.expecting import EXPECTATIONS
+from worldwright.scan.objectives.claims import EXPECTATIONS
 
 REPO = Path(__file__).parents[2]
 PAGES = sorted([*(REPO / "skills").glob("*/SKILL.md"), *(REPO / "skills").glob("*/references/*.md")])
@@ -18,7 +18,7 @@ ROWS = [
     pytest.param(kind, body, id=f"{page.relative_to(REPO / 'skills')}:{text[: found.start()].count(chr(10)) + 2}")
     for page in PAGES
     for text in [page.read_text(encoding="utf-8")]
-    for found in re.finditer(r"^```yaml (interventions|objectives)\n(.*?)^```$", text, re.M | re.S)
+    for found in re.finditer(r"^```yaml (interventions|objectives)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
     for kind, body in [found.groups()]
 ]
 
@@ -42,7 +42,7 @@ def test_the_rows_of_a_skill_are_valid(kind, body):
 PLANS = [
     pytest.param(found[1], id=f"{page.relative_to(REPO / 'skills')}")
     for page in PAGES
-    for found in re.finditer(r"^~~~~markdown\n(.*?)^~~~~$", page.read_text(encoding="utf-8"), re.M | re.S)
+    for found in re.finditer(r"^~~~~markdown\n(.*?)^~~~~$", page.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
 ]
 
 

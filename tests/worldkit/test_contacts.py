@@ -3,8 +3,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from small_worlds import ball, empty, floor
 
+from small_worlds import ball, empty, floor
 from worldkit import contacts
 
 

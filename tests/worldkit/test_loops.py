@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from worldkit import bodies, joints, loops, motion
+from worldkit import bodies, joints, loops, motion, portable
 
 CRANK, COUPLER, ROCKER, GROUND = 0.1, 0.3, 0.25, 0.3
 """A crank-rocker by Grashof: shortest and longest link are together shorter than the other two."""
@@ -174,3 +174,11 @@ def test_without_a_loop_nothing_else_is_started():
     loops.weld(spec, "glue", child="ball", parent="arm")
     motion.launch(spec, {"arm": motion.Launch(linear=(1, 0, 0))})
     assert np.count_nonzero(spec.key("start").qvel) == 1
+
+
+@pytest.mark.parametrize("kind", ["ball", "hinge", "weld"])
+def test_a_loop_survives_being_written_as_one_file(kind, tmp_path):
+    spec = mujoco.MjSpec()
+    bodies.box(spec, "plank", size=(1, 0.1, 0.04), pos=(0, 0, 1), mass=2, joint=joints.Hinge("pin", axis=(0, 1, 0)))
+    getattr(loops, kind)(spec, "end", child="plank")
+    assert portable.write(spec, tmp_path / "world.mjz")["differs"] == 0

@@ -79,6 +79,17 @@ def test_a_free_mjcf_brings_its_joints_servos_and_sensors_and_leaves_the_floor()
     assert model.njnt == 1 and model.body("chest").parentid[0] == 0
 
 
+def test_a_height_field_stands_on_the_middle_of_its_box_not_on_its_frame():
+    text = """<mujoco><asset><hfield name="h" nrow="2" ncol="3" size="4 3 2 0.5" elevation="0 .5 1 0 .5 1"/></asset>
+      <worldbody><body name="hill"><geom type="hfield" hfield="h"/></body></worldbody></mujoco>"""
+    assert models.facts(text, "hill")["extents"] == pytest.approx((8, 6, 2.5))
+    model, data = world((text, {"name": "hill", "pos": (1, 2, 1.25), "fixed": True}))
+    top = mujoco.mj_rayHfield(
+        model, data, model.geom("hill/0").id, np.array((1.0, 2.0, 9.0)), np.array((0.0, 0.0, -1.0))
+    )
+    assert 9.0 - top == pytest.approx(0.5 + 1.0)
+
+
 def test_several_copies_each_have_names_of_their_own():
     model, data = world(*((CHEST, {"name": f"chest_{k}", "pos": (k, 0, 0.11), "yaw_deg": 30.0 * k}) for k in (1, 2, 3)))
     assert [model.actuator(a).name for a in range(3)] == [f"chest_{k}_opener" for k in (1, 2, 3)]

@@ -1,8 +1,8 @@
 import mujoco
 import numpy as np
 import pytest
-from small_worlds import ball, empty, record
 
+from small_worlds import ball, empty, record
 from worldkit import motion
 from worldkit.motion import Launch
 

@@ -1,5 +1,6 @@
 """A world as one file: plain MuJoCo opens it anywhere, and it moves as the program's."""
 
+import warnings
 import zipfile
 from pathlib import Path
 
@@ -57,3 +58,14 @@ def test_a_file_that_is_gone_is_named(tmp_path: Path) -> None:
     wedge.unlink()
     with pytest.raises(ProgramError, match=r"cannot be read|wedge"):
         portable.take_in(spec)
+
+
+@pytest.mark.parametrize("second", ["./model.xml", "/model.xml", "sub/../model.xml", "model.xml"])
+def test_an_archive_that_two_readers_open_differently_is_refused(tmp_path, second):
+    path = tmp_path / "world.mjz"
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("model.xml", "<mujoco/>")
+        with warnings.catch_warnings(action="ignore"):
+            archive.writestr(second, "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
+    with pytest.raises(ValueError, match="another world"):
+        portable.read(path)

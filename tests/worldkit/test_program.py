@@ -7,11 +7,14 @@ import sys
 import textwrap
 from pathlib import Path
 
+import mujoco
 import numpy as np
 import pytest
-from small_worlds import ball, empty, floor
 
-from worldkit import program, trajectory
+from small_worlds import ball, empty, floor
+from worldengine.recording import stored
+from worldkit import program, world
+from worldkit.errors import ProgramError
 
 SERVERS = Path(__file__).parents[2] / "servers"
 
@@ -36,10 +39,10 @@ def error(out):
 def test_the_physics_pass_leaves_a_recording_a_summary_and_its_progress(tmp_path):
     assert run(tmp_path, movers=("ball",), seed=7) == 0
     result = json.loads((tmp_path / "result.json").read_text())
-    recording = trajectory.open(tmp_path / "trajectory")
+    recording = stored.open(tmp_path / "trajectory")
     assert result["ok"] is True
     assert (result["steps"], result["rows"], result["bodies"]) == (200, 201, 1)
-    assert result["trajectory_sha256"] == recording.sha256 == trajectory.digest(recording)
+    assert result["trajectory_sha256"] == recording.sha256 == stored.digest(recording)
     assert result["final_time"] == pytest.approx(0.2)
     assert result["interventions"] == {} and result["warnings"] == {}
     assert recording.meta["seed"] == 7 and recording.meta["movers"] == ["ball"]
@@ -54,7 +57,7 @@ def test_build_and_control_may_draw_seeded_numbers(tmp_path):
         return spec
 
     def control(model, data, rng):
-        data.xfrc_applied[1, :3] = rng.normal(size=3) + np.random.normal(size=3)
+        data.xfrc_applied[1, :3] = rng.normal(size=3) + np.random.normal(size=3)  # noqa: NPY002 - the global one is seeded too
 
     def digest(name, seed):
         assert run(tmp_path / name, "--seed", str(seed), world=random_build, control=control) == 0
@@ -66,7 +69,7 @@ def test_build_and_control_may_draw_seeded_numbers(tmp_path):
 
 def test_a_duration_on_the_command_line_wins(tmp_path):
     assert run(tmp_path, "--duration", "0.05") == 0
-    assert len(trajectory.open(tmp_path / "trajectory")) == 51
+    assert len(stored.open(tmp_path / "trajectory")) == 51
 
 
 def test_a_compiled_model_is_fine_too(tmp_path):
@@ -80,7 +83,7 @@ def test_the_start_keyframe_is_where_it_begins(tmp_path):
         return spec
 
     assert run(tmp_path, world=thrown) == 0
-    assert trajectory.open(tmp_path / "trajectory").pos[0, 0] == pytest.approx((1, 2, 3))
+    assert stored.open(tmp_path / "trajectory").pos[0, 0] == pytest.approx((1, 2, 3))
 
 
 def test_an_error_in_the_program_names_file_line_and_source(tmp_path, capsys):
@@ -96,7 +99,7 @@ def test_an_error_in_the_program_names_file_line_and_source(tmp_path, capsys):
     assert Path(__file__).read_text().splitlines()[facts["line"] - 1].strip() == facts["source"]
     assert not (tmp_path / "result.json").exists()
     assert "IndexError" in capsys.readouterr().err
-    recording = trajectory.open(tmp_path / "trajectory")
+    recording = stored.open(tmp_path / "trajectory")
     assert not recording.complete
     assert len(recording) == 100  # everything up to the failing step
 
@@ -168,7 +171,7 @@ def test_an_error_of_the_engine_keeps_what_was_recorded(tmp_path):
     assert facts["code"] == "engine"
     assert "solver" in facts["message"]
     assert facts["line"]
-    recording = trajectory.open(tmp_path / "trajectory")
+    recording = stored.open(tmp_path / "trajectory")
     assert not recording.complete
     assert len(recording) == 50
     assert recording.interventions.target.tolist() == ["opt.solver"]
@@ -229,7 +232,7 @@ def test_a_script_without_arguments_simulates_and_says_what_it_did(tmp_path):
         done = script(tmp_path)
         assert done.returncode == 0, done.stderr
         assert "1 bodies, 50 steps" in done.stdout
-    assert len(trajectory.open(tmp_path / "out" / "trajectory")) == 51
+    assert len(stored.open(tmp_path / "out" / "trajectory")) == 51
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "simulation.py"]
 
 
@@ -251,9 +254,29 @@ def test_view_without_a_display_says_so(tmp_path):
 def test_importing_worldkit_is_light():
     code = """
     import sys
-    from worldkit import contacts, motion, program, trajectory, record, replay, simulate, interventions
+    from worldengine.clock import simulate
+    from worldengine.inputs import ledger
+    from worldengine.recording import record, replay, stored
+    from worldkit import contacts, motion, program
     heavy = {"mujoco", "numpy", "pyarrow", "av", "cv2"} & set(sys.modules)
     assert not heavy, heavy
     """
     environment = os.environ | {"PYTHONPATH": str(SERVERS)}
     subprocess.run([sys.executable, "-c", textwrap.dedent(code)], env=environment, check=True, timeout=30)
+
+
+def test_a_callback_that_breaks_the_compiler_is_named():
+    """The engine asks it while it compiles, where a program's `data` is not yet there, and says only that Python raised."""
+    spec = mujoco.MjSpec()
+    spec.worldbody.add_body(name="crate").add_geom(size=(0.1, 0, 0))
+
+    def pushes(model, data):
+        raise KeyError("crate")
+
+    mujoco.set_mjcb_control(pushes)
+    try:
+        with pytest.raises(ProgramError, match="set_mjcb_control") as caught:
+            world.finish(spec, "build()")
+    finally:
+        mujoco.set_mjcb_control(None)
+    assert "control(model, data)" in caught.value.next_move

@@ -22,7 +22,7 @@ def small_plan() -> str:
 def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run with a resolved plan and a drafted program, not yet approved."""
     from worldwright.draft import draft
-    from worldwright.model.plan_text import read_plan
+    from worldwright.model.plan.plan_text import read_plan
     from worldwright.place.tools import resolve
 
     folder = tmp_path_factory.mktemp("worlds") / "dropped-ball"
@@ -56,9 +56,9 @@ def prepare() -> Callable[[Path], None]:
 def _prepare(folder: Path) -> None:
     """Bring a planned run up to its review, measured."""
     from worldwright.lint import tools as lint
-    from worldwright.model.run import Run
+    from worldwright.model.evidence.run import Run
     from worldwright.scan import tools as scan
-    from worldwright.stamp import measured
+    from worldwright.stamp import by_measurement
     from worldwright.stamp import tools as stamp
 
     stamp.approve(str(folder), by="tester")
@@ -68,8 +68,8 @@ def _prepare(folder: Path) -> None:
     _stage(folder, "physics", "stills", *(["video"] if films else []))
     scan.scan(str(folder))
     scan.expect(str(folder))
-    stamp.describe(str(folder), measured.describe(Run(folder)))
-    stamp.review(str(folder), measured.review(Run(folder)))
+    stamp.describe(str(folder), by_measurement.describe(Run(folder)))
+    stamp.review(str(folder), by_measurement.review(Run(folder)))
 
 
 @pytest.fixture(scope="session")
@@ -101,4 +101,4 @@ def copy(tmp_path: Path) -> Iterator[Callable[[Path], Path]]:
         shutil.copytree(folder, target)
         return target
 
-    yield make
+    return make

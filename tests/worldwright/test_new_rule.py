@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from worldwright import cli, new_rule
 from worldwright.lint import engine
 from worldwright.model.errors import WorldwrightError
-from worldwright.model.run import Run
+from worldwright.model.evidence.run import Run
 
 PROGRAM = (
     "import mujoco\n\n\ndef build():\n    spec = mujoco.MjSpec()\n    raise ValueError('too stiff')\n    return spec\n"
@@ -62,8 +62,7 @@ def test_a_scaffold_is_well_formed_and_finds_nothing(run, rules, shelf):
     spec = importlib.util.spec_from_file_location(f"{package}.too_stiff_spring", path)
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
-    shelves = {"program": engine.PROGRAM_RULES, "model": engine.MODEL_RULES, "plan": engine.PLAN_RULES}
-    entry = shelves[shelf]._entry(module)
+    entry = engine.SHELVES[shelf]._entry(module, module)
     assert entry.code not in {rule.code for rule in engine.all_rules()}
     assert entry.code.startswith(new_rule.PREFIXES[shelf]) and list(entry.check(None)) == []
     assert new_rule.next_code(shelf, rules) > entry.code

@@ -14,7 +14,7 @@ from mcp import StdioServerParameters
 from worldwright import expose
 from worldwright.cli import main
 from worldwright.report import write as write_report
-from worldwright.stamp import measured
+from worldwright.stamp import by_measurement
 
 WORLD = Path(__file__).parent / "world"
 
@@ -23,15 +23,15 @@ WORLD = Path(__file__).parent / "world"
 def world(tmp_path_factory) -> Path:
     """A small world, built and accepted by the command line."""
     folder = tmp_path_factory.mktemp("servers") / "world"
-    built = CliRunner().invoke(main, ["build", str(WORLD / "plan.md"), "--run", str(folder), "--approve", "--accept"])
+    built = CliRunner().invoke(main, ["go", str(WORLD / "plan.md"), "--run", str(folder), "--approve", "--accept"])
     assert built.exit_code == 0, built.output
     return folder
 
 
 def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
     """Arguments for every tool of a server; `copy` is a run that may be changed."""
-    from worldwright.model import environment
-    from worldwright.model.run import Run
+    from worldwright.model.evidence import environment
+    from worldwright.model.evidence.run import Run
 
     run, plan = str(world), str(world / "plan.md")
     key = Run(world).evidence_key(environment.current().sha256()).key
@@ -43,11 +43,13 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "symbol": {"name": "mujoco.mj_step"},
             "breaking_changes": {"name": "composite"},
             "find_asset": {"query": "mug"},
+            "begin": {"sentence": "a ball falls beside a block", "run": f"{copy}-begun"},
             "status": {},
         },
         "lint": {
             "check_plan": {"plan": plan},
             "check_program": {"files": [str(world / "simulation.py")], "plan": plan},
+            "complete_plan": {"run": str(copy)},
             "explain": {"code": "WL101"},
             "list_rules": {},
         },
@@ -77,9 +79,10 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
         },
         "stamp": {
             "status": {"run": str(copy)},
+            "go": {"run": str(copy), "timeout_s": 1},
             "approve": {"run": str(copy)},
-            "describe": {"run": str(copy), "description": measured.describe(copied).model_dump(mode="json")},
-            "review": {"run": str(copy), "verdict": measured.review(copied).model_dump(mode="json")},
+            "describe": {"run": str(copy), "description": by_measurement.describe(copied).model_dump(mode="json")},
+            "review": {"run": str(copy), "verdict": by_measurement.review(copied).model_dump(mode="json")},
             "accept": {"run": str(copy)},
             "verify": {"run": run},
             "block": {"run": f"{copy}-other", "cause": "a test of the other ending"},
@@ -146,7 +149,7 @@ def test_a_broken_run_is_an_answer_not_an_end(tmp_path):
 
 
 def test_the_report_is_one_file_and_asks_the_network_for_nothing(world):
-    from worldwright.model.run import Run
+    from worldwright.model.evidence.run import Run
 
     page = write_report(Run(world)).read_text(encoding="utf-8")
     assert "data:video/mp4;base64," in page

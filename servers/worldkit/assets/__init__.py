@@ -1,4 +1,4 @@
-"""Catalog assets in a world: look them up without the simulator, add them to an `MjSpec` scaled to a plan's height.
+"""Assets in a world: look them up without the simulator, add them to an `MjSpec` scaled to a plan's height.
 
     mug = assets.find("mug")                       # facts only: no mujoco import
     mug.extents(0.10)                              # (x, y, z) metres when it is 0.10 m high
@@ -11,10 +11,11 @@ plane at `z`, put its centre at `z + h / 2`. To rest something inside or on anot
 the supporting plane is at `other_z - other_h / 2 + other.support(name, height=other_h).z`.
 """
 
-from .catalog import UnknownAssetError, catalog_root, find, fingerprint, keys
+from .catalog import UnknownAssetError, files, find, fingerprint, keys
 from .entry import Asset, Piece, Support
 from .instance import add
 from .reading import AssetError
+from .root import catalog_root
 
 __all__ = [
     "Asset",
@@ -24,6 +25,7 @@ __all__ = [
     "UnknownAssetError",
     "add",
     "catalog_root",
+    "files",
     "find",
     "fingerprint",
     "keys",

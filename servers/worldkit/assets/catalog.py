@@ -1,13 +1,16 @@
-"""Where the assets are, which there are, and one hash over everything that can change a world."""
+"""Which assets there are, from whatever source, which of them this process used, and one hash over them all."""
 
 import difflib
 import hashlib
-import os
 from functools import lru_cache
 from pathlib import Path
 
 from .entry import Asset
-from .reading import read_asset
+from .reading import AssetError
+from .root import catalog_root
+from .sources import SEAM
+
+_TAKEN: set[str] = set()
 
 
 class UnknownAssetError(KeyError):
@@ -17,47 +20,62 @@ class UnknownAssetError(KeyError):
         return str(self.args[0])
 
 
-def catalog_root() -> Path:
-    """The catalog folder: `$WORLDWRIGHT_CATALOG`, else the repository's `catalog/`, else the one inside the wheel.
+def sources() -> dict[str, str]:
+    """The source of each key, by key, sorted.
 
     Raises:
-        FileNotFoundError: there is none; the message names the places looked at.
+        AssetError: two sources deliver one key.
     """
-    named = os.environ.get("WORLDWRIGHT_CATALOG")
-    package = Path(__file__).resolve().parents[1]
-    places = [Path(named)] if named else [package.parents[1] / "catalog", package / "_catalog"]
-    for place in places:
-        if place.is_dir():
-            return place.resolve()
-    raise FileNotFoundError(
-        f"no asset catalog at {' or '.join(map(str, places))}; point WORLDWRIGHT_CATALOG at a folder of assets"
-    )
+    found: dict[str, str] = {}
+    for name in SEAM.names():
+        for key in SEAM.find(name).keys():  # noqa: SIM118 - a function of the source, not a mapping
+            if key in found:
+                raise AssetError(f"{catalog_root()}: both {found[key]} and {name} deliver {key!r}: rename one of them")
+            found[key] = name
+    return dict(sorted(found.items()))
 
 
 def keys() -> tuple[str, ...]:
-    """Every asset key, sorted: the folders of the catalog that hold an `asset.yaml`."""
-    return tuple(sorted(path.parent.name for path in catalog_root().glob("*/asset.yaml")))
+    """Every asset key, sorted."""
+    return tuple(sources())
 
 
 def find(key: str) -> Asset:
-    """The catalog entry `key`.
+    """The entry `key`.
 
     Raises:
         UnknownAssetError: no such key; names the nearest ones and all.
-        AssetError: its `asset.yaml` is malformed.
+        AssetError: what its source has under that key is no asset.
     """
-    path = catalog_root() / key / "asset.yaml"
-    if key not in keys():
-        near = difflib.get_close_matches(key, keys(), n=3, cutoff=0.5)
+    known = sources()
+    if key not in known:
+        near = difflib.get_close_matches(key, known, n=3, cutoff=0.5)
         hint = f"did you mean {' or '.join(near)}? " if near else ""
-        raise UnknownAssetError(f"no asset {key!r} in {catalog_root()}; {hint}known: {', '.join(keys())}")
-    stat = path.stat()
-    return _read(path.parent, stat.st_mtime_ns, stat.st_size)
+        raise UnknownAssetError(f"no asset {key!r} in {catalog_root()}; {hint}known: {', '.join(known)}")
+    take(key)
+    stats = tuple((path, s.st_mtime_ns, s.st_size) for path in files(key) for s in (path.stat(),))
+    return _read(known[key], key, stats)
+
+
+def files(key: str) -> tuple[Path, ...]:
+    """Every file that decides what an asset is; none where there is no such key."""
+    source = sources().get(key)
+    return () if source is None else SEAM.find(source).files(key)
+
+
+def take(name: str) -> None:
+    """Note that an asset, or something else of the catalog's top level, goes into the world that this process builds."""
+    _TAKEN.add(name)
+
+
+def taken() -> tuple[str, ...]:
+    """What this process took of the catalog until now, by name, sorted."""
+    return tuple(sorted(_TAKEN))
 
 
 @lru_cache(maxsize=512)
-def _read(folder: Path, _modified: int, _size: int) -> Asset:
-    return read_asset(folder)
+def _read(source: str, key: str, _stats: tuple[tuple[Path, int, int], ...]) -> Asset:
+    return SEAM.find(source).find(key)
 
 
 def fingerprint() -> str:
@@ -65,7 +83,7 @@ def fingerprint() -> str:
     root = catalog_root()
     digest = hashlib.sha256()
     for key in keys():
-        for path in sorted(p for p in (root / key).rglob("*") if p.is_file() and p.name != "thumbnail.png"):
+        for path in files(key):
             content = path.read_bytes()
             digest.update(f"{path.relative_to(root).as_posix()}\0{len(content)}\0".encode())
             digest.update(content)

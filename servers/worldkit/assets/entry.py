@@ -48,7 +48,7 @@ class Piece:
 
 @dataclass(frozen=True)
 class Asset:
-    """A catalog entry, read from `catalog/<key>/asset.yaml`. Lengths are metres, masses kilograms."""
+    """An entry, from whatever source. Lengths are metres, masses kilograms."""
 
     key: str
     folder: Path
@@ -88,6 +88,8 @@ class Asset:
     supports: tuple[Support, ...]
     """At native size; `support()` scales them."""
     thumbnail: Path
+    visual_pos: Vec3 = (0.0, 0.0, 0.0)
+    """Where the drawn meshes' own origin lies, from the centre of the bounding box, at native size."""
 
     @property
     def friction(self) -> float:

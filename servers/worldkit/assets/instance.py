@@ -79,6 +79,7 @@ def add(
             type=_mujoco().mjtGeom.mjGEOM_MESH,
             meshname=_mesh(spec, asset, mesh.stem, mesh, height, shell=True),
             material=worn[material],
+            pos=[scale * x for x in asset.visual_pos],
             contype=0,
             conaffinity=0,
             group=VISUAL_GROUP,
@@ -100,7 +101,7 @@ def _mujoco() -> Any:
 
 def _surface(constants: dict[str, float]) -> dict[str, Any]:
     """The asset's constants as geom arguments."""
-    from worldkit import contacts
+    from .. import contacts
 
     return contacts.surface(**constants)
 
@@ -141,7 +142,7 @@ def _materials(spec: "mujoco.MjSpec", asset: Asset, look: str | None) -> dict[st
     """The asset's material names mapped to those in the spec, added once per look."""
     own = look if look is not None else asset.default_look
     if own is not None and own not in asset.looks:
-        from worldkit import materials
+        from .. import materials
 
         try:
             painted = materials.add(spec, own)

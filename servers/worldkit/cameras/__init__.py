@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .framing import Pose, Shot, look
+from ..turning import matrices, quaternion
+from .standpoint import Shot, look
 from .views import VIEWS
 
 if TYPE_CHECKING:
@@ -62,7 +63,7 @@ def add(
     }
     model = _compiled(spec)
     pose = _shot(model, intent, None, ASPECT).pose
-    camera = spec.worldbody.add_camera(name=name, pos=pose.eye, quat=_quaternion(pose), fovy=pose.fovy_deg)
+    camera = spec.worldbody.add_camera(name=name, pos=pose.eye, quat=quaternion(pose.axes), fovy=pose.fovy_deg)
     spec.add_text(name=PREFIX + name, data=json.dumps(intent))
     spec.add_numeric(name=PREFIX + name, size=_SLOTS, data=[0.0] * _SLOTS)
     return camera
@@ -77,14 +78,6 @@ def _compiled(spec: mujoco.MjSpec) -> mujoco.MjModel:
     if _last.get("spec") is not spec or _last.get("shape") != shape:
         _last.update(spec=spec, shape=shape, model=spec.copy().compile())
     return _last["model"]
-
-
-def _quaternion(pose: Pose) -> np.ndarray:
-    import mujoco
-
-    quaternion = np.zeros(4)
-    mujoco.mju_mat2Quat(quaternion, pose.axes.flatten())
-    return quaternion
 
 
 def _rest(model: mujoco.MjModel) -> mujoco.MjData:
@@ -159,9 +152,11 @@ def aim(
 
     `positions` (T, B, 3), m, are the origins of all bodies but the world over a recording, in the model's order; None: as
     they stand at the start. With `orientations` (T, B, 4), quaternions with w first, bodies that swing or tumble are framed
-    more closely. `aspect` is the picture's width over its height. Edits `cam_pos`, `cam_quat` and `cam_fovy` of the model. A camera stays above the ground, turns
-    away from what hides its subjects, shows what they stand on where that costs little, and follows subjects that would
-    otherwise be too small to read (call `track` for every frame). Raises ValueError if a subject is no body.
+    more closely. `aspect` is the picture's width over its height. Edits `cam_pos`, `cam_quat` and `cam_fovy` of the model.
+
+    A camera stays above the ground, turns away from what hides its subjects, shows what they stand on where that costs
+    little, and follows subjects that would otherwise be too small to read (call `track` for every frame). Raises ValueError
+    if a subject is no body.
     """
     from ..model_text import numbers
     from .subjects import crossing, resolve
@@ -182,7 +177,7 @@ def aim(
         shot = _shot(model, intent, positions, aspect, orientations)
         pose = shot.pose
         model.cam_pos[camera] = pose.eye
-        model.cam_quat[camera] = _quaternion(pose)
+        model.cam_quat[camera] = quaternion(pose.axes)
         model.cam_fovy[camera] = pose.fovy_deg
         slot = _slot(model, name)
         if slot is not None:
@@ -218,8 +213,23 @@ def track(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         model.cam_pos[camera] = eye
         data.cam_xpos[camera] = eye
         # The camera stands in the world's frame; data may still hold an earlier orientation.
-        import mujoco
+        data.cam_xmat[camera] = matrices(model.cam_quat[camera]).ravel()
 
-        matrix = np.zeros(9)
-        mujoco.mju_quat2Mat(matrix, model.cam_quat[camera])
-        data.cam_xmat[camera] = matrix
+
+def standing(model: mujoco.MjModel, data: mujoco.MjData, name: str) -> dict[str, Any]:
+    """How a camera stands in `data`, in plain numbers: `eye` (3,) m, `axes` (3, 3) as columns, `fovy_deg`; and of one that
+    follows what `subjects`, `along` which axes, `away` (3,) m from the middle of them."""
+    from .subjects import resolve
+
+    camera = model.camera(name).id
+    found: dict[str, Any] = {
+        "eye": data.cam_xpos[camera].tolist(),
+        "axes": data.cam_xmat[camera].reshape(3, 3).tolist(),
+        "fovy_deg": float(model.cam_fovy[camera]),
+    }
+    slot = _slot(model, name)
+    intent = next((intent for index, _, intent in _annotated(model) if index == camera), None)
+    if slot is not None and slot[:3].any() and intent is not None:
+        subjects = [model.body(int(body)).name for body in resolve(model, tuple(intent["subjects"]))]
+        found["follow"] = {"subjects": subjects, "along": (slot[:3] > 0.5).tolist(), "away": slot[3:6].tolist()}
+    return found

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..model_text import read
-from .framing import Pose, Shot, fit, look, widen
 from .sight import ground_height, hidden_share, samples, supports
+from .standpoint import Pose, Shot, fit, look, widen
 from .subjects import Crossing, corners
 from .views import VIEWS, View
 
@@ -91,7 +91,6 @@ def _at_wall(
     data: mujoco.MjData,
     view: View,
     points: np.ndarray,
-    crossing: Crossing,
     fovy_deg: float,
     aspect: float,
 ) -> Pose:
@@ -146,15 +145,13 @@ def choose(
     follows = (False, False, False)
     widest_m = float(np.median(crossing.radii)) / LEGIBLE
     if view.wall:
-        return Shot(
-            _settle_wall(_at_wall(model, data, view, points, crossing, fovy_deg, aspect), points, view, aspect, floor_z)
-        )
+        return Shot(_settle_wall(_at_wall(model, data, view, points, fovy_deg, aspect), points, view, aspect, floor_z))
     whole = fit(points, view.backward(), fovy_deg, aspect, view.margin)
     span = np.ptp(crossing.centres, axis=0)
     if follow or (
         whole.half_height_m > widest_m and not view.whole_scene and span.max() > 6.0 * float(crossing.radii.max())
     ):
-        points, follows = _cluster(crossing, points, span, follow, widest_m)
+        points, follows = _cluster(crossing, span, follow, widest_m)
         want = np.zeros((0, 3))
         marks = crossing.centres[:1]
     turn = broadside_deg(points, view.azimuth_deg) if view.broadside else 0.0
@@ -192,7 +189,7 @@ def _settle_wall(pose: Pose, points: np.ndarray, view: View, aspect: float, floo
 
 
 def _cluster(
-    crossing: Crossing, points: np.ndarray, span: np.ndarray, always: bool, widest_m: float
+    crossing: Crossing, span: np.ndarray, always: bool, widest_m: float
 ) -> tuple[np.ndarray, tuple[bool, bool, bool]]:
     """Points around the first moment that hold the subjects whenever the camera moves along with their middle."""
     # Axes along which the subjects hardly leave a legible frame stay still: a bouncing ball need not shake the picture.

@@ -7,13 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ..turning import turned
+
 if TYPE_CHECKING:
     import mujoco
 
 VISIBLE_GROUPS = 3
 """Geom groups below this are seen."""
 MOMENTS = 160
-"""How many moments of a recording are looked at, besides the extremes."""
+"""How many moments of a recording are used, besides the extremes."""
 _SIGNS = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 _BALL = np.concatenate([np.eye(3), -np.eye(3), _SIGNS * 0.75])
 """Points whose hull holds a unit ball closely enough for framing."""
@@ -88,7 +90,7 @@ def corners(model: mujoco.MjModel, data: mujoco.MjData, geoms: np.ndarray) -> np
 
 
 def _moments(places: np.ndarray) -> np.ndarray:
-    """Numbers of the moments worth looking at: evenly spread ones and the extremes of every body along every axis."""
+    """Indices of the moments that are used: evenly spread ones and the extremes of every body along every axis."""
     count = len(places)
     even = np.linspace(0, count - 1, min(count, MOMENTS)).astype(int)
     flat = places.reshape(count, -1)
@@ -105,13 +107,6 @@ def _own_box(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> np.ndarra
     return 0.5 * (low + high) + 0.5 * _SIGNS * (high - low)
 
 
-def _turned(quaternions: np.ndarray, points: np.ndarray) -> np.ndarray:
-    """Points (P, 3) turned by unit quaternions (T, 4), w first: (T, P, 3)."""
-    w, v = quaternions[:, None, :1], quaternions[:, None, 1:]
-    across = 2.0 * np.cross(v, points[None])
-    return points[None] + w * across + np.cross(v, across)
-
-
 def crossing(
     model: mujoco.MjModel,
     data: mujoco.MjData,
@@ -122,7 +117,7 @@ def crossing(
     """Where `bodies`, and what hangs on them, are: at rest (`data`), or over time.
 
     `positions` (T, B, 3) are the origins of all bodies but the world, `orientations` (T, B, 4) their quaternions, w
-    first; without these a body may have turned any way, and takes up a ball.
+    first; without these a body may be turned in any way, so it takes up a ball.
     """
     families = [_family(model, body) for body in bodies]
     everyone = sorted({member for family in families for member in family})
@@ -147,7 +142,7 @@ def crossing(
             if _ball(model, body):
                 clouds[body] = tracks[:, i, None] + radii[body] * _BALL
             else:
-                clouds[body] = tracks[:, i, None] + _turned(quaternions, box)
+                clouds[body] = tracks[:, i, None] + turned(quaternions[:, None], box)
         else:
             clouds[body] = tracks[:, i, None] + (radii[body] + float(np.linalg.norm(middle))) * _BALL
     places, sizes = [], []

@@ -22,7 +22,7 @@ LOOKS: dict[str, str] = {name: entry.description for name, entry in LIBRARY.item
 """Every look by name, with a short description. Any ``#rrggbb`` is a look too (satin plastic of that colour)."""
 
 TILE_PIXELS = 256
-"""Size of the flat textures stored in the model for MuJoCo's own viewers; `worldkit.render` paints finer ones."""
+"""Size of the flat textures stored in the model for MuJoCo's own viewers; `worldengine.film.renderers` paints finer ones."""
 CUBE_PIXELS = 96
 
 

@@ -7,7 +7,7 @@ import click
 
 from worldkit.files import write_atomic
 
-from . import harnesses
+from . import generated
 from .roles import ROLES
 
 
@@ -24,7 +24,7 @@ def command() -> None:
 @command.command("sync")
 def sync() -> None:
     """Write the agents, tool lists, permissions, hooks and MCP configuration of every harness."""
-    for name, text in harnesses.files().items():
+    for name, text in generated.files().items():
         path = project() / name
         if not path.is_file() or path.read_text(encoding="utf-8") != text:
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -38,7 +38,7 @@ def check() -> None:
     drifted = stale(project())
     for name, why in drifted.items():
         click.echo(f"{name}: {why}")
-    click.echo("next: worldwright contract sync" if drifted else f"{len(harnesses.files())} files are as the roles say")
+    click.echo("next: worldwright contract sync" if drifted else f"{len(generated.files())} files are as the roles say")
     sys.exit(1 if drifted else 0)
 
 
@@ -52,9 +52,9 @@ def show() -> None:
 
 
 def stale(root: Path) -> dict[str, str]:
-    """Generated files that are missing or differ, with which of the two."""
+    """Generated files that are missing or differ, each with which of the two it is."""
     found = {}
-    for name, text in harnesses.files().items():
+    for name, text in generated.files().items():
         path = root / name
         if not path.is_file():
             found[name] = "missing"

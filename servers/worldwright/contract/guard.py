@@ -1,125 +1,117 @@
 #!/usr/bin/env python3
 """The write-scope guard: a hook that every tool use passes before it happens.
 
-Reads the hook's JSON from standard input; exits 0 to let the call through and 2, with the reason on standard error, to
-deny it. Whatever goes wrong denies. Real paths are judged, so `..` and symbolic links do not help.
+Started with the name of the harness, it reads the hook's JSON from standard input and exits with 0 to let the call
+through, or with 2
+and the reason on standard error to deny it. Any failure denies. Real paths are judged, so `..` and symbolic links do not
+help.
 
-- A role (plan, code, visual, review) writes only its own files inside one run folder, uses only its own MCP tools, and
-  has no shell, save for looking at files where the harness has no other way to (Codex).
-- The main thread, and any agent that is none of our roles, writes nothing under `runs/`; its shell may only look there.
+- A role (plan, code, visual, review) writes only its own files inside one run folder and uses only its own MCP tools. A tool
+  whose name the harness' file does not list is denied to it. It has no shell, unless the harness offers no other way to look
+  at files (Codex).
+- The main thread, and any agent that is none of our roles, writes nothing under `runs/` with a file tool.
 
-With `--allow` (Claude Code understands it) a call that belongs to a run need not be confirmed by the person, save the
-approval of a plan, which is theirs.
+It does not read commands, as a shell can spell a name in a thousand ways. The kernel decides what a shell may write:
+Claude Code's own sandbox keeps it from `runs/` and the suite, and in Codex and OpenCode the guard has the
+command started by `shell.py`, which gives these rights up first. Nor is it a wall against the person, who may turn the hook
+or the sandbox off, or against other programs on the machine. Evidence is written by the MCP servers, which run outside
+every sandbox of a harness, and the gates check by hash what stands in a run, whoever wrote it.
 
-Only the standard library, so that it starts in a few hundredths of a second with any Python. The gates check the same
-by hash: what slips past a hook is refused at acceptance. No hook sees everything: Codex asks none about text that is typed
-into a shell already running, so a shell that waits for input is not started at all.
+With Claude Code a call that belongs to a run need not be confirmed by the person, except the approval of a plan, which is
+theirs. Only the standard library is imported, so that it starts in a few hundredths of a second with any Python.
 """
+
+from __future__ import annotations
 
 import json
 import os
 import re
 import shlex
 import sys
+import time
 from pathlib import Path
 
-try:
-    from .roles import BY_AGENT, RESERVED, RUNS, Role
-except ImportError:  # started as a program: the folder of this file is on the path
-    from roles import BY_AGENT, RESERVED, RUNS, Role  # type: ignore[no-redef]
+if not __package__:  # it was started as a program
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-SERVERS = frozenset({"retrieve", "lint", "place", "stage", "scan", "stamp"})
-WRITERS = frozenset({"write", "edit", "multiedit", "notebookedit", "apply_patch", "patch", "create", "str_replace"})
-SHELLS = frozenset(
-    {"bash", "shell", "exec", "local_shell", "exec_command", "unified_exec", "write_stdin", "powershell"}
-)
-READERS = frozenset({"read", "glob", "grep", "ls", "list", "notebookread", "view_image", "read_file", "list_dir"})
-LOOKING = frozenset(
-    [
-        "ls",
-        "cat",
-        "head",
-        "tail",
-        "nl",
-        "wc",
-        "stat",
-        "sha256sum",
-        "md5sum",
-        "du",
-        "diff",
-        "cmp",
-        "rg",
-        "grep",
-        "egrep",
-        "fgrep",
-        "jq",
-        "realpath",
-        "pwd",
-        "echo",
-        "true",
-    ]
-)
-"""Commands that cannot write without a redirection (`tree -o`, `less -o` and `file -C` can)."""
-STARTERS = re.compile(r"^--(?:pre|hostname-bin)(?:=|$)")
-"""Options of `rg` that start another program."""
-PRINTED = re.compile(r"^\d+(?:,(?:\d+|\$))?p$")
-"""The one script of `sed` that only looks: `sed -n 10,20p FILE`."""
-INTERACTIVE = re.compile(
-    r"(?:^|[;&|\n])\s*(?:\S*/)?(?:(?:ba|da|z|fi)?sh|i?python[\d.]*|node|perl|ruby)(?:\s+-[il]+)*\s*(?:$|[;&\n])"
-)
-"""An interpreter that is given neither a program nor a file, and so would read what is typed into it later."""
-SILENCED = re.compile(r"\b2>\s*(?:/dev/null|&1)(?=[\s;|&]|$)")
-"""Errors thrown away or joined to the output: the redirections that write no file."""
-COLLABORATION = ("collaboration", "multi_agent")
-"""Namespaces of Codex's tools for other agents; a hook sees them run together: `collaborationspawn_agent`."""
+from worldwright.contract import harnesses
+from worldwright.contract.roles import BY_AGENT, RESERVED, RUNS, SERVERS, Role
+from worldwright.contract.tool_names import ToolNames
+
 PATCHED = re.compile(r"^\*\*\* (?:Add|Update|Delete) File: (.+)$|^\*\*\* Move to: (.+)$", re.MULTILINE)
+STARTER = Path(__file__).with_name("shell.py")
 
 
 class DeniedError(Exception):
     """The call is not allowed; the message says why and what to do instead."""
 
 
-def judge(event: dict, project: Path) -> bool:
-    """Raise `DeniedError` unless the tool use is allowed; True when it is one of a run's own, which nobody need confirm.
+def judge(event: dict, project: Path, names: ToolNames) -> bool:
+    """Raise `DeniedError` unless the tool use is allowed; returns True for a run's own call, which nobody need confirm.
 
     Args:
         event: the hook's input: `tool_name`, `tool_input`, and for sub-agents `agent_type`.
         project: the folder that holds `runs/`.
+        names: the harness's names of tools.
     """
     tool = str(event.get("tool_name") or "")
-    given = event.get("tool_input")
     if not tool:
         raise DeniedError("the hook's input names no tool")
     agent = str(event.get("agent_type") or event.get("agent_name") or "")
     role = BY_AGENT.get(agent.rsplit(":", 1)[-1].lower())
-    base = Path(str(event.get("cwd") or project))
     kind = tool.lower()
     if kind.startswith("mcp__"):
         return _judge_mcp(kind, role)
-    if kind in WRITERS:
-        for path in _targets(given):
-            _judge_write(path, base, project, role)
+    if kind in names.writers:
+        for path in _targets(event.get("tool_input")):
+            _judge_write(path, Path(str(event.get("cwd") or project)), project, role)
         return role is not None
-    if kind in SHELLS:
-        folder = given.get("workdir") or given.get("cwd") or "." if isinstance(given, dict) else "."
-        _judge_shell(_command(given), base / str(folder), project, role)
-    elif role is not None and kind in READERS and not role.reads_files:
-        raise DeniedError(f"the {role.name} role sees only what its tools show it: {', '.join(role.tools)}")
-    elif role is not None and (kind in ("agent", "task", "spawn_agent") or kind.startswith(COLLABORATION)):
-        raise DeniedError(f"the {role.name} role starts no agents: answer, and let the main thread go on")
+    if role is not None:
+        _judge_other(kind, role, names)
     return False
 
 
-def _judge_mcp(kind: str, role: "Role | None") -> bool:
+def _judge_other(kind: str, role: Role, names: ToolNames) -> None:
+    """Judge what a role does besides writing and calling our tools: it may read where it is allowed to, and wait."""
+    if kind.startswith(names.agents):
+        raise DeniedError(f"the {role.name} role starts no agents: answer, and let the main thread go on")
+    looks = kind in names.readers or (kind in names.shells and names.roles_look_by_shell)
+    if looks and not role.reads_files:
+        raise DeniedError(f"the {role.name} role sees only what its tools show it: {', '.join(role.tools)}")
+    if kind in names.shells and not looks:
+        raise DeniedError(f"the {role.name} role has no shell; its tools are: {', '.join(role.tools)}")
+    if not looks and kind not in names.harmless:
+        raise DeniedError(f"`{kind}` is no tool of the {role.name} role; it has: {', '.join(role.tools)}")
+
+
+def confined(event: dict, project: Path, names: ToolNames) -> dict | None:
+    """The input of a shell's call, changed so that it cannot write to the runs and the suite; None for other calls."""
+    given = event.get("tool_input")
+    if not names.confined_by_guard or str(event.get("tool_name")).lower() not in names.shells:
+        return None
+    for key in ("command", "cmd"):
+        command = given.get(key) if isinstance(given, dict) else None
+        if isinstance(given, dict) and isinstance(command, str | list):
+            text = command if isinstance(command, str) else shlex.join(map(str, command))
+            start = shlex.join(["exec", "python3", str(STARTER), str(project), text])
+            return {**given, key: start if isinstance(command, str) else ["bash", "-c", start]}
+    if isinstance(given, dict) and "session_id" in given:
+        return None  # typed into a shell that was itself started so
+    raise DeniedError("the command cannot be told from the hook's input")
+
+
+def _judge_mcp(kind: str, role: Role | None) -> bool:
     parts = kind.split("__")
     if len(parts) < 3 or parts[1] not in SERVERS:
+        if role is not None:
+            raise DeniedError(f"`{kind}` is no tool of the {role.name} role; it has: {', '.join(role.tools)}")
         return False
     name = f"{parts[1]}.{parts[2]}"
     if role is None:
         _refuse_reserved(name)
     elif name not in role.tools:
         raise DeniedError(f"{name} is not a tool of the {role.name} role; it has: {', '.join(role.tools)}")
-    return name != "stamp.approve"  # whether a plan is approved, the person is asked
+    return name != "stamp.approve"  # the person is asked whether a plan is approved
 
 
 def _refuse_reserved(name: str) -> None:
@@ -128,7 +120,7 @@ def _refuse_reserved(name: str) -> None:
 
 
 def _targets(given: object) -> list[str]:
-    """Every path a writing tool names; none found is a refusal."""
+    """Every path that a writing tool names; without any, the call is denied."""
     found: list[str] = []
     if isinstance(given, dict):
         for key in ("file_path", "filePath", "path", "notebook_path", "filename"):
@@ -146,7 +138,7 @@ def _targets(given: object) -> list[str]:
     return [path.strip() for path in found]
 
 
-def _judge_write(path: str, base: Path, project: Path, role: "Role | None") -> None:
+def _judge_write(path: str, base: Path, project: Path, role: Role | None) -> None:
     target = _real(path, base)
     inside = _inside(target, project)
     if role is None:
@@ -164,90 +156,12 @@ def _judge_write(path: str, base: Path, project: Path, role: "Role | None") -> N
         raise DeniedError(f"{path} is a link; the {role.name} role writes plain files")
 
 
-def _judge_shell(command: str, base: Path, project: Path, role: "Role | None") -> None:
-    if role is not None and not role.reads_files:
-        raise DeniedError(f"the {role.name} role has no shell; its tools are: {', '.join(role.tools)}")
-    if role is None:
-        if INTERACTIVE.search(command):
-            raise DeniedError("a shell that waits for input cannot be judged: give the whole command at once")
-        runs = project / RUNS
-        here = _inside(_real(".", base), project) is not None
-        if not (here or RUNS in command or str(runs) in command or _globs_into(command, base, runs)):
-            return
-    who = f"the {role.name} role has a shell only to look" if role else "the main thread writes nothing under runs/"
-    if re.search(r"[`]|\$\(|<\(|>\(|\$\{?[A-Za-z_]", command):
-        raise DeniedError(f"{who}, and a command may not compute its arguments: write the paths out")
-    for words in _commands(command, who):
-        if role is not None or not _hands_over_image(words, base, project):
-            _judge_command(words, who, project, role)
-
-
-def _hands_over_image(words: list[str], base: Path, project: Path) -> bool:
-    """`cp PICTURE runs/<slug>/reference.png`: the one file the main thread puts into a run, as the person gave it."""
-    if len(words) != 3 or words[0] != "cp" or words[1].startswith("-"):
-        return False
-    link = Path(os.path.normpath(base / words[2]))
-    target = _inside(_real(words[2], base), project)
-    kinds = (".png", ".jpg", ".jpeg", ".webp")
-    named = target is not None and len(target.parts) == 2 and target.stem == "reference" and target.suffix in kinds
-    return named and not link.is_symlink() and words[1].lower().endswith(kinds)
-
-
-def _commands(command: str, who: str) -> list[list[str]]:
-    """The simple commands of a line of shell, as words; a redirection or a job in the background is refused."""
-    found: list[list[str]] = [[]]
-    for line in SILENCED.sub(" ", command).splitlines():
-        reader = shlex.shlex(line, posix=True, punctuation_chars=True)
-        reader.whitespace_split, reader.commenters = True, ""
-        try:
-            words = list(reader)
-        except ValueError as cause:
-            raise DeniedError(f"the command cannot be read: {cause}") from cause
-        for word in words:
-            if word in ("&&", "||", ";", "|"):
-                found.append([])
-            elif word and not word.strip("();<>|&"):
-                raise DeniedError(f"{who}, and may not redirect (`{word}`) there")
-            else:
-                found[-1].append(word)
-        found.append([])
-    return [words for words in found if words]
-
-
-def _judge_command(words: list[str], who: str, project: Path, role: "Role | None") -> None:
-    if words[0] in LOOKING and not (words[0] == "rg" and any(STARTERS.match(word) for word in words)):
-        return
-    if words[:2] == ["sed", "-n"] and len(words) > 3 and PRINTED.match(words[2]) and words[3][:1] != "-":
-        return
-    if role is None and words[0] in ("worldwright", ".venv/bin/worldwright", str(project / ".venv/bin/worldwright")):
-        _refuse_reserved(".".join(words[1:3]).replace("-", "_"))
-        return
-    raise DeniedError(
-        f"`{words[0]}` may write, and {who}: only looking commands ({', '.join(sorted(LOOKING))}, sed -n 1,9p)"
-        + (" and `worldwright …` may name a run; a role writes its own file" if role is None else " are for it")
-    )
-
-
-def _command(given: object) -> str:
-    if isinstance(given, dict):
-        value = given.get("command", given.get("cmd", given.get("input")))
-        if isinstance(value, list):
-            words = [str(word) for word in value]
-            shell = len(words) >= 3 and Path(words[0]).name in ("bash", "sh", "zsh") and words[1].startswith("-")
-            return words[-1] if shell else shlex.join(words)
-        if isinstance(value, str):
-            return value
-    if isinstance(given, str):
-        return given
-    raise DeniedError("the command cannot be told from the hook's input")
-
-
 def _real(path: str, base: Path) -> Path:
-    """The file that would really be written: links resolved as far as the path exists."""
+    """The file that would really be written, with links resolved as far as the path exists."""
     return Path(os.path.realpath(base / Path(path).expanduser()))
 
 
-def _inside(target: Path, project: Path) -> "Path | None":
+def _inside(target: Path, project: Path) -> Path | None:
     """The path below `runs/`, or None when it is elsewhere."""
     runs = Path(os.path.realpath(project / RUNS))
     try:
@@ -256,38 +170,49 @@ def _inside(target: Path, project: Path) -> "Path | None":
         return None
 
 
-def _globs_into(command: str, base: Path, runs: Path) -> bool:
-    """Whether a pattern of the command matches the runs folder (`ru*`, `r?ns`)."""
-    for word in re.findall(r"[^\s;|&<>'\"]*[*?\[][^\s;|&<>'\"]*", command):
-        head = word.strip("./").split("/")[0]
-        if head and re.fullmatch(
-            re.escape(head).replace(r"\*", ".*").replace(r"\?", ".").replace(r"\[", "[").replace(r"\]", "]"), RUNS
-        ):
-            return True
-    return bool(re.match(r"\s*(?:cd|pushd)\s", command)) and _real(command.split(None, 1)[1].split()[0], base) == runs
+def _leave_word(event: dict[str, object], folder: Path) -> None:
+    """Tell the stamp server which role is about to approve, describe or review; `model/evidence/came.py` reads it."""
+    tool, given = str(event.get("tool_name") or ""), event.get("tool_input")
+    named = re.search(r"stamp_{1,2}(approve|describe|review)$", tool)
+    if not (named and isinstance(given, dict)):
+        return
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        word = {
+            "agent": str(event.get("agent_type") or event.get("agent_name") or "main"),
+            "run": str(given.get("run", "")),
+        }
+        (folder / f"{named[1]}-{time.time_ns()}.json").write_text(json.dumps(word), encoding="utf-8")
+    except OSError:  # the stamp then says that no hook told the role
+        return
 
 
 def main() -> int:
-    """Judge one event from standard input."""
+    """Judge one event from standard input for the harness that the command line names."""
     try:
         event = json.load(sys.stdin)
         if not isinstance(event, dict):
             raise DeniedError("the hook's input is no object")
-        own = judge(event, Path(os.path.realpath(Path(__file__).parents[3])))
+        names = harnesses.find(sys.argv[1]).TOOLS
+        project = Path(os.path.realpath(Path(__file__).parents[3]))
+        own = judge(event, project, names)
+        changed = confined(event, project, names)
     except DeniedError as reason:
         sys.stderr.write(f"scope guard: {reason}\n")
         return 2
-    except BaseException as defect:  # a guard that fails must not let anything through
+    except BaseException as defect:  # a failing guard must not let anything through
         sys.stderr.write(f"scope guard failed, so the call is denied: {type(defect).__name__}: {defect}\n")
         return 2
-    if own and "--allow" in sys.argv[1:]:
-        decision = {
-            "hookEventName": "PreToolUse",
-            "permissionDecision": "allow",
-            "permissionDecisionReason": "in scope",
-        }
-        sys.stdout.write(json.dumps({"hookSpecificOutput": decision}))
+    _leave_word(event, project / RUNS / ".spoken")
+    if changed is not None:
+        _answer({"permissionDecision": "allow", "updatedInput": changed})
+    elif own and names.allows_in_scope:
+        _answer({"permissionDecision": "allow", "permissionDecisionReason": "in scope"})
     return 0
+
+
+def _answer(decision: dict) -> None:
+    sys.stdout.write(json.dumps({"hookSpecificOutput": {"hookEventName": "PreToolUse", **decision}}))
 
 
 if __name__ == "__main__":

@@ -1,8 +1,7 @@
-"""`worldwright lessons RUN…`: the root causes of a run's failures, and where each should be written back.
+"""`worldwright lessons RUN…` tells the root causes of a run's failures, and where each should be written back.
 
-A cause that one run met, the next should not: it belongs into the skill whose reader would have avoided it, or into a new
-lint rule. The journal names the failures (lint codes, failed passes, reviews that ordered a repair); the table below, the
-owner.
+No cause should stop two runs: it belongs into the skill whose reader would have avoided it, or into a new lint rule. The
+journal names the failures (lint codes, failed passes, reviews that ordered a repair), the table below the owner.
 """
 
 import sys
@@ -12,7 +11,7 @@ from pathlib import Path
 import click
 
 from ..cli import report_errors
-from ..model.run import Run
+from ..model.evidence.run import Run
 
 OWNERS = {
     "physical_parameters": "skills/plan-format/SKILL.md",
@@ -21,6 +20,8 @@ OWNERS = {
     "object_placement": "skills/coordinates/SKILL.md",
     "scale": "skills/dimensions/SKILL.md",
     "camera_placement": "skills/cameras/SKILL.md",
+    "not_recognised": "skills/plan-format/SKILL.md",
+    "look": "skills/film/SKILL.md",
     "visual_mismatch": "skills/plan-format/SKILL.md",
     "missing_object": "skills/layouts/SKILL.md",
     "simulator_symbol": "a lint rule: it can read the installed build",

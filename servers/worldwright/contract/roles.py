@@ -1,18 +1,25 @@
 """The four roles and the main thread: purpose, inputs, outputs, tools, write scope, refusals.
 
-Only the standard library: the guard reads this before every tool use, with whatever Python the machine has.
+Only the standard library is imported: the guard reads this before every tool use, with any Python of the machine.
 """
 
 from dataclasses import dataclass
 
 RUNS = "runs"
-"""Folder of all runs, relative to the project."""
+"""The folder of all runs, relative to the project."""
+SUITE = (
+    "servers", "catalog", "skills", "commands", ".venv",
+    ".claude", ".codex", ".opencode", ".agents", ".mcp.json", "AGENTS.md", "CLAUDE.md",
+)  # fmt: skip
+"""The files that judge and start the runs, which no shell of an agent may change."""
+SERVERS = ("retrieve", "lint", "place", "stage", "scan", "stamp")
+"""Our MCP servers, as in `expose.py`, which imports too much for a hook."""
 PREFIX = "world-"
 
 
 @dataclass(frozen=True)
 class Role:
-    """What one agent is for, and all it may touch."""
+    """The purpose of one agent, and all that it may touch."""
 
     name: str
     purpose: str
@@ -28,7 +35,7 @@ class Role:
 
     @property
     def agent(self) -> str:
-        """Its name as an agent; harnesses have a `plan` and a `code` of their own."""
+        """Its name as an agent, since harnesses have a `plan` and a `code` of their own."""
         return PREFIX + self.name
 
 
@@ -37,7 +44,7 @@ PLAN = Role(
     purpose="Turn the prompt into a committed plan.md: what is there, where, how it moves, and how each claim is measured.",
     inputs=(
         "the person's prompt and answers",
-        "runs/<slug>/reference.png, if the person gave an image",
+        "the path of an image, if the person gave one",
         "a reviewer's repair of target `plan`",
     ),
     outputs=("runs/<slug>/prompt.md", "runs/<slug>/plan.md, checked and resolved"),
@@ -46,7 +53,9 @@ PLAN = Role(
         "retrieve.read",
         "retrieve.find_asset",
         "retrieve.symbol",
+        "retrieve.begin",
         "lint.check_plan",
+        "lint.complete_plan",
         "lint.explain",
         "place.resolve",
         "place.check",
@@ -54,19 +63,18 @@ PLAN = Role(
         "place.explain",
         "place.draw",
         "place.reckon",
+        "stamp.go",
     ),
     writes=("plan.md", "prompt.md"),
     reads_files=True,
     instructions="""
-Write `prompt.md` (the person's words, unchanged), then `plan.md` with its thirteen sections: follow the skills
-`prompt-to-plan`, `plan-format`, `coordinates` and `interventions`, and the feature skill of the mechanism (cloth, breakage,
-drag, magnets …). With a reference image, look at it first and write down what is seen as
-`topology.image_observation` (skill `layouts`); `place.check` then says where the layout disagrees with it. Objectives
-first: each claim of the prompt becomes one objective with an `expect` that would fail if it did not happen, or
-`visual_only` with the reason. Name the `cause` of every effect that could be staged. Sizes and masses are those of the real
-thing; mark what you inferred. Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan,
-not a solution. Two to three cameras that complement each other. Then call `lint.check_plan`, `place.resolve`,
-`place.check`, look at `place.draw`, and mend until all of them say yes.
+First call `retrieve.begin` with the person's words and `run`: it writes `prompt.md` and a whole `plan.md`, adapted from the
+nearest accepted world, and names the skills of the mechanism. Read the skill `prompt-to-plan`, which holds every decision, and
+that plan, then write the plan anew in one go; look up another skill only when a field asks for it. With an image, look at it first,
+let `place.resolve` keep it (`image`), and write down what is seen as `topology.image_observation` (skill `layouts`); `place.check`
+then says where the layout disagrees with it. Objectives first, and the `cause` of every effect that could be staged.
+Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan, not a solution. Then
+call `stamp.go`, look at `place.draw`, and mend until it waits for the approval.
 What you cannot know you infer, and name it in `inferred`. What would change the design (who moves, what counts as success,
 how long, where one looks from) you ask: at most five questions, each with two or three answers and the one you would take;
 never what a source or the catalog answers. In auto mode ask nothing: take that answer, and mark it.
@@ -85,7 +93,7 @@ CODE = Role(
     name="code",
     purpose="Write the one program simulation.py that does what the plan says, or make one targeted patch to it.",
     inputs=("runs/<slug>/plan.md, approved", "the one repair of the last review, or the findings of a failed step"),
-    outputs=("runs/<slug>/simulation.py, linted, with a physics pass that succeeded",),
+    outputs=("runs/<slug>/simulation.py, linted, simulated, measured and filmed",),
     tools=(
         "retrieve.search",
         "retrieve.read",
@@ -101,19 +109,23 @@ CODE = Role(
         "stage.wait",
         "stage.status",
         "stage.log",
+        "stage.frames",
+        "scan.query",
+        "stamp.go",
     ),
-    writes=("simulation.py",),
+    writes=("simulation.py", "film.py"),
     reads_files=True,
     instructions="""
-First call `stage.draft`: it writes what the plan's fields say. Yours is what it marks `AUTHOR:`, and what the plan says in words
+First call `stamp.go`: it drafts what the plan's fields say. Yours is what it marks `AUTHOR:`, and what the plan says in words
 alone: read the descriptions of steps and objects, the laws of interventions, and the constants that the draft reads nowhere
 (its answer lists them; sums behind other numbers need no line). Nothing left: keep the draft as it is. Write it by the skill
 `program-contract` and the feature skill of the mechanism, with names you looked up (`retrieve.symbol` with `run`): the installed MuJoCo 4 is newer than
 your memory. Never edit the plan; if it cannot be built as it stands, say which line and why. A coordinate that it rounds by less
-than 0.2 mm you may write exactly, with a comment. Then `lint.check_program` (with `plan`) until clean, then
-`stage.start` physics and `stage.wait`. Whether claims hold another role judges later: expectations need no look-up. When a repair was ordered, make that one change and nothing else: patch, never
+than 0.2 mm you may write exactly, with a comment. Then `stamp.go` until it waits for the description: it lints, simulates, measures and films, and tells all that is wrong
+together. Mend what it names first, where the program and not the plan is wrong; after three patches that did not help,
+leave it. How it is filmed, if anybody asks, is `film.py` (skill `film`). When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
-Answer with: what you wrote or changed, lint's verdict, the physics pass's verdict and what `stage.wait` tells of it.""",
+Answer with: what you wrote or changed, and what `stamp.go` says last.""",
     refuses=(
         "editing plan.md",
         "helper forces, timers or poses the plan does not declare",
@@ -129,11 +141,13 @@ VISUAL = Role(
     writes=(),
     reads_files=False,
     instructions="""
-Call `stage.frames` (stills first, then `show: key`). For each camera say what is seen: which objects, where, how they are
-lit, what overlaps, what is cut off, what changes from frame to frame, what looks odd. Describe; never judge, never guess
-what was meant, never say that something works. Ask `show: sheet` of one camera when the key frames leave something open. Then call `stamp.describe` once:
-`{"author": "world-visual", "summary": "…", "cameras": {"side": "…"}, "objects": {"box": "…"}, "concerns": ["cut off at the left"]}`;
-leave `objectives` out: you do not know them. What the answer says of next steps is for the orchestrator.
+Call `stage.frames` (stills first, then `show: key`). First, before any name: what is it? Each thing as a stranger would name it
+(`named`), what happens (`event`), would you take it for a film of real things (`belief`, 0 to 10), which three details give it
+away (`betrays`). A grey blob is a grey blob. Then, for each camera: what is where, how lit, what is cut off, what changes, what
+looks odd. Never judge, never guess what was meant. Ask `show: sheet` of one camera when something is open. Call `stamp.describe` once:
+`{"author": "world-visual", "named": [{"seen": "a wooden crate", "camera": "side"}], "event": "…", "belief": 6, "betrays": ["…", "…", "…"],
+"summary": "…", "cameras": {"side": "…"}, "objects": {"box": "…"}, "concerns": ["cut off at the left"]}`; name every camera you
+were shown, and objects as the answer lists them; leave `objectives` out: you do not know them. What the answer says of next steps is for the orchestrator.
 Answer with one paragraph.""",
     refuses=("a verdict", "reading the plan or the program"),
 )
@@ -160,16 +174,18 @@ REVIEW = Role(
     writes=(),
     reads_files=True,
     instructions="""
-Call `scan.scan` with `refine` (and `causes` when objectives name a cause) and `scan.expect`, look at `stage.frames`, read the visual
-description in the evidence. Bind each objective to the evidence that decides it. A claim of one channel ("the scene is
-frozen", "it went through the wall") is tested in another (`scan.query`) before it may order a repair. If all objectives
+Call `scan.scan` with `refine` (and `causes` when objectives name a cause) and `scan.expect`, look at `stage.frames` (with a
+reference image also `show: reference`), read the visual description in the evidence. Bind each objective to the evidence that decides it. A claim of one channel ("the scene is
+frozen", "it went through the wall") is tested in another (`scan.query`) before it may order a repair. `recognised` holds what the
+description names blindly, word for word, against each subject and the event: a synonym or a kind of it is the same. If all objectives
 are met and nothing blocks: outcome `pass`. Otherwise one repair: the one target, and the one change that most likely mends
 the most. `blocked` only when no change of plan or program can help. Then call `stamp.review` once:
 `{"reviewer": "world-review", "outcome": "repair", "numeric": "…", "visual": "…", "plan": "…",
 "objectives": [{"index": 0, "met": true, "evidence": ["expect:moves", "still:side"]}, …],
+"recognised": [{"wanted": "box", "seen_as": "a wooden crate", "same": true}, {"wanted": "event", "seen_as": "…", "same": true}],
 "cross_checks": [{"claim": "it floats", "channel": "visual", "tested_in": "numeric", "confirmed": false, "note": "…"}],
 "repair_target": "solver_or_time_step", "repair": "the one change, word for word"}`; targets: physical_parameters, initial_motion,
-object_settlement, object_placement, scale, camera_placement, visual_mismatch, missing_object, simulator_symbol,
+object_settlement, object_placement, scale, camera_placement, visual_mismatch, missing_object, not_recognised, look, simulator_symbol,
 solver_or_time_step, undeclared_intervention, plan. A pass has neither target nor repair.
 Answer with the outcome, the target and the repair in two sentences.""",
     refuses=("editing anything", "two repairs at once", "passing what the numbers refute"),
@@ -179,11 +195,13 @@ COMMANDS = ("generate", "resume", "revise", "review", "verify", "build")
 ROLES = (PLAN, CODE, VISUAL, REVIEW)
 BY_AGENT = {role.agent: role for role in ROLES}
 MAIN_TOOLS = (
-    "stamp.status", "stamp.approve", "stamp.accept", "stamp.block", "stamp.verify",
+    "stamp.status", "stamp.go", "stamp.approve", "stamp.accept", "stamp.block", "stamp.verify",
     "stage.start", "stage.wait", "stage.status", "stage.cancel", "stage.frames",
     "scan.query", "scan.plot", "scan.compare",
     "retrieve.search", "retrieve.read",
 )  # fmt: skip
-"""What the main thread is given: it orchestrates, looks, answers, approves in the person's name, stamps."""
-RESERVED = ("stamp.describe", "stamp.review", "stage.draft", "place.resolve", "place.settle")
-"""Tools that report in a role's name or write its file: the main thread may not call these, all others it may."""
+"""The tools of the main thread: it orchestrates, looks, answers, approves in the person's name, stamps."""
+RESERVED = ("stamp.describe", "stamp.review", "stage.draft", "place.resolve", "place.settle", "retrieve.begin",
+    "lint.complete_plan",
+)  # fmt: skip
+"""Tools that report in a role's name or write its file; the main thread may call all others."""

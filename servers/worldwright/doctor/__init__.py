@@ -1,4 +1,4 @@
-"""`worldwright doctor`: is everything a build and a coding harness need really here? Each problem is printed with its fix."""
+"""`worldwright doctor` tests whether all that a build and a harness need is here, and prints a fix for each problem."""
 
 import sys
 from collections.abc import Callable, Iterator
@@ -6,11 +6,11 @@ from pathlib import Path
 
 import click
 
-from . import harnesses, machine, servers
+from . import coding_harnesses, machine, servers
 from .diagnosis import Diagnosis
 
-CHECKS: tuple[Callable[[], Diagnosis | None], ...] = (*machine.CHECKS, *servers.CHECKS, *harnesses.CHECKS)
-"""A check answers None where it does not apply."""
+CHECKS: tuple[Callable[[], Diagnosis | None], ...] = (*machine.CHECKS, *servers.CHECKS, *coding_harnesses.CHECKS)
+"""A check returns None if it does not apply."""
 
 
 def diagnose() -> Iterator[Diagnosis]:

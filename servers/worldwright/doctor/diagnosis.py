@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Diagnosis:
-    """What was found, and the fix if it is a problem."""
+    """The finding of a check, and the fix if it is a problem."""
 
     name: str
     ok: bool
@@ -16,5 +16,5 @@ class Diagnosis:
 
 
 def last_line(text: str) -> str:
-    """Where programs say what went wrong."""
+    """The last line of an output, in which programs say what went wrong."""
     return (text.strip().splitlines() or ["no message"])[-1]

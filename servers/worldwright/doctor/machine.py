@@ -1,4 +1,4 @@
-"""What a build needs of the machine: Python, the wheels as installed, OpenGL that draws, a sandbox that confines.
+"""Check what a build needs of the machine: Python, intact wheels, OpenGL that draws, a sandbox that confines.
 
 Nothing is assumed: OpenGL is checked by rendering a frame, the sandbox by running something in it.
 """
@@ -24,12 +24,12 @@ with mujoco.Renderer(model, 32, 32) as renderer:
 
 
 def python() -> Diagnosis:
-    """Python 3.11 or newer."""
+    """Check for Python 3.11 or newer."""
     return Diagnosis("python", sys.version_info >= (3, 11), platform.python_version(), "install Python 3.11 or newer")
 
 
 def simulator() -> Diagnosis:
-    """MuJoCo 4 imports and reports its version."""
+    """Check that MuJoCo 4 imports and reports its version."""
     code = "import mujoco; print(mujoco.__version__)"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
     found = done.stdout.strip() or last_line(done.stderr)
@@ -38,7 +38,7 @@ def simulator() -> Diagnosis:
 
 
 def wheels() -> Diagnosis:
-    """The files of every wheel that can change a result are the ones the wheel came with."""
+    """Check that every wheel that can change a result still has its original files."""
     import base64
     import hashlib
     from importlib.metadata import PackageNotFoundError, distribution
@@ -64,7 +64,7 @@ def wheels() -> Diagnosis:
 
 
 def opengl() -> Diagnosis:
-    """A frame can be rendered without a display, with EGL or OSMesa."""
+    """Check that a frame can be rendered without a display, with EGL or OSMesa."""
     tried = []
     for backend in ("egl", "osmesa"):
         environment = {**os.environ, "MUJOCO_GL": backend}
@@ -78,7 +78,7 @@ def opengl() -> Diagnosis:
 
 
 def sandbox() -> Diagnosis:
-    """The strongest level of the sandbox ladder that really confines here."""
+    """Check which level of the sandbox ladder is the strongest that really confines here."""
     from ..stage.sandbox import CONFINING, LADDER, level, unusable
 
     strongest = level()
@@ -91,7 +91,7 @@ def sandbox() -> Diagnosis:
 
 
 def catalog() -> Diagnosis:
-    """The asset catalog is where programs will look for it."""
+    """Check that the asset catalog is where programs look for it."""
     from worldkit import assets
 
     try:
@@ -102,7 +102,7 @@ def catalog() -> Diagnosis:
 
 
 def disk() -> Diagnosis:
-    """Room for recordings and films."""
+    """Check that there is room for recordings and films."""
     free_gb = shutil.disk_usage(Path.cwd()).free / 1e9
     return Diagnosis("disk", free_gb > 2, f"{free_gb:.0f} GB free here", "free some space: a run needs up to 2 GB")
 

@@ -1,4 +1,4 @@
-"""The MCP servers, started as a harness starts them: they answer `initialize` and list their tools, or they do not."""
+"""Start the MCP servers as a harness does, and check that they answer `initialize` and list their tools."""
 
 import json
 import sys
@@ -11,11 +11,11 @@ from ..contract.command import project
 from .diagnosis import Diagnosis, last_line
 
 PATIENCE_S = 30.0
-"""What Claude Code, Codex (as configured) and OpenCode wait for a server to start."""
+"""Claude Code, Codex (as configured) and OpenCode wait so long for a server to start, s."""
 
 
 def servers() -> Diagnosis:
-    """Every server answers over stdio, by the command that the project's `.mcp.json` names."""
+    """Check that every server answers over stdio, by the command in the project's `.mcp.json`."""
     import anyio
 
     began = time.monotonic()
@@ -37,7 +37,7 @@ def servers() -> Diagnosis:
 
 
 def _command(name: str) -> tuple[list[str], Path]:
-    """How a harness starts the server, and where."""
+    """The command by which a harness starts the server, and its folder."""
     config = project() / ".mcp.json"
     if config.is_file():
         entry = json.loads(config.read_text(encoding="utf-8"))["mcpServers"][name]

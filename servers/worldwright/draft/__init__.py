@@ -1,10 +1,10 @@
-"""From a resolved plan to `simulation.py`, deterministically.
+"""Turn a resolved plan into `simulation.py`, deterministically.
 
 A plan of rigid bodies (primitives, compounds, catalog meshes, URDF and MJCF models), joints, loops, ropes, motors and
-initial motion is drafted whole and needs no author. Whatever a plan asks for that cannot be drafted is left as a marked
-place (`# AUTHOR:`) saying what belongs there and where the plan says so.
+initial motion is drafted completely and needs no author. What cannot be drafted is left as a marked place (`# AUTHOR:`)
+that says what belongs there and where the plan asks for it.
 """
 
-from .program import Draft, draft
+from .assembly import Draft, draft
 
 __all__ = ["Draft", "draft"]

@@ -1,18 +1,14 @@
-"""What a world brings in: catalog meshes, and models (URDF, MJCF) whose text becomes part of the program."""
-
-from typing import TYPE_CHECKING
+"""Write what a world imports: catalog meshes, and models (URDF, MJCF) whose text becomes part of the program."""
 
 from ..model.errors import PlanError
-from ..model.imported import is_model, load
-from ..model.plan import AssetRow
-from .source import Raw, call, comment, constant_name, literal
-
-if TYPE_CHECKING:
-    from .objects import Objects
+from ..model.plan.committed import AssetRow
+from ..model.plan.imported import is_model, load
+from .python_text import Raw, call, comment, constant_name, literal
+from .stances import Stances
 
 
-def written(objects: "Objects", row: AssetRow) -> str:
-    """An asset row; several instances without joints become a table of poses and one loop."""
+def written(objects: Stances, row: AssetRow) -> str:
+    """Write an asset row; several instances without joints become a table of poses and one loop."""
     if row.type == "wrapper":
         objects.needs.leave(f"{row.name} is a wrapper asset", "build it and attach it to the world")
         return comment(f"AUTHOR: add {row.name} ({row.filename}): a wrapper asset is not drafted.")
@@ -41,8 +37,8 @@ def written(objects: "Objects", row: AssetRow) -> str:
     return _table(objects, row, function, what, keywords | own_of.get(row.instances[0], {}))
 
 
-def _table(objects: "Objects", row: AssetRow, function: str, what: str, keywords: dict) -> str:
-    """Poses by name, and a loop over them."""
+def _table(objects: Stances, row: AssetRow, function: str, what: str, keywords: dict) -> str:
+    """Write poses by name, and a loop over them."""
     table = constant_name(row.name).lower() + "_poses"
     lines = [f"    {table} = {{  # name: (centre, yaw in degrees)"]
     for name in row.instances:
@@ -58,20 +54,20 @@ def _table(objects: "Objects", row: AssetRow, function: str, what: str, keywords
     return "\n".join(lines)
 
 
-def _mesh(objects: "Objects", row: AssetRow) -> dict:
-    """A catalog mesh, scaled to its height."""
+def _mesh(objects: Stances, row: AssetRow) -> dict:
+    """Keywords of a catalog mesh, scaled to its height."""
     objects.needs.use("assets")
     return {"height": objects.plan.asset_dimensions[row.name]}
 
 
-def _models(objects: "Objects", row: AssetRow) -> dict[str, dict]:
-    """A model file: its text becomes a constant, and its joints are known to the initial motion.
+def _models(objects: Stances, row: AssetRow) -> dict[str, dict]:
+    """Keywords of a model file, whose text becomes a constant and whose joints the initial motion may name.
 
     Returns:
         keywords of each instance: the catalog's folder, and the actuators that the plan asks for if those are not all.
 
     Raises:
-        PlanError: it does not load, or a name inside it is that of something else in the plan.
+        PlanError: it does not load, or something else in the plan has a name from inside it.
     """
     objects.needs.use("models")
     plan = objects.plan

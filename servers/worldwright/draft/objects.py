@@ -1,43 +1,58 @@
-"""The things of a world, each with its pose, mass, look, surface and joint: primitives here, assets in `imports`."""
+"""Write the things of a world, each with pose, mass, look, surface and joint: primitives here, assets in `imports`."""
 
+import textwrap
 from dataclasses import fields
 
 from ..model.errors import PlanError
-from ..model.plan import AssetRow, Joint, Plan, SceneObject
-from ..model.scene import PlacedObject, Scene
+from ..model.plan.committed import AssetRow, Joint, Plan, SceneObject
+from ..model.plan.formed import arguments
+from ..model.plan.layout import Scene
 from . import imports
-from .needs import Needs
-from .source import Raw, call, comment, constant_name
+from .python_text import Raw, call, comment, constant_name, literal
+from .requirements import Needs
+from .stances import Stances
 
 
-class Objects:
+class Objects(Stances):
     """Writes the objects of a plan, parents before children, otherwise in plan order."""
 
     def __init__(self, plan: Plan, scene: Scene, needs: Needs) -> None:
-        self.plan = plan
-        self.scene = scene
-        self.needs = needs
-        self.parameters = plan.simulation_parameters
-        self.joint_of: dict[str, Joint] = {}
+        super().__init__(plan, scene, needs)
         self.loops = plan.topology.loops()
-        for joint in plan.topology.joints:
-            self.joint_of.setdefault(joint.child, joint)
-            needs.joint_kinds[joint.name] = joint.type
+        self.alike = {name: family for family, names in plan.families.items() if self.equal(names) for name in names}
+        """The family of each copy that differs from the others by its name and pose alone."""
 
     def written(self) -> str:
-        """Every scene object and asset."""
-        parts = [
-            self.scene_object(item) if isinstance(item, SceneObject) else imports.written(self, item)
-            for item in self.ordered()
-        ]
+        """The text of every scene object and asset."""
+        parts, looped = [], set()
+        for item in self.ordered():
+            if not isinstance(item, SceneObject):
+                parts.append(imports.written(self, item))
+            elif (family := self.alike.get(item.name)) is None:
+                parts.append(self.scene_object(item))
+            elif family not in looped:
+                looped.add(family)
+                parts.append(self.copies(item, family))
         parts += [self.loop(joint) for joint in self.loops]
         if self.plan.plan_type == "fsi_in_scene":
             self.needs.leave("the plan couples a fluid with solids", "the fluid's medium and its coupling")
             parts.append(comment("AUTHOR: add the fluid and its coupling to the solids here."))
         return "\n".join(part for part in parts if part)
 
+    def equal(self, names: tuple[str, ...]) -> bool:
+        """Whether copies are loose or fixed bodies of one mass, on which nothing hangs by name before they are there."""
+        joined = {body for row in self.plan.topology.joints for body in (row.child, row.parent)}
+        return not joined & {*names} and len({self.parameters.masses.get(name) for name in names}) == 1
+
+    def copies(self, row: SceneObject, family: str) -> str:
+        """The copies of an object as a loop over their names and poses."""
+        placed = [(name, self.scene[name]) for name in self.plan.families[family]]
+        poses = [(name, tuple(float(v) for v in p.position), float(p.deg_z)) for name, p in placed]
+        table = [f"        {literal(pose)}," for pose in poses]
+        return "\n".join(["    for name, pos, yaw_deg in (", *table, "    ):", self.scene_object(row, family)])
+
     def ordered(self) -> list[SceneObject | AssetRow]:
-        """Plan order, except that a joint's parent comes before its child."""
+        """The objects in plan order, except that a joint's parent comes before its child."""
         rows: list[SceneObject | AssetRow] = [*self.plan.scene_objects, *self.plan.assets]
         by_name = {name: row for row in rows for name in getattr(row, "instances", (row.name,))}
         done: dict[str, SceneObject | AssetRow] = {}
@@ -60,8 +75,8 @@ class Objects:
             visit(row, (row.name,))
         return list(done.values())
 
-    def scene_object(self, row: SceneObject) -> str:
-        """One primitive, or one compound of several."""
+    def scene_object(self, row: SceneObject, family: str = "") -> str:
+        """The text of one primitive, form or compound; for a family as the body of the loop over its copies."""
         self.needs.use("bodies")
         placed = self.scene[row.name]
         x, _, z = row.size
@@ -72,11 +87,20 @@ class Objects:
             "cylinder": ("cylinder", {"diameter": x, "height": z}),
             "capsule": ("capsule", {"diameter": x, "height": z}),
             "ellipsoid": ("ellipsoid", {"size": row.size}),
-            "compound": ("compound", {"parts": Raw(f"{constant_name(row.name).lower()}_parts")}),
+            "compound": ("compound", {"parts": Raw(f"{constant_name(family or row.name).lower()}_parts")}),
             "box_container": ("container", {"size": row.size, "wall": row.wall_thickness}),
         }
+        if row.formed:
+            self.needs.use("forms")
+            made = call(f"forms.{row.primitive}", indent=0, **arguments(row.primitive, vars(row)))
+            shapes[row.primitive] = (
+                "formed",
+                {"form": Raw(" ".join(made.split()).replace("( ", "(").replace(", )", ")"))},
+            )
         function, keywords = shapes[row.primitive]
         keywords |= self.common(row.name, placed)
+        if family:
+            keywords |= {"pos": Raw("pos"), "yaw_deg": Raw("yaw_deg")}
         if row.deg_x:
             keywords["tilt_deg"] = row.deg_x
         if row.hollow:
@@ -91,15 +115,18 @@ class Objects:
             keywords["fixed"] = True
         keywords |= self.joint(row.name)
         note = row.description or row.role
-        lines = [comment(note)] if note else []
+        indent = 8 if family else 4
+        lines = [comment(note, indent)] if note else []
         if row.parts:
-            lines.append(self.parts(row))
-        return "\n".join([*lines, call(f"bodies.{function}", Raw("spec"), row.name, **keywords)])
+            table = self.parts(row, family or row.name)
+            lines.append(textwrap.indent(table, "    ") if family else table)
+        name = Raw("name") if family else row.name
+        return "\n".join([*lines, call(f"bodies.{function}", Raw("spec"), name, indent=indent, **keywords)])
 
-    def parts(self, row: SceneObject) -> str:
-        """The parts of a compound as a table of their own."""
+    def parts(self, row: SceneObject, name: str) -> str:
+        """The text of a compound's parts, as a table of their own."""
         self.needs.use("parts")
-        lines = [f"    {constant_name(row.name).lower()}_parts = ("]
+        lines = [f"    {constant_name(name).lower()}_parts = ("]
         for part in row.parts:
             made = part.part()
             keywords: dict = {"size": made.size}
@@ -114,17 +141,8 @@ class Objects:
             lines.append(call("parts.Part", made.name, made.shape, indent=8, tail=",", **keywords))
         return "\n".join([*lines, "    )"])
 
-    def common(self, name: str, placed: PlacedObject) -> dict:
-        """Pose and mass, the same for every kind of object."""
-        keywords: dict = {"pos": tuple(float(v) for v in placed.position)}
-        if placed.deg_z:
-            keywords["yaw_deg"] = float(placed.deg_z)
-        if name in self.parameters.masses:
-            keywords["mass"] = self.parameters.masses[name]
-        return keywords
-
     def loop(self, row: Joint) -> str:
-        """A joint that closes a loop, as constraints between bodies that are there."""
+        """The text of a joint that closes a loop: constraints between existing bodies."""
         extras = [key for key in ("range", "stiffness", "damping", "frictionloss") if getattr(row, key)]
         if row.type == "slide" or extras:
             why = f"a slide joint or one with {' and '.join(extras)}" if extras else "a slide joint"
@@ -142,28 +160,3 @@ class Objects:
         if row.type == "hinge":
             keywords["axis"] = row.axis
         return call(f"loops.{row.type}", Raw("spec"), row.name, **keywords)
-
-    def joint(self, name: str) -> dict:
-        """How an object is attached, when the plan says so."""
-        row = self.joint_of.get(name)
-        if row is None:
-            return {}
-        parent = {} if row.parent == "world" else {"parent": row.parent}
-        if row.type == "weld":
-            return {**parent, "fixed": True}
-        self.needs.use("joints")
-        keywords: dict = {}
-        if row.anchor is not None:
-            keywords["anchor"] = row.anchor
-        if row.type != "ball":
-            keywords["axis"] = row.axis
-            unit = "deg" if row.type == "hinge" else "m"
-            if row.range is not None:
-                keywords[f"range_{unit}"] = row.range
-            keywords |= {k: getattr(row, k) for k in ("stiffness", "frictionloss") if getattr(row, k)}
-            if row.spring_rest:
-                keywords[f"rest_{unit}"] = row.spring_rest
-        if row.damping:
-            keywords["damping"] = row.damping
-        made = call(f"joints.{row.type.capitalize()}", row.name, indent=0, **keywords)
-        return {**parent, "joint": Raw(" ".join(made.split()).replace("( ", "(").replace(", )", ")"))}

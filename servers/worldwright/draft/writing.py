@@ -1,34 +1,34 @@
-"""Write a run's `simulation.py` from its approved plan, never over what an author wrote."""
+"""Write a run's `simulation.py` from its approved plan, never over an author's program."""
 
 from dataclasses import dataclass
 
 from worldkit.files import write_atomic
 
-from ..model import approval
-from ..model.run import Run, sha256_file
-from ..model.scene import Scene
+from ..model.evidence import approval
+from ..model.evidence.run import Run, sha256_file
+from ..model.plan.layout import Scene
 
 
 @dataclass(frozen=True)
 class Written:
-    """What became of the program."""
+    """The outcome of a draft."""
 
     outcome: str
-    """`written`, `unchanged`, or `kept` (an author's program stands there)."""
+    """It is `written`, `unchanged`, or `kept` when an author's program exists."""
     lines: int
     open_places: tuple[str, ...] = ()
-    """What the draft leaves to its author."""
+    """The places that the draft leaves to its author."""
     unread: tuple[str, ...] = ()
-    """Constants of the plan that it reads nowhere."""
+    """Constants of the plan that the draft reads nowhere."""
 
 
 def write_program(run: Run, actor: str = "build") -> Written:
-    """Draft the program of the plan as it stands.
+    """Draft the program of the run's present plan.
 
     Raises:
         GateError: the plan is not approved as it stands, or a model file that it names changed since.
     """
-    from ..model.plan_text import read_plan
+    from ..model.plan.plan_text import read_plan
     from ..place.tools import resolve
     from . import draft
 

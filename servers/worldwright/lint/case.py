@@ -4,7 +4,7 @@ from copy import deepcopy
 from dataclasses import dataclass, field
 from typing import Any
 
-from ..model.plan import Plan
+from ..model.plan.committed import Plan
 
 Changes = tuple[dict[str, Any], ...]
 """Cases of a plan rule: each a change to `SOUND_PLAN`."""

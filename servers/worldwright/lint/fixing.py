@@ -8,11 +8,11 @@ from pathlib import Path
 
 from worldkit.files import write_atomic
 
-from ..model.plan import Plan
+from ..model.plan.committed import Plan
 from . import engine, suppression
 from . import source as sources
 from .problem import Edit
-from .program import Program
+from .program_view import Program
 
 ROUNDS = 10
 """A fix may uncover another; a pair of rules that undo each other is stopped here."""
@@ -62,7 +62,7 @@ def applied(text: str, edits: list[Edit]) -> str:
 
 
 def _edits(source: sources.Source, plan: Plan | None, contract: bool | None) -> list[tuple[str, Edit]]:
-    """Edits of all rules that apply, without those that are answered for, and without overlaps."""
+    """The edits of all rules that apply; those that a comment answers for, or that overlap others, are left out."""
     program = Program(source, plan, contract)
     answered = suppression.of(source)
     found: list[tuple[str, Edit]] = []

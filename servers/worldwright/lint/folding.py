@@ -1,4 +1,4 @@
-"""Values that can be known without running anything: literals, arithmetic, and names bound once to them."""
+"""Values that are known without running anything: literals, arithmetic, and names bound once to them."""
 
 import ast
 import math
@@ -16,7 +16,7 @@ class _Unknown:
 
 
 UNKNOWN: Final = _Unknown()
-"""The value depends on something that only running would tell."""
+"""This value depends on something that only a run would tell."""
 
 _BINARY: dict[type[ast.operator], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
@@ -123,5 +123,5 @@ class Folder:
 
 
 def _small(value: Any) -> bool:
-    """A number that arithmetic cannot blow up into gigabytes."""
+    """Whether a number is so small that arithmetic cannot blow it up into gigabytes."""
     return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < 1e18

@@ -19,7 +19,7 @@ SUPPRESSED = re.compile(r" \(suppressed: (?P<reason>.*)\)$")
 
 
 def sarif(findings: Sequence[Finding]) -> str:
-    """A SARIF log with one run: the rules that spoke, and every finding; what was answered for is a suppression."""
+    """A SARIF log with one run: its rules and findings; a finding that a comment answers for is a suppression."""
     from .. import __version__
     from . import engine
 
@@ -75,7 +75,7 @@ def _uri(file: str) -> str:
 
 
 def github(findings: Sequence[Finding]) -> str:
-    """One workflow command a finding: it shows at its line in a pull request."""
+    """One workflow command per finding, which shows at its line in a pull request."""
     return "\n".join(_command(finding) for finding in findings)
 
 

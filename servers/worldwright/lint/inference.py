@@ -1,4 +1,4 @@
-"""Which class of the simulator an expression is an instance of, as far as the source says it beyond doubt."""
+"""Infer which class of the simulator an expression is an instance of, where the source leaves no doubt."""
 
 import ast
 from functools import cached_property
@@ -70,7 +70,7 @@ class Inference:
 
     @cached_property
     def _attributes(self) -> dict[tuple[ast.ClassDef, str], list[ast.expr | None]]:
-        """What each attribute of each class is assigned in its methods; None stands for something that is not known."""
+        """What the methods of each class assign to its attributes; None stands for something unknown."""
         found: dict[tuple[ast.ClassDef, str], list[ast.expr | None]] = {}
         for kind in (ast.Assign, ast.AnnAssign, ast.AugAssign):
             for statement in self.scopes.nodes.get(kind, []):

@@ -2,6 +2,7 @@
 
 import ast
 import re
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from xml.parsers import expat
 
@@ -26,11 +27,11 @@ class Document:
     error: str = ""
     error_line: int = 1
     computed: bool = False
-    """Parts of it are made at run time, so that absent names and odd values prove nothing."""
+    """Parts of it are made at run time, so absent names and odd values prove nothing."""
 
 
-def documents(text_nodes: list[ast.AST], lines: tuple[str, ...]) -> list[Document]:
-    """Every MJCF document among a program's string expressions."""
+def documents(text_nodes: list[ast.AST], lines: tuple[str, ...], changed: Collection[ast.AST] = ()) -> list[Document]:
+    """Every MJCF document among a program's strings; from those in `changed` it makes other texts."""
     found = []
     for node in text_nodes:
         text = _text(node)
@@ -42,7 +43,7 @@ def documents(text_nodes: list[ast.AST], lines: tuple[str, ...]) -> list[Documen
         first, last = getattr(node, "lineno", 1), getattr(node, "end_lineno", None) or 1
         offset = _leading_newlines(node, lines)
         document = parse(text, lambda line, a=first + offset, z=last: min(a + line - 1, z))
-        computed = isinstance(node, ast.JoinedStr) or bool(re.search(r"\{\w*\}|%[sdfg(]|\$\w", text))
+        computed = isinstance(node, ast.JoinedStr) or node in changed or bool(re.search(r"\{\w*\}|%[sdfg(]|\$\w", text))
         found.append(replace(document, computed=computed))
     return found
 
@@ -60,7 +61,7 @@ def parse(text: str, place=lambda line: line) -> Document:
         (stack[-1].children if stack else roots).append(tag)
         stack.append(tag)
 
-    def end(name: str) -> None:
+    def end(_name: str) -> None:
         stack.pop()
 
     def doctype(*_: object) -> None:
@@ -78,7 +79,7 @@ def parse(text: str, place=lambda line: line) -> Document:
 
 
 def _text(node: ast.AST) -> str | None:
-    """A string expression's text; parts that only running would tell become `0`."""
+    """The text of a string expression; parts that only a run would tell become `0`."""
     if isinstance(node, ast.Constant):
         return node.value if isinstance(node.value, str) else None
     if isinstance(node, ast.JoinedStr):

@@ -1,9 +1,9 @@
-"""What a plan rule looks at: the plan, and where in the file each of its rows stands."""
+"""The view of a plan rule: the plan, and where in the file each of its rows stands."""
 
 from collections.abc import Callable
 
 from ..model.finding import Severity
-from ..model.plan import AssetRow, Plan, SceneObject
+from ..model.plan.committed import AssetRow, Plan, SceneObject
 from .problem import Problem
 
 LineOf = Callable[..., int | None]

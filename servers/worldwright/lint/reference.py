@@ -7,13 +7,14 @@ from pathlib import Path
 
 from ..shelf import Entry
 from . import engine
-from .proof import Argued, Measured, Raises, Warns
+from .harm import Argued, Measured, Raises, Warns
 
 PAGE = Path(__file__).parents[3] / "skills/lint-rules/references/rules.md"
 TITLES = {
     "symbols": "Symbols and drift: names against the installed MuJoCo",
     "mistakes": "Silent mistakes and staging in programs and MJCF",
     "model": "Compiled worlds",
+    "run": "What plain programs are seen to do when they run",
     "plan": "Plans",
 }
 _HEAD = """# Lint rules
@@ -32,7 +33,7 @@ def page() -> str:
         chosen = [rule for rule in rules if engine.group(rule) == name]
         parts += [f"## {TITLES[name]}", "", "| code | rule | severity | what it finds |", "|---|---|---|---|"]
         for rule in chosen:
-            star = " (fixable)" if hasattr(rule.module, "FIXED") else ""
+            star = " (fixable)" if rule.FIXED else ""
             parts.append(
                 f"| {rule.code} | [`{rule.name}`](#{rule.code.lower()}-{rule.name}){star} | {rule.SEVERITY} | {rule.summary} |"
             )
@@ -43,7 +44,7 @@ def page() -> str:
 
 
 def evidence(rule: Entry) -> str:
-    """How a rule's harm is shown, in words."""
+    """Say in words how a rule's harm is shown."""
     proof = rule.EVIDENCE
     if isinstance(proof, Raises):
         return (

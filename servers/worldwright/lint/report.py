@@ -1,9 +1,9 @@
-"""Lint results as a person reads them: place, cause, the source line, and the fix."""
+"""Lint results for a person to read: place, cause, the source line, and the fix."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..model.evidence import LintReport
+from ..model.evidence.reports import LintReport
 from ..model.finding import Finding
 from ..model.frozen import Frozen
 
@@ -18,22 +18,22 @@ class ShownReport(LintReport):
     """A lint report that can be printed with source excerpts."""
 
     files: int = 1
-    """How many files were looked at."""
+    """The number of files that were checked."""
     kept: str = ""
     """Where the report was stored as evidence, when the program belongs to a run."""
     worlds: tuple[str, ...] = ()
-    """How compiling went, per file whose world was wanted."""
+    """For each file whose world was wanted: how compiling it went."""
     fixed: tuple[str, ...] = ()
-    """What `fix` changed, per file."""
+    """For each file: what `fix` changed."""
 
     def sarif(self) -> str:
-        """As a SARIF 2.1 log."""
+        """The report as a SARIF 2.1 log."""
         from .formats import sarif
 
         return sarif(self.findings)
 
     def github(self) -> str:
-        """As annotations of a GitHub workflow."""
+        """The report as annotations of a GitHub workflow."""
         from .formats import github
 
         return github(self.findings)
@@ -45,7 +45,7 @@ class ShownReport(LintReport):
         text = Text(self.text())
         text.highlight_regex(r"(?m)^.*?: (?=error|warning|info )", "bold")
         for word, style in (("error", "bold red"), ("warning", "bold yellow"), ("info", "cyan")):
-            text.highlight_regex(rf"(?<=: ){word} W[LMP][0-9]+ [a-z_]+", style)
+            text.highlight_regex(rf"(?<=: ){word} W[LMPR][0-9]+ [a-z_]+", style)
         text.highlight_regex(r"(?m)^  > .*$", "bold")
         text.highlight_regex(r"(?m)^ +\| +\^$", "red")
         text.highlight_regex(r"(?m)^    fix: .*$", "green")
@@ -66,7 +66,7 @@ class ShownReport(LintReport):
 
 
 def capped(found: list[Finding]) -> tuple[Finding, ...]:
-    """At most `MAX_FINDINGS`, errors first to stay; the last one says how many are left out."""
+    """At most `MAX_FINDINGS`; errors are kept before all others, and the last finding says how many are left out."""
     if len(found) <= MAX_FINDINGS:
         return tuple(found)
     rank = {"error": 0, "warning": 1, "info": 2}
@@ -97,7 +97,7 @@ class RuleList(Frozen):
     rules: tuple[RuleSummary, ...]
 
     def text(self) -> str:
-        """One rule a line."""
+        """The list, one rule per line."""
         return "\n".join(f"{r.code}  {r.severity:7}  {r.name:34}  {r.summary}" for r in self.rules)
 
 

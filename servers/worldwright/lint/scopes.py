@@ -1,4 +1,8 @@
-"""Which name means what where: imports and their aliases, local names, and the expressions names are bound to."""
+"""Tell what a name means where it stands: imports and aliases, local names, and the expressions they are bound to.
+
+symtable does not do it: it says which names are local, not what they are bound to. Nor does astroid: every rule would be
+written for its nodes in place of `ast`'s, and it parses our longest program in 9 ms instead of 1.
+"""
 
 import ast
 from functools import cached_property
@@ -18,7 +22,7 @@ class Scopes:
         self.owner: dict[ast.AST, Scope] = {}
         """The innermost function a node is in."""
         self.bindings: dict[Scope, dict[str, list[ast.expr | None]]] = {None: {}}
-        """Per function: what each name is bound to; None stands for something that is not one expression."""
+        """For each function: what each name is bound to; None stands for anything but one expression."""
         self.imports: dict[Scope, dict[str, str]] = {None: {}}
         self.globals: set[tuple[Function, str]] = set()
         self._walk()

@@ -1,4 +1,4 @@
-"""Reading a file nobody promised anything about: size, encoding and nesting are checked before it is parsed."""
+"""Read a file about which nothing is known: size, encoding and nesting are checked before it is parsed."""
 
 import ast
 import warnings
@@ -17,7 +17,7 @@ MODEL_SUFFIXES = (".xml", ".mjcf", ".urdf")
 
 @dataclass(frozen=True)
 class Source:
-    """A file as far as it could be read; `problem` says why it could not be read further."""
+    """A file as far as it could be read; `problem` says why not further."""
 
     path: str
     text: str = ""
@@ -27,7 +27,7 @@ class Source:
 
     @property
     def is_mjcf(self) -> bool:
-        """The file is a bare model, not a program."""
+        """Whether the file is a bare model, not a program."""
         return self.path.lower().endswith(MODEL_SUFFIXES)
 
 
@@ -67,7 +67,7 @@ def parse(text: str, path: str = "simulation.py") -> Source:
     """Parse program text."""
     lines = tuple(text.splitlines())
     if not text.strip():
-        return Source(path, text, None, Problem("the file is empty", "draft a program: worldwright build plan.md", 1))
+        return Source(path, text, None, Problem("the file is empty", "draft a program: worldwright go RUN", 1))
     if path.lower().endswith(MODEL_SUFFIXES):
         return Source(path, text, None, None, lines)
     try:

@@ -1,10 +1,10 @@
-"""What a program states about its world: time step, gravity, duration, cameras, sizes; and where it says so."""
+"""What a program states about its world, and where: time step, gravity, duration, cameras, sizes."""
 
 import ast
 from collections.abc import Iterator
 from typing import Any
 
-from .program import UNKNOWN, Program
+from .program_view import UNKNOWN, Program
 
 Place = tuple[Any, int, ast.AST | None]
 """A value, its line, and the node it was read from (None inside MJCF)."""
@@ -13,7 +13,7 @@ Place = tuple[Any, int, ast.AST | None]
 def time_steps(program: Program) -> Iterator[Place]:
     """Every time step the program sets, in seconds."""
     for _, call in program.calls("worldkit.scene.new"):
-        yield from _known(program, program.argument(call, "time_step"))
+        yield from _known_value(program, program.argument(call, "time_step"))
     yield from _stored(program, "timestep")
     for tag in program.tags():
         if tag.name == "option" and "timestep" in tag.attributes:
@@ -23,7 +23,7 @@ def time_steps(program: Program) -> Iterator[Place]:
 def gravities(program: Program) -> Iterator[Place]:
     """Every gravity vector the program sets, m/s^2 in the world frame."""
     for _, call in program.calls("worldkit.scene.new"):
-        yield from _known(program, program.argument(call, "gravity"))
+        yield from _known_value(program, program.argument(call, "gravity"))
     yield from _stored(program, "gravity")
     for tag in program.tags():
         if tag.name == "option" and "gravity" in tag.attributes:
@@ -33,7 +33,7 @@ def gravities(program: Program) -> Iterator[Place]:
 def durations(program: Program) -> Iterator[Place]:
     """Every duration handed to the runtime, in seconds."""
     for _, call in program.calls("worldkit.program.main"):
-        yield from _known(program, program.argument(call, "duration"))
+        yield from _known_value(program, program.argument(call, "duration"))
 
 
 def named(program: Program, tag: str, *functions: str) -> set[str] | None:
@@ -53,10 +53,10 @@ def _stored(program: Program, field: str) -> Iterator[Place]:
         if not (isinstance(target, ast.Attribute) and target.attr == field):
             continue
         if isinstance(target.value, ast.Attribute) and target.value.attr in ("option", "opt"):
-            yield from _known(program, value)
+            yield from _known_value(program, value)
 
 
-def _known(program: Program, node: ast.AST | None) -> Iterator[Place]:
+def _known_value(program: Program, node: ast.AST | None) -> Iterator[Place]:
     value = program.value(node)
     if node is not None and value is not UNKNOWN:
         yield value, getattr(node, "lineno", 1), node

@@ -1,6 +1,6 @@
-"""`# worldwright: ignore[WL123] reason`: a finding someone looked at and answers for, kept visible as information.
+"""`# worldwright: ignore[WL123] reason`: somebody looked at a finding and answers for it; it stays visible as information.
 
-In a model file: `<!-- worldwright: ignore[WM112] reason -->`.
+A model file says `<!-- worldwright: ignore[WM112] reason -->`.
 """
 
 import io
@@ -22,12 +22,12 @@ class Suppression:
 
     line: int
     alone: bool
-    """The comment is a line of its own, so it speaks for the next line."""
+    """The comment has a line of its own, so it speaks for the next line."""
     codes: frozenset[str]
     reason: str
 
     def covers(self, code: str, problem: Problem) -> bool:
-        """Whether it answers for a problem: on one of its lines, or on the line above."""
+        """Whether it answers for a problem: it stands on one of the problem's lines, or on the line above."""
         if code not in self.codes or problem.line is None or not self.reason:
             return False
         place = self.line + 1 if self.alone else self.line

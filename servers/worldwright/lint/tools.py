@@ -8,13 +8,14 @@ from pydantic import Field
 
 from ..expose import reads
 from ..model.errors import NotFoundError, PlanError
-from ..model.evidence import EvidenceKey, LintReport
+from ..model.evidence.reports import EvidenceKey, LintReport
 from ..model.finding import Finding
-from ..model.plan import Plan
+from ..model.plan.committed import Plan
+from .completing import Completed
 from .report import RuleDoc, RuleList, RuleSummary, ShownReport, capped
 
 WORLD_S, WORLDS_S = 20.0, 35.0
-"""To build one world, and all those of a call: a call returns within 45 s."""
+"""Seconds to build one world, and all those of a call: a call returns within 45 s."""
 
 
 @reads
@@ -37,16 +38,17 @@ def check_program(
     plan: Annotated[Path | None, Field(description="Plan to compare with; default: plan.md beside the program")] = None,
     model: Annotated[
         bool | None,
-        Field(description="Build the world in the sandbox and inspect it; default: for programs of ours and MJCF"),
+        Field(
+            description="Build the world in the sandbox and inspect it (no: only read); default: for programs of ours and MJCF, while plain scripts are watched"
+        ),
     ] = None,
     fix: Annotated[bool, Field(description="Apply the safe fixes first, in place")] = False,
 ) -> ShownReport:
     """May these programs run? Reads them; what they build is compiled in the sandbox and inspected there.
 
-    Every name, keyword and MJCF element is resolved against the installed MuJoCo, with the nearest name and the
-    changelog's migration; program and compiled world are compared with the plan; staging, silent mistakes and worlds
-    the engine cannot carry are named. For a run's own simulation.py the report is kept as evidence, which the physics
-    pass needs. Answer for a finding with `# worldwright: ignore[WL123] reason`.
+    Names, keywords and MJCF are resolved against the installed MuJoCo; the compiled world is compared with the plan;
+    staging, silent mistakes and worlds the engine cannot carry are named. The report on a run's own simulation.py is
+    evidence that the physics pass needs. Answer for a finding with `# worldwright: ignore[WL123] reason`.
     """
     from . import engine, fixing
 
@@ -75,7 +77,7 @@ def check_program(
         looked, world = engine.check_program_file(file, committed, True if chosen else None, model, left)
         here += looked
         worlds += [world] if world else []
-        if key is not None and key == _key(file.parent):  # else it was edited meanwhile: these findings are of neither
+        if key is not None and key == _key(file.parent):  # if it was edited meanwhile, they fit neither version
             kept = _keep(file.parent, key, here, rules)
         found += here
     return ShownReport(
@@ -88,11 +90,31 @@ def check_program(
     )
 
 
-@reads
-def explain(code: Annotated[str, Field(description="Code or name of a rule, e.g. WL101")]) -> RuleDoc:
-    """What a lint rule does, why it matters, what to write instead, and its bad and good cases."""
-    from . import engine
+def complete_plan(run: Annotated[str, Field(description="The run folder, or its name")]) -> Completed:
+    """Write into plan.md what the program's world has and the plan does not name, marked as built.
 
+    The world is built in the sandbox. Objects, joints, masses, surfaces, and places that the plan leaves to the program become
+    rows; what is stated stays as it is, and where the world differs from it, that is a finding. `left` names what no row can say.
+    """
+    from ..model.evidence.run import Run
+    from .completing import complete
+
+    return complete(Run.find(run), WORLD_S)
+
+
+@reads
+def explain(
+    code: Annotated[str, Field(description="Code or name of a rule, e.g. WL101, or of any other finding")],
+) -> RuleDoc:
+    """What a lint rule does, why it matters, what to write instead, and its bad and good cases.
+
+    Codes of place, of the plan reader and of scan are answered with what the skills say of them.
+    """
+    from . import engine, told_elsewhere
+
+    elsewhere = told_elsewhere.passage(code)
+    if elsewhere is not None:
+        return elsewhere
     rule = engine.find(code)
     return RuleDoc(
         code=rule.code,
@@ -118,9 +140,37 @@ def list_rules() -> RuleList:
     )
 
 
+def acts_as_planned(bundle: Path, plan: Plan) -> list[Finding]:
+    """Every way in which the world of a bundle (`world.mjz`, or any MJCF) acts otherwise than its plan. For other servers.
+
+    Both worlds are compiled in the sandbox, the plan's from its own draft; nothing of the author's runs. A finding of severity
+    `error` means that it is not the planned world.
+    """
+    from concurrent.futures import ThreadPoolExecutor
+
+    from . import engine
+    from .compiled import fetch, planned
+
+    with ThreadPoolExecutor(1) as beside:
+        waiting = beside.submit(planned.world, plan)
+        outcome = fetch.world(bundle, is_mjcf=True)
+    if outcome.status == "compiled":
+        return engine.check_acting(outcome, waiting.result(), plan, bundle.name)
+    return [
+        Finding(
+            code="WM101",
+            name="does_not_compile",
+            severity="error",
+            message=f"the bundle cannot be compiled: {outcome.message or outcome.status}",
+            fix="make the physics pass again",
+            file=bundle.name,
+        )
+    ]
+
+
 def _read_plan(path: Path):
     """The plan (None when it cannot be read as one), its findings, and its line look-up."""
-    from ..model.plan_text import read_plan
+    from ..model.plan.plan_text import read_plan
 
     if not path.is_file():
         raise NotFoundError("there is no such plan", place=str(path), next_move="name an existing plan.md")
@@ -143,16 +193,16 @@ def _read_plan(path: Path):
 
 
 def _key(folder: Path) -> EvidenceKey:
-    """What a report on the run's program and plan, as they stand now, would vouch for."""
-    from ..model.environment import current
-    from ..model.run import Run
+    """The hashes for which a report on the run's program and plan vouches, as they stand now."""
+    from ..model.evidence.environment import current
+    from ..model.evidence.run import Run
 
     return Run(folder).evidence_key(current().sha256())
 
 
 def _keep(folder: Path, key: EvidenceKey, found: list[Finding], rules: int) -> str:
     """Store the report as evidence of the run."""
-    from ..model.run import Run
+    from ..model.evidence.run import Run
 
     run = Run(folder)
     # Files are named relative to the run, so that the evidence says the same wherever the folder lies.
@@ -162,8 +212,16 @@ def _keep(folder: Path, key: EvidenceKey, found: list[Finding], rules: int) -> s
     )
     path = run.keep(key, "lint", report)
     codes = sorted({finding.code for finding in report.findings if finding.severity == "error"})
-    run.log("lint", "lint", key=key.key, ok=report.ok, findings=len(report.findings), codes=codes)
+    unknown = [code for code in codes if to_look_up(code)]
+    run.log("lint", "lint", key=key.key, ok=report.ok, findings=len(report.findings), codes=codes, unknown=unknown)
     return str(path.relative_to(run.folder))
+
+
+def to_look_up(code: str) -> bool:
+    """Whether a finding is about a name that must be looked up before the program runs again; for other servers, no tool."""
+    from . import engine
+
+    return engine.to_look_up(code)
 
 
 def _case_text(case: object) -> str:
@@ -175,4 +233,4 @@ def _case_text(case: object) -> str:
 
 
 check_plan.formats = check_program.formats = ("sarif", "github")  # type: ignore[attr-defined]
-TOOLS = (check_plan, check_program, explain, list_rules)
+TOOLS = (check_plan, check_program, complete_plan, explain, list_rules)

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from ..simulator.describe import top_names
+from ..simulator.inventory import top_names
 
 
 @dataclass(frozen=True)
 class Callee:
-    """A function or class of worldkit: how it may be called."""
+    """How a function or class of worldkit may be called."""
 
     parameters: tuple[str, ...]
     open: bool
@@ -38,7 +38,7 @@ def modules() -> list[str]:
 
 
 def names(module: str) -> list[str] | None:
-    """What `worldkit.<module>` binds; None when there is no such module or it cannot be told without importing."""
+    """What `worldkit.<module>` binds; None when there is no such module, or only importing it would tell."""
     path = _file(module)
     if path is None:
         return None
@@ -91,7 +91,7 @@ def _file(module: str) -> Path | None:
 
 
 @cache
-def _parse(path: Path, modified_ns: int) -> ast.Module:
+def _parse(path: Path, _modified_ns: int) -> ast.Module:
     try:
         return ast.parse(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError):

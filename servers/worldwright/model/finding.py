@@ -48,6 +48,8 @@ class Anomaly(Frozen):
     threshold: float
     unit: str
     message: str
+    extent_m: float | None = None
+    """How large what is wrong is in the world, m, where `measured` is in another unit."""
 
     def __str__(self) -> str:
         start, end = self.window_s

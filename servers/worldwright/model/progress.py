@@ -1,4 +1,4 @@
-"""How long work says how far it is, whatever transport listens."""
+"""How long work reports its progress, whatever transport listens."""
 
 from typing import Protocol
 
@@ -12,4 +12,4 @@ class Progress(Protocol):
 
 
 def silent(done: float, total: float, message: str = "") -> None:
-    """Nobody is listening."""
+    """Report to nobody."""

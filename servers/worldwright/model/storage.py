@@ -1,4 +1,4 @@
-"""Writing where a person keeps their runs: a full disk or a read-only folder is theirs to mend, not a defect of ours."""
+"""Writing where a person keeps their runs: a full disk or a read-only folder is for them to mend, no defect of the suite."""
 
 import errno
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""A yawed box and its anchors: what predicates read and set.
+"""A yawed box and its anchors, which predicates read and set.
 
 World frame: z up, +X front, +Y left, metres; yaw in degrees counter-clockwise from +X. `half_x` and `half_y` are half
 extents of the *world* AABB, so a box yawed by 90 degrees has its own y extent along world x:
@@ -15,15 +15,15 @@ from dataclasses import dataclass, field
 Vec3 = tuple[float, float, float]
 DOFS = ("x", "y", "z", "yaw")
 TOLERANCE_M = 1e-3
-"""How far a layout may be from what a row says."""
+"""A layout may differ by so much from what a row says."""
 TOLERANCE_DEG = 0.5
 
 
 @dataclass(frozen=True)
 class Surface:
-    """Where things rest on an object, in its own frame.
+    """A surface of an object, in its own frame, on which things rest.
 
-    height_m: above the object's lowest point. centre, extents: of the free area, relative to the box's centre (x, y).
+    height_m: above the object's lowest point. centre, extents: of the free area, m, relative to the box's centre (x, y).
     """
 
     name: str
@@ -48,7 +48,7 @@ class UnplacedError(Exception):
 
 
 class CannotResolveError(Exception):
-    """The numbers of a row have no solution: the cause, and the fix."""
+    """The numbers of a row have no solution; it tells the cause and the fix."""
 
     def __init__(self, cause: str, fix: str) -> None:
         super().__init__(cause)
@@ -56,13 +56,13 @@ class CannotResolveError(Exception):
 
 
 def no_surface(name: str | None) -> Surface:
-    """An object that nothing rests on."""
+    """Refuse any surface, for an object on which nothing rests."""
     raise KeyError(f"no surface {name!r}")
 
 
 @dataclass(slots=True)
 class Box:
-    """An object while it is being placed: anchors that are not known yet are None."""
+    """An object while it is placed: anchors that are not known yet are None."""
 
     name: str
     size: Vec3
@@ -73,15 +73,15 @@ class Box:
     round: bool = False
     """Extents do not change with yaw."""
     surface: Callable[[str | None], Surface] = field(default=no_surface, repr=False)
-    """A named surface, or the default one; KeyError tells the known ones."""
+    """Gives a named surface, or the default one; a KeyError lists the known ones."""
     surfaces: Callable[[], Sequence[Surface]] = field(default=tuple, repr=False)
-    """Every named surface, the default one first."""
+    """Gives every named surface, the default one first."""
     floor_datum: bool = False
-    """Plans write the height of its floor instead of its centre's (containers that are a generated_boundary)."""
+    """Plans give the height of its floor, not of its centre (containers that are a generated_boundary)."""
 
     @property
     def written_shift(self) -> float:
-        """What is added to the centre's z where plans write this object's position, metres."""
+        """The shift from the centre's z to the one that plans write for this object, metres."""
         return -self.size[2] / 2 if self.floor_datum else 0.0
 
     def get(self, dof: str) -> float:
@@ -116,12 +116,12 @@ class Box:
         return self.get(axis) + self.half(axis)
 
     def to_world(self, x: float, y: float) -> tuple[float, float]:
-        """A vector of the object's own plane, turned into the world's."""
+        """Turn a vector from the object's own plane into the world's."""
         c, s = cos_sin(self.get("yaw"))
         return (c * x - s * y, s * x + c * y)
 
     def spread(self, turned_deg: float) -> tuple[float, float]:
-        """Half extents in the plane along axes from which the object is turned by an angle."""
+        """Half extents in the plane, m, along axes against which the object is turned by an angle."""
         if self.round:
             return (self.size[0] / 2, self.size[1] / 2)
         c, s = (abs(v) for v in cos_sin(turned_deg))
@@ -136,7 +136,7 @@ class Box:
         return [(x + (c * i * sx - s * j * sy) / 2, y + (s * i * sx + c * j * sy) / 2) for i, j in signs]
 
     def to_own(self, x: float, y: float) -> tuple[float, float]:
-        """A world point, seen from the object's centre along its own axes."""
+        """A world point as seen from the object's centre, along its own axes, m."""
         dx, dy = x - self.get("x"), y - self.get("y")
         c, s = cos_sin(self.get("yaw"))
         return (c * dx + s * dy, -s * dx + c * dy)
@@ -182,6 +182,6 @@ def total(dof: str, *terms: tuple[str, float]) -> Derivation:
 
 
 def shown(value: float) -> str:
-    """A number as provenance shows it: micrometres, no trailing zeros."""
+    """A number as provenance shows it: to micrometres, without trailing zeros."""
     text = f"{round(value, 6) + 0.0:.6f}".rstrip("0").rstrip(".")
     return "0" if text in ("-0", "") else text

@@ -1,4 +1,4 @@
-"""How high things of a category are: the anchors that `asset_dimensions` and sizes are judged against.
+"""The heights of things by category, against which `asset_dimensions` and sizes are judged.
 
 `categories.csv` has one row for each category: the range of heights, what kind of thing it is, what it usually rests on, where
 a seat is as a share of its height, and who says so. An object's category is the longest one that its name ends with, as the
@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from pathlib import Path
 
-from ..model.plan import AssetRow, SceneObject
+from ..model.plan.committed import AssetRow, SceneObject
 
 _SIDES = re.compile("left|right|upper|lower|middle|first|second|third|near|far|north|south|east|west|[a-f]")
-"""Words that tell alike things apart; a `top`, a `back` or a `leg` is a part, and is not judged."""
+"""Words that only distinguish similar things; a `top`, a `back` or a `leg` is a part and is not judged."""
 _SCALED = frozenset({"toy", "model", "mini", "miniature", "giant", "huge", "tiny", "doll", "scale"})
-"""Words that say that the usual size does not count."""
+"""Words that say that the usual size does not hold."""
 _PLURALS = {
     "shelves": "shelf",
     "knives": "knife",
@@ -61,14 +61,14 @@ def _category(row: dict[str, str]) -> Category:
 
 
 def of(row: SceneObject | AssetRow, name: str) -> Category | None:
-    """The category of an object: by its own name, then by its catalog key or by a role that is one."""
+    """The category of an object, by its own name, its catalog key, or a role that is a category."""
     other = row.filename if isinstance(row, AssetRow) else row.role
     return named(name) or (named(other) if isinstance(row, AssetRow) or other.lower() in table() else None)
 
 
 @lru_cache(maxsize=65536)
 def named(name: str) -> Category | None:
-    """The longest category that a name ends with; None for what has none or says that it is of another scale."""
+    """The longest category with which a name ends; None if there is none or the name tells of another scale."""
     words = [w for w in re.split(r"[^a-z]+", re.sub(r"([a-z])([A-Z])", r"\1 \2", name).lower()) if w]
     if _SCALED.intersection(words):
         return None

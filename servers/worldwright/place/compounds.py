@@ -1,12 +1,12 @@
-"""A compound as the resolver sees it: the box around its parts, and the level tops of parts, where things can rest.
+"""Turn a compound into what the resolver needs: the box around its parts, and the level tops on which things can rest.
 
-A surface is called as its part (`seat` of a chair, `rung_3` of a ladder; of a box_container part its floor, the first
-also `inside`); `top`, the default, is the largest one that reaches the top of the whole.
+A surface has the name of its part (`seat` of a chair, `rung_3` of a ladder). For a box_container part it is the floor, and
+the first of these is also called `inside`; `top`, the default, is the largest that reaches the top of the whole.
 """
 
 from worldkit.parts import Solid
 
-from ..model.plan import SceneObject
+from ..model.plan.committed import SceneObject
 from .anchors import Box, Surface
 
 EXACT = 1e-6
@@ -36,7 +36,7 @@ def box(row: SceneObject) -> Box:
 
 
 def _top(name: str, solid: Solid, bottom: float) -> Surface | None:
-    """The level upper face of a solid; None where it is round or slopes, or lies askew in the object."""
+    """The level upper face of a solid; None if it is round, slopes, or lies askew in the object."""
     askew = any(EXACT < abs(v) < 1 - EXACT for row in solid.rotation for v in row)
     label = solid.name.removeprefix(f"{name}/")
     if _floor(solid):

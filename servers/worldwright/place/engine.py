@@ -1,6 +1,6 @@
-"""The resolver: rows in dependency order onto anchors, until every object has a pose and every number a formula.
+"""Resolve a plan: apply rows to anchors in dependency order, until every object has a pose and every number a formula.
 
-It guesses nothing. What is said twice must agree, what is not said is a finding that names the predicates which would
+Nothing is guessed. What is said twice must agree, what is not said is a finding that names the predicates which would
 say it, and what depends on itself is a finding that names the circle. Source: paper, "Scene Inference" and the
 Predicate-to-Position Contract.
 """
@@ -10,30 +10,22 @@ from collections import defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..model.plan import Plan
+from ..model.plan.committed import Plan
 from .anchors import DOFS, CannotResolveError, Derivation, shown, wrap
 from .extents import boxes
 from .graph import Node, groups, order_within
 from .margins import measure
 from .resolution import Resolution, collected
+from .setters import setters
 from .shots import shots
 from .statements import Locate, Problems, Statement, statements
-from .vocabulary import BASE, CAMERA_FAMILY, base
+from .vocabulary import BASE, CAMERA_FAMILY, ask, base
 
 AGREE = 1e-6
 """Two rows may set the same coordinate if they differ by less: metres or degrees."""
-ALL_THREE = "PLACE-ANYWHERE, COPY-GROUP with `offset`, or a relation template (adjacent_*, centered_on_ref, base) sets all three"
-MISSING = {
-    "x": "FRONT-OF or BACK-OF with `gap`, ALIGN-FRONT, ALIGN-BACK or ALIGN-CENTER-FB, PLACE-ON or PLACE-IN with `offset`, "
-    f"SYMMETRY-ALONG, or PLACE-ON-BASE with `x`; {ALL_THREE}",
-    "y": "LEFT-OF or RIGHT-OF with `gap`, ALIGN-LEFT, ALIGN-RIGHT or ALIGN-CENTER-LR, PLACE-ON or PLACE-IN with `offset`, "
-    f"SYMMETRY-ALONG, or PLACE-ON-BASE with `y`; {ALL_THREE}",
-    "z": "PLACE-ON-BASE, PLACE-ON, PLACE-IN, or HEIGHT with `bottom`, `center` or `top`; flush_with_platform_top and "
-    f"floating_box_at_surface set it too; {ALL_THREE}",
-}
 
 
-def resolve(plan: Plan, *, file: str = "plan.md", locate: Locate = lambda *path: None) -> Resolution:
+def resolve(plan: Plan, *, file: str = "plan.md", locate: Locate = lambda *_path: None) -> Resolution:
     """Place every object of a plan.
 
     Args:
@@ -51,7 +43,7 @@ def resolve(plan: Plan, *, file: str = "plan.md", locate: Locate = lambda *path:
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Without the cyclic garbage collector: nothing made here is garbage before the end, and scanning it again and again
+    """Run without the cyclic garbage collector: nothing made here is garbage before the end, and to scan it again and again
     costs a third of the time at ten thousand objects."""
     enabled = gc.isenabled()
     gc.disable()
@@ -76,7 +68,7 @@ class _Resolver:
         """Rows whose places are drawn together."""
         self.failed: set[str] = set()
         self.told: set[str] = set()
-        """Failed objects that some finding is about; the other failed ones only wait for them."""
+        """Failed objects with a finding of their own; the other failed ones only wait for them."""
 
     def resolve(self) -> Resolution:
         reported: set[str] = set()
@@ -91,7 +83,7 @@ class _Resolver:
             if row.entry.FAMILY == CAMERA_FAMILY:
                 continue
             rows_of[row.subject].append(row)
-            if hasattr(row.entry.module, "sample"):
+            if row.entry.sample is not None:
                 self.regions[self.region(row)].append(row)
             for dof in row.pins:
                 self.pins[row.subject, dof].append(row)
@@ -109,7 +101,7 @@ class _Resolver:
         return resolution.told(self.problems.findings)
 
     def fail(self, names: set[str]) -> None:
-        """These objects cannot be placed, and a finding says why."""
+        """Note that these objects cannot be placed, and that a finding says why."""
         self.failed |= names
         self.told |= names
 
@@ -120,7 +112,7 @@ class _Resolver:
                     yield (name, dof)
 
     def reads(self, node: Node) -> set[Node]:
-        """The coordinates that computing a node reads."""
+        """The coordinates that a node is computed from."""
         found: set[Node] = set()
         for row in self.pins.get(node, ()):
             for name in row.pins[node[1]]:
@@ -133,7 +125,7 @@ class _Resolver:
         return found
 
     def sampled_last(self, found: list[list[Node]], reads: dict[Node, set[Node]]) -> list[list[Node]]:
-        """What rests on no drawn place first, so that places are drawn in the area that it leaves free."""
+        """Order groups so that those without drawn places come first and leave the free area for the drawn ones."""
         if not self.regions:
             return found
         drawn = {(row.subject, dof) for rows in self.regions.values() for row in rows for dof in row.pins}
@@ -149,11 +141,11 @@ class _Resolver:
 
     @staticmethod
     def region(row: Statement) -> tuple[object, ...]:
-        """What rows must share to be drawn together."""
+        """The key that rows share if their places are drawn together."""
         return (row.code, row.reference, *sorted((key, str(value)) for key, value in row.params.items()))
 
     def sample(self, row: Statement) -> None:
-        """Draw the places of every row of a region at once, clear of all that is placed by now."""
+        """Draw the places of every row of a region at once, clear of everything placed by now."""
         rows = sorted(self.regions[self.region(row)], key=lambda r: r.subject)
         members = {r.subject for r in rows}
         obstacles = [
@@ -162,12 +154,12 @@ class _Resolver:
             if name not in members and name not in self.failed and None not in (box.x, box.y, box.z, box.yaw)
         ]
         reference = self.base if row.reference in (None, BASE) else self.boxes[str(row.reference)]
-        spots = row.entry.sample([self.boxes[r.subject] for r in rows], reference, row.params, obstacles)
+        spots = ask(row.entry, "sample", [self.boxes[r.subject] for r in rows], reference, row.params, obstacles)
         for index, (member, spot) in enumerate(zip(rows, spots, strict=True)):
             member.params.update(spot=spot, others=[self.boxes[r.subject] for r in rows[:index]])
 
     def check_determined(self, name: str, rows: list[Statement]) -> None:
-        """Every object needs x, y and z; yaw has the documented baseline."""
+        """Report an object without x, y or z; yaw has the documented baseline."""
         missing = [dof for dof in ("x", "y", "z") if (name, dof) not in self.pins]
         if not missing:
             return
@@ -188,7 +180,7 @@ class _Resolver:
                 "WP205",
                 "under_determined",
                 f"`{name}` has no {dof}: its rows ({said}) do not set it",
-                f"add {MISSING[dof]}",
+                f"add a row that does: {setters(dof)}",
                 rows[-1].path,
             )
 
@@ -234,9 +226,9 @@ class _Resolver:
         for row in rows:
             reference = self.base if row.reference in (None, BASE) else self.boxes[str(row.reference)]
             try:
-                if "spot" not in row.params and hasattr(row.entry.module, "sample"):
+                if "spot" not in row.params and row.entry.sample is not None:
                     self.sample(row)
-                results.append((row, row.entry.resolve(dof, box, reference, row.params)))
+                results.append((row, ask(row.entry, "resolve", dof, box, reference, row.params)))
             except CannotResolveError as error:
                 self.problems.add("WP208", "no_solution", f"{row}: {error}", error.fix, row.path)
                 self.fail({name})
@@ -285,7 +277,7 @@ class _Resolver:
                     return
                 if dof == "yaw":
                     turn = wrap(value - before)
-                    if step > 40:  # it swings to and fro: take half steps
+                    if step > 40:  # it swings to and fro, so half steps are taken
                         box.yaw = wrap(before + turn / 2)
                     change = max(change, abs(turn) / 57.3)
                 else:
@@ -311,7 +303,7 @@ class _Resolver:
                 return
 
     def tell_circle(self, circle: list[Node]) -> None:
-        """A circle of positions: name the rows that close it."""
+        """Report a circle of positions with the rows that close it."""
         rows: dict[str, Statement] = {}
         for position, node in enumerate(circle):
             read = circle[position - 1]
@@ -329,7 +321,7 @@ class _Resolver:
         )
 
     def name_the_waiting(self) -> None:
-        """Objects that only wait for others get one finding together."""
+        """Report the objects that only wait for others in one finding."""
         waiting = sorted(self.failed - self.told)
         if waiting:
             first = next((row for dof in DOFS for row in self.pins.get((waiting[0], dof), ())), None)

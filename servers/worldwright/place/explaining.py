@@ -1,18 +1,18 @@
 """The chain of rows and formulas from the base to an object's numbers."""
 
-from ..model.imported import is_model
-from ..model.plan import Plan
-from .reports import Explained, Explanation
+from ..model.plan.committed import Plan
+from ..model.plan.imported import is_model
+from .placement_results import Explained, Explanation
 from .resolution import Resolution
 
 
 def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
-    """Everything that the pose of `name` rests on, in dependency order, the object itself last."""
+    """Explain the pose of `name` by everything that it rests on, in dependency order, the object itself last."""
     needed: set[str] = set()
     waiting = [name]
     references: dict[str, set[str]] = {}
     for row in resolution.statements:
-        if row.pins:  # what a row only demands gives no number
+        if row.pins:  # a row that only demands something gives no number
             references.setdefault(row.subject, set()).update(row.needs())
     while waiting:
         current = waiting.pop()
@@ -39,9 +39,13 @@ def explain(plan: Plan, resolution: Resolution, name: str) -> Explanation:
 
 
 def _sizes(plan: Plan) -> dict[str, str]:
-    """Who owns each object's size."""
+    """The owner of each object's size."""
     owners = {
-        row.name: f"the box around its {len(row.parts)} parts" if row.parts else "size given in scene_objects"
+        row.name: f"the box around its {len(row.parts)} parts"
+        if row.parts
+        else f"the box around the points of its {'path' if row.path else 'profile'}"
+        if row.path or row.profile
+        else "size given in scene_objects"
         for row in plan.scene_objects
     }
     for row in plan.assets:

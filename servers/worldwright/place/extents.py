@@ -1,4 +1,4 @@
-"""How big things are and where things rest on them: the one place that asks the catalog.
+"""Find how big things are and where things rest on them; only this module asks the catalog.
 
 Scene objects own their `size` (full extents). Assets are scaled uniformly from the catalog to the height that
 `asset_dimensions` gives them.
@@ -8,19 +8,19 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ..model.errors import PlanError
-from ..model.imported import is_model, load
-from ..model.plan import AssetRow, Plan, SceneObject
-from . import compounds
+from ..model.plan.committed import AssetRow, Plan, SceneObject
+from ..model.plan.imported import is_model, load
+from . import compounds, formed_boxes
 from .anchors import Box, Surface, no_surface
 
 AGREES = 0.01
-"""How far a given height may be from a model's own, as a share."""
+"""A given height may differ from a model's own by this share."""
 Unsized = tuple[str, str, tuple[str | int, ...]]
-"""Why an object has no size: cause, fix, and the path in the plan."""
+"""(cause, fix, path in the plan) of an object without a size."""
 
 
 def boxes(plan: Plan) -> tuple[dict[str, Box], dict[str, Unsized]]:
-    """Every object of the plan as an unplaced box, and those whose size cannot be known with the reason."""
+    """Every object of the plan as an unplaced box, and the reasons for those without a size."""
     found: dict[str, Box] = {}
     unsized: dict[str, Unsized] = {}
     for row in plan.scene_objects:
@@ -45,6 +45,8 @@ class _UnknownSizeError(Exception):
 
 
 def _primitive(row: SceneObject) -> Box:
+    if row.formed:
+        return formed_boxes.box(row)
     sx, sy, sz = row.size
     ellipse = row.primitive in ("sphere", "cylinder", "capsule", "ellipsoid")
     surfaces = [Surface("top", sz, (sx, sy), shape="ellipse" if ellipse else "rectangle")]
@@ -70,7 +72,7 @@ def _primitive(row: SceneObject) -> Box:
 
 
 def _tilted(row: SceneObject) -> Box:
-    """A tilted primitive: the box around it; only a box on another of its faces has a level top."""
+    """The box around a tilted primitive; only a box that lies on another of its faces has a level top."""
     extents = row.extents
     level = row.primitive == "box" and row.deg_x % 90 == 0
     top = Surface("top", extents[2], extents[:2])
@@ -120,7 +122,7 @@ def _asset(plan: Plan, row: AssetRow) -> Box:
 
 
 def _model(plan: Plan, row: AssetRow) -> Box:
-    """A model by the box around its rest pose; it is metric, so a height can only agree."""
+    """The box around a model's rest pose; a model is metric, so a given height must agree with it."""
     try:
         size = load(row, plan.folder).extents
     except PlanError as error:
@@ -138,6 +140,6 @@ def _model(plan: Plan, row: AssetRow) -> Box:
 
 
 def fixed_objects(plan: Plan) -> Iterator[str]:
-    """Objects without a joint of their own to the world: scenery."""
+    """Objects without a joint of their own to the world, which are scenery."""
     yield from (row.name for row in plan.scene_objects if row.fixed or not row.dynamic or row.visual_only)
     yield from (name for row in plan.assets if row.fixed or not row.is_dynamic for name in row.instances)

@@ -1,27 +1,30 @@
-"""What an object stands on: the convex polygon of its lowest points, and where its centre of mass is above it.
+"""Find what an object stands on: the convex polygon of its lowest points, and the place of its centre of mass above it.
 
 An object at rest on a plane does not tip when its centre of mass projects into the convex hull of its contacts. Source: R. C.
 Hibbeler, Engineering Mechanics: Statics, chapter 5 (equilibrium of a rigid body); here the hull of the contact areas.
+
+shapely would save 35 lines for 10 MB, but takes 34 us for a hull of eight points in place of 4, and 37 for an inset in
+place of 5.
 """
 
 import math
 from contextlib import suppress
 from functools import lru_cache
 
-from ..model.plan import Plan, SceneObject
-from ..model.scene import PlacedObject
-from ..model.weights import weight
+from ..model.plan.committed import Plan, SceneObject
+from ..model.plan.layout import PlacedObject
+from ..model.plan.weights import weight
 from .anchors import Surface, cos_sin
 
 Polygon = list[tuple[float, float]]
 """Corners counter-clockwise, metres."""
 SLICE_M = 2e-3
-"""What is this close to the lowest point touches the plane."""
+"""Points this close to the lowest one touch the plane."""
 _CIRCLE = [(math.cos(k * math.pi / 12), math.sin(k * math.pi / 12)) for k in range(24)]
 
 
 def ellipse(width: float, length: float, x: float = 0.0, y: float = 0.0) -> Polygon:
-    """An inscribed polygon of 24 corners."""
+    """A polygon of 24 corners inside an ellipse, m."""
     return [(x + width / 2 * c, y + length / 2 * s) for c, s in _CIRCLE]
 
 
@@ -37,18 +40,18 @@ def area_of(surface: Surface) -> Polygon:
 
 
 def turned(polygon: Polygon, x: float, y: float, deg_z: float) -> Polygon:
-    """A polygon of an object's own plane, in the world's."""
+    """Turn a polygon from an object's own plane into the world's."""
     c, s = cos_sin(deg_z)
     return [(x + c * u - s * v, y + s * u + c * v) for u, v in polygon]
 
 
 def footprint(placed: PlacedObject, row: SceneObject | None) -> Polygon:
-    """Where the object touches a plane that it stands on, world frame; a point for a ball."""
+    """The area in which an object touches the plane that it stands on, world frame; a point for a ball."""
     x, y, _ = placed.position
     if row is None:
         own = _asset(placed.kind, placed.size[2])
         return turned(list(own[0]) if own else rectangle(*placed.size[:2]), x, y, placed.deg_z)
-    if row.deg_x or row.parts:
+    if row.deg_x or row.parts or row.formed:
         return turned(_lowest(row), x, y, placed.deg_z)
     if row.primitive in ("sphere", "ellipsoid", "capsule"):
         return [(x, y)]
@@ -58,12 +61,12 @@ def footprint(placed: PlacedObject, row: SceneObject | None) -> Polygon:
 
 
 def shadow(placed: PlacedObject, row: SceneObject | None) -> Polygon:
-    """Everything below the object, world frame: what it covers seen from above."""
+    """The area that an object covers, seen from above, world frame."""
     x, y, _ = placed.position
     if row is None:
         own = _asset(placed.kind, placed.size[2])
         return turned(list(own[2]) if own else rectangle(*placed.size[:2]), x, y, placed.deg_z)
-    if row.parts:
+    if row.parts or row.formed:
         return turned(hull([(u, v) for u, v, _ in _cloud(row)]), x, y, placed.deg_z)
     curved = row.primitive in ("sphere", "ellipsoid", "capsule", "cylinder") and not row.deg_x
     shape = ellipse if curved else rectangle
@@ -71,11 +74,14 @@ def shadow(placed: PlacedObject, row: SceneObject | None) -> Polygon:
 
 
 def centre_of_mass(placed: PlacedObject, row: SceneObject | None, plan: Plan) -> tuple[float, float]:
-    """Its place in the plane, world frame, metres; the centre of its box when the masses of its parts contradict."""
+    """Its place in the plane, world frame, m; the centre of the box if the masses of the parts contradict each other."""
     x, y, _ = placed.position
     if row is not None and row.parts:
         with suppress(ValueError):
             return turned([weight(plan, row).centre[:2]], x, y, placed.deg_z)[0]
+    if row is not None and row.formed:
+        cx, cy, _ = (float(v) for v in row.form().centre_of_mass)
+        return turned([(cx, cy)], x, y, placed.deg_z)[0]
     if row is not None:
         return (x, y)
     own = _asset(placed.kind, placed.size[2])
@@ -93,7 +99,7 @@ def _asset(
 ) -> tuple[tuple[tuple[float, float], ...], tuple[float, float], tuple[tuple[float, float], ...]] | None:
     """The polygon of an asset's lowest points, its centre of mass, and the polygon of all its points; own frame.
 
-    None for a model file: it counts as the box around it.
+    It is None for a model file, which counts as its box.
     """
     from worldkit import assets
 
@@ -177,7 +183,7 @@ def inset(polygon: Polygon, point: tuple[float, float]) -> float:
 
 
 def area(polygon: Polygon) -> float:
-    """Of a polygon, m^2 (shoelace formula)."""
+    """The area of a polygon, m^2 (shoelace formula)."""
     return abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(polygon, polygon[1:] + polygon[:1], strict=True))) / 2
 
 

@@ -1,6 +1,6 @@
-"""In which order coordinates can be computed.
+"""Find the order in which coordinates can be computed.
 
-A node is one coordinate of one object, `(name, dof)`; an edge says that computing it reads another. Positions may not
+A node is one coordinate of one object, `(name, dof)`; an edge says that it is computed from another. Positions may not
 depend on each other in a circle. A yaw may (two chairs that face each other, a bench pushed against the table it
 faces): such a group is solved together, by iteration.
 """
@@ -12,7 +12,7 @@ Node = tuple[str, str]
 
 
 def groups(reads: Mapping[Node, Iterable[Node]]) -> list[list[Node]]:
-    """Strongly connected groups of nodes, what is read before what reads it (Tarjan, without recursion).
+    """Strongly connected groups of nodes, each before the groups that read it (Tarjan, without recursion).
 
     The order depends on the names alone, not on the order of the rows.
     """
@@ -58,7 +58,7 @@ def groups(reads: Mapping[Node, Iterable[Node]]) -> list[list[Node]]:
 
 
 def order_within(group: list[Node], reads: Mapping[Node, Iterable[Node]]) -> tuple[list[Node], list[Node] | None]:
-    """Order of one group with its yaws computed last, or the circle of positions that forbids any order.
+    """The order of one group, with its yaws last, or the circle of positions that forbids any order.
 
     Returns:
         (order, None), or ([], circle) where each node of the circle reads the one before it.

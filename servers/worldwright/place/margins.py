@@ -1,13 +1,14 @@
-"""How well every row holds at the resolved poses: what a row demands beyond the coordinates that it sets is measured too."""
+"""Measure how well every row holds at the resolved poses, with what it demands beyond the coordinates that it sets."""
 
 from .anchors import TOLERANCE_DEG, TOLERANCE_M, CannotResolveError, shown
-from .reports import RowMargin
+from .placement_results import RowMargin
 from .resolution import Resolution
 from .statements import Problems
+from .vocabulary import ask
 
 
 def measure(resolution: Resolution, problems: Problems) -> list[RowMargin]:
-    """The signed margin of each row whose objects are placed; WP301 where one is violated."""
+    """The signed margin of each row whose objects are placed; a violated one is reported as WP301."""
     margins = []
     for row in resolution.statements:
         subject, reference = resolution.subject(row), resolution.reference(row)
@@ -15,7 +16,7 @@ def measure(resolution: Resolution, problems: Problems) -> list[RowMargin]:
             continue
         unit = row.entry.UNIT
         try:
-            margin = float(row.entry.holds(subject, reference, row.params))
+            margin = float(ask(row.entry, "holds", subject, reference, row.params))
         except CannotResolveError as error:
             problems.add("WP301", "row_does_not_hold", f"{row.label}: {error}", error.fix, row.path)
             continue
@@ -26,7 +27,7 @@ def measure(resolution: Resolution, problems: Problems) -> list[RowMargin]:
                 "row_does_not_hold",
                 f"{row.label} is violated by {shown(tolerance - margin)} {unit}",
                 "change the row, or the rows that set the coordinates it speaks about"
-                + ("; across two supports: bridge_between_a_and_b, or HEIGHT" if row.code == "PLACE-ON" else ""),
+                + (f"; {row.entry.OTHERWISE}" if row.entry.OTHERWISE else ""),
                 row.path,
             )
         margins.append(RowMargin(row=row.label, line=row.line, margin=round(margin, 6), unit=unit))

@@ -1,6 +1,6 @@
-"""Which objects may overlap: their world boxes on a grid of cells.
+"""Find objects that may overlap, by their world boxes on a grid of cells.
 
-Sorting along one axis alone keeps as many boxes active as stand beside each other across it, so a square of n objects would
+A sort along one axis alone keeps all boxes active that stand beside each other across it, so a square of n objects would
 cost n^1.5. On a grid of cells about as large as the boxes, each is compared with its neighbours only. Boxes much larger than
 the rest (floors, walls) are compared with every other at once, by array. Source: C. Ericson, Real-Time Collision Detection,
 section 7.1 (uniform grids).
@@ -8,7 +8,7 @@ section 7.1 (uniform grids).
 
 from collections.abc import Iterator, Sequence
 
-from ..model.plan import Vec3
+from ..model.plan.committed import Vec3
 
 Bounds = tuple[str, Vec3, Vec3]
 """Name, lowest and highest corner, metres."""

@@ -1,4 +1,4 @@
-"""The parameters of a predicate: each has a kind, a meaning, and nothing is assumed that its docstring does not say."""
+"""The parameters of a predicate: each has a kind and a meaning, and no default but those in the predicate's docstring."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -21,13 +21,13 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class Parameter:
-    """One parameter: what it may be and what it means."""
+    """One parameter: its kind and its meaning."""
 
     kind: Kind
     meaning: str
     minimum: float | None = None
     choices: tuple[str, ...] = ()
-    """Of a name: what it may be."""
+    """For a name: the values that it may have."""
     required: bool = False
 
 
@@ -38,7 +38,7 @@ def read(
 
     Args:
         given: the row's `params`.
-        spec: what the predicate takes.
+        spec: the parameters of the predicate.
         heights: named reference heights, metres.
 
     Returns:

@@ -1,9 +1,9 @@
 """The physics behind `check` and `settle`, run as a process of its own: `python -m worldwright.place.preroll`.
 
-An engine error may end the process it happens in, and engines print; so the server never steps a world itself. The
-process reads one JSON request on standard input (`world.request`) and writes its answer to the file `out` named there.
+An engine error may end its process, and engines print, so the server never steps a world itself. The process reads one
+JSON request on standard input (`asking.simulate`) and writes its answer to the file `out` named there.
 
-The world: a ground plane, every object with its real collision shapes at its resolved pose, and nothing else; no
+Its world has a ground plane and every object with its real collision shapes at its resolved pose, and nothing else: no
 initial motion, no control.
 """
 
@@ -13,29 +13,35 @@ import sys
 from pathlib import Path
 from typing import Any
 
+FAR_M = 1e3
+"""What is deeper below is not looked for."""
+
 
 def answer(request: dict[str, Any]) -> dict[str, Any]:
-    """Contacts at the start, and, when `duration_s` is positive, what each object does until then.
+    """Find contacts at the start and, if `duration_s` is positive, what each object does until then.
 
     Returns:
         `contacts`: [name, name, depth in metres] for each pair of objects that penetrate at the start, deepest first;
         `objects`: for each, `start` and `end` position (m), `quat` (w, x, y, z) at the end, and `speed` (m/s);
-        `distances`: [name, name, metres] for each of `pairs`, at most `far_m`; `views`: what `cameras` see (`sight.seen`).
+        `distances`: [name, name, metres] for each of `pairs`, at most `far_m`; `drops`: [name, metres, what is there] for
+        each of `falling`, straight down; `views`: what `cameras` see (`visibility.seen`).
     """
     import mujoco
     import numpy as np
 
-    from . import sight
+    from . import visibility
 
     model = _build(request)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     distances = [[a, b, _distance(model, data, a, b, request["far_m"])] for a, b in request["pairs"]]
+    drops = [[name, *_drop(model, data, name)] for name in request["falling"]]
     deepest: dict[tuple[str, str], float] = {}
     for geoms, distance in zip(data.contact.geom, data.contact.dist, strict=True):
         first, second = sorted(_owner(model, geom) for geom in geoms)
         if distance < 0 and first != second:
-            deepest[first, second] = max(deepest.get((first, second), 0.0), abs(float(distance)))
+            depth = _depth(model, data, geoms, float(distance))
+            deepest[first, second] = max(deepest.get((first, second), 0.0), depth)
     ids = {row["name"]: model.body(row["name"]).id for row in request["objects"]}
     start = {name: data.xpos[i].copy() for name, i in ids.items()}
     steps = math.ceil(request["duration_s"] / model.opt.timestep)
@@ -56,25 +62,59 @@ def answer(request: dict[str, Any]) -> dict[str, Any]:
             "speed": float(np.linalg.norm(velocity[3:])),
         }
     contacts = sorted(deepest.items(), key=lambda row: -row[1])
-    views = sight.seen(model, data, request["cameras"]) if request["cameras"] else []
+    views = visibility.seen(model, data, request["cameras"]) if request["cameras"] else []
     return {
         "contacts": [[a, b, depth] for (a, b), depth in contacts],
         "objects": objects,
         "distances": distances,
+        "drops": drops,
         "views": views,
     }
 
 
 def _distance(model: Any, data: Any, first: str, second: str, far_m: float) -> float:
     """The smallest distance between the collision shapes of two objects, metres; negative when they penetrate."""
-    import mujoco
     import numpy as np
+
+    from worldengine.recording import gaps
 
     owners = np.array([_owner(model, geom) for geom in range(model.ngeom)])
     geoms = [np.flatnonzero(owners == name) for name in (first, second)]
-    return min(
-        (mujoco.mj_geomDistance(model, data, a, b, far_m, None) for a in geoms[0] for b in geoms[1]), default=far_m
-    )
+    return min((gaps.distance(model, data, int(a), int(b), far_m) for a in geoms[0] for b in geoms[1]), default=far_m)
+
+
+def _depth(model: Any, data: Any, geoms: Any, distance: float) -> float:
+    """How deep a contact is, metres: what sinks into a height field meets cells of it, none of which tells the whole depth."""
+    import mujoco
+
+    from worldengine.recording import gaps
+
+    if mujoco.mjtGeom.mjGEOM_HFIELD not in model.geom_type[geoms]:
+        return -distance
+    return max(-distance, -gaps.distance(model, data, int(geoms[0]), int(geoms[1]), 0.0))
+
+
+def _drop(model: Any, data: Any, name: str) -> tuple[float, str | None]:
+    """How far an object is above what stops it straight below, metres, and what that is; None where nothing but the ground is."""
+    import mujoco
+    import numpy as np
+
+    from worldengine.recording import gaps
+
+    owners = np.array([_owner(model, geom) for geom in range(model.ngeom)])
+    solid = (
+        model.geom_type != mujoco.mjtGeom.mjGEOM_PLANE
+    )  # the one plane there is, is the ground that positions tell of
+    collides = solid & ((model.geom_contype != 0) | (model.geom_conaffinity != 0))
+    own = np.flatnonzero((owners == name) & collides)
+    best: tuple[float, str | None] = (float("inf"), None)
+    for other in dict.fromkeys(owners[(owners != name) & collides].tolist()):
+        below = np.flatnonzero((owners == other) & collides).tolist()
+        most = min(best[0], FAR_M)
+        way = min((gaps.drop(model, data, int(geom), below, most) for geom in own), default=most)
+        if way < most:
+            best = (way, other)
+    return best if best[1] is not None else (FAR_M, None)
 
 
 def _build(request: dict[str, Any]) -> Any:
@@ -111,22 +151,20 @@ def _build(request: dict[str, Any]) -> Any:
         if row.get("moved"):
             _move(spec.body(row["name"]), *row["moved"])
     if request["cameras"]:
-        from . import sight
+        from . import visibility
 
-        sight.add_cameras(spec, request["cameras"])
+        visibility.add_cameras(spec, request["cameras"])
     return spec.compile()
 
 
 def _move(body: Any, rotation: Any, shift: Any) -> None:
     """Take a body, with all its parts, through x' = R x + t in the world."""
-    import mujoco
     import numpy as np
 
-    turn, quat = np.zeros(4), np.zeros(4)
-    mujoco.mju_mat2Quat(turn, np.asarray(rotation, dtype=float).ravel())
-    mujoco.mju_mulQuat(quat, turn, np.asarray(body.quat, dtype=float))
+    from worldkit.turning import product, quaternion
+
     body.pos = np.asarray(rotation) @ np.asarray(body.pos, dtype=float) + np.asarray(shift)
-    body.quat = quat
+    body.quat = product(quaternion(rotation), body.quat)
 
 
 def _primitive(bodies: Any, spec: Any, row: dict[str, Any], common: dict[str, Any]) -> None:
@@ -143,6 +181,10 @@ def _primitive(bodies: Any, spec: Any, row: dict[str, Any], common: dict[str, An
     elif kind == "compound":
         parts = [_part(values) for values in row["parts"]]
         bodies.compound(spec, parts=parts, **common)
+    elif row["form"]:
+        from worldkit import forms
+
+        bodies.formed(spec, form=getattr(forms, kind)(**row["form"]), **common)
     elif kind == "box_container":
         bodies.container(spec, size=row["size"], wall=row["wall"], **common)
     else:
@@ -164,11 +206,11 @@ def _owner(model: Any, geom: int) -> str:
 
 
 def main() -> None:
-    """Read the request, answer it, and say on standard error what went wrong."""
+    """Read the request and answer it; what goes wrong is printed on standard error."""
     request = json.load(sys.stdin)
     try:
         result = answer(request)
-    except Exception as error:  # told to the caller, who turns it into a finding
+    except Exception as error:  # the caller turns it into a finding
         result = {"error": f"{type(error).__name__}: {error}"}
     Path(request["out"]).write_text(json.dumps(result), encoding="utf-8")
 

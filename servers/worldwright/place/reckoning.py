@@ -1,8 +1,8 @@
-"""Sums for planning: named expressions in order, of numbers alone.
+"""Evaluate sums for planning: named expressions of numbers, in order.
 
-What is written is parsed as Python and walked by a list of what is allowed: numbers, names, + - * / // % **, comparisons,
+A row is parsed as Python, and only what is on a list is evaluated: numbers, names, + - * / // % **, comparisons,
 and calls of `math` and of the closed forms. There are no attributes, no texts, no lists, and all numbers are floats, so that
-nothing written here can reach anything or grow without end.
+no row can reach anything or grow without end.
 """
 
 import ast
@@ -15,10 +15,10 @@ from difflib import get_close_matches
 from itertools import pairwise
 from typing import Any
 
-from ..model.closed_forms import FORMS, GRAVITY, signature
 from ..model.errors import PlanError
-from ..model.plan import Plan
-from .reports import Reckoned, Value
+from ..model.plan.committed import Plan
+from ..model.recording.closed_forms import FORMS, GRAVITY, signature
+from .placement_results import Reckoned, Value
 
 MOST, LONGEST = 100, 500
 _ROW = re.compile(r"\s*([A-Za-z_]\w*)\s*=(?!=)\s*(.+)", re.DOTALL)
@@ -60,11 +60,11 @@ def reckon(expressions: Sequence[str], plan: Plan | None = None, place: str = ""
         place: the plan's file, for errors.
 
     Raises:
-        PlanError: a row that cannot be read or evaluated: which, and why.
+        PlanError: a row cannot be read or evaluated; it names the row and the reason.
     """
     if len(expressions) > MOST:
         raise PlanError(f"{len(expressions)} expressions are too many", next_move=f"send at most {MOST} at a time")
-    names = {**_CONSTANTS, "g": GRAVITY, **_of(plan)}
+    names = {**_CONSTANTS, "g": GRAVITY, **_plan_names(plan)}
     values = []
     for number, row in enumerate(expressions, 1):
         match = _ROW.fullmatch(row)
@@ -84,7 +84,7 @@ def reckon(expressions: Sequence[str], plan: Plan | None = None, place: str = ""
             raise _error(number, row, str(cause) or type(cause).__name__, move, place) from None
         names[name] = value
         values.append(Value(name=name, expression=text, value=float(f"{value:.6g}")))
-    forms = () if values else tuple(f"{signature(name)}: {_first(form)}" for name, form in FORMS.items())
+    forms = () if values else tuple(f"{signature(name)}: {_first_sentence(form)}" for name, form in FORMS.items())
     return Reckoned(values=tuple(values), g=names["g"], forms=forms)
 
 
@@ -99,7 +99,7 @@ def _error(number: int, row: str, cause: str, next_move: str, place: str) -> Pla
     return PlanError(f"expression {number}, `{shown}`: {cause}", place=place, next_move=next_move)
 
 
-def _of(plan: Plan | None) -> dict[str, float]:
+def _plan_names(plan: Plan | None) -> dict[str, float]:
     if plan is None:
         return {}
     parameters = plan.simulation_parameters
@@ -116,7 +116,7 @@ def _parsed(text: str) -> ast.expr:
 
 
 def _value(node: ast.expr, names: dict[str, float]) -> float:
-    """The number that a node stands for; whatever is not on the list is refused by its kind."""
+    """The number that a node stands for; a node of a kind that is not on the list is refused."""
     if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
         return float(node.value)
     if isinstance(node, ast.Name):
@@ -164,5 +164,5 @@ def _unknown(kind: str, name: str, known: list[str]) -> _RefusalError:
     return _RefusalError(f"there is no {kind} `{name}`", f"{meant}known: {others}")
 
 
-def _first(form: Callable[..., float]) -> str:
+def _first_sentence(form: Callable[..., float]) -> str:
     return (form.__doc__ or "").split("\n")[0].split(" Source:")[0]

@@ -1,4 +1,4 @@
-"""What the resolver hands on: poses with their formulas, the statements they come from, and the cameras' shots."""
+"""The resolver's result: poses with their formulas, the statements they come from, and the cameras' shots."""
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
@@ -7,13 +7,13 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from ..model.finding import Finding
-from ..model.plan import Plan, SettledOffset
-from ..model.scene import PlacedCamera, PlacedObject, Scene
-from ..model.weights import weight
+from ..model.plan.committed import Plan, SettledOffset
+from ..model.plan.layout import PlacedCamera, PlacedObject, Scene
+from ..model.plan.weights import weight
 from .anchors import DOFS, Box, shown, wrap
 from .extents import fixed_objects
 from .graph import Node
-from .reports import RowMargin
+from .placement_results import RowMargin
 from .statements import Statement
 from .vocabulary import BASE, SCENE, base
 
@@ -44,7 +44,7 @@ class Resolution:
 
     @cached_property
     def rows_at(self) -> dict[tuple[str | int, ...], list[Statement]]:
-        """Statements by the path of their row: one that speaks about several objects became several."""
+        """Statements by the path of their row; a row about several objects has several."""
         found: dict[tuple[str | int, ...], list[Statement]] = defaultdict(list)
         for statement in self.statements:
             found[statement.path].append(statement)
@@ -77,7 +77,7 @@ class Resolution:
         return around(list(self.boxes.values()), SCENE)
 
     def told(self, findings: list[Finding]) -> "Resolution":
-        """The same with its findings and cameras in the scene."""
+        """This resolution with findings and cameras in its scene."""
         cameras = tuple(shot.placed for shot in self.shots.values())
         scene = Scene(objects=self.scene.objects, cameras=cameras, findings=tuple(findings))
         return replace(self, scene=scene)
@@ -101,7 +101,7 @@ def collected(
     formulas: Mapping[Node, list[str]],
     derived: Mapping[tuple[str | int, ...], list[str]],
 ) -> Resolution:
-    """The layout of the placed boxes, references before what refers to them."""
+    """Collect the layout of the placed boxes, references before what refers to them."""
     fixed = set(fixed_objects(plan))
     kinds = {row.name: "scene_object" for row in plan.scene_objects}
     kinds |= {name: row.filename for row in plan.assets for name in row.instances}
@@ -143,7 +143,7 @@ def collected(
 
 
 def _weights(plan: Plan) -> Iterator[tuple[str, str]]:
-    """What each compound weighs, in words; nothing where its masses contradict each other, which the linter tells."""
+    """The mass of each compound in words; nothing if its masses contradict each other, which the linter reports."""
     for row in plan.scene_objects:
         if row.parts and not row.visual_only:
             with suppress(ValueError):
@@ -157,15 +157,13 @@ def _shifted(offset: SettledOffset) -> str:
 
 
 def _supports(rows: list[Statement]) -> dict[str, str]:
-    """What each object rests on by its rows; a copy rests on the copy of what its original rests on."""
+    """The object on which each one rests by its rows; a copy rests on the copy of its original's support."""
     found: dict[str, str] = {}
     copies: dict[str, tuple[str, str, str]] = {}
     for row in rows:
-        if row.code == "PLACE-ON-BASE":
-            found[row.subject] = "ground"
-        elif getattr(row.entry.module, "SUPPORTS", False):
-            found[row.subject] = "ground" if row.reference == BASE else str(row.reference)
-        elif row.code == "COPY-GROUP":
+        if row.entry.SUPPORTS:
+            found[row.subject] = "ground" if row.reference in (None, BASE) else str(row.reference)
+        elif row.entry.COPIES:
             leader = row.params["leader"].name if "leader" in row.params else row.subject
             original = row.params["original"].name if "original" in row.params else str(row.reference)
             copies[row.subject] = (original, str(row.reference), leader)
@@ -188,7 +186,7 @@ def _supports(rows: list[Statement]) -> dict[str, str]:
 
 
 def _ordered(placed: dict[str, Box], rows: list[Statement]) -> list[tuple[str, Box]]:
-    """References before what refers to them, otherwise in plan order."""
+    """Order references before what refers to them, otherwise as in the plan."""
     needs: dict[str, list[str]] = defaultdict(list)
     for row in rows:
         if row.pins and row.subject in placed:
@@ -212,5 +210,5 @@ def _ordered(placed: dict[str, Box], rows: list[Statement]) -> list[tuple[str, B
 
 
 def rounded(value: float) -> float:
-    """Micrometres and microdegrees, without a negative zero."""
+    """Round to micrometres and microdegrees, without a negative zero."""
     return round(value, 6) + 0.0

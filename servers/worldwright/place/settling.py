@@ -1,27 +1,28 @@
-"""Letting a layout go: who stays, who topples, who slides."""
+"""Release a layout and tell what stays, what topples and what slides."""
 
 import math
 from typing import Any
 
-from ..model.plan import Plan, SettledOffset
-from ..model.scene import Scene
+from ..model.plan.committed import Plan, SettledOffset
+from ..model.plan.layout import Scene
 from .anchors import shown, wrap
-from .reports import Settled, SettleReport
+from .asking import simulate, why_held
+from .placement_results import Settled, SettleReport
 from .statements import Locate, Problems
-from .world import simulate, why_held
+from .vocabulary import PREDICATES
 
 SLIDE_M = 0.02
 TILT_DEG = 3.0
 SPEED_M_S = 0.05
 DEEP_M = 2e-3
 MOST_M, MOST_DEG = 0.02, 3.0
-"""No tolerance for writing back may be larger: what moves more was not at rest where its rows put it."""
+"""A tolerance for writing back may not be larger: what moves more was not at rest where its rows put it."""
 NOISE_M, NOISE_DEG = 1e-4, 0.05
-"""Less than this is not written."""
+"""A smaller displacement is not written."""
 
 
 def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: float) -> SettleReport:
-    """Let go for `duration_s` seconds and report what each loose object did.
+    """Release the layout for `duration_s` seconds and report what each loose object did.
 
     Objects named in motion_expectations may move as they like; any other that slides more than 2 cm, tilts more than
     3 degrees or is still moving at 5 cm/s is a finding.
@@ -33,9 +34,11 @@ def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: f
     held = why_held(plan, scene)
     result = simulate(plan, scene, duration_s=duration_s)
     gaps = {
-        row.subject: float(row.params.get("gap", 0.0))
+        name: float(gap)
         for row in plan.topology.scene_predicates
-        if isinstance(row.params.get("gap"), int | float) and row.predicate.startswith("PLACE-ON")
+        for name in plan.families.get(row.subject, (row.subject,))
+        if (entry := PREDICATES.entries.get(row.predicate)) and entry.SUPPORTS
+        if isinstance(gap := row.params.get(entry.DROP), int | float)
     }
     movers = set(plan.movers())
     moved = []
@@ -86,7 +89,7 @@ def settle(plan: Plan, scene: Scene, *, file: str, locate: Locate, duration_s: f
 def offsets(
     plan: Plan, report: SettleReport, tolerance_m: float, tolerance_deg: float
 ) -> tuple[dict[str, dict[str, float]], list[str]]:
-    """What to write into `topology.settled`, and the objects that moved further than the tolerance allows.
+    """The offsets for `topology.settled`, and the objects that moved further than the tolerance allows.
 
     Offsets add to those already there, since the pre-roll starts from them. Movers are left where their rows put them.
     """

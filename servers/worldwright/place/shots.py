@@ -1,20 +1,20 @@
-"""Cameras: placed by their templates once every body has its pose."""
+"""Place cameras by their templates, once every body has its pose."""
 
-from ..model.scene import PlacedCamera
+from ..model.plan.layout import PlacedCamera
 from .anchors import Box, CannotResolveError
 from .resolution import Resolution, Shot, rounded
 from .statements import Problems
-from .vocabulary import CAMERA_FAMILY
+from .vocabulary import CAMERA_FAMILY, ask
 
 
 def shots(resolution: Resolution, problems: Problems) -> dict[str, Shot]:
-    """Every camera that a relation template places, by name; one that cannot be placed is a finding."""
+    """Every camera that a relation template places, by name; a camera without a place is a finding."""
     found: dict[str, Shot] = {}
     for row in resolution.statements:
         if row.entry.FAMILY != CAMERA_FAMILY:
             continue
         frames = resolution.reference(row)
-        if frames is None:  # what it frames is not placed, and a finding says why
+        if frames is None:  # its subject is not placed, and a finding says why
             continue
         if row.subject in found:
             problems.add(
@@ -29,10 +29,10 @@ def shots(resolution: Resolution, problems: Problems) -> dict[str, Shot]:
         formulas = []
         try:
             for dof in row.pins:
-                derivation = row.entry.resolve(dof, camera, frames, row.params)
+                derivation = ask(row.entry, "resolve", dof, camera, frames, row.params)
                 setattr(camera, dof, derivation.value)
                 formulas.append(derivation.formula)
-            target = row.entry.target(frames, row.params)
+            target = ask(row.entry, "target", frames, row.params)
         except CannotResolveError as error:
             problems.add("WP208", "no_solution", f"{row}: {error}", error.fix, row.path)
             continue

@@ -1,4 +1,4 @@
-"""The pose in which the simulation starts: the layout, with the joint positions of `initial_motion` applied.
+"""Compute the pose in which the simulation starts: the layout with the joint positions of `initial_motion`.
 
 A joint's anchor and axis are given in the world at the layout's pose, so that the rigid motion x' = R x + t of a child is
 its parent's motion after its own turn about that line (or shift along it). Ropes and springs run between points of bodies,
@@ -13,11 +13,11 @@ from typing import Any
 
 from worldkit.tendons import ROUNDED_M
 
-from ..model.drives import Tendon
-from ..model.fastening import point
-from ..model.objects import Vec3
-from ..model.plan import Joint, Plan
-from ..model.scene import Scene
+from ..model.plan.committed import Joint, Plan
+from ..model.plan.drives import Tendon
+from ..model.plan.fastening import point
+from ..model.plan.layout import Scene
+from ..model.plan.scene_objects import Vec3
 from .anchors import shown
 
 WORLD = "world"
@@ -33,7 +33,7 @@ class Motion:
     shift: Vec3 = (0.0, 0.0, 0.0)
 
     def __call__(self, point: Vec3) -> Vec3:
-        """Where a point comes to be."""
+        """The place to which it moves a point, m."""
         x, y, z = (sum(a * b for a, b in zip(row, point, strict=True)) for row in self.rotation)
         return (x + self.shift[0], y + self.shift[1], z + self.shift[2])
 
@@ -46,7 +46,7 @@ class Motion:
 
 def motions(plan: Plan, scene: Scene) -> dict[str, Motion]:
     """The motion of each placed object that does not start where it was laid out."""
-    joints = {joint.child: joint for joint in reversed(plan.topology.joints)}  # the first of a child is its joint
+    joints = {joint.child: joint for joint in reversed(plan.topology.joints)}  # a child's first row is its joint
     starts = {n: m.joint_position for n, m in plan.simulation_parameters.initial_motion.items() if m.joint_position}
     placed = {o.name: o.position for o in scene.objects}
 
@@ -86,12 +86,12 @@ def _turned(joint: Joint, position: float | None, centre: Vec3 | None) -> Motion
 
 
 def way(plan: Plan, scene: Scene, tendon: Tendon, moved: dict[str, Motion] | None = None) -> list[Vec3] | None:
-    """The points a tendon runs through, metres, world frame; None while one of its bodies is not placed.
+    """The points through which a tendon runs, m, world frame; None while one of its bodies is not placed.
 
     Args:
         plan, scene: the plan and its layout.
         tendon: a row of `topology.tendons`.
-        moved: of `motions`, for the way at the start; None: as laid out.
+        moved: the result of `motions` for the way at the start; None for the way as laid out.
     """
     points = []
     for end in tendon.ends:
@@ -105,21 +105,21 @@ def way(plan: Plan, scene: Scene, tendon: Tendon, moved: dict[str, Motion] | Non
 
 @dataclass(frozen=True)
 class Hung:
-    """A rope or spring at the start: how long its way is, and how long it is itself."""
+    """A rope or spring at the start: the length of its way, and its own."""
 
     tendon: Tendon
     way_m: float
     laid_m: float
-    """Its way as laid out, before `initial_motion`: what the program measures it by."""
+    """The length of its way as laid out, before `initial_motion`, by which the program measures it, m."""
 
     @property
     def length_m(self) -> float:
-        """A rope's greatest length, a spring's length at rest."""
+        """The greatest length of a rope, or a spring's length at rest, m."""
         return self.laid_m + self.tendon.slack if self.tendon.length is None else self.tendon.length
 
     @property
     def slack_m(self) -> float:
-        """How much longer it is than its way; negative: too short, or stretched."""
+        """How much longer it is than its way, m; negative if it is too short or stretched."""
         return self.length_m - self.way_m
 
     @property
@@ -172,7 +172,7 @@ def told(plan: Plan, scene: Scene) -> Iterator[str]:
 
 
 def _closed(plan: Plan, scene: Scene, moved: dict[str, Motion]) -> Iterator[str]:
-    """How many joints the start pose leaves out because they close loops, and how far the ends of each are apart in it."""
+    """Tell the number of joints that the start pose leaves out as they close loops, and the gap between the ends of each."""
     loops, count = plan.topology.loops(), len(plan.topology.joints)
     centres = {o.name: o.position for o in scene.objects}
     if loops:
@@ -202,9 +202,10 @@ def _above(plan: Plan, name: str) -> Iterator[Joint]:
 
 
 def filtered(plan: Plan, fixed: set[str]) -> Any:
-    """Whether the engine lets two objects overlap: they are one piece by welds, or joined by one joint.
+    """A function that tells whether the engine lets two objects overlap: they are welded together, or share one joint.
 
-    What is welded to the world, or fixed, is the world; its joints filter nothing (manual, "Collision detection", filters).
+    What is welded to the world, or fixed, belongs to the world, whose joints filter nothing (manual, "Collision
+    detection", filters).
     """
     joints = {joint.child: joint for joint in reversed(plan.topology.joints)}
 

@@ -9,12 +9,13 @@ from difflib import get_close_matches
 from typing import Any
 
 from ..model.finding import Finding
-from ..model.plan import TO_CLARIFY, Plan, RelationRow
-from ..model.plan_references import GROUND, WORLD
+from ..model.plan.committed import TO_CLARIFY, Plan, PredicateRow, RelationRow
+from ..model.plan.plan_references import GROUND, WORLD
+from ..model.plan.spread import moved
 from ..shelf import Entry
 from .anchors import Box, CannotResolveError
 from .parameters import read
-from .vocabulary import BASE, CAMERA_FAMILY, PREDICATES, RELATIONS, SCENE, Expansion
+from .vocabulary import BASE, CAMERA_FAMILY, PREDICATES, RELATIONS, SCENE, Expansion, ask
 
 Path = tuple[str | int, ...]
 Locate = Callable[..., int | None]
@@ -26,7 +27,7 @@ class Statement:
     """One row, ready to be evaluated."""
 
     path: Path
-    """Where it stands in the plan."""
+    """Its path in the plan."""
     line: int | None
     subject: str
     code: str
@@ -34,7 +35,7 @@ class Statement:
     params: dict[str, Any]
     entry: Entry = field(repr=False, compare=False)
     pins: dict[str, tuple[str, ...]] = field(repr=False)
-    """Coordinates it sets, with the names of what they are computed from."""
+    """The coordinates that it sets, with the names of what they are computed from."""
 
     def sources(self, owner: str) -> tuple[str, ...]:
         """Names of the objects that an owner in `pins` stands for: `self`, `reference`, or a parameter."""
@@ -46,7 +47,7 @@ class Statement:
         return () if value in (None, BASE) else (str(value),)
 
     def needs(self) -> Iterator[str]:
-        """Names of the objects that it refers to."""
+        """The names of the objects that it refers to."""
         if self.reference not in (None, BASE, SCENE):
             yield str(self.reference)
         yield from (v.name for v in self.params.values() if isinstance(v, Box) and v.name != self.subject)
@@ -87,17 +88,22 @@ class Problems:
 def statements(
     plan: Plan, boxes: dict[str, Box], known: set[str], problems: Problems
 ) -> tuple[list[Statement], set[str]]:
-    """Every statement that makes sense, and the objects that something wrong or unclear was said about.
+    """Every statement that makes sense, and the objects of those that are wrong or unclear.
 
     Args:
         plan: the plan.
         boxes: objects whose size is known.
         known: all objects of the plan.
-        problems: where the senseless ones are noted.
+        problems: collects the senseless statements.
     """
     reader = _Reader(plan, boxes, known, problems)
     found = list(reader.rows())
     return found, reader.spoiled
+
+
+def _groups(predicate: str) -> bool:
+    """Whether rows of a predicate name a leader and its members."""
+    return predicate in PREDICATES.entries and PREDICATES.entries[predicate].GROUPS
 
 
 class _Reader:
@@ -113,14 +119,14 @@ class _Reader:
         self.groups = {
             row.subject: members
             for row in plan.topology.scene_predicates
-            if row.predicate in ("GROUP", "COPY-GROUP") and (members := _names(row.params.get("members")))
+            if _groups(row.predicate) and (members := _names(row.params.get("members")))
         }
 
     def rows(self) -> Iterator[Statement]:
         leaders: dict[str, Path] = {}
         for index, row in enumerate(self.plan.topology.scene_predicates):
             path: Path = ("topology", "scene_predicates", index)
-            if row.predicate in ("GROUP", "COPY-GROUP") and _names(row.params.get("members")):
+            if _groups(row.predicate) and _names(row.params.get("members")):
                 if row.subject in leaders:
                     self.spoiled.add(row.subject)
                     self.problems.add(
@@ -135,6 +141,8 @@ class _Reader:
             unclear = TO_CLARIFY in (row.position, row.orientation) or TO_CLARIFY in row.params.values()
             if unclear:
                 self.unclear(row.subject, path)
+            elif row.subject in self.plan.families or row.spread is not None:
+                yield from self.copies(path, row)
             elif self.exists(row.subject, path):
                 yield from self.statement(PREDICATES, path, row.subject, row.predicate, row.object, row.params)
         for index, relation in enumerate(self.plan.geometry_relations):
@@ -166,6 +174,32 @@ class _Reader:
             elif self.exists(body, path):
                 params = {"position": list(position.vector)}
                 yield from self.statement(RELATIONS, path, body, "base", None, params)
+
+    def copies(self, path: Path, row: PredicateRow) -> Iterator[Statement]:
+        """The same statement about every copy of its subject, moved and turned as `spread` says."""
+        names = self.plan.families.get(row.subject)
+        if names is None:
+            self.spoiled.add(row.subject)
+            cause = f"`spread` tells copies apart, and `{row.subject}` has no `count`"
+            self.problems.add("WP202", "bad_params", cause, "give the scene object a `count`, or remove `spread`", path)
+            return
+        if row.spread is None:
+            for name in names:
+                if self.exists(name, path):
+                    yield from self.statement(PREDICATES, path, name, row.predicate, row.object, row.params)
+            return
+        for name, stand in zip(names, row.spread.stands(len(names)), strict=True):
+            params = moved(row.predicate, row.params, stand)
+            if params is None:
+                self.spoiled |= set(names)
+                cause = f"{row.predicate} gives no place that `spread` could go around"
+                fix = "spread a row PLACE-ON-BASE (x, y), PLACE-ON or PLACE-IN (offset)"
+                self.problems.add("WP202", "bad_params", cause, fix, path)
+                return
+            yield from self.statement(PREDICATES, path, name, row.predicate, row.object, params)
+            if stand.deg_z is not None:
+                turn = {"min_deg": stand.deg_z, "max_deg": stand.deg_z}
+                yield from self.statement(PREDICATES, path, name, "RANDOM-ROT", None, turn)
 
     def unclear(self, subject: str, path: Path) -> None:
         self.spoiled.add(subject)
@@ -211,11 +245,13 @@ class _Reader:
         entry = shelf.entries[code]
         wrong = self.reference_problem(entry, subject, reference)
         values, faults = read(params, entry.PARAMS, self.heights)
-        refuse = getattr(entry.module, "refuse", None)
         if not wrong and not faults:
             faults = list(self.objects(entry, subject, values))
-        if not wrong and not faults and refuse and (refused := refuse(values)):
-            faults = [refused]
+        if not wrong and not faults and entry.refuse is not None:
+            try:
+                faults = [refused] if (refused := ask(entry, "refuse", values)) else []
+            except CannotResolveError as error:
+                faults = [(str(error), error.fix)]
         for cause, fix in [*([wrong] if wrong else []), *faults]:
             self.spoiled.add(subject)
             place = (*path, "params") if path[0] != "geometry_relations" else (*path, "parameters")
@@ -227,10 +263,14 @@ class _Reader:
         if "seed" in entry.PARAMS:
             values.setdefault("seed", float(self.plan.simulation_parameters.seed))
         for part, own in self.expanded(entry, path, subject, reference, values):
-            yield Statement(path, line, part, code, reference, own, entry, entry.pins(own))
+            try:
+                yield Statement(path, line, part, code, reference, own, entry, ask(entry, "pins", own))
+            except CannotResolveError as error:
+                self.spoiled.add(part)
+                self.problems.add("WP202", "bad_params", f"{part} {code}: {error}", error.fix, path)
 
     def objects(self, entry: Entry, subject: str, values: dict[str, Any]) -> Iterator[tuple[str, str]]:
-        """Replaces names of objects among the parameters by their boxes; yields what is wrong with them."""
+        """Replace names of objects among the parameters by their boxes; yields what is wrong with them."""
         for key, parameter in entry.PARAMS.items():
             if key not in values or parameter.kind not in ("object", "objects"):
                 continue
@@ -251,12 +291,11 @@ class _Reader:
         self, entry: Entry, path: Path, subject: str, reference: str | None, values: dict[str, Any]
     ) -> list[tuple[str, dict[str, Any]]]:
         """The statements that a row about several objects stands for."""
-        expand = getattr(entry.module, "expand", None)
-        if expand is None:
+        if entry.expand is None:
             return [(subject, values)]
         try:
-            parts: list[tuple[str, dict[str, Any]]] = expand(
-                Expansion(subject, reference, values, self.groups, self.boxes)
+            parts: list[tuple[str, dict[str, Any]]] = ask(
+                entry, "expand", Expansion(subject, reference, values, self.groups, self.boxes)
             )
         except CannotResolveError as error:
             self.spoiled |= {subject, *(name for name in values.get("members", ()) if name in self.known)}

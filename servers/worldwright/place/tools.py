@@ -9,12 +9,15 @@ from worldkit.files import write_atomic
 
 from ..expose import Positional, reads
 from ..model.errors import NotFoundError, PlanError
+from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding
 from ..model.picture import Illustrated, Picture
-from ..model.plan_text import PlanDocument, read_plan
-from ..model.run import Run, sha256_file
-from . import checks, engine, explaining, settling, start, writing
-from .reports import CheckReport, Drawing, Explanation, Layout, Reckoned, SettleReport
+from ..model.plan.committed import Plan
+from ..model.plan.layout import Scene
+from ..model.plan.plan_edit import edit
+from ..model.plan.plan_text import PlanDocument, read_plan
+from . import checks, engine, explaining, picture_given, settling, start, write_back
+from .placement_results import CheckReport, Drawing, Explanation, Layout, Reckoned, SettleReport
 
 PlanPath = Annotated[Path, Field(description="The plan.md, its run folder, or the run's name.")]
 
@@ -22,19 +25,23 @@ PlanPath = Annotated[Path, Field(description="The plan.md, its run folder, or th
 def resolve(
     plan: PlanPath,
     write: Annotated[bool, Field(description="Write poses and provenance back into the plan's rows.")] = True,
+    image: Annotated[
+        Path | None, Field(description="A picture the person gave: kept beside the plan as reference.*")
+    ] = None,
 ) -> Layout:
     """Turn the plan's placement rows into numeric poses.
 
     Applies scene_predicates, geometry_relations and body_positions in dependency order on bounding-box anchors: z up,
     +X front, centres, metres, degrees. Nothing is assumed: an axis that no row sets, rows that disagree, cycles and
-    unknown names come back as findings with their line and the predicates that would fix them. When every object has
-    a pose, each row in plan.md gets `position`, `orientation` and `provenance`; nothing else in the file changes.
+    unknown names are findings. When every object has a pose, each row in plan.md gets it; nothing else changes.
     """
     document = _read(plan)
+    if image is not None:
+        picture_given.keep(image, Path(document.file).parent)
     resolution = _resolve(document)
     text = document.text
     if write and resolution.scene.ok:
-        text = document.edited(writing.changes(document, resolution))
+        text = edit(document, write_back.changes(document, resolution))
     written = text != document.text
     if written:
         _save(document, text, "resolve")
@@ -94,7 +101,7 @@ def settle(
 def _write_settled(
     document: PlanDocument, report: SettleReport, tolerance_m: float, tolerance_deg: float
 ) -> SettleReport:
-    """The displacements into the plan, or a finding for what moved too far."""
+    """Write the displacements into the plan, or report what moved too far."""
     found, too_far = settling.offsets(document.plan, report, tolerance_m, tolerance_deg)
     if too_far:
         finding = Finding(
@@ -112,9 +119,9 @@ def _write_settled(
     after = {name: value for name, value in {**before, **found}.items() if value}
     if after == before:
         return report
-    _save(document, document.edited([(("topology", "settled"), after)]), "settle")
+    _save(document, edit(document, [(("topology", "settled"), after)]), "settle")
     again = _read(Path(document.file))
-    _save(again, again.edited(writing.changes(again, _resolve(again))), "resolve")
+    _save(again, edit(again, write_back.changes(again, _resolve(again))), "resolve")
     return report.model_copy(update={"written": tuple(found)})
 
 
@@ -192,6 +199,11 @@ def reckon(
     return reckoning.reckon(expressions, document.plan, document.file)
 
 
+def laid_out(plan: Plan) -> Scene:
+    """For other servers (no tool): the layout of a plan in memory, every object with its pose, and the findings."""
+    return engine.resolve(plan).scene
+
+
 def _save(document: PlanDocument, text: str, action: str) -> None:
     """Write a plan, and note it in its run's journal."""
     path = Path(document.file)
@@ -217,6 +229,20 @@ def _need_all(document: PlanDocument, resolution: engine.Resolution) -> None:
             place=document.file,
             next_move="fix what `worldwright place resolve` names",
         )
+
+
+def vocabulary() -> dict[str, tuple[str, ...]]:
+    """The `predicates` and `relations` that a plan may use, in order, and those `grouping` that place nothing.
+
+    It serves the other servers and is no tool by itself.
+    """
+    from .vocabulary import PREDICATES, RELATIONS
+
+    return {
+        "predicates": tuple(sorted(PREDICATES)),
+        "relations": tuple(sorted(RELATIONS)),
+        "grouping": tuple(code for code, entry in PREDICATES.items() if entry.GROUPS and not entry.COPIES),
+    }
 
 
 TOOLS = (resolve, check, settle, explain, draw, reckon)

@@ -1,19 +1,5 @@
-"""The closed vocabulary: predicates and relation templates, one module each, and what such a module defines.
-
-CODE        the name in the plan, e.g. `LEFT-OF`
-FAMILY      its row in the paper's table
-REFERENCE   `required`, `optional` (omitted means the base) or `none`
-PARAMS      its parameters by name
-UNIT        of its margin: `m` or `deg`
-GOOD, BAD   cases: worked numbers that resolve to `gives` and hold; layouts that do not hold
-pins        (params) -> the coordinates of the subject it sets, each with what it reads: `reference.x`, `self.extents`,
-            or `<parameter>.yaw` of the object that a parameter names …
-resolve     (dof, subject, reference, params) -> Derivation
-holds       (subject, reference, params) -> signed margin; negative means violated
-and optionally
-refuse      (params) -> (cause, fix) | None, for combinations that make no sense
-expand      (Expansion) -> [(subject, params), …], when one row places several objects
-sample      (subjects, reference, params, obstacles) -> [(x, y), …], when the places of several objects are drawn together
+"""The closed vocabulary: predicates and relation templates, one module each;
+`PROTOCOL` says what such a module defines.
 
 Parameters of kind `object` arrive as boxes. `seed`, `fovy_deg` and `aspect`, when a row leaves them out, are the plan's
 own: its seed, the camera's lens and the recording's format.
@@ -21,33 +7,62 @@ own: its seed, the camera's lens and the recording's format.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from types import FunctionType
 from typing import Any
 
-from ..shelf import Shelf
-from .anchors import Box, Surface
+from ..shelf import Attribute, Entry, Function, Shelf, failed
+from .anchors import Box, CannotResolveError, Surface
 
 BASE = "base"
 """The ground at the world's origin: a point without extents, facing +X, on an endless plane at z = 0."""
 
-_SHAPE: dict[str, type | tuple[type, ...]] = {
-    "FAMILY": str,
-    "REFERENCE": str,
-    "PARAMS": dict,
-    "UNIT": str,
-    "GOOD": tuple,
-    "BAD": tuple,
-    "pins": FunctionType,
-    "resolve": FunctionType,
-    "holds": FunctionType,
+PROTOCOL = {
+    "CODE": Attribute(str, "the name in the plan, e.g. `LEFT-OF`"),
+    "FAMILY": Attribute(str, "its row in the paper's table"),
+    "REFERENCE": Attribute(str, "`required`, `optional` (omitted means the base) or `none`"),
+    "PARAMS": Attribute(dict, "its parameters by name"),
+    "UNIT": Attribute(str, "of its margin: `m` or `deg`"),
+    "GOOD": Attribute(tuple, "cases: worked numbers that resolve to `gives` and hold"),
+    "BAD": Attribute(tuple, "cases: layouts that do not hold"),
+    "pins": Attribute(
+        Function,
+        "(params) -> the coordinates of the subject that it sets, each with what it reads: `reference.x`, "
+        "`self.extents`, or `<parameter>.yaw` of the object that a parameter names",
+    ),
+    "resolve": Attribute(Function, "(dof, subject, reference, params) -> Derivation"),
+    "holds": Attribute(Function, "(subject, reference, params) -> signed margin; negative means violated"),
+    "refuse": Attribute(Function, "(params) -> (cause, fix) or None, for combinations that make no sense", None),
+    "expand": Attribute(Function, "(Expansion) -> [(subject, params), …], when one row places several objects", None),
+    "sample": Attribute(
+        Function,
+        "(subjects, reference, params, obstacles) -> [(x, y), …], when the places of several objects are drawn together",
+        None,
+    ),
+    "target": Attribute(Function, "(reference, params) -> the point that a camera looks at", None),
+    "SUPPORTS": Attribute(bool, "the subject rests on the reference", False),
+    "INSIDE": Attribute(bool, "the subject is meant to be inside the reference", False),
+    "DROP": Attribute(str, "the parameter by which the subject is lifted over what it then falls onto, if any", ""),
+    "OTHERWISE": Attribute(str, "what else may have been meant where it does not hold", ""),
+    "GROUPS": Attribute(bool, "the row makes its subject the leader of `members`", False),
+    "COPIES": Attribute(bool, "the subject and its members stand as those of another group do", False),
 }
-PREDICATES = Shelf("worldwright.place.predicates", _SHAPE)
-RELATIONS = Shelf("worldwright.place.relations", _SHAPE)
+PREDICATES = Shelf("worldwright.place.predicates", PROTOCOL)
+RELATIONS = Shelf("worldwright.place.relations", PROTOCOL)
+
+
+def ask(entry: Entry, verb: str, *arguments: Any) -> Any:
+    """Ask an entry; an exception of its own becomes a `CannotResolveError` that names the entry."""
+    try:
+        return getattr(entry, verb)(*arguments)
+    except CannotResolveError:
+        raise
+    except Exception as defect:  # a defect of one entry must not end the layout of all the others
+        raise CannotResolveError(failed(entry, defect), "say the same with another row meanwhile") from defect
+
 
 CAMERA_FAMILY = "Camera templates"
-"""Relations that place a camera, not a body: they are resolved when every body has its pose."""
+"""Relations of this family place a camera, not a body, and are resolved when every body has its pose."""
 SCENE = "the scene"
-"""The box around every object, which camera templates without a reference frame; no object can have this name."""
+"""The box around all objects, which camera templates without a reference frame; no object can have this name."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +70,7 @@ class Case:
     """A worked example of one predicate.
 
     subject, reference: arguments of `Box`; the subject of a GOOD case leaves out what the predicate sets.
-    params: mappings in it stand for boxes too. gives: coordinates the predicate sets, metres and degrees.
+    params: mappings in it stand for boxes, too. gives: the coordinates that the predicate sets, metres and degrees.
     """
 
     subject: Mapping[str, Any]
@@ -79,7 +94,7 @@ class Expansion:
     reference: str | None
     params: Mapping[str, Any]
     groups: Mapping[str, tuple[str, ...]]
-    """Members of every group of the plan by its leader, the leader left out."""
+    """The members of every group of the plan, without its leader, by leader."""
     boxes: Mapping[str, Box]
 
 

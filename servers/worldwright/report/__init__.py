@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from ..model.run import Run
+    from ..model.evidence.run import Run
 
 
 def write(run: "Run") -> Path:

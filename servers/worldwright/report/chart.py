@@ -2,6 +2,9 @@
 
 The page draws the lines in one stretched SVG per chart and everything else in HTML; a script moves a common time cursor
 over all of them and reads the values back from the drawn points.
+
+Not uPlot: it adds 51 kB of script to every report, and draws nothing where scripts do not run; the bars of the contacts and
+the paths at equal scale would stay as they are here.
 """
 
 import math

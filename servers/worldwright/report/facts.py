@@ -3,12 +3,12 @@
 from dataclasses import dataclass
 from typing import Any
 
-from ..model.evidence import ExpectationResult
+from ..model.evidence.reports import ExpectationResult
 from .chart import quantity
 from .material import Material, acting
 
 QUIET = ("time", "actor", "action", "chain", "reports", "result_sha256")
-"""Of a journal line: said elsewhere, or of use to machines only."""
+"""Fields of a journal line that the page leaves out: it shows them elsewhere, or only machines use them."""
 HASHES = ("program_sha256", "plan_sha256")
 UNITS = {
     "m_s2": "m/s²",
@@ -26,7 +26,7 @@ UNITS = {
     "n": "N",
     "j": "J",
 }
-"""Unit by the suffix that names carry, longest first."""
+"""The unit that each suffix of a name stands for, longest first."""
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,8 @@ def facts(material: Material) -> list[Fact]:
         proved = sum(o.status == "proved" for o in objectives)
         by_eye = sum(o.status == "visual_only" for o in objectives)
         tone = "good" if material.expect.ok else "bad"
-        label = "claims proved" + (f", {by_eye} by eye" if by_eye else "")
+        blind = not (material.visual and material.visual.looked)
+        label = "claims proved" + (f", {by_eye} {'not looked at' if blind else 'by eye'}" if by_eye else "")
         found.append(Fact(f"{proved}/{len(objectives) - by_eye}", label, tone))
     if material.scan:
         blocking = sum(a.severity == "blocking" for a in material.scan.anomalies)
@@ -97,7 +98,7 @@ def story(material: Material) -> list[Event]:
     seen: dict[str, Any] = {}
     for entry in material.journal:
         rest = {k: v for k, v in entry.items() if k not in QUIET and v not in ("", None, [], {})}
-        for name in HASHES:  # every line has them: only a change is news
+        for name in HASHES:  # every line has them: only changes are shown
             if rest.get(name) == seen.get(name):
                 rest.pop(name, None)
             seen[name] = entry.get(name, seen.get(name))
@@ -121,9 +122,17 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("program accepted", material.stamp.digest_of("simulation.py")),
             ("plan", source.plan_sha256),
             ("proof run", f"{proof.wall_s:.1f} s in the {proof.sandbox or 'unknown'} sandbox"),
-            ("reviewed by", material.stamp.predicate.reviewer),
-            ("signed by", material.signer),
-            ("approved by", f"{material.stamp.predicate.approval.by}, {material.stamp.predicate.approval.time}"),
+            ("described by", _word(material.stamp.predicate.described_by, material.stamp.predicate.description_came)),
+            ("reviewed by", _word(material.stamp.predicate.reviewer, material.stamp.predicate.review_came)),
+            ("not looked at", ", ".join(f"objective {i}" for i in material.stamp.not_looked_at)),
+            ("signature", material.signer),
+            (
+                "approved by",
+                (
+                    f"{_word(material.stamp.predicate.approval.by, material.stamp.predicate.approval.came)}, "
+                    f"{material.stamp.predicate.approval.time}"
+                ),
+            ),
         ]
         tables["Files"] = [(s.name, s.digest.sha256) for s in material.stamp.subject]
     elif material.physics:
@@ -132,14 +141,33 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("trajectory", str(material.physics.summary.get("trajectory_sha256", ""))),
             ("physics pass", f"{material.physics.wall_s:.1f} s in the {material.physics.sandbox or 'unknown'} sandbox"),
         ]
+    if material.film:
+        shots = (
+            f"{s['from_s']:g} to {s['to_s']:g} s at {s['speed']:g} × speed" for s in material.film.get("shots", ())
+        )
+        hidden: dict[str, float] = material.film.get("hidden", {})
+        looks = (f"{name} as {look}" for name, look in material.film.get("looks", {}).items())
+        tables["Film"] = [
+            ("drawn only, not simulated", ", ".join(material.film.get("drawn_only", ())) or "nothing"),
+            ("looks of its own", ", ".join(looks)),
+            ("hidden by what is drawn", ", ".join(f"{what} for {s:g} s" for what, s in hidden.items())),
+            ("shots", "; ".join(shots)),
+        ]
     if material.environment:
         packages: dict[str, Any] = material.environment.get("packages", {})
-        rest = {k: v for k, v in material.environment.items() if k != "packages" and v}
+        film: dict[str, Any] = material.environment.get("film") or {}
+        rest = {k: v for k, v in material.environment.items() if k not in ("packages", "film") and v}
+        rest |= {"film": film["sha256"], "renderer": f"{film['renderer']} ({film['version']})"} if film else {}
         tables["Environment"] = [
             *((name.replace("_sha256", ""), str(value)) for name, value in rest.items()),
             *((name, str(version)) for name, version in sorted(packages.items())),
         ]
     return {name: [(k, v) for k, v in rows if v] for name, rows in tables.items()}
+
+
+def _word(name: str, came: str) -> str:
+    """The person or role that gave an approval or a review, and the way it was sent."""
+    return f"{name} ({came})" if name and came else name
 
 
 def strength(result: ExpectationResult) -> float:

@@ -10,12 +10,12 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from ..model.audits import Acting, CausesReport, InterventionReport, RefineReport
 from ..model.errors import WorldwrightError
-from ..model.evidence import ExpectReport, LintReport, PassResult, ScanReport, VisualDescription
-from ..model.plan import Plan
-from ..model.run import Run
-from ..model.verdict import Verdict
+from ..model.evidence.audits import Acting, CausesReport, InterventionReport, RefineReport
+from ..model.evidence.reports import ExpectReport, LintReport, PassResult, ScanReport, VisualDescription
+from ..model.evidence.run import Run
+from ..model.evidence.verdict import Verdict
+from ..model.plan.committed import Plan
 from ..stamp import signing
 from ..stamp.interventions import Acted, acted
 from ..stamp.kept import Kept
@@ -43,6 +43,8 @@ class Material:
     physics: PassResult | None = None
     stills: dict[str, Path] = field(default_factory=dict)
     videos: dict[str, Path] = field(default_factory=dict)
+    film: dict[str, Any] = field(default_factory=dict)
+    """What the video pass says of the author's film: what is drawn only, looks of its own, shots; empty without one."""
     scan: ScanReport | None = None
     expect: ExpectReport | None = None
     interventions: InterventionReport | None = None
@@ -53,10 +55,10 @@ class Material:
     stamp: Statement | None = None
     stamp_sha256: str = ""
     signer: str = ""
-    """Whose key signed the stamp; empty when none did."""
+    """The signer of the stamp, or that nobody signed it; empty without a stamp."""
     motion: series.Motion | None = None
     ledger: tuple[Acted, ...] | None = None
-    """What acted according to the recording itself; stands in until a scan has written its report."""
+    """What acted according to the recording itself; used until a scan has written its report."""
     layout: bytes | None = None
     """Top-down drawing, PNG."""
     journal: tuple[dict[str, Any], ...] = ()
@@ -79,9 +81,8 @@ def gather(run: Run) -> Material:
     if accepted and found.status.state == "accepted":
         from ..stamp.bundle import STAMP, sha256_file
 
-        found.stamp, found.stamp_sha256 = accepted, sha256_file(run.accepted / STAMP)
-        signed = signing.check(run.accepted, STAMP)
-        found.signer = signed[1].split(";")[0] if signed else ""
+        found.stamp, found.stamp_sha256 = accepted, sha256_file(run.stamped / STAMP)
+        found.signer = signing.check(run.stamped, STAMP).text()
     if state.key and state.folder.is_dir():
         found.origin = "current"
         _evidence(found, state.folder, state.folder, "result.json")
@@ -89,7 +90,7 @@ def gather(run: Run) -> Material:
     elif found.stamp:
         found.origin = "accepted"
         found.shown_key = found.stamp.predicate.source.key
-        _evidence(found, run.accepted / "evidence", run.accepted, "")
+        _evidence(found, run.stamped / "evidence", run.stamped, "")
     elif earlier := _newest(state):
         found.origin = "earlier"
         found.shown_key = earlier.name
@@ -133,7 +134,10 @@ def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
     found.review = read("review", Verdict)
     found.stills = {p.stem: p for p in sorted((media / "stills").glob("*.png"))}
     found.videos = {p.stem: p for p in sorted((media / "video").glob("*.mp4"))}
-    order = [camera.name for camera in found.plan.cameras()] if found.plan else []
+    video = read("video", PassResult)
+    found.film = dict(video.summary.get("film") or {}) if video else {}
+    order = ["film"] if found.film else []
+    order += [camera.name for camera in found.plan.cameras()] if found.plan else []
     for pictures in (found.stills, found.videos):
         ranked = sorted(pictures.items(), key=lambda item: order.index(item[0]) if item[0] in order else len(order))
         pictures.clear()
@@ -141,9 +145,9 @@ def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
 
 
 def _motion(found: Material, state: State) -> None:
-    """Fill in what the recording of the shown key says, else the stamp's samples."""
+    """Fill in the motion from the recording of the shown key, or else from the stamp's samples."""
     movers = found.plan.movers() if found.plan else ()
-    declared = found.plan.simulation_parameters.interventions if found.plan else ()
+    declared = found.plan.declared() if found.plan else ()
     recording = state.run.evidence(found.shown_key or "none") / "physics" / "trajectory"
     if recording.is_dir():
         try:
@@ -157,7 +161,7 @@ def _motion(found: Material, state: State) -> None:
         from ..stamp.digest import stamped_motion
 
         try:
-            sampled = stamped_motion(state.run.accepted, found.stamp)
+            sampled = stamped_motion(state.run.stamped, found.stamp)
         except (OSError, ValueError):
             return
         if sampled:
@@ -165,7 +169,7 @@ def _motion(found: Material, state: State) -> None:
 
 
 def acting(material: Material) -> tuple[Acting, ...] | tuple[Acted, ...] | None:
-    """What acted besides the engine's step, as the scan tells it, else as the recording does; None when unknown."""
+    """What acted besides the engine's step, by the scan or else by the recording; None when unknown."""
     return material.ledger if material.interventions is None else material.interventions.acting
 
 

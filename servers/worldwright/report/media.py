@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 BUDGET = 20 * 2**20
-"""Bytes of video that one page may carry; what is over it is encoded again, smaller."""
+"""Bytes of video that one page may carry; above that, videos are encoded again, smaller."""
 SMALL = (640, 30)
 """Width in pixels and quality (constant rate factor) of what is encoded again."""
 
@@ -89,7 +89,7 @@ def frames(path: Path, count: int = 6, width: int = 320) -> list[tuple[float, st
 
 
 def _smaller(path: Path) -> bytes:
-    """The video again, `SMALL`."""
+    """The video, encoded again at the size and quality of `SMALL`."""
     import io
 
     import av

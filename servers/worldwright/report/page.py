@@ -2,16 +2,22 @@
 
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from worldkit.files import write_atomic
 
-from ..model.run import Run
-from . import chart, media, text
-from .facts import arguments, facts, provenance, story, strength
-from .material import Material, acting, gather
+from ..model.evidence.run import Run
+from ..shelf import Entry, failed
+from . import chart, media
+from .facts import facts
+from .material import Material, gather
+from .sections import SECTIONS
+
+if TYPE_CHECKING:
+    from jinja2 import Environment
 
 TONES = 8
+FAILED = "<section><p class='reason'>The section {{ what }}.</p></section>"
 
 
 def write(run: Run) -> Path:
@@ -32,13 +38,23 @@ def render(material: Material) -> str:
         lstrip_blocks=True,
     )
     environment.filters |= {"quantity": chart.quantity, "seconds": _seconds, "clock": _clock, "plain": _plain}
-    return environment.get_template("page.html").render(**_context(material))
+    shared = _context(material)
+    sections = [_section(environment, entry, material, shared) for entry in SECTIONS.values()]
+    return environment.get_template("page.html").render(**shared, sections=sections)
+
+
+def _section(environment: "Environment", entry: Entry, material: Material, shared: dict[str, Any]) -> str:
+    """One section as HTML; one that fails is named in its place."""
+    try:
+        return environment.get_template(entry.TEMPLATE).render(**shared, **entry.context(material))
+    except Exception as defect:  # the page must come out whatever one section holds
+        return environment.from_string(FAILED).render(what=failed(entry, defect))
 
 
 def _context(material: Material) -> dict[str, Any]:
     films = media.videos(material.videos)
     stills = {name: uri for name, path in material.stills.items() if (uri := media.still(path))}
-    first = next(iter(films), None)
+    first = next((name for name in films if not (material.film and name == "film")), None)
     return {
         "m": material,
         "title": (material.plan.title if material.plan else "") or material.run.name,
@@ -49,14 +65,6 @@ def _context(material: Material) -> dict[str, Any]:
         "charts": _charts(material),
         "layout": media.picture(material.layout) if material.layout else None,
         "facts": facts(material),
-        "acting": acting(material),
-        "arguments": arguments,
-        "strength": strength,
-        "story": story(material),
-        "provenance": provenance(material),
-        "plan_html": text.markdown(material.plan_text) if material.plan_text else None,
-        "program_html": text.code(material.program) if material.program else None,
-        "program_lines": len(material.program.splitlines()),
     }
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from ..model.errors import NotFoundError, WorldwrightError
-from ..model.plan import Plan
-from ..model.run import Run
+from ..model.evidence.run import Run
+from ..model.plan.committed import Plan
 
 RATE_HZ = 120.0
 """Poses a second of simulated time; the viewer interpolates nothing."""
@@ -20,7 +20,7 @@ COLLISION_GROUP = 3
 
 def record(run: Run) -> Path:
     """Write `recording.rrd` beside the run's plan, from the physics pass of the current key; returns its path."""
-    from ..model.trajectory import Trajectory
+    from ..model.recording.trajectory_files import read_trajectory
     from ..stamp.state import State
 
     try:
@@ -37,7 +37,7 @@ def record(run: Run) -> Path:
             place=str(folder),
             next_move=f"worldwright stage start {state.place} --stage physics",
         )
-    trajectory = Trajectory.read(folder)
+    trajectory = read_trajectory(folder)
     target = run.folder / "recording.rrd"
     with rr.RecordingStream("worldwright", recording_id=trajectory.sha256[:16]) as stream:
         stream.save(str(target))
@@ -141,7 +141,7 @@ def _catalog_meshes(plan: Plan) -> dict[str, list[dict[str, Any]]]:
             for path, material in asset.visual:
                 mesh: Any = trimesh.load(path, force="mesh", process=False)
                 look = asset.materials.get(material, {})
-                part = {"vertex_positions": mesh.vertices * scale, "triangle_indices": mesh.faces}
+                part = {"vertex_positions": (mesh.vertices + asset.visual_pos) * scale, "triangle_indices": mesh.faces}
                 parts.append({**part, "vertex_normals": _normals(mesh), **_look(mesh, look, asset.folder)})
         except (KeyError, OSError, ValueError):
             continue  # without its mesh the body is drawn from its geoms

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from ..model.trajectory import Trajectory
+    from ..model.recording.trajectory import Trajectory
 
 POINTS = 480
 """Bins a line is reduced to; each keeps its lowest and highest value."""
@@ -63,22 +63,25 @@ class Motion:
     """Moving bodies that are not shown."""
     more_pairs: int = 0
     sampled: bool = False
-    """Only the stamp's samples were there, not the recording."""
+    """Whether only the stamp's samples are available, not the recording."""
 
 
 def read(recording: Path, first: tuple[str, ...] = ()) -> Motion:
     """Reduce a recording folder (see `of`). A broken recording is a `RecordingError`."""
-    from ..model.trajectory import Trajectory
+    from ..model.recording.trajectory_files import read_trajectory
 
-    return of(Trajectory.read(recording), first)
+    return of(read_trajectory(recording), first)
 
 
 def of(trajectory: "Trajectory", first: tuple[str, ...] = ()) -> Motion:
     """Reduce a trajectory to what the plots show; bodies named in `first` come before those that move more."""
     import numpy as np
 
+    from worldkit.turning import angles_between
+
     t = np.asarray(trajectory.t, dtype=float)
-    went, turned = _extent_m(trajectory.pos), _turn_rad(trajectory.quat)
+    went = _extent_m(trajectory.pos)
+    turned = np.fmax.reduce(angles_between(trajectory.quat, trajectory.quat[0]), axis=0)
     named = [name in first for name in trajectory.names]
     moving = [i for i, name in enumerate(named) if name or went[i] > MOVED_M or turned[i] > TURNED_RAD]
     moving.sort(key=lambda i: (not named[i], -went[i]))
@@ -120,16 +123,8 @@ def _extent_m(pos: Any) -> Any:
     return np.nan_to_num(np.linalg.norm(sides, axis=1))
 
 
-def _turn_rad(quat: Any) -> Any:
-    """(B,) largest angle from the first orientation (T, B, 4)."""
-    import numpy as np
-
-    alike = np.abs(np.einsum("tbi,bi->tb", quat, quat[0]))
-    return np.nan_to_num(2 * np.arccos(np.clip(np.nanmin(np.nan_to_num(alike, nan=1.0), axis=0), 0, 1)))
-
-
 def reduce(t: Any, y: Any) -> tuple[list[float], list[float]]:
-    """At most 2 x `POINTS` points of a curve (T,), keeping the extremes of every bin; values that are no numbers go."""
+    """At most 2 x `POINTS` points of a curve (T,), keeping the extremes of every bin; values that are not finite are left out."""
     import numpy as np
 
     y = np.asarray(y, dtype=float)
@@ -162,7 +157,7 @@ def _path(pos: Any) -> tuple[list[float], list[float]]:
 
 
 def _contacts(trajectory: Any) -> tuple[list[Touch], int]:
-    """Who touched whom, when: gaps shorter than five recorded rows are bridged, so that chatter reads as one bar."""
+    """The bodies that touched, and when: gaps shorter than five recorded rows are bridged, so that chatter is one bar."""
     import numpy as np
 
     if trajectory.contacts is None or not len(trajectory.contacts.row):

@@ -14,7 +14,7 @@ class Hit(Frozen):
     title: str
     """Headings above it."""
     text: str
-    """Its words, or the part around the best match."""
+    """Its text, or the part around the best match."""
     score: float
     """Larger is better; comparable within one answer only."""
 
@@ -25,12 +25,12 @@ class SearchResult(Frozen):
     question: str
     hits: tuple[Hit, ...] = ()
     ranking: str = "full_text"
-    """What ordered them: `hybrid` once the model of meanings is loaded."""
+    """How they were ranked: `hybrid` once the model of meanings is loaded."""
     note: str = ""
 
     @property
     def ok(self) -> bool:
-        """Something was found."""
+        """Whether something was found."""
         return bool(self.hits)
 
     def text(self) -> str:
@@ -60,7 +60,7 @@ class Passage(Frozen):
     note: str = ""
 
     def text(self) -> str:
-        """The lines."""
+        """The passage as a person reads it."""
         note = f"\n({self.note})" if self.note else ""
         more = f"\n… next: {self.next}" if self.next else ""
         return f"{self.citation}  {self.title}\n\n{self.content}{more}{note}"
@@ -75,12 +75,12 @@ class Definition(Frozen):
     signature: str = ""
     documentation: str = ""
     members: tuple[str, ...] = ()
-    """Of a class, enum, module or element: names it holds."""
+    """Names that a class, enum, module or element contains."""
     citations: tuple[str, ...] = ()
 
 
 class SymbolAnswer(Frozen):
-    """What the installed build says of a name."""
+    """The answer about a name in the installed build."""
 
     symbol: str
     version: str
@@ -92,7 +92,7 @@ class SymbolAnswer(Frozen):
 
     @property
     def ok(self) -> bool:
-        """It exists."""
+        """Whether the name exists."""
         return self.exists
 
     def text(self) -> str:
@@ -144,7 +144,7 @@ class AssetHit(Frozen):
     category: str
     description: str
     extents_m: tuple[float, float, float]
-    """At its usual height."""
+    """Full extents, m, at its usual height."""
     height_m: float
     mass_kg: float
     thumbnail: str = ""
@@ -152,7 +152,7 @@ class AssetHit(Frozen):
 
 
 class LookHit(Frozen):
-    """A surface that anything can wear, as `look`."""
+    """A surface that any object can have as its `look`."""
 
     name: str
     description: str
@@ -170,7 +170,7 @@ class AssetList(Frozen):
 
     @property
     def ok(self) -> bool:
-        """Something fits."""
+        """Whether an asset or a look fits."""
         return bool(self.assets)
 
     def text(self) -> str:
@@ -204,7 +204,7 @@ class RetrieveStatus(Frozen):
     """The user's own folders and exports."""
 
     def text(self) -> str:
-        """The numbers."""
+        """The status as a person reads it."""
         parts = ", ".join(f"{count} of {part}" for part, count in self.pieces.items())
         return (
             f"MuJoCo {self.simulator}: {self.documents} documents, {sum(self.pieces.values())} pieces ({parts}); "
@@ -223,3 +223,41 @@ def _change(change: Change) -> list[str]:
         lines.append("    renamed: " + ", ".join(f"{old} -> {new}" for old, new in change.renamed.items()))
     lines.append(f"    see {change.citation}")
     return lines
+
+
+class NearWorld(Frozen):
+    """An accepted world that is near to a sentence."""
+
+    slug: str
+    title: str
+    why: str
+    score: float
+    """Larger is nearer; comparable within one answer only."""
+
+
+class SkillToRead(Frozen):
+    """A skill that a mechanism asks for."""
+
+    name: str
+    why: str
+
+
+class Begun(Frozen):
+    """A plan that was begun from an accepted world."""
+
+    run: str
+    plan: str
+    like: str
+    """The world it was begun from."""
+    nearest: tuple[NearWorld, ...] = ()
+    skills: tuple[SkillToRead, ...] = ()
+    to_change: tuple[int, ...] = ()
+    """Lines of the plan on which `TO_CHANGE` stands."""
+    next_move: str = ""
+
+    def text(self) -> str:
+        """The folder, the nearest worlds, what to read, and the next command."""
+        lines = [f"{self.plan}: begun from {self.like}, {len(self.to_change)} places marked TO_CHANGE"]
+        lines += ["near:"] + [f"  {near.slug}: {near.why} ({near.score:.2f})" for near in self.nearest]
+        lines += ["look up when a field asks:"] + [f"  skills/{one.name}: {one.why}" for one in self.skills]
+        return "\n".join([*lines, f"next: {self.next_move}"])

@@ -17,10 +17,10 @@ SAME = {
     "timber": "wood",
     "wooden": "wood",
 }
-"""Words that people use for what a look is called by another."""
+"""Words that people use for a look, each with the word in the look's name."""
 MOST_LOOKS = 4
 TYPO = 0.8
-"""Likeness from which a word is taken for an asset's name mistyped."""
+"""Similarity from which on a word counts as an asset's name with a typing error."""
 
 
 def find(query: str, limit: int) -> AssetList:
@@ -38,7 +38,7 @@ def count() -> int:
 
 
 def _catalog() -> dict[str, Any]:
-    """Every readable asset by key; one broken folder must not hide the others."""
+    """Every readable asset by key, from whatever source; one broken entry must not hide the others."""
     from worldkit import assets
 
     found = {}
@@ -95,7 +95,7 @@ def _singular(word: str) -> str:
 
 def _hit(asset: Any, score: float) -> AssetHit:
     height = float(asset.metric_height)
-    thumbnail = getattr(asset, "thumbnail", None)
+    picture = asset.thumbnail if asset.thumbnail.is_file() else None
     return AssetHit(
         key=asset.key,
         category=asset.category,
@@ -103,6 +103,6 @@ def _hit(asset: Any, score: float) -> AssetHit:
         extents_m=tuple(round(float(v), 4) for v in asset.extents(height)),
         height_m=height,
         mass_kg=round(float(asset.mass_at(height)), 4),
-        thumbnail=f"catalog/{asset.key}/{thumbnail.name}" if thumbnail else "",
+        thumbnail=f"catalog/{picture.parent.name}/{picture.name}" if picture else "",
         score=score,
     )

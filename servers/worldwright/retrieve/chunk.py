@@ -6,6 +6,11 @@ from dataclasses import dataclass, field
 
 MAX_CHARACTERS = 4000
 """A longer section is cut at its paragraphs; the parts share its anchor."""
+WINDOW = 600
+"""Characters of a window: about one thing, so that neither its words nor its meaning are thinned by what stands beside."""
+LEAST = 120
+"""A shorter rest joins the window before it."""
+_SENTENCE = re.compile(r"(?<=[.!?:;]) (?=[A-Z`*\-\d(])")
 
 
 @dataclass(frozen=True)
@@ -49,3 +54,30 @@ def paragraphs(lines: list[str], start: int) -> Iterator[tuple[int, int]]:
             first, size = index, 0
         size += len(line) + 1
     yield start + first, start + len(lines) - 1
+
+
+def windows(text: str) -> list[str]:
+    """Sentences gathered up to `WINDOW` characters, each run of whitespace one space; a longer sentence is cut at a space.
+
+    A piece is found by its best window and shown whole. There is always one.
+    """
+    found: list[str] = []
+    held = ""
+    for sentence in _SENTENCE.split(" ".join(text.split())):
+        while len(sentence) > WINDOW:
+            end = sentence.rfind(" ", WINDOW // 2, WINDOW)
+            end = end if end > 0 else WINDOW
+            found += [held] if held else []
+            held = ""
+            found.append(sentence[:end])
+            sentence = sentence[end:].strip()
+        if held and len(held) + len(sentence) > WINDOW:
+            found.append(held)
+            held = sentence
+        else:
+            held = f"{held} {sentence}".strip()
+    if held and found and len(held) < LEAST:
+        found[-1] += f" {held}"
+    elif held:
+        found.append(held)
+    return found or [""]

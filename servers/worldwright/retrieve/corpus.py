@@ -1,9 +1,10 @@
 """The documents that are searched: found on disk, identified by package, version and path."""
 
 import hashlib
+import time
 from collections.abc import Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
 
 from .. import __version__
@@ -40,7 +41,15 @@ LEFT_OUT = {
     "mjxmacro.h": "lists of names for the preprocessor; the structs have them with words",
     "mjspecmacro.h": "lists of names for the preprocessor; the structs have them with words",
 }
-SHELVES = ("lint/rules", "scan/checks", "scan/expectations", "place/predicates", "place/relations", "scan/audits")
+SHELVES = (
+    "lint/rules",
+    "scan/anomalies/checks",
+    "scan/objectives/expectations",
+    "place/predicates",
+    "place/relations",
+    "scan/audits",
+)
+"""What authors of plans and programs read. A choice among folders, not a list of entries: those come from the folders."""
 INTROSPECT = ("functions.py", "structs.py", "enums.py")
 RUNTIME_LEFT_OUT = frozenset({"_catalog"})
 
@@ -90,9 +99,25 @@ class Document:
                 yield from c_chunks.chunks(text)
 
 
+FRESH_S = 2.0
+"""Seconds for which the list of our own texts and their content are not read again: questions come in bursts."""
+
+
 def documents() -> list[Document]:
     """Every document there is, in a fixed order."""
-    return [*_simulator(), *_ours(), *_users()]
+    return [*_installed(), *_lately(int(time.monotonic() / FRESH_S)), *_users()]
+
+
+@cache
+def _installed() -> tuple[Document, ...]:
+    """The simulator's documents: a running process has one installation."""
+    return tuple(_simulator())
+
+
+@lru_cache(maxsize=1)
+def _lately(_moment: int) -> tuple[Document, ...]:
+    """Our own documents as they were at a moment."""
+    return tuple(_ours())
 
 
 def _simulator() -> Iterator[Document]:
@@ -152,19 +177,26 @@ def _users() -> Iterator[Document]:
             yield Document(sources.name(top), path, file, "sources")
 
 
-def fingerprint(found: list[Document]) -> str:
+def fingerprint() -> str:
     """SHA-256 over every document's name and content (of the user's own files: their times and sizes)."""
-    total = hashlib.sha256()
-    for document in found:
+    total = hashlib.sha256(_fixed(int(time.monotonic() / FRESH_S)).encode())
+    for document in _users():
         stat = document.file.stat()
-        if document.part == "sources":
-            digest = f"{document.file}:{stat.st_mtime_ns}:{stat.st_size}"
-        else:
-            digest = _digest(document.file, stat.st_mtime_ns, stat.st_size)
+        total.update(f"{document.key}\0{document.file}:{stat.st_mtime_ns}:{stat.st_size}\n".encode())
+    return total.hexdigest()
+
+
+@lru_cache(maxsize=1)
+def _fixed(moment: int) -> str:
+    """The same over the simulator's documents and ours, as they were at a moment."""
+    total = hashlib.sha256()
+    for document in (*_installed(), *_lately(moment)):
+        stat = document.file.stat()
+        digest = _digest(document.file, stat.st_mtime_ns, stat.st_size)
         total.update(f"{document.key}\0{document.part}\0{digest}\n".encode())
     return total.hexdigest()
 
 
 @cache
-def _digest(file: Path, modified_ns: int, size: int) -> str:
+def _digest(file: Path, _modified_ns: int, _size: int) -> str:
     return hashlib.sha256(file.read_bytes()).hexdigest()

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from .chunk import MAX_CHARACTERS, Chunk
 
 MAX_POSTS = 12
-"""Of a thread; the question, the marked answer and the first replies say what is worth finding."""
+"""Posts of a thread that are kept: the question, the marked answer and the first replies are worth finding."""
 
 
 def chunks(text: str) -> Iterator[Chunk]:

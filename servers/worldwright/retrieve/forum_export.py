@@ -164,7 +164,7 @@ def command(repository: str, out: Path, discussions: bool, api: str) -> None:
     """Write a repository's issues and discussions to OUT, one thread a line, for `worldwright index --add OUT`."""
 
     def run() -> int:
-        from ..report.progress import bar
+        from ..report.bar import bar
 
         with bar() as progress:
             forum = Forum(repository, os.environ.get("GITHUB_TOKEN", ""), api)

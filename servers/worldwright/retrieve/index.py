@@ -1,7 +1,7 @@
-"""The full-text index: one SQLite file per content of the corpus, built once, opened read-only by everyone.
+"""The index: one SQLite file per content of the corpus, built once, opened read-only by everyone.
 
-BM25 comes from SQLite's FTS5. Three columns are weighed differently: the headings and labels of a piece, the
-identifiers in it (whole and in parts), and its words (stemmed).
+It holds the pieces, the labels that lead to them, every term with the windows it stands in and its share of their scores
+(`lexical`), and the texts that are embedded (`semantic`).
 """
 
 import os
@@ -11,18 +11,21 @@ import time
 from collections.abc import Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, lru_cache
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from ..model.errors import WorldwrightError
 from ..model.progress import Progress, silent
 from ..simulator.cache import cache_folder
-from . import corpus, words
+from . import corpus, lexical
+from .semantic.windows import digest, windows
 
-FORMAT = "3"
-"""Part of the index's name: changes when its tables or the cutting do."""
-WEIGHTS = "5.0, 2.5, 1.0"
-"""BM25 weights of the columns title, names, body."""
+if TYPE_CHECKING:
+    import numpy as np
+
+FORMAT = "7"
+"""Part of the index's name; it changes when the tables do, or the cutting."""
 KEPT = 4
 """Older indexes beyond this many are removed."""
 
@@ -30,7 +33,9 @@ _TABLES = """
 CREATE TABLE piece (id INTEGER PRIMARY KEY, root TEXT, path TEXT, part TEXT, anchor TEXT, first INTEGER, last INTEGER,
                     title TEXT, text TEXT);
 CREATE TABLE label (name TEXT, lower TEXT, piece INTEGER);
-CREATE VIRTUAL TABLE words USING fts5(title, names, body, tokenize="porter unicode61 tokenchars '_'");
+CREATE TABLE term (name TEXT PRIMARY KEY, windows BLOB, shares BLOB) WITHOUT ROWID;
+CREATE TABLE start (window INTEGER);
+CREATE TABLE meant (piece INTEGER, digest TEXT, text TEXT);
 """
 
 
@@ -80,13 +85,45 @@ class Index:
                 next_move="ask again: it was removed and will be built anew",
             ) from cause
 
-    def search(self, expression: str, limit: int) -> list[tuple[int, float]]:
-        """(piece id, BM25 score, larger is better) for a match expression."""
-        if not expression:
-            return []
-        query = f"SELECT rowid, bm25(words, {WEIGHTS}) AS cost FROM words WHERE words MATCH ? ORDER BY cost LIMIT ?"
+    def scores(self, weights: dict[str, float]) -> "np.ndarray":
+        """BM25 of every piece's best window for weighted terms: entry n belongs to piece n, entry 0 to none."""
+        import numpy as np
+
+        marks = ",".join("?" * len(weights))
         with self.reading() as db:
-            return [(row[0], -row[1]) for row in db.execute(query, (expression, limit))]
+            rows = db.execute(f"SELECT name, windows, shares FROM term WHERE name IN ({marks})", list(weights))
+            stored = {name: (windows, shares) for name, windows, shares in rows}
+        *starts, count = _starts(self.path)
+        return np.maximum.reduceat(lexical.score(stored, weights, count), starts)
+
+    def telling(self, weights: dict[str, float]) -> dict[str, float]:
+        """How much each weighted term tells: its weight times its rarity, for the terms that occur at all."""
+        marks = ",".join("?" * len(weights))
+        with self.reading() as db:
+            rows = db.execute(f"SELECT name, length(windows) / 4 FROM term WHERE name IN ({marks})", list(weights))
+            return {name: weights[name] * lexical.rarity(times, _starts(self.path)[-1]) for name, times in rows}
+
+    def named(self, names: list[str]) -> list[int]:
+        """Pieces that stand under one of these names, in any case."""
+        marks = ",".join("?" * len(names))
+        with self.reading() as db:
+            rows = db.execute(f"SELECT piece FROM label WHERE lower IN ({marks})", [name.lower() for name in names])
+            return sorted({row[0] for row in rows})
+
+    def places(self) -> list[tuple[int, str, str, str, str, int]]:
+        """(number, root, path, part, anchor, first line) of every piece, in order."""
+        with self.reading() as db:
+            return db.execute("SELECT id, root, path, part, anchor, first FROM piece ORDER BY id").fetchall()
+
+    def windows(self) -> list[tuple[int, str]]:
+        """(piece, digest) of every text that is embedded."""
+        with self.reading() as db:
+            return db.execute("SELECT piece, digest FROM meant").fetchall()
+
+    def window_texts(self) -> dict[str, str]:
+        """Every text that is embedded, by its digest."""
+        with self.reading() as db:
+            return dict(db.execute("SELECT digest, text FROM meant"))
 
     def pieces(self, ids: list[int]) -> dict[int, Piece]:
         """Stored chunks by id."""
@@ -126,20 +163,26 @@ class Index:
 
 def open_index(progress: Progress = silent) -> Index:
     """The index of the corpus as it is now; built first when its content is new (about a second)."""
-    found = corpus.documents()
-    path = index_path(corpus.fingerprint(found))
+    path = index_path(corpus.fingerprint())
     if not (path.is_file() and _usable(path)):
-        _build(path, found, progress)
+        _build(path, corpus.documents(), progress)
         _tidy(path)
         _usable.cache_clear()
     with suppress(OSError):
-        path.touch()  # another installation may be tidying: this one is in use
+        path.touch()  # another installation may be removing old ones: this one is in use
     return Index(path)
 
 
 def index_path(fingerprint: str) -> Path:
     """Where the index of a corpus lies."""
     return cache_folder() / f"retrieve-{FORMAT}-{fingerprint[:16]}.sqlite"
+
+
+@lru_cache(maxsize=2)
+def _starts(path: Path) -> list[int]:
+    """Each piece's first window by the piece's number (window 0 is no piece's); at the end the number of windows."""
+    with Index(path).reading() as db:
+        return [row[0] for row in db.execute("SELECT window FROM start ORDER BY rowid")]
 
 
 @cache
@@ -161,6 +204,8 @@ def _build(path: Path, found: list[corpus.Document], progress: Progress) -> None
         db.executescript("PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF;" + _TABLES)
         number = 0
         with db:
+            said: list[lexical.Fields] = []
+            starts = [0]
             for done, document in enumerate(found):
                 progress(done, len(found), f"indexing {document.path}")
                 for chunk in document.chunks():
@@ -169,13 +214,12 @@ def _build(path: Path, found: list[corpus.Document], progress: Progress) -> None
                     db.execute("INSERT INTO piece VALUES (?,?,?,?,?,?,?,?,?)", (*row, chunk.title, chunk.text))
                     labels = {*chunk.labels, chunk.anchor}
                     db.executemany("INSERT INTO label VALUES (?,?,?)", [(n, n.lower(), number) for n in labels])
-                    spoken = " ".join(" ".join(words.tokens(name)) + " " + name.replace("-", " ") for name in labels)
-                    title = f"{chunk.title} {spoken}"
-                    db.execute(
-                        "INSERT INTO words(rowid, title, names, body) VALUES (?,?,?,?)",
-                        (number, title, words.names(f"{title} {chunk.text}"), chunk.text),
-                    )
-        db.execute("INSERT INTO words(words) VALUES('optimize')")
+                    starts.append(len(said) + 1)
+                    said += lexical.fields(chunk)
+                    meant = windows(chunk, document.part, document.path)
+                    db.executemany("INSERT INTO meant VALUES (?,?,?)", [(number, digest(t), t) for t in meant])
+            db.executemany("INSERT INTO start VALUES (?)", [(start,) for start in (*starts, len(said))])
+            db.executemany("INSERT INTO term VALUES (?,?,?)", lexical.shares(said))
         db.commit()
         db.close()
         Path(name).replace(path)

@@ -15,7 +15,7 @@ def chunks(text: str, name: str) -> Iterator[Chunk]:
     tree = parse(text)
     if tree is None:
         return
-    for node in ast.walk(tree):
+    for node in _tuples(tree):
         if isinstance(node, ast.Tuple) and len(node.elts) == 2 and isinstance(node.elts[1], ast.Call):
             key, call = node.elts
             kind = _called(call)
@@ -24,6 +24,14 @@ def chunks(text: str, name: str) -> Iterator[Chunk]:
                 shown = _SAY[kind](name_of, _fields(call))
                 last = node.end_lineno or node.lineno
                 yield Chunk(name_of, f"introspect {name} > {name_of}", node.lineno, last, shown[:MAX_CHARACTERS])
+
+
+def _tuples(tree: ast.Module) -> Iterator[ast.expr]:
+    """The entries of the module's tables, `dict([(name, declaration), …])`."""
+    for statement in tree.body:
+        table = getattr(statement, "value", None)
+        if isinstance(table, ast.Call) and table.args and isinstance(table.args[0], ast.List):
+            yield from table.args[0].elts
 
 
 def _called(node: ast.expr) -> str:

@@ -1,35 +1,25 @@
-"""Markdown by its headings; front matter is a piece of its own."""
+"""Markdown by its headings, as markdown-it finds them; what stands above the first, front matter too, is a piece of its own."""
 
-import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 from .chunk import Chunk, paragraphs, slug
 
 
 def chunks(text: str) -> Iterator[Chunk]:
     """Cut a page."""
-    lines = text.splitlines()
-    headings: list[tuple[int, str]] = []
-    start, anchor, fenced = 0, "top", False
+    from markdown_it import MarkdownIt
 
-    def emit(end: int) -> Iterator[Chunk]:
-        body = lines[start:end]
-        title = " > ".join(t for _, t in headings)
-        for first, last in paragraphs(body, start + 1):
+    lines = text.splitlines()
+    tokens = MarkdownIt("zero").enable(["heading", "fence"]).parse("\n".join(lines))
+    opened = [(token, inline.content) for token, inline in pairwise(tokens) if token.type == "heading_open"]
+    starts = [0, *(token.map[0] for token, _ in opened if token.map), len(lines)]
+    above: dict[int, str] = {}
+    for (start, end), (depth, title) in zip(
+        pairwise(starts), [(0, "top"), *((int(token.tag[1:]), title) for token, title in opened)], strict=True
+    ):
+        above = {level: over for level, over in above.items() if level < depth} | ({depth: title} if depth else {})
+        for first, last in paragraphs(lines[start:end], start + 1):
             shown = "\n".join(lines[first - 1 : last]).strip()
             if shown.strip("-# \n"):
-                yield Chunk(anchor, title, first, last, shown)
-
-    for index, line in enumerate(lines):
-        if line.lstrip().startswith("```"):
-            fenced = not fenced
-        match = None if fenced else re.match(r"^(#{1,6})\s+(.+?)\s*#*$", line)
-        if match is None:
-            continue
-        yield from emit(index)
-        depth, title = len(match[1]), match[2]
-        while headings and headings[-1][0] >= depth:
-            headings.pop()
-        headings.append((depth, title))
-        start, anchor = index, slug(title)
-    yield from emit(len(lines))
+                yield Chunk(slug(title), " > ".join(above.values()), first, last, shown)

@@ -1,4 +1,7 @@
-"""reStructuredText by its own structure: labels, headings, and the numbered entries of a changelog."""
+"""reStructuredText by its own structure: labels, headings, and the numbered entries of a changelog.
+
+Not docutils: it takes 17 s for the manual's 40 pages instead of 0.8, and fails on 8,800 of their roles, which are Sphinx's.
+"""
 
 import re
 from collections.abc import Iterator
@@ -79,7 +82,7 @@ def _chunks(
 
 
 def _content(lines: list[str]) -> bool:
-    """Anything besides labels, underlines and blank lines."""
+    """Whether there is anything besides labels, underlines and blank lines."""
     return any(line.strip() and not _LABEL.match(line) and not _UNDERLINE.match(line) for line in lines)
 
 

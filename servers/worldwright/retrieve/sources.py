@@ -17,7 +17,7 @@ from .chunk import slug
 SUFFIXES = (".rst", ".md", ".py", ".h", ".hpp", ".c", ".cc", ".cpp", ".xml", ".jsonl")
 SKIPPED = frozenset({"build", "node_modules", "third_party", "dist", "site-packages", "__pycache__", "testdata"})
 MAX_BYTES = 1_000_000
-"""Of a file; larger ones are data, except forum exports."""
+"""Largest file that is read; larger ones are data, except forum exports."""
 MAX_FILES = 20_000
 
 

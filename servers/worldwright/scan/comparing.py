@@ -1,26 +1,69 @@
-"""Which of two iterations is better: fewer blocking anomalies, then more objectives proved, then wider margins.
+"""Tell which of two iterations is better: fewer blocking anomalies, then more objectives proved, then wider margins.
 
 The order is lexicographic: no margin makes up for a lost objective, no objective for motion that cannot be.
 """
 
 import json
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 from ..model.errors import NotFoundError
-from ..model.evidence import ExpectationResult, ExpectReport, ScanReport
-from ..model.run import Run
-from .tools import Comparison
+from ..model.evidence.reports import ExpectationResult, ExpectReport, ScanReport
+from ..model.evidence.run import Run
+from ..model.frozen import Frozen
 
 STANDING = {"refuted": 0, "unproved": 1, "visual_only": 1, "proved": 2}
-"""What only eyes can judge is worth less than a proof: taking the measurement out of a claim is no improvement."""
+"""A claim that only eyes can judge is worth less than a proof: to drop its measurement is no improvement."""
 NOTABLE = 0.05
-"""A change of a margin, as a share of what it is measured against, that is worth telling."""
+"""A change of a margin is told from this share of its scale on."""
 DECIDES = 0.01
 MOST_TOLD = 12
 
 
+class Standing(Frozen):
+    """How good one iteration is: larger is better, and the first field that differs decides."""
+
+    blocking: int
+    """Minus the number of blocking anomalies."""
+    objectives: int
+    """Two for each objective proved, one for each visual only or unproved."""
+    margins: float
+    """Mean margin of the expectations that both have, each as a share of its scale, -1 to 1."""
+
+
+class Comparison(Frozen):
+    """Two iterations of a run, the better one named."""
+
+    better: Literal["first", "second", "equal"]
+    first: str
+    second: str
+    improved: tuple[str, ...] = ()
+    """The points in which the second iteration is better."""
+    worsened: tuple[str, ...] = ()
+    decided_by: Literal["blocking", "objectives", "margins", "nothing"] = "nothing"
+    """Blocking anomalies first, then objectives, then margins: the first that differs."""
+    ranks: tuple[Standing, ...] = ()
+    """The standings of the first and of the second iteration."""
+
+    def text(self) -> str:
+        """The verdict and its reasons."""
+        head = {"first": f"{self.first} is better", "second": f"{self.second} is better", "equal": "neither is better"}
+        why = {
+            "blocking": ": fewer blocking anomalies",
+            "objectives": ": more objectives hold",
+            "margins": ": wider margins, all else alike",
+            "nothing": "",
+        }
+        return "\n".join(
+            [
+                head[self.better] + why[self.decided_by],
+                *(f"+ {t}" for t in self.improved),
+                *(f"- {t}" for t in self.worsened),
+            ]
+        )
+
+
 class Rank(NamedTuple):
-    """Larger is better, the first place that differs decides."""
+    """The rank of an iteration: larger is better, and the first field that differs decides."""
 
     blocking: int
     """Minus the number of blocking anomalies."""
@@ -46,7 +89,7 @@ def compare_reports(run: Run, first: str, second: str) -> Comparison:
     changes = sorted(((strength(b) - strength(a), a, b) for a, b in pairs), key=lambda change: -abs(change[0]))
     for change, a, b in changes[:MOST_TOLD]:
         if abs(change) >= NOTABLE:
-            (improved if change > 0 else worsened).append(f"{a.name}: {_told(a)}, then {_told(b)}")
+            (improved if change > 0 else worsened).append(f"{a.name}: {_describe(a)}, then {_describe(b)}")
     rank_a, rank_b = _rank(scan_a, expect_a, [a for a, _ in pairs]), _rank(scan_b, expect_b, [b for _, b in pairs])
     better, decided = _decide(rank_a, rank_b)
     return Comparison.model_validate(
@@ -58,7 +101,7 @@ def compare_reports(run: Run, first: str, second: str) -> Comparison:
 
 
 def strength(result: ExpectationResult) -> float:
-    """A margin as a share of what it is measured against, -1 to 1; what was not measured is 0."""
+    """A margin as a share of its scale, -1 to 1; 0 without a measurement."""
     if result.margin is None or result.measured is None:
         return 0.0
     scale = max(abs(result.measured), abs(result.measured - result.margin), abs(result.margin))
@@ -82,7 +125,7 @@ def _rank(scan: ScanReport, expected: ExpectReport, results: list[ExpectationRes
 
 
 def _anomalies(before: ScanReport, after: ScanReport) -> list[Any]:
-    """Blocking anomalies of `before`, one of a kind and body, that `after` does not have."""
+    """Blocking anomalies of `before` that `after` lacks, one for each kind and body."""
     known = {(a.code, a.body) for a in after.anomalies if a.severity == "blocking"}
     gone = {(a.code, a.body): a for a in before.anomalies if a.severity == "blocking"}
     return [a for pair, a in gone.items() if pair not in known]
@@ -100,7 +143,7 @@ def _only(here: ExpectReport, there: ExpectReport, how: str) -> list[str]:
 
 
 def _pairs(one: ExpectReport, other: ExpectReport) -> list[tuple[ExpectationResult, ExpectationResult]]:
-    """The same expectation of the same claim in both; a margin against another demand would compare nothing."""
+    """Pairs of the same expectation of the same claim; margins against different demands cannot be compared."""
 
     def keyed(report: ExpectReport) -> dict[tuple[str, str, str], ExpectationResult]:
         return {
@@ -113,7 +156,7 @@ def _pairs(one: ExpectReport, other: ExpectReport) -> list[tuple[ExpectationResu
     return [(before[key], after[key]) for key in before if key in after]
 
 
-def _told(result: ExpectationResult) -> str:
+def _describe(result: ExpectationResult) -> str:
     margin = "" if result.margin is None else f" by {abs(result.margin):.3g} {result.unit}"
     return f"{result.status}{margin}"
 

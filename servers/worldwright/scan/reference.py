@@ -10,17 +10,17 @@ from pathlib import Path
 from typing import Any
 
 from ..shelf import Entry
-from .engine import CHECKS
-from .expecting import EXPECTATIONS
+from .anomalies.engine import CHECKS
+from .objectives.claims import EXPECTATIONS
 
 SKILLS = Path(__file__).parents[3] / "skills"
 VOCABULARY, ANOMALIES = SKILLS / "expectations/references/vocabulary.md", SKILLS / "review/references/anomalies.md"
 FAMILIES = (
-    "kinematics", "contact", "rotation", "oscillation", "energy", "deformation", "fracture", "flow", "comparison",
+    "kinematics", "contact", "rotation", "oscillation", "energy", "deformation", "fracture", "flow", "comparison", "picture"
 )  # fmt: skip
 _VOCABULARY = """# The vocabulary of expectations
 
-Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan/expectations`; change those. Metres,
+Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan/objectives/expectations`; change those. Metres,
 kilograms, seconds, newtons, degrees; world frame, z up. A margin is in the unit of what is measured, and positive when the
 claim holds. Those marked with a star are **events**: they come true at a moment, so they can be ordered
 (`happens_before` …) and their causes tested. `window_s: [start, end]` restricts any of them to a stretch of time.
@@ -33,7 +33,7 @@ for the rest. Bodies on joints never count for the one they hang on.
 """
 _ANOMALIES = """# The anomaly checks
 
-Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan/checks`; change those. Each looks at every
+Written by `python -m worldwright.scan.reference` from `servers/worldwright/scan/anomalies/checks`; change those. Each looks at every
 recording, whatever the plan claims. *Needs* names the channels without which a check is skipped, and says so. *Of wholes*
 are checks that take bodies welded to each other (without joints between them) for the one rigid body that they are, called
 by the name of the one that carries the others; the other checks look at each body as it was recorded.
@@ -59,11 +59,11 @@ def vocabulary() -> str:
     """The page of expectations."""
     families = {name: [e for e in EXPECTATIONS.values() if _family(e) == name] for name in FAMILIES}
     others = [e for e in EXPECTATIONS.values() if _family(e) not in FAMILIES]
-    if others:  # of third parties, whose modules live elsewhere
+    if others:  # third parties' modules live elsewhere
         families["others"] = others
     parts = [_VOCABULARY, "| family | expectations |", "|---|---|"]
     for name, entries in families.items():
-        parts.append(f"| [{name}](#{name}) | {', '.join(f'`{e.name}`' + _star(e) for e in entries)} |")
+        parts.append(f"| [{name}](#{name}) | {', '.join(f'`{e.name}`' + _mark_event(e) for e in entries)} |")
     for name, entries in families.items():
         package = import_module(f"{EXPECTATIONS.package}.{name}") if name in FAMILIES else None
         parts += ["", f"## {name}", "", (package.__doc__ or "").strip() if package else "From plug-ins."]
@@ -78,29 +78,36 @@ def anomalies() -> str:
     parts += [f"| {e.code} | `{e.name}` | {e.summary} |" for e in CHECKS.values()]
     for entry in CHECKS.values():
         needs = ", ".join(f"`{name}`" for name in entry.NEEDS) or "poses alone"
-        parts += ["", f"## {entry.code} {entry.name}", "", entry.doc, "", f"Needs: {needs}.{_of_wholes(entry)}"]
+        parts += ["", f"## {entry.code} {entry.name}", "", entry.doc, "", f"Needs: {needs}.{_note_on_wholes(entry)}"]
     return "\n".join(parts) + "\n" + _AUDITS
 
 
-def _of_wholes(entry: Entry) -> str:
-    return " Of wholes." if getattr(entry.module, "WHOLE", False) else ""
+def _note_on_wholes(entry: Entry) -> str:
+    return " Of wholes." if entry.WHOLE else ""
 
 
 PAGES = {VOCABULARY: vocabulary, ANOMALIES: anomalies}
 
 
 def _expectation(entry: Entry) -> str:
-    lines = [f"### {entry.name}{_star(entry)}", "", entry.doc, "", "| argument | kind | meaning |", "|---|---|---|"]
+    lines = [
+        f"### {entry.name}{_mark_event(entry)}",
+        "",
+        entry.doc,
+        "",
+        "| argument | kind | meaning |",
+        "|---|---|---|",
+    ]
     schema = entry.Given.model_json_schema(by_alias=True)
     for name, field in schema["properties"].items():
         if name == "window_s":
             continue
         needed = " (needed)" if name in schema.get("required", ()) else ""
         default = field.get("default")
-        usual = f" ({_flow(default)} if left out)" if default not in (None, [], "") and name != "low" else ""
+        usual = f" ({_yaml_line(default)} if left out)" if default not in (None, [], "") and name != "low" else ""
         usual = "" if isinstance(default, list) else usual
         lines.append(f"| `{name}`{needed} | {_kind(field)} | {field.get('description', '')}{usual} |")
-    lines += ["", f"Example: `- {entry.name}: {_flow(entry.GOOD[0][1])}` · {entry.code}"]
+    lines += ["", f"Example: `- {entry.name}: {_yaml_line(entry.GOOD[0][1])}` · {entry.code}"]
     return "\n".join(lines)
 
 
@@ -128,12 +135,12 @@ def _kind(field: Mapping[str, Any]) -> str:
     return {"string": "text", "boolean": "true or false"}.get(str(kind), str(kind or "value"))
 
 
-def _flow(value: Any) -> str:
+def _yaml_line(value: Any) -> str:
     """YAML on one line."""
     if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{key}: {_flow(inner)}" for key, inner in value.items()) + "}"
+        return "{" + ", ".join(f"{key}: {_yaml_line(inner)}" for key, inner in value.items()) + "}"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_flow(inner) for inner in value) + "]"
+        return "[" + ", ".join(_yaml_line(inner) for inner in value) + "]"
     if isinstance(value, float):
         return f"{value:.4g}"
     if isinstance(value, str):
@@ -142,11 +149,11 @@ def _flow(value: Any) -> str:
 
 
 def _family(entry: Entry) -> str:
-    return str(entry.module.__name__.rsplit(".", 2)[-2])
+    return (["", *entry.module.__name__.split(".")])[-2]
 
 
-def _star(entry: Entry) -> str:
-    return " \\*" if getattr(entry.module, "EVENT", False) else ""
+def _mark_event(entry: Entry) -> str:
+    return " \\*" if entry.EVENT else ""
 
 
 if __name__ == "__main__":

@@ -1,36 +1,40 @@
 """The tools of `scan`: plausibility, expectations, cross-check questions, plots, comparison."""
 
 from collections import Counter
+from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field
 
 from ..expose import reads, several
-from ..model.audits import CausesReport, RefineReport
 from ..model.errors import NotFoundError
-from ..model.evidence import EvidenceKey, ExpectReport, ScanReport
+from ..model.evidence.audits import CausesReport, RefineReport
+from ..model.evidence.reports import CheckRun, EvidenceKey, ExpectReport, ScanReport
+from ..model.evidence.run import Run
 from ..model.finding import Anomaly, AnomalySeverity
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
 from ..model.progress import Progress, silent
-from ..model.run import Run
-from .answers import Answer
+from .comparing import Comparison, compare_reports
+from .query.answered import Answer
 
 if TYPE_CHECKING:
-    from ..model.plan import Plan
-    from ..model.trajectory import Trajectory
+    from ..model.plan.committed import Plan
+    from ..model.recording.trajectory import Trajectory
 
 RunName = Annotated[
     str, Field(description="A run folder or its name; or a recording: a trajectory folder or .npz file.")
 ]
 MOST_TOLD = 20
+MOST_MOMENTS = 8
 STATUSES = ("proved", "refuted", "visual_only", "unproved")
 Window = Annotated[str, Field(description="Seconds, as `START:END`; empty: all of it.")]
 
 
 class Found(Frozen):
-    """One anomaly, in the shape other programs read."""
+    """One anomaly, in the form that other programs read."""
 
     check: str
     severity: AnomalySeverity
@@ -48,13 +52,15 @@ class Scanned(ScanReport):
     """A scan report with a readable text, and with the audits that were asked for."""
 
     file: str = ""
-    """What was scanned, as it was named."""
+    """The scanned file or run, as the caller named it."""
     findings: tuple[Found, ...] = ()
-    """Every anomaly, flat."""
+    """Every anomaly, in a flat list."""
+    skipped: tuple[CheckRun, ...] = ()
+    """The checks that this recording could not answer, each with its reason."""
     anomalies: tuple[Anomaly, ...] = Field(default=(), exclude=True)
 
     acting: tuple[str, ...] = ()
-    """What acted on the state besides the engine, one line each (all of it in `interventions.json`)."""
+    """What acted on the state besides the engine, one line each; `interventions.json` has all of it."""
     refine: RefineReport | None = None
     causes: CausesReport | None = None
     pending: tuple[str, ...] = ()
@@ -62,12 +68,12 @@ class Scanned(ScanReport):
 
     @property
     def ok(self) -> bool:
-        """Nothing blocks, and every audit asked for is finished and found nothing."""
+        """Whether nothing blocks, and every audit asked for is finished and found nothing."""
         audits = [report.ok for report in (self.refine, self.causes) if report is not None]
         return super().ok and all(audits) and not self.pending
 
     def text(self) -> str:
-        """Anomalies first, then what could not be checked."""
+        """The report: anomalies first, then what could not be checked."""
         looked = sum(check.status != "skipped" for check in self.checks)
         lines = [str(anomaly) for anomaly in self.anomalies]
         lines += [f"skipped {c.code} {c.name}: {c.reason}" for c in self.checks if c.status == "skipped"]
@@ -93,7 +99,7 @@ class Expected(ExpectReport):
     """An expectation report with a readable text."""
 
     def text(self) -> str:
-        """One objective a paragraph, with what was measured."""
+        """The report, one paragraph per objective, with what was measured."""
         lines = []
         for objective in self.objectives:
             lines.append(f"{objective.status.replace('_', ' '):<11} {objective.index}. {objective.claim}")
@@ -108,49 +114,6 @@ class Expected(ExpectReport):
         if count["unproved"]:
             lines.append("unproved blocks acceptance: supply what is missing, or give the claim a `visual_only` reason")
         return "\n".join(lines)
-
-
-class Standing(Frozen):
-    """How good one iteration is; larger is better, the first place that differs decides."""
-
-    blocking: int
-    """Minus the number of blocking anomalies."""
-    objectives: int
-    """Two for each objective proved, one for each visual only or unproved."""
-    margins: float
-    """Mean margin of the expectations that both have, each as a share of its scale, -1 to 1."""
-
-
-class Comparison(Frozen):
-    """Two iterations of a run, the better one named."""
-
-    better: Literal["first", "second", "equal"]
-    first: str
-    second: str
-    improved: tuple[str, ...] = ()
-    """What the second does better."""
-    worsened: tuple[str, ...] = ()
-    decided_by: Literal["blocking", "objectives", "margins", "nothing"] = "nothing"
-    """Blocking anomalies first, then objectives, then margins: the first that differs."""
-    ranks: tuple[Standing, ...] = ()
-    """Of the first and of the second."""
-
-    def text(self) -> str:
-        """The verdict and its reasons."""
-        head = {"first": f"{self.first} is better", "second": f"{self.second} is better", "equal": "neither is better"}
-        why = {
-            "blocking": ": fewer blocking anomalies",
-            "objectives": ": more objectives hold",
-            "margins": ": wider margins, all else alike",
-            "nothing": "",
-        }
-        return "\n".join(
-            [
-                head[self.better] + why[self.decided_by],
-                *(f"+ {t}" for t in self.improved),
-                *(f"- {t}" for t in self.worsened),
-            ]
-        )
 
 
 class PlotFacts(Frozen):
@@ -178,13 +141,13 @@ def scan(
 ) -> Scanned:
     """Look for motion that cannot be: jumps, sinking, energy from nowhere, undeclared pushes, bodies that never settle.
 
-    Reads the recording of the current program and plan and keeps the report as evidence, with the ledger of what acted
-    and who carried the load. Each anomaly names its body, its time window, what was measured and the threshold;
-    `blocking` ones stand in the way of acceptance. `refine` reports claims that the time step decides, `causes` effects
-    that come without their cause or by the clock; both repeat the physics pass: while any is `pending`, call again.
+    Keeps the report of the current recording as evidence, with the ledger of what acted. Each anomaly names its body,
+    its window, what was measured and the threshold; `blocking` ones stand in the way of acceptance. `refine` reports
+    claims that the time step decides, `causes` effects that come without their cause or by the clock; both repeat the
+    physics pass: while any is `pending`, call again.
     """
-    from . import engine
-    from .sign import Context
+    from .anomalies import engine
+    from .anomalies.sign import Context
 
     folder, key, plan, trajectory = _subject(run)
     report = engine.scan(trajectory, Context.of(plan))
@@ -218,7 +181,7 @@ def expect(
     Each expectation reports what was measured, what was expected and the signed margin between them. The report is
     kept as evidence of the current program and plan. A lone recording is measured against the `plan` that is named.
     """
-    from . import expecting
+    from .objectives import expecting
 
     folder, key, own, trajectory = _subject(run)
     if folder is None or key is None or own is None:
@@ -228,7 +191,7 @@ def expect(
                 place=run,
                 next_move="name a plan.md as `plan`, or a run folder instead of the recording",
             )
-        from ..model.plan_text import read_plan
+        from ..model.plan.plan_text import read_plan
 
         return Expected.model_validate(expecting.expect(trajectory, read_plan(Path(plan)).plan).model_dump())
     if plan:
@@ -249,7 +212,10 @@ def _scanned(run: str, report: ScanReport, **more: Any) -> Scanned:
         )
         for a in report.anomalies
     )  # fmt: skip
-    return Scanned.model_validate({**report.model_dump(), **more, "file": run, "findings": found})
+    skipped = tuple(c for c in report.checks if c.status == "skipped")
+    return Scanned.model_validate(
+        {**report.model_dump(), **more, "file": run, "findings": found, "skipped": [c.model_dump() for c in skipped]}
+    )
 
 
 @reads
@@ -262,7 +228,7 @@ def query(
 
     Use it to test a visual claim ("the scene is frozen", "the ball went through the wall") against the numbers.
     """
-    from .questions import answer
+    from .query.questions import answer
 
     return answer(_subject(run)[3], body, _window(window))
 
@@ -284,8 +250,9 @@ def plot(
 
     With `finding`, its stretch of time and its threshold are marked, and its bodies and surroundings are shown.
     """
-    from . import engine, plots
-    from .sign import Context
+    from . import plots
+    from .anomalies import engine
+    from .anomalies.sign import Context
 
     _, _, plan, trajectory = _subject(run)
     chosen, shown = None if quantity == "auto" else quantity, _window(window)
@@ -311,28 +278,53 @@ def compare(
 
     Fewer blocking anomalies decide first, then objectives, then the margins of the expectations.
     """
-    from .comparing import compare_reports
-
     folder = Run.find(run)
     return compare_reports(folder, first, second)
 
 
 def argument_problem(name: str, arguments: object) -> tuple[str, str] | None:
     """What is wrong with an expectation's arguments, and the fix; None when they are right or the name is unknown."""
-    from .expecting import argument_problem as judge
+    from .objectives.expecting import argument_problem as judge
 
     return judge(name, arguments)
 
 
+def moments(run: Run) -> tuple[tuple[float, str], ...]:
+    """(instant in s, name) of each of the plan's expectations that came true, in order; for the storyboard, no tool."""
+    from .measuring.measured import UnknowableError
+    from .objectives import events
+    from .objectives.claims import EXPECTATIONS
+
+    _, _, plan, trajectory = _subject(str(run.folder))
+    found: dict[float, str] = {}
+    for objective in plan.objectives if plan else ():
+        for name, arguments in ((name, given) for row in objective.expect for name, given in row.items()):
+            entry = EXPECTATIONS.get(name)
+            made_of_events = entry and events.MADE_OF_EVENTS & set(entry.Given.model_fields)
+            if entry is None or not entry.EVENT or made_of_events or len(found) >= MOST_MOMENTS:
+                continue
+            with suppress(UnknowableError):
+                if (at := events.moment_s(trajectory, {name: arguments})) is not None:
+                    found.setdefault(at, name.replace("_", " "))
+    return tuple(sorted(found.items()))
+
+
+def repair_target(code: str) -> str:
+    """What a repair changes where the anomaly check of this code finds something; for other servers, no tool."""
+    from .anomalies.engine import CHECKS
+
+    return str(CHECKS[code].REPAIR)
+
+
 def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Trajectory]":
-    """The recording meant, with the run, key and plan it belongs to, when it belongs to one."""
-    from ..model.trajectory import Trajectory
+    """The named recording, with the run, key and plan that it belongs to, if any."""
+    from ..model.recording.trajectory_files import read_trajectory
 
     path = Path(run)
     if path.suffix == ".npz" or (path / "meta.json").is_file():
-        return None, None, None, Trajectory.read(path)
-    from ..model import environment
-    from ..model.plan_text import read_plan
+        return None, None, None, read_trajectory(path)
+    from ..model.evidence import environment
+    from ..model.plan.plan_text import read_plan
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
@@ -343,7 +335,11 @@ def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Tr
             place=str(recording.parent),
             next_move=f"worldwright stage start {folder.folder} --stage physics",
         )
-    return folder, key, read_plan(folder.plan).plan, Trajectory.read(recording)
+    from ..model.evidence import drawn_stills
+
+    trajectory = read_trajectory(recording)
+    stills = drawn_stills.read(folder, folder.evidence(key), trajectory.sha256)
+    return folder, key, read_plan(folder.plan).plan, replace(trajectory, stills=stills) if stills else trajectory
 
 
 def _window(text: str) -> tuple[float, float] | None:

@@ -1,4 +1,4 @@
-"""Where tables and indexes made from the installed packages are kept between runs."""
+"""Keep tables and indexes, which are made from the installed packages, between runs."""
 
 import hashlib
 import json
@@ -11,7 +11,7 @@ from typing import Any
 from worldkit.files import write_atomic
 
 KEPT = 4
-"""Tables of other versions kept beside the newest: several environments may share the folder."""
+"""So many tables of other versions stay beside the newest, as several environments may share the folder."""
 
 
 def cache_folder() -> Path:
@@ -32,7 +32,7 @@ def cache_folder() -> Path:
 
 
 def cached_json(name: str, key: str, build: Callable[[], Any]) -> Any:
-    """The JSON value `build()` made for `key`, from disk when it was made before.
+    """The JSON value that `build()` makes for `key`, from disk if it was made before.
 
     An unreadable or damaged file counts as missing. A cache that cannot be written costs time, never the answer.
     """

@@ -1,4 +1,4 @@
-"""What changed between versions, mined from the changelog that ships with the installed simulator.
+"""Mine the changelog that ships with the installed simulator for what changed between versions.
 
 Every entry of a "Breaking changes" box is kept with its migration advice, and so is every other entry that removes,
 renames or deprecates something. The rows are found by any name they mention, old or new.
@@ -41,9 +41,9 @@ class Change(Frozen):
     """The part of the changelog, e.g. `Deformables`."""
     breaking: bool
     text: str
-    """What changed."""
+    """The change itself."""
     migration: str = ""
-    """What the changelog says to do about it."""
+    """The changelog's advice."""
     names: tuple[str, ...] = ()
     """Every symbol, element, attribute or word in code type that the entry mentions."""
     removed: tuple[str, ...] = ()
@@ -55,12 +55,12 @@ class Change(Frozen):
 
     @property
     def citation(self) -> str:
-        """Where the row comes from."""
+        """The place that the row comes from."""
         anchor = "version-" + self.version.replace(".", "-")
         return f"mujoco-{installed.version()}/doc/changelog.rst#{anchor}:L{self.lines[0]}-L{self.lines[1]}"
 
     def weight(self, name: str) -> int:
-        """How much this row is about `name`: 3 renames it, 2 removes it, 1 mentions it, 0 does not."""
+        """How much this row says about `name`: 3 renames it, 2 removes it, 1 mentions it, 0 does not."""
         wanted = _bare(name)
         if any(_bare(old) == wanted for old in self.renamed):
             return 3
@@ -85,13 +85,13 @@ def load() -> tuple[Change, ...]:
 
 
 def find(name: str) -> list[Change]:
-    """Rows about a name (old or new), the most telling first, then the newest."""
+    """Rows about a name (old or new), the weightiest first, then the newest."""
     scored = [(row.weight(name), row) for row in load()]
     return [row for weight, row in sorted((s for s in scored if s[0]), key=lambda s: (s[0] < 2, not s[1].breaking))]
 
 
 def advice(name: str) -> str:
-    """One line on what became of a name, or an empty string when the changelog does not say it was changed."""
+    """One line on what became of a name; empty when the changelog tells of no change."""
     for row in find(name):
         weight = row.weight(name)
         if weight == 3:
@@ -106,7 +106,7 @@ def advice(name: str) -> str:
 
 
 def renamed(name: str) -> str | None:
-    """The bare new name, when the changelog says that this one was renamed and nothing else about it changed."""
+    """The bare new name, if the changelog says that this one was renamed and nothing else changed."""
     for row in find(name):
         for old, new in row.renamed.items():
             if _bare(old) == _bare(name) and re.fullmatch(r"[\w.]+", new) and re.fullmatch(r"[\w.]+", old):
@@ -167,7 +167,7 @@ def _entries(lines: list[str]) -> Iterator[tuple[str, str, str, bool, int, int]]
         elif entry and start < 0:
             start, depth, in_box = index, indent, box >= 0
         elif box >= 0 and start < 0 and line.strip() and indent > box and not line.strip().startswith(":"):
-            start, depth, in_box = index, indent, True  # a box whose text is not numbered
+            start, depth, in_box = index, indent, True  # the text of this box is not numbered
 
 
 def _names(text: str) -> set[str]:
@@ -195,7 +195,7 @@ def _bare(name: str) -> str:
 
 @cache
 def _forms(name: str) -> frozenset[str]:
-    """The words a mention can be found by: `mjData.qM` by `qm`, `<equality><flexvert>` by both elements."""
+    """The words by which a mention can be found: `mjData.qM` by `qm`, `<equality><flexvert>` by both elements."""
     words = re.findall(r"[A-Za-z_]\w*", name)
     if re.fullmatch(r"[\w.:/]+(?:\(.*\))?", name) or len(words) > 4:
         return frozenset({_bare(name)})

@@ -1,4 +1,4 @@
-"""Which simulator is installed, and where: found without importing it."""
+"""Find the installed simulator and its version without importing it."""
 
 import importlib.metadata
 import importlib.util
@@ -35,7 +35,7 @@ def manual_folder() -> Path:
 
 
 def fingerprint() -> str:
-    """Identity of the installed build: version, size and time of its files that tables are made from."""
+    """The identity of the installed build: version, and size and time of the files from which tables are made."""
     parts = [version(), str(package_folder())]
     for path in sorted(package_folder().glob("*.so*")) + sorted(package_folder().glob("*.pyd")):
         stat = path.stat()

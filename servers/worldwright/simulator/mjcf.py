@@ -1,4 +1,4 @@
-"""The MJCF schema of the installed build: which elements exist where, with which attributes.
+"""The MJCF schema of the installed build: its elements, where they stand, and their attributes.
 
 The text comes from the engine itself (`mj_printSchema`); the accepted keywords of an attribute, and the anchor that
 documents it, come from the manual that ships with it.
@@ -25,7 +25,7 @@ class Element:
     children: "dict[str, Element]" = field(default_factory=dict)
 
     def child(self, tag: str) -> "Element | None":
-        """The element `tag` means inside this one; meta elements keep the place they stand in."""
+        """The element that `tag` means inside this one; meta elements keep the place in which they stand."""
         if tag in self.children:
             return self.children[tag]
         if tag == self.name and self.recursive:
@@ -44,7 +44,7 @@ class Schema:
 
     @cached_property
     def by_tag(self) -> dict[str, list[Element]]:
-        """Every place an element name has."""
+        """Every place of an element, by its name."""
         found: dict[str, list[Element]] = {}
         stack = [self.root]
         while stack:

@@ -1,4 +1,4 @@
-"""reStructuredText of the manual as plain text: roles, links and substitutions become what a reader sees."""
+"""Turn the manual's reStructuredText into plain text: roles, links and substitutions become what a reader sees."""
 
 import re
 

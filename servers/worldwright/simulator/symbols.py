@@ -13,7 +13,7 @@ from . import installed
 from .cache import cached_json
 
 Entry = dict[str, Any]
-"""kind (function, class, enum, field, constant, module), and where known: signature, parameters, returns, doc."""
+"""It has a kind (function, class, enum, field, constant, module) and, where known, signature, parameters, returns, doc."""
 
 
 class IntrospectionError(WorldwrightError):
@@ -23,7 +23,7 @@ class IntrospectionError(WorldwrightError):
 
 
 class Symbols:
-    """Lookups in the table that `describe.py` made."""
+    """Looks names up in the table that `inventory.py` prints."""
 
     def __init__(self, table: dict[str, Any]) -> None:
         self.version: str = table["version"]
@@ -41,7 +41,7 @@ class Symbols:
         return None
 
     def class_name(self, type_text: str | None) -> str | None:
-        """The class a result type stands for, e.g. `MjsBody | None` -> `MjsBody`."""
+        """The class for which a result type stands, e.g. `MjsBody | None` -> `MjsBody`."""
         if not type_text:
             return None
         name = type_text.removesuffix(" | None").strip()
@@ -76,7 +76,7 @@ class Symbols:
 
     @cached_property
     def enum_of_value(self) -> dict[str, str]:
-        """The enum each value name belongs to, e.g. `mjGEOM_BOX` -> `mjtGeom`."""
+        """The enum of each value name, e.g. `mjGEOM_BOX` -> `mjtGeom`."""
         return {v: name for name, e in self.names.items() if e["kind"] == "enum" for v in e["members"]}
 
     @cached_property
@@ -92,8 +92,8 @@ class Symbols:
 
 @cache
 def load() -> Symbols:
-    """The table of the installed build: from the cache, or made now in a process of its own (0.4 s, once)."""
-    source = Path(__file__).with_name("describe.py")
+    """The table of the installed build, from the cache or made now in a process of its own (0.4 s, once)."""
+    source = Path(__file__).with_name("inventory.py")
     made_by = source.read_text(encoding="utf-8")
     return Symbols(cached_json("symbols", installed.fingerprint() + made_by, lambda: _describe(source)))
 
@@ -101,7 +101,7 @@ def load() -> Symbols:
 def _describe(script: Path) -> dict[str, Any]:
     import json
 
-    # A window system must not decide which names exist, nor may a broken one fail the import.
+    # A window system must neither decide which names exist nor, if broken, fail the import.
     environment = {k: v for k, v in os.environ.items() if k not in ("MUJOCO_GL", "PYTHONPATH")}
     command = [sys.executable, "-I", "-W", "ignore", str(script)]
     try:

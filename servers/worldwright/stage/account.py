@@ -1,4 +1,4 @@
-"""What a finished physics pass shows at a glance, so that nobody has to run, scan or ask again to learn it.
+"""Tell at a glance what a finished physics pass shows, so that nobody has to run, scan or ask again to learn it.
 
 Speed, the engine's warnings, what acted besides the engine's step and whether the plan declares it, what was declared and
 never acted, the deepest penetration, and the movers that never moved. A few short lines, read from the recording.
@@ -11,54 +11,61 @@ from typing import Any
 
 import numpy as np
 
-from ..model.declared import declaration
 from ..model.errors import WorldwrightError
-from ..model.plan import Intervention, Plan
-from ..model.plan_text import read_plan
-from ..model.run import Run
-from ..model.trajectory import Trajectory
-from ..model.travel import stays_put
+from ..model.evidence.run import Run
+from ..model.plan.committed import Intervention, Plan
+from ..model.plan.declaration import declaration
+from ..model.plan.plan_text import read_plan
+from ..model.recording.trajectory import Trajectory
+from ..model.recording.trajectory_files import read_trajectory
+from ..model.recording.travel import stays_put
 from .job import Job, JobStatus
 
 MOST = 6
-"""Rows of one kind that are told; of the others only the number."""
+"""So many rows of one kind are told, and the number of the others."""
 UNITS = {"force": "N", "torque": "N·m", "control": "N or N·m", "velocity": "m/s or rad/s"}
-"""Of what is told with its size: the other kinds mix units."""
+"""Units of the kinds that are told with their size; the other kinds mix units."""
 
 
 def with_account(run: Run, status: JobStatus) -> JobStatus:
-    """The same status, with what its recording shows when it is a physics pass that has ended."""
+    """The job's status, with the account of its recording if it is a physics pass that has ended."""
     if status.stage != "physics" or status.state not in ("succeeded", "failed"):
         return status
     job = Job(run.jobs / status.job)
     folder = Path(status.result) if status.result else job.out
     snapshot = job.inputs / run.plan.name
     try:
-        trajectory = Trajectory.read(folder / "trajectory")
+        trajectory = read_trajectory(folder / "trajectory")
     except WorldwrightError:
-        return status  # there is none, or it is damaged: the pass says so itself
+        return status  # without a recording, or with a damaged one, the pass itself says so
     plan = _plan(snapshot if snapshot.is_file() else run.plan)
     return status.model_copy(update={"account": tuple(account(trajectory, plan, _summary(folder)))})
 
 
 def account(trajectory: Trajectory, plan: Plan | None, summary: dict[str, Any]) -> Iterator[str]:
-    """The lines.
+    """The lines of the account.
+
 
     Args:
         trajectory: what was recorded.
-        plan: what was meant; None when there is none, and then nothing is called undeclared.
-        summary: of the pass: `duration_s` and `wall_s`, when something was simulated.
+        plan: the plan; without one, nothing is called undeclared.
+        summary: the pass's own: `duration_s` and `wall_s`, when something was simulated.
     """
     simulated, wall = summary.get("duration_s"), summary.get("wall_s")
     if simulated and wall and "reused_from" not in summary:
         yield f"{simulated:g} s simulated in {wall:.3g} s: {simulated / wall:.3g} times real time"
     yield from _warned(trajectory)
     yield from _acted(trajectory, plan)
+    if summary.get("not_asked"):
+        yield "control was not asked: the plan declares no input that it may write"
+    if strays := summary.get("went_nowhere"):
+        told = [f"{row['array']} (simulation.py:{row['line']})" for row in strays]
+        yield f"control writes what is no declared input, to no effect: {_first_few(told)}"
     yield from _deepest(trajectory)
     if trajectory.complete and (movers := _movers(trajectory, plan)):
         still = [name for name in movers if stays_put(trajectory, trajectory.index(name))]
         if still:
-            yield f"never moved, though expected to: {_few(still)}"
+            yield f"never moved, though expected to: {_first_few(still)}"
 
 
 def _warned(trajectory: Trajectory) -> Iterator[str]:
@@ -67,15 +74,15 @@ def _warned(trajectory: Trajectory) -> Iterator[str]:
         known, first = counts.get(name, (0, time))
         counts[name] = (known + count, first)
     if counts:
-        yield f"engine warnings: {_few([f'{name} x{n} from {first:.4g} s' for name, (n, first) in counts.items()])}"
+        yield f"engine warnings: {_first_few([f'{name} x{n} from {first:.4g} s' for name, (n, first) in counts.items()])}"
 
 
 def _acted(trajectory: Trajectory, plan: Plan | None) -> Iterator[str]:
-    """What the ledger holds, and of what the plan declares, what it does not hold."""
+    """What the ledger holds, and which declarations of the plan it does not hold."""
     ledger = trajectory.interventions
     if ledger is None:
         return
-    declared = plan.simulation_parameters.interventions if plan else ()
+    declared = plan.declared() if plan else ()
     rows: dict[tuple[str, str], list[int]] = {}
     for n, pair in enumerate(zip(ledger.kind, ledger.target, strict=True)):
         rows.setdefault((str(pair[0]), str(pair[1])), []).append(n)
@@ -84,25 +91,28 @@ def _acted(trajectory: Trajectory, plan: Plan | None) -> Iterator[str]:
         row = declaration(kind, target, declared)
         if row is not None:
             seen.add(id(row))
-        # A control's value is what was asked and the force it made of that; the force is what acts.
+        # A control's value is what was asked and the force that came of it; the force is what acts.
         values = ledger.value[mine][:, 1:2] if kind == "control" else ledger.value[mine]
         peak = f", up to {np.sqrt((values**2).sum(axis=1)).max():.3g} {UNITS[kind]}" if kind in UNITS else ""
         said = "" if plan is None else " (declared)" if row is not None else " (UNDECLARED)"
-        lines.append(f"{kind} on {target} {_when(trajectory, ledger.time[mine])}{peak}{said}")
+        lines.append(f"{kind} on {target} {_time_words(trajectory, ledger.time[mine])}{peak}{said}")
     if lines:
-        yield f"acted besides the engine's step: {_few(sorted(lines, key=_undeclared_first), '; ')}"
-    idle = [row for row in declared if id(row) not in seen and not _drives(trajectory, row)]
+        yield f"acted besides the engine's step: {_first_few(sorted(lines, key=_undeclared_first), '; ')}"
+    asked = plan.simulation_parameters.interventions if plan else ()
+    idle = [row for row in asked if id(row) not in seen and not _acts_unseen(trajectory, row)]
     if idle and trajectory.complete:
         named = [f"{row.kind} on {', '.join(row.bodies)} (trigger: {row.trigger})" for row in idle]
-        yield f"declared, but never acted: {_few(named, '; ')}"
+        yield f"declared, but never acted: {_first_few(named, '; ')}"
 
 
 def _undeclared_first(line: str) -> bool:
     return not line.endswith("(UNDECLARED)")
 
 
-def _drives(trajectory: Trajectory, row: Intervention) -> bool:
-    """Whether a declared actuator exerts something by itself, which no control in the ledger shows."""
+def _acts_unseen(trajectory: Trajectory, row: Intervention) -> bool:
+    """Whether a declared actuator pushes by itself, or a declared wind blows: the ledger shows neither."""
+    if "wind" in row.bodies and np.any((trajectory.meta.get("option") or {}).get("wind", 0)):
+        return True
     loads, actuators = trajectory.loads, trajectory.meta.get("actuators") or ()
     if row.kind != "control" or loads is None or loads.actuator_force.shape[1:] != (len(actuators),):
         return False
@@ -113,8 +123,8 @@ def _drives(trajectory: Trajectory, row: Intervention) -> bool:
     )
 
 
-def _when(trajectory: Trajectory, times: np.ndarray) -> str:
-    """`throughout`, the instant, or the stretch and how much of it."""
+def _time_words(trajectory: Trajectory, times: np.ndarray) -> str:
+    """`throughout`, the instant, or the stretch and its share."""
     step = trajectory.time_step or trajectory.interval_s
     first, last = float(times.min()), float(times.max())
     instants = len(np.unique(times))
@@ -138,24 +148,29 @@ def _deepest(trajectory: Trajectory) -> Iterator[str]:
 
 
 def _movers(trajectory: Trajectory, plan: Plan | None) -> list[str]:
-    """Bodies that are expected to move, as the plan says, else as the program does."""
+    """Bodies that should move, by the plan or, without one, by the program."""
     named = plan.movers() if plan else trajectory.meta.get("movers") or ()
     return [name for name in named if name in trajectory.names]
 
 
-def _few(texts: Sequence[str], between: str = ", ") -> str:
+def _first_few(texts: Sequence[str], between: str = ", ") -> str:
     more = f" and {len(texts) - MOST} more" if len(texts) > MOST else ""
     return between.join(texts[:MOST]) + more
 
 
 def _summary(folder: Path) -> dict[str, Any]:
-    """What the program reported of the pass; what it is not sure to have reported is not trusted to be a number."""
+    """The program's report of the pass; its numbers are checked to be numbers."""
     try:
         facts = json.loads((folder / "result.json").read_text(encoding="utf-8")).get("summary")
     except (OSError, ValueError, AttributeError):
         return {}
     facts = facts if isinstance(facts, dict) else {}
-    numbers = {k: v for k in ("duration_s", "wall_s") if isinstance(v := facts.get(k), int | float) and v > 0}
+    numbers: dict[str, Any] = {
+        k: v for k in ("duration_s", "wall_s") if isinstance(v := facts.get(k), int | float) and v > 0
+    }
+    strays = facts.get("went_nowhere")
+    numbers |= {"went_nowhere": strays} if isinstance(strays, list) else {}
+    numbers |= {"not_asked": True} if facts.get("not_asked") else {}
     return {**numbers, **({"reused_from": facts["reused_from"]} if "reused_from" in facts else {})}
 
 

@@ -1,11 +1,10 @@
-"""A short confined run that belongs to no run folder: lint compiles a program's world this way, and looks at what it left.
+"""A short confined run without a run folder: so lint has a program's world compiled, and looks at what is left.
 
-Same ladder, same limits as a job, but nothing is kept: files are made in a folder that is gone afterwards. It is never
-done on the lowest level unless the user chose that level: limits alone do not keep a program from the user's files.
+It has the ladder and the limits of a job, but nothing is kept: its folder is gone afterwards. It uses the lowest level
+only if the user chose it, as limits alone do not keep a program from the user's files.
 """
 
 import os
-import stat
 import subprocess
 import tempfile
 import time
@@ -14,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
 
-from . import family, sandbox
+from . import family, plain, sandbox
 from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
 
@@ -31,7 +30,7 @@ class Confined:
     """`ended`, `timed_out`, `out_of_memory`, or `refused` when no level of the sandbox confines here."""
     exit_code: int = 0
     files: dict[str, bytes] = field(default_factory=dict)
-    """What was asked for and was left as a plain file of acceptable size."""
+    """The wanted files, as far as they were left as plain files of acceptable size."""
     log: str = ""
     """The end of what it printed."""
     wall_s: float = 0.0
@@ -52,8 +51,8 @@ def run(
     Args:
         call: the command line.
         reads: files and folders it may read besides what every program may.
-        wanted: names of files in the folder that the caller wants to see.
-        wall_s: killed after so many seconds.
+        wanted: names of the files in that folder that the caller wants to see.
+        wall_s: the run is killed after so many seconds.
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
     """
@@ -77,14 +76,14 @@ def run(
             environment=environment(str(scratch)),
         )
         words = [word.replace("{out}", str(out)) for word in call]
-        # Its output goes to a file, so that the file limit holds for it too.
+        # Its output goes to a file, so that the limit on files holds for it, too.
         with (Path(folder) / "log.txt").open("w+b") as log:
             began = time.monotonic()
             status, code = _watched(sandbox.LADDER[name], words, confinement, log, wall_s, memory_mb * MB)
             wall = time.monotonic() - began
             log.seek(max(0, log.seek(0, os.SEEK_END) - LOG_BYTES))
             tail = log.read().decode(errors="replace")
-        files = {file: data for file in wanted if (data := _plain(out / file, file_mb * MB)) is not None}
+        files = {file: data for file in wanted if (data := plain.read(out / file, file_mb * MB)) is not None}
     return Confined(status, code, files, tail, round(wall, 3), name)
 
 
@@ -109,14 +108,3 @@ def _watched(
     finally:
         family.end(process.pid, confinement.token)
     return status, process.wait()
-
-
-def _plain(path: Path, limit: int) -> bytes | None:
-    """The content of a plain file; never through a link, which could lead out of the folder."""
-    try:
-        handle = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
-    except OSError:
-        return None
-    with os.fdopen(handle, "rb") as stream:
-        facts = os.fstat(handle)
-        return stream.read() if stat.S_ISREG(facts.st_mode) and facts.st_size <= limit else None

@@ -1,7 +1,7 @@
-"""A process and everything it started: how many, how much memory and processor time, and the end of them all.
+"""Count, measure and end a process with everything that it started.
 
-Descendants are found by parentage, and for the last count by the token which every process of a job bears as a
-resource limit: one that was orphaned on purpose, or whose supervisor was killed, still bears it. Source: proc(5).
+Descendants are found by parentage, and for the last count by the token that every process of a job carries as a
+resource limit: one that was orphaned on purpose, or whose supervisor was killed, still carries it. Source: proc(5).
 """
 
 import contextlib
@@ -23,9 +23,9 @@ class Census:
     processes: tuple[int, ...]
     threads: int
     cpu_s: float
-    """Processor time, of the living and of the children they have waited for."""
+    """Processor time of the living and of the children that they waited for, s."""
     resident_bytes: int
-    """Pages shared between processes count once for each."""
+    """Resident memory; pages that processes share count once for each."""
 
 
 def census(root: int, *, itself: bool = True) -> Census:
@@ -58,7 +58,7 @@ def census(root: int, *, itself: bool = True) -> Census:
 
 
 def proportional_bytes(processes: tuple[int, ...]) -> int:
-    """Memory of them all, a shared page counted once; resident memory where the kernel does not say."""
+    """Memory of all processes, with a shared page counted once; resident memory where the kernel does not tell."""
     total = 0
     for process in processes:
         with contextlib.suppress(OSError, ValueError, IndexError):
@@ -71,7 +71,7 @@ def proportional_bytes(processes: tuple[int, ...]) -> int:
 
 
 def available_bytes() -> int | None:
-    """Memory the machine can still give."""
+    """The memory that the machine can still give; None where it does not tell."""
     try:
         for line in Path("/proc/meminfo").read_text().splitlines():
             if line.startswith("MemAvailable:"):
@@ -92,7 +92,7 @@ def mark(token: int) -> tuple[int, int]:
 
 
 def bearing(token: int) -> list[int]:
-    """Every living process that bears a job's token."""
+    """Every living process that carries a job's token."""
     found = []
     wanted = [str(part) for part in mark(token)]
     for entry in Path("/proc").iterdir():
@@ -109,14 +109,14 @@ def bearing(token: int) -> list[int]:
 
 
 def end(root: int, token: int) -> None:
-    """Kill a job's processes, until none is left (a process may be born between the look and the blow)."""
+    """Kill a job's processes until none is left: one may be born between the look and the kill."""
     with contextlib.suppress(OSError):
         os.killpg(root, signal.SIGKILL)
     sweep(token)
 
 
 def sweep(token: int) -> None:
-    """Kill every process that bears the token; zero is borne by none."""
+    """Kill every process that carries the token; no process carries zero."""
     for _ in range(20 if token else 0):
         processes = [p for p in bearing(token) if p != os.getpid()]
         if not processes:

@@ -1,7 +1,8 @@
-"""What each pass needs before it may start, read from the run's files.
+"""Decide from the run's files whether a pass may start.
 
-Physics: this exact plan was approved, with the model files that it names, this exact program lints clean against it, and a name that the simulator did not
-know was looked up. Stills: physics succeeded on this key. Video: stills did.
+Physics needs this exact plan approved, with the model files that it names, and this exact program linted clean against it;
+a name that the simulator did not know must have been looked up. Storyboard and stills need physics on this key, video
+needs stills.
 """
 
 import json
@@ -10,15 +11,15 @@ from typing import Any
 
 from worldkit import lock
 
-from ..model import approval, lookups
 from ..model.errors import GateError
-from ..model.evidence import EvidenceKey, PassName
-from ..model.run import Run
+from ..model.evidence import approval, lookups, pictures_of
+from ..model.evidence.reports import EvidenceKey, PassName
+from ..model.evidence.run import Run
 from .sandbox.confinement import gl_backend
 
 PINNED = "environment.lock"
 """A run that holds this file runs in the environment it names, or not at all."""
-BEFORE: dict[PassName, PassName] = {"stills": "physics", "video": "stills"}
+BEFORE: dict[PassName, PassName] = {"storyboard": "physics", "stills": "physics", "video": "stills"}
 
 
 def folder_name(stage: PassName, variant: str = "") -> str:
@@ -27,18 +28,32 @@ def folder_name(stage: PassName, variant: str = "") -> str:
 
 
 def passed(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> dict[str, Any] | None:
-    """The result of a pass that succeeded on this key; physics without its recording (a fresh clone) has not."""
+    """The result of a pass that succeeded on this key; None if it would come out differently now.
+
+    Physics without its recording (a fresh clone) does not count, nor do pictures of another film: by another renderer,
+    other code, or another `film.py`.
+    """
     name = folder_name(stage, variant)
     result = _read(run, key, f"{name}/result.json")
     ending = "trajectory/complete.json"
     recorded = stage == "physics" and (not variant or ending in (result.get("files") or {}))
     if recorded and not (run.evidence(key) / name / ending).is_file():
         return None
-    return result if result.get("ok") else None
+    if not result.get("ok") or (stage != "physics" and result.get("film_sha256") != pictures_of.identity(run, stage)):
+        return None
+    return result
+
+
+def of_another_film(run: Run, key: EvidenceKey) -> list[PassName]:
+    """The passes whose pictures exist, but from another renderer or other code than would make them now."""
+    stages: tuple[PassName, ...] = ("stills", "video")
+    results = {stage: _read(run, key, f"{stage}/result.json") for stage in stages}
+    made = [stage for stage, result in results.items() if result.get("ok")]
+    return [stage for stage in made if results[stage].get("film_sha256") != pictures_of.identity(run, stage)]
 
 
 def earlier(run: Run, key: EvidenceKey, variant: str = "") -> list[Path]:
-    """Physics passes of other programs or plans in this environment, newest first, one for each motion, at most eight."""
+    """At most eight physics passes of other programs or plans in this environment, newest first, one for each motion."""
     name = folder_name("physics", variant)
     found: dict[str, tuple[str, Path]] = {}
     for folder in run.folder.glob(f"evidence/*/{name}"):
@@ -53,7 +68,7 @@ def earlier(run: Run, key: EvidenceKey, variant: str = "") -> list[Path]:
 
 
 def require_environment(run: Run) -> None:
-    """Raise a `GateError` with the differences when the run is pinned to another environment than this one."""
+    """Raise a `GateError` with the differences if the run is pinned to another environment."""
     pinned = run.folder / PINNED
     if not pinned.is_file():
         return
@@ -81,7 +96,7 @@ def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> N
                 next_move=f"worldwright stage start {run.folder} --stage {before}",
             )
         return
-    if run.source == run.model:  # somebody's model makes no claim that a person would have to approve
+    if run.source == run.model:  # a bare model makes no claim that a person would have to approve
         return
     approval.require(run, "the physics pass needs an approval")
     lint = _read(run, key, "lint.json")

@@ -1,8 +1,8 @@
 """A job on disk: its specification, its state, and how to tell a live one from one that was killed.
 
 `jobs/<id>/` holds `spec.json` (what to do, written once), `state.json` (written by the supervisor alone),
-`inputs/` (the snapshot that is run), `out/` (what the program writes), `log.txt`, `lock` (held by the live supervisor)
-and, once asked for, `cancel`.
+`inputs/` (the snapshot that is run), `author/` (what the program's process writes), `out/` (what the engine writes, which
+becomes evidence), `log.txt`, `lock` (held by the live supervisor) and, once asked for, `cancel`.
 """
 
 import fcntl
@@ -16,9 +16,10 @@ from worldkit import lock
 from worldkit.files import write_atomic, write_json
 
 from ..model.errors import NotFoundError
-from ..model.evidence import EvidenceKey, PassName
+from ..model.evidence import companions, pictures_of
+from ..model.evidence.reports import EvidenceKey, PassName
+from ..model.evidence.run import Run
 from ..model.frozen import Frozen
-from ..model.run import Run
 from .gates import folder_name, passed
 from .sandbox.confinement import gl_backend
 
@@ -32,31 +33,38 @@ class Spec(Frozen):
     run: str
     stage: PassName
     variant: str = ""
-    """Name of a re-run beside the pass's evidence; empty for the pass itself."""
+    """Name of a repetition beside the pass's evidence; empty for the pass itself."""
     arguments: tuple[str, ...] = ()
     """More words on the program's command line."""
     key: EvidenceKey
-    wall_s: float
+    film_sha256: str = ""
+    """For pictures: the identity of the film that is made."""
+    still_s: float
+    """The job ends when nothing advances for so long, s; while it advances, it may take all the time it needs."""
     memory_mb: int
     output_mb: int
     file_mb: int
-    cpu_s: float
-    """Processor time of all its processes together."""
+    cpu_s: float | None = None
+    """Processor time of all its processes together; None: no limit."""
     disk_mb: int
-    """Of everything it writes."""
+    """The most that it may write in all, MiB."""
     reads: tuple[str, ...] = ()
     """Files outside its folder that the program may read: what a recorded model is made of."""
     reuse: tuple[str, ...] = ()
     """Folders of earlier physics passes whose recording may fit already."""
+    given: str = ""
+    """A folder with a world, its facts and its recorded inputs, which are simulated without running the program."""
+    after: str = ""
+    """The job that makes what this one needs; this one waits for its end."""
     token: int = 0
-    """Borne by each of its processes as a resource limit."""
+    """A number that each of its processes carries as a resource limit."""
     force: bool = False
     created: float
     """Seconds since the epoch."""
 
 
 class JobStatus(Frozen):
-    """Where a job stands."""
+    """The state of a job."""
 
     job: str
     stage: PassName
@@ -64,7 +72,7 @@ class JobStatus(Frozen):
     key: str
     state: State
     cached: bool = False
-    """Answered from evidence: nothing ran."""
+    """The answer came from evidence: nothing ran."""
     code: str = "ok"
     message: str = ""
     place: str = ""
@@ -76,9 +84,9 @@ class JobStatus(Frozen):
     eta_s: float | None = None
     sandbox: str = ""
     result: str = ""
-    """Folder of what the pass made, once it succeeded."""
+    """The folder of what the pass made, once it has succeeded."""
     account: tuple[str, ...] = ()
-    """Of a finished physics pass: speed, warnings, what acted, the deepest penetration, what never moved."""
+    """For a finished physics pass: speed, warnings, what acted, the deepest penetration, what never moved."""
 
     @property
     def name(self) -> str:
@@ -87,12 +95,12 @@ class JobStatus(Frozen):
 
     @property
     def ok(self) -> bool:
-        """It has not failed."""
+        """Whether it has not failed."""
         return self.state in ("queued", "running", "succeeded")
 
     @property
     def ended(self) -> bool:
-        """It will not change any more."""
+        """Whether it has ended and will not change any more."""
         return self.state not in ("queued", "running")
 
     def text(self) -> str:
@@ -115,6 +123,7 @@ class Job:
     def __init__(self, folder: Path) -> None:
         self.folder = folder
         self.out = folder / "out"
+        self.author = folder / "author"
         self.inputs = folder / "inputs"
         self.scratch = folder / "tmp"
         self.lock = self.inputs / "environment.json"
@@ -122,12 +131,15 @@ class Job:
 
     @classmethod
     def create(cls, run: Run, spec: Spec) -> "Job":
-        """Lay out a new job with a snapshot of the program and the plan, which are what will be vouched for."""
+        """Lay out a new job with a snapshot of the program and the plan, for which its result will vouch."""
         job = cls(run.jobs / spec.job)
         for folder in (job.out, job.inputs, job.scratch):
             folder.mkdir(parents=True)
         for path in (run.program, run.source):
             write_atomic(job.inputs / path.name, path.read_bytes())
+        beside = companions.of(run.program) | (pictures_of.files(run) if spec.stage == "video" else {})
+        for name, content in beside.items():
+            write_atomic(job.inputs / name, content)
         write_json(job.lock, lock.observe(gl_backend()))
         write_json(job.folder / "spec.json", spec.model_dump(mode="json"))
         return job
@@ -144,10 +156,10 @@ class Job:
 
     @classmethod
     def find(cls, run: Run, name: str | None) -> "Job":
-        """A job by id, or the latest; a `NotFoundError` lists the known ones."""
+        """A job by id, or the latest pass, never an audit's repetition; a `NotFoundError` lists the known ones."""
         known = cls.all(run)
         if name is None and known:
-            return known[0]
+            return next((job for job in known if not job.spec.variant), known[0])
         for job in known:
             if job.folder.name == name:
                 return job
@@ -175,7 +187,7 @@ class Job:
         write_json(self.folder / "state.json", state.model_dump(mode="json"))
 
     def read(self) -> JobStatus:
-        """The state now; a supervisor that died without a word leaves its job `lost`."""
+        """The state now; it is `lost` when the supervisor died without a word."""
         spec = self.spec
         try:
             state = JobStatus.model_validate_json((self.folder / "state.json").read_text(encoding="utf-8"))
@@ -183,7 +195,7 @@ class Job:
             state = JobStatus(job=spec.job, stage=spec.stage, variant=spec.variant, key=spec.key.key, state="queued")
         if state.ended or self.supervised():
             return state
-        try:  # it may have ended between the two looks
+        try:  # the job may have ended between the two looks
             again = json.loads((self.folder / "state.json").read_text(encoding="utf-8"))
             if again.get("state") not in ("queued", "running"):
                 return JobStatus.model_validate(again)
@@ -191,7 +203,7 @@ class Job:
             pass
         run = Run(spec.run)
         if (proof := passed(run, spec.key, spec.stage, spec.variant)) and proof.get("job") == spec.job:
-            # It was killed between its last two steps: what it proved stands.
+            # The supervisor was killed between its last two steps: its result stands.
             folder = run.evidence(spec.key) / folder_name(spec.stage, spec.variant)
             return state.model_copy(update={"state": "succeeded", "code": "ok", "result": str(folder)})
         return state.model_copy(

@@ -1,4 +1,4 @@
-"""Starting a job: answered from evidence, joined when it is under way already, or handed to a detached supervisor.
+"""Start a job: answer it from evidence, join it if it is under way, or hand it to a detached supervisor.
 
 The launcher takes the job's lock before the supervisor exists and passes it on, so a job has a live owner from its
 first moment: no grace period, and no clock that could jump.
@@ -14,14 +14,16 @@ import sys
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 
-from ..model.errors import JobError
-from ..model.evidence import EvidenceKey, PassName
-from ..model.run import Run
-from . import family, gates, models
+from ..model.errors import GateError, JobError
+from ..model.evidence import pictures_of
+from ..model.evidence.reports import EvidenceKey, PassName
+from ..model.evidence.run import Run
+from . import bare_models, family, gates
 from .job import Job, JobStatus, Spec
 
-WALL_S: dict[PassName, float] = {"physics": 120.0, "stills": 120.0, "video": 600.0}
+STILL_S = 180.0
 MEMORY_MB, FILE_MB, DISK_MB, OUTPUT_MB = 4096, 2048, 8192, 16
 
 
@@ -33,30 +35,33 @@ def launch(
     variant: str = "",
     arguments: Sequence[str] = (),
     force: bool = False,
-    wall_s: float | None = None,
+    still_s: float = STILL_S,
     memory_mb: int = MEMORY_MB,
     cpu_s: float | None = None,
     file_mb: int = FILE_MB,
     disk_mb: int = DISK_MB,
+    given: Path | None = None,
 ) -> JobStatus:
-    """Start one pass, or answer with what already stands.
+    """Start one pass, or answer with its result if it exists already.
 
     Args:
         run: the run folder.
-        key: of its program, plan and environment.
+        key: the hashes of its program, plan and environment.
         stage: which pass.
-        variant: name of a re-run beside the pass's own evidence; empty for the pass itself.
+        variant: name of a repetition beside the pass's own evidence; empty for the pass itself.
         arguments: more words on the program's command line.
-        force: run although it succeeded, and compare.
-        wall_s: wall-clock limit, s; the pass's default when None.
+        force: run it although it has succeeded, and compare.
+        still_s: the job ends when nothing advances for so long, s.
         memory_mb: resident memory limit, MiB.
-        cpu_s: processor time of all its processes together, s; what every core could give in `wall_s` when None.
+        cpu_s: processor time of all its processes together, s; not limited when None.
         file_mb: size of one file, MiB.
         disk_mb: size of all it writes, MiB.
+        given: a world with its recorded inputs, simulated in place of the program's; nothing has to be approved or linted
+            for it.
 
     Raises:
         GateError: something the pass needs has not been proven yet.
-        JobError: a variant of this name stands already, made with other arguments.
+        JobError: a variant of this name exists already, made with other arguments.
     """
     with _writable(run), _one_at_a_time(run):
         earlier = gates.passed(run, key, stage, variant)
@@ -80,12 +85,20 @@ def launch(
                 result=str(run.evidence(key) / gates.folder_name(stage, variant)),
             )
         gates.require_environment(run)
-        gates.require(run, key, stage, variant)
-        reads = tuple(str(path) for path in models.files(run))
-        wanted = (stage, variant, tuple(arguments), key)
+        after = ""
+        if given is None:
+            try:
+                gates.require(run, key, stage, variant)
+            except GateError:
+                after = _needed_job(run, key, stage, variant)
+                if not after:
+                    raise
+        reads = tuple(str(path) for path in bare_models.files(run))
+        film = pictures_of.identity(run, stage)
+        wanted = (stage, variant, tuple(arguments), key, film)
         for other in Job.all(run):
             spec = other.spec
-            if force or (spec.stage, spec.variant, spec.arguments, spec.key) != wanted:
+            if force or (spec.stage, spec.variant, spec.arguments, spec.key, spec.film_sha256) != wanted:
                 continue
             if not (state := other.read()).ended:
                 return state
@@ -96,15 +109,18 @@ def launch(
             variant=variant,
             arguments=tuple(arguments),
             key=key,
-            wall_s=wall_s or WALL_S[stage],
+            film_sha256=film,
+            still_s=still_s,
             memory_mb=memory_mb,
-            cpu_s=cpu_s or (wall_s or WALL_S[stage]) * (os.cpu_count() or 1),
+            cpu_s=cpu_s,
             output_mb=OUTPUT_MB,
             file_mb=file_mb,
             disk_mb=disk_mb,
             reads=reads,
-            reuse=() if force or stage != "physics" else tuple(map(str, gates.earlier(run, key, variant))),
+            reuse=() if force or given or stage != "physics" else tuple(map(str, gates.earlier(run, key, variant))),
+            after=after,
             token=family.new_token(),
+            given=str(given.absolute()) if given else "",
             force=force,
             created=time.time(),
         )
@@ -114,8 +130,15 @@ def launch(
         return job.read()
 
 
+def _needed_job(run: Run, key: EvidenceKey, stage: PassName, variant: str) -> str:
+    """The job under way that makes what a pass needs; empty when there is none."""
+    before = None if variant else gates.BEFORE.get(stage)
+    jobs = (job for job in Job.all(run) if before and not job.spec.variant and job.spec.key == key)
+    return next((job.folder.name for job in jobs if job.spec.stage == before and not job.read().ended), "")
+
+
 def _tidy(run: Run) -> None:
-    """End what a killed supervisor left running, and free what it left on the disk; logs and results stay."""
+    """End the processes of killed supervisors and remove their files; logs and results stay."""
     for job in Job.all(run):
         if job.scratch.exists() and job.read().ended:
             family.sweep(job.spec.token)
@@ -139,7 +162,7 @@ def _detach(job: Job) -> None:
 
 @contextmanager
 def _writable(run: Run) -> Iterator[None]:
-    """A full disk or a read-only folder is the user's to mend, not a defect of ours."""
+    """Turn a full disk or a read-only folder into an error that tells the user how to mend it."""
     try:
         yield
     except OSError as cause:
@@ -154,7 +177,7 @@ def _writable(run: Run) -> Iterator[None]:
 
 @contextmanager
 def _one_at_a_time(run: Run) -> Iterator[None]:
-    """Two callers who ask at once get one job."""
+    """Let callers in one after the other, so that two who ask at once get one job."""
     run.jobs.mkdir(parents=True, exist_ok=True)
     folder = os.open(run.jobs, os.O_RDONLY | os.O_DIRECTORY)
     try:

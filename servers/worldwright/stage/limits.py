@@ -1,4 +1,4 @@
-"""The limits of a running job, and the name of every way to fail.
+"""The limits of a running job, and a name for every way to fail.
 
 Some limits are the kernel's (file size, births, processor time of one process), some are watched here, because the
 kernel has none for a family of processes without control groups: memory, processor time and disk of all together.
@@ -26,15 +26,17 @@ CPU_SIGNAL, SIZE_SIGNAL = 24, 25
 
 
 class Guard:
-    """Looks at one job's family and says which limit it passed."""
+    """Looks at one job's processes and says which limit they exceed."""
 
-    def __init__(self, spec: Spec, job: Job, births: Births | None, confinement: Confinement) -> None:
-        self.spec, self.job, self.births, self.confinement = spec, job, births, confinement
+    def __init__(self, spec: Spec, job: Job, confinement: Confinement) -> None:
+        self.spec, self.job, self.confinement = spec, job, confinement
+        self.births: list[Births] = []
+        """One for each of the job's processes whose births are asked for."""
         self.cpu_s = 0.0
         self.measured_disk = 0.0
 
     def look(self, printed: int) -> dict[str, str] | None:
-        """The limit that is passed now, as code, message and next move; None while there is none."""
+        """The limit that is exceeded now, as code, message and next move; None while there is none."""
         spec = self.spec
         if printed > spec.output_mb * MB:
             return {
@@ -43,7 +45,8 @@ class Guard:
                 "next_move": "take the prints out of the loop: the recording holds every number",
             }
         now = family.census(os.getpid(), itself=False)
-        if excess := self.births.exceeded if self.births else self._excess(now):
+        asked = next((births.exceeded for births in self.births if births.exceeded), "")
+        if excess := asked if self.births else self._excess(now):
             return {
                 "code": "too_many_processes",
                 "message": excess,
@@ -73,7 +76,7 @@ class Guard:
 
     def _cpu(self, now: family.Census) -> dict[str, str] | None:
         self.cpu_s = max(self.cpu_s, now.cpu_s)
-        if self.cpu_s <= self.spec.cpu_s:
+        if self.spec.cpu_s is None or self.cpu_s <= self.spec.cpu_s:
             return None
         return _out_of_cpu_time(f"it used more than {self.spec.cpu_s:g} s of processor time")
 
@@ -82,7 +85,7 @@ class Guard:
             return None
         self.measured_disk = time.monotonic()
         written, files = 0, 0
-        for root in (self.job.out, self.job.scratch):
+        for root in (self.job.out, self.job.author, self.job.scratch):
             for folder, _, names in os.walk(root):
                 for name in names:
                     try:
@@ -142,7 +145,7 @@ def failed(status: int, summary: dict[str, Any], error: dict[str, Any], log: str
 
 
 def _authors_error(error: dict[str, Any], log: str) -> dict[str, str]:
-    """What the program said of its own end, with limits it ran into named as such."""
+    """The program's own account of its end, which names the limits that it ran into."""
     kind, line, message = str(error.get("type", "error")), error.get("line"), str(error.get("message", ""))
     file = Path(str(error.get("file") or "simulation.py")).name
     place = f"{file}:{line}" if line else file

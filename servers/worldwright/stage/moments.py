@@ -1,11 +1,12 @@
-"""Which moments of a world are worth a look: its setup, its event, its aftermath and one on the way, by motion energy.
+"""Choose the moments of a world that are worth a look: setup, event, aftermath and one on the way, by motion energy.
 
-The event is where the bodies' velocities change most, weighed by their masses: a blow, a break, a let-go. (Their energy
-would not do: an elastic collision keeps it.) The aftermath is where the kinetic energy has calmed down for good (or the
-end, when it never does). A recording says so exactly; where only a film is left (a fresh clone
-keeps no recording), the change of its pictures stands in.
+The event is where the bodies' velocities change most, weighed by their masses: a blow, a break, a release. (Energy would
+not do, as an elastic collision keeps it.) The aftermath is where the kinetic energy has calmed down for good (or the end,
+if it never does). A recording tells this exactly; where only a film is left (a fresh clone keeps no recording), the change
+of its pictures stands in.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 CALM = 0.05
-"""Of the highest kinetic energy: below it, for good, things have calmed down."""
+"""A world has calmed down when its kinetic energy stays below this share of the highest."""
 WINDOW_S = 1 / 24
 
 
@@ -31,21 +32,49 @@ class Moments:
     """`recording` or `film`."""
 
     def named(self) -> dict[str, float]:
-        """The four to show, in the order of their times: with `midway`, the middle of the longer of the two stretches before
-        and after the event; what never calms down has an `end` instead of an `aftermath`."""
+        """The four moments to show, s, in the order of time. `midway` is the middle of the longer of the two stretches
+        before and
+        after the event; a world that never calms down has an `end` in place of an `aftermath`."""
         midway = max(((self.setup, self.event), (self.event, self.aftermath)), key=lambda span: span[1] - span[0])
         last = "aftermath" if self.aftermath < self.end else "end"
         times = {"setup": self.setup, "midway": sum(midway) / 2, "event": self.event, last: self.aftermath}
         return dict(sorted(times.items(), key=lambda item: item[1]))
 
 
+OF_THE_EVENT = 3
+
+
+def storyboard(found: Moments, claimed: Sequence[tuple[float, str]]) -> list[tuple[float, str]]:
+    """At most five moments, ascending, each with a word: the setup, three of the event, the aftermath.
+
+    Those of the event are where the motion changes most, and the claimed moments that are farthest from what is shown
+    already;
+    if too few are claimed, the middle of the way to the event, and of the way from it.
+
+    Args:
+        found: the moments by motion energy.
+        claimed: (instant in s, name) of the objectives that came true.
+    """
+    last = "aftermath" if found.aftermath < found.end else "end"
+    shown = {found.setup: "setup", found.aftermath: last, found.event: "event"}
+    halves = [((found.setup + found.event) / 2, ""), ((found.event + found.aftermath) / 2, "")]
+    apart = (found.aftermath - found.setup) / 20
+    for moments in (claimed, halves):
+        while moments and len(shown) < 2 + OF_THE_EVENT:
+            gap, at, word = max((min(abs(at - other) for other in shown), at, word) for at, word in moments)
+            if gap <= apart:
+                break
+            shown[at] = word
+    return sorted(shown.items())
+
+
 def of_recording(folder: Path) -> Moments:
-    """From the kinetic energy of a recording (`trajectory/`)."""
+    """Choose moments by the kinetic energy of a recording (`trajectory/`)."""
     import numpy as np
 
-    from worldkit import trajectory
+    from worldengine.recording import stored
 
-    recording = trajectory.open(folder)
+    recording = stored.open(folder)
     t = recording.time[:]
     mass = np.array([body["mass"] for body in recording.meta["bodies"]])
     raster = _raster(t)
@@ -55,7 +84,7 @@ def of_recording(folder: Path) -> Moments:
 
 
 def of_film(film: Path) -> Moments:
-    """From how much the pictures of a film change; thumbnails are enough."""
+    """Choose moments by how much the pictures of a film change; thumbnails are enough."""
     import av
     import numpy as np
 
@@ -70,14 +99,14 @@ def of_film(film: Path) -> Moments:
 
 
 def _raster(t: "np.ndarray") -> "np.ndarray":
-    """The film's own times, s: a blow shorter than a frame counts whole, a slow change in one step of many does not."""
+    """The times of a film's frames, s: a blow shorter than a frame counts whole, one step of a slow change does not."""
     import numpy as np
 
     return np.arange(t[0], t[-1] + WINDOW_S / 2, WINDOW_S) if len(t) else np.zeros(0)
 
 
 def _choose(t: "np.ndarray", energy: "np.ndarray", change: "np.ndarray", source: str) -> Moments:
-    """From times (T,) s, an energy (T,) and how much changed between them (T - 1,), of any unit."""
+    """Choose moments by times (T,) s, an energy (T,) and the change from each time to the next (T - 1,), in any unit."""
     import numpy as np
 
     usable = len(t) >= 3 and np.isfinite(energy).all() and np.isfinite(change).all() and change.max() > 0

@@ -15,12 +15,12 @@ BUDGET_BYTES = 700_000
 """Base64 adds a third on the wire."""
 COLUMNS, CELL_WIDTH = 4, 320
 LARGE_COLUMNS, LARGE_CELL_WIDTH = 3, 428
-"""Of the sheet of a camera that was asked for alone."""
+"""Columns and cell width (pixels) of the sheet of a single camera."""
 Show = Literal["all", "stills", "sheet", "key"]
 
 
 class Shown(Frozen):
-    """What the pictures are."""
+    """The captions and times of the pictures."""
 
     cameras: tuple[str, ...]
     captions: tuple[str, ...]
@@ -28,7 +28,7 @@ class Shown(Frozen):
     """Times of the key frames, s, by the motion energy of the recording (or of the film without one)."""
 
     def text(self) -> str:
-        """One caption a line."""
+        """The captions, one per line."""
         return "\n".join(self.captions)
 
 
@@ -44,9 +44,9 @@ def contact(
     Args:
         evidence: the folder of one key.
         camera: one camera; all when None.
-        count: pictures on a contact sheet; a single one is shown as large as it fits.
+        count: number of pictures on a contact sheet; a single one is shown as large as possible.
         show: which kinds.
-        window_s: what of a film its contact sheet shows.
+        window_s: the stretch of a film that its contact sheet shows, s.
     """
     known = sorted({p.stem for p in (*evidence.glob("stills/*.png"), *evidence.glob("video/*.mp4"))})
     if camera is not None and camera not in known:
@@ -77,6 +77,28 @@ def contact(
     )
 
 
+def beside(reference: Path, evidence: Path, camera: str) -> Illustrated:
+    """The person's image on the left and the still of one camera on the right, at the same height.
+
+    Raises:
+        NotFoundError: there is no image, or no still of that camera.
+    """
+    import cv2
+    import numpy as np
+
+    still = evidence / "stills" / f"{camera}.png"
+    for path, remedy in ((reference, "this run was made from words alone"), (still, "run the stills pass")):
+        if not path.is_file():
+            raise NotFoundError(f"there is no {path.name} to show", place=str(path), next_move=remedy)
+    left, right = _read(reference), _read(still)
+    width = round(left.shape[1] * right.shape[0] / left.shape[0])
+    left = cv2.resize(left, (width, right.shape[0]), interpolation=cv2.INTER_AREA)
+    gap = np.full((right.shape[0], 8, 3), 255, np.uint8)
+    caption = f"{reference.name}, as it was given, beside {camera}: still at 0.00 s"
+    picture = Picture(_jpeg(np.hstack([left, gap, right]), BUDGET_BYTES), caption, "jpeg")
+    return Illustrated(Shown(cameras=(camera,), captions=(caption,)), (picture,))
+
+
 def _moments(evidence: Path, films: list[Path]) -> "Moments":
     from . import moments
 
@@ -94,7 +116,7 @@ def _images(
     three: "Moments | None",
     window_s: tuple[float, float],
 ) -> Iterator[tuple[str, Any]]:
-    """(caption, RGB uint8 (H, W, 3)) of everything asked for that exists."""
+    """(caption, RGB uint8 (H, W, 3)) of every wanted picture that exists."""
     for name in cameras:
         still = evidence / "stills" / f"{name}.png"
         if show in ("all", "stills") and still.is_file():
@@ -109,10 +131,10 @@ def _images(
             else:
                 stamps = ", ".join(f"{time_s:.2f}" for time_s, _ in frames)
                 yield f"{name}: contact sheet, row by row, at {stamps} s", sheet(frames, large=len(cameras) == 1)
-        if three and show in ("all", "key"):
+        if three and show in ("all", "key") and name != "film":  # its times are not the recording's
             named = three.named()
             if show == "all" and still.is_file():
-                del named["setup"]  # the still shows it, and better
+                del named["setup"]  # the still shows it better
             for word, (time_s, image) in zip(named, at(film, list(named.values())), strict=True):
                 yield f"{name}: {word} at {time_s:.2f} s", image
 

@@ -9,18 +9,18 @@ from pydantic import Field
 
 from ..expose import Positional, reads
 from ..model.errors import NotFoundError
-from ..model.evidence import PASSES, PassName
+from ..model.evidence.reports import PASSES, PassName
+from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
-from ..model.run import Run
 from .job import Job, JobStatus
 
 if TYPE_CHECKING:
     from .confined import Confined
 
-RunName = Annotated[str, Field(description="Path of the run folder, or its name under runs/ or examples/.")]
-JobName = Annotated[str | None, Field(description="Job id; the latest job when left out.")]
+RunName = Annotated[str, Field(description="The run folder, or its name.")]
+JobName = Annotated[str | None, Field(description="Job id; the latest pass when left out.")]
 PAGE = 16_000
 
 
@@ -30,12 +30,14 @@ class RunStages(Frozen):
     key: str
     passed: tuple[PassName, ...]
     jobs: tuple[JobStatus, ...]
-    """Newest first, at most ten."""
+    """The jobs of the passes, newest first, at most ten."""
+    audits: tuple[JobStatus, ...] = ()
+    """Repetitions for an audit that are under way, too."""
 
     def text(self) -> str:
-        """One line a job."""
+        """The jobs, one per line."""
         head = f"key {self.key}: {', '.join(self.passed) or 'no pass'} succeeded"
-        return "\n".join([head, *(job.text() for job in self.jobs)])
+        return "\n".join([head, *(job.text() for job in (*self.jobs, *self.audits))])
 
 
 class LogPage(Frozen):
@@ -53,14 +55,14 @@ class LogPage(Frozen):
 
 
 class Drafted(Frozen):
-    """What became of the program."""
+    """The outcome of a draft."""
 
     file: str
     outcome: Literal["written", "unchanged", "kept"]
-    """`kept`: an author's program stands there, and is not touched."""
+    """It is `kept` when an author's program exists, which is not touched."""
     lines: int
     open_places: tuple[str, ...] = ()
-    """What is left to the author, each marked `AUTHOR:` in the file."""
+    """Places left to the author, each marked `AUTHOR:` in the file."""
     unread: tuple[str, ...] = ()
     """Constants of the plan that the draft reads nowhere."""
 
@@ -99,29 +101,28 @@ def start(
     run: Annotated[
         str | None, Field(description="The run folder; with `model`, where to record it."), Positional()
     ] = None,
-    stage: Annotated[PassName, Field(description="physics, then stills, then video.")] = "physics",
+    stage: Annotated[PassName, Field(description="physics, then storyboard, stills, video.")] = "physics",
     force: Annotated[bool, Field(description="Run again although it succeeded, and compare.")] = False,
-    wall_s: Annotated[float | None, Field(description="Wall-clock limit in seconds.", gt=0, le=86_400)] = None,
+    still_s: Annotated[float, Field(description="Ended when nothing advances for so long.", gt=0)] = 180,
     memory_mb: Annotated[int, Field(description="Resident memory limit.", ge=64)] = 4096,
-    cpu_s: Annotated[float | None, Field(description="Processor time of all its processes.", gt=0)] = None,
+    cpu_s: Annotated[float | None, Field(description="Limit of processor time.", gt=0)] = None,
     file_mb: Annotated[int, Field(description="Size limit of one file.", ge=1)] = 2048,
     disk_mb: Annotated[int, Field(description="Size limit of all it writes.", ge=1)] = 8192,
     model: Annotated[Path | None, Field(description="An MJCF file to record without any plan.")] = None,
     duration: Annotated[float | None, Field(description="Simulated seconds of `model`.", gt=0, le=3600)] = None,
 ) -> JobStatus:
-    """Start one pass of the run's program in the sandbox and return at once with its job.
+    """Start one pass of the run's program in the sandbox and return at once with its job; follow it with `wait`.
 
-    Needs an approved plan and a clean lint for physics, physics for stills, stills for video. A pass that already
-    succeeded for this exact program, plan and environment is answered from its evidence; one that is under way is
-    joined. Follow it with `wait`. With `model`, any MJCF file is recorded in a folder of its own (runs/<its name>).
+    Physics needs an approved plan and a clean lint; what needs a pass under way queues. What succeeded for this program,
+    plan and environment is answered from its evidence. With `model`, any MJCF file is recorded (runs/<its name>).
     """
-    from ..model import environment
-    from . import models
+    from ..model.evidence import environment
+    from . import bare_models, storyboards
     from .account import with_account
     from .launch import launch
 
     if model is not None:
-        folder = models.prepare(model, duration, Path(run) if run else None)
+        folder = bare_models.prepare(model, duration, Path(run) if run else None)
     elif run is None:
         raise NotFoundError("name a run, or a model to record", next_move="worldwright stage start RUN")
     elif duration is not None:
@@ -129,7 +130,9 @@ def start(
     else:
         folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
-    limits: dict[str, Any] = {"wall_s": wall_s, "memory_mb": memory_mb, "cpu_s": cpu_s}
+    limits: dict[str, Any] = {"still_s": still_s, "memory_mb": memory_mb, "cpu_s": cpu_s}
+    if stage == "storyboard":
+        limits["arguments"] = storyboards.arguments(folder, key)
     job = launch(folder, key, stage, force=force, **limits, file_mb=file_mb, disk_mb=disk_mb)
     return with_account(folder, job) if job.cached else job
 
@@ -143,8 +146,8 @@ def wait(
 ) -> JobStatus:
     """Wait until a job ends, or `timeout_s` has passed, reporting progress on the way; call again while it runs.
 
-    Of a finished physics pass it tells what the recording shows at a glance: engine warnings, what acted besides the
-    engine's step, the deepest penetration, the speed, and which movers never moved.
+    Of a finished physics pass it tells what the recording shows at a glance: warnings, what acted besides the engine's
+    step, the deepest penetration, the speed, which movers never moved.
     """
     from .account import with_account
     from .variants import follow
@@ -155,22 +158,21 @@ def wait(
 
 @reads
 def status(run: RunName) -> RunStages:
-    """Which passes have succeeded for the current program and plan, and how the latest jobs stand.
-
-    The latest physics pass comes with what its recording shows at a glance, as `wait` tells it.
-    """
-    from ..model import environment
+    """Which passes have succeeded for the current program and plan, and how the latest jobs stand."""
+    from ..model.evidence import environment
     from . import gates
     from .account import with_account
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
     passed = tuple(stage for stage in PASSES if gates.passed(folder, key, stage) is not None)
-    jobs = [job.read() for job in Job.all(folder)[:10]]
-    newest = next((n for n, job in enumerate(jobs) if job.stage == "physics" and not job.variant), None)
+    known = Job.all(folder)
+    jobs = [job.read() for job in [job for job in known if not job.spec.variant][:10]]
+    newest = next((n for n, job in enumerate(jobs) if job.stage == "physics"), None)
     if newest is not None:
         jobs[newest] = with_account(folder, jobs[newest])
-    return RunStages(key=key.key, passed=passed, jobs=tuple(jobs))
+    audits = tuple(job for job in (job.read() for job in known if job.spec.variant) if not job.ended)
+    return RunStages(key=key.key, passed=passed, jobs=tuple(jobs), audits=audits)
 
 
 def cancel(run: RunName, job: JobName = None) -> JobStatus:
@@ -190,11 +192,18 @@ def frames(
     camera: Annotated[str | None, Field(description="One camera; all of them when left out.")] = None,
     count: Annotated[int, Field(description="Pictures on a contact sheet.", ge=1, le=24)] = 8,
     show: Annotated[
-        Literal["all", "stills", "sheet", "key"],
-        Field(description="Stills, contact sheets, key frames (setup, midway, event, aftermath), or all of them."),
+        Literal["all", "storyboard", "stills", "sheet", "key", "reference"],
+        Field(
+            description="Stills, contact sheets, key frames (setup, midway, event, aftermath), or all of them; `storyboard`: five "
+            "moments a camera, there before all others; `reference`: the given image beside the first camera's still."
+        ),
     ] = "all",
     start_s: Annotated[float, Field(description="Contact sheets begin at this time.", ge=0)] = 0.0,
     end_s: Annotated[float | None, Field(description="And end at this one; None is the film's end.", ge=0)] = None,
+    at: Annotated[
+        float | None,
+        Field(description="Draw this moment now: s of film.py's film, or of the recording with a `camera`.", ge=0),
+    ] = None,
 ) -> Illustrated:
     """Show the current program's pictures: stills, a contact sheet of each film with the times, and key frames.
 
@@ -202,16 +211,41 @@ def frames(
     it has calmed down), with one on the way there. `count: 1` shows one frame, at `start_s`, as large as it fits.
     Together under 1 MB; with many cameras, name one to see it larger.
     """
-    from ..model import environment
-    from .pictures import contact
+    from ..model.evidence import environment
+    from . import gates, storyboards
+    from .pictures import beside, contact
 
     folder = Run.find(run)
-    evidence = folder.evidence(folder.evidence_key(environment.current().sha256()))
-    if not any((evidence / name).is_dir() for name in ("stills", "video")) and folder.accepted.is_dir():
-        evidence = folder.accepted  # a fresh clone keeps the accepted pictures only
+    key = folder.evidence_key(environment.current().sha256())
+    if at is not None:
+        from .one_frame import draw
+
+        return draw(folder, key, at, camera)
+    evidence = folder.evidence(key)
+    if show == "storyboard":
+        return storyboards.shown(evidence, camera)
+    other = gates.of_another_film(folder, key)
+    if (other or not any((evidence / name).is_dir() for name in ("stills", "video"))) and folder.accepted.is_dir():
+        evidence = folder.accepted  # it was accepted elsewhere: the pictures that came with it stand in
+    elif other:
+        raise NotFoundError(
+            f"the {other[0]} of this program were made by other film code, or another renderer, than there is now",
+            place=str(evidence / other[0]),
+            next_move=f"worldwright stage start {folder.folder} --stage {other[0]}",
+        )
     if end_s is not None and end_s < start_s:
         raise NotFoundError(f"the sheet would end at {end_s:g} s, before it begins", next_move="give end_s >= start_s")
+    if show == "reference":
+        given = next((p for p in sorted(folder.folder.glob("reference.*")) if p.suffix != ".md"), None)
+        return beside(given or folder.folder / "reference.png", evidence, camera or _first_camera(folder))
     return contact(evidence, camera, count, show, (start_s, 1e9 if end_s is None else end_s))
+
+
+def _first_camera(run: Run) -> str:
+    """The plan's first camera; with a reference image, it looks from where that was taken."""
+    from ..model.plan.plan_text import read_plan
+
+    return next((camera.name for camera in read_plan(run.plan).plan.cameras()), "")
 
 
 @reads
@@ -241,14 +275,48 @@ def run_variant(
     variant: str,
     arguments: tuple[str, ...],
     *,
-    wall_s: float | None = None,
     timeout_s: float = 40,
     progress: Progress = silent,
 ) -> JobStatus:
     """For the audits of other servers (no tool): see `stage.variants.run`."""
     from . import variants
 
-    return variants.run(run, variant, arguments, wall_s=wall_s, timeout_s=timeout_s, progress=progress)
+    return variants.run(run, variant, arguments, timeout_s=timeout_s, progress=progress)
+
+
+def start_storyboard(run: Run, claimed: Sequence[tuple[float, str]]) -> JobStatus:
+    """For another server's walk (no tool): start the storyboard with (instant in s, name) of proven objectives."""
+    from ..model.evidence import environment
+    from . import storyboards
+    from .launch import launch
+
+    key = run.evidence_key(environment.current().sha256())
+    return launch(run, key, "storyboard", arguments=storyboards.arguments(run, key, claimed))
+
+
+def latest(run: Run, stage: PassName) -> JobStatus | None:
+    """For the walk of another server (no tool): the newest job of a pass on the current key and film, if there is one."""
+    from ..model.evidence import environment
+
+    key = run.evidence_key(environment.current().sha256())
+    film = "" if stage == "physics" else environment.film().sha256
+    for job in Job.all(run):
+        spec = job.spec
+        if (spec.stage, spec.variant, spec.key, spec.film_sha256) == (stage, "", key, film):
+            return job.read()
+    return None
+
+
+def simulate_given(run: Run, given: Path) -> JobStatus:
+    """For proofs of other servers (no tool): simulate a world that exists as a file, with its recorded inputs.
+
+    `given` holds `world.mjz`, `program.json`, `inputs.json`, and `inputs.arrows` and `edits.arrows` if it was driven. The
+    program is not run. Follow the job with `wait`.
+    """
+    from ..model.evidence import environment
+    from .launch import launch
+
+    return launch(run, run.evidence_key(environment.current().sha256()), "physics", given=given)
 
 
 def variant_folder(run: Run, variant: str) -> Path | None:
@@ -265,9 +333,35 @@ def run_confined(call: Sequence[str], **limits: Any) -> "Confined":
     return confined.run(call, **limits)
 
 
+def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]) -> bytes:
+    """For other servers (no tool): one moment of a run as PNG; see `stage.one_frame.draw`."""
+    from ..model.evidence import environment
+    from .one_frame import draw
+
+    return draw(run, run.evidence_key(environment.current().sha256()), at_s, camera, size).pictures[0].data
+
+
+def try_film(folder: Path) -> dict[str, str] | None:
+    """For other servers (no tool): let the author describe the film of a run, and draw one small picture of it.
+
+    Returns how it failed (`code`, `message`, `line`, `next_move`), empty if it did not; None without a recording.
+    """
+    from ..model.errors import GateError, JobError
+
+    try:
+        draw_moment(Run.find(folder), 0.0, None, (64, 36))
+    except (NotFoundError, GateError):
+        return None
+    except JobError as failure:
+        line = failure.place.rpartition(":")[2]
+        said = {"code": failure.code, "message": failure.cause, "next_move": failure.next_move}
+        return {**said, "line": line if line.isdecimal() else ""}
+    return {}
+
+
 def model_files(model: Path) -> list[Path]:
-    """For other servers (no tool): a model file and every file it names; see `stage.models.made_of`."""
-    from .models import made_of
+    """For other servers (no tool): a model file and every file it names; see `stage.bare_models.made_of`."""
+    from .bare_models import made_of
 
     return made_of(model)
 

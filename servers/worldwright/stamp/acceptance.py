@@ -1,6 +1,7 @@
 """Accepting: strip, prove, assemble, publish. Nothing appears under `accepted/` before all of it is on disk."""
 
 import shutil
+import time
 from collections import Counter
 from datetime import UTC, datetime
 from pathlib import Path
@@ -8,21 +9,22 @@ from typing import Literal
 
 from worldkit.files import write_atomic
 
-from ..model import imported
 from ..model.errors import GateError
-from ..model.evidence import Environment
+from ..model.evidence import came, pictures_of
+from ..model.evidence.journal import Journal
+from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
-from ..model.journal import Journal
 from ..model.progress import Progress, silent
 from ..model.storage import writing
-from . import bundle, digest, gates, machine, sampled, signing
-from .proof import Proved, prove
+from . import bundle, departures, digest, gates, keyring, poster, private, processor, repeats, sampled, signing
+from .proof import Proved, beside, driven_by, prove
 from .state import State
 from .statement import (
     Acceptance,
     Approval,
     Digest,
     ExpectationVerdict,
+    Filmed,
     ObjectiveOutcome,
     Proof,
     Source,
@@ -42,92 +44,100 @@ class Accepted(Frozen):
     run: str
     folder: str = ""
     stamp_sha256: str = ""
+    signature: signing.Signature | None = None
+    """The signature on the stamp, and whose key made it."""
     trajectory_sha256: str = ""
     stripped_lines: int = 0
     files: tuple[str, ...] = ()
+    not_looked_at: tuple[int, ...] = ()
+    """Indices of objectives that only a picture can show, and whose pictures nobody has looked at."""
     already: bool = False
     """This exact program and plan had been accepted before."""
     next_move: str = ""
 
     @property
     def ok(self) -> bool:
-        """It is stamped."""
+        """Whether the world is stamped."""
         return self.state == "accepted"
 
     def text(self) -> str:
-        """What a person reads."""
+        """The answer as a person reads it."""
         if not self.ok:
             return f"{self.run}: the proof run goes on\n  next: {self.next_move}"
         stripped = f", {self.stripped_lines} lines of instrumentation taken out" if self.stripped_lines else ""
+        unseen = ", ".join(map(str, self.not_looked_at))
+        blind = f"  NOT LOOKED AT      objective {unseen}: claimed for the eye, counted only\n" if unseen else ""
         return (
             f"{self.run}: {'already ' * self.already}accepted in {self.folder} ({len(self.files)} files{stripped})\n"
             f"  stamp sha256       {self.stamp_sha256}\n"
+            f"  {self.signature.text() if self.signature else 'unsigned'}\n"
             f"  trajectory sha256  {self.trajectory_sha256}\n"
-            f"  next: {self.next_move}"
+            f"{blind}  next: {self.next_move}"
         )
 
 
 def accept(state: State, timeout_s: float, progress: Progress = silent, key: Path | None = None) -> Accepted:
     """Accept the run, or say (as a `GateError`) why not; callable again after `proving` or a crash.
 
-    With `key`, an Ed25519 private key, the stamp is signed; a stamp that stands already is signed too.
+    The stamp is signed with `key`, an Ed25519 private key, or with this machine's own. A stamp that stands already
+    counts only if a key that is known here signed it; otherwise the world is proved again, since a stamp that was merely
+    found proves nothing.
     """
-    signer = signing.private_key(key) if key else None
+    deadline = time.monotonic() + timeout_s
+    signer = signing.private_key(key) if key else keyring.own()
     with writing("the accepted folder", state.run.folder), bundle.only_one(state.run):
-        if steps(state)["accepted"].holds:
-            if signer is not None:
-                signing.sign(state.run.accepted, bundle.STAMP, signer)
+        if steps(state)["accept"].holds and signing.check(state.run.stamped, bundle.STAMP).vouched:
+            if key is not None:
+                signing.sign(state.run.stamped, bundle.STAMP, signer)
             return _again(state)
         gates.pass_through("accept", state)
         stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
         program, plan = stripped.source.encode(), state.plan_bytes or b""
-        folder = state.run.folder / "proof" / (state.key.key if state.key else "")
+        work = private.proofs(state.run, state.key.key if state.key else "")
         proved = prove(
-            folder,
+            work / "proof",
             program,
             plan,
             reason=f"copied from {state.run.name}",
             timeout_s=timeout_s,
             progress=progress,
-            bundle=True,
-            beside=imported.beside(state.run.folder),
+            near=beside(state.run.folder),
         )
         if proved is None:
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
-        _same(state, stripped, proved)
+        repeats.same(state, stripped, proved)
+        repeats.whole(state, proved)
+        _as_planned(state, proved)
+        repeats.measured(state, proved)
+        left = max(1.0, deadline - time.monotonic())
+        driven = repeats.driven_again(work / "again", program, plan, proved, timeout_s=left, progress=progress)
+        if driven is None:
+            return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
         folder = bundle.draft_folder(state.run)
         try:
             statement = _assemble(state, stripped, proved, folder)
             stamp_sha256 = bundle.seal(folder, statement)
-            if signer is not None:
-                signing.sign(folder, bundle.STAMP, signer)
-            bundle.publish(folder, state.run)
+            signing.sign(folder, bundle.STAMP, signer)
+            bundle.publish(folder, state.run.accepted)
         finally:
             shutil.rmtree(folder, ignore_errors=True)
         _log(state, stamp_sha256)
         state.run.blocked.unlink(missing_ok=True)
-        shutil.rmtree(state.run.folder / "proof", ignore_errors=True)
+        shutil.rmtree(work, ignore_errors=True)
     return _answer(state, statement, stamp_sha256)
 
 
-def _same(state: State, stripped: Stripped, proved: Proved) -> None:
-    """Refuse a program whose proof run moves differently."""
-    if proved.trajectory_sha256 and proved.trajectory_sha256 == state.trajectory_sha256:
+def _as_planned(state: State, proved: Proved) -> None:
+    """Refuse a world that acts otherwise than its plan says (`GateError`)."""
+    if proved.world is None or state.plan is None:
         return
-    changed = digest.compare(
-        digest.motion(state.folder / "physics" / "trajectory"), digest.motion(proved.recording)
-    ).message
-    shutil.rmtree(proved.run.folder, ignore_errors=True)  # or the next call would be answered from it
-    cause = (
-        f"without its {len(stripped.removed)} lines of instrumentation the program moves differently"
-        if stripped.removed
-        else "run a second time, the program moves differently"
-    )
-    raise GateError(
-        f"{cause}: trajectory {proved.trajectory_sha256[:16]} instead of {state.trajectory_sha256[:16]}; {changed}",
-        place=f"{state.place}/simulation.py",
-        next_move="instrumentation must only watch; seed every random draw and read no clock, then run again",
-    )
+    if found := departures.from_plan(proved.world, state.plan):
+        more = f" (and {len(found) - 1} more)" if len(found) > 1 else ""
+        raise GateError(
+            f"the world that was simulated is not the planned one: {found[0]}{more}",
+            place=f"{state.place}/simulation.py",
+            next_move=f"worldwright lint check-program {state.place}/simulation.py --plan {state.place}/plan.md",
+        )
 
 
 def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) -> Statement:
@@ -136,12 +146,14 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
     write_atomic(folder / "plan.md", state.plan_bytes or b"")
     if state.run.prompt.is_file():
         write_atomic(folder / "prompt.md", state.run.prompt.read_bytes())
-    for name, content in imported.beside(state.run.folder).items():
+    for name, content in (beside(state.run.folder) | pictures_of.files(state.run)).items():
         write_atomic(folder / name, content)
     write_atomic(folder / digest.NAME, digest.motion(proved.recording).model_dump_json() + "\n")
     sampled.write(proved.recording, folder / sampled.NAME)
     if proved.world is not None:
         write_atomic(folder / proved.world.name, proved.world.read_bytes())
+        for path in driven_by(proved):
+            write_atomic(folder / bundle.WORLD / path.name, path.read_bytes())
     kept = {f"{name}.json": state.folder / f"{name}.json" for name in REPORTS}
     kept |= {f"{name}.json": state.folder / name / "result.json" for name in state.passes}
     evidence = {}
@@ -152,6 +164,9 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
     for stage, pattern in (("stills", "*.png"), ("video", "*.mp4")):
         for path in sorted((state.folder / stage).glob(pattern)):
             write_atomic(folder / stage / path.name, path.read_bytes())
+    filmed = _filmed(state)
+    cameras = [camera.name for camera in state.plan.cameras()] if state.plan else []
+    poster.write(folder, cameras, filmed.shots if filmed else ())
     return Statement(subject=bundle.subjects(folder), predicate=_predicate(state, stripped, proved, evidence))
 
 
@@ -183,15 +198,23 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
             wall_s=proved.physics.wall_s,
             sandbox=proved.physics.sandbox,
             confinement=proved.physics.confinement,
-            no_world=proved.no_world,
+            world_sha256=proved.world_sha256,
+            inputs_sha256=proved.inputs_sha256,
         ),
-        environment=environment,
-        cpu=machine.cpu(),
+        film=_filmed(state),
+        environment=environment.model_copy(update={"film": state.film}),
+        cpu=processor.cpu(),
         evidence=evidence,
         checks=sum(c.status != "skipped" for c in scan.checks),
         anomalies=dict(Counter(a.severity for a in scan.anomalies)),
         objectives=tuple(
-            ObjectiveOutcome(index=o.index, claim=o.claim, status=o.status, evidence=bound.get(o.index, ()))
+            ObjectiveOutcome(
+                index=o.index,
+                claim=o.claim,
+                status=o.status,
+                evidence=bound.get(o.index, ()),
+                looked_at=visual.looked if o.status == "visual_only" else None,
+            )
             for o in expect.objectives
         ),
         expectations=tuple(
@@ -203,30 +226,53 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
         ),
         declared_interventions=tuple(
             f"{row.kind} on {', '.join(row.bodies)}: {row.law} (trigger: {row.trigger}; source: {row.source})"
-            for row in plan.simulation_parameters.interventions
+            for row in plan.declared()
         ),
         journal_head=Journal(state.run.journal).head(),
         reviewer=review.reviewer,
+        review_came=state.came("review"),
         described_by=visual.author,
+        description_came=state.came("describe"),
         approval=Approval(
-            by=str(approval.get("by", "")), time=str(approval.get("time", "")), auto=bool(approval.get("auto"))
+            by=str(approval.get("by", "")),
+            time=str(approval.get("time", "")),
+            auto=bool(approval.get("auto")),
+            came=came.of(approval),
         ),
     )
 
 
+def _filmed(state: State) -> Filmed | None:
+    """The author's film, and what the video pass says of it; None where there is none."""
+    video, sha256 = state.passes["video"].value, pictures_of.author_sha256(state.run)
+    told = (video.summary.get("film") or {}) if video and video.ok else {}
+    if not sha256:
+        return None
+    return Filmed(
+        sha256=sha256, **{name: told[name] for name in ("drawn_only", "looks", "hidden", "shots") if name in told}
+    )
+
+
 def _materials(state: State, environment: Environment) -> dict[str, Digest]:
-    """What the world was made from, by name: the run's own files, the engine, the runtime and the catalog."""
+    """What the world was made from, by name: the run's own files, the engine, the code, its assets and the film."""
     reference = [p for p in state.run.folder.glob("reference.*") if p.is_file()]
-    files = (state.run.program, state.run.plan, state.run.prompt, state.run.journal, *reference)
+    files = (
+        state.run.program,
+        state.run.plan,
+        state.run.prompt,
+        state.run.journal,
+        state.run.folder / pictures_of.FILM,
+        *reference,
+    )
     found = {path.name: Digest(sha256=bundle.sha256_file(path)) for path in files if path.is_file()}
-    for name in ("simulator", "worldkit", "catalog"):
-        found[name] = Digest(sha256=getattr(environment, f"{name}_sha256"))
-    return found
+    made = {name: getattr(environment, f"{name}_sha256") for name in ("simulator", "worldkit", "catalog")}
+    made["film"] = state.film.sha256 if state.film else ""
+    return found | {name: Digest(sha256=sha256) for name, sha256 in made.items() if sha256}
 
 
 def _again(state: State) -> Accepted:
     """The earlier acceptance of this exact program and plan; its journal entry is added if a crash ate it."""
-    stamp_sha256 = bundle.sha256_file(state.run.accepted / bundle.STAMP)
+    stamp_sha256 = bundle.sha256_file(state.run.stamped / bundle.STAMP)
     if not any(e.get("action") == "accept" and e.get("stamp_sha256") == stamp_sha256 for e in state.journal):
         _log(state, stamp_sha256)
     if state.stamp.value is None:  # it held a moment ago
@@ -242,11 +288,13 @@ def _answer(state: State, statement: Statement, stamp_sha256: str, already: bool
     return Accepted(
         state="accepted",
         run=state.run.name,
-        folder=f"{state.place}/accepted",
+        folder=state.place if state.run.stamped == state.run.folder else f"{state.place}/accepted",
         stamp_sha256=stamp_sha256,
+        signature=signing.check(state.run.stamped, bundle.STAMP),
         trajectory_sha256=statement.predicate.proof.trajectory_sha256,
         stripped_lines=len(statement.predicate.source.stripped_lines),
         files=tuple(s.name for s in statement.subject),
         already=already,
+        not_looked_at=statement.not_looked_at,
         next_move=f"worldwright stamp verify {state.place}",
     )

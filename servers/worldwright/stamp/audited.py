@@ -1,14 +1,14 @@
-"""What acceptance asks of the three audits of truth: interventions, causes, refinement.
+"""What acceptance needs of the three audits: interventions, causes, refinement.
 
 The ledger is made by every scan and always needed. The causal audit is needed when an objective names its cause, or when
-a declared intervention is said to be set off by what happens. The refinement audit is asked for by a person; what it
-found must not be ignored. An audit of another recording vouches for nothing.
+a declared intervention is to be triggered by what happens. A person may order the refinement audit; then its findings
+count too. An audit of another recording counts for nothing.
 """
 
 from collections.abc import Iterator
 from typing import Literal
 
-from ..model.audits import CausesReport, InterventionReport, RefineReport
+from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport
 from .kept import Kept
 from .refusal import Refusal
 from .state import State
@@ -18,7 +18,7 @@ Audit = InterventionReport | CausesReport | RefineReport
 
 
 def standing(state: State, kept: Kept[InterventionReport] | Kept[CausesReport] | Kept[RefineReport]) -> Standing:
-    """Whether an audit is there, can be read, is of this recording, and found nothing that blocks."""
+    """Whether an audit exists, can be read, belongs to this recording, and has no blocking finding."""
     if kept.value is None:
         return "damaged" if kept.problem else "absent"
     if kept.value.trajectory_sha256 != state.trajectory_sha256:
@@ -39,7 +39,7 @@ def why_causes(state: State) -> str:
 
 
 def findings(report: Audit) -> tuple[str, ...]:
-    """What in an audit blocks, one line each."""
+    """The blocking findings of an audit, one line each."""
     blocking = tuple(str(a) for a in report.anomalies if a.severity == "blocking")
     if isinstance(report, InterventionReport):
         return (*(f"undeclared intervention: {row.text}" for row in report.undeclared), *blocking)
@@ -49,7 +49,7 @@ def findings(report: Audit) -> tuple[str, ...]:
 
 
 def refusals(state: State) -> Iterator[Refusal]:
-    """What the audits refuse: missing where needed, of another recording, or with a finding."""
+    """Refusals for audits that are needed and missing, that belong to another recording, or that have a blocking finding."""
     again = f"worldwright scan scan {state.place}"
     yield from _of(state, "interventions", state.interventions, again, needed="every acceptance rests on it")
     yield from _of(state, "causes", state.causes, f"{again} --causes", needed=why_causes(state))
@@ -79,7 +79,7 @@ def _of(
 
 
 def _untested(state: State) -> Iterator[str]:
-    """Causes of the plan that the audit does not speak of."""
+    """Refusals for causes that the plan names and the audit has not tested."""
     report = state.causes.value
     tested = {(c.objective, c.cause) for c in report.causes} if report else set()
     for index, objective in enumerate(state.plan.objectives if state.plan else ()):

@@ -7,14 +7,15 @@ physics pass's report), `lint:clean`.
 
 from collections.abc import Iterator
 
-from ..model.evidence import ObjectiveResult
-from ..model.verdict import Verdict
+from ..model.evidence.reports import ObjectiveResult
+from ..model.evidence.verdict import ObjectiveVerdict, Verdict
+from . import recognition
 from .refusal import Refusal
 from .state import State
 
 
 def references(state: State, index: int) -> dict[str, tuple[str, ...]]:
-    """Names that exist, by kind, for objective `index`."""
+    """The names that exist for objective `index`, by kind of evidence."""
     expect, scan, visual = state.expect.value, state.scan.value, state.visual.value
     objective = next((o for o in expect.objectives if o.index == index), None) if expect else None
     found: dict[str, list[str]] = {
@@ -45,6 +46,8 @@ def problems(state: State, verdict: Verdict) -> Iterator[Refusal]:
             continue
         yield from _binding(state, bound.index, bound.evidence)
         result = results.get(bound.index)
+        if bound.met and result is not None:
+            yield from _about(bound, result)
         if bound.met and result is not None and result.status in ("refuted", "unproved"):
             yield Refusal(
                 cause=f"objective {bound.index} is called met, but measurement says {result.status}: {_why(result)}",
@@ -59,9 +62,16 @@ def problems(state: State, verdict: Verdict) -> Iterator[Refusal]:
         for anomaly in scan.anomalies:
             if anomaly.severity == "blocking":
                 yield Refusal(cause=f"a blocking anomaly stands: {anomaly}", next_move="review it as `repair`")
+    for check in verdict.cross_checks:
+        if check.channel == check.tested_in:
+            yield Refusal(
+                cause=f"the cross check of '{check.claim[:80]}' tests the {check.channel} channel in itself",
+                next_move="test the claim in another channel (numeric, visual, plan), or leave the check out",
+            )
+    yield from recognition.problems(state, verdict)
     if verdict.outcome == "repair" and not any(c.channel != c.tested_in for c in verdict.cross_checks):
         yield Refusal(
-            cause="a repair is ordered on one channel's word",
+            cause="a repair rests on one channel alone",
             next_move="add a cross check: test the claim in another channel (numeric, visual, plan) and say the result",
         )
 
@@ -89,6 +99,20 @@ def _binding(state: State, index: int, evidence: tuple[str, ...]) -> Iterator[Re
                 cause=f"objective {index} rests on '{reference}', which does not exist for this key",
                 next_move=f"use one of: {shown}",
             )
+
+
+SPEAKS_OF_IT = {"proved": ("expect",), "visual_only": ("visual", "still", "video")}
+"""Kinds of evidence that are about one objective, by its status; a clean scan or lint says nothing about what is claimed."""
+
+
+def _about(bound: ObjectiveVerdict, result: ObjectiveResult) -> Iterator[Refusal]:
+    """Refuse a verdict that calls an objective met on evidence that has nothing to do with it."""
+    kinds = SPEAKS_OF_IT.get(result.status, ())
+    if kinds and not any(reference.partition(":")[0] in kinds for reference in bound.evidence):
+        yield Refusal(
+            cause=f"objective {bound.index} is called met, but {', '.join(bound.evidence)} would be there without it too",
+            next_move=f"bind it to what shows it: {' or '.join(f'{kind}:<name>' for kind in kinds)}",
+        )
 
 
 def _media(state: State, stage: str, suffix: str) -> list[str]:

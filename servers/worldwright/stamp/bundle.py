@@ -5,22 +5,28 @@ import hashlib
 import os
 import shutil
 import uuid
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from worldkit.files import write_atomic
 
 from ..model.errors import GateError
-from ..model.run import Run, sha256_file
+from ..model.evidence.run import Run, sha256_file
 from . import signing
 from .statement import Digest, Statement, Subject
 
 STAMP = "stamp.json"
 SUMS = "SHA256SUMS"
 UNLISTED = (STAMP, SUMS, signing.ENVELOPE, signing.PUBLIC)
-"""What the stamp cannot list: itself, and what is made from it."""
+"""Files that the stamp cannot list: itself, and what is made from it."""
 PREFIX = ".accepting-"
+WORLD = "world"
+"""Folder beside `world.mjz` with the facts of the program and the inputs that drove the world."""
+LEFT_OUT = ("evidence/", "stills/", "video/", "world.mjz", f"{WORLD}/", "trajectory.npz")
+"""What the small form of an accepted world leaves out, since a build makes it again."""
+BESIDE = ("journal.jsonl", "accepted", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json")
+"""What may lie beside the stamp of a small form without being listed in it: the journal, and what a build leaves there."""
 
 
 @contextmanager
@@ -60,13 +66,24 @@ def seal(folder: Path, statement: Statement) -> str:
     text = statement.to_json()
     write_atomic(folder / STAMP, text)
     stamp_sha256 = hashlib.sha256(text.encode()).hexdigest()
-    write_atomic(folder / SUMS, _sums(statement, stamp_sha256))
+    write_atomic(folder / SUMS, sums(statement.subject, stamp_sha256))
     return stamp_sha256
 
 
-def _sums(statement: Statement, stamp_sha256: str) -> str:
-    lines = [f"{s.digest.sha256}  {s.name}\n" for s in statement.subject]
+def sums(listed: Iterable[Subject], stamp_sha256: str) -> str:
+    """The lines of SHA256SUMS: the files that are there, then the stamp."""
+    lines = [f"{s.digest.sha256}  {s.name}\n" for s in listed]
     return "".join([*lines, f"{stamp_sha256}  {STAMP}\n"])
+
+
+def is_small(folder: Path) -> bool:
+    """Whether a folder is the small form of an accepted world: its stamp stands beside the journal."""
+    return (folder / STAMP).is_file() and (folder / "journal.jsonl").is_file()
+
+
+def may_be_missing(name: str) -> bool:
+    """Whether a file that the stamp lists may be missing from the small form."""
+    return name.startswith(LEFT_OUT)
 
 
 def draft_folder(run: Run) -> Path:
@@ -78,26 +95,26 @@ def draft_folder(run: Run) -> Path:
     return folder
 
 
-def publish(folder: Path, run: Run) -> None:
-    """Make a finished bundle the run's accepted folder: one rename, after everything is on disk.
+def publish(folder: Path, target: Path) -> None:
+    """Make a finished folder beside `target` the folder `target`: one rename, after everything is on disk.
 
-    An older acceptance changes places with it in the same instant where the system can do that (Linux), so that a kill
-    at any moment leaves one whole accepted folder.
+    An older folder there changes places with it in the same instant where the system can do that (Linux), so that a kill
+    at any moment leaves one whole folder.
     """
     for name in files_in(folder):
         _sync(folder / name)
     for path in (*(p for p in folder.rglob("*") if p.is_dir()), folder):
         _sync(path)
-    if run.accepted.exists() and _exchanged(folder, run.accepted):
-        _sync(run.folder)
+    if target.exists() and _exchanged(folder, target):
+        _sync(target.parent)
         shutil.rmtree(folder, ignore_errors=True)
         return
-    if run.accepted.exists():
-        # the older acceptance is moved aside first: a rename cannot replace a folder that has files in it
-        run.accepted.rename(run.folder / f"{PREFIX}older-{uuid.uuid4().hex[:8]}")
-    folder.rename(run.accepted)
-    _sync(run.folder)
-    for older in run.folder.glob(f"{PREFIX}older-*"):
+    if target.exists():
+        # the older folder is moved aside first: a rename cannot replace a folder that has files in it
+        target.rename(target.parent / f"{PREFIX}older-{uuid.uuid4().hex[:8]}")
+    folder.rename(target)
+    _sync(target.parent)
+    for older in target.parent.glob(f"{PREFIX}older-*"):
         shutil.rmtree(older, ignore_errors=True)
 
 
@@ -114,23 +131,28 @@ def _exchanged(one: Path, other: Path) -> bool:
 
 
 def damage(folder: Path, statement: Statement) -> list[str]:
-    """What differs between an accepted folder and its stamp; empty when every byte is as stamped."""
+    """How an accepted folder differs from its stamp, one line each; empty when every byte is as stamped.
+
+    In the small form, what a build makes again may be missing; what is there must be as stamped.
+    """
     found: list[str] = []
-    listed = {s.name: s.digest.sha256 for s in statement.subject}
-    for name, wanted in listed.items():
-        path = folder / name
+    small = is_small(folder)
+    present = [s for s in statement.subject if not small or not may_be_missing(s.name) or (folder / s.name).exists()]
+    for subject in present:
+        name, path = subject.name, folder / subject.name
         if not _inside(path, folder):
             found.append(f"{name} leads outside the folder")
             continue
         try:
-            if sha256_file(path) != wanted:
+            if sha256_file(path) != subject.digest.sha256:
                 found.append(f"{name} was changed after it was stamped")
         except OSError as cause:
             found.append(f"{name} cannot be read ({cause.strerror or cause})")
     try:
-        extra = [name for name in files_in(folder) if name not in listed and name not in UNLISTED]
-        found += [f"{name} is not in the stamp" for name in extra]
-        if (folder / SUMS).read_bytes() != _sums(statement, sha256_file(folder / STAMP)).encode():
+        known = {*(s.name for s in statement.subject), *UNLISTED}
+        extra = [name for name in files_in(folder) if name not in known]
+        found += [f"{name} is not in the stamp" for name in extra if not small or name.split("/")[0] not in BESIDE]
+        if (folder / SUMS).read_bytes() != sums(present, sha256_file(folder / STAMP)).encode():
             found.append(f"{SUMS} and {STAMP} do not match")
     except OSError as cause:
         found.append(f"{SUMS} cannot be read ({cause})")

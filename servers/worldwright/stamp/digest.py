@@ -1,11 +1,10 @@
 """A recording's motion in a few kilobytes, so that another machine's run can be held against it.
 
 Sampled at evenly spaced rows (first and last included), with the distance and the turn accumulated at the full rate:
-chaotic motion amplifies the last bit of a float, so what two machines may differ by grows with how far a body went.
+chaotic motion amplifies the last bit of a float, so the tolerance between two machines grows with the way of a body.
 """
 
 from pathlib import Path
-from typing import Any
 
 from ..model.frozen import Frozen
 from .statement import Statement
@@ -51,9 +50,11 @@ def motion(recording: Path) -> Motion:
     """The sampled motion of a recording folder."""
     import numpy as np
 
-    from ..model.trajectory import Trajectory
+    from worldkit.turning import angles_between
 
-    recorded = Trajectory.read(recording)
+    from ..model.recording.trajectory_files import read_trajectory
+
+    recorded = read_trajectory(recording)
     driven = recorded.mechanics.mocap
     moving = np.ones(len(recorded.names), dtype=bool)
     if recorded.mechanics.dynamic is not None:
@@ -63,7 +64,7 @@ def motion(recording: Path) -> Motion:
     travelled = np.zeros(position.shape[:2])
     turned = np.zeros(position.shape[:2])
     travelled[1:] = np.cumsum(np.linalg.norm(np.diff(position, axis=0), axis=2), axis=0)
-    turned[1:] = np.cumsum(_angle_deg(quaternion[1:], quaternion[:-1]), axis=0)
+    turned[1:] = np.cumsum(np.degrees(angles_between(quaternion[1:], quaternion[:-1])), axis=0)
     count = max(2, min(SAMPLES, NUMBERS // max(1, 9 * len(names)), len(position)))
     rows = np.unique(np.linspace(0, len(position) - 1, count).round().astype(int))
     return Motion.model_validate(
@@ -82,6 +83,8 @@ def compare(stamped: Motion, now: Motion) -> Difference:
     """Hold a new motion against a stamped one, sample by sample."""
     import numpy as np
 
+    from worldkit.turning import angles_between
+
     if stamped.bodies != now.bodies:
         return Difference(within=False, message=f"other bodies move: {', '.join(now.bodies)}")
     if len(stamped.time_s) != len(now.time_s) or not np.allclose(stamped.time_s, now.time_s, rtol=0, atol=1e-6):
@@ -91,7 +94,7 @@ def compare(stamped: Motion, now: Motion) -> Difference:
     if not stamped.bodies:
         return Difference(within=True, message="nothing moves")
     apart = np.linalg.norm(np.subtract(stamped.position, now.position), axis=2)
-    turned = _angle_deg(np.asarray(stamped.quaternion), np.asarray(now.quaternion))
+    turned = np.degrees(angles_between(np.asarray(stamped.quaternion), np.asarray(now.quaternion)))
     allowed_m = POSITION_M + SHARE * np.asarray(stamped.travelled_m)
     allowed_deg = TURN_DEG + SHARE * np.asarray(stamped.turned_deg)
     excess = np.maximum(apart / allowed_m, turned / allowed_deg)
@@ -119,13 +122,3 @@ def stamped_motion(accepted: Path, statement: Statement) -> Motion | None:
     if not statement.digest_of(NAME):
         return None
     return Motion.model_validate_json((accepted / NAME).read_bytes())
-
-
-def _angle_deg(a: Any, b: Any) -> Any:
-    """Angle between rotations: quaternions (..., 4) -> degrees (...)."""
-    import numpy as np
-
-    dot = np.abs(np.sum(a * b, axis=-1))
-    # atan2 of the chord keeps precision for the tiny angles between neighbouring rows, where arccos has none
-    chord = np.minimum(np.linalg.norm(a - b, axis=-1), np.linalg.norm(a + b, axis=-1))
-    return np.degrees(4 * np.arctan2(chord, np.sqrt(np.maximum(0.0, 2 + 2 * dot))))

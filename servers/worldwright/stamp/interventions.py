@@ -1,4 +1,4 @@
-"""What acted on the state besides the engine's own step, against what the plan declares.
+"""What acted on the state besides the engine's own step, compared with what the plan declares.
 
 Declared: a row of `simulation_parameters.interventions` has the same kind and names the target (or the body inside the
 target). Everything else is undeclared and blocks acceptance, whatever it did.
@@ -6,10 +6,10 @@ target). Everything else is undeclared and blocks acceptance, whatever it did.
 
 from pathlib import Path
 
-from ..model.declared import declaration
 from ..model.errors import RecordingError
 from ..model.frozen import Frozen
-from ..model.plan import Intervention
+from ..model.plan.committed import Intervention
+from ..model.plan.declaration import declaration
 
 
 class Acted(Frozen):
@@ -25,7 +25,7 @@ class Acted(Frozen):
     """Net work, joules (0 when the ledger cannot attribute any)."""
     declared: bool
     law: str = ""
-    """The plan's law, when declared."""
+    """The law that the plan states for it; empty when it is not declared."""
 
     def __str__(self) -> str:
         return f"{self.kind} on {self.target}, {self.count} steps, {self.first_s:.3f}-{self.last_s:.3f} s"
@@ -36,9 +36,9 @@ def acted(recording: Path, declared: tuple[Intervention, ...]) -> tuple[Acted, .
 
     A recording that cannot be read, or that carries no ledger, is a `RecordingError`.
     """
-    from ..model.trajectory import Trajectory
+    from ..model.recording.trajectory_files import read_trajectory
 
-    ledger = Trajectory.read(recording).interventions
+    ledger = read_trajectory(recording).interventions
     if ledger is None:
         raise RecordingError(
             "the recording has no ledger of interventions",

@@ -15,11 +15,11 @@ from typing import TYPE_CHECKING, Any
 from worldkit.files import write_atomic, write_json
 
 from ..model.errors import WorldwrightError
-from ..model.evidence import EvidenceKey
+from ..model.evidence.reports import EvidenceKey
+from ..model.evidence.run import SOURCE
+from ..model.evidence.verdict import Verdict
 from ..model.frozen import Frozen
-from ..model.run import SOURCE
 from ..model.storage import writing
-from ..model.verdict import Verdict
 from .kept import Kept
 from .state import Blocked, State
 
@@ -28,12 +28,12 @@ if TYPE_CHECKING:
 
 CAP = 12
 """Repairs that may be ordered, unless the approval says otherwise."""
-SEEN = ("camera_placement", "visual_mismatch", "missing_object", "scale")
-"""Targets of a repair that eyes judge: thinner margins alone do not speak against it."""
+SEEN = ("camera_placement", "visual_mismatch", "missing_object", "scale", "not_recognised", "look")
+"""Targets of a repair that is judged by eye: smaller margins alone are no argument against it."""
 
 
 class RolledBack(Frozen):
-    """A patch made it worse, and the better program was put back."""
+    """A repair made the world worse, and the better program was put back."""
 
     worse: str
     better: str
@@ -160,12 +160,12 @@ def _compare(state: State, first: str, second: str) -> "Comparison | Any":
 
     try:
         return compare(str(state.run.folder), first, second)
-    except WorldwrightError:  # a report that cannot be read speaks neither for nor against an iteration
+    except WorldwrightError:  # a report that cannot be read counts neither for nor against an iteration
         return Comparison(better="equal", first=first, second=second)
 
 
 def _ordered_target(state: State, here: str) -> str:
-    """What the repair that led to this iteration was to mend."""
+    """The target of the repair that led to this iteration."""
     reviews = [e for e in state.journal if e.get("action") == "review" and e.get("key") != here]
     return str(reviews[-1].get("target", "")) if reviews else ""
 

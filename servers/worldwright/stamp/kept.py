@@ -1,4 +1,4 @@
-"""Reading a piece of evidence whatever state its file is in."""
+"""Reading a piece of evidence, whatever state its file is in."""
 
 from dataclasses import dataclass
 from pathlib import Path

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 
+from ..model.evidence.build_steps import StepName
 from .refusal import Refusal
 from .state import State
-from .steps import StepName, steps
+from .steps import steps
 
 
 def held(state: State, *names: StepName) -> Iterator[Refusal]:
@@ -16,7 +17,7 @@ def held(state: State, *names: StepName) -> Iterator[Refusal]:
 
 
 def answered(state: State, *names: StepName) -> Iterator[Refusal]:
-    """One refusal for each named step that has not been answered, well or badly, for this key."""
+    """One refusal for each named step that has no result for this key, good or bad."""
     found = steps(state)
     for name in names:
         if not found[name].done:

@@ -1,26 +1,28 @@
 """The proof run: a program and its plan, alone in a new folder, linted and simulated again in the sandbox.
 
-Nothing of the original run is there to be answered from, so its result is new evidence. The folder may be met again by
-a later call while its job is still running, or after a crash: it is addressed by what it proves.
+Nothing of the original run is there to take results from, so the result is new evidence. The folder is named after what it
+proves, so that a later call finds it again while its job is still running, or after a crash.
 """
 
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from worldkit.files import write_atomic
 
-from ..model import approval
 from ..model.errors import GateError
-from ..model.evidence import LintReport, PassResult
+from ..model.evidence import approval, companions
+from ..model.evidence.reports import ExpectReport, LintReport, PassResult
+from ..model.evidence.run import Run
+from ..model.plan import imported
 from ..model.progress import Progress, silent
-from ..model.run import Run
 from .kept import Kept
 
 POLL_S = 20.0
 WORLD = "world.mjz"
-"""As `worldkit.portable` names it."""
+"""Name of the world's file, as `worldkit.portable` writes it."""
 
 
 @dataclass(frozen=True)
@@ -32,14 +34,80 @@ class Proved:
     lint: LintReport
     recording: Path
     world: Path | None = None
-    """The world as one file, when it was asked for and could be written."""
-    no_world: str = ""
-    """Why not."""
+    """The file of the world that was simulated."""
+
+    @property
+    def world_sha256(self) -> str:
+        """Hash of the world's file."""
+        return str(self.physics.files.get(WORLD, ""))
+
+    @property
+    def inputs_sha256(self) -> str:
+        """Hash of what was sent to the world while it ran, computed here; empty when nothing was."""
+        from worldengine.recording import stored
+
+        return stored.inputs_digest(self.recording)
 
     @property
     def trajectory_sha256(self) -> str:
         """Hash of the new trajectory."""
         return str(self.physics.summary.get("trajectory_sha256", ""))
+
+
+FACTS = ("program.json", "inputs.json")
+DRIVEN = ("inputs.arrows", "edits.arrows")
+"""Files with the inputs that drove a world, as `worldengine.recording` names them."""
+
+
+def replay(
+    folder: Path,
+    program: bytes,
+    plan: bytes,
+    given: Path,
+    *,
+    timeout_s: float,
+    progress: Progress = silent,
+    near: Mapping[str, bytes] | None = None,
+) -> Proved | None:
+    """Simulate a world that is there as a file, by the inputs recorded of it, without its program; see `prove`.
+
+    Args:
+        folder: where, a new one.
+        program, plan: what the evidence is about; the program is not run.
+        given: the world, its facts, and what it was driven by (`lay_out`).
+        timeout_s, progress, near: as for `prove`.
+    """
+    from ..stage import tools as stage
+
+    deadline = time.monotonic() + timeout_s
+    run = Run(folder)
+    if _bytes(run.program) != program or _bytes(run.plan) != plan:
+        write_atomic(run.program, program)
+        write_atomic(run.plan, plan)
+        for name, content in (near or {}).items():
+            write_atomic(folder / name, content)
+    return _followed(run, stage.simulate_given(run, given), LintReport(), deadline, progress)
+
+
+def lay_out(given: Path, world: Path, facts: Path, recording: Path) -> Path:
+    """Fill a folder for `replay`: the world, its facts, and the inputs that drove the recording, where there are any."""
+    for path in (world, *(facts / name for name in FACTS)):
+        write_atomic(given / path.name, path.read_bytes())
+    for path in (recording / name for name in DRIVEN):
+        if path.is_file():
+            write_atomic(given / path.name, path.read_bytes())
+    return given
+
+
+def beside(folder: Path) -> dict[str, bytes]:
+    """The files beside a plan and its program that belong to them: model files that the plan names, and companions."""
+    return {**imported.beside(folder), **companions.of(folder / "simulation.py")}
+
+
+def driven_by(proved: Proved) -> list[Path]:
+    """The facts of the program, and the inputs that drove the world, where there are any."""
+    facts = [proved.recording.parent / name for name in FACTS]
+    return [*facts, *(proved.recording / name for name in DRIVEN if proved.inputs_sha256)]
 
 
 def prove(
@@ -50,12 +118,11 @@ def prove(
     reason: str,
     timeout_s: float,
     progress: Progress = silent,
-    bundle: bool = False,
-    beside: Mapping[str, bytes] | None = None,
+    near: Mapping[str, bytes] | None = None,
 ) -> Proved | None:
     """Lint and simulate `program` against `plan` in `folder`; None when a job needs more than `timeout_s`.
 
-    `beside` are files that the plan names, by relative path. With `bundle` the world is also written as one file (a second job). A lint error or a failed pass is a `GateError`.
+    `near` are the files that belong to them, by relative path. A lint error or a failed pass is a `GateError`.
     """
     from ..lint import tools as lint
     from ..stage import tools as stage
@@ -65,7 +132,7 @@ def prove(
     if _bytes(run.program) != program or _bytes(run.plan) != plan:
         write_atomic(run.program, program)
         write_atomic(run.plan, plan)
-        for name, content in (beside or {}).items():
+        for name, content in (near or {}).items():
             write_atomic(folder / name, content)
     key = run.evidence_key(_environment_sha256())
     models = approval.model_hashes(run)
@@ -79,7 +146,30 @@ def prove(
             place=f"{run.program.name}:{errors[0].line or 1}",
             next_move=errors[0].fix or "correct it and run it again",
         )
-    job = stage.start(str(folder), stage="physics")
+    linted = LintReport(findings=tuple(report.findings), rules=report.rules)
+    return _followed(run, stage.start(str(folder), stage="physics"), linted, deadline, progress)
+
+
+def measure(proved: Proved, progress: Progress = silent) -> ExpectReport:
+    """Measure the expectations in the proof run. Where one is measured in stills, they are drawn of it first."""
+    from ..scan import tools as scan
+    from ..stage import tools as stage
+
+    folder = str(proved.run.folder)
+    report: ExpectReport = scan.expect(folder)
+    if report.waits:
+        job = stage.start(folder, stage="stills")
+        while job.state in ("queued", "running"):
+            job = stage.wait(folder, job=job.job, timeout_s=POLL_S, progress=progress)
+        report = scan.expect(folder)
+    return report
+
+
+def _followed(run: Run, job: Any, lint: LintReport, deadline: float, progress: Progress) -> Proved | None:
+    """Follow a physics job to its end, and look at what it left; None when it needs longer."""
+    from ..stage import tools as stage
+
+    folder, key = run.folder, run.evidence_key(_environment_sha256())
     while job.state in ("queued", "running"):
         left = deadline - time.monotonic()
         if left <= 0:
@@ -93,21 +183,12 @@ def prove(
             next_move=job.next_move or "run it again; a program that runs once must run twice",
         )
     recording = run.evidence(key) / "physics" / "trajectory"
-    world, missing = None, ""
-    if bundle:
-        made = stage.run_variant(
-            run, "bundle", ("--pass", "bundle"), timeout_s=max(1.0, deadline - time.monotonic()), progress=progress
-        )
-        if not made.ended:
-            return None
-        found = stage.variant_folder(run, "bundle")
-        world, missing = (found / WORLD, "") if found else (None, made.message or made.code)
+    world = recording.parent / WORLD
     proved = Proved(
-        world=world,
-        no_world=missing,
+        world=world if world.is_file() else None,
         run=run,
         physics=result.value,
-        lint=LintReport(findings=tuple(report.findings), rules=report.rules),
+        lint=lint,
         recording=recording,
     )
     recorded = _recorded_sha256(recording)
@@ -121,17 +202,17 @@ def prove(
 
 
 def _recorded_sha256(recording: Path) -> str:
-    """The trajectory's hash computed here, from the recorded rows: the program's own word is not evidence."""
-    from worldkit import trajectory
+    """The trajectory's hash, computed here from the recorded rows: what the program reports is no evidence."""
+    from worldengine.recording import stored
 
     try:
-        return trajectory.digest(trajectory.open(recording))
-    except trajectory.RecordingError as error:
+        return stored.digest(stored.open(recording))
+    except stored.RecordingError as error:
         raise GateError(f"the recording cannot be read: {error}", place=str(recording)) from error
 
 
 def _environment_sha256() -> str:
-    from ..model import environment
+    from ..model.evidence import environment
 
     return environment.current().sha256()
 

@@ -24,9 +24,9 @@ def write(recording: Path, path: Path) -> None:
     """Write the sampled trajectory of a recording folder."""
     import numpy as np
 
-    from worldkit import trajectory
+    from worldengine.recording import stored
 
-    recorded = trajectory.open(recording)
+    recorded = stored.open(recording)
     columns = {
         name: np.asarray(getattr(recorded, name)) for name in ("qpos", "qvel", "pos", "quat", "linvel", "angvel")
     }

@@ -2,7 +2,7 @@
 
 The first line is the hook of the harness, which denies a write before it happens. This one needs no hook. Every legal
 step left a line with the hashes of the program and the plan as they stood, and of the reports it kept; the lines are
-chained. What was changed by another way than a step is told by its hash, named, and refuses acceptance.
+chained. A file that was changed in any other way is found by its hash, named, and refused at acceptance.
 
 Legal for the program: it was drafted, linted by the one who wrote it, or rolled back. Legal for the plan: it was started
 from another one, resolved, or approved.
@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ..model.journal import Journal
-from ..model.run import SOURCE, sha256_file
+from ..model.evidence.journal import Journal
+from ..model.evidence.run import SOURCE, sha256_file
 from .refusal import Refusal
 from .state import State
 
@@ -29,7 +29,7 @@ AGAIN = {
     "visual": "worldwright stamp describe {place} @description.json",
     "review": "worldwright stamp review {place} @verdict.json",
 }
-"""What makes each report again."""
+"""The command that makes each report again."""
 
 
 def refusals(state: State) -> Iterator[Refusal]:
@@ -99,7 +99,7 @@ def _vouched(path: Path, wanted: Any, command: str) -> Iterator[Refusal]:
     try:
         found = sha256_file(path)
     except OSError:
-        return  # what is missing is for the steps to say
+        return  # the steps report what is missing
     if wanted is None:
         yield Refusal(cause=f"no line of the journal vouches for {name}", next_move=command)
     elif found != wanted:

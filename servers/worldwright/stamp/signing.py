@@ -3,85 +3,44 @@
 The signature is a DSSE envelope (Dead Simple Signing Envelope v1, the one in-toto uses) beside the stamp: Ed25519 over
 the pre-authentication encoding of the payload type and the stamp's bytes. Keys are PEM or OpenSSH files; a private key's
 password is taken from WORLDWRIGHT_KEY_PASSWORD. The public key lies beside the signature, so that anybody can check the
-bytes; whose key it is, only a key got in another way can tell (`verify --signer`).
+bytes; whose key it is follows from the keys known to this machine (`keyring`), or from a key obtained elsewhere (`verify
+--signer`).
 """
 
 import base64
-import hashlib
 import json
-import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Literal
 
 from worldkit.files import write_atomic
 
-from ..model.errors import WorldwrightError
+from ..model.frozen import Frozen
+from . import keyring
+from .key_files import PASSWORD, SigningError, fingerprint, private_key, public_key
 
 if TYPE_CHECKING:
-    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey, Ed25519PublicKey
+    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
+__all__ = [
+    "ENVELOPE",
+    "PASSWORD",
+    "PUBLIC",
+    "Signature",
+    "SigningError",
+    "check",
+    "fingerprint",
+    "private_key",
+    "public_key",
+    "sign",
+]
 ENVELOPE = "stamp.dsse.json"
 PUBLIC = "stamp.pub"
 TYPE = "application/vnd.in-toto+json"
-PASSWORD = "WORLDWRIGHT_KEY_PASSWORD"
-
-
-class SigningError(WorldwrightError):
-    """A key cannot be used, or a signature cannot be made."""
-
-    code = "signing"
 
 
 def encoded(payload: bytes) -> bytes:
     """What is signed: DSSE's pre-authentication encoding, `DSSEv1 LEN(type) type LEN(payload) payload`."""
     return b"DSSEv1 %d %s %d %s" % (len(TYPE), TYPE.encode(), len(payload), payload)
-
-
-def private_key(path: Path) -> "Ed25519PrivateKey":
-    """The key in a PEM or OpenSSH file; a `SigningError` says what is wrong with it."""
-    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
-    from cryptography.hazmat.primitives.serialization import load_pem_private_key, load_ssh_private_key
-
-    word = os.environ.get(PASSWORD)
-    content = _read(path)
-    load: Any = load_ssh_private_key if b"OPENSSH PRIVATE KEY" in content else load_pem_private_key
-    try:
-        key = load(content, password=word.encode() if word else None)
-    except (ValueError, TypeError) as cause:  # also a missing or wrong password
-        raise SigningError(
-            f"the key cannot be read: {cause}",
-            place=str(path),
-            next_move=f"give an Ed25519 key; its password in {PASSWORD}",
-        ) from cause
-    if not isinstance(key, Ed25519PrivateKey):
-        raise SigningError(
-            f"the key is {type(key).__name__}, not Ed25519",
-            place=str(path),
-            next_move="make one: `openssl genpkey -algorithm ed25519 -out key.pem`, or `ssh-keygen -t ed25519`",
-        )
-    return key
-
-
-def public_key(path: Path) -> "Ed25519PublicKey":
-    """The public key in a PEM or OpenSSH file."""
-    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
-    from cryptography.hazmat.primitives.serialization import load_pem_public_key, load_ssh_public_key
-
-    content = _read(path)
-    try:
-        key = load_ssh_public_key(content) if content.startswith(b"ssh-") else load_pem_public_key(content)
-    except (ValueError, TypeError) as cause:
-        raise SigningError(
-            f"the public key cannot be read: {cause}", place=str(path), next_move="give an Ed25519 public key"
-        ) from cause
-    if not isinstance(key, Ed25519PublicKey):
-        raise SigningError("the public key is not Ed25519", place=str(path), next_move="give an Ed25519 public key")
-    return key
-
-
-def fingerprint(key: "Ed25519PublicKey") -> str:
-    """SHA-256 of the raw public key, hexadecimal."""
-    return hashlib.sha256(key.public_bytes_raw()).hexdigest()
 
 
 def sign(folder: Path, stamp: str, key: "Ed25519PrivateKey") -> str:
@@ -100,8 +59,37 @@ def sign(folder: Path, stamp: str, key: "Ed25519PrivateKey") -> str:
     return fingerprint(public)
 
 
-def check(folder: Path, stamp: str, signer: Path | None = None) -> tuple[bool, str] | None:
-    """Whether the signature holds, and what it says; None when there is none and none was asked for.
+class Signature(Frozen):
+    """What the signature on a stamp says about who accepted the world."""
+
+    holder: Literal["own", "known", "unknown", "unsigned", "broken"]
+    """`own`: this machine's key. `known`: a key that a person here has called known. `broken`: it does not hold."""
+    fingerprint: str = ""
+    """SHA-256 of the raw public key, hexadecimal."""
+    name: str = ""
+    """The name under which the key is known here."""
+    problem: str = ""
+    """Why it does not hold."""
+
+    @property
+    def vouched(self) -> bool:
+        """Whether a key that is known here signed every byte of the stamp."""
+        return self.holder in ("own", "known")
+
+    def text(self) -> str:
+        """A clause that says who signed, or why the signature does not count."""
+        key = f"sha256:{self.fingerprint[:16]}"
+        return {
+            "own": f"signed by this machine's key {key}",
+            "known": f"signed by {self.name or 'a known key'}, key {key}",
+            "unknown": f"signed by a key UNKNOWN here, {key}",
+            "unsigned": "UNSIGNED: whoever can write the folder can have made it",
+            "broken": self.problem,
+        }[self.holder]
+
+
+def check(folder: Path, stamp: str, signer: Path | None = None) -> Signature:
+    """Whether the signature holds, and whose it is.
 
     Args:
         folder: the accepted folder.
@@ -110,8 +98,11 @@ def check(folder: Path, stamp: str, signer: Path | None = None) -> tuple[bool, s
     """
     from cryptography.exceptions import InvalidSignature
 
+    def broken(problem: str) -> Signature:
+        return Signature(holder="broken", problem=problem)
+
     if not (folder / ENVELOPE).is_file():
-        return None if signer is None else (False, "the stamp is not signed")
+        return Signature(holder="unsigned") if signer is None else broken("the stamp is not signed")
     try:
         key = public_key(signer or folder / PUBLIC)
         envelope = json.loads((folder / ENVELOPE).read_bytes())
@@ -119,23 +110,16 @@ def check(folder: Path, stamp: str, signer: Path | None = None) -> tuple[bool, s
         (signature,) = envelope["signatures"]
         key.verify(base64.b64decode(signature["sig"], validate=True), encoded(payload))
     except InvalidSignature:
-        return False, "the signature is not that key's" if signer else "the signature does not fit"
+        return broken("the signature is not that key's" if signer else "the signature does not fit")
     except SigningError:
         if signer:
             raise
-        return False, f"{PUBLIC} cannot be read"
+        return broken(f"{PUBLIC} cannot be read")
     except (ValueError, KeyError, TypeError, OSError, RecursionError) as cause:
-        return False, f"{ENVELOPE} is damaged: {cause}"
+        return broken(f"{ENVELOPE} is damaged: {cause}")
     if payload != (folder / stamp).read_bytes():
-        return False, "another stamp was signed"
-    known = "" if signer else "; whose key that is, say with --signer"
-    return True, f"signed by Ed25519 key sha256:{fingerprint(key)[:16]}{known}"
-
-
-def _read(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as cause:
-        raise SigningError(
-            f"the key file cannot be read: {cause.strerror or cause}", place=str(path), next_move="name the key's file"
-        ) from cause
+        return broken("another stamp was signed")
+    if signer:
+        return Signature(holder="known", fingerprint=fingerprint(key), name=signer.name)
+    holder, name = keyring.holder(fingerprint(key))
+    return Signature(holder=holder, fingerprint=fingerprint(key), name=name)

@@ -7,23 +7,24 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from ..model import approval
-from ..model.audits import CausesReport, InterventionReport, RefineReport
 from ..model.errors import NotFoundError, PlanError, WorldwrightError
-from ..model.evidence import (
+from ..model.evidence import approval, assets_used, came, companions, pictures_of
+from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport
+from ..model.evidence.reports import (
     Environment,
     EvidenceKey,
     ExpectReport,
+    Film,
     LintReport,
     PassName,
     PassResult,
     ScanReport,
     VisualDescription,
 )
+from ..model.evidence.run import Run
+from ..model.evidence.verdict import Verdict
 from ..model.frozen import Frozen
-from ..model.plan import Plan
-from ..model.run import Run
-from ..model.verdict import Verdict
+from ..model.plan.committed import Plan
 from .kept import Kept
 from .statement import Statement
 
@@ -41,7 +42,7 @@ class Blocked(Frozen):
 
 
 class State:
-    """One run folder as it stands; each part is read when first asked for."""
+    """One run folder as it stands; each part is read when it is first needed."""
 
     def __init__(self, run: Run) -> None:
         self.run = run
@@ -68,12 +69,12 @@ class State:
 
     @cached_property
     def plan_bytes(self) -> bytes | None:
-        """The plan's bytes as they were when first asked for; None when it cannot be read."""
+        """The plan's bytes as they were when first read; None when it cannot be read."""
         return _bytes(self.run.plan)
 
     @cached_property
     def program_bytes(self) -> bytes | None:
-        """The program's bytes as they were when first asked for; None when it cannot be read."""
+        """The program's bytes as they were when first read; None when it cannot be read."""
         return _bytes(self.run.program)
 
     @cached_property
@@ -88,7 +89,7 @@ class State:
 
     @cached_property
     def _plan(self) -> tuple[Plan | None, str]:
-        from ..model.plan_text import read_plan
+        from ..model.plan.plan_text import read_plan
 
         try:
             return read_plan(self.run.plan).plan, ""
@@ -111,7 +112,7 @@ class State:
 
     @cached_property
     def validation(self) -> LintReport | None:
-        """What the plan's lint says; None when the plan is absent."""
+        """The lint report of the plan; None when there is no plan."""
         from ..lint import tools as lint
 
         try:
@@ -135,11 +136,22 @@ class State:
 
     @cached_property
     def environment(self) -> Environment | None:
-        """What this machine would run it with."""
-        from ..model import environment
+        """The environment in which this machine would run it now."""
+        from ..model.evidence import environment
 
         try:
-            return environment.current()
+            used = assets_used.sha256(self.run.source, self.run.program)
+            return environment.current().model_copy(update={"catalog_sha256": used})
+        except (WorldwrightError, OSError, ValueError):
+            return None
+
+    @cached_property
+    def film(self) -> Film | None:
+        """The film that pictures would be made with now; None where the chosen renderer is not there."""
+        from ..model.evidence import environment
+
+        try:
+            return environment.film()
         except (WorldwrightError, OSError, ValueError):
             return None
 
@@ -152,6 +164,8 @@ class State:
             program_sha256=self.program_sha256,
             plan_sha256=self.plan_sha256,
             environment_sha256=self.environment.sha256(),
+            companions_sha256=companions.sha256(self.run.program),
+            assets_sha256=self.environment.catalog_sha256,
         )
 
     @property
@@ -173,6 +187,32 @@ class State:
         names: tuple[PassName, ...] = ("physics", "stills", "video")
         return {name: self._read(f"{name}/result.json", PassResult) for name in names}
 
+    def filmed_otherwise(self, stage: PassName) -> str:
+        """Why the pictures of a pass differ from those that would be made now; empty when they do not, or when there are none."""
+        kept = self.passes[stage].value
+        if stage == "physics" or kept is None or not kept.ok:
+            return ""
+        if self.film is None:
+            return "the chosen renderer is not there"
+        if kept.film_sha256 == self.pictures(stage):
+            return ""
+        if (kept.summary.get("drawn_by") or kept.film_sha256) == self.film.sha256:
+            return "film.py is not the one that was filmed"
+        return f"its pictures are not by {self.film.renderer} ({self.film.version}) as it is now"
+
+    def _of_these_pictures(self, action: str, kept: Kept[T]) -> Kept[T]:
+        """A description or review of this key, unless it is about the pictures of another film."""
+        key = self.key.key if self.key else ""
+        line: dict[str, Any] = next(
+            (e for e in reversed(self.journal) if (e.get("action"), e.get("key")) == (action, key)), {}
+        )
+        about = line.get("film_sha256")
+        return kept if not about or about == self.pictures("video") else Kept(kept.path)
+
+    def pictures(self, stage: PassName) -> str:
+        """Identity of the pictures that a pass would make now; empty where the renderer is not there."""
+        return pictures_of.identity(self.run, stage) if self.film else ""
+
     @cached_property
     def scan(self) -> Kept[ScanReport]:
         """The anomaly scan of this key."""
@@ -185,7 +225,7 @@ class State:
 
     @cached_property
     def interventions(self) -> Kept[InterventionReport]:
-        """The ledger of what acts on this key's recording, with who carries the load."""
+        """The ledger of what acts in this key's recording, with what carries the loads."""
         return self._read("interventions.json", InterventionReport)
 
     @cached_property
@@ -200,22 +240,22 @@ class State:
 
     @cached_property
     def visual(self) -> Kept[VisualDescription]:
-        """The visual description of this key."""
-        return self._read("visual.json", VisualDescription)
+        """The visual description of this key's pictures."""
+        return self._of_these_pictures("describe", self._read("visual.json", VisualDescription))
 
     @cached_property
     def review(self) -> Kept[Verdict]:
-        """The review of this key."""
-        return self._read("review.json", Verdict)
+        """The review of this key and its pictures."""
+        return self._of_these_pictures("review", self._read("review.json", Verdict))
 
     @cached_property
     def stamp(self) -> Kept[Statement]:
-        """The stamp of an accepted world, whichever program it is for."""
-        return Kept.read(self.run.accepted / "stamp.json", Statement)
+        """The stamp of the accepted world, whichever program it belongs to."""
+        return Kept.read(self.run.stamped / "stamp.json", Statement)
 
     @cached_property
     def blocked(self) -> Kept[Blocked]:
-        """The other ending, whichever program it is for."""
+        """Why the run is blocked, whichever program that was about; None when it is not."""
         return Kept.read(self.run.blocked, Blocked)
 
     @cached_property
@@ -231,6 +271,15 @@ class State:
         """The latest approval of exactly this plan and of the model files that it names."""
         found = approval.standing(self.journal, self.plan_sha256, self.model_hashes)
         return None if found is None else dict(found)
+
+    def came(self, action: str) -> str:
+        """How the latest entry of this kind for this key was sent, in words; empty without one, or for a line of an
+        older version.
+        """
+        key = self.key.key if self.key else ""
+        return came.of(
+            next((e for e in reversed(self.journal) if (e.get("action"), e.get("key")) == (action, key)), None)
+        )
 
     @cached_property
     def model_hashes(self) -> dict[str, str]:
@@ -260,7 +309,7 @@ class State:
         return any((self.run.evidence(key) / name).exists() for key in self.other_keys)
 
     def failure(self, stage: PassName) -> str:
-        """What the newest failed job of this pass and key said; empty when none failed."""
+        """The message of the newest failed job of this pass and key; empty when none failed."""
         from .failures import newest_failure
 
         return newest_failure(self.run.jobs, stage, self.key.key) if self.key else ""

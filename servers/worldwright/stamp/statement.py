@@ -4,11 +4,11 @@ Subjects are the files of the accepted folder with their SHA-256; the predicate 
 proved them and where. Shape: in-toto Attestation Framework, Statement v1.
 """
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import Field
 
-from ..model.evidence import Environment
+from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
 
 
@@ -27,7 +27,7 @@ class Subject(Frozen):
 
 
 class Source(Frozen):
-    """What was accepted, before its instrumentation was taken out."""
+    """What was accepted, before its instrumentation was removed."""
 
     key: str
     """Evidence key of the run."""
@@ -37,7 +37,7 @@ class Source(Frozen):
     stripped_lines: tuple[int, ...] = ()
     """Lines of instrumentation that were taken out of the program."""
     materials: dict[str, Digest] = {}
-    """SHA-256 of all it was made from, by name: the run's files, `simulator`, `worldkit` and `catalog`."""
+    """SHA-256 of everything it was made from, by name: the run's files, `simulator`, `worldkit`, `catalog` and `film`."""
 
 
 class Proof(Frozen):
@@ -48,15 +48,34 @@ class Proof(Frozen):
     simulated_s: float | None = None
     wall_s: float = 0.0
     sandbox: str = ""
-    """Level of the ladder it ran at."""
+    """Level of confinement at which it ran."""
     confinement: dict[str, str] = {}
-    """What enforced it."""
+    """What enforced the confinement, by name."""
+    world_sha256: str = ""
+    """SHA-256 of `world.mjz`, the world that was simulated."""
+    inputs_sha256: str = ""
+    """SHA-256 of the inputs that were sent to the world while it ran; empty when there were none."""
     no_world: str = ""
-    """Why there is no `world.mjz`; empty when there is one."""
+    """Why there is no `world.mjz`, in stamps of worlds that were simulated by their own program."""
+
+
+class Filmed(Frozen):
+    """The author's film, where there is one: it draws the recording, and adds to its pictures what is told here."""
+
+    sha256: str
+    """The SHA-256 of `film.py` and the files that belong to it."""
+    drawn_only: tuple[str, ...] = ()
+    """What is drawn and was not simulated."""
+    looks: dict[str, str] = {}
+    """Looks that are not the world's own, by body or geom."""
+    hidden: dict[str, float] = {}
+    """Seconds of film in which something drawn only stands before the middle of a moving body, by which before which."""
+    shots: tuple[dict[str, Any], ...] = ()
+    """Each shot's film time and length (`film_s`, `seconds`), recorded times (`from_s`, `to_s`) and mean `speed`."""
 
 
 class ExpectationVerdict(Frozen):
-    """What one expectation said, with its number."""
+    """The result of one expectation, with the measured number."""
 
     objective: int
     name: str
@@ -73,14 +92,19 @@ class ObjectiveOutcome(Frozen):
     claim: str
     status: str
     evidence: tuple[str, ...] = ()
+    looked_at: bool | None = None
+    """Whether somebody described the pictures by looking at them; None when the objective needs no picture."""
 
 
 class Approval(Frozen):
-    """Who approved the plan, and when."""
+    """The person who approved the plan, and the time."""
 
     by: str
+    """The name that the approval gives."""
     time: str
     auto: bool = False
+    came: str = ""
+    """How the approval was sent: by a person at a terminal, a harness, a command line or automation."""
 
 
 class Acceptance(Frozen):
@@ -93,22 +117,29 @@ class Acceptance(Frozen):
     """Version of the suite."""
     source: Source
     proof: Proof
+    film: Filmed | None = None
     environment: Environment
     cpu: str = ""
     """Processor family, which decides whether bitwise repetition can be expected."""
     evidence: dict[str, Digest] = {}
     """SHA-256 of each evidence file of the key, by path relative to the evidence folder."""
     checks: int = 0
-    """Anomaly checks that looked."""
+    """How many anomaly checks ran."""
     anomalies: dict[str, int] = {}
     """Anomalies by severity."""
     objectives: tuple[ObjectiveOutcome, ...] = ()
     expectations: tuple[ExpectationVerdict, ...] = ()
     declared_interventions: tuple[str, ...] = ()
     journal_head: str = ""
-    """Chain of the journal's last line when the run was accepted: binds every line before it."""
+    """Chain of the journal's last line when the run was accepted; it binds every line before it."""
     reviewer: str = ""
+    """The name that the review gives."""
+    review_came: str = ""
+    """How the review was sent."""
     described_by: str = ""
+    """The name that the description gives; `measured` when it was made without looking."""
+    description_came: str = ""
+    """How the description was sent."""
     approval: Approval
 
 
@@ -121,6 +152,11 @@ class Statement(Frozen):
         "urn:worldwright:acceptance:v1", alias="predicateType"
     )
     predicate: Acceptance
+
+    @property
+    def not_looked_at(self) -> tuple[int, ...]:
+        """Indices of objectives that only a picture can show, in a world whose pictures nobody looked at."""
+        return tuple(o.index for o in self.predicate.objectives if o.looked_at is False)
 
     def digest_of(self, name: str) -> str:
         """SHA-256 of a subject, or an empty text."""

@@ -2,14 +2,15 @@
 
 from typing import Any, Literal
 
+from ..model.evidence.build_steps import STEPS, StepName
 from ..model.frozen import Frozen
 from . import bundle, gates, iterations, scope
 from .refusal import Refusal
 from .state import State
-from .steps import Step, StepName, steps
+from .steps import Step, steps
 
 MARKS = {"holds": "✓", "fails": "✗", "missing": "·", "damaged": "!", "not_needed": "–"}
-RELEASED: tuple[StepName, ...] = ("planned", "validated", "approved", "program")
+RELEASED: tuple[StepName, ...] = STEPS[: STEPS.index("lint")]
 
 
 class Status(Frozen):
@@ -28,11 +29,11 @@ class Status(Frozen):
 
     @property
     def ok(self) -> bool:
-        """It is enough: this program and plan are accepted."""
+        """Whether it is enough: this program and plan are accepted."""
         return self.state == "accepted"
 
     def text(self) -> str:
-        """What a person reads."""
+        """The status as a person reads it."""
         lines = [f"{self.run}: {self.state}" + (f" (key {self.key})" if self.key else "")]
         lines += [f"  {MARKS[s.status]} {s.name:<10}{s.detail}" for s in self.steps]
         lines += [f"  blocked: {self.cause}"] if self.cause else []
@@ -53,9 +54,9 @@ def status(state: State) -> Status:
     outcome: Literal["open", "accepted", "blocked"] = "open"
     outside = list(scope.refusals(state))
     next_move = next((step.next_move for step in found.values() if not step.holds), "")
-    if outside and found["program"].holds and found["approved"].holds:
+    if outside and found["draft"].holds and found["approve"].holds:
         next_move = outside[0].next_move
-    if found["accepted"].holds:
+    if found["accept"].holds:
         outcome, next_move = "accepted", f"worldwright stamp verify {state.place}"
     elif same:
         outcome, next_move = "blocked", f"change {state.place}/plan.md or {state.place}/simulation.py"
@@ -81,7 +82,12 @@ def _notes(
     if older_block:
         notes.append("blocked.json is about an earlier program or plan")
     stamp = state.stamp.value
-    if outcome == "accepted" and stamp and state.environment and stamp.predicate.environment != state.environment:
+    if (
+        outcome == "accepted"
+        and stamp
+        and state.environment
+        and stamp.predicate.environment.sha256() != state.environment.sha256()
+    ):
         notes.append("it was accepted in another environment; verify says whether it holds in this one")
     if state.environment is None:
         notes.append("this machine's environment cannot be read, so no evidence can be addressed: worldwright doctor")

@@ -1,30 +1,15 @@
-"""The state machine, derived: which steps hold for the current key, what is missing, and the exact next command."""
+"""The steps of a run, derived from its files: which hold for the current key, what is missing, and the exact next command."""
 
 from collections.abc import Callable
 from typing import Literal
 
-from ..model import approval
+from ..model.evidence import approval, came, pictures_of
+from ..model.evidence.build_steps import STEPS, StepName
 from ..model.frozen import Frozen
-from . import audited
-from .bundle import damage
+from . import audited, descriptions, signing
+from .bundle import STAMP, damage
 from .state import State
 
-StepName = Literal[
-    "planned",
-    "validated",
-    "approved",
-    "program",
-    "lint",
-    "physics",
-    "stills",
-    "video",
-    "scan",
-    "expect",
-    "causes",
-    "visual",
-    "review",
-    "accepted",
-]
 Holding = Literal["holds", "fails", "missing", "damaged", "not_needed"]
 
 
@@ -40,68 +25,73 @@ class Step(Frozen):
 
     @property
     def done(self) -> bool:
-        """It has been answered for this key, well or badly."""
+        """Whether the step has a result for this key, good or bad."""
         return self.status in ("holds", "fails", "not_needed")
 
     @property
     def holds(self) -> bool:
-        """It has been answered well, or is not asked for."""
+        """Whether the step has a good result for this key, or is not needed."""
         return self.status in ("holds", "not_needed")
 
 
 def steps(state: State) -> dict[StepName, Step]:
     """Every step, in order."""
-    found: dict[StepName, Step] = {}
-    for name, derive in DERIVED.items():
-        status, detail, command = derive(state)
-        found[name] = Step(
-            name=name, status=status, detail=detail, next_move="" if status in ("holds", "not_needed") else command
-        )
-    return found
+    return {name: one(state, name) for name in STEPS}
+
+
+def one(state: State, name: StepName) -> Step:
+    """Where one step stands."""
+    status, detail, command = DERIVED[name](state)
+    return Step(name=name, status=status, detail=detail, next_move="" if status in ("holds", "not_needed") else command)
 
 
 Answer = tuple[Holding, str, str]
 
 
-def _planned(state: State) -> Answer:
+def _check(state: State) -> Answer:
+    command = f"worldwright lint check-plan {state.place}/plan.md"
     if not state.run.plan.is_file():
         return "missing", "there is no plan.md", f"write {state.place}/plan.md"
     if state.plan is None:
-        return "damaged", state.plan_problem, f"worldwright lint check-plan {state.place}/plan.md"
-    return "holds", state.plan.title or state.plan.plan_type, ""
-
-
-def _validated(state: State) -> Answer:
-    command = f"worldwright lint check-plan {state.place}/plan.md"
-    if state.plan is None:
-        return "missing", "the plan cannot be read", command
+        return "damaged", state.plan_problem, command
     report = state.validation
     if report is None:
         return "missing", "the plan could not be checked", command
     errors = [f for f in report.findings if f.severity == "error"]
     if errors:
         return "fails", f"{len(errors)} error(s), first: {errors[0].code} {errors[0].message}", command
-    open_points = list(state.plan.unresolved())
-    if open_points:
-        return (
-            "fails",
-            f"{len(open_points)} open point(s): {'; '.join(open_points[:3])}",
-            (
-                f"worldwright place resolve {state.place}/plan.md"
-                if any("scene_predicates" in p for p in open_points)
-                else f"answer them in {state.place}/plan.md"
-            ),
-        )
-    return "holds", f"{report.rules} rules, no error" if report.rules else "no error", ""
+    questions = [point for point in state.plan.unresolved() if not _of_layout(point)]
+    if questions:
+        return "fails", _told(questions), f"answer them in {state.place}/plan.md"
+    return "holds", state.plan.title or state.plan.plan_type, ""
 
 
-def _approved(state: State) -> Answer:
+def _place(state: State) -> Answer:
+    command = f"worldwright place resolve {state.place}/plan.md"
+    if state.plan is None:
+        return "missing", "the plan cannot be read", f"worldwright lint check-plan {state.place}/plan.md"
+    if rows := [point for point in state.plan.unresolved() if _of_layout(point)]:
+        return "fails", _told(rows), command
+    return "holds", f"{len(state.plan.object_names())} objects", ""
+
+
+def _of_layout(point: str) -> bool:
+    """Whether what is open in a plan is the pose of a row, which `place` answers."""
+    return "scene_predicates" in point
+
+
+def _told(points: list[str]) -> str:
+    return f"{len(points)} open point(s): {'; '.join(points[:3])}"
+
+
+def _approve(state: State) -> Answer:
     command = f"worldwright stamp approve {state.place}"
     if not state.plan_sha256:
         return "missing", "there is no plan to approve", f"write {state.place}/plan.md"
     if state.approval:
         auto = ", in auto mode" if state.approval.get("auto") else ""
-        return "holds", f"by {state.approval.get('by', 'unknown')}{auto}, {state.approval.get('time', '')}", ""
+        how = _how(came.of(state.approval))
+        return "holds", f"by {state.approval.get('by', 'unknown')}{how}{auto}, {state.approval.get('time', '')}", ""
     if names := approval.changed(state.journal, state.plan_sha256, state.model_hashes):
         return "missing", f"{', '.join(names)}, which the plan names, changed after it was approved", command
     if any(entry.get("action") == "approve" for entry in state.journal):
@@ -109,10 +99,10 @@ def _approved(state: State) -> Answer:
     return "missing", "nobody has approved the plan", command
 
 
-def _program(state: State) -> Answer:
+def _draft(state: State) -> Answer:
     if state.program_problem:
         missing = not state.run.program.exists()
-        command = f"worldwright build {state.place}/plan.md" if missing else f"correct {state.place}/simulation.py"
+        command = f"worldwright go {state.place}" if missing else f"correct {state.place}/simulation.py"
         return "missing" if missing else "damaged", state.program_problem, command
     return "holds", f"sha256 {state.program_sha256[:16]}", ""
 
@@ -158,9 +148,11 @@ def _pass(state: State, stage: Literal["physics", "stills", "video"], command: s
     if not kept.value.ok:
         where = f" at {kept.value.place}" if kept.value.place else ""
         return "fails", f"{kept.value.code}{where}: {kept.value.message}", kept.value.next_move or command
+    if other := state.filmed_otherwise(stage):
+        return "missing", other, command
     told = f"{kept.value.wall_s:.1f} s in the {kept.value.sandbox or 'unknown'} sandbox"
     source = kept.value.summary.get("reused_from")
-    return "holds", f"recording of {source} taken over: only what is seen differs" if source else told, ""
+    return "holds", f"recording of {source} taken over: only the pictures differ" if source else told, ""
 
 
 def _scan(state: State) -> Answer:
@@ -190,6 +182,11 @@ def _expect(state: State) -> Answer:
         return "missing", "the expectations are of another recording", command
     count = len(report.objectives)
     proved = sum(o.status == "proved" for o in report.objectives)
+    if report.waits and all(o.waits or o.status in ("proved", "visual_only") for o in report.objectives):
+        drawn = _stills(state)
+        if drawn[0] != "holds":
+            return "missing", "what is claimed of pictures needs the stills", drawn[2]
+        return "missing", "the stills were drawn since", command
     if not report.ok:
         first = next(o for o in report.objectives if o.status not in ("proved", "visual_only"))
         return (
@@ -219,11 +216,14 @@ def _causes(state: State) -> Answer:
     return status, f"{detail}; {why}" if status == "missing" else detail, command
 
 
-def _visual(state: State) -> Answer:
+def _describe(state: State) -> Answer:
     command = f"worldwright stamp describe {state.place} @description.json"
     if state.visual.value is None:
         return _absent(state, state.visual.problem, "visual.json", command)
-    return "holds", f"by {state.visual.value.author}", ""
+    visual = state.visual.value
+    unseen = [] if visual.looked else [str(i) for i in descriptions.by_eye(state)]
+    blind = f"; NOT LOOKED AT: objective {', '.join(unseen)}" if unseen else ""
+    return "holds", f"by {visual.author}{_how(state.came('describe'))}{blind}", ""
 
 
 def _review(state: State) -> Answer:
@@ -232,7 +232,7 @@ def _review(state: State) -> Answer:
     if verdict is None:
         return _absent(state, state.review.problem, "review.json", command)
     if verdict.outcome == "pass":
-        return "holds", f"passed by {verdict.reviewer}", ""
+        return "holds", f"passed by {verdict.reviewer}{_how(state.came('review'))}", ""
     if verdict.outcome == "repair":
         return (
             "fails",
@@ -242,22 +242,32 @@ def _review(state: State) -> Answer:
     return "fails", "the reviewer calls it blocked", f'worldwright stamp block {state.place} "CAUSE"'
 
 
-def _accepted(state: State) -> Answer:
+def _accept(state: State) -> Answer:
     command = f"worldwright stamp accept {state.place}"
     stamp = state.stamp.value
     if stamp is None:
         if state.stamp.problem or state.run.accepted.exists():
             return "damaged", state.stamp.problem or "accepted/ has no stamp.json", command
         return "missing", "not accepted", command
-    broken = damage(state.run.accepted, stamp)
+    broken = damage(state.run.stamped, stamp)
     if broken:
-        return "damaged", f"accepted/: {broken[0]}", command
+        return "damaged", f"{state.run.stamped.name}/: {broken[0]}", command
     source = stamp.predicate.source
     if source.plan_sha256 != state.plan_sha256:
         return "missing", "accepted/ is for an earlier plan", command
     if state.program_sha256 not in (source.program_sha256, stamp.digest_of("simulation.py")):
         return "missing", "accepted/ is for an earlier program", command
-    return "holds", f"accepted {stamp.predicate.accepted_at}", ""
+    if pictures_of.author_sha256(state.run) != (stamp.predicate.film.sha256 if stamp.predicate.film else ""):
+        return "missing", "accepted/ is for another film.py", command
+    signature = signing.check(state.run.stamped, STAMP)
+    if signature.holder == "broken":
+        return "damaged", f"{state.run.stamped.name}/: {signature.problem}", command
+    return "holds", f"accepted {stamp.predicate.accepted_at}, {signature.text()}", ""
+
+
+def _how(came_by: str) -> str:
+    """How an approval or review was sent, in brackets; empty for lines of older versions."""
+    return f" ({came_by})" if came_by else ""
 
 
 def _absent(state: State, problem: str, name: str, command: str) -> Answer:
@@ -269,10 +279,10 @@ def _absent(state: State, problem: str, name: str, command: str) -> Answer:
 
 
 DERIVED: dict[StepName, Callable[[State], Answer]] = {
-    "planned": _planned,
-    "validated": _validated,
-    "approved": _approved,
-    "program": _program,
+    "check": _check,
+    "place": _place,
+    "approve": _approve,
+    "draft": _draft,
     "lint": _lint,
     "physics": _physics,
     "stills": _stills,
@@ -280,7 +290,7 @@ DERIVED: dict[StepName, Callable[[State], Answer]] = {
     "scan": _scan,
     "expect": _expect,
     "causes": _causes,
-    "visual": _visual,
+    "describe": _describe,
     "review": _review,
-    "accepted": _accepted,
+    "accept": _accept,
 }

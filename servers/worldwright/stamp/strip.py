@@ -8,6 +8,9 @@ Instrumentation is marked by comments:
 
 A block that would be left empty gets a ``pass``. The marks count only as comments, never inside strings. What is left
 must parse, must hold exactly the other statements, and no statement may be cut in half.
+
+Not libcst: it removes nodes, and with a node the comments above it, where marks take out lines, some of them inside
+brackets. It takes 0.3 s to import and 83 ms to place the nodes of our longest program, which is stripped here in 11.
 """
 
 import ast

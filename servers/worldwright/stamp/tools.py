@@ -6,16 +6,18 @@ from typing import Annotated
 from pydantic import Field
 
 from ..expose import reads
-from ..model.evidence import EvidenceKey, VisualDescription
+from ..model.evidence.build_steps import StepName
+from ..model.evidence.reports import EvidenceKey, VisualDescription
+from ..model.evidence.verdict import Verdict
 from ..model.frozen import Frozen
 from ..model.progress import Progress, silent
-from ..model.verdict import Verdict
 from .acceptance import Accepted
+from .gone import Gone
 from .state import Blocked, State
 from .status import Status
 from .verification import Verification
 
-RunName = Annotated[str, Field(description="Path of the run folder, or its slug under runs/ or examples/")]
+RunName = Annotated[str, Field(description="The run folder, or its name")]
 Timeout = Annotated[float, Field(description="Seconds this call may take; the work goes on, call again", gt=0)]
 
 
@@ -38,13 +40,30 @@ class Recorded(Frozen):
 def status(run: RunName) -> Status:
     """What has been proven so far for this exact program, plan and environment, and is it enough?
 
-    Derived from the files of the run folder each time. Lists every step from `planned` to `accepted`, why each one does
-    not hold, and the one command to run next. Evidence of earlier programs or plans never counts. Works on damaged and
-    half-written folders.
+    Derived from the files each time, damaged ones too: every step, why it does not hold, and the one command to run
+    next. Evidence of earlier programs or plans never counts.
     """
     from .status import status as derive
 
     return derive(State.find(run))
+
+
+def go(
+    run: RunName,
+    refine: Annotated[bool, Field(description="Also repeat the physics at half the time step")] = False,
+    until: Annotated[
+        StepName | None, Field(description="End after this step's group: `expect` draws no film yet")
+    ] = None,
+    timeout_s: Timeout = 40.0,
+    progress: Progress = silent,
+) -> Gone:
+    """Advance a run as far as it goes without a decision: check, place, draft, lint, physics, scan, expect, audits, film.
+
+    Tells all that is wrong together, what to mend first in front. Never repeats what holds. `running`: call again.
+    """
+    from .going import Going
+
+    return Going(State.find(run).run, timeout_s=timeout_s, refine=refine, until=until, progress=progress).go()
 
 
 def approve(
@@ -66,7 +85,8 @@ def approve(
     gates.pass_through("approve", state)
     if auto:
         gates.pass_through("auto_approve", state)
-    facts = {"models": state.model_hashes} if state.model_hashes else {}
+    facts: dict[str, object] = {"models": state.model_hashes} if state.model_hashes else {}
+    facts["came"] = _came()
     state.run.log(by, "approve", plan_sha256=state.plan_sha256, by=by, auto=auto, repairs=repairs, **facts)
     what = "".join(f", with {name}" for name in state.model_hashes) + (" in auto mode" if auto else "")
     return _recorded(run, f"plan {state.plan_sha256[:16]} approved by {by}{what}")
@@ -78,15 +98,18 @@ def describe(
     """Keep a description of what the stills and videos of this key show.
 
     Describes and never judges: what each camera shows, each object, what bears on each objective, concerns. Needs
-    stills or video of the current program and plan (look at them with `stage frames`).
+    stills or video of the current program and plan (look at them with `stage frames`). Every camera that was pictured
+    and at least one object are described, by names that exist, with at least one observation each.
     """
-    from . import gates
+    from . import descriptions, gates
+    from .refusal import raise_if
 
     state = State.find(run)
     gates.pass_through("describe", state)
+    raise_if("describe", descriptions.problems(state, description), state.place)
     again = (state.run.evidence(_key(state)) / "visual.json").is_file()
     path = state.run.keep(_key(state), "visual", description)
-    state.run.log(description.author, "describe", key=_key(state).key)
+    state.run.log(description.author, "describe", key=_key(state).key, came=_came(), **_of_film(state))
     what = f"described by {description.author}" + (", in place of an earlier description" if again else "")
     # No next move: it would tell the witness what the numbers say, and the next description would know.
     return Recorded(run=state.run.name, what=what, file=str(path.relative_to(state.run.folder)))
@@ -98,8 +121,8 @@ def review(run: RunName, verdict: Annotated[Verdict, Field(description="Three ch
     Needs scan, expectations and visual description of the current key. Judge every objective once and bind it to
     evidence that exists: `expect:<name>`, `scan:clean`, `visual:<camera or object>`, `still:<camera>`,
     `video:<camera>`, `physics:<fact>`. A pass is refused while an objective is refuted or unproved or an anomaly
-    blocks; a repair needs a cross check in another channel. When a repair is ordered of a program that is worse than an
-    earlier one (`scan compare`), the earlier one is put back; when no repair is left, the run is blocked.
+    blocks; a repair needs a cross check in another channel. A program worse than an earlier one is put back; when no
+    repair is left, the run is blocked.
     """
     from . import bindings, gates, iterations
     from .refusal import raise_if
@@ -109,7 +132,15 @@ def review(run: RunName, verdict: Annotated[Verdict, Field(description="Three ch
     raise_if("review", bindings.problems(state, verdict), state.place)
     path = state.run.keep(_key(state), "review", verdict)
     target = {"target": verdict.repair_target} if verdict.repair_target else {}
-    state.run.log(verdict.reviewer, "review", key=_key(state).key, outcome=verdict.outcome, **target)
+    state.run.log(
+        verdict.reviewer,
+        "review",
+        key=_key(state).key,
+        outcome=verdict.outcome,
+        came=_came(),
+        **_of_film(state),
+        **target,
+    )
     what = f"{verdict.outcome}, by {verdict.reviewer}"
     known = State(state.run)
     if verdict.outcome == "repair" and (ending := iterations.end(known, verdict)):
@@ -123,15 +154,14 @@ def accept(
     run: RunName,
     timeout_s: Timeout = 40.0,
     signing_key: Annotated[
-        Path | None, Field(description="Ed25519 private key (PEM or OpenSSH) to sign the stamp with")
+        Path | None, Field(description="Ed25519 private key (PEM or OpenSSH) to sign with; this machine's without it")
     ] = None,
     progress: Progress = silent,
 ) -> Accepted:
     """Stamp the world: strip instrumentation, lint and run it once more, write `accepted/` whole.
 
-    Needs a passing review of this key, an approved and unchanged plan, no blocking anomaly and no undeclared
-    intervention. The stripped program must give the same trajectory hash in a fresh sandboxed run. The folder
-    holds program, plan, films, trajectory and the world as one file that plain MuJoCo opens. Returns state `proving` when that run takes longer than this call: call again.
+    Needs a passing review, an approved plan, no blocking anomaly and no undeclared intervention. The stripped program
+    must move the same in a fresh run, which is measured anew. `proving`: call again.
     """
     from .acceptance import accept as take
 
@@ -172,17 +202,31 @@ def verify(
     run: RunName,
     timeout_s: Timeout = 40.0,
     signer: Annotated[Path | None, Field(description="Public key that must have signed the stamp")] = None,
+    anybody: Annotated[bool, Field(description="A yes also when nobody known here signed it")] = False,
+    rebuild: Annotated[bool, Field(description="Run the program, also where its world is kept as a file")] = False,
     progress: Progress = silent,
 ) -> Verification:
-    """Prove an accepted world again: every checksum, then a fresh sandboxed run of the accepted program.
+    """Prove an accepted world again: every checksum, then the world simulated anew, in the sandbox.
 
-    The same build and processor family must repeat the trajectory bit for bit; another one must stay within a stated
-    tolerance with identical expectation verdicts, and what differs is named. Reads `accepted/`, never writes it. Takes
-    a run folder or an accepted folder. Returns state `running` when it needs longer than this call: call again.
+    A world kept as a file is driven by its recorded inputs; in the small form, or with `rebuild`, its program builds it
+    again. The first line says who signed; it is no yes while nobody known here did. The same build and processor repeat
+    the trajectory bit for bit, others stay within a tolerance. `running`: call again.
     """
     from .verification import verify as prove_again
 
-    return prove_again(run, timeout_s, progress, signer)
+    return prove_again(run, timeout_s, progress, signer, anybody, rebuild)
+
+
+def _came() -> dict[str, object]:
+    """How the word came that is being taken down."""
+    from ..model.evidence import came
+
+    return came.current().model_dump(mode="json", exclude_defaults=True)
+
+
+def _of_film(state: State) -> dict[str, str]:
+    """Which pictures a word is about: those of a film made otherwise are others."""
+    return {"film_sha256": state.pictures("video")} if state.film else {}
 
 
 def _key(state: State) -> EvidenceKey:
@@ -203,4 +247,4 @@ def _recorded(run: str, what: str, file: str = "") -> Recorded:
     return Recorded(run=now.run, what=what, file=file, next_move=now.next_move)
 
 
-TOOLS = (status, approve, describe, review, accept, block, verify)
+TOOLS = (status, go, approve, describe, review, accept, block, verify)

@@ -1,29 +1,28 @@
-"""Proving an accepted world again: every byte as stamped, and the program run anew moves as it did.
+"""Proving an accepted world again: every byte is as stamped, and the world, simulated anew, moves as it did.
 
 On the stamped build and processor family the trajectory must repeat bit for bit. Elsewhere the sampled motion must stay
-within a stated tolerance and every expectation must come out as stamped; what differs is named. The accepted folder is
+within a stated tolerance and every expectation must come out as stamped; differences are listed. The accepted folder is
 only read: the program runs from a copy in a private temporary folder.
 """
 
-import hashlib
-import os
 import shutil
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
-from ..model import imported
 from ..model.errors import GateError, NotFoundError, WorldwrightError
-from ..model.evidence import Environment, ExpectReport
+from ..model.evidence import assets_used, environment
+from ..model.evidence.journal import Journal
+from ..model.evidence.reports import Environment, ExpectReport
+from ..model.evidence.run import Run
 from ..model.frozen import Frozen
-from ..model.journal import Journal
+from ..model.plan.plan_text import read_plan
 from ..model.progress import Progress, silent
-from ..model.run import Run
-from ..model.storage import writing
-from . import bundle, digest, machine, signing
+from ..model.storage import StorageError, writing
+from . import agreement, bundle, departures, digest, private, processor, redrawn, signing
 from .kept import Kept
-from .proof import Proved, prove
+from .proof import FACTS, WORLD, Proved, beside, lay_out, measure, prove, replay
 from .state import State
 from .statement import Statement
 
@@ -41,7 +40,11 @@ class Verification(Frozen):
 
     run: str
     state: Literal["proved", "refuted", "running"]
-    """`running`: the run needs longer than this call may take; it goes on by itself."""
+    """About the world alone: `proved` says nothing about who accepted it. `running`: the work goes on, call again."""
+    signature: signing.Signature | None = None
+    """The signature on the stamp; without one by a key that is known here, the answer is no."""
+    anybody: bool = False
+    """The caller accepts any signer, known here or not."""
     mode: Literal["bitwise", "tolerance", ""] = ""
     """How the motion was compared."""
     checks: tuple[Check, ...] = ()
@@ -51,42 +54,68 @@ class Verification(Frozen):
 
     @property
     def ok(self) -> bool:
-        """The world was proved again."""
-        return self.state == "proved"
+        """Whether the world was proved again and its signer is known here (or any signer will do)."""
+        return self.state == "proved" and (self.anybody or bool(self.signature and self.signature.vouched))
 
     def text(self) -> str:
-        """What a person reads."""
-        lines = [f"{self.run}: {self.state}" + (f" ({self.mode})" if self.mode else "")]
+        """The answer as a person reads it."""
+        who = f", {'' if self.signature.vouched else 'but '}{self.signature.text()}" if self.signature else ""
+        lines = [f"{self.run}: {self.state}" + (f" ({self.mode})" if self.mode else "") + who]
         lines += [f"  {'ok  ' if c.ok else 'FAIL'} {c.name}: {c.detail}" for c in self.checks]
         lines += [f"  differs here: {text}" for text in self.environment_differences]
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
 
 
-def verify(name: str, timeout_s: float, progress: Progress = silent, signer: Path | None = None) -> Verification:
-    """Check and re-run an accepted world: a run folder that holds `accepted/`, or an accepted folder itself.
+def verify(
+    name: str,
+    timeout_s: float,
+    progress: Progress = silent,
+    signer: Path | None = None,
+    anybody: bool = False,
+    rebuild: bool = False,
+) -> Verification:
+    """Check and re-run an accepted world: a run folder, its small form, or an accepted folder itself.
 
-    With `signer`, a public key, the stamp must have been signed with it.
+    With `signer`, a public key, the stamp must have been signed with it. With `anybody`, a world that nobody known here
+    vouches for is a yes too, when it is proved again. With `rebuild`, the program is run even where its world is kept.
     """
     run, folder = _locate(name)
+    found = _prove_again(name, run, folder, timeout_s, progress, signer, rebuild)
+    signature = None if found.state == "refuted" else signing.check(folder, bundle.STAMP, signer)
+    unknown = signature is not None and not signature.vouched and not anybody and found.state == "proved"
+    return found.model_copy(
+        update={
+            "signature": signature,
+            "anybody": anybody,
+            **({"next_move": _vouch(signature, name)} if unknown else {}),
+        }
+    )
+
+
+def _vouch(signature: signing.Signature | None, name: str) -> str:
+    """What a person can do about a world whose signer is not known here."""
+    if signature is not None and signature.holder == "unknown":
+        return (
+            f"ask whoever sent it for their key's fingerprint; if it is sha256:{signature.fingerprint}: "
+            f"`worldwright keys trust sha256:{signature.fingerprint} --name WHO`"
+        )
+    return f"accept it yourself from its plan, or, if who accepted it does not matter: `worldwright stamp verify {name} --anybody`"
+
+
+def _prove_again(
+    name: str, run: Run, folder: Path, timeout_s: float, progress: Progress, signer: Path | None, rebuild: bool
+) -> Verification:
     checks, statement = static(run, folder, signer), Kept.read(folder / bundle.STAMP, Statement).value
     if statement is None or not all(c.ok for c in checks):
         return _refuted(run, checks)
-    here = _here()
+    here = _here(folder)
     differences = tuple(environment_differences(statement.predicate.environment, statement.predicate.cpu, here))
     with writing("the copy to be run", Path(tempfile.gettempdir())):
-        scratch = _scratch(folder, statement, here)
+        scratch = _scratch(folder, here, rebuild)
     with writing("the copy to be run", scratch), bundle.only_one(Run(scratch)):
         proof = scratch / "proof"
         try:
-            proved = prove(
-                proof,
-                (folder / "simulation.py").read_bytes(),
-                (folder / "plan.md").read_bytes(),
-                reason=f"stamped as {statement.predicate.run}",
-                timeout_s=timeout_s,
-                progress=progress,
-                beside=imported.beside(folder),
-            )
+            proved = _again(folder, scratch, statement, rebuild, timeout_s, progress)
         except GateError as error:
             shutil.rmtree(proof, ignore_errors=True)
             checks.append(Check(name="run", ok=False, detail=str(error)))
@@ -99,9 +128,13 @@ def verify(name: str, timeout_s: float, progress: Progress = silent, signer: Pat
                 environment_differences=differences,
                 next_move=f"worldwright stamp verify {name}",
             )
+        checks += _world(folder, statement, proved, differences, rebuild)
+        checks += _acts(folder, proved, bool(differences) and signing.check(folder, bundle.STAMP, signer).vouched)
         mode, found = _motion(folder, statement, proved, differences)
         checks += found
-        checks += _objectives(statement, proved)
+        checks += _objectives(folder, statement, proved, mode == "bitwise")
+        if not signing.check(folder, bundle.STAMP, signer).vouched:
+            checks += _pictures(folder, statement, proved)
     shutil.rmtree(scratch, ignore_errors=True)
     if not all(c.ok for c in checks):
         return _refuted(run, checks, differences, mode)
@@ -110,12 +143,68 @@ def verify(name: str, timeout_s: float, progress: Progress = silent, signer: Pat
     )
 
 
+def _again(
+    folder: Path, scratch: Path, statement: Statement, rebuild: bool, timeout_s: float, progress: Progress
+) -> Proved | None:
+    """Simulate the world again: by its file and its recorded inputs where they are kept, else by its program."""
+    program, plan = (folder / "simulation.py").read_bytes(), (folder / "plan.md").read_bytes()
+    if _kept(folder) and not rebuild:
+        given = lay_out(scratch / "given", folder / WORLD, folder / bundle.WORLD, folder / bundle.WORLD)
+        near = beside(folder)
+        return replay(scratch / "proof", program, plan, given, timeout_s=timeout_s, progress=progress, near=near)
+    return prove(
+        scratch / "proof",
+        program,
+        plan,
+        reason=f"stamped as {statement.predicate.run}",
+        timeout_s=timeout_s,
+        progress=progress,
+        near=beside(folder),
+    )
+
+
+def _kept(folder: Path) -> bool:
+    """Whether the world is there as a file, with the inputs that drove it."""
+    return (folder / WORLD).is_file() and all((folder / bundle.WORLD / name).is_file() for name in FACTS)
+
+
+def _world(
+    folder: Path, statement: Statement, proved: Proved, differences: tuple[str, ...], rebuild: bool
+) -> Iterator[Check]:
+    """Check the world that was simulated: the stamped file, or what the stamped program builds here."""
+    stamped = statement.predicate.proof
+    if _kept(folder) and not rebuild:
+        driven = "driven again by its recorded inputs" if stamped.inputs_sha256 else "which no input drives"
+        yield Check(name="world", ok=True, detail=f"its file as stamped, {driven}; the program was not run")
+        return
+    if not stamped.world_sha256:  # an older stamp, of a world that was simulated by its own program
+        yield Check(name="world", ok=True, detail="built again by the stamped program")
+        return
+    same = proved.world_sha256 == stamped.world_sha256
+    detail = f"built again by the stamped program: {'the same file' if same else 'another file'}, sha256 "
+    detail += proved.world_sha256[:16] + ("" if same else f" (stamped {stamped.world_sha256[:16]})")
+    yield Check(name="world", ok=same or bool(differences), detail=detail)
+    if stamped.inputs_sha256:
+        same = proved.inputs_sha256 == stamped.inputs_sha256
+        detail = f"asked again, the program answers {'the same' if same else 'otherwise'}"
+        yield Check(name="inputs", ok=same or bool(differences), detail=detail)
+
+
+def _acts(folder: Path, proved: Proved, older: bool) -> Iterator[Check]:
+    """Check that the world acts as its plan says. `older`: a known signer stamped it elsewhere, perhaps under other rules."""
+    if proved.world is None:
+        return
+    found = departures.from_plan(proved.world, read_plan(folder / "plan.md").plan)
+    detail = "; ".join(found[:3]) or "every pair, joint, mass and law as its plan says"
+    yield Check(name="acts", ok=older or not found, detail=detail)
+
+
 def environment_differences(stamped: Environment, cpu: str, here: Environment) -> Iterator[str]:
     """What differs between the stamped environment and this one, one line each."""
     for name in ("python", "machine"):
         if getattr(stamped, name) != getattr(here, name):
             yield f"{name}: {getattr(here, name)} (stamped {getattr(stamped, name)})"
-    for name in sorted({*stamped.packages, *here.packages}):
+    for name in environment.PACKAGES:  # what films are made with does not move a body
         then, now = stamped.packages.get(name, "absent"), here.packages.get(name, "absent")
         if then != now:
             yield f"{name}: {now} (stamped {then})"
@@ -123,40 +212,52 @@ def environment_differences(stamped: Environment, cpu: str, here: Environment) -
         then, now = getattr(stamped, f"{name}_sha256"), getattr(here, f"{name}_sha256")
         if then != now:
             yield f"{name}: sha256 {now[:16]} (stamped {then[:16]})"
-    if cpu and cpu != machine.cpu():
-        yield f"processor: {machine.cpu()} (stamped {cpu})"
+    if cpu and cpu != processor.cpu():
+        yield f"processor: {processor.cpu()} (stamped {cpu})"
 
 
 def _locate(name: str) -> tuple[Run, Path]:
     state = State.find(name)
     run = state.run
-    if (run.folder / bundle.STAMP).is_file() and not run.accepted.exists():
-        return run, run.folder
-    if not run.accepted.is_dir():
+    if not run.stamped.is_dir():
         raise NotFoundError(
             f"{state.place} has not been accepted",
             place=str(run.accepted),
             next_move=f"worldwright stamp status {state.place}",
         )
-    return run, run.accepted
+    return run, run.stamped
 
 
 def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:
-    """What can be checked of an accepted folder without running anything."""
+    """The checks of an accepted folder that need no simulation."""
     kept = Kept.read(folder / bundle.STAMP, Statement)
     if kept.value is None:
         return [Check(name="stamp", ok=False, detail=kept.problem or "there is no stamp.json")]
     signed = signing.check(folder, bundle.STAMP, signer)
     return [
         *_static(run, folder, kept.value),
-        *([] if signed is None else [Check(name="signature", ok=signed[0], detail=signed[1])]),
+        Check(name="signature", ok=signed.holder != "broken", detail=signed.text()),
+        *_beside(run, folder),
     ]
+
+
+def _beside(run: Run, folder: Path) -> Iterator[Check]:
+    """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan."""
+    if folder == run.folder or not run.plan.is_file():
+        return
+    if run.plan.read_bytes() != (folder / run.plan.name).read_bytes():
+        detail = (
+            f"the plan of the run is another than the stamped one in {folder.name}/, which this stamp says nothing of"
+        )
+        yield Check(name="beside", ok=False, detail=detail)
 
 
 def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
     broken = bundle.damage(folder, statement)
-    count = len(statement.subject)
-    yield Check(name="checksums", ok=not broken, detail="; ".join(broken[:5]) or f"{count} files as stamped")
+    count = sum((folder / s.name).is_file() for s in statement.subject)
+    left = len(statement.subject) - count
+    kept = f"{count} files as stamped" + (f", {left} left out of the small form" if left else "")
+    yield Check(name="checksums", ok=not broken, detail="; ".join(broken[:5]) or kept)
     source = statement.predicate.source
     for what, name, wanted in (
         ("plan", "plan.md", source.plan_sha256),
@@ -170,7 +271,7 @@ def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
 
 
 def _journal(run: Run, statement: Statement, stamped: str) -> str | None:
-    """What the run's journal says against this stamp; empty when it agrees, None when it has no word on it."""
+    """How the run's journal contradicts this stamp; empty when it agrees, None when it does not mention it."""
     journal = Journal(run.journal)
     broken, head = journal.breaks(), statement.predicate.journal_head
     if broken:
@@ -186,7 +287,7 @@ def _journal(run: Run, statement: Statement, stamped: str) -> str | None:
 def _motion(
     folder: Path, statement: Statement, proved: Proved, differences: tuple[str, ...]
 ) -> tuple[Literal["bitwise", "tolerance"], list[Check]]:
-    """How the motions compare: (mode, checks)."""
+    """Compare the motions; returns the mode and the checks."""
     wanted, got = statement.predicate.proof.trajectory_sha256, proved.trajectory_sha256
     if wanted == got:
         return "bitwise", [Check(name="trajectory", ok=True, detail=f"bitwise identical, sha256 {got[:16]}")]
@@ -201,36 +302,57 @@ def _motion(
     return "tolerance", [Check(name="trajectory", ok=within, detail=detail)]
 
 
-def _objectives(statement: Statement, proved: Proved) -> Iterator[Check]:
+def _objectives(folder: Path, statement: Statement, proved: Proved, exact: bool) -> Iterator[Check]:
     """The expectations and the anomaly scan of the new recording."""
     from ..scan import tools as scan
 
     try:
-        report: ExpectReport = scan.expect(str(proved.run.folder))
+        report = measure(proved)
         scanned = scan.scan(str(proved.run.folder))
     except WorldwrightError as error:
         yield Check(name="expectations", ok=False, detail=str(error))
         return
-    stamped = {(e.objective, e.name, i): e.status for i, e in enumerate(statement.predicate.expectations)}
-    flat = [(o.index, e) for o in report.objectives for e in o.expectations]
-    now = {(index, e.name, i): e.status for i, (index, e) in enumerate(flat)}
-    changed = [
-        f"{name} of objective {index} is {now.get((index, name, i), 'gone')} (stamped {status})"
-        for (index, name, i), status in stamped.items()
-        if now.get((index, name, i)) != status
-    ]
-    before = {o.index: o.status for o in statement.predicate.objectives}
-    changed += [
-        f"objective {o.index} is {o.status} (stamped {before.get(o.index, 'absent')})"
-        for o in report.objectives
-        if before.get(o.index) != o.status
-    ]
+    changed = list(_told_otherwise(folder, statement, report, exact))
     yield Check(
-        name="expectations", ok=not changed, detail="; ".join(changed[:5]) or f"all as stamped ({len(stamped)})"
+        name="expectations",
+        ok=not changed,
+        detail="; ".join(changed[:5]) or f"all as stamped ({len(statement.predicate.expectations)})",
     )
     blocking = [a for a in scanned.anomalies if a.severity == "blocking"]
     checks = sum(c.status != "skipped" for c in scanned.checks)
     yield Check(name="scan", ok=not blocking, detail=str(blocking[0]) if blocking else f"{checks} checks, none blocks")
+
+
+def _pictures(folder: Path, statement: Statement, proved: Proved) -> Iterator[Check]:
+    """Check the stamped pictures against the new recording, where there are any and the same code can draw them."""
+    if not any((folder / s.name).is_file() for s in statement.subject if s.name.endswith(redrawn.PICTURES)):
+        return
+    drawn, here = statement.predicate.environment.film, State(proved.run).film
+    if drawn is None or here is None or drawn.sha256 != here.sha256:
+        by = f"{drawn.renderer} ({drawn.version})" if drawn else "a film that the stamp does not name"
+        yield Check(name="pictures", ok=True, detail=f"NOT compared with this world: drawn by {by}, which is not here")
+        return
+    found = list(redrawn.differ(folder, statement, proved))
+    detail = "; ".join(found[:3]) or "stills, and frames of films by chance, look as when drawn again"
+    yield Check(name="pictures", ok=not found, detail=detail)
+
+
+def _told_otherwise(folder: Path, statement: Statement, report: ExpectReport, exact: bool) -> Iterator[str]:
+    """Where the stamp, or the report beside it, differs from the new recording; `exact`: the motion is the same bit for bit."""
+    stamp = statement.predicate
+    claims = {o.index: o.claim for o in report.objectives}
+    for o in stamp.objectives:
+        if claims.get(o.index) != o.claim:
+            yield f"objective {o.index} is not the plan's: `{o.claim}`"
+    yield from agreement.other_statuses({o.index: o.status for o in stamp.objectives}, agreement.statuses(report))
+    slack = agreement.SAME if exact else agreement.ALIKE
+    measured = agreement.numbers(report)
+    said = [(e.objective, e.name, e.status, e.measured, e.margin) for e in stamp.expectations]
+    yield from agreement.other_numbers(said, measured, slack)
+    kept = Kept.read(folder / "evidence" / "expect.json", ExpectReport).value
+    if kept is not None:
+        found = agreement.other_numbers(agreement.numbers(kept), measured, slack)
+        yield from (f"evidence/expect.json: {text}" for text in found)
 
 
 def _refuted(
@@ -246,20 +368,15 @@ def _refuted(
     )
 
 
-def _here() -> Environment:
-    from ..model import environment
+def _here(folder: Path) -> Environment:
+    used = assets_used.sha256(folder / "plan.md", folder / "simulation.py")
+    return environment.current().model_copy(update={"catalog_sha256": used})
 
-    return environment.current()
 
-
-def _scratch(folder: Path, statement: Statement, here: Environment) -> Path:
-    """A private folder that a later call of the same verification finds again."""
-    identity = "\n".join((str(folder), bundle.sha256_file(folder / bundle.STAMP), here.sha256()))
-    root = Path(tempfile.gettempdir()) / f"worldwright-{os.getuid()}"
-    root.mkdir(mode=0o700, exist_ok=True)
-    owner = root.lstat()
-    if owner.st_uid != os.getuid() or root.is_symlink() or owner.st_mode & 0o077:
-        root = Path(tempfile.mkdtemp(prefix="worldwright-"))  # somebody else holds the name
-    scratch = root / f"verify-{hashlib.sha256(identity.encode()).hexdigest()[:16]}"
-    scratch.mkdir(mode=0o700, exist_ok=True)
-    return scratch
+def _scratch(folder: Path, here: Environment, rebuild: bool) -> Path:
+    """A private folder that a later call of the same verification finds again and that nobody else could have filled."""
+    identity = "\n".join((bundle.sha256_file(folder / bundle.STAMP), here.sha256(), "rebuilt" * rebuild))
+    try:
+        return private.proofs(Run(folder), identity)
+    except StorageError:  # a user without a writable data folder can still verify
+        return Path(tempfile.mkdtemp(prefix="worldwright-"))

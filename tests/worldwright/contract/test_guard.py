@@ -2,14 +2,15 @@
 
 import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from worldwright.contract import guard
-from worldwright.contract.roles import ROLES
+from worldwright.contract import guard, harnesses
+from worldwright.contract.roles import ROLES, SUITE
 
 REPO = Path(__file__).parents[3]
 
@@ -22,13 +23,13 @@ def project(tmp_path):
     return tmp_path
 
 
-def verdict(project, tool, given, agent="", cwd=None):
+def verdict(project, tool, given, agent="", cwd=None, harness="claude_code"):
     """None when allowed, else the reason."""
     event = {"tool_name": tool, "tool_input": given, "cwd": str(cwd or project)}
     if agent:
         event["agent_type"] = agent
     try:
-        guard.judge(event, project)
+        guard.judge(event, project, harnesses.find(harness).TOOLS)
     except guard.DeniedError as reason:
         return str(reason)
     return None
@@ -47,9 +48,10 @@ def write(path):
     ],
 )
 def test_a_role_writes_its_own_file(project, agent, path):
-    for tool in ("Write", "Edit", "MultiEdit", "write", "edit"):
-        assert verdict(project, tool, write(path), agent) is None
-        assert verdict(project, tool, write(project / path), agent) is None
+    for harness, tools in (("claude_code", ("Write", "Edit", "MultiEdit")), ("opencode", ("write", "edit"))):
+        for tool in tools:
+            assert verdict(project, tool, write(path), agent, harness=harness) is None
+            assert verdict(project, tool, write(project / path), agent, harness=harness) is None
 
 
 OUTSIDE = [
@@ -101,127 +103,94 @@ def test_a_patch_is_judged_by_every_file_it_names(project):
     bad = good.replace("*** End", "*** Add File: runs/ball/plan.md\n+x\n*** End")
     moved = good.replace("@@", "*** Move to: runs/ball/evidence/k/x.json\n@@")
     for key in ("input", "patch", "command"):
-        assert verdict(project, "apply_patch", {key: good}, "world-code") is None
-        assert verdict(project, "apply_patch", {key: bad}, "world-code")
-        assert verdict(project, "apply_patch", {key: moved}, "world-code")
-    assert verdict(project, "apply_patch", {"input": good})
-    assert verdict(project, "apply_patch", {"input": "nothing"}, "world-code")
+        assert verdict(project, "apply_patch", {key: good}, "world-code", harness="codex") is None
+        assert verdict(project, "apply_patch", {key: bad}, "world-code", harness="codex")
+        assert verdict(project, "apply_patch", {key: moved}, "world-code", harness="codex")
+    assert verdict(project, "apply_patch", {"input": good}, harness="codex")
+    assert verdict(project, "apply_patch", {"input": "nothing"}, "world-code", harness="codex")
+
+
+AGENTS = {"claude_code": ("Task", "Agent"), "codex": ("spawn_agent", "collaborationspawn_agent"), "opencode": ("task",)}
 
 
 @pytest.mark.parametrize("agent", [role.agent for role in ROLES])
-def test_roles_start_and_address_no_agents(project, agent):
-    for tool in ("Task", "Agent", "spawn_agent", "collaborationspawn_agent", "collaborationsend_message"):
-        assert "starts no agents" in verdict(project, tool, {"message": "x"}, agent)
-    assert verdict(project, "collaborationspawn_agent", {"message": "x"}) is None
-
-
-LOOKING = [
-    "ls -R runs",
-    "cat runs/ball/plan.md | head -5; pwd",
-    "sed -n 1,20p runs/ball/plan.md",
-    "rg 'a|b' skills 2>&1",
-]
+@pytest.mark.parametrize(("harness", "tools"), AGENTS.items(), ids=AGENTS)
+def test_roles_start_and_address_no_agents(project, agent, harness, tools):
+    for tool in tools:
+        assert "starts no agents" in verdict(project, tool, {"message": "x"}, agent, harness=harness)
+        assert verdict(project, tool, {"message": "x"}, harness=harness) is None
 
 
 @pytest.mark.parametrize("agent", [role.agent for role in ROLES])
-def test_a_role_has_a_shell_for_looking_at_most(project, agent):
-    sees = agent not in ("world-visual",)
-    for command in LOOKING:
-        assert (verdict(project, "Bash", {"command": command}, agent) is None) == sees
-        assert (verdict(project, "shell", {"command": ["bash", "-lc", command]}, agent) is None) == sees
-    for command in [*WRITING, "echo x > /elsewhere", "touch x", "sed -n w1 x", "worldwright stamp accept runs/ball"]:
-        assert verdict(project, "Bash", {"command": command}, agent)
+def test_a_role_looks_by_shell_only_where_it_has_no_other_way(project, agent):
+    given = {"command": "ls runs"}
+    assert "has no shell" in verdict(project, "Bash", given, agent, harness="claude_code")
+    assert "has no shell" in verdict(project, "bash", given, agent, harness="opencode")
+    assert (verdict(project, "Bash", given, agent, harness="codex") is None) == (agent != "world-visual")
 
 
-WRITING = [
-    "echo x > runs/ball/plan.md",
-    "echo x >> runs/ball/journal.jsonl",
-    "cat a | tee runs/ball/plan.md",
-    "cp a runs/ball/plan.md",
-    "rm -rf runs/ball",
-    "sed -i s/a/b/ runs/ball/plan.md",
-    "python3 -c \"open('runs/ball/plan.md','w')\"",
-    "cd runs && rm -r ball",
-    "ls runs; rm -r runs/ball",
-    "ls runs | xargs rm",
-    "cat runs/ball/plan.md && touch runs/ball/x",
-    "find runs -delete",
-    "rm -rf ru*",
-    "rm -rf ./r?ns/ball",
-    "X=runs; echo > $X/ball/plan.md # runs",
-    "cat $(echo runs)/ball/plan.md",
-    "git checkout -- runs/ball/plan.md",
-    "ls runs & rm -r runs",
-    "bash -c 'rm runs/ball/plan.md'",
-    "cat runs/ball/plan.md&rm -r runs/ball",
-    "tree runs -o runs/ball/plan.md",
-    "rg --pre=./x runs",
-    "sed -n '1,5w runs/x' a",
-    "cat a >| runs/ball/plan.md",
-    "cat a 2>/dev/null>runs/ball/plan.md",
-    "ls runs\nrm -r runs/ball",
-    "./worldwright runs",
-    "worldwright stamp describe runs/ball x",
-    "worldwright stamp review runs/ball x",
+@pytest.mark.parametrize("harness", harnesses.known())
+@pytest.mark.parametrize("agent", [role.agent for role in ROLES])
+def test_a_tool_that_nobody_knows_is_denied_to_a_role(project, harness, agent):
+    for tool in ("WebFetch", "RemoteTrigger", "mcp__somebody__tool", "mcp__stamp", "a_tool_of_tomorrow"):
+        assert "is no tool of" in verdict(project, tool, {}, agent, harness=harness)
+        assert (
+            verdict(project, tool, {}, harness=harness) is None
+        )  # the main thread's are the person's and the harness' business
+
+
+TRIES = [
+    "echo x > runs/ball/evidence/k/scan.json",
+    "mkdir -p runs/new/evidence",
+    "p=run; p=${p}s; rm -r $p/ball",
+    "$(printf 'r\\155') -r ru*/ball",
+    "echo cm0gLXIgcnVucwo= | base64 -d | sh",
+    "python3 -c \"import os; os.truncate('r'+'uns/ball/plan.md', 0)\"",
+    "cd /; cd - >/dev/null; find . -name plan.md -delete",
+    "ln src/own runs/ball/evidence/k/linked; mv src runs/",
+    "ln -s $PWD/runs out; echo x > out/ball/plan.md",
+    "(sleep 0.2; rm -r runs/ball) & wait",
+    "mv runs elsewhere; mv servers elsewhere",
+    "echo raise > servers/gate.py",
+    "unshare -Ur sh -c 'mount -t tmpfs x runs && rm -r runs/ball' ; rm -r runs/ball",
+    "echo x > /proc/self/cwd/runs/ball/plan.md; echo x > /proc/$PPID/cwd/runs/ball/plan.md",
 ]
 
 
-@pytest.mark.parametrize("command", WRITING)
-def test_the_main_thread_changes_nothing_under_runs_by_the_shell(project, command):
-    assert verdict(project, "Bash", {"command": command})
-    assert verdict(project, "shell", {"command": ["bash", "-lc", command]})
+@pytest.mark.parametrize("command", TRIES)
+def test_a_confined_shell_cannot_write_to_runs_and_suite(project, command):
+    (project / "servers").mkdir()
+    (project / "servers/gate.py").write_text("pass\n")
+    (project / "src/own").write_text("mine\n")
+    kept = ("runs", "servers")
+    before = {path: path.read_bytes() for name in kept for path in (project / name).rglob("*") if path.is_file()}
+    folders = {path for name in kept for path in (project / name).rglob("*")}
+    done = shell(project, f"{command}\necho changed >> src/own; cat runs/ball/plan.md; echo it ran")
+    assert {path: path.read_bytes() for path in before} == before
+    assert {path for name in kept for path in (project / name).rglob("*")} == folders
+    assert done.stdout.endswith("# plan\nit ran\n"), done.stderr  # looking goes on
+    assert "changed" in next(path for path in project.rglob("own")).read_text()  # and so does other work
 
 
-def test_a_reference_image_is_handed_over(project):
-    assert verdict(project, "Bash", {"command": "cp 'my photos/desk.PNG' runs/ball/reference.png"}) is None
-    assert verdict(project, "Bash", {"command": "cp desk.png reference.jpg"}, cwd=project / "runs/ball") is None
-    (project / "runs/other/reference.png").symlink_to(project / "src/x.png")
-    for wrong in (
-        "cp desk.png runs/ball/plan.md",
-        "cp script.py runs/ball/reference.png",
-        "cp -r desk.png runs/ball/reference.png",
-        "cp desk.png runs/ball/evidence/reference.png",
-        "cp desk.png runs/other/reference.png",
-        "cp desk.png runs/ball/reference.png; rm runs/ball/plan.md",
-        "mv desk.png runs/ball/reference.png",
-    ):
-        assert verdict(project, "Bash", {"command": wrong}), wrong
-    assert verdict(project, "Bash", {"command": "cp desk.png runs/ball/reference.png"}, "world-plan")
+def shell(project, command):
+    """Run a command as Codex and OpenCode do: as the guard has rewritten it."""
+    event = {"tool_name": "bash", "tool_input": {"command": command, "description": "try"}}
+    changed = guard.confined(event, project, harnesses.find("opencode").TOOLS)
+    assert changed["description"] == "try"
+    return subprocess.run(["sh", "-c", changed["command"]], cwd=project, capture_output=True, text=True, timeout=60)
 
 
-def test_a_shell_is_judged_where_it_runs(project):
-    for key in ("workdir", "cwd"):
-        assert verdict(project, "bash", {"command": "rm plan.md", key: "runs/ball"})
-        assert verdict(project, "bash", {"command": "rm plan.md", key: str(project / "runs")})
-        assert verdict(project, "bash", {"command": "rm plan.md", key: "src"}) is None
-    assert verdict(project, "Bash", {"command": "rm plan.md"}, cwd=project / "runs/ball")
-
-
-@pytest.mark.parametrize(
-    "command",
-    [
-        "ls -la runs/ball",
-        "cat runs/ball/plan.md | head -5",
-        "grep -n claim runs/ball/plan.md 2>/dev/null",
-        "worldwright stamp status runs/ball",
-        ".venv/bin/worldwright stamp verify runs/ball && ls runs",
-        "echo 'a > b' runs",
-        "make test",
-        "pip install x > log.txt",
-        "rm -rf build",
-        "rg 'a|b; c' runs",
-        "python3 x.py",
-        "bash build.sh && make",
-        "printf x | python3 -",
-    ],
-)
-def test_looking_and_other_work_is_left_alone(project, command):
-    assert verdict(project, "Bash", {"command": command}) is None
-
-
-@pytest.mark.parametrize("command", ["sh", "bash -i", "cd x && python3", "/usr/bin/node", "python3.12 -i"])
-def test_what_waits_for_input_is_not_started(project, command):
-    assert "waits for input" in verdict(project, "Bash", {"command": command})
+def test_where_the_harness_confines_its_shell_the_guard_leaves_it_as_it_is(project):
+    event = {"tool_name": "Bash", "tool_input": {"command": "ls"}}
+    assert guard.confined(event, project, harnesses.find("claude_code").TOOLS) is None
+    settings = json.loads((REPO / ".claude/settings.json").read_text())["sandbox"]
+    assert settings["enabled"] and not settings["allowUnsandboxedCommands"]
+    assert set(settings["filesystem"]["denyWrite"]) == {f"./{name}" for name in ("runs", *SUITE)}
+    for name in ("codex", "opencode"):
+        names = harnesses.find(name).TOOLS
+        assert guard.confined({"tool_name": "Read", "tool_input": {}}, project, names) is None
+        with pytest.raises(guard.DeniedError):
+            guard.confined({"tool_name": "bash", "tool_input": {"words": "ls"}}, project, names)
 
 
 def test_the_main_thread_writes_elsewhere_and_not_in_a_run(project):
@@ -239,17 +208,20 @@ def test_tools_belong_to_roles(project):
     assert "not a tool of the world-" not in (verdict(project, "mcp__stamp__describe", {}, "world-visual") or "")
     assert verdict(project, "mcp__stamp__accept", {}, "world-code")
     assert verdict(project, "mcp__scan__expect", {}, "world-visual")
-    assert verdict(project, "mcp__somebody__tool", {}, "world-code") is None
+    assert verdict(project, "mcp__somebody__tool", {}) is None
     assert verdict(project, "Read", {"file_path": "runs/ball/plan.md"}, "world-visual")
     assert verdict(project, "Read", {"file_path": "runs/ball/plan.md"}, "world-review") is None
 
 
 @pytest.mark.parametrize(
-    "given", ["", "not json", "[]", "{}", '{"tool_name": "Write"}', '{"tool_name": "Bash", "tool_input": {}}']
+    "given", ["", "not json", "[]", "{}", '{"tool_name": "apply_patch"}', '{"tool_name": "Bash", "tool_input": {}}']
 )
 def test_what_it_cannot_read_it_denies(given):
     done = subprocess.run(
-        [sys.executable, REPO / "servers/worldwright/contract/guard.py"], input=given, capture_output=True, text=True
+        [sys.executable, REPO / "servers/worldwright/contract/guard.py", "codex"],
+        input=given,
+        capture_output=True,
+        text=True,
     )
     assert done.returncode == 2 and done.stderr.startswith("scope guard")
 
@@ -260,11 +232,11 @@ def test_what_it_cannot_read_it_denies(given):
 def test_the_hook_as_installed_fails_closed(tmp_path, break_it, denied):
     settings = json.loads((REPO / ".claude/settings.json").read_text())
     command = settings["hooks"]["PreToolUse"][0]["hooks"][0]["command"]
-    target = tmp_path / "servers/worldwright/contract"
-    target.mkdir(parents=True)
-    for name in ("guard.py", "roles.py"):
-        source = (REPO / "servers/worldwright/contract" / name).read_text()
-        (target / name).write_text(source + ("\n" + break_it if name == "roles.py" else ""))
+    target = tmp_path / "servers/worldwright"
+    shutil.copytree(REPO / "servers/worldwright/contract", target / "contract")
+    shutil.copy(REPO / "servers/worldwright/__init__.py", target)
+    with (target / "contract/roles.py").open("a") as roles:
+        roles.write("\n" + break_it)
     event = json.dumps({"tool_name": "Write", "tool_input": write(tmp_path / "README.md"), "cwd": str(tmp_path)})
     env = {"CLAUDE_PROJECT_DIR": str(tmp_path), "PATH": os.environ["PATH"]}
     done = subprocess.run(["bash", "-c", command], input=event, capture_output=True, text=True, env=env, cwd=tmp_path)

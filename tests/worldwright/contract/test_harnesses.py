@@ -11,8 +11,8 @@ import yaml
 from click.testing import CliRunner
 
 from worldwright import cli, expose
-from worldwright.contract import command, harnesses
-from worldwright.contract.roles import COMMANDS, MAIN_TOOLS, RESERVED, ROLES
+from worldwright.contract import command, generated, guard, harnesses
+from worldwright.contract.roles import COMMANDS, MAIN_TOOLS, RESERVED, ROLES, SERVERS
 
 REPO = Path(__file__).parents[3]
 TOOLS = {f"{server}.{function.__name__}" for server in expose.SERVERS for function in expose.tools(server)}
@@ -27,7 +27,7 @@ def test_the_files_are_as_the_roles_say():
 
 
 def test_drift_is_named(tmp_path):
-    for name, text in harnesses.files().items():
+    for name, text in generated.files().items():
         path = tmp_path / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
@@ -52,27 +52,91 @@ def test_who_reports_and_who_decides_are_apart():
     decisive = {"stamp.approve", "stamp.accept", "stamp.block"}
     assert decisive <= set(MAIN_TOOLS) and not any(decisive & own for own in tools.values())
     assert {"stamp.describe", "stamp.review"} <= set(RESERVED) <= TOOLS and not set(RESERVED) & set(MAIN_TOOLS)
-    assert [role.writes for role in ROLES] == [("plan.md", "prompt.md"), ("simulation.py",), (), ()]
+    assert [role.writes for role in ROLES] == [
+        ("plan.md", "prompt.md"),
+        ("simulation.py", "film.py"),
+        (),
+        (),
+    ]
 
 
 def test_every_file_is_well_formed():
-    files = harnesses.files()
+    files = generated.files()
     for name, text in files.items():
         if name.endswith(".json"):
             json.loads(text)
         elif name.endswith(".toml"):
             tomllib.loads(text)
         elif name.endswith(".js"):
-            assert "tool.execute.before" in text and harnesses.GUARD in text
+            assert "tool.execute.before" in text and generated.GUARD in text
         else:
             header = yaml.safe_load(text.split("---\n")[1])
             assert header["description"]
     assert len(files) == 6 + 3 * len(ROLES)
 
 
+FOURTH = '''"""A harness of a test: one file, nothing else."""
+
+from pathlib import Path
+
+from worldwright.contract.tool_names import ToolNames
+
+NAME, SHELL_SETS = "Fourth", ("FOURTH_SHELL",)
+PROGRAM, PACKAGE, TESTED, LINKS = "fourth", "fourth-coder", "1.2.3", ()
+TOOLS = ToolNames(
+    writers=frozenset({"put"}), readers=frozenset({"look"}), shells=frozenset({"run"}), agents=("fork",),
+    harmless=frozenset({"think"}), confined_by_guard=True,
+)
+
+
+def files():
+    return {".fourth/settings": "guarded\\n"}
+
+
+def agent(role):
+    return f".fourth/{role.agent}", role.purpose
+
+
+def diagnose(root: Path):
+    from worldwright.doctor.diagnosis import Diagnosis
+
+    return Diagnosis("fourth", False, f"is not set up in {root}", "set it up", essential=False)
+'''
+
+
+def test_a_fourth_harness_is_one_new_file(tmp_path, monkeypatch):
+    (tmp_path / "fourth.py").write_text(FOURTH)
+    monkeypatch.setattr(harnesses, "__path__", [*harnesses.__path__, str(tmp_path)])
+    assert "fourth" in harnesses.known()
+    monkeypatch.setenv("FOURTH_SHELL", "1")
+    for harness in list(harnesses.known().values()):
+        for name in () if harness.NAME == "Fourth" else harness.SHELL_SETS:
+            monkeypatch.delenv(name, raising=False)
+    assert harnesses.around() == "Fourth"
+    made = generated.files()
+    assert made[".fourth/settings"] == "guarded\n" and made[".fourth/world-plan"]
+    names = harnesses.find("fourth").TOOLS
+    put = {"tool_name": "Put", "tool_input": {"path": "runs/ball/plan.md"}, "agent_type": "world-code"}
+    with pytest.raises(guard.DeniedError, match="outside the write scope"):
+        guard.judge(put, tmp_path, names)
+    with pytest.raises(guard.DeniedError, match="is no tool of"):
+        guard.judge({"tool_name": "throw", "agent_type": "world-code"}, tmp_path, names)
+    assert guard.confined({"tool_name": "run", "tool_input": {"command": "ls"}}, tmp_path, names)
+    from worldwright.doctor import coding_harnesses
+
+    checks = {check.__name__: check for check in coding_harnesses.each()}
+    assert "is not set up" in checks["fourth"]().found
+    monkeypatch.setenv("PATH", str(tmp_path))
+    assert "fourth-coder" in coding_harnesses.installed().fix
+
+
+def test_the_guard_knows_the_servers():
+    assert tuple(expose.SERVERS) == SERVERS
+
+
 def test_a_claude_agent_lists_its_tools_only():
     for role in ROLES:
-        header = yaml.safe_load(harnesses.files()[f".claude/agents/{role.agent}.md"].split("---\n")[1])
+        header = yaml.safe_load(generated.files()[f".claude/agents/{role.agent}.md"].split("---\n")[1])
         listed = set(header["tools"].split(", "))
         assert {t for t in listed if t.startswith("mcp__")} == {f"mcp__{t.replace('.', '__')}" for t in role.tools}
         assert ("Write" in listed) == bool(role.writes) and "Bash" not in listed
@@ -81,7 +145,7 @@ def test_a_claude_agent_lists_its_tools_only():
 
 def test_opencode_permissions_end_with_what_is_allowed():
     for role in ROLES:
-        text = harnesses.files()[f".opencode/agents/{role.agent}.md"]
+        text = generated.files()[f".opencode/agents/{role.agent}.md"]
         permission = yaml.safe_load(text.split("---\n")[1])["permission"]
         assert next(iter(permission["edit"])) == "*" and permission["edit"]["*"] == "deny"
         assert permission["bash"] == permission["task"] == permission["external_directory"] == "deny"

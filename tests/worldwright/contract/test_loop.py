@@ -9,9 +9,11 @@ from pathlib import Path
 import pytest
 
 from worldwright import expose
-from worldwright.contract import guard
+from worldwright.contract import guard, harnesses
 from worldwright.contract.roles import BY_AGENT, MAIN_TOOLS
 from worldwright.model.errors import GateError
+
+NAMES = harnesses.find("claude_code").TOOLS
 
 
 class Harness:
@@ -21,14 +23,16 @@ class Harness:
         self.project, self.used = project, []
 
     def write(self, agent: str, path: str, text: str) -> None:
-        guard.judge({"tool_name": "Write", "tool_input": {"file_path": path}, "agent_type": agent}, self.project)
+        guard.judge({"tool_name": "Write", "tool_input": {"file_path": path}, "agent_type": agent}, self.project, NAMES)
         target = self.project / path
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(text, encoding="utf-8")
 
     def call(self, agent: str, tool: str, **given):
         server, name = tool.split(".")
-        guard.judge({"tool_name": f"mcp__{server}__{name}", "tool_input": given, "agent_type": agent}, self.project)
+        guard.judge(
+            {"tool_name": f"mcp__{server}__{name}", "tool_input": given, "agent_type": agent}, self.project, NAMES
+        )
         assert tool in (BY_AGENT[agent].tools if agent else MAIN_TOOLS)
         self.used.append((agent or "main", tool))
         function = next(f for f in expose.tools(server) if f.__name__ == name)
@@ -42,7 +46,7 @@ class Harness:
 
 
 def verdict(outcome, objectives, **more):
-    from worldwright.model.verdict import CrossCheck, ObjectiveVerdict, Verdict
+    from worldwright.model.evidence.verdict import CrossCheck, ObjectiveVerdict, Recognition, Verdict
 
     return Verdict(
         reviewer="world-review",
@@ -52,6 +56,10 @@ def verdict(outcome, objectives, **more):
         plan="both objectives are bound to evidence",
         objectives=tuple(
             ObjectiveVerdict(index=i, met=met, evidence=evidence) for i, (met, evidence) in enumerate(objectives)
+        ),
+        recognised=(
+            Recognition(wanted="ball", seen_as="a red ball", same=True),
+            Recognition(wanted="event", seen_as="it falls", same=True),
         ),
         cross_checks=(CrossCheck(claim="the ball moves", channel="visual", tested_in="numeric", confirmed=True),),
         **more,
@@ -88,7 +96,7 @@ def revise(harness, run, plan, seen):
 
 
 def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_plan):
-    from worldwright.model.evidence import VisualDescription
+    from worldwright.model.evidence.reports import Sighting, VisualDescription
 
     monkeypatch.chdir(tmp_path)
     harness = Harness(tmp_path)
@@ -130,6 +138,11 @@ def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_pla
         author="world-visual",
         summary="a red ball falls onto a floor",
         cameras={"overview": "a red ball in the air", "side": "the same from the side"},
+        objects={"ball": "red, in the air"},
+        named=(Sighting(seen="a red ball", camera="overview"),),
+        event="it falls",
+        belief=8,
+        betrays=("an empty floor", "a flat sky", "no dust"),
     )
     harness.call("world-visual", "stamp.describe", run=run, description=seen)
     assert harness.call("world-review", "scan.scan", run=run).ok
@@ -169,7 +182,7 @@ def test_a_world_is_generated_by_its_four_roles(tmp_path, monkeypatch, small_pla
     assert actions.count("review") == 3 and "cite" in actions and actions.count("accept") == 2
 
     from worldwright.contract.lessons import collect
-    from worldwright.model.run import Run
+    from worldwright.model.evidence.run import Run
 
     told = collect(Run.find(run))
     assert [what for what, _, _ in told] == ["the program did not lint clean", "a review ordered a repair"]

@@ -10,9 +10,9 @@ import pytest
 from click.testing import CliRunner
 
 from worldwright import cli, doctor
-from worldwright.contract import harnesses as generated
+from worldwright.contract import generated, harnesses
 from worldwright.contract.command import project
-from worldwright.doctor import harnesses, servers
+from worldwright.doctor import coding_harnesses, servers
 from worldwright.doctor.diagnosis import Diagnosis
 
 REPO = Path(__file__).parents[3]
@@ -26,14 +26,13 @@ def checkout(tmp_path, monkeypatch):
         (tmp_path / name).write_text(text)
     (tmp_path / "skills").mkdir()
     (tmp_path / "commands").mkdir()
-    for link in generated.LINKS:
+    for link in generated.links():
         (tmp_path / link).parent.mkdir(exist_ok=True)
         (tmp_path / link).symlink_to(f"../{Path(link).name}")
-    target = tmp_path / "servers/worldwright/contract"
-    target.mkdir(parents=True)
-    for name in ("guard.py", "roles.py"):
-        shutil.copy(REPO / "servers/worldwright/contract" / name, target)
-    for module in (harnesses, servers):
+    target = tmp_path / "servers/worldwright"
+    shutil.copytree(REPO / "servers/worldwright/contract", target / "contract")
+    shutil.copy(REPO / "servers/worldwright/__init__.py", target)
+    for module in (coding_harnesses, servers):
         monkeypatch.setattr(module, "project", lambda: tmp_path)
     return tmp_path
 
@@ -59,21 +58,21 @@ def test_servers_that_do_not_answer_are_named(checkout, monkeypatch):
 
 
 def test_drift_and_lost_links_are_named_with_their_fix(checkout):
-    assert harnesses.contract().ok
+    assert coding_harnesses.contract().ok
     (checkout / ".claude/skills").unlink()
     (checkout / ".claude/skills").write_text("../skills")  # a checkout without symbolic links
-    found = harnesses.contract()
+    found = coding_harnesses.contract()
     assert not found.ok and ".claude/skills" in found.found and "core.symlinks" in found.fix
     (checkout / ".codex/hooks.json").write_text("{}")
-    found = harnesses.contract()
+    found = coding_harnesses.contract()
     assert ".codex/hooks.json differs" in found.found and found.fix == "worldwright contract sync"
 
 
 def test_a_guard_that_lets_everything_pass_or_nothing_is_found(checkout):
-    assert harnesses.guard().ok
+    assert coding_harnesses.guard().ok
     for text in ("", "raise RuntimeError"):
         (checkout / "servers/worldwright/contract/guard.py").write_text(text)
-        assert not harnesses.guard().ok
+        assert not coding_harnesses.guard().ok
 
 
 @pytest.mark.parametrize(
@@ -88,28 +87,51 @@ def test_a_guard_that_lets_everything_pass_or_nothing_is_found(checkout):
 def test_versions_are_compared_with_the_proven_ones(tmp_path, monkeypatch, prints, ok, says):
     program(tmp_path, "claude", prints)
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
-    found = harnesses.installed()
+    found = coding_harnesses.installed()
     assert found.ok == ok and says in found.found and not found.essential
     assert ok or "npm install -g @anthropic-ai/claude-code@2.1.329" in found.fix
 
 
 def test_without_a_harness_the_doctor_names_all_three(tmp_path, monkeypatch):
     monkeypatch.setenv("PATH", str(tmp_path))
-    found = harnesses.installed()
+    found = coding_harnesses.installed()
     assert not found.ok and not found.essential and found.fix.count("npm install -g") == 3
-    assert harnesses.claude() is harnesses.codex() is harnesses.opencode() is None
+    assert [check() for check in coding_harnesses.each()] == [None, None, None]
 
 
 def test_trust_of_the_folder_is_read_from_claude(tmp_path, monkeypatch):
     program(tmp_path, "claude", "echo 2.1.329")
     monkeypatch.setenv("PATH", f"{tmp_path}:/usr/bin:/bin")
     monkeypatch.setenv("CLAUDE_CONFIG_DIR", str(tmp_path))
-    assert not harnesses.claude().ok
+    for name in ("bwrap", "socat"):
+        program(tmp_path, name, "true")
+    assert not harnesses.find("claude_code").diagnose(project()).ok
     settings = tmp_path / ".claude.json"
     settings.write_text(json.dumps({"projects": {str(project()): {"hasTrustDialogAccepted": True}}}))
-    assert harnesses.claude().ok
+    assert harnesses.find("claude_code").diagnose(project()).ok
     settings.write_text("{broken")
-    assert not harnesses.claude().ok
+    assert not harnesses.find("claude_code").diagnose(project()).ok
+
+
+def test_a_sandbox_that_claude_cannot_start_is_named(tmp_path, monkeypatch):
+    program(tmp_path, "claude", "echo 2.1.329")
+    program(tmp_path, "bwrap", "true")
+    monkeypatch.setenv("PATH", str(tmp_path))
+    monkeypatch.setenv("CLAUDE_CONFIG_DIR", str(tmp_path))
+    settings = {"projects": {str(tmp_path): {"hasTrustDialogAccepted": True}}}
+    (tmp_path / ".claude.json").write_text(json.dumps(settings))
+    found = harnesses.find("claude_code").diagnose(tmp_path)
+    assert not found.ok and "finds no socat" in found.found and "socat" in found.fix
+
+
+def test_a_shell_that_is_not_kept_from_the_runs_is_found(checkout):
+    assert coding_harnesses.shells().ok
+    path = checkout / coding_harnesses.SHELL
+    path.write_text(path.read_text().replace("        confine(project)\n", "        pass\n"))
+    assert not coding_harnesses.shells().ok
+    path.write_text("raise OSError('no Landlock')\n")
+    found = coding_harnesses.shells()
+    assert not found.ok and "no Landlock" in found.found
 
 
 @pytest.mark.parametrize(("essential", "code", "mark"), [(True, 1, "FAIL"), (False, 0, "weak")])

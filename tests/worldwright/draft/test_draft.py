@@ -4,10 +4,10 @@ import dataclasses
 import pytest
 
 from worldwright.draft import draft
-from worldwright.draft.source import Raw, call, constant_name, literal
+from worldwright.draft.python_text import Raw, call, constant_name, literal
 from worldwright.model.errors import PlanError
-from worldwright.model.plan import Plan
-from worldwright.model.scene import PlacedCamera, PlacedObject, Scene
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.layout import PlacedCamera, PlacedObject, Scene
 
 PENDULUM = {
     "title": "A pendulum swings",
@@ -63,7 +63,6 @@ def test_a_declarative_plan_is_drafted_whole_and_twice_the_same():
 
 
 def test_the_draft_compiles_to_the_plan(tmp_path):
-    pytest.importorskip("worldkit.materials")
     import mujoco
     import numpy as np
 

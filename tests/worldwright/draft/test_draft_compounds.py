@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from worldwright.draft import draft
-from worldwright.model.plan import Plan
-from worldwright.model.weights import weight
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.weights import weight
 from worldwright.place.engine import resolve
 
 

@@ -10,9 +10,9 @@ import pytest
 
 from worldwright.draft import draft
 from worldwright.lint.tools import check_plan
-from worldwright.model import imported
 from worldwright.model.errors import PlanError
-from worldwright.model.plan_text import read_plan
+from worldwright.model.plan import imported
+from worldwright.model.plan.plan_text import read_plan
 from worldwright.place.checks import check
 from worldwright.place.engine import resolve
 from worldwright.place.settling import settle

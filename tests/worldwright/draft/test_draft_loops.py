@@ -8,8 +8,8 @@ import pytest
 
 from worldwright.draft import draft
 from worldwright.lint.tools import check_plan
-from worldwright.model.plan import Plan
-from worldwright.model.plan_text import read_plan
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.plan_text import read_plan
 from worldwright.place.engine import resolve
 
 HERE = Path(__file__).parent

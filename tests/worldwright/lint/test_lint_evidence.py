@@ -10,7 +10,7 @@ import pytest
 
 from worldwright.lint import engine
 from worldwright.lint.case import Case
-from worldwright.lint.proof import Argued, Measured, Raises, Warns, executed, model_of
+from worldwright.lint.harm import Argued, Measured, Raises, Warns, executed, model_of
 
 RULES = engine.all_rules()
 
@@ -26,7 +26,7 @@ def cases(kind):
             continue
         for index, case in enumerate(getattr(rule, kind)):
             if kind == "GOOD" or index not in evidence.without:
-                yield pytest.param(rule, source(case), id=f"{rule.code}-{index}")
+                yield pytest.param(rule, source(case), id=f"{rule.code}-{rule.name}-{index}")
 
 
 def run(text):

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 from worldwright.lint import engine, fixing, source, tools
 from worldwright.lint.case import Case, plan_with
 from worldwright.lint.problem import Edit
-from worldwright.lint.program import Program
+from worldwright.lint.program_view import Program
 
-FIXABLE = [rule for rule in engine.program_rules() if hasattr(rule.module, "FIXED")]
+FIXABLE = [rule for rule in engine.program_rules() if rule.FIXED]
 
 
 def cases():

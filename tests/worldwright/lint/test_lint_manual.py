@@ -15,8 +15,8 @@ from pathlib import Path
 import pytest
 
 from worldwright.lint import engine, source
-from worldwright.lint.program import Program
-from worldwright.lint.proof import outcome_of
+from worldwright.lint.harm import outcome_of
+from worldwright.lint.program_view import Program
 from worldwright.simulator import installed
 from worldwright.stage import sandbox
 from worldwright.stage.confined import run

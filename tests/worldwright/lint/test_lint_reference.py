@@ -21,4 +21,8 @@ def test_every_rule_is_in_one_group_and_on_the_page():
 
 
 def test_the_names_that_keep_a_world_from_being_built_are_rules():
-    assert {engine.find(code).code for code in (*engine.NAMES, *engine.SYMBOLS, *engine.ALWAYS)} >= set(engine.NAMES)
+    names = {rule.code for rule in engine.program_rules() if rule.ABOUT == "names"}
+    assert {rule.code for rule in engine.program_rules() if engine.to_look_up(rule.code)} < names
+    assert all(engine.about_names(code) for code in names)
+    assert not engine.about_names("WL126")
+    assert {rule.ABOUT for rule in engine.program_rules()} == {"names", "signatures", "mistakes"}

@@ -1,15 +1,20 @@
 """Every rule proves itself: its GOOD cases are clean, its BAD cases are found, its page is complete."""
 
+import json
 import re
+from functools import cache
 
 import pytest
 
 from worldwright.lint import engine, source
 from worldwright.lint.case import SOUND_PLAN, Case, plan_with
+from worldwright.lint.compiled import planned
+from worldwright.lint.compiled.fetch import Outcome
 from worldwright.lint.compiled.view import ModelView
+from worldwright.lint.harm import outcome_of
 from worldwright.lint.plan_view import PlanView
-from worldwright.lint.program import Program
-from worldwright.lint.proof import outcome_of
+from worldwright.lint.program_view import Program
+from worldwright.model.errors import PlanError
 
 HEADINGS = ("What it does:", "Why is this bad:", "Use instead:")
 
@@ -17,27 +22,39 @@ HEADINGS = ("What it does:", "Why is this bad:", "Use instead:")
 def program_cases(kind):
     for rule in engine.program_rules():
         for index, case in enumerate(getattr(rule, kind)):
-            yield pytest.param(rule, case if isinstance(case, Case) else Case(case), id=f"{rule.code}-{index}")
+            yield pytest.param(
+                rule, case if isinstance(case, Case) else Case(case), id=f"{rule.code}-{rule.name}-{index}"
+            )
 
 
 def plan_cases(kind):
     for rule in engine.plan_rules():
         for index, change in enumerate(getattr(rule, kind)):
-            yield pytest.param(rule, change, id=f"{rule.code}-{index}")
+            yield pytest.param(rule, change, id=f"{rule.code}-{rule.name}-{index}")
 
 
 def world_cases(kind):
     for rule in engine.model_rules():
         for index, case in enumerate(getattr(rule, kind)):
             text, change = case if isinstance(case, tuple) else (case, {})
-            yield pytest.param(rule, text, change, id=f"{rule.code}-{index}")
+            yield pytest.param(rule, text, change, id=f"{rule.code}-{rule.name}-{index}")
 
 
 def world_problems(rule, text, change):
     """What a rule says of a case's world, compiled here: cases are part of the project."""
-    plan = plan_with(change) if rule.SCOPE == "plan" else None
+    plan = plan_with(change) if rule.SCOPE in ("plan", "acts") else None
     path = "model.xml" if text.lstrip().startswith("<") else "simulation.py"
-    return list(rule.check(ModelView(outcome_of(text), Program(source.parse(text, path), plan), plan)))
+    twin = ModelView(planned_outcome(json.dumps(change)), None, plan) if rule.SCOPE == "acts" else None
+    return list(rule.check(ModelView(outcome_of(text), Program(source.parse(text, path), plan), plan, twin)))
+
+
+@cache
+def planned_outcome(change):
+    """The world of the plan's own draft, compiled here."""
+    try:
+        return outcome_of(planned.source(plan_with(json.loads(change))))
+    except PlanError as error:
+        return Outcome("failed", message=str(error))
 
 
 @pytest.mark.parametrize(("rule", "text", "change"), [*world_cases("GOOD")])
@@ -58,7 +75,8 @@ def test_bad_worlds_are_found(rule, text, change):
 def problems(rule, case):
     planned = rule.SCOPE == "plan" or bool(case.plan)
     plan = plan_with(case.plan or {}) if planned and case.plan is not None else None
-    return list(rule.check(Program(source.parse(case.source, case.path), plan, contract=True)))
+    contract = None if case.plan is None else True  # without a plan, what the program imports decides
+    return list(rule.check(Program(source.parse(case.source, case.path), plan, contract=contract)))
 
 
 @pytest.mark.parametrize(("rule", "case"), [*program_cases("GOOD")])
@@ -103,9 +121,9 @@ def test_pages_are_complete(rule):
     assert rule.summary.endswith(".") and len(rule.summary) < 140
     assert rule.SEVERITY in ("error", "warning", "info")
     assert len(rule.GOOD) >= 1 and len(rule.BAD) >= 1
-    prefix = {"program": "WL", "model": "WM", "plan": "WP"}[rule.module.__name__.rsplit(".", 2)[1]]
+    prefix = {"program": "WL", "model": "WM", "run": "WR", "plan": "WP"}[rule.module.__name__.split(".")[3]]
     assert re.fullmatch(prefix + r"\d{3}", rule.code)
-    if prefix != "WP":
+    if prefix not in ("WP", "WR"):
         assert rule.SCOPE in engine.SCOPES
 
 

@@ -100,6 +100,21 @@ def test_explain_knows_codes_and_names_and_suggests():
     assert invoke("explain", "nonsense").exit_code == 2
 
 
+@pytest.mark.parametrize(
+    ("code", "says"),
+    [
+        ("WP302", "two things penetrate"),
+        ("wp206", "disagree on an axis"),
+        ("WP003", "a section is missing"),
+        ("WS115", "falls out of the world"),
+        ("WE114", "supported_by"),
+    ],
+)
+def test_explain_answers_for_findings_of_other_servers_with_their_text(code, says):
+    text = tools.explain(code).text()
+    assert says in text and "retrieve read skills/" in text
+
+
 def test_list_rules_names_every_rule_once():
     rules = tools.list_rules().rules
     assert len(rules) == len({rule.code for rule in rules}) == len(engine.all_rules())
@@ -140,9 +155,9 @@ def test_plan_findings_have_lines(tmp_path):
 
 
 def test_a_runs_program_keeps_its_report_as_evidence(tmp_path):
-    from worldwright.model import environment
-    from worldwright.model.evidence import LintReport
-    from worldwright.model.run import Run
+    from worldwright.model.evidence import environment
+    from worldwright.model.evidence.reports import LintReport
+    from worldwright.model.evidence.run import Run
 
     run = Run(tmp_path / "a-run")
     run.folder.mkdir()

@@ -1,13 +1,16 @@
 """Worlds are compiled in the sandbox: what comes back is numbers, whatever the program does, in bounded time."""
 
+import textwrap
 import time
 from pathlib import Path
 
 import pytest
 
 from worldwright.lint import engine, source, tools
+from worldwright.lint.case import plan_with
 from worldwright.lint.compiled import fetch
-from worldwright.lint.program import Program
+from worldwright.lint.program_view import Program
+from worldwright.lint.rules.model.acting._twins import changed
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 SCRIPT = """\
@@ -39,9 +42,9 @@ def written(folder, text, name="simulation.py"):
 
 def test_a_plain_script_is_run_up_to_its_first_step(tmp_path):
     path = written(tmp_path, SCRIPT, "plain.py")
-    assert tools.check_program([path]).findings == ()  # reading alone finds nothing
+    assert tools.check_program([path], model=False).findings == ()  # reading alone finds nothing
     report = tools.check_program([path], model=True)
-    assert [(f.code, f.line) for f in report.findings] == [("WM120", 7)]
+    assert [(f.code, f.line) for f in report.findings] == [("WR127", 6), ("WM120", 7)]
     assert "compiled" in report.worlds[0] and report.worlds[0] in report.text()
 
 
@@ -57,7 +60,7 @@ def test_a_model_file_with_parts_is_compiled_with_all_it_names(tmp_path):
 
 @pytest.mark.parametrize("program", sorted(EXAMPLES.glob("*/simulation.py")), ids=lambda path: path.parent.name)
 def test_the_worlds_of_the_examples_are_clean(program):
-    from worldwright.model.plan_text import read_plan
+    from worldwright.model.plan.plan_text import read_plan
 
     found, said = engine.check_program_file(program, read_plan(program.parent / "plan.md").plan, True)
     assert found == [] and "compiled" in said
@@ -135,3 +138,82 @@ def test_a_model_file_answers_for_a_finding_in_a_comment(tmp_path):
     report = tools.check_program([written(tmp_path, text.format(answered), "b.xml")])
     assert report.ok and [(f.code, f.severity) for f in report.findings] == [("WM112", "info")]
     assert "a press fit" in report.findings[0].message
+
+
+def test_a_plain_script_is_not_at_fault_for_a_package_that_is_not_here(tmp_path):
+    needs = written(tmp_path, "import not_installed_anywhere\n\n" + SCRIPT, "plain.py")
+    (found,) = tools.check_program([needs], model=True).findings
+    assert (found.code, found.severity, found.line) == ("WM101", "info", 1)
+    assert "not_installed_anywhere" in found.message and "cannot be built" not in found.message
+
+
+def test_a_program_may_have_modules_and_data_beside_it(tmp_path):
+    """Its world is built with both; what links out of the folder is not there."""
+    written(tmp_path, "HEIGHTS = [1.0, 2.0]\n", "shapes.py")
+    (tmp_path / "data").mkdir()
+    written(tmp_path / "data", "0.25\n", "size.txt")
+    (tmp_path / "secret.txt").symlink_to("/etc/passwd")
+    text = """
+        import os
+        from pathlib import Path
+        import mujoco
+        import pydantic
+        import shapes
+        here = Path(__file__).parent
+        assert not (here / "secret.txt").exists()
+        def build():
+            spec = mujoco.MjSpec()
+            for height in shapes.HEIGHTS:
+                spec.worldbody.add_geom(size=(float((here / "data" / "size.txt").read_text()), 0, 0), pos=(0, 0, height))
+            return spec
+    """
+    outcome = fetch.world(written(tmp_path, textwrap.dedent(text)))
+    assert (outcome.status, outcome.message) == ("compiled", "")
+    assert outcome.arrays["geom_size"][:, 0].tolist() == [0.25, 0.25]
+
+
+def test_no_comment_answers_for_what_acts_against_the_plan(tmp_path):
+    text, plan = changed("spec.geom('crate').friction[0] = spec.geom('ground').friction[0] = 0.05")
+    text = "".join(f"{line}  # worldwright: ignore[WM160] never mind\n" for line in text.splitlines())
+    found, _ = engine.check_program_file(written(tmp_path, text), plan_with(plan), contract=True)
+    assert {f.severity for f in found if f.code == "WM160"} == {"error"}
+
+
+FALLING = """
+import mujoco
+from worldkit import program
+
+def build():
+    spec = mujoco.MjSpec()
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1))
+    for i in range(COUNT):
+        body = spec.worldbody.add_body(name=f"b{i}", pos=(0.01 * (i % 3), 0, 0.2 + 0.15 * i))
+        body.add_freejoint()
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.1, 0.1, 0.05))
+    return spec
+
+program.main(build, duration=SECONDS)
+"""
+
+
+def rehearsed(tmp_path, count, seconds):
+    text = FALLING.replace("COUNT", str(count)).replace("SECONDS", str(seconds))
+    outcome = fetch.world(written(tmp_path, text))
+    assert outcome.status == "compiled", outcome
+    return outcome
+
+
+def test_the_first_steps_tell_what_the_physics_will_cost(tmp_path):
+    """Ten times as long costs ten times as much, and many bodies more than one: within what a busy machine disturbs."""
+    one, longer, many = (rehearsed(tmp_path, *how).pass_s for how in ((1, 10.0), (1, 100.0), (40, 10.0)))
+    assert one and longer and many
+    assert 3 * one < longer < 30 * one and many > 3 * one
+    found, said = engine.check_program_file(tmp_path / "simulation.py", None)
+    assert "by its first steps the physics takes about" in said, (found, said)
+
+
+def test_what_cannot_take_a_step_has_no_price_and_is_a_world_all_the_same(tmp_path):
+    outcome = rehearsed(tmp_path, 1, "float('nan')")
+    assert outcome.pass_s is None
+    outcome = fetch.world(written(tmp_path, FALLING.replace("COUNT", "1").replace(", duration=SECONDS", "")))
+    assert outcome.status == "compiled" and outcome.pass_s is None

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from worldwright.model.errors import PlanError
-from worldwright.model.plan_text import MAX_BYTES, read_plan
+from worldwright.model.plan.plan_text import MAX_BYTES, read_plan
 
 HERE = Path(__file__).parent
 CORPUS = sorted((HERE / "bad_plans").glob("*.md"))

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.model import closed_forms as forms
+from worldwright.model.recording import closed_forms as forms
 
 sizes = st.floats(0.01, 100)
 

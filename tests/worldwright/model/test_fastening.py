@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from worldwright.model.drives import End
-from worldwright.model.fastening import SIDES, point
-from worldwright.model.plan import Plan
-from worldwright.model.scene import PlacedObject, Scene
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.drives import End
+from worldwright.model.plan.fastening import SIDES, point
+from worldwright.model.plan.layout import PlacedObject, Scene
 
 SIZE = (0.4, 0.2, 0.1)
 

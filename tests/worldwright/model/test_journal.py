@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from worldwright.model.evidence import EvidenceKey, LintReport
-from worldwright.model.journal import Journal
-from worldwright.model.run import Run, sha256_file
+from worldwright.model.evidence.journal import Journal
+from worldwright.model.evidence.reports import EvidenceKey, LintReport
+from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.model.storage import StorageError
 
 VALUES = st.one_of(st.text(max_size=12), st.integers(), st.booleans(), st.lists(st.text(max_size=4), max_size=3))
@@ -28,6 +28,13 @@ def written(path: Path, entries: list[dict]) -> Journal:
     for entry in entries:
         journal.append(entry)
     return journal
+
+
+def test_a_folder_in_place_of_the_journal_is_named(tmp_path):
+    (tmp_path / "journal.jsonl").mkdir()
+    journal = Journal(tmp_path / "journal.jsonl")
+    assert list(journal.entries()) == []
+    assert journal.breaks() == ["the journal is a folder, not a file"]
 
 
 @QUICK
@@ -95,7 +102,7 @@ def test_an_older_journal_is_bound_as_a_whole(tmp_path):
 
 def test_many_writers_at_once_make_one_chain(tmp_path):
     script = (
-        "import sys; from pathlib import Path; from worldwright.model.journal import Journal\n"
+        "import sys; from pathlib import Path; from worldwright.model.evidence.journal import Journal\n"
         "for i in range(25): Journal(Path(sys.argv[1])).append({'by': sys.argv[2], 'i': i})"
     )
     path = tmp_path / "j"
@@ -111,7 +118,7 @@ def test_many_writers_at_once_make_one_chain(tmp_path):
 LIMITED = """
 import resource, sys
 from pathlib import Path
-from worldwright.model.run import Run
+from worldwright.model.evidence.run import Run
 from worldwright.model.storage import StorageError
 run = Run(sys.argv[1])
 run.log("tester", "first")

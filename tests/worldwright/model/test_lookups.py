@@ -1,8 +1,8 @@
 """An unknown simulator name is looked up before the program runs again."""
 
-from worldwright.model.lookups import owed
+from worldwright.model.evidence.lookups import owed
 
-LINT = {"action": "lint", "codes": ["WL101", "WL300"]}
+LINT = {"action": "lint", "codes": ["WL101", "WL300"], "unknown": ["WL101"]}
 CRASH = {"action": "stage", "ok": False, "message": "AttributeError: module 'mujoco' has no attribute 'mj_fly'"}
 CITE = {"action": "cite", "symbol": "mj_step"}
 
@@ -18,6 +18,12 @@ def test_an_unknown_name_is_owed_until_something_is_read():
 
 def test_other_failures_owe_nothing():
     assert (
-        owed([{"action": "lint", "codes": ["WL300"]}, {"action": "stage", "ok": False, "message": "timed out"}]) == ""
+        owed(
+            [
+                {"action": "lint", "codes": ["WL300"], "unknown": []},
+                {"action": "stage", "ok": False, "message": "timed out"},
+            ]
+        )
+        == ""
     )
-    assert owed([{"action": "lint", "codes": "WL101"}, {"action": "stage"}]) == ""
+    assert owed([{"action": "lint", "unknown": "WL101"}, {"action": "stage"}]) == ""

@@ -8,11 +8,11 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from worldwright.model.errors import PlanError
-from worldwright.model.plan import TO_CLARIFY, Plan
-from worldwright.model.plan_edit import _same
-from worldwright.model.plan_text import parse_plan
-from worldwright.model.plan_write import write_plan
-from worldwright.model.plan_yaml import Node, compose, inline, resolve
+from worldwright.model.plan.committed import TO_CLARIFY, Plan
+from worldwright.model.plan.plan_edit import _same, edit
+from worldwright.model.plan.plan_text import parse_plan
+from worldwright.model.plan.plan_write import write_plan
+from worldwright.model.plan.plan_yaml import Node, compose, inline, resolve
 
 GOOD = (Path(__file__).parent / "good_plan.md").read_text(encoding="utf-8")
 STYLES = {
@@ -31,7 +31,7 @@ ROW = ("topology", "scene_predicates", 1)
 PIECES = list("{}[]\"'|>#%@\\é~ \n\t\r\u2028\x85\x00\ufeff")
 PIECES += ["", "```", "```yaml", "---", "!!x", "1e400", "<!--", "-->", "## ", "# ", "- ", ": ", "&a ", "*a "]
 number = st.floats(-1e3, 1e3).map(lambda v: round(v, 6) + 0.0)
-text_line = st.text(st.characters(exclude_categories=("Cs", "Cc", "Co", "Cn")), max_size=40)
+text_line = st.text(st.characters(exclude_categories=("Cs", "Cc", "Co", "Cn", "Cf", "Zl", "Zp")), max_size=40)
 
 
 def styled(style: str, end: str = "\n") -> str:
@@ -46,14 +46,14 @@ def test_a_row_takes_its_pose_in_every_style(style, end, x, y, z, deg, why):
     document = parse_plan(styled(style, end))
     position = {"x": x, "y": y, "z": z}
     edits = [((*ROW, "position"), position), ((*ROW, "orientation"), {"deg_z": deg}), ((*ROW, "provenance"), why)]
-    text = document.edited(edits)
+    text = edit(document, edits)
     after = parse_plan(text)
     row = after.plan.topology.scene_predicates[1]
     assert row.position.vector == (x, y, z)
     assert (row.orientation.deg_z, row.provenance) == (deg, why)
     assert removed(text, document.text)  # the old text survives as a subsequence: nothing was taken away
-    assert after.edited(edits) == text  # again: nothing to do
-    moved = after.set_row(ROW, "position", {"x": x, "y": y, "z": z + 1})
+    assert edit(after, edits) == text  # again: nothing to do
+    moved = edit(after, [((*ROW, "position"), {"x": x, "y": y, "z": z + 1})])
     assert len(changed_lines(text, moved)) == 1
     if end == "\r\n":
         assert moved.count("\n") == moved.count("\r\n")
@@ -94,7 +94,7 @@ def changed_lines(before: str, after: str) -> list[int]:
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
 def test_any_value_can_be_set(path, value, end):
     document = parse_plan(GOOD.replace("\n", end))
-    text = document.edited([(path, value)])
+    text = edit(document, [(path, value)])
     node = parse_plan(text).node(path[0]) if path[0] in parse_plan(text).nodes else None
     found = node.data() if isinstance(node, Node) else None
     for part in path[1:]:
@@ -112,21 +112,21 @@ def section_text(document, name: str) -> str:
 
 def test_setting_what_is_there_changes_nothing():
     document = parse_plan(GOOD)
-    assert document.edited([(("scene_objects", 0, "size"), (1.0, 1.0, 0.5)), (("plan_type",), "mbs")]) is document.text
+    assert edit(document, [(("scene_objects", 0, "size"), (1.0, 1.0, 0.5)), (("plan_type",), "mbs")]) is document.text
 
 
 @pytest.mark.parametrize("path", [("nonsense", "x"), ("scene_objects", 7, "size"), ("plan_type", "x", "y")])
 def test_a_path_to_nowhere_is_refused(path):
     with pytest.raises(PlanError):
-        parse_plan(GOOD).edited([(path, 1)])
+        edit(parse_plan(GOOD), [(path, 1)])
 
 
 def test_an_edit_that_breaks_the_plan_is_refused_with_findings():
     with pytest.raises(PlanError) as refusal:
-        parse_plan(GOOD).edited([(("simulation_parameters", "time_step"), -1)])
+        edit(parse_plan(GOOD), [(("simulation_parameters", "time_step"), -1)])
     assert refusal.value.findings
     with pytest.raises(ValueError, match="finite"):
-        parse_plan(GOOD).edited([(("simulation_parameters", "time_step"), math.inf)])
+        edit(parse_plan(GOOD), [(("simulation_parameters", "time_step"), math.inf)])
 
 
 scalars = st.none() | st.booleans() | st.integers(-(10**12), 10**12) | st.floats(allow_nan=False, allow_infinity=False)

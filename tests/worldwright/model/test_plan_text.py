@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from worldwright.model.errors import PlanError
-from worldwright.model.plan_text import parse_plan, read_plan
-from worldwright.model.plan_write import write_plan
+from worldwright.model.plan.plan_text import parse_plan, read_plan
+from worldwright.model.plan.plan_write import write_plan
 
 GOOD = (Path(__file__).parent / "good_plan.md").read_text(encoding="utf-8")
 EXAMPLES = sorted((Path(__file__).parents[3] / "examples").glob("*/plan.md"))
@@ -66,6 +66,21 @@ def test_dimensions_as_bullets_a_list_or_a_mapping():
         assert "lamp: 0.5" in document.text.splitlines()[line - 1]
 
 
+@pytest.mark.parametrize("written", ["none", "None.", "`none`", "- none", "n/a"])
+def test_a_bare_none_means_that_nothing_is_filmed(written):
+    head, rest = GOOD.split("## recording_mode\n")
+    base = head + f"## recording_mode\n\n{written}\n\n## " + rest.split("## ", 1)[1]
+    assert parse_plan(base).plan.recording_mode.mode == "none"
+    assert parse_plan(base.replace(written, "cameras")).plan.recording_mode.mode == "cameras"
+
+
+def test_whatever_is_marked_to_clarify_is_unresolved():
+    marked = GOOD.replace("source: handbook", "source: TO_CLARIFY ask whose table")
+    assert list(parse_plan(GOOD).plan.unresolved()) == []
+    (path,) = parse_plan(marked).plan.unresolved()
+    assert path.startswith("simulation_parameters.materials.") and path.endswith(".source")
+
+
 def test_yaml_1_2_scalars():
     text = GOOD.replace("source: handbook", 'source: "no"').replace("name: ball", "name: no").replace("ball", "no")
     assert parse_plan(text).plan.object_names() == ("box", "no")
@@ -106,3 +121,33 @@ def test_an_intervention_may_name_what_only_the_program_has():
         assert parse_plan(text.replace("NAME", name)).plan.simulation_parameters.interventions[0].bodies == (name,)
     with pytest.raises(PlanError, match="did you mean `ball`"):  # all but the plan's own name: a slip
         parse_plan(text.replace("NAME", "balls"))
+
+
+def test_a_plan_is_parsed_once_for_each_content(planned, tmp_path):
+    from worldwright.lint.tools import check_plan
+    from worldwright.model.plan import plan_text
+    from worldwright.place import tools as place
+    from worldwright.stamp import tools as stamp
+
+    plan_text._parsed.cache_clear()
+    for _ in range(2):
+        check_plan(planned / "plan.md")
+        place.resolve(planned / "plan.md", write=False)
+        place.check(planned / "plan.md")
+        stamp.status(str(planned))
+    assert plan_text._parsed.cache_info().misses == 1
+
+
+def test_each_reader_has_a_plan_that_knows_its_own_folder(planned):
+    text = (planned / "plan.md").read_text(encoding="utf-8")
+    here, nowhere = read_plan(planned / "plan.md").plan, parse_plan(text, str(planned / "plan.md")).plan
+    assert here.folder == planned
+    assert nowhere.folder != planned
+    assert here == nowhere
+
+
+@pytest.mark.parametrize("mark", ["\u2028", "\u2029", "\x85", "\x0b", "\x0c", "\u202e"])
+def test_a_line_end_that_no_editor_shows_is_refused(small_plan: str, mark: str) -> None:
+    """YAML ends a line at some of them, so that a comment would hold a value."""
+    with pytest.raises(PlanError, match="control character"):
+        parse_plan(small_plan.replace("## ", f"<!-- a remark{mark}gravity: -4.7 -->\n\n## ", 1))

@@ -2,8 +2,8 @@
 
 import pytest
 
-from worldwright.model.observation import Viewpoint
-from worldwright.model.plan import Plan
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.observation import Viewpoint
 from worldwright.place import categories
 from worldwright.place.checks import check
 from worldwright.place.engine import resolve
@@ -12,7 +12,7 @@ TABLE = {"name": "table", "primitive": "box", "size": [1.2, 0.8, 0.75], "fixed":
 ON_GROUND = {"subject": "table", "predicate": "PLACE-ON-BASE", "params": {"x": 0, "y": 0}}
 
 
-def report(objects, rows, *, exact=False, topology=None, **changes):
+def report(objects, rows, *, exact=False, topology=None, folder=None, **changes):
     """What `check` says about a plan of scene objects; a row is (subject, predicate, object, params) or a mapping."""
     listed = [
         r if isinstance(r, dict) else dict(zip(("subject", "predicate", "object", "params"), r, strict=True))
@@ -28,6 +28,7 @@ def report(objects, rows, *, exact=False, topology=None, **changes):
             **changes,
         }
     )
+    plan = plan if folder is None else plan.read_from(folder)
     resolution = resolve(plan)
     assert resolution.scene.ok, resolution.scene.findings
     return check(plan, resolution, locate=lambda *path: None, exact=exact)
@@ -52,6 +53,57 @@ def test_a_sound_layout_has_no_findings():
     found = report([TABLE, box("mug", 0.08, 0.08, 0.1)], [ON_GROUND, on("mug", "table", 0.2, 0.1)], exact=True)
     assert not found.findings
     assert found.ok
+
+
+# --- hills ----------------------------------------------------------------------------------------------------------
+
+SLOPE = 0.25
+HILLS = {
+    "hfield": """<mujoco><asset><hfield name="h" nrow="2" ncol="2" size="5 5 2.5 1" elevation="0 1 0 1"/></asset>
+      <worldbody><body name="hill"><geom type="hfield" hfield="h"/></body></worldbody></mujoco>""",
+    "mesh": """<mujoco><asset><mesh name="h" vertex="-5 -5 -1 -5 5 -1 5 -5 -1 5 5 -1 -5 -5 0 -5 5 0 5 -5 2.5 5 5 2.5"/></asset>
+      <worldbody><body name="hill"><geom type="mesh" mesh="h"/></body></worldbody></mujoco>""",
+}
+
+
+@pytest.fixture(params=sorted(HILLS))
+def on_a_hill(request, tmp_path):
+    """What is found of a ball of 0.4 m whose surface is so far from a slope, straight up."""
+    (tmp_path / "hill.xml").write_text(HILLS[request.param])
+
+    def found(above):
+        place = {"x": 1.0, "y": 0.3, "z": 1.0 + SLOPE * 6.0 + 0.2 * (1 + SLOPE**2) ** 0.5 + above}
+        return codes(
+            report(
+                [{"name": "ball", "primitive": "sphere", "size": [0.4] * 3}],
+                [("hill", "PLACE-ON-BASE", None, {"x": 0, "y": 0})],
+                assets=[{"name": "hill", "type": "mjcf", "filename": "hill.xml", "fixed": True}],
+                topology={"body_positions": {"ball": place}},
+                exact=True,
+                folder=tmp_path,
+            )
+        )
+
+    return found
+
+
+def test_what_stands_on_a_hill_stands(on_a_hill):
+    assert not on_a_hill(0.0003)
+
+
+@pytest.mark.parametrize("above", [0.005, 0.4])
+def test_what_is_above_a_hill_falls_as_far_as_the_hill_is_below(on_a_hill, above):
+    (said,) = on_a_hill(above)["WP304"]
+    assert "above `hill`" in said
+    assert float(said.split("starts ")[1].split(" m")[0]) == pytest.approx(above, abs=2e-3)
+
+
+@pytest.mark.parametrize("deep", [0.05, 0.35])
+def test_what_sinks_into_a_hill_is_as_deep_as_geometry_says(on_a_hill, deep):
+    told = on_a_hill(-deep)
+    assert set(told) == {"WP302"}
+    depth = float(told["WP302"][0].split("by ")[1].split(" m")[0])
+    assert depth == pytest.approx(deep / (1 + SLOPE**2) ** 0.5, abs=3e-3)
 
 
 # --- support --------------------------------------------------------------------------------------------------------

@@ -5,10 +5,10 @@ import pytest
 
 from worldwright.lint.tools import check_plan
 from worldwright.model.errors import PlanError
-from worldwright.model.objects import SceneObject
-from worldwright.model.plan import Plan
-from worldwright.model.plan_text import read_plan
-from worldwright.model.weights import weight
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.plan_text import read_plan
+from worldwright.model.plan.scene_objects import SceneObject
+from worldwright.model.plan.weights import weight
 from worldwright.place import settling
 from worldwright.place.checks import check
 from worldwright.place.drawing.silhouettes import primitive_clouds, silhouette

@@ -8,9 +8,9 @@ import cv2
 import numpy as np
 import pytest
 
-from worldwright.model.plan import Plan
-from worldwright.model.plan_text import read_plan
-from worldwright.place.drawing import palette, sheet, view
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.plan_text import read_plan
+from worldwright.place.drawing import palette, panel, sheet
 from worldwright.place.drawing.sheet import _bounds as bounds
 from worldwright.place.engine import resolve
 
@@ -108,18 +108,18 @@ def drawn(monkeypatch):
 
     def draw(data):
         views = []
-        arrange = view.arrange
+        arrange = panel.arrange
 
         def spied(items, panel, taken):
             labels, left = arrange(items, panel, taken)
             views.append((labels, left, taken))
             return labels, left
 
-        monkeypatch.setattr(view, "arrange", spied)
+        monkeypatch.setattr(panel, "arrange", spied)
         told = []
-        text = view.Canvas.text
+        text = panel.Canvas.text
         monkeypatch.setattr(
-            view.Canvas, "text", lambda self, words, *more: told.append(words) or text(self, words, *more)
+            panel.Canvas, "text", lambda self, words, *more: told.append(words) or text(self, words, *more)
         )
         plan = Plan.model_validate(data)
         png = sheet(plan, resolve(plan), ())
@@ -170,7 +170,7 @@ def test_a_box_that_stands_for_a_model_says_so(monkeypatch, tmp_path):
     shutil.copytree(MODELS, tmp_path / "parts")
     plan = read_plan(tmp_path / "plan.md").plan
     told = []
-    text = view.Canvas.text
-    monkeypatch.setattr(view.Canvas, "text", lambda self, words, *more: told.append(words) or text(self, words, *more))
+    text = panel.Canvas.text
+    monkeypatch.setattr(panel.Canvas, "text", lambda self, words, *more: told.append(words) or text(self, words, *more))
     sheet(plan, resolve(plan), ())
     assert {"arm (urdf)", "chest_1 (mjcf chest)", "chest_2 (mjcf chest)", "table", "mug"} <= set(told)

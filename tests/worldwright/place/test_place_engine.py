@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from worldwright.model.plan import TO_CLARIFY, Plan
+from worldwright.model.plan.committed import TO_CLARIFY, Plan
 from worldwright.place.engine import resolve
 
 BOXES = {"a": (1, 1, 1), "b": (0.4, 0.6, 0.2), "c": (0.2, 0.2, 0.2)}

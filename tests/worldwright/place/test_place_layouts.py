@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model.plan_text import read_plan
+from worldwright.model.plan.plan_text import read_plan
 from worldwright.place import tools
+from worldwright.place.checks.checked_layout import CheckedLayout
 from worldwright.place.checks.density import kind_of
-from worldwright.place.checks.layout import Layout
 from worldwright.place.drawing.families import captions, stem
 from worldwright.place.engine import resolve
 from worldwright.place.statements import Problems
@@ -61,7 +61,7 @@ def test_every_number_traces_to_a_row(plan):
 
 @pytest.mark.parametrize("name", ["stacks-and-bridges", "workshop-bench"])
 def test_it_becomes_a_whole_program(name):
-    from worldwright.draft.program import draft
+    from worldwright.draft.assembly import draft
 
     plan = read_plan(LAYOUTS / name / "plan.md").plan
     drafted = draft(plan, resolve(plan).scene)
@@ -74,7 +74,7 @@ def test_it_becomes_a_whole_program(name):
 
 def counted(name: str) -> tuple[int, int]:
     plan = read_plan(LAYOUTS / name / "plan.md").plan
-    layout = Layout(plan, resolve(plan), Problems("plan.md", lambda *path: None), exact=False)
+    layout = CheckedLayout(plan, resolve(plan), Problems("plan.md", lambda *path: None), exact=False)
     return len(layout.placed), len({kind_of(layout, o) for o in layout.scene.objects})
 
 

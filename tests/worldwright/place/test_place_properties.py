@@ -6,7 +6,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from worldwright.model.plan import Plan
+from worldwright.model.plan.committed import Plan
 from worldwright.place.anchors import Box, wrap
 from worldwright.place.engine import resolve
 from worldwright.place.vocabulary import PREDICATES, RELATIONS
@@ -90,10 +90,10 @@ def worlds(draw, most=7):
             )
         else:
             code = draw(
-                st.sampled_from([c for c in BODY_RELATIONS if c.startswith("adjacent") or c in ("centered_on_ref",)])
+                st.sampled_from([c for c in BODY_RELATIONS if c.startswith("adjacent") or c == "centered_on_ref"])
             )
             relations.append((code, name, ref, {"gap": draw(gaps)} if code.startswith("adjacent") else {}))
-        if way not in ("copy",) and draw(st.booleans()):
+        if way != "copy" and draw(st.booleans()):
             turn = draw(
                 st.sampled_from(["FACING-LEFT", "FACING-SAME-AS", "FACING-OPPOSITE-TO", "RANDOM-ROT", "FACING-TO"])
             )

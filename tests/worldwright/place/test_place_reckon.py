@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.model.closed_forms import FORMS
 from worldwright.model.errors import PlanError, WorldwrightError
+from worldwright.model.recording.closed_forms import FORMS
 from worldwright.place.tools import reckon
 
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.model.plan import Plan
+from worldwright.model.plan.committed import Plan
 from worldwright.place.checks import check
 from worldwright.place.engine import resolve
 from worldwright.place.settling import settle

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from worldwright.model.objects import SceneObject
-from worldwright.model.plan import Plan
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.scene_objects import SceneObject
 from worldwright.place import settling
 from worldwright.place.checks import check
 from worldwright.place.drawing.silhouettes import primitive_clouds

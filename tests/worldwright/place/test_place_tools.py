@@ -9,10 +9,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from worldwright.model.errors import NotFoundError, PlanError
-from worldwright.model.plan_text import parse_plan, read_plan
+from worldwright.model.plan.plan_text import parse_plan, read_plan
 from worldwright.place import tools
 from worldwright.place.drawing.labels import Item, _overlap, arrange
-from worldwright.place.drawing.view import metres, nice
+from worldwright.place.drawing.panel import metres, nice
 from worldwright.place.overlaps import overlapping
 
 REPO = Path(__file__).parents[3]
@@ -315,3 +315,23 @@ def test_a_plan_with_an_image_is_compared_with_it(breakfast):
     assert "1.1 m" in finding.message
     assert "relation: right_of" in text.splitlines()[finding.line - 1]
     assert report.views[0].camera == "reference_view"
+
+
+def test_the_picture_that_a_person_gave_is_kept_beside_the_plan(breakfast, tmp_path):
+    import cv2
+
+    photos = tmp_path / "elsewhere"
+    photos.mkdir()
+    cv2.imwrite(str(photos / "Desk.PNG"), np.full((8, 8, 3), 200, np.uint8))
+    outside = tmp_path / "outside.png"
+    (breakfast.parent / "reference.png").symlink_to(outside)
+    for _ in range(2):
+        tools.resolve(breakfast, image=photos / "Desk.PNG")
+    kept = breakfast.parent / "reference.png"
+    assert kept.read_bytes() == (photos / "Desk.PNG").read_bytes() and not kept.is_symlink() and not outside.exists()
+    (photos / "notes.txt").write_text("no picture")
+    (photos / "fake.png").write_text("no picture")
+    for wrong in ("notes.txt", "fake.png", "nowhere.png"):
+        with pytest.raises(NotFoundError):
+            tools.resolve(breakfast, image=photos / wrong)
+    assert sorted(path.name for path in breakfast.parent.glob("reference*")) == ["reference.png"]

@@ -14,7 +14,8 @@ from click.testing import CliRunner
 from worldwright import report
 from worldwright.cli import main
 from worldwright.model.errors import WorldwrightError
-from worldwright.model.run import Run
+from worldwright.model.evidence.run import Run
+from worldwright.report.sections import SECTIONS
 from worldwright.stamp import tools as stamp
 
 Copy = Callable[[Path], Path]
@@ -112,7 +113,7 @@ def test_an_accepted_run_shows_everything(accepted: Path, copy: Copy) -> None:
     assert "nothing but the engine's own step acted on this world" in text
     assert page.tags.count("video") == 2
     assert page.tags.count("polyline") >= 5
-    for heading in ("Stamp", "Files", "Environment", "Journal", "The program", "The plan"):
+    for heading in ("Stamp", "Files", "Environment", "preview (PyOpenGL", "Journal", "The program", "The plan"):
         assert heading in text
 
 
@@ -150,7 +151,6 @@ def test_the_command_writes_the_page_and_a_recording(accepted: Path, copy: Copy)
     folder = copy(accepted)
     result = CliRunner().invoke(main, ["report", str(folder)])
     assert (result.exit_code, result.output.strip()) == (0, str(folder / "report.html"))
-    pytest.importorskip("rerun")
     result = CliRunner().invoke(main, ["report", str(folder), "--rerun"])
     assert result.exit_code == 0, result.output
     assert (folder / "recording.rrd").stat().st_size > 10_000
@@ -177,3 +177,22 @@ def test_objectives_of_a_refuted_run_are_red(reviewed: Path, copy: Copy) -> None
     assert "refuted" in text
     assert "it hung in the air" in text
     assert "−0.2" in text
+
+
+@pytest.mark.parametrize("name", [entry.name for entry in SECTIONS.values()])
+def test_a_section_draws(reviewed: Path, name: str) -> None:
+    assert f"The section {name} " not in report.write(Run(reviewed)).read_text(encoding="utf-8")
+
+
+def test_a_section_that_fails_is_named_and_the_others_are_shown(reviewed: Path, monkeypatch) -> None:
+    whole = report.write(Run(reviewed)).read_text(encoding="utf-8")
+    assert "itself failed" not in whole
+
+    def breaks(material: object) -> dict:
+        raise RuntimeError("<ink>")
+
+    monkeypatch.setattr(SECTIONS["RS020"].module, "context", breaks)
+    page = report.write(Run(reviewed)).read_text(encoding="utf-8")
+    assert "The section movement_section (RS020) itself failed (RuntimeError: &lt;ink&gt;)" in page
+    assert 'id="claims"' in page
+    assert Page(page).problems == []

@@ -7,11 +7,11 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.model.records import Contacts
-from worldwright.model.trajectory import Trajectory
+from worldwright.model.recording.records import Contacts
+from worldwright.model.recording.trajectory import Trajectory
 from worldwright.report import chart, series, text
+from worldwright.report.bar import bar
 from worldwright.report.facts import _named, strength
-from worldwright.report.progress import bar
 
 finite = st.floats(-1e6, 1e6, allow_nan=False)
 
@@ -112,7 +112,7 @@ def test_units_follow_their_numbers() -> None:
 
 
 def test_strength_is_a_share() -> None:
-    from worldwright.model.evidence import ExpectationResult
+    from worldwright.model.evidence.reports import ExpectationResult
 
     def made(measured: float | None, margin: float | None) -> ExpectationResult:
         return ExpectationResult(name="x", arguments={}, status="holds", measured=measured, margin=margin)

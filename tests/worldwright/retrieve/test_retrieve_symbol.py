@@ -130,6 +130,37 @@ def test_names_of_the_runtime_are_known_too(asked):
     assert "in worldkit" in answer.text() and answer.definitions[0].citations
 
 
+@pytest.mark.parametrize(
+    ("asked", "says"),
+    [
+        ("worldkit.filming.Film", "A film in the making"),
+        ("worldkit.filming.Film.mesh", "Draw a mesh that is not simulated"),
+        ("Film.grass", "Blades of grass"),
+        ("film.light", ""),
+        ("worldkit.filming.Film.light", "sun"),
+        ("worldkit.filming.follow", "goes along with a body"),
+        ("worldkit.filming.Recorded.box", "half extents"),
+        ("worldkit.filming.Recorded.floor_z", "Height of the ground"),
+        ("worldkit.filming", "follow"),
+    ],
+)
+def test_names_that_a_film_uses_are_found_where_it_imports_them(asked, says):
+    answer = tools.symbol(asked)
+    if asked == "film.light":  # the variable of a program is no name of the runtime
+        assert not answer.exists
+        return
+    assert answer.exists and says.lower() in answer.text().lower()
+    assert tools.read(answer.definitions[0].citations[0]).content
+
+
+def test_every_public_name_of_the_films_is_found():
+    from worldkit import filming
+
+    asked = [*filming.__all__, *(f"Film.{name}" for name in dir(filming.Film) if not name.startswith("_"))]
+    asked += [f"Recorded.{name}" for name in dir(filming.Recorded) if not name.startswith("_")]
+    assert not [name for name in asked if not tools.symbol(f"worldkit.filming.{name}").exists]
+
+
 def test_what_neither_has_is_said_of_both():
     assert "nor in worldkit" in tools.symbol("worldkit.levers.Lever").text()
 

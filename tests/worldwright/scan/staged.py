@@ -8,16 +8,17 @@ from typing import Any
 import mujoco
 
 from worldkit import program
-from worldwright.model.audits import CausesReport, InterventionReport
-from worldwright.model.evidence import ScanReport
-from worldwright.model.plan import Plan
-from worldwright.model.run import Run
-from worldwright.model.trajectory import Trajectory
-from worldwright.scan import engine
-from worldwright.scan.audits import ledger
+from worldwright.model.evidence.audits import CausesReport, InterventionReport
+from worldwright.model.evidence.reports import ScanReport
+from worldwright.model.evidence.run import Run
+from worldwright.model.plan.committed import Plan
+from worldwright.model.recording.trajectory import Trajectory
+from worldwright.model.recording.trajectory_files import read_trajectory
+from worldwright.scan.anomalies import engine
+from worldwright.scan.anomalies.sign import Context
+from worldwright.scan.audits import acting
 from worldwright.scan.audits.causes import Causes
 from worldwright.scan.audits.trials import Trials, variant_name
-from worldwright.scan.sign import Context
 
 
 @dataclass
@@ -58,7 +59,7 @@ class World:
         assert program.main(self.build, self.control, duration=self.duration, argv=argv) == 0, (
             folder / "error.json"
         ).read_text()
-        return Trajectory.read(folder / "trajectory")
+        return read_trajectory(folder / "trajectory")
 
 
 @dataclass
@@ -96,7 +97,7 @@ def audit(world: World, tmp_path: Path) -> Audit:
     trajectory = world.run(tmp_path / "planned")
     context = Context.of(world.plan)
     report = engine.scan(trajectory, context)
-    listed = ledger.report(trajectory, context, report.anomalies)
+    listed = acting.report(trajectory, context, report.anomalies)
     trials = Here(Run(tmp_path), world=world, folder=tmp_path)
     causes = Causes(trajectory, world.plan, listed.acting, trials)
     causes.plan_trials()

@@ -5,9 +5,9 @@ import json
 import pytest
 
 from worldwright.lint import tools as lint
-from worldwright.model.audits import CausesReport, InterventionReport, RefineReport
 from worldwright.model.errors import NotFoundError
-from worldwright.model.run import Run
+from worldwright.model.evidence.audits import CausesReport, InterventionReport, RefineReport
+from worldwright.model.evidence.run import Run
 from worldwright.scan import tools
 from worldwright.stage import tools as stage
 from worldwright.stamp import tools as stamp

@@ -2,7 +2,7 @@
 
 import pytest
 
-from worldwright.scan.engine import CHECKS, ORDER, run_check
+from worldwright.scan.anomalies.engine import CHECKS, ORDER, run_check
 
 CASES = [
     pytest.param(entry, make, good, id=f"{entry.name}-{make().title}")

@@ -2,8 +2,8 @@
 
 import pytest
 
-from worldwright.model.plan import Plan
-from worldwright.scan.sign import Context
+from worldwright.model.plan.committed import Plan
+from worldwright.scan.anomalies.sign import Context
 
 
 @pytest.mark.parametrize(

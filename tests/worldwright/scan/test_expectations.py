@@ -8,12 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from worldwright.model.plan import Objective
-from worldwright.scan.analytic import bouncing, falling, resting, sliding
+from worldkit.turning import about, product
+from worldwright.model.plan.committed import Objective
 from worldwright.scan.audits.moment import event_s
-from worldwright.scan.events import moment_s
-from worldwright.scan.expecting import EXPECTATIONS, _objective, argument_problem, measure
-from worldwright.scan.known.rotation import about, product
+from worldwright.scan.known.analytic import bouncing, falling, resting, sliding
+from worldwright.scan.known.pictured import from_above
+from worldwright.scan.objectives.claims import EXPECTATIONS
+from worldwright.scan.objectives.events import moment_s
+from worldwright.scan.objectives.expecting import _objective, argument_problem, measure
 
 CASES = [
     pytest.param(entry, maker, args, good, id=f"{entry.name}-{'good' if good else 'bad'}{k}")
@@ -23,6 +25,7 @@ CASES = [
 ]
 FAMILIES = {
     "kinematics", "contact", "rotation", "oscillation", "energy", "deformation", "fracture", "flow", "comparison",
+    "picture",
 }  # fmt: skip
 
 
@@ -62,9 +65,7 @@ def test_the_vocabulary_is_large_complete_and_documented():
                     assert unit in field.description, f"{entry.name}.{name} does not say its unit"
 
 
-@pytest.mark.parametrize(
-    "entry", [e for e in EXPECTATIONS.values() if getattr(e.module, "EVENT", False)], ids=lambda e: e.name
-)
+@pytest.mark.parametrize("entry", [e for e in EXPECTATIONS.values() if e.EVENT], ids=lambda e: e.name)
 def test_an_event_is_false_of_a_recording_that_ends_before_it(entry):
     moments = []
     for maker, arguments in entry.GOOD:
@@ -87,13 +88,15 @@ def test_a_short_beginning_never_ends_in_a_traceback(entry, maker, arguments, go
         assert "the expectation itself failed" not in result.message, result.message
 
 
-ABSOLUTE = {"place", "direction", "center", "about", "low", "high", "axis", "at_m", "surface_m", "along"}
+ABSOLUTE = {"place", "direction", "center", "about", "low", "high", "axis", "at_m", "surface_m", "along", "camera"}
 
 
-@pytest.mark.parametrize(("entry", "maker", "arguments", "good"), CASES)
+RELATIVE = [case for case in CASES if not ABSOLUTE & set(case.values[2])]
+"""Cases that speak of no place and no direction of the world."""
+
+
+@pytest.mark.parametrize(("entry", "maker", "arguments", "good"), RELATIVE)
 def test_where_the_world_begins_and_which_way_it_faces_does_not_matter(entry, maker, arguments, good):
-    if ABSOLUTE & set(arguments):
-        pytest.skip("speaks of places or directions of the world")
     trajectory = maker()
     before = measure(trajectory, entry.name, arguments)
     after = measure(moved(trajectory, 0.7, (3.0, -2.0)), entry.name, arguments)
@@ -105,7 +108,7 @@ def moved(trajectory, yaw, shift):
     """The same world turned about the vertical and moved over the ground."""
     turn = np.array([[np.cos(yaw), -np.sin(yaw), 0], [np.sin(yaw), np.cos(yaw), 0], [0, 0, 1.0]])
     rows, bodies = trajectory.pos.shape[:2]
-    quat = product(np.repeat(about(np.array([yaw]), (0, 0, 1)), rows * bodies, axis=0), trajectory.quat.reshape(-1, 4))
+    quat = product(about((0, 0, 1), yaw), trajectory.quat.reshape(-1, 4))
     contacts = trajectory.contacts
     if contacts is not None:
         contacts = replace(
@@ -337,3 +340,17 @@ def test_a_state_that_lasts_is_not_proved_by_a_recording_that_was_cut_off(row, d
     result = _objective(resting(), 0, objective, duration)
     assert result.status == status
     assert status == "proved" or "the recording ends at 2.000 s, the claim speaks of 5 s" in result.reason
+
+
+def test_a_claim_about_a_picture_waits_until_the_stills_are_drawn():
+    light = {"light": {"camera": "camera", "of": "brightness", "place": [-0.5, -0.5, 0], "min_share": 0.5}}
+    objective = Objective.model_validate({"claim": "The ground is bright.", "expect": [light]})
+    drawn = from_above()
+    assert _objective(drawn, 0, objective).status == "proved"
+    blind = _objective(replace(drawn, stills=None), 0, objective)
+    assert blind.status == "unproved" and blind.waits and "stage start" in blind.reason
+    both = Objective.model_validate({"claim": "…", "expect": [light, {"moves": {"body": "body", "min_m": 1}}]})
+    assert not _objective(replace(drawn, stills=None), 0, both).waits  # the rest of it is wrong already
+    away = {"light": {**light["light"], "place": [9, 9, 0]}}
+    unseen = _objective(drawn, 0, Objective.model_validate({"claim": "…", "expect": [away]}))
+    assert unseen.status == "unproved" and not unseen.waits

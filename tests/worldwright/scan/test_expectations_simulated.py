@@ -6,7 +6,7 @@ import pytest
 from staged import World, box, empty
 
 from worldkit import contacts, motion
-from worldwright.scan.expecting import measure
+from worldwright.scan.objectives.expecting import measure
 
 
 def mechanism():

@@ -7,16 +7,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from staged import World, box, declare, empty
 
-from worldwright.scan.audits import ledger
+from worldwright.scan.anomalies.checks.unearned_switch import threshold
+from worldwright.scan.anomalies.declared import when
+from worldwright.scan.anomalies.sign import Context
+from worldwright.scan.audits import acting
 from worldwright.scan.audits.trials import variant_name
-from worldwright.scan.checks.unearned_switch import threshold
-from worldwright.scan.declared import when
-from worldwright.scan.sign import Context
 from worldwright.stage.variants import NAME
 
 
 def listed(world, tmp_path):
-    return ledger.report(world.run(tmp_path / "t"), Context.of(world.plan))
+    return acting.report(world.run(tmp_path / "t"), Context.of(world.plan))
 
 
 def test_a_push_has_its_impulse_and_its_work(tmp_path):

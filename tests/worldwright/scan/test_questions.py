@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 from worldwright.model.errors import NotFoundError
-from worldwright.model.evidence import ExpectReport, ScanReport
+from worldwright.model.evidence.reports import ExpectReport, ScanReport
+from worldwright.model.evidence.run import Run
 from worldwright.model.finding import Anomaly
-from worldwright.model.run import Run
 from worldwright.scan import plots, tools
-from worldwright.scan.analytic import G, bouncing, collision, resting, rolling, sliding
+from worldwright.scan.anomalies.engine import CHECKS, run_check
 from worldwright.scan.comparing import compare_reports
-from worldwright.scan.engine import CHECKS, run_check
+from worldwright.scan.known.analytic import G, bouncing, collision, resting, rolling, sliding
 from worldwright.scan.known.rotation import spinning
-from worldwright.scan.questions import answer
+from worldwright.scan.query.questions import answer
 
 
 def interchange(trajectory, path, **more):
@@ -162,7 +162,7 @@ def test_a_finding_is_marked_where_it_is(name):
     plain = picture(plots.draw(case.trajectory, mark.quantity, mark.bodies, mark.view_s))
     marked = picture(plots.draw(case.trajectory, mark.quantity, mark.bodies, mark.view_s, mark))
     assert reddish(marked) > reddish(plain) + 100
-    if name not in ("energy_gain",):
+    if name != "energy_gain":
         assert mark.threshold is not None
 
 

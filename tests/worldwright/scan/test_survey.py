@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from worldwright.model.trajectory import Trajectory
-from worldwright.scan import survey as module
-from worldwright.scan.survey import survey
+from worldwright.model.recording.trajectory import Trajectory
+from worldwright.scan.anomalies import survey as module
+from worldwright.scan.anomalies.survey import survey
 
 
 def wandering(seed: int, rows: int, bodies: int) -> Trajectory:

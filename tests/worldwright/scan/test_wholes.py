@@ -11,14 +11,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from staged import World
 
-from worldkit.describe import describe
-from worldwright.model.mechanics import Mechanics, rotation
-from worldwright.model.plan import Intervention
-from worldwright.scan import engine
-from worldwright.scan.expecting import measure
-from worldwright.scan.questions import answer
-from worldwright.scan.sign import Context
-from worldwright.scan.wholes import as_named, assembled, heads
+from worldengine.recording.describing import describe
+from worldkit.turning import matrices
+from worldwright.model.plan.committed import Intervention
+from worldwright.model.recording.mechanics import Mechanics
+from worldwright.scan.anomalies import engine
+from worldwright.scan.anomalies.sign import Context
+from worldwright.scan.anomalies.wholes import as_named, assembled, heads
+from worldwright.scan.objectives.expecting import measure
+from worldwright.scan.query.questions import answer
 
 BOX = mujoco.mjtGeom.mjGEOM_BOX
 PLACE = st.tuples(*[st.floats(-0.25, 0.25)] * 3)
@@ -46,7 +47,7 @@ def toy(parts, welded, height=0.6):
     above, place, turn = body, np.zeros(3), np.array((1.0, 0, 0, 0))
     for number, (pos, quat, half) in enumerate(parts):
         quat = np.asarray(quat) / np.linalg.norm(quat)
-        place = place + rotation(turn) @ pos
+        place = place + matrices(turn) @ pos
         now = np.zeros(4)
         mujoco.mju_mulQuat(now, turn, quat)
         turn = now
@@ -69,11 +70,11 @@ def record(build, duration=0.8, control=None):
 
 
 def tensor(facts, b):
-    axes = rotation(facts.inertia_quat[b])
+    axes = matrices(facts.inertia_quat[b])
     return axes @ np.diag(facts.inertia[b]) @ axes.T
 
 
-OF_WHOLES = {e.code for e in engine.CHECKS.values() if getattr(e.module, "WHOLE", False)} | {"WS112"}
+OF_WHOLES = {e.code for e in engine.CHECKS.values() if e.WHOLE} | {"WS112"}
 
 
 def of_wholes(trajectory, context):
@@ -117,7 +118,7 @@ def test_parts_welded_together_are_the_one_body_that_they_make(parts):
     a, b = one.mechanics, whole.mechanics
     assert np.allclose(a.mass, b.mass) and np.allclose(a.com, b.com)
     assert np.allclose(tensor(a, 0), tensor(b, 0), rtol=1e-6, atol=1e-9)
-    assert np.allclose(np.linalg.det(rotation(b.inertia_quat[0])), 1)
+    assert np.allclose(np.linalg.det(matrices(b.inertia_quat[0])), 1)
     assert np.allclose(a.center, b.center) and np.allclose(a.half_extents, b.half_extents)
     assert a.free.all() and b.free.all() and a.unforced.all() and b.unforced.all()
     for name, arguments in CLAIMS:

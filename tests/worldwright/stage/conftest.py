@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model import environment
-from worldwright.model.evidence import LintReport
-from worldwright.model.run import Run, sha256_file
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.reports import LintReport
+from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.stage import sandbox
 from worldwright.stage.tools import start, wait
 
@@ -26,10 +26,10 @@ def level(request, monkeypatch):
 def make(tmp_path):
     """A run whose program is approved and counts as linted."""
 
-    def make(source: str, name: str = "world") -> Run:
+    def make(source: str, name: str = "world", plan: str = "a plan") -> Run:
         run = Run(tmp_path / name)
         run.folder.mkdir(exist_ok=True)
-        run.plan.write_text("a plan")
+        run.plan.write_text(plan)
         run.program.write_text(textwrap.dedent(source))
         run.log("test", "approve", plan_sha256=sha256_file(run.plan))
         run.keep(run.evidence_key(environment.current().sha256()), "lint", LintReport(rules=1))

@@ -18,6 +18,8 @@ import sys
 from pathlib import Path
 
 ATTEMPTS = {}
+MARK = "OUTCOMES "
+"""Begins the line of the log that tells them."""
 BARRED = {
     getattr(errno, name)
     for name in [
@@ -836,7 +838,4 @@ def run(name):
 def main(world):
     W.update(world, out=os.getcwd(), supervisor=os.getppid())
     outcomes = {name: run(name) for name in ATTEMPTS}
-    Path("outcomes.json").write_text(json.dumps(outcomes))
-    Path("trajectory").mkdir()
-    Path("trajectory/complete.json").write_text("{}")
-    Path("result.json").write_text(json.dumps({"ok": True}))
+    print(f"\n{MARK}{json.dumps(outcomes)}", flush=True)

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from worldwright.model.plan import Intervention
-from worldwright.model.plan_text import parse_plan
-from worldwright.scan import analytic
+from worldwright.model.plan.committed import Intervention
+from worldwright.model.plan.plan_text import parse_plan
+from worldwright.model.plan.plan_write import write_plan
+from worldwright.scan.known import analytic
 from worldwright.stage.account import MOST, account
 from worldwright.stage.tools import start, status, wait
 
@@ -18,22 +19,40 @@ from worldkit import program
 def build():
     spec = mujoco.MjSpec()
     spec.worldbody.add_geom(name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[5, 5, 0.1])
-    for name, x in (("box", 0.0), ("stone", 1.0)):
+    for name, x in (("ball", 0.0), ("stone", 1.0)):
         body = spec.worldbody.add_body(name=name, pos=[x, 0, 0.1])
         body.add_freejoint()
         body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=[0.1, 0.1, 0.1], mass=1)
     return spec
 
 def control(model, data):
-    data.body("box").xfrc_applied[0] = 12.0 if 0.1 <= data.time < 0.3 else 0.0
+    data.body("ball").xfrc_applied[0] = 12.0 if 0.1 <= data.time < 0.3 else 0.0
 
 if __name__ == "__main__":
-    program.main(build, duration=0.5, control=control, movers=["box", "stone"])
+    program.main(build, duration=0.5, control=control, movers=["ball", "stone"])
 """
 
 
-def test_wait_and_status_tell_what_the_recording_shows(make, finish, snapshot):
-    run = make(PUSHED)
+def test_what_the_plan_does_not_declare_is_not_asked_for(make, finish):
+    job = finish(make(PUSHED))
+    assert job.state == "succeeded", job.text()
+    assert "control was not asked: the plan declares no input that it may write" in job.account
+    assert not any("force" in line for line in job.account)
+
+
+def test_what_goes_nowhere_is_told_with_its_line_at_every_level(make, level, finish, small_plan):
+    source = PUSHED.replace("    data.body", "    data.qvel[6] = 1.0\n    data.body")
+    declared = write_plan(declaring(parse_plan(small_plan, file="plan.md").plan, row("force", "ball")))
+    job = finish(make(source, plan=declared))
+    assert job.state == "succeeded", job.text()
+    line = next(n for n, text in enumerate(source.splitlines(), 1) if "data.qvel" in text)
+    told = f"control writes what is no declared input, to no effect: data.qvel (simulation.py:{line})"
+    assert told in job.account
+    assert any(said.startswith("acted besides the engine's step: force on ball") for said in job.account)
+
+
+def test_wait_and_status_tell_what_the_recording_shows(make, finish, small_plan, snapshot):
+    run = make(PUSHED, plan=write_plan(declaring(parse_plan(small_plan, file="plan.md").plan, row("force", "ball"))))
     job = finish(run)
     assert job.state == "succeeded", job.text()
     speed, *rest = job.account
@@ -45,8 +64,11 @@ def test_wait_and_status_tell_what_the_recording_shows(make, finish, snapshot):
     assert start(str(run.folder)).account == wait(str(run.folder)).account == job.account
 
 
-def test_a_blow_up_tells_what_was_recorded_until_then(make, finish):
-    run = make(PUSHED.replace("12.0", "1e15"))
+def test_a_blow_up_tells_what_was_recorded_until_then(make, finish, small_plan):
+    run = make(
+        PUSHED.replace("12.0", "1e15"),
+        plan=write_plan(declaring(parse_plan(small_plan, file="plan.md").plan, row("force", "ball"))),
+    )
     job = finish(run)
     assert job.state == "failed"
     assert any("bad" in line and line.startswith("engine warnings") for line in job.account), job.text()

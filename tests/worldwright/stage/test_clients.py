@@ -14,16 +14,19 @@ import pytest
 from mcp import StdioServerParameters
 
 SLOW = """
-import json, pathlib, sys, time
-out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
-for done in range(1, 31):
-    (out / "progress.tmp").write_text(json.dumps({"done": done, "total": 30, "unit": "steps"}))
-    (out / "progress.tmp").rename(out / "progress.json")
-    time.sleep(0.1)
-(out / "trajectory").mkdir()
-(out / "trajectory" / "complete.json").write_text("{}")
-(out / "result.json").write_text(json.dumps({"ok": True, "name": NAME}))
+import mujoco
+from worldkit import program
+
+def build():
+    spec = mujoco.MjSpec()
+    ball = spec.worldbody.add_body(name="NAME", pos=(0, 0, 1))
+    ball.add_freejoint()
+    ball.add_geom(size=(0.1, 0, 0))
+    return spec
+
+program.main(build, duration=SECONDS, fps=1)
 """
+"""A ball that falls for a while: some seconds of simulating."""
 STDIO = StdioServerParameters(
     command=sys.executable, args=["-m", "worldwright.cli", "serve", "stage"], env=dict(os.environ)
 )
@@ -65,7 +68,7 @@ def facts(result) -> dict:
 
 def test_http_lists_and_runs_and_tells_its_progress(http, make):
     address, _ = http
-    run = make(SLOW.replace("NAME", "'one'"))
+    run = make(SLOW.replace("NAME", "one").replace("SECONDS", "400.0"))
     told = []
 
     async def hear(done: float, total: float | None, message: str | None) -> None:
@@ -85,14 +88,14 @@ def test_http_lists_and_runs_and_tells_its_progress(http, make):
     assert ended["state"] == "succeeded"
     assert wrong.is_error
     assert json.loads(wrong.content[0].text)["next"]
-    assert len(told) >= 4
+    assert len(told) > 1, "how often it tells depends on the machine's speed; that it goes on telling does not"
     assert [done for done, _, _ in told] == sorted(done for done, _, _ in told)
     assert any("left" in message for _, _, message in told)
 
 
 def test_a_server_killed_and_restarted_goes_on_with_the_same_job(http, make):
     address, restart = http
-    run = make(SLOW.replace("NAME", "'one'"))
+    run = make(SLOW.replace("NAME", "one").replace("SECONDS", "200.0"))
 
     async def begin():
         async with mcp.Client(address) as client:
@@ -113,7 +116,7 @@ def test_a_server_killed_and_restarted_goes_on_with_the_same_job(http, make):
 
 @pytest.mark.parametrize("transport", ["stdio", "http"])
 def test_a_cancelled_call_kills_neither_the_job_nor_the_server(transport, http, make):
-    run = make(SLOW.replace("NAME", "'one'"))
+    run = make(SLOW.replace("NAME", "one").replace("SECONDS", "200.0"))
 
     async def talk():
         async with mcp.Client(http[0] if transport == "http" else STDIO) as client:
@@ -131,7 +134,7 @@ def test_a_cancelled_call_kills_neither_the_job_nor_the_server(transport, http, 
 
 
 def test_several_runs_at_once_do_not_mix(make, evidence):
-    runs = [make(SLOW.replace("NAME", f"'world-{n}'").replace("0.1", "0.02"), f"world-{n}") for n in range(4)]
+    runs = [make(SLOW.replace("NAME", f"world-{n}").replace("SECONDS", "2.0"), f"world-{n}") for n in range(4)]
 
     async def one(client, run, jobs):
         job = facts(await client.call_tool("start", {"run": str(run.folder)}))
@@ -148,11 +151,12 @@ def test_several_runs_at_once_do_not_mix(make, evidence):
     jobs = anyio.run(talk)
     for run in runs:
         assert jobs[run.name]["state"] == "succeeded"
-        assert json.loads((evidence(run) / "physics/result.json").read_text())["summary"]["name"] == run.name
+        meta = json.loads((evidence(run) / "physics/trajectory/meta.json").read_text())
+        assert [body["name"] for body in meta["bodies"]] == [run.name]
 
 
 def test_two_who_ask_at_once_get_one_job(make):
-    run = make(SLOW.replace("NAME", "'one'"))
+    run = make(SLOW.replace("NAME", "one").replace("SECONDS", "200.0"))
     code = f"from worldwright.stage.tools import start; print(start({str(run.folder)!r}).job)"
     both = [subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) for _ in range(3)]
     assert len({asker.communicate()[0] for asker in both}) == 1

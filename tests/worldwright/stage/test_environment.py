@@ -11,12 +11,17 @@ from worldwright.stage.job import Job
 from worldwright.stage.tools import start
 
 GOOD = """
-import worldkit
-import json, pathlib, sys
-out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
-(out / "trajectory").mkdir()
-(out / "trajectory" / "complete.json").write_text("{}")
-(out / "result.json").write_text(json.dumps({"ok": True}))
+import mujoco
+from worldkit import program
+
+def build():
+    spec = mujoco.MjSpec()
+    ball = spec.worldbody.add_body(name="ball", pos=(0, 0, 1))
+    ball.add_freejoint()
+    ball.add_geom(size=(0.1, 0, 0))
+    return spec
+
+program.main(build, duration=0.02)
 """
 
 

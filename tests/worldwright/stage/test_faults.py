@@ -16,8 +16,8 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model import environment
-from worldwright.model.run import SOURCE, Run, sha256_file
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.run import SOURCE, Run, sha256_file
 from worldwright.stage import family
 from worldwright.stage.job import Job
 from worldwright.stage.tools import start, wait
@@ -138,9 +138,9 @@ def confined(script: str, folder: Path, options: str) -> "subprocess.CompletedPr
 SMALL = """
 import json, pathlib, sys, time
 sys.path.insert(0, sys.argv[1])
-from worldwright.model import environment
-from worldwright.model.evidence import LintReport
-from worldwright.model.run import SOURCE, Run, sha256_file
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.reports import LintReport
+from worldwright.model.evidence.run import SOURCE, Run, sha256_file
 from worldwright.stage.tools import start, wait
 run = Run(pathlib.Path(sys.argv[1], "world"))
 run.folder.mkdir()
@@ -153,9 +153,9 @@ def go(source):
     while not job.ended:
         job = wait(str(run.folder), job=job.job, timeout_s=20)
     return job.state, job.code
-small = "import json, pathlib, sys, time; out = pathlib.Path(sys.argv[sys.argv.index(\\"--out\\") + 1]); "
-good = small + "(out / \\"trajectory\\").mkdir(); (out / \\"trajectory/complete.json\\").write_text(\\"{}\\"); "
-good += "(out / \\"result.json\\").write_text(json.dumps({\\"ok\\": True}))"
+small = "import pathlib, sys, time; out = pathlib.Path(sys.argv[sys.argv.index(\\"--out\\") + 1]); "
+good = "import mujoco; from worldkit import program\\ndef build():\\n    spec = mujoco.MjSpec()\\n"
+good += "    spec.worldbody.add_geom(size=(0.1, 0, 0))\\n    return spec\\nprogram.main(build, duration=0.02)\\n"
 said = [go(good)]
 said.append(go(small + "[((out / str(n)).write_bytes(bytes(4 << 20)), time.sleep(0.1)) for n in range(40)]"))
 said.append(go(good + "  # once more"))
@@ -189,14 +189,18 @@ def test_a_disk_that_was_full_before_and_a_folder_that_cannot_be_written_are_ref
 
 def test_a_clock_that_jumps_changes_neither_the_order_of_jobs_nor_their_deadlines(make, finish):
     run = make("import time; time.sleep(30)")
-    first = finish(run, wall_s=0.5)
+    first = finish(run, still_s=0.5)
     for path in (run.jobs / first.job).iterdir():
         os.utime(path, (2**32, 2**32))  # the clock was far ahead when it ran, and was set back since
-    job = start(str(run.folder), wall_s=30)
+    job = start(str(run.folder), still_s=30)
     assert Job.find(run, None).folder.name == job.job
     spec = run.jobs / job.job / "spec.json"
     spec.write_text(json.dumps({**json.loads(spec.read_text()), "created": 0.0}))
-    time.sleep(0.5)
-    assert Job.find(run, None).read().state == "running"
+    for _ in range(100):
+        if (state := Job.find(run, None).read().state) != "queued":
+            break
+        time.sleep(0.1)
+    time.sleep(0.5)  # a deadline counted from 1970 would be over by now
+    assert (state, Job.find(run, None).read().state) == ("running", "running")
     (run.jobs / job.job / "cancel").touch()
     assert wait(str(run.folder), timeout_s=10).state == "cancelled"

@@ -88,3 +88,21 @@ def test_nothing_that_moves_gives_the_middle():
     assert (three.setup, three.event, three.aftermath) == (0, 0.5, 1)
     broken = moments._choose(t, np.full(25, np.nan), np.ones(24), "recording")
     assert broken.aftermath == 1
+
+
+def test_the_reference_image_stands_beside_the_first_cameras_still(reviewed, copy):
+    import cv2
+
+    folder = copy(reviewed)
+    with pytest.raises(NotFoundError, match=r"no reference\.png"):
+        frames(str(folder), show="reference")
+    cv2.imwrite(str(folder / "reference.jpg"), np.full((300, 400, 3), (0, 0, 255), np.uint8))
+    shown = frames(str(folder), show="reference")
+    (picture,) = shown.pictures
+    assert "reference.jpg" in picture.caption and "overview" in picture.caption
+    image = cv2.imdecode(np.frombuffer(picture.data, np.uint8), cv2.IMREAD_COLOR)
+    left = image[:, : image.shape[1] // 4].reshape(-1, 3).mean(axis=0)
+    assert left[2] > 240 and left[:2].max() < 20  # the given image, red, on the left
+    assert image[:, -20:].std() > 1  # and a picture of the world on the right
+    with pytest.raises(NotFoundError, match=r"no nowhere\.png"):
+        frames(str(folder), camera="nowhere", show="reference")

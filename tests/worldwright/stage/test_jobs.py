@@ -16,15 +16,23 @@ from worldwright.stage.job import Job
 from worldwright.stage.tools import cancel, log, start, status, wait
 
 GOOD = """
-import json, pathlib, sys
-out = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
-(out / "progress.json").write_text('{"done": 1, "total": 2, "unit": "steps"}')
-(out / "data.bin").write_bytes(b"x" * 10)
-(out / "trajectory").mkdir()
-(out / "trajectory" / "complete.json").write_text("{}")
-(out / "result.json").write_text(json.dumps({"ok": True, "trajectory_sha256": "abc"}))
+import mujoco
+from worldkit import program
+
+HEIGHT = 1.0
+
+def build():
+    spec = mujoco.MjSpec()
+    ball = spec.worldbody.add_body(name="ball", pos=(0, 0, HEIGHT))
+    ball.add_freejoint()
+    ball.add_geom(size=(0.1, 0, 0))
+    return spec
+
 print("said something")
+program.main(build, duration=0.02)
 """
+WORLD = {"world.mjz", "program.json", "inputs.json"}
+"""What the engine was given, which stands in the evidence beside what it recorded."""
 
 
 def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, level, finish, evidence):
@@ -34,9 +42,9 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
     result = json.loads((evidence(run) / "physics/result.json").read_text())
     assert result["ok"]
     assert result["sandbox"] == level
-    assert result["summary"]["trajectory_sha256"] == "abc"
-    assert set(result["files"]) == {"data.bin", "environment.json", "trajectory/complete.json"}
-    assert log(str(run.folder)).content == "said something\n"
+    assert result["summary"]["world_sha256"] == result["files"]["world.mjz"]
+    assert {"environment.json", "trajectory/complete.json", *WORLD} <= set(result["files"])
+    assert log(str(run.folder)).content.startswith("said something\n")
     again = start(str(run.folder))
     assert again.cached
     assert again.job == job.job
@@ -89,7 +97,7 @@ time.sleep(4)
     ("source", "code", "options"),
     [
         ("raise ValueError('no')", "crashed", {}),
-        ("while True: pass", "timed_out", {"wall_s": 1.0}),
+        ("while True: pass", "timed_out", {"still_s": 1.0}),
         (
             "import time; x = bytearray(600 << 20); x[::4096] = b'1' * len(x[::4096]); time.sleep(9)",
             "out_of_memory",
@@ -231,7 +239,7 @@ def test_a_job_survives_its_server(make):
 
 
 def test_a_forced_rerun_that_differs_is_said_and_the_first_evidence_stays(make, finish, evidence):
-    run = make(GOOD.replace('"abc"', "str(__import__('time').time())"))
+    run = make(GOOD.replace("= 1.0", "= __import__('time').time() % 1"))
     assert finish(run).state == "succeeded"
     before = (evidence(run) / "physics/result.json").read_bytes()
     job = finish(run, force=True)

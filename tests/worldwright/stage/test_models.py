@@ -8,9 +8,9 @@ from click.testing import CliRunner
 
 from worldwright.cli import main
 from worldwright.model.errors import GateError, JobError, NotFoundError
-from worldwright.model.run import Run
-from worldwright.model.trajectory import Trajectory
-from worldwright.stage import models
+from worldwright.model.evidence.run import Run
+from worldwright.model.recording.trajectory_files import read_trajectory
+from worldwright.stage import bare_models, sandbox
 from worldwright.stage.tools import start, wait
 
 WORLD = """<mujoco model="thrown">
@@ -50,7 +50,7 @@ def end(folder):
 
 
 def test_a_model_is_recorded_with_all_it_is_made_of(level, model):
-    names = {path.name for path in models.made_of(model)}
+    names = {path.name for path in bare_models.made_of(model)}
     assert names == {"thrown.xml", "ground.xml", "rock.stl", "t.png"}
     started = CliRunner().invoke(
         main, ["stage", "start", "--model", str(model), "--duration", "0.6", "--format", "json"]
@@ -58,7 +58,7 @@ def test_a_model_is_recorded_with_all_it_is_made_of(level, model):
     assert started.exit_code == 0, started.output
     job = end("runs/thrown")
     assert job.state == "succeeded", job.text()
-    recording = Trajectory.read(Run.find("runs/thrown").folder / job.result / "trajectory")
+    recording = read_trajectory(Run.find("runs/thrown").folder / job.result / "trajectory")
     assert recording.t[-1] == pytest.approx(0.6)
     assert recording.pos[0, 0, 2] - recording.pos[-1, 0, 2] > 0.5
     again = start(model=model, duration=0.6)
@@ -95,9 +95,8 @@ def test_a_broken_model_is_named_and_the_folder_stays_usable(model, text):
     assert end("runs/thrown").state == "succeeded"
 
 
+@pytest.mark.parametrize("level", [name for name in sandbox.CONFINING if not sandbox.unusable(name)], indirect=True)
 def test_stills_of_a_bare_model(level, model):
-    if level == "rlimits":
-        pytest.skip("drawn inside the confining levels")
     start(model=model, duration=0.2)
     end("runs/thrown")
     start("runs/thrown", stage="stills")

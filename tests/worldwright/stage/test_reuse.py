@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from worldwright.lint import tools as lint
-from worldwright.model import environment
-from worldwright.model.run import Run, sha256_file
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
-from worldwright.stamp import measured
+from worldwright.stamp import by_measurement
 from worldwright.stamp import tools as stamp
 
 Copy = Callable[[Path], Path]
@@ -64,14 +64,14 @@ def test_a_camera_repair_takes_the_recording_over_to_acceptance(planned: Path, c
     assert "close" in meta["cameras"]
 
     step = next(s for s in stamp.status(str(folder)).steps if s.name == "physics")
-    assert step.detail == f"recording of {first_key} taken over: only what is seen differs"
+    assert step.detail == f"recording of {first_key} taken over: only the pictures differ"
     for name in ("stills", "video"):
         physics(folder, stage=name)
     assert (here.parent / "stills" / "close.png").is_file()
     assert scan.scan(str(folder)).ok
     assert scan.expect(str(folder)).ok
-    stamp.describe(str(folder), measured.describe(run))
-    stamp.review(str(folder), measured.review(run))
+    stamp.describe(str(folder), by_measurement.describe(run))
+    stamp.review(str(folder), by_measurement.review(run))
     accepted = stamp.accept(str(folder), timeout_s=60)  # simulates anew: what was taken over is proved
     assert accepted.ok
     assert accepted.trajectory_sha256 == first["summary"]["trajectory_sha256"]
@@ -88,9 +88,9 @@ def ran(planned: Path, copy: Copy) -> Path:
 @pytest.mark.parametrize(
     "change",
     [
-        ("    return spec", "    spec.option.viscosity = 0.5\n    return spec"),
-        ("    return spec", "    spec.option.impratio = 3.0\n    return spec"),
-        ("    return spec", "    spec.option.iterations = 7\n    return spec"),
+        ("    return spec", "    spec.option.ls_iterations = 60\n    return spec"),
+        ("    return spec", "    spec.option.tolerance = 1e-9\n    return spec"),
+        ("    return spec", "    spec.option.iterations = 107\n    return spec"),
     ],
 )
 def test_a_change_of_the_physics_is_simulated(ran: Path, change: tuple[str, str]) -> None:

@@ -10,13 +10,18 @@ import sys
 import time
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from worldwright.model.errors import GateError
-from worldwright.model.run import Run, sha256_file
-from worldwright.stamp import bundle, digest, verification
+from worldwright.model.evidence.journal import Journal
+from worldwright.model.evidence.run import Run, sha256_file
+from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.plan_text import read_plan
+from worldwright.stamp import bundle, departures, digest, repeats, signing, verification
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.state import State
 from worldwright.stamp.statement import Statement
 from worldwright.stamp.strip import BEGIN, END
 
@@ -120,8 +125,10 @@ def test_another_program_under_a_resealed_stamp_is_refuted_by_its_run(accepted: 
     (inner / "simulation.py").write_text(moved, encoding="utf-8")
     statement = Statement.model_validate_json((inner / "stamp.json").read_bytes())
     bundle.seal(inner, statement.model_copy(update={"subject": bundle.subjects(inner)}))
+    for signature in ("stamp.dsse.json", "stamp.pub"):  # left standing, it refutes the folder before the run
+        (inner / signature).unlink()
     (folder / "journal.jsonl").unlink()
-    result = stamp.verify(str(folder), timeout_s=60)
+    result = stamp.verify(str(folder), timeout_s=60, rebuild=True)
     assert not result.ok
     failed = {check.name for check in result.checks if not check.ok}
     assert failed & {"trajectory", "run"}, result.text()
@@ -157,6 +164,9 @@ def test_instrumentation_that_changes_the_motion_is_refused(planned: Path, copy:
     without_film(folder)
     program = folder / "simulation.py"
     source = program.read_text(encoding="utf-8")
+    air = "constants: {air_viscosity: {value: 0.001, unit: Pa s, source: made up for a test}}"
+    plan = folder / "plan.md"
+    plan.write_text(plan.read_text(encoding="utf-8").replace("inferred:", f"{air}\ninferred:", 1), encoding="utf-8")
     push = f"    {BEGIN}\n    spec.option.viscosity = 0.001\n    {END}\n    return spec"
     pushed = source.replace("    return spec", push)
     program.write_text(pushed, encoding="utf-8")
@@ -181,6 +191,51 @@ def test_an_edited_byte_of_the_evidence_is_refused(reviewed: Path, copy: Copy, n
     assert f"{name} is not what the {name.split('/')[0]} pass wrote" in caught.value.cause
     assert "again" in caught.value.next_move
     assert not (folder / "accepted").exists()
+
+
+def rewritten(folder: Path, name: str, edit: Callable[[str], str]) -> None:
+    """Change a report of the evidence, and let a whole new journal vouch for it, as one who writes the run folder can."""
+    run = Run(folder)
+    path = run.evidence(stamp.status(str(folder)).key) / name
+    before, text = sha256_file(path), path.read_text()
+    assert edit(text) != text
+    path.write_text(edit(text))
+    entries = [{k: v for k, v in e.items() if k != "chain"} for e in Journal(run.journal).entries()]
+    run.journal.unlink()
+    for entry in json.loads(json.dumps(entries).replace(before, sha256_file(path))):
+        Journal(run.journal).append(entry)
+
+
+@pytest.mark.parametrize("name", ["measured", "margin"])
+def test_a_report_written_by_hand_is_measured_again(reviewed: Path, copy: Copy, name: str) -> None:
+    folder = copy(reviewed)
+    rewritten(folder, "expect.json", lambda text: text.replace(": ", ":").replace(f'"{name}":', f'"{name}":9', 1))
+    with pytest.raises(GateError, match="in the proof run"):
+        stamp.accept(str(folder), timeout_s=60)
+    assert not (folder / "accepted").exists()
+
+
+def test_a_world_simulated_for_another_time_is_refused(reviewed: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    state = State.find(str(reviewed))
+    summary = {"final_time": 1.1 * float(state.plan.simulation_parameters.simulation_duration)}
+    with pytest.raises(GateError, match="were simulated, the plan says"):
+        repeats.whole(state, SimpleNamespace(physics=SimpleNamespace(summary=summary)))
+
+
+def test_a_stamp_that_nobody_vouches_for_is_proved_anew(accepted: Path, copy: Copy) -> None:
+    folder = copy(accepted)
+    (folder / "accepted" / signing.ENVELOPE).unlink()
+    again = stamp.accept(str(folder), timeout_s=60)
+    assert again.ok and not again.already
+    assert signing.check(folder / "accepted", bundle.STAMP).holder == "own"
+
+
+def test_a_genuine_stamp_says_nothing_of_another_plan(accepted: Path, copy: Copy) -> None:
+    folder = copy(accepted)
+    (folder / "plan.md").write_text((folder / "plan.md").read_text() + "\n")
+    (folder / "journal.jsonl").unlink()
+    found = stamp.verify(str(folder), timeout_s=60)
+    assert [c.name for c in found.checks if not c.ok] == ["beside"] and not found.ok
 
 
 def test_an_undeclared_intervention_is_refused(planned: Path, copy: Copy, prepare: Prepare) -> None:
@@ -244,7 +299,7 @@ def test_a_crash_at_any_file_operation_leaves_nothing_or_everything(reviewed: Pa
         assert stamp.accept(str(folder), timeout_s=60).ok
         assert not list(folder.glob(f"{bundle.PREFIX}*"))
         checks = {c.name: c.ok for c in verification.static(Run(folder), folder / "accepted")}
-        assert checks == {"checksums": True, "journal": True}
+        assert checks == {"checksums": True, "journal": True, "signature": True}
     assert endings == {"open", "accepted"}
 
 
@@ -294,8 +349,9 @@ def test_another_machine_is_compared_within_a_tolerance(accepted: Path, copy: Co
         }
     )
     bundle.seal(inner, statement.model_copy(update={"predicate": elsewhere}))
-    (folder / "journal.jsonl").unlink()
-    result = stamp.verify(str(folder), timeout_s=60)
+    for other in (inner / "stamp.dsse.json", inner / "stamp.pub", folder / "journal.jsonl"):  # they know this machine's
+        other.unlink()
+    result = stamp.verify(str(folder), timeout_s=60, anybody=True)
     assert result.ok, result.text()
     assert result.mode == "tolerance"
     assert any("some other processor" in text for text in result.environment_differences)
@@ -305,7 +361,18 @@ def test_another_machine_is_compared_within_a_tolerance(accepted: Path, copy: Co
     moved["position"][-1][0][0] += 0.05
     (inner / "motion.json").write_text(json.dumps(moved), encoding="utf-8")
     bundle.seal(inner, statement.model_copy(update={"predicate": elsewhere, "subject": bundle.subjects(inner)}))
-    result = stamp.verify(str(folder), timeout_s=60)
+    result = stamp.verify(str(folder), timeout_s=60, anybody=True)
     assert not result.ok
     assert "outside the tolerance" in result.text()
     assert "ball at 0.500 s" in result.text()
+
+
+def test_the_file_that_was_simulated_acts_as_its_plan_says(accepted: Path) -> None:
+    """A heavier or a more slippery world than the planned one is no planned world, whatever lint once saw of its program."""
+    world, plan = accepted / "accepted" / "world.mjz", read_plan(accepted / "accepted" / "plan.md").plan
+    assert departures.from_plan(world, plan) == []
+    other = plan.model_dump(mode="json")
+    other["simulation_parameters"]["masses"] = dict.fromkeys(other["simulation_parameters"]["masses"], 2.5)
+    told = departures.from_plan(world, Plan.model_validate(other))
+    assert told and "2.5" in told[0]
+    assert "acts: every pair" in stamp.verify(str(accepted), timeout_s=60).text()

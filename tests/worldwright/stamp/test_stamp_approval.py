@@ -7,9 +7,9 @@ import pytest
 
 from worldwright.draft.writing import write_program
 from worldwright.lint import tools as lint
-from worldwright.model import approval
 from worldwright.model.errors import GateError
-from worldwright.model.run import Run
+from worldwright.model.evidence import approval
+from worldwright.model.evidence.run import Run
 from worldwright.place.tools import resolve
 from worldwright.stage import tools as stage
 from worldwright.stamp import tools as stamp
@@ -30,7 +30,7 @@ def run(tmp_path: Path) -> Run:
 
 
 def step(run: Run) -> tuple[str, str]:
-    (found,) = [s for s in stamp.status(str(run.folder)).steps if s.name == "approved"]
+    (found,) = [s for s in stamp.status(str(run.folder)).steps if s.name == "approve"]
     return found.status, found.detail
 
 

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model.audits import CauseResult, CausesReport, InterventionReport, RefineReport
 from worldwright.model.errors import GateError
+from worldwright.model.evidence.audits import CauseResult, CausesReport, InterventionReport, RefineReport
+from worldwright.model.evidence.run import Run
 from worldwright.model.finding import Anomaly
-from worldwright.model.run import Run
 from worldwright.report.material import gather
 from worldwright.report.page import render
 from worldwright.scan import tools as scan

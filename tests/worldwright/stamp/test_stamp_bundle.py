@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model.run import Run, sha256_file
+from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.scan import tools as scan
 from worldwright.stamp import signing
 from worldwright.stamp import tools as stamp
@@ -54,7 +54,7 @@ def test_the_attestation_names_every_material_and_product(accepted: Path) -> Non
     assert {"world.mjz", "trajectory.npz", "simulation.py", "plan.md"} <= {s.name for s in statement.subject}
     materials = statement.predicate.source.materials
     assert set(materials) == {
-        "simulation.py", "plan.md", "prompt.md", "journal.jsonl", "simulator", "worldkit", "catalog",
+        "simulation.py", "plan.md", "prompt.md", "journal.jsonl", "simulator", "worldkit", "film",
     }  # fmt: skip
     assert materials["plan.md"].sha256 == sha256_file(accepted / "plan.md")
     proof = statement.predicate.proof
@@ -105,7 +105,7 @@ def test_a_signed_stamp_says_by_whom(accepted: Path, copy: Copy, keys: dict[str,
         )
 
     assert said(f"{kind}.pub")[0]
-    assert "whose key that is" in said(None)[1]
+    assert "UNKNOWN" in said(None)[1]
     other = "ssh" if kind == "pem" else "pem"
     assert said(f"{other}.pub") == (False, "the signature is not that key's")
     envelope = json.loads((inner / signing.ENVELOPE).read_text())
@@ -130,8 +130,13 @@ def test_an_edited_byte_of_the_signature_or_the_stamp_is_noticed(
     assert all(c.ok for c in static(Run(folder), inner, keys["pem.pub"]))
 
 
-def test_an_unsigned_stamp_does_not_satisfy_who_asks_for_a_signer(accepted: Path, keys: dict[str, Path]) -> None:
-    result = stamp.verify(str(accepted), signer=keys["pem.pub"])
+def test_an_unsigned_stamp_does_not_satisfy_who_asks_for_a_signer(
+    accepted: Path, copy: Copy, keys: dict[str, Path]
+) -> None:
+    folder = copy(accepted)
+    for name in (signing.ENVELOPE, signing.PUBLIC):
+        (folder / "accepted" / name).unlink()
+    result = stamp.verify(str(folder), signer=keys["pem.pub"])
     assert not result.ok
     assert "FAIL signature: the stamp is not signed" in result.text()
 

@@ -18,9 +18,9 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model import run as runs
-from worldwright.model.journal import Journal
-from worldwright.model.run import SOURCE, Run, sha256_file
+from worldwright.model.evidence import run as runs
+from worldwright.model.evidence.journal import Journal
+from worldwright.model.evidence.run import SOURCE, Run, sha256_file
 from worldwright.model.storage import StorageError
 from worldwright.stamp import acceptance, bundle, gates
 from worldwright.stamp import tools as stamp
@@ -32,10 +32,10 @@ PIPELINE = """
 import sys
 from pathlib import Path
 from worldwright.lint import tools as lint
-from worldwright.model.run import Run
+from worldwright.model.evidence.run import Run
 from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
-from worldwright.stamp import measured, tools as stamp
+from worldwright.stamp import by_measurement, tools as stamp
 run = sys.argv[1]
 lint.check_program([Path(run, "simulation.py")])
 for name in ("physics", "stills"):
@@ -44,8 +44,8 @@ for name in ("physics", "stills"):
         job = stage.wait(run, job=job.job, timeout_s=20)
 scan.scan(run)
 scan.expect(run)
-stamp.describe(run, measured.describe(Run(run)))
-stamp.review(run, measured.review(Run(run)))
+stamp.describe(run, by_measurement.describe(Run(run)))
+stamp.review(run, by_measurement.review(Run(run)))
 while not stamp.accept(run, timeout_s=40).ok:
     pass
 print("done")
@@ -127,7 +127,7 @@ def proved(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def stop(_: Run) -> Path:
         raise Enough
 
-    with monkeypatch.context() as patch, pytest.raises(Enough):
+    with monkeypatch.context() as patch, pytest.raises(Enough):  # noqa: PT012 - it is called until it stops
         patch.setattr(bundle, "draft_folder", stop)
         while stamp.accept(str(folder), timeout_s=60):
             pass
@@ -162,15 +162,14 @@ import json, sys
 from pathlib import Path
 from worldwright.lint import tools as lint
 from worldwright.model.errors import WorldwrightError
-from worldwright.model.evidence import VisualDescription
-from worldwright.model.run import Run
+from worldwright.model.evidence.run import Run
 from worldwright.scan import tools as scan
-from worldwright.stamp import measured, tools as stamp
+from worldwright.stamp import by_measurement, tools as stamp
 run, said = sys.argv[1], {"status": stamp.status(sys.argv[1]).state}
 for name, call in {
     "approve": lambda: stamp.approve(run),
-    "describe": lambda: stamp.describe(run, VisualDescription(author="me", summary="a ball")),
-    "review": lambda: stamp.review(run, measured.review(Run(run))),
+    "describe": lambda: stamp.describe(run, by_measurement.describe(Run(run))),
+    "review": lambda: stamp.review(run, by_measurement.review(Run(run))),
     "block": lambda: stamp.block(run, cause="no reason"),
     "lint": lambda: lint.check_program([Path(run, "simulation.py")]),
     "scan": lambda: scan.scan(run),
@@ -246,7 +245,7 @@ def test_an_older_acceptance_stands_until_the_newer_one_is_whole(accepted: Path,
             seen.append((run.accepted / "stamp.json").exists() or (run.accepted / "new.txt").exists())
 
     sys.addaudithook(watch)
-    bundle.publish(draft, run)
+    bundle.publish(draft, run.accepted)
     assert (run.accepted / "new.txt").exists()
     assert not draft.exists()
     assert all(seen)

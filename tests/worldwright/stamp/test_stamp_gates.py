@@ -1,5 +1,6 @@
 """Gates and tools on a run that really went through its passes."""
 
+import ast
 import json
 import shutil
 from collections.abc import Callable
@@ -8,12 +9,13 @@ from pathlib import Path
 import pytest
 
 from worldwright.model.errors import GateError, NotFoundError
-from worldwright.model.evidence import ExpectReport, VisualDescription
-from worldwright.model.run import Run
-from worldwright.model.verdict import CrossCheck, ObjectiveVerdict, Verdict
+from worldwright.model.evidence.reports import ExpectReport, VisualDescription
+from worldwright.model.evidence.run import Run
+from worldwright.model.evidence.verdict import CrossCheck, ObjectiveVerdict, Verdict
 from worldwright.stage import tools as stage
-from worldwright.stamp import gates, measured
+from worldwright.stamp import by_measurement, gates
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.state import State
 
 Copy = Callable[[Path], Path]
 
@@ -38,21 +40,74 @@ def evidence(folder: Path) -> Path:
     return Run(folder).evidence(stamp.status(str(folder)).key)
 
 
-def test_every_gate_is_documented_and_on_the_shelf() -> None:
-    names = {entry.name for entry in gates.shelf().values()}
-    assert names == {
-        "approve", "auto_approve", "physics", "stills", "video", "describe", "review", "repair", "accept", "block",
-    }  # fmt: skip
+def named_in_the_code() -> set[str]:
+    """The gates that some line of the suite asks, by the name it writes."""
+    found = set()
+    for path in Path(gates.__file__).parents[2].rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            asks = isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)
+            if asks and node.func.attr in ("pass_through", "refusals") and node.args:
+                found.add(getattr(node.args[0], "value", None))
+    return found
+
+
+def test_no_gate_stands_where_nobody_passes() -> None:
+    assert {entry.name for entry in gates.shelf().values()} == named_in_the_code() - {None}
+
+
+SHUT = {
+    "approve": "no time_step",
+    "auto_approve": "nobody marked",
+    "describe": "nothing ran",
+    "review": "nothing ran",
+    "repair": "the cap",
+    "accept": "nothing ran",
+    "block": "accepted",
+}
+"""Why each gate is shut for a run that lacks what it asks for; the runs are made below."""
+
+
+@pytest.mark.parametrize("gate", SHUT)
+def test_a_gate_refuses_one_run_and_opens_for_another(
+    gate: str, planned: Path, reviewed: Path, accepted: Path, copy: Copy
+) -> None:
+    opens = {"approve": planned, "auto_approve": planned, "block": planned, "repair": planned}.get(gate, reviewed)
+    folder = copy(accepted if gate == "block" else planned)
+    plan = folder / "plan.md"
+    if gate == "approve":
+        plan.write_text(plan.read_text("utf-8").replace("time_step: 0.002", "time_step: TO_CLARIFY"), "utf-8")
+    if gate == "auto_approve":
+        plan.write_text(plan.read_text("utf-8").replace(", masses.ball]", "]"), "utf-8")
+    if gate == "repair":
+        for number in range(12):
+            Run(folder).log("tester", "review", key=f"key{number}", outcome="repair")
+    shut = gates.refusals(gate, State.find(str(folder)))
+    assert shut
+    assert all(refusal.cause and refusal.next_move for refusal in shut)
+    assert gates.refusals(gate, State.find(str(opens))) == []
+
+
+def test_every_gate_is_tried_and_says_why() -> None:
+    assert set(SHUT) == {entry.name for entry in gates.shelf().values()}
     for entry in gates.shelf().values():
         assert "Why:" in entry.doc, f"{entry.name} does not say why"
+
+
+def test_a_gate_that_fails_itself_stays_shut(planned: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def breaks(state: State) -> None:
+        raise RuntimeError("hinge")
+
+    monkeypatch.setattr(gates.shelf()["WG010"].module, "check", breaks)
+    (refusal,) = gates.refusals("approve", State.find(str(planned)))
+    assert "approve (WG010) itself failed (RuntimeError: hinge)" in refusal.cause
 
 
 def test_a_planned_run_is_open_and_names_the_next_command(planned: Path) -> None:
     status = stamp.status(str(planned))
     assert (status.state, status.ok) == ("open", False)
-    assert [s.name for s in status.steps if s.status == "holds"] == ["planned", "validated", "program"]
+    assert [s.name for s in status.steps if s.status == "holds"] == ["check", "place", "draft"]
     assert status.next_move == f"worldwright stamp approve {planned}"
-    assert "✓ planned" in status.text()
+    assert "✓ check" in status.text()
 
 
 def test_nothing_can_be_skipped(planned: Path, copy: Copy) -> None:
@@ -101,7 +156,7 @@ def test_auto_approval_needs_every_chosen_value_marked(planned: Path, copy: Copy
 
 def test_a_reviewed_run_holds_every_step_but_the_last(reviewed: Path) -> None:
     status = stamp.status(str(reviewed))
-    assert {s.name: s.status for s in status.steps if not s.holds} == {"accepted": "missing"}
+    assert {s.name: s.status for s in status.steps if not s.holds} == {"accept": "missing"}
     assert status.next_move == f"worldwright stamp accept {reviewed}"
 
 
@@ -122,7 +177,19 @@ def test_a_reviewed_run_holds_every_step_but_the_last(reviewed: Path) -> None:
             {"objectives": (verdict().objectives[0], ObjectiveVerdict(index=1, met=True, evidence=("I saw it",)))},
             "'I saw it', which does not exist",
         ),
-        ({"outcome": "repair", "repair_target": "scale", "repair": "halve it"}, "one channel's word"),
+        ({"outcome": "repair", "repair_target": "scale", "repair": "halve it"}, "rests on one channel alone"),
+        (
+            {"objectives": (ObjectiveVerdict(index=0, met=True, evidence=("scan:clean",)), verdict().objectives[1])},
+            "scan:clean would be there without it too",
+        ),
+        (
+            {"objectives": (verdict().objectives[0], ObjectiveVerdict(index=1, met=True, evidence=("physics:rows",)))},
+            "physics:rows would be there without it too",
+        ),
+        (
+            {"cross_checks": (CrossCheck(claim="it falls", channel="numeric", tested_in="numeric", confirmed=True),)},
+            "tests the numeric channel in itself",
+        ),
     ],
 )
 def test_a_verdict_is_bound_to_evidence_that_exists(reviewed: Path, copy: Copy, changes: dict, says: str) -> None:
@@ -158,27 +225,61 @@ def test_a_refuted_objective_cannot_be_passed(reviewed: Path, copy: Copy) -> Non
     path.write_text(json.dumps(report), encoding="utf-8")
     with pytest.raises(GateError, match="objective 0 is called met, but measurement says refuted"):
         stamp.review(str(folder), verdict())
-    measured_verdict = measured.review(Run(folder))
+    measured_verdict = by_measurement.review(Run(folder))
     assert (measured_verdict.outcome, measured_verdict.objectives[0].met) == ("repair", False)
     with pytest.raises(GateError, match="expect"):
         stamp.accept(str(folder))
 
 
 def test_the_measured_review_says_that_nobody_looked(reviewed: Path) -> None:
-    described = measured.describe(Run(reviewed))
+    described = by_measurement.describe(Run(reviewed))
     assert described.author == "measured"
     assert "Nobody judged" in described.summary
     assert set(described.cameras) == {"overview", "side"}
     assert "%" in described.objects["ball"]
-    verdict = measured.review(Run(reviewed))
+    verdict = by_measurement.review(Run(reviewed))
     assert verdict.outcome == "pass"
     assert "not judged" in verdict.objectives[1].note
 
 
+def seen(summary: str, **changed: dict[str, str]) -> VisualDescription:
+    """A description by somebody who looked."""
+    named = {"cameras": {"overview": "a ball above a floor", "side": "the same"}, "objects": {"ball": "red"}}
+    return VisualDescription.model_validate({"author": "me", "summary": summary, **named, **changed})
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"cameras": {"overview": "a ball"}}, "nothing is observed of camera `side`"),
+        ({"cameras": {"overview": "a ball", "side": "  "}}, "nothing is observed of camera `side`"),
+        ({"cameras": {"overview": "a ball", "side": "it", "above": "a ball"}}, "no picture is of a camera `above`"),
+        ({"objects": {}}, "no object is described"),
+        ({"objects": {"ball": "red", "unicorn": "white"}}, "there is no object `unicorn`"),
+        ({"objects": {"ball": ""}}, "nothing is observed of object `ball`"),
+    ],
+)
+def test_a_description_names_what_exists_and_says_something_of_it(
+    reviewed: Path, changed: dict[str, dict[str, str]], said: str
+) -> None:
+    with pytest.raises(GateError) as caught:
+        stamp.describe(str(reviewed), seen("a ball", **changed))
+    assert said in caught.value.cause
+    assert caught.value.next_move
+
+
+def test_everything_that_a_description_lacks_is_named_at_once(reviewed: Path) -> None:
+    with pytest.raises(GateError) as caught:
+        stamp.describe(str(reviewed), VisualDescription(author="me", summary="a ball"))
+    for part in ("camera `overview`", "camera `side`", "no object is described"):
+        assert part in caught.value.cause
+    assert "ball" in caught.value.next_move
+
+
 def test_a_witness_is_told_nothing_of_what_the_numbers_say(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
-    first = stamp.describe(str(folder), VisualDescription(author="me", summary="a ball"))
-    second = stamp.describe(str(folder), VisualDescription(author="me", summary="a red ball"))
+    first = stamp.describe(str(folder), seen("a ball"))
+    second = stamp.describe(str(folder), seen("a red ball"))
     assert first.next_move == second.next_move == ""
     assert "in place of an earlier description" in second.what
 
@@ -190,10 +291,10 @@ def test_an_object_in_no_picture_is_a_concern_and_fails_its_objective(reviewed: 
     for shown in seen.values():
         del shown["ball"]
     path.write_text(json.dumps(seen), encoding="utf-8")
-    described = measured.describe(Run(folder))
+    described = by_measurement.describe(Run(folder))
     assert "ball is in no picture" in described.concerns
     stamp.describe(str(folder), described)
-    verdict = measured.review(Run(folder))
+    verdict = by_measurement.review(Run(folder))
     assert (verdict.outcome, verdict.repair_target) == ("repair", "camera_placement")
 
 
@@ -203,10 +304,10 @@ def test_a_black_still_is_a_concern(reviewed: Path, copy: Copy) -> None:
 
     folder = copy(reviewed)
     cv2.imwrite(str(evidence(folder) / "stills" / "side.png"), np.zeros((96, 160, 3), np.uint8))
-    described = measured.describe(Run(folder))
+    described = by_measurement.describe(Run(folder))
     assert any("side: the picture is black" in concern for concern in described.concerns)
     stamp.describe(str(folder), described)
-    assert measured.review(Run(folder)).outcome == "repair"
+    assert by_measurement.review(Run(folder)).outcome == "repair"
 
 
 def test_block_ends_a_run_until_it_changes(reviewed: Path, copy: Copy) -> None:
@@ -228,10 +329,10 @@ def test_evidence_of_an_older_program_does_not_count(reviewed: Path, copy: Copy)
     with (folder / "simulation.py").open("a", encoding="utf-8") as program:
         program.write("# patched\n")
     steps = {s.name: s for s in stamp.status(str(folder)).steps}
-    for name in ("lint", "physics", "stills", "video", "scan", "expect", "visual", "review"):
+    for name in ("lint", "physics", "stills", "video", "scan", "expect", "describe", "review"):
         assert steps[name].status == "missing"
         assert "earlier" in steps[name].detail
-    assert steps["approved"].holds
+    assert steps["approve"].holds
 
 
 def test_an_unknown_run_lists_the_known_ones(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, planned: Path) -> None:

@@ -2,10 +2,12 @@
 
 from pathlib import Path
 
+import mujoco
 import pytest
 
+from small_worlds import ball, empty, record
 from worldwright.model.errors import RecordingError
-from worldwright.model.plan import Intervention
+from worldwright.model.plan.committed import Intervention
 from worldwright.stamp.interventions import acted, declaration
 
 WIND = Intervention(kind="force", bodies=("kite",), law="0.5 N along +x", source="the plan")
@@ -15,24 +17,14 @@ FOAM = Intervention(kind="solver", bodies=("kite",), law="foam", source="the pla
 @pytest.fixture(scope="module")
 def pushed(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A recording of a body that its program pushes for half of the time."""
-    import mujoco
-
-    from worldkit import describe, record, simulate
-
-    spec = mujoco.MjSpec()
-    kite = spec.worldbody.add_body(name="kite")
-    kite.add_freejoint()
-    kite.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(0.1, 0, 0), mass=1.0)
-    model = spec.compile()
-    simulate.prepare(model)
-    data = mujoco.MjData(model)
+    spec = empty(gravity=0.0)
+    ball(spec, "kite", (0, 0, 1), mass=1.0)
 
     def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
         data.xfrc_applied[1, 0] = 0.5 if data.time < 0.05 else 0.0
 
     folder = tmp_path_factory.mktemp("pushed") / "trajectory"
-    with record.Recorder(model, data, folder, describe.describe(model)) as recorder:
-        simulate.simulate(model, data, recorder, 50, control)
+    record(spec, folder, 50, control)
     return folder
 
 
@@ -58,8 +50,8 @@ def test_a_declared_push_carries_its_law(pushed: Path) -> None:
         ("force", "kite.pos[2]", (WIND,), WIND),
         ("torque", "kite", (WIND,), None),
         ("force", "kite2", (WIND,), None),
-        ("callback", "kite", (FOAM,), FOAM),
         ("parameter", "kite", (FOAM,), None),
+        ("force", "kite", (FOAM,), FOAM),
         ("force", "kite", (), None),
     ],
 )

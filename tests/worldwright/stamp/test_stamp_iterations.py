@@ -7,23 +7,26 @@ import pytest
 
 from worldwright.lint import tools as lint
 from worldwright.model.errors import GateError
-from worldwright.model.journal import Journal
-from worldwright.model.run import Run, sha256_file
-from worldwright.model.verdict import CrossCheck, Verdict
+from worldwright.model.evidence.journal import Journal
+from worldwright.model.evidence.run import Run, sha256_file
+from worldwright.model.evidence.verdict import CrossCheck, Verdict
 from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
-from worldwright.stamp import iterations, measured
+from worldwright.stamp import by_measurement, iterations
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
 Copy = Callable[[Path], Path]
 END = "    return spec"
 HONEY = "    spec.option.viscosity = {}\n    return spec"  # in which nothing falls far
+MEDIA = """constants:
+  viscosity_of_honey: {value: 90, unit: Pa s, source: made up for a test}
+  viscosity_of_tar: {value: 95, unit: Pa s, source: made up for a test}"""
 
 
 def repair(run: Run, target: str = "initial_motion") -> Verdict:
     """The measured verdict on the current program, turned into an ordered repair."""
-    verdict = measured.review(run)
+    verdict = by_measurement.review(run)
     check = CrossCheck(claim="it does not fall", channel="visual", tested_in="numeric", confirmed=True)
     changes = {"outcome": "repair", "repair_target": target, "repair": "mend it", "cross_checks": (check,)}
     return Verdict.model_validate({**verdict.model_dump(), **changes})
@@ -40,7 +43,7 @@ def iterate(folder: Path, source: str) -> str:
         assert job.state == "succeeded", job.text()
     scan.scan(str(folder))
     scan.expect(str(folder))
-    stamp.describe(str(folder), measured.describe(Run(folder)))
+    stamp.describe(str(folder), by_measurement.describe(Run(folder)))
     return stamp.status(str(folder)).key
 
 
@@ -48,7 +51,8 @@ def iterate(folder: Path, source: str) -> str:
 def world(planned: Path, copy: Copy) -> Path:
     folder = copy(planned)
     plan = folder / "plan.md"
-    plan.write_text(plan.read_text(encoding="utf-8").replace("mode: cameras", "mode: none"), encoding="utf-8")
+    text = plan.read_text(encoding="utf-8").replace("mode: cameras", "mode: none")
+    plan.write_text(text.replace("inferred:", f"{MEDIA}\ninferred:", 1), encoding="utf-8")
     stamp.approve(str(folder), by="tester", repairs=3)
     return folder
 

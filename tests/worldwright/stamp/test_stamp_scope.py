@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from worldwright.model.errors import GateError
-from worldwright.model.journal import Journal
-from worldwright.model.run import Run
+from worldwright.model.evidence.journal import Journal
+from worldwright.model.evidence.run import Run
 from worldwright.stamp import gates
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State

@@ -1,1 +1,1 @@
-"""A world as the engine compiled it, as plain data: made in the sandbox (`probe`), fetched (`fetch`), looked at (`view`)."""
+"""A world as the engine compiled it: made in the sandbox (`compile_world`), fetched (`fetch`), looked at (`view`)."""

@@ -18,6 +18,10 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 128 << 20
 WALL_S = 20.0
+PROGRAM = "simulation.py"
+OURS = ("evidence", "accepted", "__pycache__", "journal.jsonl", "blocked.json")
+MOST_BESIDE = 500
+"""So many files beside a program are copied into the sandbox."""
 MEMORY_MB = 2048
 
 
@@ -35,11 +39,19 @@ class Outcome:
     """Name of the exception."""
     message: str = ""
     line: int | None = None
-    """In the program, when the exception passed through it."""
+    """The line of the program that the exception passed, if it passed one."""
     warnings: tuple[str, ...] = ()
     """What the compiler warned of."""
     wall_s: float = 0.0
     level: str = ""
+
+    @property
+    def pass_s(self) -> float | None:
+        """Seconds that the physics pass will take, by the first steps; None when they were not taken."""
+        told = self.texts.get("rehearsed")
+        rows = [told.get(name) for name in ("taken", "seconds", "steps")] if isinstance(told, dict) else []
+        numbers = [float(n) for n in rows if isinstance(n, int | float) and n > 0]
+        return numbers[2] * numbers[1] / numbers[0] if len(numbers) == 3 else None
 
 
 def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S) -> Outcome:
@@ -48,22 +60,24 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S) -> Outco
     Args:
         path: the file.
         is_mjcf: it is a model and not a program.
-        wall_s: given up after so many seconds.
+        wall_s: the attempt ends after so many seconds.
     """
     from ...model.errors import WorldwrightError
     from ...stage.tools import model_files, run_confined
 
     here = Path(__file__).parent
     path = path.absolute()
-    reads = [here / "probe.py", here / "measure.py", path]
+    reads = [here / "compile_world.py", here / "measure.py", here / "rehearse.py", path]
+    if not is_mjcf and path.name == PROGRAM:
+        reads += beside(path)
     if is_mjcf:
         with contextlib.suppress(WorldwrightError):  # not well-formed: the compiler says it better
             reads += model_files(path)
-    call = [sys.executable, "-s", str(here / "probe.py"), "mjcf" if is_mjcf else "program", str(path), "{out}"]
+    call = [sys.executable, "-s", str(here / "compile_world.py"), "mjcf" if is_mjcf else "program", str(path), "{out}"]
     wanted = ("outcome.json", "facts.npz", "compiling")
     done = run_confined(call, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
     common: dict[str, Any] = {"wall_s": done.wall_s, "level": done.level}
-    if done.status != "ended":
+    if done.status != "ended" and "outcome.json" not in done.files:  # the world was compiled, and its first step failed
         status = "too_large" if done.status == "timed_out" and "compiling" in done.files else done.status
         return Outcome(status, message=done.log[-500:], **common)
     told = _object(done.files.get("outcome.json", b""))
@@ -86,6 +100,24 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S) -> Outco
     return Outcome("compiled", arrays=arrays, texts=told, **common)
 
 
+def beside(program: Path) -> list[Path]:
+    """The helper modules and data files that lie beside a run's program, in folders too; never through links.
+
+    What the suite itself keeps there (evidence, an accepted copy, hidden folders) is no part of the program.
+    """
+    found: list[Path] = []
+    waiting = [program.parent]
+    while waiting and len(found) < MOST_BESIDE:
+        for entry in sorted(waiting.pop().iterdir()):
+            if entry.is_symlink() or entry.name.startswith(".") or entry.name in OURS:
+                continue
+            if entry.is_dir():
+                waiting.append(entry)
+            elif entry.is_file() and entry != program:
+                found.append(entry)
+    return found[:MOST_BESIDE]
+
+
 def _object(data: bytes) -> dict[str, Any]:
     try:
         value = json.loads(data)
@@ -95,7 +127,7 @@ def _object(data: bytes) -> dict[str, Any]:
 
 
 def _arrays(data: bytes) -> "dict[str, np.ndarray]":
-    """The arrays of an uncompressed archive; empty when it is not one of ours."""
+    """Read the arrays of an uncompressed archive; there are none when it is not one of ours."""
     import numpy as np
 
     try:

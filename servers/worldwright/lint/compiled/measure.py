@@ -1,9 +1,12 @@
-"""What a compiled model is, as arrays and names: the engine's own numbers at the start, nothing judged.
+"""Describe a compiled model in arrays and names: the engine's own numbers at the start, without a judgement.
 
-Runs in the sandbox beside `probe.py`, and in tests on the rules' own cases. Arrays keep the engine's names and order;
-units are the engine's: m, kg, s, rad, world frame unless said.
+This runs in the sandbox beside `compile_world.py`, and in tests on the rules' own cases. Arrays keep the engine's names
+and order;
+units are the engine's: m, kg, s, rad; the frame is the world's unless another is named.
 """
 
+import hashlib
+from collections.abc import Iterator
 from typing import Any
 
 import mujoco
@@ -23,61 +26,11 @@ COUNTS = {
     "key": "nkey",
     "mesh": "nmesh",
 }
-FIELDS = [
-    "body_parentid",
-    "body_treeid",
-    "body_mass",
-    "body_inertia",
-    "body_mocapid",
-    "body_jntnum",
-    "body_jntadr",
-    "body_dofnum",
-    "body_dofadr",
-    "body_geomnum",
-    "body_geomadr",
-    "body_gravcomp",
-    "body_subtreemass",
-    "body_rootid",
-    "body_weldid",
-    "body_contype",
-    "body_conaffinity",
-    "jnt_bodyid",
-    "jnt_dofadr",
-    "jnt_qposadr",
-    "jnt_limited",
-    "jnt_range",
-    "jnt_stiffness",
-    "jnt_pos",
-    "jnt_axis",
-    "dof_bodyid",
-    "dof_damping",
-    "dof_armature",
-    "dof_frictionloss",
-    "dof_invweight0",
-    "dof_M0",
-    "dof_jntid",
-    "geom_bodyid",
-    "geom_size",
-    "geom_contype",
-    "geom_conaffinity",
-    "geom_condim",
-    "geom_group",
-    "geom_friction",
-    "geom_solref",
-    "geom_solimp",
-    "geom_priority",
-    "geom_margin",
-    "geom_rbound",
-    "geom_rgba",
-    "geom_matid",
-    "geom_fluid",
-    "geom_surfacevel",
-    "geom_dataid",
-    "pair_geom1",
-    "pair_geom2",
-    "pair_dim",
-    "pair_friction",
-    "exclude_signature",
+SEEN_ONLY = """tex_ skin_ light_ mat_ cam_ sensor_ vis stat names paths name_ text_ tuple_ numeric_"""
+DERIVED = """bvh_ oct_ efm efmC mapM mapD B_ M_ D_ ten_J flexedge_J mesh_ hfield_data plugin_attr buffer signature"""
+LEFT_OUT = tuple(f"{SEEN_ONLY} {DERIVED}".split())
+"""Fields that begin so are left out: they only concern pictures, or follow from others, and no rule needs them."""
+KEPT = [
     "cam_bodyid",
     "cam_fovy",
     "cam_mode",
@@ -87,63 +40,16 @@ FIELDS = [
     "light_active",
     "light_diffuse",
     "light_ambient",
-    "tendon_stiffness",
-    "tendon_damping",
-    "tendon_limited",
-    "tendon_range",
-    "tendon_invweight0",
-    "tendon_lengthspring",
-    "tendon_length0",
-    "actuator_trntype",
-    "actuator_trnid",
-    "actuator_gaintype",
-    "actuator_biastype",
-    "actuator_gainprm",
-    "actuator_biasprm",
-    "actuator_gear",
-    "actuator_ctrllimited",
-    "actuator_ctrlrange",
-    "actuator_forcelimited",
-    "actuator_forcerange",
-    "actuator_dyntype",
-    "eq_type",
-    "eq_obj1id",
-    "eq_obj2id",
-    "eq_objtype",
-    "eq_active0",
-    "eq_solref",
-    "flex_dim",
-    "flex_contype",
-    "flex_conaffinity",
-    "flex_rigid",
-    "flex_stiffnessadr",
-    "flex_bendingadr",
-    "flex_vertnum",
-    "flex_vertadr",
-    "flex_edgestiffness",
-    "flex_edgedamping",
-    "flex_edgeequality",
-    "flex_interp",
-    "flex_selfcollide",
-    "flex_internal",
-    "flex_damping",
-    "flex_vertbodyid",
-    "flex_edgeadr",
-    "flex_edgenum",
-    "flex_edge",
-    "key_qpos",
-    "key_qvel",
     "mat_rgba",
     "mesh_vertnum",
     "mesh_facenum",
 ]
-"""Fields of MjModel that are kept as they are."""
 START = "start"
 
 
 def facts(model: mujoco.MjModel) -> tuple[dict[str, np.ndarray], dict[str, Any]]:
     """(arrays, texts): the model's fields, its state at the start, and derived quantities there."""
-    arrays = {name: np.array(getattr(model, name)) for name in FIELDS if hasattr(model, name)}
+    arrays = {name: np.array(value) for name, value in _fields(model)}
     option = model.opt
     texts: dict[str, Any] = {
         "names": {kind: _names(model, kind) for kind in KINDS},
@@ -160,6 +66,8 @@ def facts(model: mujoco.MjModel) -> tuple[dict[str, np.ndarray], dict[str, Any]]
         "noslip_iterations": int(option.noslip_iterations),
         "headlight": bool(model.vis.headlight.active),
         "offscreen": [int(model.vis.global_.offwidth), int(model.vis.global_.offheight)],
+        "option": {name: np.array(getattr(option, name)).tolist() for name in dir(option) if not name.startswith("_")},
+        "mesh_sha256": [_mesh_sha256(model, mesh) for mesh in range(model.nmesh)],
         "near_m": float(model.vis.map.znear * model.stat.extent),
         "counts": {"nq": model.nq, "nv": model.nv, "nu": model.nu, "nbody": model.nbody, "ngeom": model.ngeom},
         "annotated_cameras": [n for n in _names_of(model, "text", model.ntext) if n.startswith("worldkit.camera.")],
@@ -184,13 +92,28 @@ def facts(model: mujoco.MjModel) -> tuple[dict[str, np.ndarray], dict[str, Any]]
     except Exception as error:
         texts["forward"] = texts["forward"] or str(error)[:500]
     arrays |= _state(model, data)
-    texts["camera_inside"] = [_around(model, data, arrays["visible"], c) for c in range(model.ncam)]
+    texts["camera_inside"] = [_geom_around(model, data, arrays["visible"], c) for c in range(model.ncam)]
     return arrays, texts
+
+
+def _fields(model: mujoco.MjModel) -> Iterator[tuple[str, np.ndarray]]:
+    """The arrays of the model that decide its motion, and the few others that rules ask for, under the engine's names."""
+    for name in dir(model):
+        if name in KEPT or not name.startswith(("_", *LEFT_OUT)):
+            value = getattr(model, name)
+            if isinstance(value, np.ndarray):
+                yield name, value
+
+
+def _mesh_sha256(model: mujoco.MjModel, mesh: int) -> str:
+    """Hash the vertices with which a mesh collides, rounded to a tenth of a micron, whatever file they came from."""
+    first, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+    return hashlib.sha256(np.round(model.mesh_vert[first : first + count] * 1e7).astype(np.int64).tobytes()).hexdigest()
 
 
 def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
     """The start: poses, velocities, contacts, residuals, effective inverse inertias."""
-    from worldkit.overlaps import visible
+    from worldengine.recording.seen import visible
 
     shown = np.asarray(visible(model), bool)
     contact = data.contact
@@ -200,6 +123,7 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
             residual[data.efc_id[row]] += data.efc_pos[row] ** 2
     low, high = _extents(model, data)
     own_low, own_high = _extents(model, data, "rigid")
+    touch_low, touch_high = _extents(model, data, "touched")
     bare_low, bare_high = _extents(model, data, "bare")
     home = mujoco.MjData(model)  # where it was built, before a joint's initial position moves it
     mujoco.mj_kinematics(model, home)
@@ -226,6 +150,11 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "own_high": own_high,
         "bare_low": bare_low,
         "bare_high": bare_high,
+        "geom_solid": np.array([_solid(model, g) for g in range(model.ngeom)]),
+        "geom_middle": np.array([_spread(model, g)[0] for g in range(model.ngeom)]).reshape(-1, 3),
+        "geom_spread": np.array([_spread(model, g)[1] for g in range(model.ngeom)]).reshape(-1, 3, 3),
+        "touch_low": touch_low,
+        "touch_high": touch_high,
         "geom_volume": np.array([_volume(model, g) for g in range(model.ngeom)]),
         "actuator_invweight": _actuator_invweight(model, data),
     }
@@ -262,23 +191,28 @@ def _actuator_invweight(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarra
 
 
 def _extents(model: mujoco.MjModel, data: mujoco.MjData, scope: str = "all") -> tuple[np.ndarray, np.ndarray]:
-    """(nbody, 3) corners of the box around a body and all it carries, in the body's own frame; NaN without geoms.
+    """(nbody, 3) each, m: the corners of the box around a body and all it carries, in the body's frame; NaN without geoms.
 
-    `scope` rigid: around it and what is fixed to it, without what moves on joints against it; bare: its own geoms alone.
+    With `scope` rigid, the box leaves out what moves on joints against the body; with touched, also geoms that never
+    collide; with bare, it holds the body's own geoms alone.
     """
     low, high = np.full((model.nbody, 3), np.inf), np.full((model.nbody, 3), -np.inf)
     chains = {0: [0]}
     for body in range(1, model.nbody):
         chains[body] = [*chains[int(model.body_parentid[body])], body]
     for geom in range(model.ngeom):
-        if model.geom_type[geom] in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
+        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_PLANE:
             continue
         points = _support(model, geom)
         frame, place = data.geom_xmat[geom].reshape(3, 3), data.geom_xpos[geom]
+        if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_HFIELD:  # its box does not have its middle where its frame is
+            place = place + frame @ model.geom_aabb[geom, :3]
         for body in chains[int(model.geom_bodyid[geom])][1:]:
             if scope == "bare" and body != model.geom_bodyid[geom]:
                 continue
-            if scope == "rigid" and model.body_weldid[body] != model.body_weldid[model.geom_bodyid[geom]]:
+            if scope == "touched" and not (model.geom_contype[geom] | model.geom_conaffinity[geom]):
+                continue
+            if scope in ("rigid", "touched") and model.body_weldid[body] != model.body_weldid[model.geom_bodyid[geom]]:
                 continue
             turn = data.xmat[body].reshape(3, 3).T
             centre, axes = turn @ (place - data.xpos[body]), turn @ frame
@@ -295,7 +229,7 @@ def _extents(model: mujoco.MjModel, data: mujoco.MjData, scope: str = "all") -> 
 
 
 def _support(model: mujoco.MjModel, geom: int) -> np.ndarray:
-    """Vertices of a mesh, or an empty array for a primitive."""
+    """(n, 3) vertices of a mesh, m; none for a primitive."""
     mesh = int(model.geom_dataid[geom])
     if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH and mesh >= 0:
         first = int(model.mesh_vertadr[mesh])
@@ -319,7 +253,7 @@ def _reach(model: mujoco.MjModel, geom: int, axes: np.ndarray) -> np.ndarray:
 
 
 def _volume(model: mujoco.MjModel, geom: int) -> float:
-    """m^3; of a mesh the box around it, of what has no volume zero."""
+    """The volume of a geom, m^3: for a mesh that of the box around it, for a plane zero."""
     a, b, c = model.geom_size[geom]
     kind = mujoco.mjtGeom(int(model.geom_type[geom])).name
     ball = 4.0 / 3.0 * np.pi
@@ -334,8 +268,55 @@ def _volume(model: mujoco.MjModel, geom: int) -> float:
     return float(known.get(kind, 0.0))
 
 
-def _around(model: mujoco.MjModel, data: mujoco.MjData, shown: np.ndarray, camera: int) -> int:
-    """The visible primitive that a camera is inside of, or -1 (meshes and planes are not asked: one sees out of them)."""
+def _solid(model: mujoco.MjModel, geom: int) -> float:
+    """The volume of a geom as it collides, m^3: for a mesh that of its convex hull, else as `_volume`."""
+    if model.geom_type[geom] != mujoco.mjtGeom.mjGEOM_MESH or model.geom_dataid[geom] < 0:
+        return _volume(model, geom)
+    corners = _hull(model, int(model.geom_dataid[geom]))
+    return float(abs(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])).sum()) / 6)
+
+
+def _spread(model: mujoco.MjModel, geom: int) -> tuple[np.ndarray, np.ndarray]:
+    """Middle (3,), m, and covariance (3, 3), m^2, of the points inside a geom as it collides, in its frame; nil for a plane."""
+    if model.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH and model.geom_dataid[geom] >= 0:
+        corners = _hull(model, int(model.geom_dataid[geom]))  # tetrahedra from the origin to each face
+        volumes = np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+        if abs(volumes.sum()) < 1e-18:
+            return np.zeros(3), np.zeros((3, 3))
+        share, sums = volumes / volumes.sum(), corners.sum(axis=1)
+        middle = share @ sums / 4
+        square = np.einsum("n,nki,nkj->ij", share, corners, corners) + np.einsum("n,ni,nj->ij", share, sums, sums)
+        return middle, square / 20 - np.outer(middle, middle)
+    (a, b, c), kind = model.geom_size[geom], mujoco.mjtGeom(int(model.geom_type[geom])).name
+    ball, rod = 4 / 3 * a**3, 2 * a * a * b
+    square = {
+        "mjGEOM_SPHERE": (a * a / 5,) * 3,
+        "mjGEOM_BOX": (a * a / 3, b * b / 3, c * c / 3),
+        "mjGEOM_ELLIPSOID": (a * a / 5, b * b / 5, c * c / 5),
+        "mjGEOM_CYLINDER": (a * a / 4, a * a / 4, b * b / 3),
+        "mjGEOM_CAPSULE": (
+            *((rod / 4 + ball / 5) * a * a / (rod + ball or 1.0),) * 2,
+            (rod * b * b / 3 + ball * (b * b + 0.75 * a * b + a * a / 5)) / (rod + ball or 1.0),
+        ),
+    }
+    return np.zeros(3), np.diag(square.get(kind, (0.0, 0.0, 0.0)))
+
+
+def _hull(model: mujoco.MjModel, mesh: int) -> np.ndarray:
+    """(faces, 3, 3) the corners of the convex hull with which a mesh collides, m, in the mesh's frame."""
+    first, graph = int(model.mesh_vertadr[mesh]), int(model.mesh_graphadr[mesh])
+    if graph >= 0:  # vertices, faces, then three rows of addresses and edges, then the hull's faces by vertex
+        vertices, count = (int(n) for n in model.mesh_graph[graph : graph + 2])
+        start = graph + 2 + 3 * vertices + 3 * count
+        faces = model.mesh_graph[start : start + 3 * count].reshape(-1, 3)
+    else:
+        face = int(model.mesh_faceadr[mesh])
+        faces = model.mesh_face[face : face + int(model.mesh_facenum[mesh])]
+    return np.asarray(model.mesh_vert[first + faces], float)
+
+
+def _geom_around(model: mujoco.MjModel, data: mujoco.MjData, shown: np.ndarray, camera: int) -> int:
+    """The visible primitive in which a camera stands, or -1; meshes and planes do not count, as one sees out of them."""
     for geom in np.flatnonzero(shown):
         if int(model.geom_bodyid[geom]) == int(model.cam_bodyid[camera]) != 0:
             continue  # a camera in a robot's eye

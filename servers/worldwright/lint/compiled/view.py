@@ -1,4 +1,4 @@
-"""What a model rule looks at: the compiled world's numbers and names, where the source speaks of them, and the plan."""
+"""The view of a model rule: the numbers and names of the compiled world, the lines that speak of them, and the plan."""
 
 from functools import cached_property
 from typing import Any
@@ -6,19 +6,27 @@ from typing import Any
 import numpy as np
 
 from ...model.finding import Severity
-from ...model.plan import Plan
+from ...model.plan.committed import Plan
 from ..problem import Problem
-from ..program import Program
+from ..program_view import Program
 from .fetch import Outcome
 
 
 class ModelView:
     """A compiled world. The engine's arrays are attributes by their own names, e.g. `view.geom_size`."""
 
-    def __init__(self, outcome: Outcome, program: Program | None = None, plan: Plan | None = None) -> None:
+    def __init__(
+        self,
+        outcome: Outcome,
+        program: Program | None = None,
+        plan: Plan | None = None,
+        planned: "ModelView | None" = None,
+    ) -> None:
         self.outcome = outcome
         self.program = program
         self.plan = plan
+        self.planned = planned
+        """The world that the plan describes, compiled from its own draft (`planned.world`)."""
         self.texts: dict[str, Any] = outcome.texts
 
     def __getattr__(self, name: str) -> Any:
@@ -30,7 +38,7 @@ class ModelView:
         raise AttributeError(f"the compiled world holds no {name}")
 
     def name(self, kind: str, index: int) -> str:
-        """What an object is called; a nameless one by its kind and id, e.g. `geom_7`, or its body's geom."""
+        """The name of an object; a nameless one is called by its kind and id, e.g. `geom_7`, or as its body's geom."""
         given = self.texts["names"][kind][index]
         if given:
             return str(given)
@@ -48,7 +56,7 @@ class ModelView:
         return Problem(message, fix, line or 1, severity=severity)
 
     def line_of(self, kind: str, index: int) -> int:
-        """The line that names an object, else the body that carries it, else a nameless one's element, else 1."""
+        """The line that names an object, else its body, else the element of a nameless one; else 1."""
         names = [self.texts["names"][kind][index]]
         body = {"geom": "geom_bodyid", "joint": "jnt_bodyid", "camera": "cam_bodyid"}.get(kind)
         if body is not None:
@@ -57,6 +65,21 @@ class ModelView:
                 names.append(self.texts["names"]["body"][carrier])
                 carrier = int(self.body_parentid[carrier])
         return next((self._lines[n] for n in names if n and n in self._lines), 1)
+
+    def masks_line(self, geom: int) -> int | None:
+        """The line with a geom's contact masks, in its element or its default class; None without one."""
+        if self.program is None:
+            return None
+        masks, tags = {"contype", "conaffinity"}, list(self.program.tags())
+        own = next(
+            (t for t in tags if t.name == "geom" and t.attributes.get("name") == self.texts["names"]["geom"][geom]),
+            None,
+        )
+        if own is None or masks & set(own.attributes):
+            return own.line if own is not None else None
+        classes = [t for t in tags if t.name == "default" and t.attributes.get("class") == own.attributes.get("class")]
+        given = (c for t in classes for c in t.children if c.name == "geom" and masks & set(c.attributes))
+        return next((c.line for c in given), None)
 
     @cached_property
     def _lines(self) -> dict[str, int]:
@@ -83,19 +106,25 @@ class ModelView:
         return found
 
     @cached_property
+    def planned_bodies(self) -> frozenset[str]:
+        """Names of the bodies of the plan's own world."""
+        planned = self.planned
+        return frozenset() if planned is None else frozenset(filter(None, planned.texts["names"]["body"]))
+
+    @cached_property
     def moving(self) -> np.ndarray:
-        """(nbody,) whether a body has degrees of freedom, its own or those of what carries it."""
+        """(nbody,) bool: whether a body has degrees of freedom, its own or those of what carries it."""
         return self.body_treeid >= 0
 
     @cached_property
     def collides(self) -> np.ndarray:
-        """(ngeom,) whether a geom takes part in contacts at all: by its masks, or in an explicit pair."""
+        """(ngeom,) bool: whether a geom takes part in contacts at all, by its masks or in an explicit pair."""
         found = (self.geom_contype != 0) | (self.geom_conaffinity != 0)
         found[self.pair_geom1] = found[self.pair_geom2] = True
         return found
 
     def may_touch(self, geom: int) -> np.ndarray:
-        """(ngeom,) which geoms of other moving trees, or of the scenery, a geom may meet."""
+        """(ngeom,) bool: the geoms of other moving trees, or of the scenery, that a geom may meet."""
         mask = (self.geom_contype[geom] & self.geom_conaffinity) | (self.geom_contype & self.geom_conaffinity[geom])
         found = mask != 0
         for one, other in ((self.pair_geom1, self.pair_geom2), (self.pair_geom2, self.pair_geom1)):
@@ -111,7 +140,7 @@ class ModelView:
 
     @cached_property
     def contacts_off(self) -> bool:
-        """Contacts, or all constraints, are switched off for the whole world."""
+        """Whether contacts, or all constraints, are switched off for the whole world."""
         return bool({"contact", "constraint"} & set(self.disabled))
 
     @cached_property

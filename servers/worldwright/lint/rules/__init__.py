@@ -1,1 +1,1 @@
-"""The two shelves of lint rules: `program` (WL…) and `plan` (WP…)."""
+"""The four shelves of lint rules: `program` (WL…), `model` (WM…), `run` (WR…) and `plan` (WP…)."""

@@ -1,14 +1,13 @@
-"""Whether a resolved layout holds: one module for each question, all asked of one `Layout`."""
+"""Check a resolved layout: one module per question, all asked of one `CheckedLayout`."""
 
 from collections.abc import Callable, Sequence
 
-from ...model.plan import Plan
+from ...model.plan.committed import Plan
 from ..engine import uncollected
-from ..reports import CheckReport
+from ..placement_results import CheckReport
 from ..resolution import Resolution
 from ..statements import Locate, Problems
 from . import (
-    below_ground,
     clearance,
     completeness,
     containment,
@@ -19,13 +18,14 @@ from . import (
     sizes,
     stale,
     start_pose,
+    sunk_in_ground,
     supports,
 )
-from .layout import Layout
+from .checked_layout import CheckedLayout
 from .marks import flagged
 
-CHECKS: tuple[Callable[[Layout], None], ...] = (
-    below_ground.check,
+CHECKS: tuple[Callable[[CheckedLayout], None], ...] = (
+    sunk_in_ground.check,
     penetration.check,
     start_pose.check,
     supports.check,
@@ -38,7 +38,7 @@ CHECKS: tuple[Callable[[Layout], None], ...] = (
     stale.check,
     framing.check,
 )
-"""In the order in which their findings are told."""
+"""The checks, in the order of their findings."""
 
 
 def check(
@@ -48,19 +48,19 @@ def check(
     file: str = "plan.md",
     locate: Locate,
     exact: bool = True,
-    only: Sequence[Callable[[Layout], None]] = CHECKS,
+    only: Sequence[Callable[[CheckedLayout], None]] = CHECKS,
 ) -> CheckReport:
     """Check a resolved layout.
 
     Args:
         plan: the plan.
         resolution: its layout, with the findings of the resolver (they come first).
-        file, locate: where the plan stands.
-        exact: measure with the real collision shapes, in a process of its own, where boxes are too coarse: pairs whose
+        file, locate: the plan's file, and the line of a path in it.
+        exact: measure with the real collision shapes, in a process of its own, what boxes are too coarse for: pairs whose
             boxes overlap, clearances, and what cameras see.
-        only: which checks to make.
+        only: the checks to make.
     """
-    layout = Layout(plan, resolution, Problems(file, locate), exact)
+    layout = CheckedLayout(plan, resolution, Problems(file, locate), exact)
     with uncollected():
         for one in only:
             one(layout)
@@ -75,4 +75,4 @@ def check(
     )
 
 
-__all__ = ["CHECKS", "Layout", "check", "flagged"]
+__all__ = ["CHECKS", "CheckedLayout", "check", "flagged"]

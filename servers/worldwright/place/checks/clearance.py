@@ -1,16 +1,16 @@
 """The distances that `layout_density.clearance` demands are free."""
 
-from ...model.density import Clearance, read
 from ...model.errors import JobError
+from ...model.plan.layout_density import Clearance, read
 from ..anchors import shown
-from ..world import simulate
-from .layout import Layout
+from ..asking import simulate
+from .checked_layout import CheckedLayout
 
 Pair = tuple[str, str]
 
 
-def check(layout: Layout) -> None:
-    """WP308 for each pair that is nearer than a clearance allows: boxes first, then the exact collision shapes."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP308 for each pair that is nearer than a clearance allows: boxes first, then the exact collision shapes."""
     _, clearances, _ = read(layout.plan.layout_density)
     for index, clearance in clearances:
         path = ("layout_density", "clearance", index)
@@ -49,7 +49,7 @@ def check(layout: Layout) -> None:
                 )
 
 
-def _pairs(layout: Layout, clearance: Clearance) -> list[Pair]:
+def _pairs(layout: CheckedLayout, clearance: Clearance) -> list[Pair]:
     if clearance.between is not None:
         return [clearance.between]
     centre = str(clearance.around)
@@ -65,8 +65,8 @@ def _pairs(layout: Layout, clearance: Clearance) -> list[Pair]:
     ]
 
 
-def _below(layout: Layout, name: str) -> set[str]:
-    """What an object rests on, directly and indirectly."""
+def _below(layout: CheckedLayout, name: str) -> set[str]:
+    """The objects on which an object rests, directly or not."""
     found: set[str] = set()
     current = layout.placed[name].supported_by
     while current and current not in found:
@@ -75,13 +75,13 @@ def _below(layout: Layout, name: str) -> set[str]:
     return found
 
 
-def _gap(layout: Layout, pair: Pair) -> float:
+def _gap(layout: CheckedLayout, pair: Pair) -> float:
     """Distance of two world boxes, metres; 0 when they touch or overlap."""
     (low_a, high_a), (low_b, high_b) = (layout.placed[name].bounds() for name in pair)
     return float(sum(max(low_a[i] - high_b[i], low_b[i] - high_a[i], 0.0) ** 2 for i in range(3)) ** 0.5)
 
 
-def _exact(layout: Layout, pairs: list[Pair], far_m: float) -> dict[Pair, float]:
+def _exact(layout: CheckedLayout, pairs: list[Pair], far_m: float) -> dict[Pair, float]:
     names = {name for pair in pairs for name in pair}
     result = simulate(layout.plan, layout.scene, only=names, loose=True, pairs=pairs, far_m=far_m)
     return {(a, b): distance for a, b, distance in result["distances"]}

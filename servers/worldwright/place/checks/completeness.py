@@ -1,29 +1,29 @@
-"""What the plan speaks about is there: the supports, containers and terrain that its things and claims imply."""
+"""What the plan speaks about exists: the supports, containers and terrain that its things and claims imply."""
 
 import re
 
 from .. import categories
-from .layout import CONTACT_M, Layout, others
+from .checked_layout import CONTACT_M, CheckedLayout, others
 
 TALL_M = 0.6
-"""Higher things of a kind that usually stands on something may as well stand on the floor (a tall lamp, a tall vase)."""
+"""Higher things may stand on the floor, though their kind usually stands on something (a tall lamp, a tall vase)."""
 _PLACES = ("support", "seat", "container", "terrain")
 _SPOKEN = re.compile(
     r"\b(?:on|onto|off|from|across|over|under|beneath|beside|in|into|inside|through|against|along)\s+(?:the|a|an|its|each|one)\s+"
     r"(?=((?:[a-z]+[ -]?){1,4}))"
 )
 _ALWAYS = ("floor", "ground", "lawn", "road")
-"""The ground plane is one of these in every world."""
+"""The ground plane of every world counts as these."""
 
 
-def check(layout: Layout) -> None:
-    """WP318 for things that stand on the bare ground though they belong on something, WP319 for what is only spoken of."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP318 for things on the bare ground that belong on something, WP319 for what is only spoken of."""
     _on_the_ground(layout)
     _spoken_of(layout)
     _fluid(layout)
 
 
-def _on_the_ground(layout: Layout) -> None:
+def _on_the_ground(layout: CheckedLayout) -> None:
     alike: dict[categories.Category, list[str]] = {}
     for placed in layout.scene.objects:
         category = layout.categories.get(placed.name)
@@ -48,7 +48,7 @@ def _on_the_ground(layout: Layout) -> None:
         )
 
 
-def _spoken_of(layout: Layout) -> None:
+def _spoken_of(layout: CheckedLayout) -> None:
     heads = {c.head for c in layout.categories.values()} | {
         w for n in layout.placed for w in re.split(r"[^a-z]+", n.lower())
     }
@@ -56,7 +56,7 @@ def _spoken_of(layout: Layout) -> None:
     told: set[str] = set()
     for index, objective in enumerate(layout.plan.objectives):
         for match in _SPOKEN.finditer(objective.claim.lower()):
-            category = _first(match.group(1))
+            category = _first_category(match.group(1))
             if category is None or category.kind not in _PLACES or category.name in told or category.head in _ALWAYS:
                 continue
             if category.head in roles or any(
@@ -74,7 +74,7 @@ def _spoken_of(layout: Layout) -> None:
             )
 
 
-def _first(words: str) -> categories.Category | None:
+def _first_category(words: str) -> categories.Category | None:
     """The longest category at the beginning of some words."""
     parts = re.split(r"[ -]+", words.strip())
     found, length = None, 0
@@ -84,7 +84,7 @@ def _first(words: str) -> categories.Category | None:
     return None if parts[length : length + 1] == ["of"] else found  # the bed of a table is no bed
 
 
-def _fluid(layout: Layout) -> None:
+def _fluid(layout: CheckedLayout) -> None:
     if layout.plan.plan_type != "fsi_in_scene":
         return
     holders = [

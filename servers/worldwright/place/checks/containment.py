@@ -2,12 +2,12 @@
 
 from ..anchors import TOLERANCE_M, shown
 from ..predicates.place_in import free
-from .layout import CONTACT_M, Layout
+from .checked_layout import CONTACT_M, CheckedLayout
 
 
-def check(layout: Layout) -> None:
-    """WP310 for what rests on an inner floor and reaches into a wall; rows of PLACE-IN are measured on their own."""
-    own_row = {row.subject for row in layout.resolution.statements if row.code == "PLACE-IN"}
+def check(layout: CheckedLayout) -> None:
+    """Report WP310 for what rests on an inner floor and reaches into a wall; rows of PLACE-IN are measured on their own."""
+    own_row = {row.subject for row in layout.resolution.statements if row.entry.INSIDE}
     for placed in layout.scene.objects:
         holder = layout.resolution.boxes.get(placed.supported_by or "")
         if holder is None or placed.name in own_row or placed.name in layout.hidden:
@@ -28,6 +28,6 @@ def check(layout: Layout) -> None:
             )
 
 
-def _rolls(layout: Layout, name: str) -> bool:
-    """A ball in a bowl touches the wall where it narrows, and finds its place."""
+def _rolls(layout: CheckedLayout, name: str) -> bool:
+    """Whether an object is a ball: in a bowl it touches the narrowing wall and finds its place."""
     return layout.resolution.boxes[name].round and name in layout.movers

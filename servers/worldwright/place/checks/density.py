@@ -2,16 +2,16 @@
 
 from collections import defaultdict
 
-from ...model.density import CLEARANCE, SCENE, Target, read
-from ...model.plan import SceneObject
-from ...model.scene import PlacedObject
+from ...model.plan.committed import SceneObject
+from ...model.plan.layout import PlacedObject
+from ...model.plan.layout_density import CLEARANCE, SCENE, Target, read
 from ..anchors import TOLERANCE_M, shown
 from ..footprints import area, area_of, shadow
-from .layout import CONTACT_M, Layout
+from .checked_layout import CONTACT_M, CheckedLayout
 
 
-def check(layout: Layout) -> None:
-    """WP320 for a target that cannot be read, WP315 for one that is missed."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP320 for a target that cannot be read, WP315 for one that is missed."""
     section = layout.plan.layout_density
     targets, _, wrong = read(section)
     for path, cause in wrong:
@@ -34,16 +34,16 @@ def check(layout: Layout) -> None:
             )
 
 
-def kind_of(layout: Layout, placed: PlacedObject) -> str:
-    """What makes two objects the same kind: their catalog key, or shape, role and size."""
+def kind_of(layout: CheckedLayout, placed: PlacedObject) -> str:
+    """The kind of an object: its catalog key, or its shape, role and size."""
     row = layout.rows.get(placed.name)
     if isinstance(row, SceneObject):
         return f"{row.primitive} {row.role} {row.size}"
     return placed.kind
 
 
-def _carried(layout: Layout) -> dict[str, list[str]]:
-    """What rests on each object directly."""
+def _carried(layout: CheckedLayout) -> dict[str, list[str]]:
+    """The objects that rest directly on each object."""
     found: dict[str, list[str]] = defaultdict(list)
     for placed in layout.scene.objects:
         if placed.supported_by:
@@ -62,18 +62,20 @@ def _all_on(name: str, carried: dict[str, list[str]]) -> list[str]:
     return found
 
 
-def _count(layout: Layout, where: str, names: list[str], target: Target, path: tuple[str | int, ...]) -> None:
+def _count(layout: CheckedLayout, where: str, names: list[str], target: Target, path: tuple[str | int, ...]) -> None:
     count, kinds = len(names), len({kind_of(layout, layout.placed[n]) for n in names})
     if target.min_objects is not None and count < target.min_objects:
-        _missed(layout, f"{where} has {count} objects, fewer than {target.min_objects}", "add more", path)
+        _report_missed(layout, f"{where} has {count} objects, fewer than {target.min_objects}", "add more", path)
     if target.max_objects is not None and count > target.max_objects:
-        _missed(layout, f"{where} has {count} objects, more than {target.max_objects}", "take some away", path)
+        _report_missed(layout, f"{where} has {count} objects, more than {target.max_objects}", "take some away", path)
     if target.min_kinds is not None and kinds < target.min_kinds:
-        _missed(layout, f"{where} has {kinds} kinds of objects, fewer than {target.min_kinds}", "add other kinds", path)
+        _report_missed(
+            layout, f"{where} has {kinds} kinds of objects, fewer than {target.min_kinds}", "add other kinds", path
+        )
 
 
 def _fill(
-    layout: Layout, where: str, names: list[str], free_m2: float, target: Target, path: tuple[str | int, ...]
+    layout: CheckedLayout, where: str, names: list[str], free_m2: float, target: Target, path: tuple[str | int, ...]
 ) -> None:
     if target.min_fill is None and target.max_fill is None:
         return
@@ -84,17 +86,19 @@ def _fill(
         covered += area(shadow(placed, row if isinstance(row, SceneObject) else None))
     fill = covered / free_m2 if free_m2 > 0 else 0.0
     if target.min_fill is not None and fill < target.min_fill:
-        _missed(
+        _report_missed(
             layout,
             f"{where} is filled by {fill:.1%}, less than {target.min_fill:.1%}",
             "add more or larger things",
             path,
         )
     if target.max_fill is not None and fill > target.max_fill:
-        _missed(layout, f"{where} is filled by {fill:.1%}, more than {target.max_fill:.1%}", "take some away", path)
+        _report_missed(
+            layout, f"{where} is filled by {fill:.1%}, more than {target.max_fill:.1%}", "take some away", path
+        )
 
 
-def _scene(layout: Layout, target: Target) -> None:
+def _scene(layout: CheckedLayout, target: Target) -> None:
     path = ("layout_density", SCENE)
     names = [o.name for o in layout.scene.objects]
     _count(layout, "the scene", names, target, path)
@@ -118,7 +122,7 @@ def _scene(layout: Layout, target: Target) -> None:
             other[2] - limits[2],
         )
         if out > TOLERANCE_M:
-            _missed(
+            _report_missed(
                 layout,
                 f"`{placed.name}` reaches {shown(out)} m out of the envelope {list(target.envelope)}",
                 "move it inwards, or enlarge the envelope",
@@ -126,7 +130,7 @@ def _scene(layout: Layout, target: Target) -> None:
             )
 
 
-def _surface(layout: Layout, name: str, target: Target, carried: dict[str, list[str]]) -> None:
+def _surface(layout: CheckedLayout, name: str, target: Target, carried: dict[str, list[str]]) -> None:
     path = ("layout_density", name)
     box = layout.resolution.boxes[name]
     try:
@@ -143,5 +147,5 @@ def _surface(layout: Layout, name: str, target: Target, carried: dict[str, list[
     _fill(layout, f"`{name}`", direct, area(area_of(surface)), target, path)
 
 
-def _missed(layout: Layout, cause: str, fix: str, path: tuple[str | int, ...]) -> None:
+def _report_missed(layout: CheckedLayout, cause: str, fix: str, path: tuple[str | int, ...]) -> None:
     layout.problems.add("WP315", "density_missed", cause, f"{fix}, or change the target in layout_density", path)

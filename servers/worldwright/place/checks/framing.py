@@ -1,25 +1,25 @@
-"""Each camera sees what it is there to show: in the picture, not hidden, and large enough to be recognised."""
+"""Each camera sees what it should show: in the picture, not hidden, and large enough to be recognised."""
 
 from typing import Any
 
 from ...model.errors import JobError
-from ...model.steps import CameraRow
-from ..reports import Seen
-from ..world import simulate
-from .layout import Layout
+from ...model.plan.implementation_steps import CameraRow
+from ..asking import simulate
+from ..placement_results import Seen
+from .checked_layout import CheckedLayout
 
 CUT_OFF = 0.6
-"""Less of a subject inside the picture: it is cut off."""
+"""A subject with a smaller share inside the picture is cut off."""
 HIDDEN = 0.75
-"""More of a subject behind other things: it cannot be told."""
+"""A subject with a larger share behind other things cannot be recognised."""
 SMALL_PX = 60
-"""Fewer pixels at the recording's size: it is a speck."""
+"""A subject with fewer pixels at the recording's size is a speck."""
 MOST_OBJECTS = 1500
-"""A layout with more is not looked at: building its shapes would take longer than a call may."""
+"""A layout with more objects is skipped: to build its shapes would take longer than a call may."""
 
 
-def check(layout: Layout) -> None:
-    """WP312 for a subject outside the picture, WP313 for a hidden one, WP314 for a speck; what is seen goes to `views`."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP312 for a subject outside the picture, WP313 for a hidden one, WP314 for a speck; note all in `views`."""
     cameras = [camera for row in layout.plan.cameras() if (camera := _camera(layout, row))["subjects"]]
     if not layout.exact or not cameras or not layout.scene.objects or len(layout.scene.objects) > MOST_OBJECTS:
         return
@@ -48,8 +48,8 @@ def check(layout: Layout) -> None:
         _judge(layout, seen)
 
 
-def _camera(layout: Layout, row: CameraRow) -> dict[str, Any]:
-    """What the process needs to pose a camera: a template's pose, an explicit one, or a view and its subjects."""
+def _camera(layout: CheckedLayout, row: CameraRow) -> dict[str, Any]:
+    """The data that pose a camera: a template's pose, an explicit one, or a view and its subjects."""
     subjects = [n for n in (row.subjects or layout.plan.movers()) if n in layout.placed]
     placed = next((c for c in layout.scene.cameras if c.name == row.name), None)
     pose: dict[str, Any] = {"position": row.position, "target": row.target, "view": row.view}
@@ -59,7 +59,7 @@ def _camera(layout: Layout, row: CameraRow) -> dict[str, Any]:
     return {"name": row.name, "subjects": subjects, "fovy": row.fovy, "aspect": width / height, **pose}
 
 
-def _judge(layout: Layout, seen: Seen) -> None:
+def _judge(layout: CheckedLayout, seen: Seen) -> None:
     index = next((i for i, s in enumerate(layout.plan.implementation_steps) if seen.camera in _names(s.cameras)), None)
     path = ("implementation_steps",) if index is None else ("implementation_steps", index)
     if seen.in_frame < CUT_OFF:

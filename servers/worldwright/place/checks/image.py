@@ -1,25 +1,26 @@
 """The layout agrees with what was seen in the reference image (`topology.image_observation`), from where it was seen.
 
-A camera at azimuth a looks along -(cos a, sin a); right in its picture is (-sin a, cos a). Seen from straight above, right is +X and
-what is farther up in the picture (+Y) counts as behind.
+A camera at azimuth a looks along -(cos a, sin a); right in its picture is (-sin a, cos a). In a view from straight above,
+right is +X,
+and what is farther up in the picture (+Y) is behind.
 """
 
 import math
 
-from ...model.observation import ImageObservation, SeenFacing, SeenRelation
-from ...model.scene import PlacedObject
+from ...model.plan.layout import PlacedObject
+from ...model.plan.observation import ImageObservation, SeenFacing, SeenRelation
 from ..anchors import TOLERANCE_M, cos_sin, shown, wrap
-from ..reports import RowMargin
-from .layout import CONTACT_M, Layout
+from ..placement_results import RowMargin
+from .checked_layout import CONTACT_M, CheckedLayout
 
 FACING_DEG = 45.0
-"""Half of the range of headings that go by one word."""
+"""Half of the range of headings that one word covers, degrees."""
 BESIDE = 1.0
-"""Times the larger of two extents: things farther apart are not beside each other."""
+"""Things farther apart than this, times the larger of two extents, are not beside each other."""
 
 
-def check(layout: Layout) -> None:
-    """WP322 for what is seen and not planned, WP321 for a relation or a heading that the layout does not have."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP322 for what is seen and not planned, WP321 for a relation or a heading that the layout does not have."""
     seen = layout.plan.topology.image_observation
     if seen is None:
         return
@@ -42,7 +43,7 @@ def check(layout: Layout) -> None:
             _facing(layout, facing, right, away, (*path, "facing", index))
 
 
-def _picture(layout: Layout, seen: ImageObservation) -> tuple[tuple[float, float], tuple[float, float]]:
+def _picture(layout: CheckedLayout, seen: ImageObservation) -> tuple[tuple[float, float], tuple[float, float]]:
     """Unit vectors of the ground plane: right in the picture, and away from the viewer."""
     first = next(iter(layout.plan.cameras()), None)
     placed = next((c for c in layout.scene.cameras if first is not None and c.name == first.name), None)
@@ -59,7 +60,7 @@ def _picture(layout: Layout, seen: ImageObservation) -> tuple[tuple[float, float
 
 
 def _relation(
-    layout: Layout,
+    layout: CheckedLayout,
     seen: SeenRelation,
     subject: PlacedObject,
     other: PlacedObject,
@@ -75,20 +76,20 @@ def _relation(
             "WP321",
             "image_disagrees",
             f"the image shows `{seen.subject}` {seen.relation} `{seen.object}`; the layout misses that by {shown(-margin)} m",
-            f"change the rows of `{seen.subject}`: {_rows(layout, seen.subject)}",
+            f"change the rows of `{seen.subject}`: {_row_words(layout, seen.subject)}",
             path,
         )
 
 
 def _margin(
-    layout: Layout,
+    layout: CheckedLayout,
     relation: str,
     subject: PlacedObject,
     other: PlacedObject,
     right: tuple[float, float],
     away: tuple[float, float],
 ) -> float:
-    """By how much a relation holds, metres; negative when it does not."""
+    """How far a relation holds, metres; negative when it does not."""
     dx, dy, dz = (a - b for a, b in zip(subject.position, other.position, strict=True))
     across, along = dx * right[0] + dy * right[1], dx * away[0] + dy * away[1]
     if relation in ("left_of", "right_of"):
@@ -112,14 +113,14 @@ def _margin(
     return min(reach - gap, high[2] - low_b[2], high_b[2] - low[2])
 
 
-def _gap_below(layout: Layout, subject: PlacedObject) -> float:
-    """How far its own rows lift an object over what it is on."""
+def _gap_below(layout: CheckedLayout, subject: PlacedObject) -> float:
+    """How far its rows lift an object above what it is on, m."""
     rows = [r for r in layout.resolution.statements if r.subject == subject.name]
-    return max((float(r.params.get("gap", 0.0)) for r in rows if r.code.startswith("PLACE-")), default=0.0)
+    return max((float(r.params.get(r.entry.DROP, 0.0)) for r in rows if r.entry.SUPPORTS), default=0.0)
 
 
 def _facing(
-    layout: Layout,
+    layout: CheckedLayout,
     seen: SeenFacing,
     right: tuple[float, float],
     away: tuple[float, float],
@@ -141,10 +142,10 @@ def _facing(
             "WP321",
             "image_disagrees",
             f"the image shows `{seen.subject}` facing {words}; its front is {shown(round(off, 2))} deg from that",
-            f"add or change its FACING-* row: {_rows(layout, seen.subject)}",
+            f"add or change its FACING-* row: {_row_words(layout, seen.subject)}",
             path,
         )
 
 
-def _rows(layout: Layout, name: str) -> str:
+def _row_words(layout: CheckedLayout, name: str) -> str:
     return "; ".join(str(r) for r in layout.resolution.statements if r.subject == name) or "(it has none)"

@@ -1,4 +1,4 @@
-"""Which objects a finding is about, for the picture."""
+"""Tell the picture which objects a finding is about."""
 
 import re
 
@@ -8,7 +8,7 @@ _QUOTED = re.compile(r"`([A-Za-z0-9_-]+)`")
 
 
 def flagged(findings: tuple[Finding, ...], names: list[str]) -> dict[str, str]:
-    """The worst severity that a finding names each object with."""
+    """The worst severity of the findings that name each object."""
     known = set(names)
     worst: dict[str, str] = {}
     for finding in findings:

@@ -2,12 +2,12 @@
 
 from ...model.errors import JobError
 from ..anchors import shown
-from ..world import simulate
-from .layout import OVERLAP_M, Layout
+from ..asking import simulate
+from .checked_layout import OVERLAP_M, CheckedLayout
 
 
-def check(layout: Layout) -> None:
-    """WP302 for each pair that penetrates by more than a millimetre; parts on joints may overlap each other."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP302 for each pair that penetrates by more than a millimetre; parts on joints may overlap each other."""
     held = layout.held
     pairs = [p for p in layout.close if p[2] > OVERLAP_M and not (p[0] in held and p[1] in held)]
     layout.pairs_tested = len(pairs)

@@ -1,22 +1,22 @@
 """Sizes are those of the real things: heights against their category, and related sizes against each other."""
 
-from ...model.plan import AssetRow, SceneObject
-from ...model.scene import PlacedObject
+from ...model.plan.committed import AssetRow, SceneObject
+from ...model.plan.layout import PlacedObject
 from .. import categories
 from ..anchors import shown
 from ..categories import Category
-from .layout import Layout, others
+from .checked_layout import CheckedLayout, others
 
 ABSURD = 3.0
-"""Times outside its category's range: no variant of the thing is that size."""
+"""No variant of a thing is outside its category's range by this factor."""
 REACH_M = 0.8
-"""A seat nearer to a table than this is one to sit at it."""
+"""A seat nearer to a table than this belongs to it."""
 KNEES_M = (0.15, 0.45)
-"""From a seat to its table's top; 0.23 to 0.30 m is common for dining and desk work, the rest is our judgement."""
+"""The height from a seat to its table's top; 0.23 to 0.30 m is common for meals and desk work, the rest is our judgement."""
 
 
-def check(layout: Layout) -> None:
-    """WP316 for a height that its category does not have, WP317 for a seat that does not fit its table."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP316 for a height that its category does not have, WP317 for a seat that does not fit its table."""
     plan = layout.plan
     alike: dict[tuple[Category, float], list[tuple[str, tuple[str | int, ...]]]] = {}
     heights: list[tuple[SceneObject | AssetRow, float, tuple[str | int, ...]]] = [
@@ -36,8 +36,10 @@ def check(layout: Layout) -> None:
     _seats(layout)
 
 
-def _height(layout: Layout, rows: list[tuple[str, tuple[str | int, ...]]], category: Category, height: float) -> None:
-    """One finding for all that are alike."""
+def _height(
+    layout: CheckedLayout, rows: list[tuple[str, tuple[str | int, ...]]], category: Category, height: float
+) -> None:
+    """Report one finding for all alike objects."""
     factor = category.low_m / height if height < category.low_m else height / category.high_m
     layout.problems.add(
         "WP316",
@@ -50,14 +52,14 @@ def _height(layout: Layout, rows: list[tuple[str, tuple[str | int, ...]]], categ
     )
 
 
-def _seats(layout: Layout) -> None:
+def _seats(layout: CheckedLayout) -> None:
     kinds = layout.categories
     seats = [o for o in layout.scene.objects if (c := kinds.get(o.name)) and c.kind == "seat" and c.seat_share]
     tables = [o for o in layout.scene.objects if (c := kinds.get(o.name)) and _table(c)]
     for seat in seats:
         low, high = layout.reach(seat, REACH_M)
         near = [t for t in tables if all(t.bounds()[0][i] <= high[i] and t.bounds()[1][i] >= low[i] for i in (0, 1))]
-        for table in sorted(near, key=lambda t: _apart(seat, t))[:1]:
+        for table in sorted(near, key=lambda t: _distance(seat, t))[:1]:
             _fits(layout, seat, table, kinds[seat.name])
 
 
@@ -67,11 +69,11 @@ def _table(category: Category) -> bool:
     )  # fmt: skip
 
 
-def _apart(a: PlacedObject, b: PlacedObject) -> float:
+def _distance(a: PlacedObject, b: PlacedObject) -> float:
     return (a.position[0] - b.position[0]) ** 2 + (a.position[1] - b.position[1]) ** 2
 
 
-def _fits(layout: Layout, seat: PlacedObject, table: PlacedObject, category: Category) -> None:
+def _fits(layout: CheckedLayout, seat: PlacedObject, table: PlacedObject, category: Category) -> None:
     top = table.position[2] + table.size[2] / 2
     floor = seat.position[2] - seat.size[2] / 2
     named = next((s.height_m for s in layout.resolution.boxes[seat.name].surfaces() if s.name == "seat"), None)

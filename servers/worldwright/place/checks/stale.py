@@ -2,14 +2,14 @@
 
 import math
 
-from ...model.plan import Orientation, Position
+from ...model.plan.committed import Orientation, Position
 from ..anchors import shown, wrap
 from ..settling import MOST_DEG, MOST_M
-from .layout import Layout
+from .checked_layout import CheckedLayout
 
 
-def check(layout: Layout) -> None:
-    """WP305 for a written pose that is older than its rows."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP305 for a written pose that is older than its rows."""
     for name, offset in layout.plan.topology.settled.items():
         far = math.hypot(offset.x, offset.y, offset.z)
         if name not in layout.plan.object_names() or far > MOST_M or abs(offset.deg_z) > MOST_DEG:
@@ -25,7 +25,7 @@ def check(layout: Layout) -> None:
         now = layout.placed.get(row.subject)
         if now is None or not isinstance(row.position, Position):
             continue
-        x, y, z = now.position  # with what settling added
+        x, y, z = now.position  # settling added this
         given = (x, y, z + layout.resolution.boxes[row.subject].written_shift)
         away = max(abs(a - b) for a, b in zip(row.position.vector, given, strict=True))
         turned = abs(wrap(row.orientation.deg_z - now.deg_z)) if isinstance(row.orientation, Orientation) else 0.0

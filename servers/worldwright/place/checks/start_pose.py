@@ -4,17 +4,17 @@ from worldkit.tendons import ROUNDED_M
 
 from ...model.errors import JobError
 from ..anchors import shown
+from ..asking import drawn_only, simulate
 from ..start import filtered, hung, told
-from ..world import drawn_only, simulate
-from .layout import OVERLAP_M, Layout
+from .checked_layout import OVERLAP_M, CheckedLayout
 
 STRETCH_M = 1e-3
-"""What `initial_motion` may stretch a taut rope by: less a rope's own softness takes."""
+"""`initial_motion` may stretch a taut rope by so much, which its softness takes."""
 GROUND = "ground"
 
 
-def check(layout: Layout) -> None:
-    """WP324 for a rope shorter than its way at the start, WP325 for parts that collide at the start pose of their joints."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP324 for a rope shorter than its way at the start, WP325 for parts on joints that collide there."""
     plan = layout.plan
     layout.at_start += told(plan, layout.scene)
     for index, tendon in enumerate(plan.topology.tendons):
@@ -37,8 +37,8 @@ def check(layout: Layout) -> None:
         _collisions(layout)
 
 
-def _collisions(layout: Layout) -> None:
-    """The exact shapes at the start pose; what the engine lets overlap, and what overlaps as laid out, is left out."""
+def _collisions(layout: CheckedLayout) -> None:
+    """Report exact shapes that overlap at the start pose, unless the engine lets them or they overlap as laid out."""
     fixed = {o.name for o in layout.scene.objects if o.fixed}
     free = filtered(layout.plan, fixed)
     moved = {n for n in layout.moved if n not in drawn_only(layout.plan)}

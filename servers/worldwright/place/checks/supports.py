@@ -1,25 +1,28 @@
-"""Nothing floats and nothing hangs over: what is loose stands on something, its centre of mass above what it stands on."""
+"""Nothing floats or hangs over: loose things stand on something, with their centre of mass above it."""
 
 from collections import defaultdict
 
-from ...model.plan import SceneObject
-from ...model.scene import PlacedObject
+from ...model.errors import JobError
+from ...model.plan.committed import AssetRow, SceneObject
+from ...model.plan.layout import PlacedObject
 from ..anchors import TOLERANCE_M, Box, Surface, shown
+from ..asking import simulate
 from ..footprints import area_of, centre_of_mass, clipped, footprint, hull, inset, rows, turned
-from .layout import CONTACT_M, Layout
+from .checked_layout import CONTACT_M, CheckedLayout
 
 SURE_M = 1e-3
-"""How far outside its support a centre of mass must be before the object is said to tip."""
+"""An object tips when its centre of mass is outside its support by more than this."""
 
 
-def check(layout: Layout) -> None:
-    """WP304 for loose objects that start in mid-air, WP307 for those that tip over the edge of what they stand on."""
+def check(layout: CheckedLayout) -> None:
+    """Report WP304 for loose objects that start in mid-air, WP307 for those that tip over the edge of what they stand on."""
     scene_rows = rows(layout.plan)
     below: dict[str, list[str]] = defaultdict(list)
     for first, second, _ in layout.close:
         below[first].append(second)
         below[second].append(first)
     _scenery(layout, below)
+    floating: dict[str, tuple[PlacedObject, float]] = {}
     for placed in layout.scene.objects:
         name = placed.name
         if placed.fixed or name in layout.held or name in layout.hidden:
@@ -34,7 +37,7 @@ def check(layout: Layout) -> None:
             contacts += _planes(layout.resolution.boxes[other], low)
         if not contacts:
             if not placed.supported_by:
-                _floats(layout, placed, low)
+                floating[name] = (placed, low)
             continue
         centre = centre_of_mass(placed, row, layout.plan)
         own = footprint(placed, row)
@@ -50,23 +53,26 @@ def check(layout: Layout) -> None:
                 touching += clipped(own, region)
         if not touching:
             if not placed.supported_by:
-                _floats(layout, placed, low)
+                floating[name] = (placed, low)
             continue
         margin = inset(hull(touching), centre)
         if margin < -SURE_M:
             _tips(layout, placed, [box.name for box, _ in contacts], -margin)
+    measured = _drops(layout, floating)
+    for name, (placed, low) in floating.items():
+        _floats(layout, placed, *measured.get(name) or _drop(layout, placed, low))
 
 
-def _own_base(layout: Layout, placed: PlacedObject, row: SceneObject | None) -> None:
-    """On the ground only a compound can stand beside its own centre of mass: its parts differ in weight."""
-    if row is not None and row.parts:
+def _own_base(layout: CheckedLayout, placed: PlacedObject, row: SceneObject | None) -> None:
+    """Report a compound or a form on the ground that stands beside its own centre of mass: its base may lie aside."""
+    if row is not None and (row.parts or row.formed):
         margin = inset(footprint(placed, row), centre_of_mass(placed, row, layout.plan))
         if margin < -SURE_M:
             _tips(layout, placed, ["ground"], -margin)
 
 
-def _scenery(layout: Layout, touching: dict[str, list[str]]) -> None:
-    """WP309 for fixed things that hang in the air: neither they nor the fixed things they touch reach the ground."""
+def _scenery(layout: CheckedLayout, touching: dict[str, list[str]]) -> None:
+    """Report WP309 for fixed things in the air: neither they nor the fixed things they touch reach the ground."""
     fixed = {
         o.name: o for o in layout.scene.objects if o.fixed and o.name not in layout.hidden and o.name not in layout.held
     }
@@ -93,11 +99,11 @@ def _scenery(layout: Layout, touching: dict[str, list[str]]) -> None:
 
 
 def _planes(box: Box, height: float) -> list[tuple[Box, Surface]]:
-    """Surfaces of an object at a height."""
+    """The surfaces of an object at a height."""
     return [(box, s) for s in box.surfaces() if abs(box.low("z") + s.height_m - height) <= CONTACT_M]
 
 
-def _tips(layout: Layout, placed: PlacedObject, names: list[str], away: float) -> None:
+def _tips(layout: CheckedLayout, placed: PlacedObject, names: list[str], away: float) -> None:
     expected = placed.name in layout.movers
     on = ", ".join(f"`{name}`" for name in dict.fromkeys(names))
     layout.problems.add(
@@ -112,8 +118,7 @@ def _tips(layout: Layout, placed: PlacedObject, names: list[str], away: float) -
     )
 
 
-def _floats(layout: Layout, placed: PlacedObject, low: float) -> None:
-    drop, below = _drop(layout, placed, low)
+def _floats(layout: CheckedLayout, placed: PlacedObject, drop: float, below: str) -> None:
     if drop <= TOLERANCE_M:
         return
     expected = placed.name in layout.movers
@@ -129,8 +134,8 @@ def _floats(layout: Layout, placed: PlacedObject, low: float) -> None:
     )
 
 
-def _drop(layout: Layout, placed: PlacedObject, low: float) -> tuple[float, str]:
-    """How far below an object's lowest point the next surface under its centre is, and whose."""
+def _drop(layout: CheckedLayout, placed: PlacedObject, low: float) -> tuple[float, str]:
+    """(distance in m, owner) of the next surface below an object's lowest point, under its centre."""
     best, name = 0.0, "the ground"
     x, y, _ = placed.position
     for other, ((x0, y0, z0), (x1, y1, _)) in layout.bounds.items():
@@ -142,3 +147,28 @@ def _drop(layout: Layout, placed: PlacedObject, low: float) -> tuple[float, str]
             if best < level <= low + TOLERANCE_M and surface.inset(*box.to_own(x, y)) >= 0:
                 best, name = level, f"`{other}`"
     return low - best, name
+
+
+def _drops(layout: CheckedLayout, floating: dict[str, tuple[PlacedObject, float]]) -> dict[str, tuple[float, str]]:
+    """The drop of each object over things that are no boxes (hills, stairs, bowls), by their shapes, and onto what."""
+    shaped = {n: layout.bounds[n] for n, row in layout.rows.items() if isinstance(row, AssetRow) and n in layout.bounds}
+    over = [
+        name
+        for name in floating
+        if any(
+            other != name and all(low[i] <= own[1][i] and own[0][i] <= high[i] for i in (0, 1))
+            for own in [layout.bounds[name]]
+            for other, (low, high) in shaped.items()
+        )
+    ]
+    if not over or not layout.exact:
+        return {}
+    try:
+        told = simulate(layout.plan, layout.scene, falling=over)["drops"]
+    except JobError:
+        return {}  # what the pre-roll cannot take is told by the checks that cannot do without it
+    found = {}
+    for name, way, below in told:
+        low = floating[name][1]
+        found[name] = (way, f"`{below}`") if below is not None and way < low else (low, "the ground")
+    return found

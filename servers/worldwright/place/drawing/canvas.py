@@ -2,6 +2,9 @@
 
 Shapes are drawn at twice the size and reduced at the end; text is drawn last, at full size, with the font that OpenCV
 carries inside (so a bare machine draws the same picture).
+
+matplotlib does not do it: it takes 0.8 s to import and 400 us to measure a label, of which thousands are measured (here
+2.5 us each), and it cannot draw the contour of a union of shapes.
 """
 
 from dataclasses import dataclass, field
@@ -20,7 +23,7 @@ _SHIFT = 4  # OpenCV takes sixteenths of a pixel
 
 @dataclass
 class Canvas:
-    """A picture being drawn."""
+    """A picture that is being drawn."""
 
     width: int
     height: int
@@ -33,12 +36,12 @@ class Canvas:
         self.pixels[:] = self.background
 
     def rectangle(self, low: Point, high: Point, colour: Colour, alpha: float = 1.0) -> None:
-        """A filled rectangle."""
+        """Draw a filled rectangle."""
         corners = [(low[0], low[1]), (high[0], low[1]), (high[0], high[1]), (low[0], high[1])]
         self.fill([np.asarray(corners)], colour, alpha)
 
     def fill(self, polygons: list[np.ndarray], colour: Colour, alpha: float) -> None:
-        """The union of polygons, each (N, 2), evenly translucent."""
+        """Fill the union of polygons, each (N, 2) pixels, evenly translucent."""
         mask, origin = self._mask(polygons)
         if mask is None:
             return
@@ -48,7 +51,7 @@ class Canvas:
         part[:] = (part * (1 - weight) + np.asarray(colour, np.float32) * weight + 0.5).astype(np.uint8)
 
     def outline(self, polygons: list[np.ndarray], colour: Colour, width: float = 1.5) -> None:
-        """The contour of the union of polygons."""
+        """Draw the contour of the union of polygons, each (N, 2) pixels."""
         thickness = max(1, round(width * SCALE))
         if len(polygons) == 1:
             points = np.round(polygons[0] * SCALE * 2**_SHIFT).astype(np.int32)
@@ -75,12 +78,12 @@ class Canvas:
         return mask, (int(low[0]), int(low[1]))
 
     def line(self, start: Point, end: Point, colour: Colour, width: float = 1.0) -> None:
-        """A straight line."""
+        """Draw a straight line."""
         a, b = (tuple(round(v * SCALE * 2**_SHIFT) for v in p) for p in (start, end))
         cv2.line(self.pixels, a, b, colour, max(1, round(width * SCALE)), cv2.LINE_AA, _SHIFT)
 
     def dashes(self, start: Point, end: Point, colour: Colour, width: float = 1.0, dash: float = 5.0) -> None:
-        """A dashed line."""
+        """Draw a dashed line."""
         a, b = np.asarray(start, float), np.asarray(end, float)
         length = float(np.hypot(*(b - a)))
         for at in np.arange(0.0, length, 2 * dash):
@@ -88,7 +91,7 @@ class Canvas:
             self.line(tuple(p), tuple(q), colour, width)
 
     def arrow(self, start: Point, end: Point, colour: Colour, width: float = 2.0, head: float = 8.0) -> None:
-        """A line that ends in a filled head."""
+        """Draw a line that ends in a filled head."""
         a, b = np.asarray(start, float), np.asarray(end, float)
         length = float(np.hypot(*(b - a)))
         if length < 1e-6:
@@ -101,11 +104,11 @@ class Canvas:
         self.fill([np.stack([b, neck + across * head * 0.55, neck - across * head * 0.55])], colour, 1.0)
 
     def dot(self, centre: Point, radius: float, colour: Colour) -> None:
-        """A filled disc."""
+        """Draw a filled disc."""
         self.fill([circle(centre, radius)], colour, 1.0)
 
     def text(self, words: str, at: Point, size: float, colour: Colour, weight: int = 400) -> None:
-        """Text whose baseline starts at a point; drawn above everything else."""
+        """Write text whose baseline starts at a point, above everything else."""
         self.texts.append((words, at, size, colour, weight))
 
     def png(self) -> bytes:
@@ -131,6 +134,6 @@ def text_width(words: str, size: float, weight: int = 400) -> float:
 
 
 def circle(centre: Point, radius: float) -> np.ndarray:
-    """A circle as a polygon."""
+    """A circle as a polygon (N, 2)."""
     angles = np.linspace(0, 2 * np.pi, 49)[:-1]
     return np.stack([centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)], axis=1)

@@ -1,4 +1,4 @@
-"""Things that are alike by name: `glass_1` … `glass_8` are one family, drawn in one colour and, in a crowd, named once."""
+"""Find things alike by name: `glass_1` … `glass_8` are one family, of one colour and named once in a crowd."""
 
 import re
 from collections import defaultdict
@@ -17,7 +17,7 @@ def stem(name: str) -> str:
 
 
 def captions(names: Iterable[str], marked: Iterable[str]) -> dict[str, str]:
-    """What to write at each object that is named: all of a few; of a crowd, one of each family and all that are marked."""
+    """The words at each named object: at all of a few; in a crowd, at one of each family and at all that are marked."""
     listed, marked = list(names), set(marked)
     if len(listed) <= CROWD:
         return {name: name for name in listed}

@@ -1,4 +1,4 @@
-"""Where names go, so that all can be read: inside their object, or beside it on a thin leader, never on one another."""
+"""Place names so that all can be read: inside their object, or beside it on a thin leader, never on one another."""
 
 import math
 from dataclasses import dataclass
@@ -37,18 +37,18 @@ class Item:
 
 @dataclass(frozen=True)
 class Note:
-    """Words about a mark, and the pixels it covers."""
+    """Words about a mark, and the pixels that it covers."""
 
     words: str
     box: Rect
     colour: Colour
     ink: tuple[Rect, ...] = ()
-    """What no label may cover."""
+    """Rectangles that no label may cover."""
 
 
 @dataclass(frozen=True)
 class Label:
-    """A placed label; `leader` is the line from the label to the object, when it stands away from it."""
+    """A placed label; `leader` is the line from the label to an object that it stands away from."""
 
     name: str
     box: Rect
@@ -70,8 +70,8 @@ def arrange(items: list[Item], panel: Rect, taken: list[Rect]) -> tuple[list[Lab
     """Place labels greedily, small objects first.
 
     Args:
-        items: what to name.
-        panel: labels stay inside.
+        items: the objects to name.
+        panel: the rectangle in which labels stay.
         taken: rectangles that no label may cover.
 
     Returns:
@@ -95,7 +95,7 @@ def arrange(items: list[Item], panel: Rect, taken: list[Rect]) -> tuple[list[Lab
                 for other in boxes
                 if other != item.box and not _inside(item.box, other)
             )
-            # a label that stands on a larger thing (the table below the plate) costs little
+            # to stand on a larger thing (the table below the plate) costs little
             covered += 0.15 * sum(_overlap(box, other) > 0 for other in boxes if _inside(item.box, other))
             line = _leader(box, item.box)
             if line is not None and any(_crosses(line, label.box) for label in placed):
@@ -144,7 +144,7 @@ def _leader(label: Rect, box: Rect) -> tuple[tuple[float, float], tuple[float, f
     edge = (min(max(start[0], box[0]), box[2]), min(max(start[1], box[1]), box[3]))
     if (edge[0] - start[0]) ** 2 + (edge[1] - start[1]) ** 2 < 64:
         return None
-    reach = 0.55  # to where the object surely is, not only its box
+    reach = 0.55  # to a point surely on the object, not only in its box
     return start, (edge[0] + (cx - edge[0]) * reach, edge[1] + (cy - edge[1]) * reach)
 
 

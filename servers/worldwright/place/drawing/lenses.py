@@ -1,4 +1,4 @@
-"""Where the cameras stand, seen from above: a wedge as wide as the picture, at its place or at the edge of the paper.
+"""Draw where cameras stand, seen from above: a wedge as wide as the picture, at its place or at the edge of the paper.
 
 A view's camera is framed when the world runs; until then only its direction is known, and the wedge is at the edge.
 """
@@ -7,20 +7,20 @@ import math
 
 import numpy as np
 
-from ...model.plan import Plan
-from ...model.scene import Scene
-from ...model.steps import CameraRow
+from ...model.plan.committed import Plan
+from ...model.plan.implementation_steps import CameraRow
+from ...model.plan.layout import Scene
 from . import palette
 from .canvas import Point
 from .labels import Note
-from .view import View
+from .panel import View
 
 INSET = 14.0
 STRAIGHT_DOWN_DEG = 80.0
 
 
 def cameras(view: View, plan: Plan, scene: Scene) -> list[Note]:
-    """A wedge for each camera that does not look straight down."""
+    """Draw a wedge for each camera that does not look straight down."""
     x0, y0, x1, y1 = view.panel
     width, height = plan.recording_mode.size
     notes: list[Note] = []
@@ -33,7 +33,7 @@ def cameras(view: View, plan: Plan, scene: Scene) -> list[Note]:
         at = view.pixel(*eye) if eye is not None else None
         if at is None or not (x0 + INSET < at[0] < x1 - INSET and y0 + INSET < at[1] < y1 - INSET):
             at = _edge(view, back)
-        while any(math.dist(at, other) < 24 for other in taken):  # two that look the same way stand beside each other
+        while any(math.dist(at, other) < 24 for other in taken):  # cameras with one direction
             at = (at[0] - 26 * back[1], at[1] - 26 * back[0])
         taken.append(at)
         half = math.atan(width / height * math.tan(math.radians(row.fovy) / 2))
@@ -49,7 +49,7 @@ def cameras(view: View, plan: Plan, scene: Scene) -> list[Note]:
 
 
 def _pose(row: CameraRow, scene: Scene) -> tuple[tuple[float, float] | None, tuple[float, float]] | None:
-    """Where it stands from above (None: not yet known), and the unit vector from what it looks at to it."""
+    """(its place from above, None if not yet known; the unit vector from its target to it)."""
     from worldkit.cameras.views import VIEWS
 
     placed = next((camera for camera in scene.cameras if camera.name == row.name), None)
@@ -76,7 +76,7 @@ def _middle(scene: Scene) -> tuple[float, float]:
 
 
 def _edge(view: View, back: tuple[float, float]) -> Point:
-    """Where a ray from the middle of the panel meets its inner edge."""
+    """The point where a ray from the middle of the panel meets its inner edge."""
     x0, y0, x1, y1 = view.panel
     cx, cy = (x0 + x1) / 2, (y0 + y1) / 2
     reach = min(

@@ -1,11 +1,11 @@
-"""The whole sheet: title, the view from above and the one from the side (on one scale), and what is wrong."""
+"""Draw the whole sheet: title, views from above and from the side on one scale, and what is wrong."""
 
 import numpy as np
 
 from ...model.finding import Finding
-from ...model.imported import is_model
-from ...model.plan import Plan
-from ...model.scene import PlacedObject, Scene
+from ...model.plan.committed import Plan
+from ...model.plan.imported import is_model
+from ...model.plan.layout import PlacedObject, Scene
 from ..anchors import cos_sin
 from ..checks import flagged
 from ..extents import fixed_objects
@@ -17,15 +17,15 @@ from .canvas import Canvas, Colour, text_width
 from .families import stem
 from .labels import Note, Rect
 from .lenses import cameras
-from .mechanics import joints, start_pose, tendons, velocities
+from .movement import joints, start_pose, tendons, velocities
+from .panel import View, metres
 from .silhouettes import Silhouette, silhouette
-from .view import View, metres
 
 WIDTH = 1600
 _LEFT, _RIGHT, _HEAD, _BETWEEN = 76, 40, 138, 84
 _TALLEST = (900, 760)  # pixels: the two panels one above the other
 WIDE = 1.3
-"""Scenes that much wider (y) than deep (x) are seen from the front."""
+"""Scenes wider (y) than deep (x) by this factor are seen from the front."""
 _ROOM = 78  # pixels around the objects, for names
 
 
@@ -34,15 +34,15 @@ def sheet(plan: Plan, resolution: Resolution, findings: tuple[Finding, ...]) -> 
 
     Args:
         plan: the plan (titles, shapes, initial motion).
-        resolution: where everything is.
-        findings: what to mark: errors in red, warnings in amber.
+        resolution: the layout.
+        findings: they are marked, errors in red, warnings in amber.
     """
     scene = resolution.scene
     shapes = {o.name: silhouette(plan, o) for o in scene.objects}
     lines = _findings(findings, WIDTH - _LEFT - _RIGHT)
     low, high = _bounds(scene, plan)
     span = (high[0] - low[0], high[1] - low[1], high[2] - low[2])
-    across = 1 if span[1] > WIDE * span[0] else 0  # what runs across the second view: x from -Y, y from +X
+    across = 1 if span[1] > WIDE * span[0] else 0  # the axis across the second view: x from -Y, y from +X
     panels, scale = _panels((max(span[0], span[across]), span[1], span[2]))
     bottom = max(panel[3] for panel in panels)
     canvas = Canvas(WIDTH, round(bottom) + 88 + 24 * len(lines), palette.PAPER)
@@ -51,17 +51,17 @@ def sheet(plan: Plan, resolution: Resolution, findings: tuple[Finding, ...]) -> 
     side = View(canvas, panels[1], scale, (middle[across], middle[2]), (across, 2))
     marks = flagged(findings, [o.name for o in scene.objects])
     _head(canvas, plan, scene)
-    unnamed = _above(top, plan, scene, shapes, marks)
-    unnamed = max(unnamed, _beside(side, plan, scene, shapes, marks, resolution, across))
+    unnamed = _draw_top(top, plan, scene, shapes, marks)
+    unnamed = max(unnamed, _draw_side(side, plan, scene, shapes, marks, resolution, across))
     if unnamed:
         note = f"{unnamed} names left out for want of room"
         canvas.text(note, (WIDTH - _RIGHT - text_width(note, 14), _HEAD - 38), 14, palette.QUIET)
-    _foot(canvas, bottom + 62, lines, scene, plan)
+    _foot(canvas, bottom + 62, lines, plan)
     return canvas.png()
 
 
 def _panels(span: tuple[float, float, float]) -> tuple[tuple[Rect, Rect], float]:
-    """The two panels and their common scale: one above the other, or side by side when that shows things larger."""
+    """The two panels and their common scale: one above the other, or side by side if that shows things larger."""
     inner = WIDTH - _LEFT - _RIGHT
     stacked = min(
         (inner - 2 * _ROOM) / span[0],
@@ -80,7 +80,7 @@ def _panels(span: tuple[float, float, float]) -> tuple[tuple[Rect, Rect], float]
 
 
 def _bounds(scene: Scene, plan: Plan | None = None) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """The space to show: every object (with a plan, also where it starts), the ground, and never less than a few centimetres."""
+    """The space to show, m: every object (with a plan, also at its start), the ground, and at least a few centimetres."""
     boxes = [o.bounds() for o in scene.objects] or [((-0.5, -0.5, 0.0), (0.5, 0.5, 0.5))]
     if plan is not None:
         for name, motion in motions(plan, scene).items():
@@ -135,7 +135,7 @@ def _draw(
     *,
     fronts: bool = False,
 ) -> None:
-    """Draw objects one over the other."""
+    """Draw objects, the later ones over the earlier."""
     colours = _colours(plan, scene)
     for placed in items:
         fill, outline = colours[placed.name]
@@ -147,8 +147,8 @@ def _draw(
             _front(view, placed)
 
 
-def _above(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str]) -> int:
-    """The view from above, with fronts and initial motion."""
+def _draw_top(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str]) -> int:
+    """Draw the view from above, with fronts and initial motion."""
     view.paper("From above", ("x", "y"), ("front", "left"))
     order = sorted(scene.objects, key=lambda o: (o.bounds()[1][2], o.name))
     polygons = {name: s.top for name, s in shapes.items()}
@@ -162,7 +162,7 @@ def _above(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], 
 
 
 def _models(plan: Plan) -> dict[str, str]:
-    """What stands in the drawing as the box of a model of its own, by instance: its type, and its row where that differs."""
+    """Words for model files, which are drawn as boxes, by instance: the type, and the row if its name differs."""
     return {
         name: row.type if name == row.name else f"{row.type} {row.name}"
         for row in plan.assets
@@ -172,13 +172,13 @@ def _models(plan: Plan) -> dict[str, str]:
 
 
 def _mechanics(view: View, plan: Plan, scene: Scene) -> list[Note]:
-    """What moves and what holds, drawn over the objects."""
+    """Draw what moves and what holds over the objects."""
     start_pose(view, plan, scene)
     return [*tendons(view, plan, scene), *joints(view, plan, scene), *velocities(view, plan, scene)]
 
 
 def _front(view: View, placed: PlacedObject) -> None:
-    """An arrow to the middle of the object's front face."""
+    """Draw an arrow to the middle of the object's front face."""
     c, s = cos_sin(placed.deg_z)
     reach = placed.size[0] / 2
     length = min(max(0.5 * reach, 13 / view.scale), 30 / view.scale)
@@ -192,9 +192,9 @@ def _front(view: View, placed: PlacedObject) -> None:
     view.canvas.arrow(start, end, palette.TEXT, 1.6, 8)
 
 
-def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str],
+def _draw_side(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette], marks: dict[str, str],
             resolution: Resolution, across: int) -> int:  # fmt: skip
-    """The view from the right side (-Y) or the front (+X), with the ground and what will drop."""
+    """Draw the view from the right side (-Y) or the front (+X), with the ground and what will drop."""
     if across:
         view.paper("From the front (from +X)", ("y", "z"), ("left", "up"))
     else:
@@ -209,9 +209,9 @@ def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette],
     taken = [view.scale_bar()]
     notes = _mechanics(view, plan, scene)
     for row in resolution.statements:
-        drop = row.params.get("gap", 0.0) if row.code.startswith("PLACE-ON") else row.params.get("bottom", 0.0)
+        drop = row.params.get(row.entry.DROP, 0.0)
         loose = row.subject in shapes and not scene[row.subject].fixed
-        if drop and loose and (row.code != "HEIGHT" or row.reference == BASE):
+        if drop and loose and (row.entry.SUPPORTS or row.reference == BASE):
             taken += _drop(view, scene[row.subject], float(drop), across)
     boxes = {o.name: view.extent(polygons[o.name]) for o in order}
     for name, mark in marks.items():
@@ -220,7 +220,7 @@ def _beside(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette],
 
 
 def _drop(view: View, placed: PlacedObject, drop: float, across: int) -> list[Rect]:
-    """A dashed arrow from the lowest point to where the fall ends; returns the space its number takes."""
+    """Draw a dashed arrow from the lowest point to where the fall ends; returns the space of its number."""
     low = placed.bounds()[0][2]
     start, end = view.pixel(placed.position[across], low), view.pixel(placed.position[across], low - drop)
     if end[1] - start[1] < 14:
@@ -236,14 +236,14 @@ def _drop(view: View, placed: PlacedObject, drop: float, across: int) -> list[Re
 
 
 def _badge(view: View, box: Rect, mark: str) -> None:
-    """An exclamation mark at the corner of what is wrong."""
+    """Draw an exclamation mark at the corner of an object with a finding."""
     colour = palette.ERROR if mark == "error" else palette.WARNING
     view.canvas.dot((box[2], box[1]), 8.5, colour)
     view.canvas.text("!", (box[2] - 2, box[1] + 5), 15, palette.PANEL, 800)
 
 
 def _findings(findings: tuple[Finding, ...], width: int) -> list[tuple[str, Colour, int]]:
-    """Lines of text for what is marked: at most eight findings, wrapped."""
+    """Lines of text about what is marked: at most eight findings, wrapped."""
     told = sorted((f for f in findings if f.severity != "info"), key=lambda f: f.severity != "error")
     lines: list[tuple[str, Colour, int]] = []
     for finding in told[:8]:
@@ -263,7 +263,7 @@ def _findings(findings: tuple[Finding, ...], width: int) -> list[tuple[str, Colo
     return lines
 
 
-def _foot(canvas: Canvas, y: float, lines: list[tuple[str, Colour, int]], scene: Scene, plan: Plan) -> None:
+def _foot(canvas: Canvas, y: float, lines: list[tuple[str, Colour, int]], plan: Plan) -> None:
     if not lines:
         rows = len(plan.topology.scene_predicates) + len(plan.geometry_relations)
         canvas.text(f"No problems: all {rows} rows hold", (_LEFT, y), 15, palette.GOOD, 500)

@@ -1,7 +1,7 @@
-"""What an object looks like from above and from the side: convex polygons, in metres of the world.
+"""Outline an object from above and from the side: convex polygons, world frame, m.
 
 Assets are drawn by their collision pieces, so that a mug has its handle and a chair its back; primitives by their
-shape. Sideways means seen from -Y (x to the right, z up) or from +X (y to the right, z up).
+shape. The side is -Y (x to the right, z up) or +X (y to the right, z up).
 """
 
 from dataclasses import dataclass
@@ -11,8 +11,10 @@ from pathlib import Path
 import cv2
 import numpy as np
 
-from ...model.plan import Plan, SceneObject
-from ...model.scene import PlacedObject
+from worldkit.turning import matrices
+
+from ...model.plan.committed import Plan, SceneObject
+from ...model.plan.layout import PlacedObject
 from ..anchors import cos_sin
 from ..start import Motion
 
@@ -28,7 +30,7 @@ class Silhouette:
 
 
 def silhouette(plan: Plan, placed: PlacedObject, motion: Motion | None = None) -> Silhouette:
-    """The outlines of a placed object, or of where a motion takes it; its box when the catalog cannot be read."""
+    """The outlines of a placed object, also after a motion; those of its box if the catalog cannot be read."""
     row = next((row for row in plan.scene_objects if row.name == placed.name), None)
     clouds = primitive_clouds(row) if row is not None else _asset(placed)
     c, s = cos_sin(placed.deg_z)
@@ -53,6 +55,8 @@ def primitive_clouds(row: SceneObject) -> list[np.ndarray]:
     """The corners of a primitive, or of each part of a compound, after its tilt: (N, 3), around its centre, metres."""
     if row.parts:
         return [_solid(s.shape, s.half) @ np.array(s.rotation).T + np.array(s.centre) for s in row.whole().solids]
+    if row.formed:
+        return row.form().clouds()
     if not row.deg_x:
         return _primitive(row)
     c, s = cos_sin(row.deg_x)
@@ -128,25 +132,13 @@ def asset_clouds(key: str, height: float) -> list[np.ndarray]:
             radius = (piece.diameter or 0.0) / 2
             tall = piece.height is not None and piece.type in ("cylinder", "capsule")
             local = _tube(radius, radius, (piece.height or 0.0) / 2) if tall else _ball(radius, radius, radius)
-        clouds.append((local @ _rotation(piece.quat).T + np.asarray(piece.pos)) * scale)
+        clouds.append((local @ matrices(piece.quat).T + np.asarray(piece.pos)) * scale)
     return clouds
 
 
 @lru_cache(maxsize=2048)
 def _vertices(file: Path) -> np.ndarray:
-    """The vertices of a Wavefront mesh, (N, 3)."""
+    """(N, 3) vertices of a Wavefront mesh."""
     lines = file.read_text(encoding="utf-8", errors="replace").splitlines()
     rows = [line.split()[1:4] for line in lines if line.startswith("v ")]
     return np.asarray(rows, dtype=float).reshape(-1, 3)
-
-
-def _rotation(quat: tuple[float, float, float, float]) -> np.ndarray:
-    """Rotation matrix of a unit quaternion (w, x, y, z)."""
-    w, x, y, z = quat
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-        ]
-    )

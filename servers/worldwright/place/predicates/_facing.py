@@ -15,5 +15,5 @@ def derivation(symbol: str, heading: float, params: dict) -> Derivation:
 
 
 def holds(heading: float, subject: Box, params: dict) -> float:
-    """Tolerance minus the angle between the subject's front and the heading, degrees."""
+    """Return the tolerance minus the angle between the subject's front and the heading, degrees."""
     return TOLERANCE_DEG - abs(wrap(subject.get("yaw") - heading - params.get("turn_deg", 0.0)))

@@ -7,14 +7,14 @@ PARAMS = {"gap": Parameter("number", "metres between the two facing sides; omitt
 
 
 def pins(axis: str, params: dict) -> dict[str, tuple[str, ...]]:
-    """With a gap, one coordinate; without, nothing: the row is then a condition on what other rows set."""
+    """It sets one coordinate with a gap; without one, nothing: the row is then a condition on what other rows set."""
     if "gap" not in params:
         return {}
     return {axis: (f"reference.{axis}", "reference.extents", "self.extents")}
 
 
 def resolve(axis: str, side: int, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre on the positive (`side` 1) or negative (-1) side of the reference."""
+    """Compute the centre on the positive (`side` 1) or negative (-1) side of the reference."""
     half = (f"{subject.name}.half_{axis}", subject.half(axis))
     gap = ("gap", params["gap"])
     if side > 0:
@@ -24,7 +24,7 @@ def resolve(axis: str, side: int, subject: Box, reference: Box, params: dict) ->
 
 
 def holds(axis: str, side: int, subject: Box, reference: Box, params: dict) -> float:
-    """Tolerance minus the error of the gap; without a gap, the free distance."""
+    """Return the tolerance minus the error of the gap; without a gap, the free distance."""
     near, far = (reference.high(axis), subject.low(axis)) if side > 0 else (subject.high(axis), reference.low(axis))
     free = far - near
     return TOLERANCE_M - abs(free - params["gap"]) if "gap" in params else free + TOLERANCE_M

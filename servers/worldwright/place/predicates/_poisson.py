@@ -1,4 +1,4 @@
-"""Poisson-disk sampling of a region of the plane: places no nearer to each other than r, and no room left for another.
+"""Sample a region of the plane by Poisson disks: no two places nearer than r, and no room left for another.
 
 Source: R. Bridson, "Fast Poisson disk sampling in arbitrary dimensions", SIGGRAPH 2007: a grid of cells of side r / sqrt(2)
 holds at most one sample each; around a random active sample up to 30 candidates are tried between r and 2 r away. Python's
@@ -13,9 +13,9 @@ from ..anchors import Surface
 
 TRIES = 30
 STARTS = 2000
-"""Tries for a first place in each pass: a region may be cut into separate free parts."""
+"""Each pass tries so often to find a first place, as a region may be cut into separate free parts."""
 MOST = 20_000
-"""Places, at most: no plan has more objects than that."""
+"""The most places that are drawn: no plan has more objects."""
 
 
 def places(area: Surface, apart_m: float, seed: int, fits: Callable[[float, float], bool]) -> list[tuple[float, float]]:
@@ -24,8 +24,8 @@ def places(area: Surface, apart_m: float, seed: int, fits: Callable[[float, floa
     Args:
         area: the region; its rectangle is sampled, `fits` decides.
         apart_m: least distance between two places.
-        seed: of the draw.
-        fits: whether something can be there.
+        seed: the seed of the draw.
+        fits: tells whether something can be at a place.
     """
     random = Random(seed)
     cell = apart_m / math.sqrt(2)

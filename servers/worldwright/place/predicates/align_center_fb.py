@@ -24,15 +24,15 @@ BAD = (Case({"size": (0.4, 0.6, 1), "yaw": 0, "x": 0.6}, TABLE),)
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The x coordinate."""
+    """It sets the x coordinate."""
     return _aligned.pins("x", 0)
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The aligned centre."""
+    """Compute the aligned centre."""
     return _aligned.resolve("x", 0, subject, reference, params)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well the anchors meet, metres."""
+    """Measure how well the anchors meet, metres."""
     return _aligned.holds("x", 0, subject, reference, params)

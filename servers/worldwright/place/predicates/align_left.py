@@ -24,15 +24,15 @@ BAD = (Case({"size": (0.4, 0.6, 1), "yaw": 0, "y": 1.8}, TABLE),)
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The y coordinate."""
+    """It sets the y coordinate."""
     return _aligned.pins("y", 1)
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The aligned centre."""
+    """Compute the aligned centre."""
     return _aligned.resolve("y", 1, subject, reference, params)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well the anchors meet, metres."""
+    """Measure how well the anchors meet, metres."""
     return _aligned.holds("y", 1, subject, reference, params)

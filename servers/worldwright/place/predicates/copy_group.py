@@ -6,9 +6,10 @@
                   bottom = leader.bottom + original.bottom - reference.bottom
                   deg_z = original.deg_z + leader.deg_z - reference.deg_z
 
-The object of the row is the leader of the first group (see GROUP), the subject leads the copy and `members` are its other objects,
-in the order of the originals and of the same sizes. `offset` [dx, dy] (world axes, metres) and `turn_deg` place the new leader
-relative to the old one; without `offset` the leader has rows of its own (a plate at another seat) and the members follow it.
+The object of the row is the leader of the first group (see GROUP), the subject leads the copy and `members` are its
+other objects, in the order of the originals and of the same sizes. `offset` [dx, dy] (world axes, metres) and `turn_deg`
+place the new leader relative to the old one; without `offset` the leader has rows of its own (a plate at another seat)
+and the members follow it.
 Source: paper, predicate algebra, grouping (the excerpt is silent on parameters; these are ours).
 """
 
@@ -25,6 +26,7 @@ PARAMS = {
     "turn_deg": Parameter("number", "yaw of the new leader on top of the old one's, degrees; omitted: 0"),
 }
 UNIT = "m"
+GROUPS = COPIES = True
 PLATE = {"name": "plate", "size": (0.3, 0.3, 0.02), "x": 1.0, "y": 0.0, "z": 0.76, "yaw": 0}
 FORK = {"name": "fork", "size": (0.2, 0.02, 0.04), "x": 1.1, "y": 0.2, "z": 0.77, "yaw": 10}
 SECOND = {"name": "second", "size": (0.3, 0.3, 0.02), "x": 3.0, "y": 0.0, "z": 0.86, "yaw": 90}
@@ -52,7 +54,7 @@ BAD = (
 
 
 def expand(row: Expansion) -> list[tuple[str, dict]]:
-    """The leader, when it is placed here, and every member."""
+    """Expand to the leader, if this row places it, and every member."""
     originals = row.groups.get(str(row.reference))
     if originals is None:
         raise CannotResolveError(
@@ -88,7 +90,7 @@ def expand(row: Expansion) -> list[tuple[str, dict]]:
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The whole pose."""
+    """It sets the whole pose."""
     if "offset" in params:
         return {dof: (f"reference.{dof}",) for dof in ("x", "y", "z", "yaw")}
     plane = ("original.x", "original.y", "reference.x", "reference.y", "reference.yaw", "leader.yaw")
@@ -119,7 +121,7 @@ def _pose(dof: str, subject: Box, reference: Box, params: dict) -> float:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The copied coordinate."""
+    """Compute the copied coordinate."""
     value = _pose(dof, subject, reference, params)
     if "offset" in params:
         if dof == "yaw":
@@ -147,14 +149,14 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def _angle(value: float, first: tuple[str, float], second: tuple[str, float]) -> Derivation:
-    """A sum of two angles, told within (-180, 180]."""
+    """Derive a sum of two angles within (-180, 180]."""
     formula = total("deg_z", first, second).formula
     again = "" if formula.endswith(f" = {shown(value)}") else f" = {shown(value)}"
     return Derivation(value, formula + again)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """Tolerance minus the distance from the copied pose, metres; a degree too much counts as a tolerance."""
+    """Return the tolerance minus the distance from the copied pose, metres; a degree too much counts as a tolerance."""
     errors = [subject.get(dof) - _pose(dof, subject, reference, params) for dof in ("x", "y", "z")]
     turn = wrap(subject.get("yaw") - _pose("yaw", subject, reference, params))
     return TOLERANCE_M - max(*(abs(e) for e in errors), abs(turn) * TOLERANCE_M / TOLERANCE_DEG)

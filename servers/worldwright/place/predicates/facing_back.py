@@ -23,15 +23,15 @@ BAD = (Case({"size": (1, 1, 1), "yaw": 185.0}),)
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The yaw."""
+    """It sets the yaw."""
     return {"yaw": ()}
 
 
 def resolve(dof: str, subject: Box, reference: Box | None, params: dict) -> Derivation:
-    """The fixed heading, turned."""
+    """Compute the fixed heading, turned."""
     return _facing.derivation("heading of -X", HEADING, params)
 
 
 def holds(subject: Box, reference: Box | None, params: dict) -> float:
-    """How well the subject keeps the heading, degrees."""
+    """Measure how well the subject keeps the heading, degrees."""
     return _facing.holds(HEADING, subject, params)

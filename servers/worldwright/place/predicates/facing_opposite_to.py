@@ -23,15 +23,15 @@ BAD = (Case({"size": (1, 1, 1), "yaw": 30.0}, SOFA),)
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The yaw, from the reference's."""
+    """It sets the yaw, from the reference's."""
     return {"yaw": ("reference.yaw",)}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The heading opposite to the reference's, turned."""
+    """Compute the heading opposite to the reference's, turned."""
     return _facing.derivation(f"{reference.name}.deg_z + 180", wrap(reference.get("yaw") + 180), params)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well the two fronts are opposed, degrees."""
+    """Measure how well the two fronts are opposed, degrees."""
     return _facing.holds(reference.get("yaw") + 180, subject, params)

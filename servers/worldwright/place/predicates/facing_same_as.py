@@ -23,15 +23,15 @@ BAD = (Case({"size": (1, 1, 1), "yaw": 31.0}, SOFA),)
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The yaw, from the reference's."""
+    """It sets the yaw, from the reference's."""
     return {"yaw": ("reference.yaw",)}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The reference's heading, turned."""
+    """Compute the reference's heading, turned."""
     return _facing.derivation(f"{reference.name}.deg_z", reference.get("yaw"), params)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well the two fronts agree, degrees."""
+    """Measure how well the two fronts agree, degrees."""
     return _facing.holds(reference.get("yaw"), subject, params)

@@ -26,7 +26,7 @@ BAD = (Case({"size": (1, 1, 1), "x": 0.0, "y": 0.0, "yaw": 0.0}, TABLE),)
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The yaw, from both centres."""
+    """It sets the yaw, from both centres."""
     return {"yaw": ("self.x", "self.y", "reference.x", "reference.y")}
 
 
@@ -42,10 +42,10 @@ def heading(subject: Box, reference: Box) -> float:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The yaw that looks at the reference."""
+    """Compute the yaw that looks at the reference."""
     return _facing.derivation(f"heading to {reference.name}", heading(subject, reference), params)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well the subject looks at the reference, degrees."""
+    """Measure how well the subject looks at the reference, degrees."""
     return _facing.holds(heading(subject, reference), subject, params)

@@ -27,15 +27,15 @@ BAD = (
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The x coordinate, when `gap` is given."""
+    """It sets the x coordinate, when `gap` is given."""
     return _outside.pins("x", params)
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre beyond the reference's face."""
+    """Compute the centre beyond the reference's face."""
     return _outside.resolve("x", 1, subject, reference, params)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well the gap is kept, metres."""
+    """Measure how well the gap is kept, metres."""
     return _outside.holds("x", 1, subject, reference, params)

@@ -21,19 +21,20 @@ PARAMS = {
     "within": Parameter("number", "metres from the leader's centre to each member's, at most", 0.0),
 }
 UNIT = "m"
+GROUPS = True
 FORK = {"name": "fork", "size": (0.2, 0.02, 0.02), "x": 0.0, "y": 0.3, "z": 0.4, "yaw": 0}
 GOOD = (Case({"size": (0.3, 0.3, 0.02), "x": 0.0, "y": 0.0, "z": 0.0}, None, {"member": FORK, "within": 0.5}),)
 BAD = (Case({"size": (0.3, 0.3, 0.02), "x": 0.0, "y": 0.0, "z": 0.0}, None, {"member": FORK, "within": 0.4}),)
 
 
 def expand(row: Expansion) -> list[tuple[str, dict]]:
-    """One demand for each member."""
+    """Expand to one demand for each member."""
     within = {"within": row.params["within"]} if "within" in row.params else {}
     return [(row.subject, {"member": row.boxes[name], **within}) for name in row.params["members"]]
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """Nothing."""
+    """It sets nothing."""
     return {}
 
 
@@ -43,7 +44,7 @@ def resolve(dof: str, subject: Box, reference: Box | None, params: dict) -> Deri
 
 
 def holds(subject: Box, reference: Box | None, params: dict) -> float:
-    """How much nearer than demanded the member is; the tolerance when nothing is demanded."""
+    """Measure how much nearer than demanded the member is; the tolerance when nothing is demanded."""
     if "within" not in params:
         return TOLERANCE_M
     member: Box = params["member"]

@@ -23,6 +23,7 @@ PARAMS = {
     "extent": Parameter("number", "the vertical extent that the subject must have, metres", 0.0),
 }
 UNIT = "m"
+DROP = "bottom"
 SHELF = {"name": "shelf", "size": (1, 1, 0.2), "x": 0, "y": 0, "z": 1.0, "yaw": 0}
 GOOD = (
     Case({"size": (0.2, 0.2, 0.3)}, None, {"bottom": 1.8}, {"z": 1.95}),
@@ -38,7 +39,7 @@ _LEVELS = ("bottom", "center", "top")
 
 
 def refuse(params: dict) -> tuple[str, str] | None:
-    """One level at most, and something to say."""
+    """Refuse more than one level, and a row without any level or extent."""
     given = [name for name in _LEVELS if name in params]
     if len(given) > 1:
         return (f"it gives both {' and '.join(given)}", "keep one of them: each sets z")
@@ -48,12 +49,12 @@ def refuse(params: dict) -> tuple[str, str] | None:
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height, when a level is given."""
+    """It sets the height, when a level is given."""
     return {"z": ("reference.z",)} if any(name in params for name in _LEVELS) else {}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre's height."""
+    """Compute the centre's height."""
     name = next(level for level in _LEVELS if level in params)
     level = ("ground", 0.0) if reference.size[2] == 0 else (f"{reference.name}.max_z", reference.high("z"))
     half = (f"{subject.name}.half_z", subject.half("z"))
@@ -62,7 +63,7 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """Tolerance minus the largest error of level and extent."""
+    """Return the tolerance minus the largest error of level and extent."""
     errors = [subject.size[2] - params["extent"]] if "extent" in params else []
     for name, anchor in (("bottom", subject.low), ("center", subject.get), ("top", subject.high)):
         if name in params:

@@ -29,7 +29,7 @@ BAD = (Case({"size": (1, 1, 1), "x": 0.9, "y": 1.2, "yaw": -127.0}, TABLE),)
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The yaw, from both centres and the reference's yaw."""
+    """It sets the yaw, from both centres and the reference's yaw."""
     return {"yaw": ("self.x", "self.y", "reference.x", "reference.y", "reference.yaw")}
 
 
@@ -52,11 +52,11 @@ def heading(subject: Box, reference: Box) -> tuple[str, float]:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The yaw that looks at that side."""
+    """Compute the yaw that looks at that side."""
     side, value = heading(subject, reference)
     return _facing.derivation(f"facing the {side} side of {reference.name}", value, params)
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How squarely the subject looks at its side, degrees."""
+    """Measure how squarely the subject looks at its side, degrees."""
     return _facing.holds(heading(subject, reference)[1], subject, params)

@@ -1,13 +1,14 @@
-"""The subject is somewhere free on a surface; where, is drawn from a seed.
+"""The subject is at a free place on a surface, drawn from a seed.
 
     z = reference.min_z + surface.height + half_z
     (x, y) = a place of a Poisson-disk sample of the free area (Bridson 2007) with disk radius r = 2 R + spacing
 
-All subjects of one reference with the same params are drawn together: R is the largest of their circumscribed circles, so that none can
-touch another at any yaw, and `spacing` is the free distance between these circles. A place keeps its circle `margin` metres
-from the edge and clear of everything that other rows place there. `surface` names where on the reference (omitted: its default
-one); on the base, `area` [x, y] is the extents of the region in metres, around `center` [x, y] (omitted: its middle).
-`seed` omitted is the plan's own; names, not the order of rows, decide who gets which place.
+All subjects of one reference with the same params are drawn together: R is the largest of their circumscribed circles,
+so that none can touch another at any yaw, and `spacing` is the free distance between these circles. A place keeps its
+circle `margin` metres from the edge and clear of everything that other rows place there. `surface` names where on the
+reference (omitted: its default one); on the base, `area` [x, y] is the extents of the region in metres, around `center`
+[x, y] (omitted: its middle). `seed` omitted is the plan's own; names, not the order of rows, decide who gets which
+place.
 Source: paper, predicate algebra, special (the excerpt is silent on parameters; these are ours).
 """
 
@@ -51,12 +52,12 @@ BAD = (
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """All three coordinates."""
+    """It sets all three coordinates."""
     return {"x": ("reference.x", "reference.yaw"), "y": ("reference.y", "reference.yaw"), "z": ("reference.z",)}
 
 
 def radius(box: Box) -> float:
-    """Of the circle around the footprint at any yaw, metres."""
+    """The radius of the circle around the footprint at any yaw, metres."""
     sx, sy, _ = box.size
     return max(sx, sy) / 2 if box.round else math.hypot(sx, sy) / 2
 
@@ -77,7 +78,7 @@ def region(reference: Box, params: dict) -> Surface:
 
 
 def sample(subjects: list[Box], reference: Box, params: dict, obstacles: list[Box]) -> list[tuple[float, float]]:
-    """A place for each subject, world frame, clear of the obstacles."""
+    """Draw a place for each subject, world frame, m, clear of the obstacles."""
     area = region(reference, params)
     plane = reference.low("z") + area.height_m
     reach = max(radius(box) for box in subjects)
@@ -118,7 +119,7 @@ def away(x: float, y: float, box: Box) -> float:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The drawn place, and the height of the surface."""
+    """Compute the drawn place, and the height of the surface."""
     if dof == "z":
         area = region(reference, params) if "spot" not in params else reference.surface(params.get("surface"))
         plane = reference.low("z") + area.height_m
@@ -129,7 +130,7 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """The smallest of: the place drawn, the distance to the edge, and to the others drawn with it; metres."""
+    """Return the smallest of: the place drawn, the distance to the edge, and to the others drawn with it; metres."""
     area, reach = region(reference, params), radius(subject)
     x, y = reference.to_own(subject.get("x"), subject.get("y"))
     spot = params["spot"]

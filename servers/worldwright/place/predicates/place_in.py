@@ -24,7 +24,9 @@ PARAMS = {
     "headroom": Parameter("number", "metres from the top to the rim, at least; omitted: it may look out", 0.0),
 }
 UNIT = "m"
+INSIDE = True
 SUPPORTS = True
+DROP = "gap"
 
 
 def _bin(name: str | None) -> Surface:
@@ -59,13 +61,13 @@ def inside(reference: Box) -> Surface:
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height always; x and y when `offset` is given."""
+    """It sets the height always; x and y when `offset` is given."""
     plane = {a: (f"reference.{a}", "reference.yaw") for a in ("x", "y")} if "offset" in params else {}
     return {"z": ("reference.z",), **plane}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre of something that lies on the inner floor."""
+    """Compute the centre of something that lies on the inner floor."""
     floor = inside(reference)
     if dof == "z":
         terms = [(f"{reference.name}.inside.floor", reference.low("z") + floor.height_m)]
@@ -88,7 +90,7 @@ def free(subject: Box, reference: Box, floor: Surface) -> float:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """The smallest of: height, distance to the walls beyond `clearance`, room below the rim, offset; metres."""
+    """Return the smallest of: height, distance to the walls beyond `clearance`, room below the rim, offset; metres."""
     floor = inside(reference)
     level = reference.low("z") + floor.height_m
     margins = [

@@ -24,6 +24,8 @@ PARAMS = {
 }
 UNIT = "m"
 SUPPORTS = True
+DROP = "gap"
+OTHERWISE = "across two supports: bridge_between_a_and_b, or HEIGHT"
 
 
 def _tray(name: str | None) -> Surface:
@@ -44,7 +46,7 @@ BAD = (
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height always; x and y when `offset` is given."""
+    """It sets the height always; x and y when `offset` is given."""
     if "offset" not in params:
         return {"z": ("reference.z",)}
     return {"z": ("reference.z",), "x": ("reference.x", "reference.yaw"), "y": ("reference.y", "reference.yaw")}
@@ -59,7 +61,7 @@ def _surface(reference: Box, params: dict) -> Surface:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre of something that rests on the surface."""
+    """Compute the centre of something that rests on the surface."""
     surface = _surface(reference, params)
     if dof == "z":
         terms = [(f"{reference.name}.{surface.name}", reference.low("z") + surface.height_m)]
@@ -73,7 +75,7 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """The smaller of: tolerance minus the error of the contact, and how far the centre is inside the surface."""
+    """Return the smaller of: tolerance minus the error of the contact, and how far the centre is inside the surface."""
     surface = _surface(reference, params)
     plane = reference.low("z") + surface.height_m
     x, y = reference.to_own(subject.get("x"), subject.get("y"))

@@ -20,6 +20,8 @@ PARAMS = {
     "gap": Parameter("number", "metres between the ground and the lowest point; omitted: 0, in contact", 0.0),
 }
 UNIT = "m"
+SUPPORTS = True
+DROP = "gap"
 GOOD = (
     Case({"size": (1, 1, 0.8)}, None, {"x": 1.5, "y": -2.0}, {"x": 1.5, "y": -2.0, "z": 0.4}),
     Case({"size": (1, 1, 0.8)}, None, {"gap": 0.1}, {"z": 0.5}),
@@ -31,12 +33,12 @@ BAD = (
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height always; x and y when they are given."""
+    """It sets the height always; x and y when they are given."""
     return {"z": (), **{axis: () for axis in ("x", "y") if axis in params}}
 
 
 def resolve(dof: str, subject: Box, reference: Box | None, params: dict) -> Derivation:
-    """The centre of something that stands on z = 0."""
+    """Compute the centre of something that stands on z = 0."""
     if dof != "z":
         return total(dof, (f"params.{dof}", params[dof]))
     terms = [("ground", 0.0), (f"{subject.name}.half_z", subject.half("z"))]
@@ -46,7 +48,7 @@ def resolve(dof: str, subject: Box, reference: Box | None, params: dict) -> Deri
 
 
 def holds(subject: Box, reference: Box | None, params: dict) -> float:
-    """Tolerance minus the largest error of height, x and y."""
+    """Return the tolerance minus the largest error of height, x and y."""
     errors = [subject.low("z") - params.get("gap", 0.0)]
     errors += [subject.get(axis) - params[axis] for axis in ("x", "y") if axis in params]
     return TOLERANCE_M - max(abs(error) for error in errors)

@@ -2,8 +2,9 @@
 
     deg_z = min_deg + u (max_deg - min_deg), rounded to the nearest min_deg + k step_deg when `step_deg` is given
 
-u in [0, 1) is the first 64 bits of BLAKE2b of "`seed`:name" over 2^64: the same on every machine, in every order of the rows, and
-different for each subject. `min_deg` and `max_deg` bound the angle; `step_deg` must be above 0; `seed` omitted is the plan's own.
+u in [0, 1) is the first 64 bits of BLAKE2b of "`seed`:name" over 2^64: the same on every machine, in every order of the
+rows, and different for each subject. `min_deg` and `max_deg` bound the angle; `step_deg` must be above 0; `seed` omitted
+is the plan's own.
 Source: paper, predicate algebra, rotation-only (the excerpt is silent on parameters; these are ours).
 """
 
@@ -37,14 +38,14 @@ BAD = (Case({"size": (1, 1, 1), "yaw": 40.0}, None, {"min_deg": -10.0, "max_deg"
 
 
 def refuse(params: dict) -> tuple[str, str] | None:
-    """A range has an order."""
+    """Refuse a range whose ends are in the wrong order."""
     if params["max_deg"] < params["min_deg"]:
         return ("`max_deg` is below `min_deg`", "swap them")
     return None
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The yaw."""
+    """It sets the yaw."""
     return {"yaw": ()}
 
 
@@ -57,12 +58,12 @@ def _drawn(name: str, params: dict) -> float:
 
 
 def resolve(dof: str, subject: Box, reference: Box | None, params: dict) -> Derivation:
-    """The drawn yaw."""
+    """Compute the drawn yaw."""
     value = wrap(_drawn(subject.name, params))
     low, high = shown(params["min_deg"]), shown(params["max_deg"])
     return Derivation(value, f"deg_z = drawn from {low} to {high}, seed {params['seed']:g} = {shown(value)}")
 
 
 def holds(subject: Box, reference: Box | None, params: dict) -> float:
-    """Tolerance minus the angle between the subject's front and the drawn heading, degrees."""
+    """Return the tolerance minus the angle between the subject's front and the drawn heading, degrees."""
     return TOLERANCE_DEG - abs(wrap(subject.get("yaw") - _drawn(subject.name, params)))

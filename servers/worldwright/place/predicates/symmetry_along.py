@@ -4,8 +4,8 @@
     axis FB:    x = 2 reference.center_x - of.x        y = of.y
     axis both:  x = 2 reference.center_x - of.x        y = 2 reference.center_y - of.y
 
-`of` is the object that is mirrored, `axis` the direction that changes sign: LR (left and right, y), FB (front and back, x) or both
-(a half turn about the reference). Height and yaw are not set. Mirroring twice gives the original back.
+`of` is the object that is mirrored, `axis` the direction that changes sign: LR (left and right, y), FB (front and back,
+x) or both (a half turn about the reference). Height and yaw are not set. Mirroring twice gives the original back.
 Source: paper, predicate algebra, 2-D symmetry (the excerpt is silent on parameters; these are ours).
 """
 
@@ -35,13 +35,13 @@ _MIRRORED = {"LR": "y", "FB": "x", "both": "xy"}
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """Both coordinates of the plane."""
+    """It sets both coordinates of the plane."""
     mirrored = _MIRRORED[params["axis"]]
     return {a: (f"of.{a}", f"reference.{a}") if a in mirrored else (f"of.{a}",) for a in ("x", "y")}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The mirrored centre."""
+    """Compute the mirrored centre."""
     of: Box = params["of"]
     if dof not in _MIRRORED[params["axis"]]:
         return total(dof, (f"{of.name}.center_{dof}", of.get(dof)))
@@ -50,7 +50,7 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """Tolerance minus the distance from the mirror image."""
+    """Return the tolerance minus the distance from the mirror image."""
     of: Box = params["of"]
     errors = [
         subject.get(a) + of.get(a) - 2 * reference.get(a)

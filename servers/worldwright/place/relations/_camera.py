@@ -12,7 +12,7 @@ from ..anchors import TOLERANCE_DEG, TOLERANCE_M, Box, CannotResolveError, Deriv
 from ..parameters import Parameter
 
 SPARE = 1.1
-"""How much further away than where the box would touch the picture's edge."""
+"""A camera stands further away by this factor than where the box touches the picture's edge."""
 POINT = {"name": "camera", "size": (0.0, 0.0, 0.0)}
 PINS: dict[str, tuple[str, ...]] = {"x": (), "y": (), "z": (), "yaw": ("self.x", "self.y")}
 _LENS = {
@@ -55,20 +55,20 @@ def middle(box: Box) -> tuple[float, float, float]:
 
 
 def framing(half_across: float, half_up: float, params: dict) -> float:
-    """Distance from a flat face at which it fills the picture, with a tenth to spare."""
+    """The distance at which a flat face fills the picture with a tenth to spare, m."""
     right, up = tangents(params)
     return max(half_across / right, half_up / up) * SPARE
 
 
 def heading(subject: Box, target: tuple[float, float, float]) -> Derivation:
-    """The yaw towards the target; 0 when it is straight above or below."""
+    """Compute the yaw towards the target; 0 when it is straight above or below."""
     dx, dy = target[0] - subject.get("x"), target[1] - subject.get("y")
     value = math.degrees(math.atan2(dy, dx)) if math.hypot(dx, dy) > 1e-9 else 0.0
     return Derivation(value, f"deg_z = heading to the target = {shown(value)}")
 
 
 def side(axis: str, sign: int, dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """A camera outside one face of the reference's world AABB."""
+    """Place a camera outside one face of the reference's world AABB."""
     across = "y" if axis == "x" else "x"
     if dof == "yaw":
         return heading(subject, middle(reference))
@@ -109,7 +109,7 @@ def inner(reference: Box) -> Box:
 
 
 def inside(axis: str, sign: int, dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """A camera by one inner face."""
+    """Place a camera by one inner face."""
     room_ = inner(reference)
     if dof == "yaw":
         return heading(subject, middle(room_))
@@ -125,15 +125,15 @@ def inside(axis: str, sign: int, dof: str, subject: Box, reference: Box, params:
 
 
 def room(subject: Box, reference: Box) -> float:
-    """Distance to the nearest inner face; negative outside."""
+    """The distance to the nearest inner face, m; negative outside."""
     space = inner(reference)
     return TOLERANCE_M + min(min(subject.get(a) - space.low(a), space.high(a) - subject.get(a)) for a in "xyz")
 
 
 def margin(camera: Box, target: tuple[float, float, float], box: Box, params: dict) -> float:
-    """How far the world AABB's corner nearest to the picture's edge is inside it, degrees; negative outside.
+    """How far the corner of the world AABB that is nearest to the picture's edge is inside it, degrees; negative outside.
 
-    The angle of a corner from the viewing axis is taken in the plane of the picture's width and of its height apart.
+    The angle of a corner from the viewing axis is measured across the width and across the height of the picture.
     """
     right, up, forward = axes(middle(camera), target)
     tan_x, tan_y = tangents(params)
@@ -160,7 +160,7 @@ Vec3 = tuple[float, ...]
 
 
 def axes(eye: Vec3, target: Vec3) -> tuple[Vec3, Vec3, Vec3]:
-    """Right, up and forward of a camera that looks from `eye` at `target`; straight down has +X to the right."""
+    """(right, up, forward) of a camera that looks from `eye` at `target`; straight down, +X is to the right."""
     forward = tuple(t - e for t, e in zip(target, eye, strict=True))
     length = math.sqrt(_dot(forward, forward))
     if length < 1e-9:

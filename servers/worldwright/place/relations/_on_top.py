@@ -4,7 +4,7 @@ from ..anchors import TOLERANCE_M, Box, Derivation, shown, total
 
 
 def place(dof: str, subject: Box, reference: Box, gap: float, offset: tuple[float, float]) -> Derivation:
-    """The centre over the top face; `offset` runs along the reference's own axes."""
+    """Compute the centre over the top face; `offset` runs along the reference's own axes, m."""
     if dof == "z":
         terms = [(f"{reference.name}.max_z", reference.high("z"))]
         if gap:
@@ -17,7 +17,7 @@ def place(dof: str, subject: Box, reference: Box, gap: float, offset: tuple[floa
 
 
 def holds(subject: Box, reference: Box, gap: float, offset: tuple[float, float] | None) -> float:
-    """The smaller of: tolerance minus the error of height and offset, and how far the centre is over the top face."""
+    """Return the smaller of: tolerance minus the error of height and offset, and how far the centre is over the top face."""
     x, y = reference.to_own(subject.get("x"), subject.get("y"))
     margins = [TOLERANCE_M - abs(subject.low("z") - reference.high("z") - gap)]
     sx, sy, _ = reference.size

@@ -30,18 +30,18 @@ BAD = (Case({"size": (1, 1, 1), "x": 1, "y": 2, "z": 3.1, "yaw": 0}, None, {"pos
 
 
 def refuse(params: dict) -> tuple[str, str] | None:
-    """A base body needs its position."""
+    """Refuse a base body without a position."""
     return None if "position" in params else ("it needs `position`", "add `position: [x, y, z]`, the centre in metres")
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """All three coordinates, and the yaw when it is given."""
+    """It sets all three coordinates, and the yaw when it is given."""
     dofs = ("x", "y", "z", "yaw") if "deg_z" in params else ("x", "y", "z")
     return dict.fromkeys(dofs, ())
 
 
 def resolve(dof: str, subject: Box, reference: Box | None, params: dict) -> Derivation:
-    """The coordinate as given."""
+    """Compute the coordinate as given."""
     value = params["deg_z"] if dof == "yaw" else params["position"]["xyz".index(dof)]
     if dof == "z" and subject.floor_datum:
         return total("z", ("floor (absolute)", value), (f"{subject.name}.half_z", subject.half("z")))
@@ -49,7 +49,7 @@ def resolve(dof: str, subject: Box, reference: Box | None, params: dict) -> Deri
 
 
 def holds(subject: Box, reference: Box | None, params: dict) -> float:
-    """Tolerance minus the distance from the given centre."""
+    """Return the tolerance minus the distance from the given centre."""
     x, y, z = params["position"]
     given = (x, y, z - subject.written_shift)
     return TOLERANCE_M - max(abs(subject.get(axis) - given[i]) for i, axis in enumerate("xyz"))

@@ -54,14 +54,14 @@ BAD = (
 
 
 def refuse(params: dict) -> tuple[str, str] | None:
-    """Only what lies on top reaches over."""
+    """Refuse `overlap` unless the body lies on top."""
     if "overlap" in params and params.get("level") != "on_top":
         return ("`overlap` speaks of what lies on top", "add `level: on_top`, or remove `overlap`")
     return None
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The plane always; height with `level`, yaw with `long_axis`."""
+    """It sets the plane always; height with `level`, yaw with `long_axis`."""
     both = ("reference.x", "reference.y", "other.x", "other.y", "reference.extents", "other.extents")
     found: dict[str, tuple[str, ...]] = {"x": both, "y": both}
     if "level" in params:
@@ -72,7 +72,7 @@ def pins(params: dict) -> dict[str, tuple[str, ...]]:
 
 
 def _axis(reference: Box, other: Box) -> tuple[str, Box, Box]:
-    """The axis of the span, and the two in its order."""
+    """The axis of the span, and the two references in its order."""
     free = {a: max(other.low(a) - reference.high(a), reference.low(a) - other.high(a)) for a in ("x", "y")}
     axis = "x" if free["x"] >= free["y"] else "y"
     if free[axis] <= 0:
@@ -84,7 +84,7 @@ def _axis(reference: Box, other: Box) -> tuple[str, Box, Box]:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The middle of the span."""
+    """Compute the middle of the span."""
     other: Box = params["other"]
     axis, first, second = _axis(reference, other)
     if dof == "yaw":
@@ -110,7 +110,7 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How far it reaches over both, how closely it fits, or how far inside the span its centre is; metres."""
+    """Measure how far it reaches over both, how closely it fits, or how far inside the span its centre is; metres."""
     axis, first, second = _axis(reference, params["other"])
     reach = (first.high(axis) - subject.low(axis), subject.high(axis) - second.low(axis))
     level = params.get("level")

@@ -31,12 +31,12 @@ BAD = (Case({**_camera.POINT, "x": 1.0, "y": -2.0, "z": 0.5, "yaw": 90}, WHOLE, 
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """Position and heading."""
+    """It sets position and heading."""
     return _camera.PINS
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The point beside the scene."""
+    """Compute the point beside the scene."""
     return _camera.side("y", -1, dof, subject, reference, params)
 
 
@@ -46,5 +46,5 @@ def target(reference: Box, params: dict) -> tuple[float, float, float]:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How far the scene stays inside the frame, degrees."""
+    """Measure how far the scene stays inside the frame, degrees."""
     return _camera.margin(subject, target(reference, params), reference, params)

@@ -26,15 +26,15 @@ BAD = (
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """All three coordinates."""
+    """It sets all three coordinates."""
     return {"x": ("reference.x", "reference.yaw"), "y": ("reference.y", "reference.yaw"), "z": ("reference.z",)}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre over the reference's."""
+    """Compute the centre over the reference's."""
     return _on_top.place(dof, subject, reference, 0.0, (0.0, 0.0))
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well it rests in the middle, metres."""
+    """Measure how well it rests in the middle, metres."""
     return _on_top.holds(subject, reference, 0.0, (0.0, 0.0))

@@ -40,14 +40,14 @@ BAD = (
 
 
 def refuse(params: dict) -> tuple[str, str] | None:
-    """The surface is given once."""
+    """Refuse a surface that is given twice or not at all."""
     if ("level" in params) == ("depth" in params):
         return ("it must say where the surface is, once", "give `level` (world) or `depth` (above the inner floor)")
     return None
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height always; x and y when `offset` is given."""
+    """It sets the height always; x and y when `offset` is given."""
     plane = {a: (f"reference.{a}", "reference.yaw") for a in ("x", "y")} if "offset" in params else {}
     return {"z": ("reference.z",) if "depth" in params else (), **plane}
 
@@ -60,7 +60,7 @@ def _inside(reference: Box) -> Surface:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre of something whose bottom touches the surface."""
+    """Compute the centre of something whose bottom touches the surface."""
     inside = _inside(reference)
     half = (f"{subject.name}.half_z", subject.half("z"))
     if dof == "z" and "level" in params:
@@ -75,7 +75,7 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """The smaller of: tolerance minus the error of level and offset, and how far the centre is inside."""
+    """Return the smaller of: tolerance minus the error of level and offset, and how far the centre is inside."""
     inside = _inside(reference)
     level = params["level"] if "level" in params else reference.low("z") + inside.height_m + params["depth"]
     x, y = reference.to_own(subject.get("x"), subject.get("y"))

@@ -24,12 +24,12 @@ BAD = (Case({"size": (2.0, 0.6, 0.1), "x": 0, "y": 0, "z": 0.85, "yaw": 0}, PLAT
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height."""
+    """It sets the height."""
     return {"z": ("reference.z",)}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre below the level."""
+    """Compute the centre below the level."""
     terms = [(f"{reference.name}.max_z", reference.high("z"))]
     if "offset" in params:
         terms.append(("offset", params["offset"]))
@@ -37,5 +37,5 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """Tolerance minus the distance between the two levels."""
+    """Return the tolerance minus the distance between the two levels."""
     return TOLERANCE_M - abs(subject.high("z") - reference.high("z") - params.get("offset", 0.0))

@@ -2,10 +2,10 @@
 
     (x, y, z) = reference.center + distance (cos e cos a, cos e sin a, sin e)        deg_z = a + 180
 
-with a = `azimuth_deg` (where the camera stands, from +X towards +Y; omitted -45, front right) and e = `elevation_deg` above
-the horizon (omitted 24). `distance` is metres from the centre; omitted, the box's bounding sphere of radius r fills the smaller of the two fields of view:
-distance = 1.1 r / sin(fov / 2), from `fovy_deg` (vertical; the camera's own) and `aspect` (width over height; the
-recording's). Without a reference it frames the whole scene.
+with a = `azimuth_deg` (where the camera stands, from +X towards +Y; omitted -45, front right) and e = `elevation_deg`
+above the horizon (omitted 24). `distance` is metres from the centre; omitted, the box's bounding sphere of radius r
+fills the smaller of the two fields of view: distance = 1.1 r / sin(fov / 2), from `fovy_deg` (vertical; the camera's
+own) and `aspect` (width over height; the recording's). Without a reference it frames the whole scene.
 Source: paper, relation patterns, "Camera framing"; parameters are ours.
 """
 
@@ -46,12 +46,12 @@ BAD = (
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """Position and heading."""
+    """It sets position and heading."""
     return _camera.PINS
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The point in that direction."""
+    """Compute the point in that direction."""
     azimuth, elevation = params.get("azimuth_deg", -45.0), params.get("elevation_deg", 24.0)
     if dof == "yaw":
         value = wrap(azimuth + 180)
@@ -71,5 +71,5 @@ def target(reference: Box, params: dict) -> tuple[float, float, float]:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How far the reference stays inside the frame, degrees."""
+    """Measure how far the reference stays inside the frame, degrees."""
     return _camera.margin(subject, target(reference, params), reference, params)

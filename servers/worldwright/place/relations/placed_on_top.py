@@ -31,16 +31,16 @@ BAD = (
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height always; x and y when `offset` is given."""
+    """It sets the height always; x and y when `offset` is given."""
     plane = {a: (f"reference.{a}", "reference.yaw") for a in ("x", "y")} if "offset" in params else {}
     return {"z": ("reference.z",), **plane}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre of something that rests there."""
+    """Compute the centre of something that rests there."""
     return _on_top.place(dof, subject, reference, 0.0, params.get("offset", (0.0, 0.0)))
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well it rests, metres."""
+    """Measure how well it rests, metres."""
     return _on_top.holds(subject, reference, 0.0, params.get("offset"))

@@ -59,7 +59,7 @@ def _sides(params: dict) -> tuple[str, str, int]:
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The plane always; the height with `top`."""
+    """It sets the plane always; the height with `top`."""
     axis, across, _ = _sides(params)
     height = {"z": ("reference.z",)} if "top" in params else {}
     return {
@@ -80,7 +80,7 @@ def _level(reference: Box, params: dict) -> tuple[str, float]:
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre beside the wall."""
+    """Compute the centre beside the wall."""
     axis, _, sign = _sides(params)
     if dof == "z":
         return total("z", _level(reference, params), (f"-{subject.name}.half_z", subject.half("z")))
@@ -97,7 +97,7 @@ def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """Tolerance minus the largest error of contact, offset and level."""
+    """Return the tolerance minus the largest error of contact, offset and level."""
     axis, across, sign = _sides(params)
     touch = subject.low(axis) - reference.high(axis) if sign > 0 else reference.low(axis) - subject.high(axis)
     errors = [touch, subject.get(across) - reference.get(across) - params.get("offset", 0.0)]

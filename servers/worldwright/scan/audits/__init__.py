@@ -1,1 +1,1 @@
-"""The audits of truth: what acts and carries (`ledger`), what the time step decides (`refine`), what causes what (`causes`)."""
+"""The audits: what acts and carries (`acting`), what the time step decides (`refine`), what causes what (`causes`)."""

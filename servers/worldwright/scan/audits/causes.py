@@ -3,27 +3,27 @@
 For each objective with a `cause`: the physics pass is repeated without it, and its expectations must now fail (those that
 merely mention the cause are left out: a ball that is not there touches nothing). Then it is repeated with the cause at
 80 % and at 50 %: the moment of the effect, or what was measured, must move, or the effect must fail to come; one
-perturbation would not be enough, since a timer hides in the slack of one. Declared interventions are each switched off
-once, to say which claims live by them.
+perturbation would not be enough, since a timer hides in the slack of one. Each declared intervention is switched off
+once, which tells the claims that depend on it.
 """
 
 from dataclasses import dataclass, field
 from itertools import product
 
-from ...model.audits import Acting, CauseResult, CausesReport, HelperResult, Response
 from ...model.errors import NotFoundError
-from ...model.evidence import ExpectationResult, ExpectReport
+from ...model.evidence.audits import Acting, CauseResult, CausesReport, HelperResult, Response
+from ...model.evidence.reports import ExpectationResult, ExpectReport
 from ...model.finding import Anomaly, AnomalySeverity
-from ...model.plan import Plan
-from ...model.trajectory import Trajectory
-from .. import expecting
-from ..declared import mentioned
+from ...model.plan.committed import Plan
+from ...model.recording.trajectory import Trajectory
+from ..anomalies.declared import mentioned
+from ..objectives import expecting
 from . import moment, triggers
 from .trials import Trials, label_of
 
 WEAKER = (0.8, 0.5)
 TOGETHER = "+"
-"""Joins names that are one cause only together, such as the four lines of a tent."""
+"""It joins names that only together are one cause, such as the four lines of a tent."""
 MOST_HELPERS = 8
 RESPONDS = 1e-3
 """Relative change of a measured value that counts as a response."""
@@ -110,7 +110,7 @@ class Causes:
             return CauseResult(**facts, outcome="survives", message=message)
         asked = [label_of(_weaker(cause, factor)) for factor in WEAKER]
         made = [label for label in asked if label in self.trials.made]
-        # What never moves and carries no motor cannot be weaker: then the repetition is the same motion, bit for bit.
+        # A cause that never moves and has no motor cannot be weakened: the repetition is then the same motion, bit for bit.
         labels = [label for label in made if self.trials.made[label].sha256 != self.trajectory.sha256]
         answers = [[self._respond(label, self.trials.made[label], e) for e in effects] for label in labels]
         facts["weakened"] = tuple(r for row in answers for r in row)
@@ -129,7 +129,7 @@ class Causes:
         return CauseResult(**facts, outcome="caused", message=f"{vanishes}; weakened, {what}")
 
     def _effects(self, index: int, cause: str) -> tuple[ExpectationResult, ...]:
-        """The expectations that are the effect: those it names, else those that do not speak of the cause itself."""
+        """The expectations that measure the effect: those that `effect` names, else those that do not mention the cause."""
         objective, results = self.plan.objectives[index], self.expected.objectives[index].expectations
         named = tuple(e for e in results if e.name in objective.effect.replace(",", " ").split())
         if named:
@@ -154,7 +154,7 @@ class Causes:
         )
 
     def _moves(self, planned: tuple[Response, ...], answers: list[list[Response]]) -> tuple[bool, str]:
-        """Whether any weaker cause moved any effect: its moment where it has one, else what was measured of it."""
+        """Whether any weaker cause moved any effect: its moment if it has one, else its measured value."""
         still = []
         for row, (number, before) in product(answers, enumerate(planned)):
             after = row[number]
@@ -182,7 +182,7 @@ class Causes:
                 continue
             code, name, severity = codes[result.outcome]
             if result.outcome == "timed" and not any(r.event_s is not None for r in result.as_planned):
-                severity = "warn"  # a measure may saturate; a moment may not stand still
+                severity = "warn"  # a measured value may saturate, a moment must move
             times = [r.event_s for r in result.as_planned if r.event_s is not None]
             at = min(times, default=float(self.trajectory.t[-1]))
             message = f"objective {result.objective}: {result.message}"
@@ -197,7 +197,7 @@ class Causes:
     # -- one declared intervention -----------------------------------------------------------------------------------
 
     def _switch(self, row: Acting) -> str:
-        """How the program is told to leave an intervention out; a motor is switched off, asked or not."""
+        """The option that leaves an intervention out; it switches a motor off even if no control asks for it."""
         if row.kind == "control":
             known = [str(a["name"]) for a in self.trajectory.meta.get("actuators") or ()]
             name = next((n for n in known if row.target in (n, f"{row.body}/{n}")), row.target)
@@ -212,6 +212,6 @@ class Causes:
             return HelperResult(**facts, needed_by=(), message=f"it could not be switched off: {why}")
         after = expecting.expect(self.trials.made[label], self.plan)
         pairs = zip(self.expected.objectives, after.objectives, strict=True)
-        needed = tuple(one.index for one, other in pairs if one.status == "proved" and other.status != "proved")
+        needed = tuple(one.index for one, other in pairs if one.status == "proved" != other.status and not other.waits)
         said = f"objectives {', '.join(map(str, needed))} fail" if needed else "every objective holds all the same"
         return HelperResult(**facts, needed_by=needed, message=f"without the {row.kind} on {row.target}, {said}")

@@ -1,4 +1,4 @@
-"""The refinement audit: the same world at half the time step. What only holds at one of them is numerical.
+"""The refinement audit: repeat the world at half the time step. What holds at only one of the two steps is numerical.
 
 A finer step changes nothing that physics decides. Claims and blocking findings that differ are artefacts of the step: of
 contacts that are too stiff for it, of integration errors, or of a program that counts steps instead of seconds.
@@ -8,13 +8,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...model.audits import Claim, Drift, RefineReport
-from ...model.evidence import ScanReport
+from ...model.evidence.audits import Claim, Drift, RefineReport
+from ...model.evidence.reports import ScanReport
 from ...model.finding import Anomaly, AnomalySeverity
-from ...model.plan import Plan
-from ...model.trajectory import Trajectory
-from .. import engine, expecting
-from ..sign import Context
+from ...model.plan.committed import Plan
+from ...model.recording.trajectory import Trajectory
+from ..anomalies import engine
+from ..anomalies.sign import Context
+from ..objectives import expecting
 
 FACTOR = 0.5
 MOST_DRIFTS = 12
@@ -25,7 +26,7 @@ def refine(
 ) -> RefineReport:
     """Compare the recording with its repetition at a finer step.
 
-    `failed` says why there is none; `untested`, that it was a limit of time or memory, which is no fault of the world.
+    `failed` says why there is no repetition; `untested` that a limit of time or memory stopped it, no fault of the world.
     """
     window = (float(trajectory.t[0]), float(trajectory.t[-1]))
     step = trajectory.time_step
@@ -68,6 +69,8 @@ def _claims(trajectory: Trajectory, finer: Trajectory, plan: Plan) -> Iterator[C
     reports = expecting.expect(trajectory, plan), expecting.expect(finer, plan)
     for one, other in zip(*(report.objectives for report in reports), strict=True):
         for first, second in zip(one.expectations, other.expectations, strict=True):
+            if first.needs_stills or second.needs_stills:
+                continue  # no pictures are drawn of a repetition
             told = first.message if first.status == second.status else f"{first.message}; then: {second.message}"
             yield Claim(
                 objective=one.index,
@@ -95,7 +98,7 @@ def _findings(one: ScanReport, other: ScanReport) -> Iterator[Anomaly]:
 
 
 def drifts(trajectory: Trajectory, finer: Trajectory) -> Iterator[Drift]:
-    """How far the bodies and the energy part, the largest first."""
+    """How far bodies and energy of the two recordings part, the largest first."""
     rows = min(len(trajectory.t), len(finer.t))
     t = trajectory.t[:rows]
     found = []

@@ -1,19 +1,19 @@
-"""The audits of one run, as far as one call's time takes them; each is kept as evidence when it is whole."""
+"""Run the audits of one run as far as one call's time allows; each is kept as evidence when it is complete."""
 
 import time
 
-from ...model.audits import CausesReport, InterventionReport, RefineReport
-from ...model.evidence import EvidenceKey, ScanReport
+from ...model.evidence.audits import CausesReport, InterventionReport, RefineReport
+from ...model.evidence.reports import EvidenceKey, ScanReport
+from ...model.evidence.run import Run
 from ...model.frozen import Frozen
-from ...model.plan import Plan
+from ...model.plan.committed import Plan
 from ...model.progress import Progress, silent
-from ...model.run import Run
-from ...model.trajectory import Trajectory
-from ..sign import Context
-from . import ledger
+from ...model.recording.trajectory import Trajectory
+from ..anomalies.sign import Context
+from . import acting
 from .causes import Causes
 from .refine import FACTOR, refine
-from .trials import Trials, patience_s
+from .trials import Trials
 
 
 class Audited(Frozen):
@@ -22,7 +22,7 @@ class Audited(Frozen):
     refine: RefineReport | None = None
     causes: CausesReport | None = None
     pending: tuple[str, ...] = ()
-    """Repetitions of the physics pass that are still running: call again."""
+    """Repetitions of the physics pass that still run; another call goes on with them."""
 
 
 def audit(
@@ -37,9 +37,9 @@ def audit(
     timeout_s: float,
     progress: Progress = silent,
 ) -> Audited:
-    """Run the audits asked for; what is missing after `timeout_s` goes on by itself and is named as `pending`."""
+    """Run the audits asked for; what is not done after `timeout_s` goes on by itself and is named as `pending`."""
     deadline = time.monotonic() + timeout_s
-    trials = Trials(run, wall_s=patience_s(run, key), memory=run.evidence(key) / "trials.json")
+    trials = Trials(run, memory=run.evidence(key) / "trials.json")
     finer = trials.ask("--time-step-factor", f"{FACTOR:g}") if refined else ""
     causal = Causes(trajectory, plan, interventions.acting, trials) if causes else None
     if causal is not None:
@@ -65,6 +65,6 @@ def interventions(
     run: Run, key: EvidenceKey, plan: Plan, trajectory: Trajectory, report: ScanReport
 ) -> InterventionReport:
     """The ledger's tables, kept as evidence."""
-    found = ledger.report(trajectory, Context.of(plan), report.anomalies)
+    found = acting.report(trajectory, Context.of(plan), report.anomalies)
     run.keep(key, "interventions", found)
     return found

@@ -1,4 +1,4 @@
-"""Repeating the physics pass with something changed, as often as an audit asks, a few at a time, within one call's time."""
+"""Repeat the physics pass with something changed, as often as an audit asks, a few at a time, within one call's time."""
 
 import hashlib
 import json
@@ -10,18 +10,16 @@ from typing import Any
 
 from worldkit.files import write_json
 
-from ...model.audits import Trial
 from ...model.errors import JobError, NotFoundError
-from ...model.evidence import EvidenceKey
+from ...model.evidence.audits import Trial
+from ...model.evidence.run import Run
 from ...model.progress import Progress, silent
-from ...model.run import Run
-from ...model.trajectory import Trajectory
+from ...model.recording.trajectory import Trajectory
+from ...model.recording.trajectory_files import read_trajectory
 
 AT_ONCE = 2
 POLL_S = 0.2
 LIMITS = ("timed_out", "out_of_memory", "too_much_output", "killed", "cancelled")
-SLOWER, SPARE_S = 4.0, 120.0
-"""A repetition may take so many times as long as the physics pass, and this much more."""
 
 
 @dataclass
@@ -34,14 +32,12 @@ class Trials:
     made: dict[str, Trajectory] = field(default_factory=dict)
     failed: dict[str, str] = field(default_factory=dict)
     limited: set[str] = field(default_factory=set)
-    """Labels that failed by a limit of time or memory, or were cancelled: that says nothing about the world."""
-    wall_s: float | None = None
-    """Wall-clock limit of one repetition; None: the physics pass's own."""
+    """Labels that a limit of time or memory stopped, or that were cancelled, which says nothing about the world."""
     memory: Path | None = None
-    """Where jobs under way are remembered from one call to the next, so that one that fails meanwhile is not restarted
-    for ever; None: nowhere."""
+    """The file that remembers jobs under way from one call to the next, so that a failing one is not restarted for ever;
+    None: nothing is remembered."""
     jobs: dict[str, str] = field(default_factory=dict)
-    """Job by label, while it is under way."""
+    """The jobs under way, by label."""
 
     def __post_init__(self) -> None:
         if self.memory is not None and self.memory.is_file():
@@ -62,7 +58,7 @@ class Trials:
         return tuple(label for label in self.words if label not in self.made and label not in self.failed)
 
     def collect(self, timeout_s: float, progress: Progress = silent) -> bool:
-        """Start what is missing and wait for it; tells whether everything is there. Call again to go on."""
+        """Start what is missing and wait for it; returns whether everything is done. Another call goes on."""
         from ...stage.tools import variant_folder
 
         deadline = time.monotonic() + timeout_s
@@ -82,7 +78,7 @@ class Trials:
                 folder = variant_folder(self.run, variant_name(label)) if status.state == "succeeded" else None
                 if folder is not None:
                     self._forget(label)
-                    self.made[label] = Trajectory.read(folder / "trajectory")
+                    self.made[label] = read_trajectory(folder / "trajectory")
                     continue
                 if status.code in LIMITS:
                     self.limited.add(label)
@@ -92,7 +88,7 @@ class Trials:
             done = len(self.words) - len(self.pending)
             progress(done, len(self.words), f"{done} of {len(self.words)} repetitions")
             if not self.pending:
-                for label in self.failed:  # told now; asked again, they are tried again
+                for label in self.failed:  # they are reported now, and tried again when somebody asks again
                     self._forget(label)
                 return True
             if time.monotonic() >= deadline:
@@ -100,7 +96,7 @@ class Trials:
             time.sleep(POLL_S)
 
     def _status(self, label: str) -> Any:
-        """Where a repetition stands; it is started when it was not."""
+        """The state of a repetition, which is started if it was not."""
         from ...stage.tools import run_variant, wait
 
         if label in self.jobs:
@@ -108,7 +104,7 @@ class Trials:
                 return wait(str(self.run.folder), job=self.jobs[label], timeout_s=0)
             except NotFoundError:  # its folder was cleared away
                 self._forget(label)
-        status = run_variant(self.run, variant_name(label), self.words[label], wall_s=self.wall_s, timeout_s=0)
+        status = run_variant(self.run, variant_name(label), self.words[label], timeout_s=0)
         if not status.ended:
             self.jobs[label] = status.job
             self._remember()
@@ -129,17 +125,8 @@ class Trials:
         return tuple(Trial(label=label, **facts.get(label, {})) for label in self.words)
 
 
-def patience_s(run: Run, key: EvidenceKey) -> float:
-    """How long one repetition may take, s, from how long the physics pass took."""
-    try:
-        result = json.loads((run.evidence(key) / "physics" / "result.json").read_text(encoding="utf-8"))
-        return SLOWER * float(result["wall_s"]) + SPARE_S
-    except (OSError, ValueError, KeyError, TypeError):
-        return SPARE_S
-
-
 def label_of(words: tuple[str, ...]) -> str:
-    """What a repetition is called, from the program's options: `without foot`."""
+    """The label of a repetition, from the program's options: `without foot`."""
     return " ".join(word.removeprefix("--") for word in words)
 
 

@@ -1,7 +1,7 @@
-"""Whether what a program does at some moment is set off by something that happens in the world, or by the clock.
+"""Tell whether an event in the world or the clock sets off what a program does at some moment.
 
-Every world is repeated slightly slower (weaker gravity, slower initial motion, weaker causes). A consequence comes later
-then, or not at all; what comes at the same instant again was timed. A launch whose moment moves but whose speed never
+The world is repeated slightly slower (weaker gravity, slower initial motion, weaker causes). A consequence then comes
+later, or not at all; what comes at the same instant again was timed. A launch whose moment moves but whose speed never
 does was fitted, not computed.
 """
 
@@ -9,17 +9,17 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
-from ...model.audits import Acting, TriggerResult
+from ...model.evidence.audits import Acting, TriggerResult
 from ...model.finding import Anomaly
-from ...model.plan import Plan
-from ...model.trajectory import Trajectory
+from ...model.plan.committed import Plan
+from ...model.recording.trajectory import Trajectory
 
 SLOWER = (0.9, 0.7)
-"""Shares of gravity and of the initial speeds that are left."""
+"""Gravity and initial speeds are scaled by these shares."""
 MOST = 12
 STATES = ("pose", "velocity")
 SAME = 1e-6
-"""Relative difference of written values below which they are the same."""
+"""Written values whose relative difference is smaller are the same."""
 
 
 def slower(plan: Plan, trajectory: Trajectory, factor: float) -> tuple[str, ...]:
@@ -37,12 +37,12 @@ def slower(plan: Plan, trajectory: Trajectory, factor: float) -> tuple[str, ...]
 
 
 def discrete(acting: tuple[Acting, ...], step: float) -> list[Acting]:
-    """Interventions that begin on the way, rather than at the start."""
-    return [row for row in acting if row.first_s > 2.5 * step and row.kind != "callback"][:MOST]
+    """The interventions that begin on the way, not at the start."""
+    return [row for row in acting if row.first_s > 2.5 * step][:MOST]
 
 
 def judge(trajectory: Trajectory, row: Acting, trials: Mapping[str, Trajectory]) -> TriggerResult:
-    """One intervention in all repetitions that differ from the original before it acted."""
+    """Judge one intervention by all repetitions that differ from the original before it acted."""
     step = trajectory.time_step or trajectory.interval_s
     onsets = {label: _onset(other, row) for label, other in trials.items() if _differs(trajectory, other, row.first_s)}
     moved = {k: v for k, v in onsets.items() if v is None or abs(v - row.first_s) > 1.5 * step}
@@ -122,7 +122,7 @@ def _values(trajectory: Trajectory, row: Acting) -> np.ndarray:
 
 
 def _differs(one: Trajectory, other: Trajectory, until_s: float) -> bool:
-    """Whether the two worlds have parted before that instant."""
+    """Whether the two worlds part before that instant."""
     rows = max(1, min(len(other.t), int(np.searchsorted(one.t, until_s - 1e-9))))
     return bool(
         np.abs(one.pos[:rows] - other.pos[:rows]).max(initial=0.0) > 1e-12

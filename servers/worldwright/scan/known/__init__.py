@@ -1,1 +1,1 @@
-"""More motions with known answers, by topic: the cases of expectations. `..analytic` holds those that all share."""
+"""Motions with known answers, by topic: the cases of expectations. `analytic` holds those that all share."""

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ...model.trajectory import Trajectory
-from ..analytic import Touch, clock, motion
+from ...model.recording.trajectory import Trajectory
+from .analytic import Touch, clock, motion
 
 Array = np.ndarray
 
@@ -13,7 +13,7 @@ Array = np.ndarray
 def floating(
     share: float = 0.6, surface: float = 1.0, size: float = 0.2, start: float = 0.3, seconds: float = 6.0, **more: Any
 ) -> Trajectory:
-    """A box that bobs and comes to float with `share` of its volume under the surface, let go `start` above that.
+    """A box that bobs and comes to float with `share` of its volume under the surface, released `start` above that height.
 
     z = surface + (1/2 - share) size + start exp(-2 t) cos(6 t). Source: Archimedes; the damped oscillator.
     """
@@ -52,3 +52,20 @@ def crowd(
     names = tuple(f"grain_{k}" for k in range(len(flat)))
     touches: list[Touch] = [(-1, k, np.ones(len(t), dtype=bool), 1e-5, 0.01) for k in range(len(flat))]
     return motion(t, pos, vel, names=names, size_m=0.02, touches=touches, **more)
+
+
+def stream(
+    per_s: float = 20.0, seconds: float = 2.0, pause_s: tuple[float, float] = (0.0, 0.0), **more: Any
+) -> Trajectory:
+    """Grains `drop_0` … of 10 g that come down at 1 m/s, one after the other at `per_s`, none within `pause_s`.
+
+    Drop k passes z = 0 at (k + 1/2) / per_s. Source: kinematics.
+    """
+    t = clock(seconds)
+    moments = (np.arange(int(per_s * seconds)) + 0.5) / per_s
+    moments = moments[(moments < pause_s[0]) | (moments > pause_s[1])]
+    pos = np.zeros((len(t), len(moments), 3))
+    pos[:, :, 2] = moments - t[:, None]
+    vel = np.tile((0.0, 0.0, -1.0), (len(t), len(moments), 1))
+    names = tuple(f"drop_{k}" for k in range(len(moments)))
+    return motion(t, pos, vel, names=names, size_m=0.01, mass=0.01, ground_z=None, **more)

@@ -4,9 +4,9 @@ from typing import Any
 
 import numpy as np
 
-from ...model.closed_forms import rolling_acceleration, slope_acceleration
-from ...model.trajectory import Trajectory
-from ..analytic import DT, G, Touch, clock, motion
+from ...model.recording.closed_forms import rolling_acceleration, slope_acceleration
+from ...model.recording.trajectory import Trajectory
+from .analytic import DT, G, Touch, clock, motion
 
 
 def thrown(
@@ -76,7 +76,7 @@ def drifting(terminal: float = 2.0, seconds: float = 2.0, height: float = 10.0, 
 
 
 def two(first: Trajectory, second: Trajectory, names: tuple[str, str] = ("a", "b")) -> Trajectory:
-    """Two bodies that know nothing of each other: the first body of each recording, side by side, 10 m apart."""
+    """Two independent bodies: the first body of each recording, side by side, 10 m apart."""
     rows = min(len(first.t), len(second.t))
     both = [part.before(rows) for part in (first, second)]
     shift = np.array([[0.0, 0.0, 0.0], [0.0, 10.0, 0.0]])

@@ -4,8 +4,8 @@ from typing import Any
 
 import numpy as np
 
-from ...model.trajectory import Trajectory
-from ..analytic import G, clock, motion
+from ...model.recording.trajectory import Trajectory
+from .analytic import G, clock, motion
 
 
 def released(

@@ -4,28 +4,10 @@ from typing import Any
 
 import numpy as np
 
-from ...model.trajectory import Trajectory
-from ..analytic import G, clock, motion
+from worldkit.turning import about, product
 
-
-def about(angle: np.ndarray, axis: tuple[float, float, float]) -> np.ndarray:
-    """(T, 4) quaternions wxyz of turns by `angle` (T,) rad about a unit axis."""
-    half = np.asarray(angle) / 2
-    return np.column_stack([np.cos(half), np.sin(half)[:, None] * np.asarray(axis)])
-
-
-def product(left: np.ndarray, right: np.ndarray) -> np.ndarray:
-    """(T, 4) Hamilton products of quaternions wxyz: first `right`, then `left`."""
-    w1, x1, y1, z1 = left.T
-    w2, x2, y2, z2 = right.T
-    return np.column_stack(
-        [
-            w1 * w2 - x1 * x2 - y1 * y2 - z1 * z2,
-            w1 * x2 + x1 * w2 + y1 * z2 - z1 * y2,
-            w1 * y2 - x1 * z2 + y1 * w2 + z1 * x2,
-            w1 * z2 + x1 * y2 - y1 * x2 + z1 * w2,
-        ]
-    )
+from ...model.recording.trajectory import Trajectory
+from .analytic import G, clock, motion
 
 
 def spinning(rate: float = 10.0, slowing: float = 0.0, seconds: float = 2.0, **more: Any) -> Trajectory:
@@ -36,7 +18,7 @@ def spinning(rate: float = 10.0, slowing: float = 0.0, seconds: float = 2.0, **m
     spin = np.stack([0 * t, 0 * t, rate - slowing * s], axis=1)
     pos = np.tile((0.0, 0.0, 0.05), (len(t), 1))
     return motion(
-        t, pos, np.zeros_like(pos), quat=about(angle, (0, 0, 1))[:, None], angvel=spin[:, None], gravity=0.0, **more
+        t, pos, np.zeros_like(pos), quat=about((0, 0, 1), angle)[:, None], angvel=spin[:, None], gravity=0.0, **more
     )
 
 
@@ -53,8 +35,8 @@ def precessing(
     tilt = np.radians(tilt_deg)
     axis = np.stack([np.sin(tilt) * np.cos(rate * t), np.sin(tilt) * np.sin(rate * t), 0 * t + np.cos(tilt)], axis=1)
     own = spin - rate * np.cos(tilt)  # so that the whole angular velocity has the component `spin` along the axis
-    turn = product(about(rate * t, (0, 0, 1)), about(np.full(len(t), tilt), (0, 1, 0)))
-    quat = product(turn, about(own * t, (0, 0, 1)))
+    turn = product(about((0, 0, 1), rate * t), about((0, 1, 0), tilt))
+    quat = product(turn, about((0, 0, 1), own * t))
     angvel = own * axis + np.array([0.0, 0.0, rate])
     pos = np.array([0.0, 0.0, 1.0]) + arm * axis
     vel = arm * np.cross(angvel, axis)

@@ -1,13 +1,14 @@
 """Joints, tendons, constraints and chains: recordings with generalised coordinates and loads."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from ...model.coordinates import Coordinates
-from ...model.loads import Loads
-from ...model.trajectory import Trajectory
-from ..analytic import G, clock, motion
+from ...model.recording.coordinates import Coordinates
+from ...model.recording.loads import Loads
+from ...model.recording.trajectory import Trajectory
+from .analytic import G, clock, motion
 
 Array = np.ndarray
 
@@ -21,8 +22,6 @@ def with_channels(
     slides: tuple[str, ...] = (),
 ) -> Trajectory:
     """The recording with joint positions (rad or m), tendons (length m, tension N), equalities (active, force N)."""
-    from dataclasses import replace
-
     rows = len(trajectory.t)
     joints, tendons, equalities = joints or {}, tendons or {}, equalities or {}
 
@@ -76,13 +75,13 @@ PROFILES = {
     "keeps": lambda s: np.minimum(2 * s, 1.0),
     "rings": lambda s: np.sin(3 * np.pi * s),
 }
-"""How a deformation goes over the share of time passed: there and back, there to stay, to and fro."""
+"""A deformation by the share of time passed: it returns, stays, or goes to and fro."""
 
 
 def beam(profile: str = "returns", sag: float = 0.1, parts: int = 11, drift: float = 0.0, **more: Any) -> Trajectory:
-    """A row of parts `beam_0` … along x, 1 m long, that sags as a parabola by up to `sag`; drifting and turning in space.
+    """A row of parts `beam_0` … along x, 1 m long, that sags as a parabola by up to `sag`; it may drift and turn.
 
-    With `drift` the whole moves along x by so much and turns about z by as many radians: no deformation.
+    With `drift` the whole moves along x by so much (m) and turns about z by as many radians, which is no deformation.
     """
     t = clock(1.0)
     amount = PROFILES[profile](t)
@@ -124,3 +123,10 @@ def breaking(load_n: float | None = 100.0, rate: float = 200.0, **more: Any) -> 
     load = np.where(whole, rate * t, 0.0)
     always = np.ones(len(t), dtype=bool)
     return with_channels(made, equalities={"bolt": (whole, load), "pin": (always, 10.0 + 0 * t)})
+
+
+def twisted(torque_nm: float, rate: float = 200.0) -> Trajectory:
+    """As `breaking` at 100 N, where the bolt is a weld whose torque grows with its force, up to `torque_nm`."""
+    made = breaking(100.0, rate)
+    assert made.loads is not None
+    return replace(made, loads=replace(made.loads, eq_torque=made.loads.eq_force * torque_nm / 100.0))

@@ -1,4 +1,4 @@
-"""Plots of a recording as PNG: clean axes with units, one colour a body, contacts marked along the time axis."""
+"""Plots of a recording as PNG: clean axes with units, one colour per body, contacts marked along the time axis."""
 
 from .draw import QUANTITIES, Quantity, draw
 from .marking import Mark, choose, mark

@@ -1,4 +1,4 @@
-"""One quantity of some bodies over time."""
+"""Draw one quantity of some bodies over time."""
 
 import io
 from collections.abc import Callable
@@ -6,9 +6,10 @@ from typing import Any, Literal
 
 import numpy as np
 
+from worldkit.turning import matrices
+
 from ...model.errors import NotFoundError
-from ...model.mechanics import rotation
-from ...model.trajectory import Trajectory
+from ...model.recording.trajectory import Trajectory
 from .marking import Mark
 
 Quantity = Literal["height", "speed", "spin", "tilt", "position", "energy", "contact_force", "penetration"]
@@ -34,7 +35,7 @@ def draw(
     window_s: tuple[float, float] | None,
     mark: Mark | None = None,
 ) -> bytes:
-    """PNG of one quantity; without bodies, the ones that move most (at most eight). A `mark` shows a finding in it.
+    """Draw one quantity as PNG; without `bodies`, of those that move most (at most eight). A `mark` shows a finding in it.
 
     Raises:
         NotFoundError: an unknown body, or a channel that was not recorded.
@@ -106,7 +107,7 @@ def _lines(trajectory: Trajectory, quantity: str, bodies: tuple[str, ...]) -> tu
 def _without_contacts(
     trajectory: Trajectory, quantity: str, names: list[str], indices: list[int]
 ) -> list[tuple[str, np.ndarray]]:
-    """What an interchange file says of contacts: the sum of forces on each body, the deepest contact of all."""
+    """What an interchange file tells about contacts: the sum of forces on each body, the deepest contact of all."""
     if quantity == "contact_force" and trajectory.contact_force_sum is not None:
         sums = trajectory.contact_force_sum
         return [(name, sums[:, i]) for name, i in zip(names, indices, strict=True) if i >= 0]
@@ -116,12 +117,12 @@ def _without_contacts(
 
 
 def _tilt(trajectory: Trajectory, body: int) -> np.ndarray:
-    axis = rotation(trajectory.quat[:, body])[:, :, 2]
+    axis = matrices(trajectory.quat[:, body])[:, :, 2]
     return np.degrees(np.arccos(np.clip(axis @ axis[0], -1, 1)))
 
 
 def _mark_finding(axes: Any, mark: Mark) -> None:
-    """The stretch of a finding as a band, its threshold as a dashed line, its numbers above the plot."""
+    """Mark a finding: its stretch as a band, its threshold as a dashed line, its numbers above the plot."""
     start, end = mark.window_s
     if end > start:
         axes.axvspan(start, end, color=ALARM, alpha=0.12, linewidth=0, label="finding")
@@ -138,7 +139,7 @@ def _liveliest(trajectory: Trajectory) -> list[int]:
 
 
 def _mark_contacts(axes: object, trajectory: Trajectory, rows: slice) -> None:
-    """Ticks along the time axis where a contact between moving bodies begins."""
+    """Mark on the time axis where a contact between moving bodies begins."""
     contacts = trajectory.contacts
     if contacts is None or not len(contacts.row):
         return

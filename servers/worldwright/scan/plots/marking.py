@@ -1,36 +1,31 @@
-"""A finding on a plot: which quantity shows it, which stretch of time, where its threshold lies on that axis."""
+"""Choose how a plot shows a finding: the quantity, the stretch of time, and the threshold on its axis."""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from ...model.errors import NotFoundError
 from ...model.finding import Anomaly
-from ...model.trajectory import Trajectory
+from ...model.recording.trajectory import Trajectory
+from ..anomalies.engine import CHECKS
 
-BY_CHECK = {
-    "deep_penetration": "penetration", "below_ground": "height", "monotonic_sinking": "height", "floating": "height",
-    "tunnelling": "position", "free_fall": "height", "dead_stop": "speed", "energy_gain": "energy",
-    "contact_chatter": "speed", "flight_torque": "spin", "failure_to_settle": "speed", "broken_orientation": "tilt",
-}  # fmt: skip
-"""What shows a finding best, where its unit does not say so."""
 BY_UNIT = {
     "m": "position", "rad": "tilt", "m/s": "speed", "m/s^2": "speed", "rad/s": "spin", "J": "energy", "N": "contact_force",
 }  # fmt: skip
 UNITS = {"speed": "m/s", "spin": "rad/s", "contact_force": "N", "energy": "J"}
-FROM_THE_START = ("moves_unexpectedly", "should_move")
 LEAST_PAD_S = 0.25
 
 
 @dataclass(frozen=True)
 class Mark:
-    """What is drawn into the plot."""
+    """What a plot shows of a finding."""
 
     window_s: tuple[float, float]
     title: str
     note: str
     threshold: float | None
-    """On the plot's own axis; None when the axis shows something else than the check measures."""
+    """The threshold on the plot's own axis; None when the axis shows something else than the check measures."""
     quantity: str
     bodies: tuple[str, ...]
     view_s: tuple[float, float]
@@ -38,7 +33,7 @@ class Mark:
 
 
 def mark(trajectory: Trajectory, anomaly: Anomaly, quantity: str | None = None) -> Mark:
-    """How one anomaly is shown, by the quantity asked for or by the one that shows it best."""
+    """The mark of one anomaly, in the quantity asked for or in the one that shows it best."""
     start, end = anomaly.window_s
     pad = max(LEAST_PAD_S, end - start)
     shown = quantity or _best(trajectory, anomaly)
@@ -47,15 +42,21 @@ def mark(trajectory: Trajectory, anomaly: Anomaly, quantity: str | None = None) 
         window_s=(start, end),
         title=f"{anomaly.code} {anomaly.name.replace('_', ' ')}: {anomaly.body}",
         note=f"measured {anomaly.measured:.4g} {anomaly.unit}, threshold {anomaly.threshold:.4g} {anomaly.unit}",
-        threshold=_line(trajectory, anomaly, shown),
+        threshold=_threshold_line(trajectory, anomaly, shown),
         quantity=shown,
         bodies=tuple(name for name in parts if name in trajectory.names),
         view_s=(max(float(trajectory.t[0]), start - pad), min(float(trajectory.t[-1]), end + pad)),
     )
 
 
+def _check_attribute(anomaly: Anomaly, attribute: str) -> Any:
+    """An attribute of the check that found an anomaly; None for a finding of an audit."""
+    entry = CHECKS.entries.get(anomaly.code)
+    return getattr(entry, attribute) if entry is not None else None
+
+
 def _best(trajectory: Trajectory, anomaly: Anomaly) -> str:
-    found = BY_CHECK.get(anomaly.name) or BY_UNIT.get(anomaly.unit, "position")
+    found = _check_attribute(anomaly, "SHOWN_AS") or BY_UNIT.get(anomaly.unit, "position")
     there = {
         "energy": trajectory.energy is not None,
         "contact_force": trajectory.contacts is not None or trajectory.contact_force_sum is not None,
@@ -64,8 +65,8 @@ def _best(trajectory: Trajectory, anomaly: Anomaly) -> str:
     return found if there.get(found, True) else {"penetration": "height"}.get(found, "speed")
 
 
-def _line(trajectory: Trajectory, anomaly: Anomaly, quantity: str) -> float | None:
-    """The threshold on the axis of the quantity: lengths count from where the body was when the finding begins."""
+def _threshold_line(trajectory: Trajectory, anomaly: Anomaly, quantity: str) -> float | None:
+    """The threshold on the axis of the quantity: lengths count from the body's place when the finding begins."""
     if UNITS.get(quantity) == anomaly.unit:
         return anomaly.threshold
     if anomaly.body not in trajectory.names:
@@ -77,16 +78,16 @@ def _line(trajectory: Trajectory, anomaly: Anomaly, quantity: str) -> float | No
         return None if thin is None or np.isnan(thin[body]) else float(anomaly.threshold * thin[body] * 1000)
     if anomaly.unit != "m" or quantity not in ("height", "position"):
         return None
-    if anomaly.name == "below_ground":
+    if _check_attribute(anomaly, "ABOVE_GROUND"):
         return None if facts.ground_z is None or quantity != "height" else facts.ground_z - anomaly.threshold
     if quantity == "height":
         return float(trajectory.pos[row, body, 2]) - anomaly.threshold
     away = float(np.linalg.norm(trajectory.pos[row, body] - trajectory.pos[0, body]))
-    return anomaly.threshold + (0.0 if anomaly.name in FROM_THE_START else away)
+    return anomaly.threshold + (0.0 if _check_attribute(anomaly, "FROM_THE_START") else away)
 
 
 def choose(anomalies: tuple[Anomaly, ...], wanted: str) -> Anomaly:
-    """The finding meant by a check's code or name, with `:BODY` when several bodies have it."""
+    """The finding with a check's code or name, and `:BODY` behind it when several bodies have one."""
     kind, _, body = wanted.partition(":")
     found = [a for a in anomalies if kind in (a.code, a.name) and (not body or body == a.body)]
     if found:

@@ -1,6 +1,6 @@
 """The sandbox ladder: bubblewrap, then Landlock with seccomp, then resource limits alone.
 
-The strongest level that really works here is used, and recorded in the evidence. `WORLDWRIGHT_SANDBOX` picks a level
+The strongest level that really works here is used and recorded in the evidence. `WORLDWRIGHT_SANDBOX` picks a level
 by name (a weaker one for debugging, or a stronger one to be refused without it).
 """
 
@@ -13,8 +13,8 @@ from pathlib import Path
 
 from worldkit.files import write_json
 
-from ...model.environment import cache_folder
 from ...model.errors import JobError
+from ...model.evidence.file_hashes import cache_folder
 from . import bubblewrap, landlock, probe, rlimits
 from .confinement import Confinement
 
@@ -55,9 +55,9 @@ def level() -> str:
 
 
 def unusable(name: str) -> str:
-    """Why a level does not work here; empty when a program inside it really failed to get out.
+    """Why a level does not work here; empty when a program inside it tried to get out and failed.
 
-    What was found is remembered until the machine, the user, bubblewrap or our own sources change.
+    The answer is remembered until the machine, the user, bubblewrap or our own sources change.
     """
     if reason := LADDER[name].unavailable():
         return reason
@@ -73,13 +73,13 @@ def unusable(name: str) -> str:
         pass
     possible, tried, broken = probe.ways_out(LADDER[name])
     reason = broken or (f"a confined program could: {', '.join(possible)}" if possible else "")
-    with contextlib.suppress(OSError):  # a read-only home costs time, not safety
+    with contextlib.suppress(OSError):  # with a read-only home the probe runs again: it costs time, not safety
         write_json(kept, {"state": state, "reason": reason, "attempts": tried})
     return reason
 
 
 def _state() -> str:
-    """What the probe's outcome depends on."""
+    """A hash of everything that the probe's outcome depends on."""
     import shutil
     import sys
 

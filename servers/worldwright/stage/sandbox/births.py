@@ -1,4 +1,4 @@
-"""The limit on processes and threads: the kernel stops every birth in a job until its supervisor has said yes.
+"""Limit processes and threads: the kernel holds every birth in a job until its supervisor has said yes.
 
 `RLIMIT_NPROC` counts all processes of a user and never binds root; control groups need to be writable. A seccomp
 filter with user notification needs neither: `clone` and `fork` wait for an answer, on every level and for every user.
@@ -21,7 +21,7 @@ RECEIVE, ANSWER = 0xC0502100, 0xC0182101
 CONTINUE = 1
 CLONE_THREAD = 0x00010000
 SETTLE_S = 0.25
-"""How long a birth that was allowed may take until a count sees it."""
+"""An allowed birth may take so long, s, until a count sees it."""
 
 
 class Births:
@@ -39,9 +39,9 @@ class Births:
         self.limits = (processes, threads)
         self.seen, self.since = (0, 0), [0, 0]
         self.pending: dict[int, tuple[float, bool]] = {}
-        """By who asked: when it was allowed, and whether a thread. Nobody can ask again before the birth is done."""
+        """For each asker: when its birth was allowed, and whether it is a thread; it asks again only after the birth."""
         self.exceeded = ""
-        """What was exceeded, once something was: the job is to be stopped."""
+        """The limit that was exceeded, after which the job must be stopped."""
         self.thread = threading.Thread(target=self._serve, daemon=True)
         self.thread.start()
 
@@ -79,8 +79,8 @@ class Births:
         if not self._room(thread):
             now = time.monotonic()
             recent = ((who, birth) for who, birth in self.pending.items() if now - birth[0] < SETTLE_S)
-            self.pending = {who: birth for who, birth in recent if _lives(who)}  # the dead are done with it
-            # A birth allowed just now may not have been seen yet: count it, rather twice than not at all.
+            self.pending = {who: birth for who, birth in recent if _lives(who)}  # a dead asker has no birth pending
+            # The last count may have missed a birth allowed just now: rather count it twice than not at all.
             unseen = list(self.pending.values())
             self.seen, self.since = self.count(), [sum(not birth[1] for birth in unseen), len(unseen)]
             if not self._room(thread):
@@ -98,7 +98,7 @@ class Births:
 
 
 def _lives(task: int) -> bool:
-    """Whether a process or thread is still there and not a zombie."""
+    """Whether a process or thread still exists and is no zombie."""
     try:
         return Path(f"/proc/{task}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
     except (OSError, IndexError):

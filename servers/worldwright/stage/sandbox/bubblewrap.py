@@ -1,4 +1,5 @@
-"""bubblewrap: own namespaces for processes, network, users and files; the job sees what it needs and writes one folder.
+"""bubblewrap: a job gets namespaces of its own for processes, network, users and files, sees what it needs and writes one
+folder.
 
 Source: bwrap(1). `--remount-ro /` matters: the new root is a writable tmpfs otherwise, where stray writes seem to
 succeed and vanish.
@@ -21,7 +22,7 @@ def unavailable() -> str:
 
 
 def command(call: list[str], confinement: Confinement, denial: int) -> list[str]:
-    """The call inside its own namespaces; `denial` is a descriptor that its system-call filter is read from."""
+    """The call inside its own namespaces; its system-call filter is read from the descriptor `denial`."""
     reads = [*runtime_paths(), *confinement.reads]
     binds = [word for path in _outermost(reads) for word in ("--ro-bind", str(path), str(path))]
     variables = [word for name, value in confinement.environment.items() for word in ("--setenv", name, value)]
@@ -30,7 +31,7 @@ def command(call: list[str], confinement: Confinement, denial: int) -> list[str]
         *("--unshare-all", "--die-with-parent", "--new-session", "--clearenv", "--cap-drop", "ALL"),
         *_system(),
         *("--proc", "/proc", "--dev", "/dev"),
-        # A job of root's is still root to the kernel's own settings, whatever capabilities it lacks.
+        # To the kernel's own settings, root's job is still root, whatever capabilities it lacks.
         *(word for path in SETTINGS if Path(path).exists() for word in ("--ro-bind", path, path)),
         *(word for path in devices() for word in ("--dev-bind", str(path), str(path))),
         *("--size", str(confinement.shared_bytes), "--tmpfs", "/dev/shm", "--remount-ro", "/dev"),
@@ -51,7 +52,7 @@ def facts() -> dict[str, str]:
 
 
 def before_exec(confinement: Confinement) -> Callable[[], None]:
-    """The resource limits are inherited through the namespaces."""
+    """Set the resource limits, which are inherited through the namespaces."""
     return rlimits.before_exec(confinement)
 
 

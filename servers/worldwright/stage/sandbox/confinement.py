@@ -1,4 +1,4 @@
-"""What a job may see and use, whatever level enforces it."""
+"""The folders and limits of a job, whatever level enforces them."""
 
 import os
 import sys
@@ -25,16 +25,16 @@ SYSTEM = (
     "/sys/devices",
     "/sys/class",
 )
-"""What of the system any job may read: programs, libraries, and what describes the graphics stack."""
+"""Parts of the system that any job may read: programs, libraries, and the description of the graphics stack."""
 
 
 def processes() -> int:
-    """How many processes of one job may live at once: enough to draw on every core, not enough to hurt."""
+    """The most processes of one job that may live at once: enough to draw on every core, too few to hurt."""
     return 64 + 4 * (os.cpu_count() or 1)
 
 
 def threads() -> int:
-    """How many threads, in all its processes together (each software renderer starts one a core, and some)."""
+    """The most threads in all its processes together; each software renderer starts a little more than one per core."""
     return 512 + 64 * (os.cpu_count() or 1)
 
 
@@ -53,16 +53,17 @@ class Confinement:
     memory_bytes: int
     """Address-space backstop; resident memory is watched by the supervisor."""
     token: int = 0
-    """A number that every process of the job bears as a resource limit it cannot change, so that none is lost."""
+    """A number that every process of the job carries as a resource limit it cannot change, so that none is lost."""
     processes: int = field(default_factory=processes)
     threads: int = field(default_factory=threads)
     shared_bytes: int = 256 << 20
-    """Shared memory (`/dev/shm`), where the level gives the job one of its own."""
+    """Size of the shared memory (`/dev/shm`) if the level gives the job one of its own."""
     environment: dict[str, str] = field(default_factory=dict)
 
 
 def runtime_paths() -> tuple[Path, ...]:
-    """What any program needs to read: the interpreter, the environment's packages, worldkit and its catalog."""
+    """Paths that any program reads: the interpreter, the environment's packages, worldkit, worldengine and the catalog."""
+    import worldengine
     import worldkit
     from worldkit import assets
 
@@ -70,8 +71,14 @@ def runtime_paths() -> tuple[Path, ...]:
     paths += [Path(sys.executable).resolve().parent.parent]
     # An environment may borrow another's packages (a .pth file, or the system's).
     paths += [path for path in map(Path, sys.path) if path.name in ("site-packages", "dist-packages")]
-    paths += [Path(next(iter(worldkit.__path__))), Path(assets.catalog_root())]
-    own = (Path("/"), Path.home(), Path("/home"), Path("/root"))  # never a whole home, however Python is installed
+    paths += [Path(next(iter(package.__path__))) for package in (worldkit, worldengine)]
+    paths += [Path(assets.catalog_root())]
+    own = (
+        Path("/"),
+        Path.home(),
+        Path("/home"),
+        Path("/root"),
+    )  # never a whole home
     return tuple(dict.fromkeys(p for path in paths if path.exists() and (p := path.absolute()) not in own))
 
 
@@ -81,7 +88,7 @@ def devices() -> list[Path]:
 
 
 def environment(scratch: str, lock: str = "") -> dict[str, str]:
-    """The environment variables of a job: nothing of the user's but the choice of renderer; and its lock."""
+    """The environment variables of a job: of the user's own only the choice of renderer, and the lock."""
     # One thread for linear algebra: a sum split between threads is not the same sum.
     keep = {
         k: v

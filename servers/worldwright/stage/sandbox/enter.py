@@ -1,4 +1,4 @@
-"""Starting a program inside a level of the ladder, with the limit on its births that works here."""
+"""Start a program inside a level of the ladder, with the limit on births that works here."""
 
 import contextlib
 import os
@@ -19,25 +19,34 @@ from .confinement import Confinement
 
 @dataclass(frozen=True)
 class Entered:
-    """A confined program that runs."""
+    """A running confined program."""
 
     process: "subprocess.Popen[bytes]"
     births: Births | None
     """Decides on new processes and threads; None where the kernel cannot ask."""
     facts: dict[str, str]
-    """What enforces the limits, for the evidence."""
+    """The means that enforce the limits, for the evidence."""
 
 
-def enter(level: ModuleType, call: list[str], confinement: Confinement, *, root: int = 0, **popen: Any) -> Entered:
+def enter(
+    level: ModuleType,
+    call: list[str],
+    confinement: Confinement,
+    *,
+    root: int = 0,
+    descriptors: tuple[int, ...] = (),
+    **popen: Any,
+) -> Entered:
     """Start `call` at one level.
 
     Args:
         level: a module of the ladder.
         call: the command line.
         confinement: what it may see and use.
-        root: process whose descendants are counted (a supervisor that adopts orphans counts its own); 0 for the
-            program itself.
-        popen: how its output is read.
+        root: the process whose descendants are counted (a supervisor that adopts orphans counts its own); 0 for the program
+            itself.
+        descriptors: descriptors that it inherits besides its output.
+        popen: further arguments of `Popen`, such as how its output is read.
     """
     ours, theirs = socket.socketpair()
     read, write = os.pipe()
@@ -58,17 +67,17 @@ def enter(level: ModuleType, call: list[str], confinement: Confinement, *, root:
                 cwd=confinement.out,
                 env=confinement.environment,
                 start_new_session=True,
-                preexec_fn=before,
-                pass_fds=(read,),
+                preexec_fn=before,  # noqa: PLW1509 - system calls only: it takes no lock that another thread may hold
+                pass_fds=(read, *descriptors),
                 **popen,
             )
         finally:
             os.close(read)
-        word, descriptors, _, _ = socket.recv_fds(ours, 64, 1)
+        word, listeners, _, _ = socket.recv_fds(ours, 64, 1)
     births = None
-    if descriptors:
+    if listeners:
         births = Births(
-            descriptors[0],
+            listeners[0],
             _counter(root or process.pid, itself=not root),
             confinement.processes,
             confinement.threads,
@@ -77,11 +86,11 @@ def enter(level: ModuleType, call: list[str], confinement: Confinement, *, root:
 
 
 def _limit_births(told: socket.socket, user_limit: int) -> None:
-    """In the child: ask the supervisor before each birth, else count the user's processes, else leave it to be watched."""
+    """Limit births in the child: ask the supervisor, or count the user's processes, or leave it to the watch."""
     try:
         listener = seccomp.install(seccomp.births(), listen=True)
     except OSError:
-        if os.geteuid() == 0:  # never bound by the count
+        if os.geteuid() == 0:  # the count never binds root
             told.send(b"watched")
             return
         import resource
@@ -102,7 +111,7 @@ def _counter(root: int, *, itself: bool) -> Callable[[], tuple[int, int]]:
 
 
 def _processes_of_this_user() -> int:
-    """Threads of this user: what RLIMIT_NPROC counts."""
+    """The number of this user's threads, which RLIMIT_NPROC limits."""
     total = 0
     for entry in Path("/proc").iterdir():
         with contextlib.suppress(OSError, ValueError, IndexError):

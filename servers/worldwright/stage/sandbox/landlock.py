@@ -1,7 +1,7 @@
 """Landlock and seccomp: without privileges or namespaces, a job sees and writes its own folders and opens no socket.
 
-Landlock confines reading, writing, running, TCP, abstract sockets and signals; a seccomp filter forbids what it does
-not know (UDP, the files' owners and modes, ptrace's relatives, io_uring, which would go round every filter). Both are
+Landlock confines reading, writing, running, TCP, abstract sockets and signals; a seccomp filter forbids what Landlock
+does not know (UDP, the files' owners and modes, ptrace's relatives, io_uring, which would go round every filter). Both are
 applied by the child to itself, after it has given up every capability. Source: landlock(7), seccomp(2),
 capabilities(7), the kernel's user-space API documentation.
 """
@@ -20,12 +20,12 @@ CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
 VERSION_FLAG, PATH_BENEATH = 1, 1
 EXECUTE, WRITE_FILE, READ_FILE, READ_DIR, TRUNCATE, IOCTL_DEVICE = 1 << 0, 1 << 1, 1 << 2, 1 << 3, 1 << 14, 1 << 15
 RIGHTS_BY_ABI = {1: 0b1_1111_1111_1111, 2: 1 << 13, 3: TRUNCATE, 5: IOCTL_DEVICE}
-"""File-system rights by the ABI that brought them."""
+"""File-system rights by the ABI that introduced them."""
 READ, RUN = READ_FILE | READ_DIR, READ_FILE | READ_DIR | EXECUTE
 TCP, SCOPES = 0b11, 0b11
-"""Bind and connect, from ABI 4; abstract sockets and signals stay inside, from ABI 6."""
+"""Bind and connect are confined from ABI 4, abstract sockets and signals from ABI 6."""
 FILE_RIGHTS = EXECUTE | WRITE_FILE | READ_FILE | TRUNCATE | IOCTL_DEVICE
-"""What a rule on a file, not a folder, may name."""
+"""The rights that a rule on a file, not a folder, may name."""
 PROC = ("cpuinfo", "meminfo", "stat", "uptime", "version", "loadavg", "filesystems", "self", "thread-self")
 PR_CAPBSET_DROP, PR_CAP_AMBIENT, CLEAR_AMBIENT, CAPABILITY_VERSION = 24, 47, 4, 0x20080522
 WORLD = Path(__file__).parents[3]
@@ -52,7 +52,7 @@ def facts() -> dict[str, str]:
 
 
 def before_exec(confinement: Confinement) -> Callable[[], None]:
-    """Resource limits, then the loss of capabilities, then the file, network and system-call rules."""
+    """Set resource limits, give up capabilities, then apply the file, network and system-call rules."""
     limits = rlimits.before_exec(confinement)
     rules = list(_rules(confinement))
 
@@ -66,12 +66,12 @@ def before_exec(confinement: Confinement) -> Callable[[], None]:
 
 
 def _rules(confinement: Confinement) -> list[tuple[Path, int]]:
-    """What is allowed beneath which path."""
+    """The rights beneath each path."""
     everything = sum(RIGHTS_BY_ABI.values())
     rules = [(Path(name), RUN) for name in SYSTEM]
     rules += [(path, RUN) for path in runtime_paths()]
     rules += [(path, READ) for path in confinement.reads]
-    # The import system lists the folder that worldkit lies in; it may read nothing else there.
+    # The import system lists the folder of worldkit; it may read nothing else there.
     rules += [(WORLD, READ_DIR)]
     rules += [(path, everything & ~EXECUTE & ~IOCTL_DEVICE) for path in (confinement.out, confinement.scratch)]
     rules += [(Path("/dev") / name, READ_FILE | WRITE_FILE) for name in ("null", "zero", "full", "random", "urandom")]
@@ -98,7 +98,7 @@ def restrict(rules: list[tuple[Path, int]]) -> None:
         try:
             handle = os.open(path, os.O_PATH | os.O_CLOEXEC)
         except OSError:
-            continue  # not on this machine
+            continue  # this machine does not have it
         try:
             allowed = handled & (rights if path.is_dir() else rights & FILE_RIGHTS)
             if allowed and libc.syscall(ADD_RULE, ruleset, PATH_BENEATH, struct.pack("=Qi", allowed, handle), 0):

@@ -1,7 +1,7 @@
-"""Does a level really confine? A small program runs inside it and tries to get out; one success, and it is no level.
+"""Test whether a level really confines: a small program inside it tries to get out, and one success disqualifies the level.
 
-The same file is the prober and what it runs: `python probe.py OUTSIDE PARENT` prints a JSON object from attempt to
-what became of it (`refused: …`, or `possible`). Every attempt is chosen so that it harms nothing where it succeeds.
+The same file is the prober and the program: `python probe.py OUTSIDE PARENT` prints a JSON object from each attempt to
+its outcome (`refused: …`, or `possible`). Every attempt is chosen so that it harms nothing where it succeeds.
 """
 
 import contextlib
@@ -16,13 +16,13 @@ from pathlib import Path
 from types import ModuleType
 
 BARRED = (errno.EPERM, errno.EACCES, errno.EROFS, errno.ENOENT, errno.ENOSYS, errno.ESRCH, errno.ENETUNREACH)
-"""Not allowed, not there, or not visible. Any other failure means that the way was open."""
+"""Errors that say: not allowed, not there, or not visible. Any other failure means that the way was open."""
 SEIZE, NEW_USER = 0x4206, 0x10000000
 """PTRACE_SEIZE traces without stopping; CLONE_NEWUSER."""
 
 
 def started(pid: int) -> str:
-    """When a process started, in clock ticks since boot: tells it from another of the same number in a namespace."""
+    """When a process started, in clock ticks since boot: another namespace's process of the same number differs."""
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[19]
     except OSError:
@@ -72,7 +72,7 @@ def _raise_limit() -> None:
 
 
 def report(outside: Path, parent: int, start: str) -> dict[str, str]:
-    """What became of each attempt; a parent whose number means another process here is out of reach."""
+    """The outcome of each attempt; a parent whose number means another process here is out of reach."""
     if started(parent) not in ("", start):
         parent = 1 << 22
     found = {}

@@ -1,6 +1,7 @@
 """Resource limits alone: processor time, file size, address space, no core dumps.
 
-The weakest level: it stops accidents, not intent. Also the common floor of the stronger levels. Source: setrlimit(2).
+This is the weakest level, which stops accidents, not intent, and the common floor of the stronger ones. Source:
+setrlimit(2).
 """
 
 import contextlib
@@ -14,7 +15,7 @@ from .confinement import Confinement
 PR_SET_PDEATHSIG = 1
 PR_SET_NO_NEW_PRIVS = 38
 CPU_GRACE_S = 2
-"""Between the signal that can be told from others (SIGXCPU) and the one that cannot be caught."""
+"""Seconds between the signal that names the limit (SIGXCPU) and the one that cannot be caught."""
 
 
 def unavailable() -> str:
@@ -33,7 +34,7 @@ def facts() -> dict[str, str]:
 
 
 def before_exec(confinement: Confinement) -> Callable[[], None]:
-    """What the child does to itself between fork and exec."""
+    """The function that the child calls between fork and exec."""
     import ctypes
     import resource
     import signal

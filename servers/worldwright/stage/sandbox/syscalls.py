@@ -1,4 +1,4 @@
-"""System-call numbers of the two architectures we confine on, and the audit names the kernel knows them by.
+"""System-call numbers of the two architectures we confine on, and the names by which the kernel's audit knows these.
 
 Numbers from 424 on are the same everywhere. Source: the kernel's `unistd.h` of each architecture. A missing number
 means that the architecture never had the call (aarch64 has `fchmodat` but no `chmod`).
@@ -9,7 +9,7 @@ import platform
 AUDIT = {"x86_64": 0xC000003E, "aarch64": 0xC00000B7}
 """AUDIT_ARCH_*: little-endian, 64 bits."""
 NEWEST = 462
-"""mseal, Linux 6.10: whatever is newer was not weighed, and does not exist as far as a job can tell."""
+"""mseal, Linux 6.10: nobody has judged newer calls, so they do not exist for a job."""
 
 # name: (x86_64, aarch64)
 _TABLE: dict[str, tuple[int | None, int | None]] = {

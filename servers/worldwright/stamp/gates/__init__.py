@@ -1,4 +1,7 @@
-"""The gates: each docstring says what the gate needs and why, each `check(state)` answers with what is missing."""
+"""The gates of the tools here: each docstring says what the gate needs and why, each `check` returns what is missing.
+
+`worldwright.stage.gates` checks what a pass needs before it may start.
+"""
 
 from functools import cache
 from typing import TYPE_CHECKING
@@ -13,16 +16,20 @@ if TYPE_CHECKING:
 @cache
 def shelf() -> "Shelf":
     """Every gate by its code."""
-    from types import FunctionType
+    from ...shelf import Attribute, Function, Shelf
 
-    from ...shelf import Shelf
-
-    return Shelf("worldwright.stamp.gates", {"check": FunctionType})
+    return Shelf("worldwright.stamp.gates", {"check": Attribute(Function, "(State) -> the refusals; none: it opens")})
 
 
 def refusals(name: str, state: "State") -> list[Refusal]:
-    """What the gate of this name or code lacks; empty when it opens."""
-    return list(shelf().find(name).check(state))
+    """The refusals of the gate of this name or code; empty when it opens. A gate that raises an error stays shut."""
+    from ...shelf import failed
+
+    gate = shelf().find(name)
+    try:
+        return list(gate.check(state))
+    except Exception as defect:
+        return [Refusal(cause=f"the gate {failed(gate, defect)}", next_move="ask again when it is mended")]
 
 
 def pass_through(name: str, state: "State") -> None:

@@ -11,7 +11,8 @@ Why: an accepted world is one that a stranger can trust without having watched i
 from collections.abc import Iterator
 
 from ...model.errors import WorldwrightError
-from ...model.run import sha256_file
+from ...model.evidence.build_steps import STEPS
+from ...model.evidence.run import sha256_file
 from .. import audited, bindings, interventions, iterations, scope
 from ..needs import held
 from ..refusal import Refusal
@@ -26,24 +27,7 @@ def check(state: State) -> Iterator[Refusal]:
     yield from outside
     if outside:
         return
-    missing = list(
-        held(
-            state,
-            "planned",
-            "validated",
-            "approved",
-            "program",
-            "lint",
-            "physics",
-            "stills",
-            "video",
-            "scan",
-            "expect",
-            "causes",
-            "visual",
-            "review",
-        )
-    )
+    missing = list(held(state, *STEPS[: STEPS.index("accept")]))
     yield from missing
     if missing:
         return
@@ -52,7 +36,7 @@ def check(state: State) -> Iterator[Refusal]:
         yield from bindings.problems(state, state.review.value)
     yield from _changed(state)
     found = list(audited.refusals(state))
-    yield from found or _undeclared(state)  # the recording itself is asked too: a report can be written by hand
+    yield from found or _undeclared(state)  # the recording itself is read too: a report can be written by hand
 
 
 def _blocked(state: State) -> Iterator[Refusal]:
@@ -88,7 +72,7 @@ def _changed(state: State) -> Iterator[Refusal]:
 
 
 def _undeclared(state: State) -> Iterator[Refusal]:
-    declared = state.plan.simulation_parameters.interventions if state.plan else ()
+    declared = state.plan.declared() if state.plan else ()
     try:
         ledger = interventions.acted(state.folder / "physics" / "trajectory", declared)
     except WorldwrightError as error:

@@ -15,4 +15,4 @@ CODE = "WG010"
 
 def check(state: State) -> Iterator[Refusal]:
     """Refusals for an unreadable, faulty or open plan."""
-    yield from held(state, "planned", "validated")
+    yield from held(state, "check", "place")

@@ -10,7 +10,7 @@ Why: in auto mode nobody reads the plan before the code is written, so what was 
 import re
 from collections.abc import Iterator
 
-from ...model.plan import Plan
+from ...model.plan.committed import Plan
 from ..refusal import Refusal
 from ..state import State
 
@@ -20,7 +20,7 @@ STANDARD_GRAVITY = {-9.81, -9.80665, -9.8}
 
 
 def check(state: State) -> Iterator[Refusal]:
-    """Refusals for values that have neither a source, nor the prompt's word, nor a mark (marks that lead nowhere are WP124)."""
+    """Refusals for values that have no source, are not in the prompt and are not marked (marks that lead nowhere are WP124)."""
     if state.plan is None:
         return
     marks = tuple(mark.removeprefix(SECTION) for mark in state.plan.simulation_parameters.inferred)

@@ -14,5 +14,5 @@ CODE = "WG080"
 
 def check(state: State) -> Iterator[Refusal]:
     """A refusal when this program and plan are accepted."""
-    if steps(state)["accepted"].holds:
+    if steps(state)["accept"].holds:
         yield Refusal(cause="this program and plan are accepted", next_move=f"worldwright stamp verify {state.place}")

@@ -10,7 +10,6 @@ is wrong. Then the honest ending is `blocked`, with the cause.
 
 from collections.abc import Iterator
 
-from ...model.lookups import SYMBOLS
 from .. import iterations
 from ..refusal import Refusal
 from ..state import State
@@ -34,9 +33,11 @@ def check(state: State) -> Iterator[Refusal]:
 
 
 def _unknown_symbol(state: State) -> str:
+    from ...lint.tools import to_look_up
+
     report = state.lint.value
     for finding in report.findings if report else ():
-        if finding.code in SYMBOLS and finding.severity == "error":
+        if finding.severity == "error" and to_look_up(finding.code):
             return f"{finding.code}: {finding.message}"
     failure = state.failure("physics")
     return failure if "AttributeError" in failure and "mujoco" in failure else ""

@@ -15,4 +15,4 @@ CODE = "WG060"
 
 def check(state: State) -> Iterator[Refusal]:
     """Refusals for each channel that has not answered for this key."""
-    yield from answered(state, "planned", "physics", "scan", "expect", "visual")
+    yield from answered(state, "check", "physics", "scan", "expect", "describe")

@@ -1,7 +1,9 @@
 """Precision and recall of the checks over the corpus, as a table.
 
     python tests/worldwright/scan/corpus/measure.py [--bare] [--poses] [NAME…]
+    python tests/worldwright/scan/corpus/measure.py FOLDER [--bare] [-v] [NAME…]
 
+With a folder, the labelled recordings in it are judged instead (see `labelled`).
 `--bare` leaves the MJCF away, `--poses` the optional channels too. A fault counts as found when one of its checks
 reports it as blocking; a clean world is spoiled by any blocking finding.
 """
@@ -16,19 +18,20 @@ sys.path.insert(0, str(Path(__file__).parent))
 
 import clean
 import faulty
+import labelled
 from simulate import World, write
 
 from worldwright.model.errors import RecordingError
-from worldwright.model.evidence import ScanReport
-from worldwright.model.trajectory import Trajectory
-from worldwright.scan import engine
+from worldwright.model.evidence.reports import ScanReport
+from worldwright.model.recording.trajectory_files import read_trajectory
+from worldwright.scan.anomalies import engine
 
 
 def report(world: World, folder: Path, optional: bool = True, model: bool = True) -> ScanReport | RecordingError:
     """What the scanner says of one world."""
     path = write(world, folder, optional, model)
     try:
-        return engine.scan(Trajectory.read(path))
+        return engine.scan(read_trajectory(path))
     except RecordingError as refusal:
         return refusal
 
@@ -53,6 +56,9 @@ def main() -> int:
     parser.add_argument("-v", action="store_true")
     parser.add_argument("names", nargs="*")
     options = parser.parse_args()
+    if options.names and Path(options.names[0]).is_dir():
+        only = tuple(options.names[1:])
+        return labelled.measure(Path(options.names[0]), not options.bare, options.v, only)
     right: Counter[str] = Counter()
     wrong: Counter[str] = Counter()
     missed = []

@@ -1,9 +1,9 @@
-"""What the rules that compare a compiled world with its plan share: cases, and where the plan puts things."""
+"""What rules share that compare a compiled world with its plan: cases, and where the plan puts things."""
 
 import numpy as np
 
-from ....model.imported import is_model
-from ....model.plan import Plan, Position
+from ....model.plan.committed import Plan, Position
+from ....model.plan.imported import is_model
 from ...compiled.view import ModelView
 
 HEAD = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody><geom name='ground' type='plane' size='9 9 1'/>"
@@ -62,7 +62,7 @@ def extent(view: ModelView, body: int) -> np.ndarray:
 
 
 def parts(view: ModelView, body: int) -> list[int]:
-    """What hangs on a body and is an object of the plan with numbers of its own; of nested ones only the first."""
+    """The bodies below this one that are objects of the plan with numbers of their own, the outermost only."""
     assert view.plan is not None
     names, found = frozenset(view.plan.object_names()), []
     for other in range(1, len(view.body_parentid)):
@@ -80,7 +80,7 @@ def centre(view: ModelView, body: int) -> np.ndarray:
 
 
 def home(view: ModelView, body: int) -> tuple[np.ndarray, np.ndarray]:
-    """Origin and centre of a body, (3,) each, world frame, m, where it was built: the pose that the plan resolves.
+    """Origin and centre of a body, (3,) each, world frame, m, in the built pose, which the plan resolves.
 
     A joint of the plan with an initial position starts away from it, and takes along what hangs on it.
     """

@@ -3,7 +3,7 @@
 What it does: tests the position of every camera against the visible boxes, spheres, capsules, cylinders and ellipsoids
 (a mesh may be hollow).
 
-Why is this bad: from inside a solid is not drawn: the thing it stands in is missing from the picture, or hides
+Why is this bad: a solid is not drawn from inside: what the camera stands in is missing from the picture, or hides
 everything else.
 
 Use instead: a position outside; `worldkit.cameras.add` finds one for a named view.
@@ -12,8 +12,8 @@ Use instead: a position outside; `worldkit.cameras.add` finds one for a named vi
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, pixels
 from ...problem import Problem
-from ...proof import Measured, pixels
 
 CODE = "WM131"
 SEVERITY = "error"
@@ -28,7 +28,7 @@ EVIDENCE = Measured("the cube is not in the picture", pixels, 0.05, "of the pict
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every camera that something contains."""
+    """Check every camera that something contains."""
     for camera, geom in enumerate(view.camera_inside):
         if geom >= 0:
             message = f"camera {view.name('camera', camera)} stands inside {view.name('geom', geom)}"

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, pixels
 from ...problem import Problem
-from ...proof import Measured, pixels
 
 CODE = "WM132"
 SEVERITY = "error"
@@ -31,7 +31,7 @@ ASPECT = 16.0 / 9.0
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Perspective cameras of a world that has something to see."""
+    """Check perspective cameras of a world that has something to see."""
     aimed = {name.removeprefix("worldkit.camera.") for name in view.annotated_cameras}
     solid = view.visible & (view.geom_rbound > 0)
     if not solid.any():

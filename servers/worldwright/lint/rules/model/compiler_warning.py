@@ -11,10 +11,11 @@ Use instead: what the warning names.
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Warns
 from ...problem import Problem
-from ...proof import Warns
 
 CODE = "WM102"
+UNBUILT = True
 SEVERITY = "warning"
 SCOPE = "any"
 HEAD = "<mujoco><worldbody><body name='b'><flexcomp name='f' type='grid' dim='2' count='4 4 1' spacing='.1 .1 .1'"
@@ -24,6 +25,6 @@ EVIDENCE = Warns("no equality constraints or passive forces")
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every warning, once."""
+    """Check every warning, once."""
     for said in dict.fromkeys(view.outcome.warnings):
         yield Problem(" ".join(said.split()), "mend what the compiler warns of", 1)

@@ -15,8 +15,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, after
 from ...problem import Problem
-from ...proof import Measured, after
 
 CODE = "WM117"
 SEVERITY = "error"
@@ -31,7 +31,7 @@ UNSTABLE, OVERDAMPED = 1.5, 2.0
 
 
 def _highest_m(source: str) -> float:
-    """How high the ball rises in two seconds after it was dropped from half a metre, m."""
+    """How high the ball rises within two seconds when it is dropped from half a metre, m."""
     import mujoco
 
     model, data = after(source, 0.3)
@@ -46,7 +46,7 @@ EVIDENCE = Measured("the ball jumps metres high", _highest_m, 3.0, "m")
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Geoms that can touch something; equal values are told once."""
+    """Check geoms that can touch something; equal values are told once."""
     told = set()
     for geom in np.flatnonzero(view.collides):
         stiffness, damping = (-float(v) for v in view.geom_solref[geom])

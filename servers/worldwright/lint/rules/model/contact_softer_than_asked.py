@@ -13,8 +13,8 @@ smaller time step.
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, after
 from ...problem import Problem
-from ...proof import Measured, after
 
 CODE = "WM113"
 SEVERITY = "warning"
@@ -28,7 +28,7 @@ BAD = (BALL.format("0.005", "0.001"),)
 
 
 def _felt(source: str) -> float:
-    """By how much four times the time constant changes where the falling ball is after 0.24 s, m."""
+    """How far the ball's place after 0.24 s moves when the time constant is four times as long, m."""
     soft = source.replace("solref='0.001 1'", "solref='0.004 1'")
     return abs(float(after(source, 0.24)[1].qpos[2] - after(soft, 0.24)[1].qpos[2]))
 
@@ -37,7 +37,7 @@ EVIDENCE = Measured("a fourfold change of the time constant changes nothing", _f
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Geoms that can touch something, then active equalities; equal values are told once."""
+    """Check geoms that can touch something, then active equalities; equal values are told once."""
     if "refsafe" in view.disabled or view.integrator == "discrete":
         return
     least, told = 2 * view.time_step * (1 - 1e-6), set()

@@ -1,7 +1,8 @@
 """The world cannot be built.
 
 What it does: reports what the program, or the engine's compiler, said when the world was built in the sandbox; and a
-program that takes too long or too much memory to build it.
+program that takes too long or too much memory to build it. A plain script that needs a package which is not installed here
+is at no fault: that is a remark, and its world is not looked at.
 
 Why is this bad: there is no world to simulate.
 
@@ -11,10 +12,11 @@ Use instead: what the message names; `worldwright retrieve symbol NAME` tells wh
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Raises
 from ...problem import Problem
-from ...proof import Raises
 
 CODE = "WM101"
+UNBUILT = True
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
@@ -39,13 +41,16 @@ TOLD = {
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """The outcome."""
+    """Check the outcome."""
     outcome = view.outcome
     if outcome.status in TOLD:
         message, fix = TOLD[outcome.status]
         said = message.format(wall=outcome.wall_s, message=outcome.message or "no word")
         yield Problem(said, fix, 1, severity="warning" if outcome.status == "too_large" else None)
-    if outcome.status == "failed":
+    if outcome.status == "failed" and outcome.failure == "ModuleNotFoundError" and not _is_ours(view):
+        said = f"the world was not looked at, for a package is not installed here: {outcome.message}"
+        yield Problem(said, "install it to have the world checked", outcome.line or 1, severity="info")
+    elif outcome.status == "failed":
         said = " ".join(outcome.message.split())[:400]
         line = outcome.line
         if line is None and "line " in said:  # the compiler names the line of the model text
@@ -55,3 +60,8 @@ def check(view: ModelView) -> Iterator[Problem]:
         yield Problem(
             f"the world cannot be built: {outcome.failure}: {said}", "correct what the message names", line or 1
         )
+
+
+def _is_ours(view: ModelView) -> bool:
+    """Whether it is a program of ours, which must run here."""
+    return view.program is not None and view.program.contract

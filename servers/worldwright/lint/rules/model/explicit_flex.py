@@ -11,8 +11,8 @@ Use instead: `integrator="discrete"`, which is implicit in position: 1 to 4 ms a
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, diverged
 from ...problem import Problem
-from ...proof import Measured, diverged
 
 CODE = "WM104"
 SEVERITY = "error"
@@ -31,7 +31,7 @@ LONGEST_S = 5e-4
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Each flex with a stiffness of its own."""
+    """Check each flex with a stiffness of its own."""
     if view.integrator not in ("euler", "rk4") or view.time_step <= LONGEST_S:
         return
     for flex in range(len(view.flex_dim)):

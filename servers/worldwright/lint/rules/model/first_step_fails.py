@@ -11,8 +11,8 @@ Use instead: what the message names.
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Raises
 from ...problem import Problem
-from ...proof import Raises
 
 CODE = "WM103"
 SEVERITY = "error"
@@ -27,7 +27,7 @@ EVIDENCE = Raises("sleep without islands")
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """The engine's words."""
+    """Check the engine's words."""
     if view.outcome.status != "compiled" or not view.forward:
         return
     said = " ".join(view.forward.split())

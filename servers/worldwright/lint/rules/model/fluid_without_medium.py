@@ -10,8 +10,8 @@ Use instead: `<option density="1.2" viscosity="1.8e-5"/>` for air, 1000 and 1e-3
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, after
 from ...problem import Problem
-from ...proof import Measured, after
 
 CODE = "WM126"
 SEVERITY = "error"
@@ -26,7 +26,7 @@ EVIDENCE = Measured("the wind does not move the leaf", lambda s: float(after(s, 
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Without a medium: the wind, then the shapes that should feel it."""
+    """Check, where there is no medium, the wind and then the shapes that should feel it."""
     if view.density > 0 or view.viscosity > 0:
         return
     fix = "set the world's density and viscosity, e.g. 1.2 and 1.8e-5 for air"

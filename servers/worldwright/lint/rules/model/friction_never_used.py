@@ -13,8 +13,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, after
 from ...problem import Problem
-from ...proof import Measured, after
 
 CODE = "WM122"
 SEVERITY = "error"
@@ -35,7 +35,7 @@ DEFAULTS, NEEDED, WORDS = (1.0, 0.005, 0.0001), (3, 4, 6), ("sliding", "torsiona
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Geoms that can touch something, against the largest condim they can meet."""
+    """Check geoms that can touch something, against the largest condim they can meet."""
     told: set[tuple[float, ...]] = set()
     for geom in np.flatnonzero(view.collides):
         met = view.may_touch(int(geom))

@@ -12,8 +12,8 @@ Use instead: `<flexcomp dim="2">` with `<elasticity young=… thickness=… elas
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Argued
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WM141"
 SEVERITY = "warning"
@@ -45,7 +45,7 @@ LEAST = 16
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Free or sliding bodies with one round geom, against the springs and connects of the world."""
+    """Check free or sliding bodies with one round geom, against the springs and connects of the world."""
     small = {
         int(view.jnt_bodyid[j])
         for j, kind in enumerate(view.joint_kind)

@@ -15,8 +15,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Argued
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WM140"
 SEVERITY = "warning"
@@ -37,7 +37,7 @@ LONGEST = 10
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """The longest such chain below each body that begins one."""
+    """Check the longest such chain below each body that begins one."""
     count = len(view.body_mass)
     link = np.zeros(count, bool)
     for body in range(1, count):
@@ -51,7 +51,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     only = np.bincount(view.body_parentid[1:], minlength=count) <= 1
     for body in range(1, count):
         parent = int(view.body_parentid[body])
-        if link[body] and parent and link[parent] and only[parent] and _alike(view, body, parent):
+        if link[body] and parent and link[parent] and only[parent] and _are_alike(view, body, parent):
             length[body] = length[parent] + 1
     for end in np.flatnonzero(length >= LONGEST):
         if not (length[(view.body_parentid == end) & link] > length[end]).any():
@@ -59,6 +59,6 @@ def check(view: ModelView) -> Iterator[Problem]:
             yield view.at("body", int(end), f"{length[end]} bodies in a chain stand in for a rope or a cable", fix)
 
 
-def _alike(view: ModelView, one: int, other: int) -> bool:
+def _are_alike(view: ModelView, one: int, other: int) -> bool:
     a, b = (view.geom_size[int(view.body_geomadr[body])] for body in (one, other))
     return bool(np.allclose(a, b, rtol=0.25))

@@ -15,8 +15,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, height_after
 from ...problem import Problem
-from ...proof import Measured, height_after
 
 CODE = "WM111"
 SEVERITY = "warning"
@@ -38,7 +38,7 @@ CONTACT, BONDED = 100.0, 1000.0
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Pairs in contact, then pairs that are tied."""
+    """Check pairs in contact, then pairs that are tied."""
     roots = view.body_rootid
     told: set[tuple[int, int]] = set()
     for one, other in view.near_geom:
@@ -47,15 +47,15 @@ def check(view: ModelView) -> Iterator[Problem]:
             light, heavy = sorted(bodies, key=lambda b: float(view.body_subtreemass[roots[b]]))
             down = view.gravity @ (view.xpos[light] - view.xpos[heavy]) > 0
             if down:
-                yield from _told(view, light, heavy, CONTACT, "carries", told)
+                yield from _problems(view, light, heavy, CONTACT, "carries", told)
     for index, kind in enumerate(view.equality_kind):
         if kind in ("connect", "weld") and view.eq_active0[index] and int(view.eq_objtype[index]) == 1:
             ends = (int(view.eq_obj1id[index]), int(view.eq_obj2id[index]))
             light, heavy = sorted(ends, key=lambda b: float(view.body_subtreemass[roots[b]]))
-            yield from _told(view, light, heavy, BONDED, "is tied to", told)
+            yield from _problems(view, light, heavy, BONDED, "is tied to", told)
 
 
-def _told(
+def _problems(
     view: ModelView, light: int, heavy: int, most: float, verb: str, told: set[tuple[int, int]]
 ) -> Iterator[Problem]:
     masses = [float(view.body_subtreemass[view.body_rootid[b]]) for b in (light, heavy)]

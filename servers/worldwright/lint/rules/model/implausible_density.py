@@ -12,8 +12,8 @@ Use instead: a mass from a source, or `density` in kg/m^3.
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Argued
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WM110"
 SEVERITY = "error"
@@ -31,7 +31,7 @@ DENSEST, THINNEST = 22_590.0, 0.09
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Bodies with degrees of freedom and geoms that have a volume."""
+    """Check bodies with degrees of freedom and geoms that have a volume."""
     for body in range(1, len(view.body_mass)):
         first, count = int(view.body_geomadr[body]), int(view.body_geomnum[body])
         volume = float(view.geom_volume[first : first + count].sum()) if count else 0.0

@@ -11,8 +11,8 @@ Use instead: leave `limited` at `auto`, or set it to true; remove the range wher
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, after
 from ...problem import Problem
-from ...proof import Measured, after
 
 CODE = "WM123"
 SEVERITY = "error"
@@ -34,7 +34,7 @@ PLACES = (
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every range that is not zero, and not on."""
+    """Check every range that is not zero, and not on."""
     for kind, limited, ranges, word in PLACES:
         switches, values = getattr(view, limited), getattr(view, ranges)
         if len(switches) != len(values):

@@ -12,8 +12,8 @@ Use instead: resolve the layout again (`worldwright place resolve`), or leave a 
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, fastest
 from ...problem import Problem
-from ...proof import Measured, fastest
 
 CODE = "WM112"
 SEVERITY = "error"
@@ -29,7 +29,7 @@ LEAST_M, SHARE = 1e-3, 0.05
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """The deepest contact of each pair of bodies."""
+    """Check the deepest contact of each pair of bodies."""
     worst: dict[tuple[int, int], float] = {}
     for (one, other), depth in zip(view.contact_geom, view.contact_depth, strict=True):
         if one < 0 or other < 0:

@@ -11,8 +11,8 @@ Use instead: `add_freejoint()` (in worldkit: leave `fixed` false) for what moves
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, height_after
 from ...problem import Problem
-from ...proof import Measured, height_after
 from ._planned import THREE
 
 CODE = "WM153"
@@ -25,7 +25,7 @@ EVIDENCE = Measured("the mug hangs in the air", lambda s: height_after(s, 0.5), 
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Scene objects, then assets; what a joint of the plan moves is left to the joint's rule."""
+    """Check scene objects, then assets; what a joint of the plan moves is left to the joint's rule."""
     assert view.plan is not None
     rows = [(o.name, o.dynamic and not o.fixed, o.visual_only) for o in view.plan.scene_objects]
     rows += [(n, a.is_dynamic and not a.fixed, None) for a in view.plan.assets for n in a.instances]

@@ -12,10 +12,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ....model.plan import Joint
+from ....model.plan.committed import Joint
 from ...compiled.view import ModelView
+from ...harm import Measured, model_of
 from ...problem import Problem
-from ...proof import Measured, model_of
 from ._planned import THREE
 
 CODE = "WM157"
@@ -49,7 +49,7 @@ KINDS = {"hinge": "hinge", "slide": "slide", "ball": "ball"}
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every joint of the plan but welds, which are no joints to the engine."""
+    """Check every joint of the plan but welds, which are no joints to the engine."""
     assert view.plan is not None
     names = view.texts["names"]["joint"]
     loops = view.plan.topology.loops()

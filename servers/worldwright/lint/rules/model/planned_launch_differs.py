@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, after
 from ...problem import Problem
-from ...proof import Measured, after
 from ._planned import THREE, free_joint
 
 CODE = "WM156"
@@ -28,7 +28,7 @@ SHARE, LEAST = 0.02, 1e-3
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Free bodies that the plan names."""
+    """Check free bodies that the plan names."""
     assert view.plan is not None
     planned = view.plan.simulation_parameters.initial_motion
     for name in view.plan.object_names():

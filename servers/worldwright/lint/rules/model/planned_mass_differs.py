@@ -11,11 +11,11 @@ Use instead: `mass=` on one geom and `mass=0` on those that are only drawn.
 
 from collections.abc import Iterator
 
-from ....model.plan import Plan
-from ....model.weights import weight
+from ....model.plan.committed import Plan
+from ....model.plan.weights import weight
 from ...compiled.view import ModelView
+from ...harm import Measured, model_of
 from ...problem import Problem
-from ...proof import Measured, model_of
 from ._planned import CART, CART_PLAN, THREE, parts
 
 CODE = "WM154"
@@ -32,10 +32,10 @@ SHARE = 0.02
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every mass of the plan; a row's mass is that of each of its instances."""
+    """Check every mass of the plan; a row's mass is that of each of its instances."""
     assert view.plan is not None
     instances = {a.name: a.instances for a in view.plan.assets}
-    for row, planned in (*view.plan.simulation_parameters.masses.items(), *_of_parts(view.plan)):
+    for row, planned in (*view.plan.simulation_parameters.masses.items(), *_compound_masses(view.plan)):
         for name in instances.get(row, (row,)):
             body = view.root_named(name)
             if body is None or not view.moving[body]:
@@ -46,7 +46,7 @@ def check(view: ModelView) -> Iterator[Problem]:
                 yield view.at("body", body, message, "give the mass to one geom, and none to what is only drawn")
 
 
-def _of_parts(plan: Plan) -> Iterator[tuple[str, float]]:
+def _compound_masses(plan: Plan) -> Iterator[tuple[str, float]]:
     """Compounds that weigh what their parts do."""
     for row in plan.scene_objects:
         if row.parts and row.name not in plan.simulation_parameters.masses:

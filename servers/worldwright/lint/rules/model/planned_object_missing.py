@@ -12,8 +12,8 @@ Use instead: build it under the plan's name, or take it out of the plan.
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Argued
 from ...problem import Problem
-from ...proof import Argued
 from ._planned import HEAD, THREE
 
 CODE = "WM150"
@@ -25,7 +25,7 @@ EVIDENCE = Argued("the harm is that nothing can be measured of what is not there
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every object name of the plan."""
+    """Check every object name of the plan."""
     assert view.plan is not None
     names = view.texts["names"]
     there = {*names["body"], *names["geom"], *names["flex"]}

@@ -13,8 +13,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, height_after
 from ...problem import Problem
-from ...proof import Measured, height_after
 from ._planned import THREE
 
 CODE = "WM155"
@@ -30,7 +30,7 @@ EVIDENCE = Measured("the mug falls upwards", lambda s: height_after(s, 0.5), 0.5
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Step, gravity, integrator."""
+    """Check step, gravity, integrator."""
     assert view.plan is not None
     planned = view.plan.simulation_parameters
     if not isinstance(planned.time_step, str) and not np.isclose(view.time_step, planned.time_step, rtol=1e-6):

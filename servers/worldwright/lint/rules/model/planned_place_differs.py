@@ -1,7 +1,8 @@
 """A compiled body stands elsewhere than the plan resolved.
 
 What it does: compares where each object starts with its resolved position (the origin of the body, or the centre of the
-box around it, whichever is nearer): more than 5 mm apart. Where the plan lets a joint start away from its home, the home counts.
+box around it, whichever is nearer): more than 5 mm apart. Where the plan lets a joint start away from its home, the home
+counts.
 
 Why is this bad: the layout was checked for gaps, supports and sight lines; what was built was not.
 
@@ -13,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Argued
 from ...problem import Problem
-from ...proof import Argued
 from ._planned import THREE, centre, home, opened, places, starts_away
 
 CODE = "WM152"
@@ -41,7 +42,7 @@ MOST_M = 5e-3
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every object with a resolved position."""
+    """Check every object with a resolved position."""
     assert view.plan is not None
     for name, planned in places(view.plan).items():
         body = view.root_named(name)

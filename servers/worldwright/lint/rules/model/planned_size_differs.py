@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, model_of
 from ...problem import Problem
-from ...proof import Measured, model_of
 from ._planned import CART, CART_PLAN, LADLE, LADLE_PLAN, THREE, extent
 
 CODE = "WM151"
@@ -32,7 +32,7 @@ SHARE, LEAST_M = 0.03, 1e-3
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Scene objects by their three extents (upright or not is the layout's matter), assets by their height."""
+    """Check scene objects by their three extents (upright or not is the layout's matter), assets by their height."""
     assert view.plan is not None
     for row in view.plan.scene_objects:
         body = view.root_named(row.name)

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, diverged
 from ...problem import Problem
-from ...proof import Measured, diverged
 
 CODE = "WM115"
 SEVERITY = "error"
@@ -34,7 +34,7 @@ AFFINE = 1
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Actuators with an affine bias and one output."""
+    """Check actuators with an affine bias and one output."""
     if view.integrator == "discrete" or len(view.actuator_invweight) != len(view.actuator_biastype):
         return
     explicit = view.integrator in ("euler", "rk4")

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, fastest
 from ...problem import Problem
-from ...proof import Measured, fastest
 
 CODE = "WM116"
 SEVERITY = "warning"
@@ -32,7 +32,7 @@ LEAST_RAD, ALIKE = np.radians(0.5), 0.1
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Free bodies that spin at the start."""
+    """Check free bodies that spin at the start."""
     if view.integrator != "euler":
         return
     for joint, kind in enumerate(view.joint_kind):

@@ -15,8 +15,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, diverged
 from ...problem import Problem
-from ...proof import Measured, diverged
 
 CODE = "WM114"
 SEVERITY = "warning"
@@ -32,21 +32,21 @@ UNSTABLE, UNRESOLVED = 2.0, 0.6
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Joint springs by their degree of freedom, then tendon springs."""
+    """Check joint springs by their degree of freedom, then tendon springs."""
     if view.integrator == "discrete" or "spring" in view.disabled:
         return
     step = view.time_step
     for joint, stiffness in enumerate(view.jnt_stiffness):
         if stiffness > 0:
             weight = float(view.dof_invweight0[int(view.jnt_dofadr[joint])])
-            yield from _told(view, "joint", joint, step * float(np.sqrt(stiffness * weight)))
+            yield from _problems(view, "joint", joint, step * float(np.sqrt(stiffness * weight)))
     for tendon, stiffness in enumerate(view.tendon_stiffness):
         if stiffness > 0:
             weight = float(view.tendon_invweight0[tendon])
-            yield from _told(view, "tendon", tendon, step * float(np.sqrt(stiffness * weight)))
+            yield from _problems(view, "tendon", tendon, step * float(np.sqrt(stiffness * weight)))
 
 
-def _told(view: ModelView, kind: str, index: int, phase: float) -> Iterator[Problem]:
+def _problems(view: ModelView, kind: str, index: int, phase: float) -> Iterator[Problem]:
     if phase <= UNRESOLVED:
         return
     step = view.time_step * UNRESOLVED / phase

@@ -10,8 +10,8 @@ Use instead: a start inside the range; `ref` shifts what a position is counted f
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, fastest
 from ...problem import Problem
-from ...proof import Measured, fastest
 
 CODE = "WM124"
 SEVERITY = "error"
@@ -26,7 +26,7 @@ EVIDENCE = Measured("the limit throws the lid", fastest, 1.0, "rad/s")
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Hinges and slides, with a hundredth of the range to spare."""
+    """Check hinges and slides, with a hundredth of the range to spare."""
     for joint, kind in enumerate(view.joint_kind):
         if kind not in ("hinge", "slide") or not view.jnt_limited[joint]:
             continue

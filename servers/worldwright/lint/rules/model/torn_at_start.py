@@ -11,8 +11,8 @@ nothing else is meant.
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, fastest
 from ...problem import Problem
-from ...proof import Measured, fastest
 
 CODE = "WM125"
 SEVERITY = "error"
@@ -29,7 +29,7 @@ MOST = 2e-3
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Active connects, welds, joints and tendons; a flex's own edges are judged by their compiler."""
+    """Check active connects, welds, joints and tendons; a flex's own edges are judged by their compiler."""
     for index, kind in enumerate(view.equality_kind):
         residual = float(view.equality_residual[index])
         if view.eq_active0[index] and not kind.startswith("flex") and residual > MOST:

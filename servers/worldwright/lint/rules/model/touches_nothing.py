@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, height_after
 from ...problem import Problem
-from ...proof import Measured, height_after
 
 CODE = "WM120"
 SEVERITY = "error"
@@ -32,14 +32,16 @@ GOOD = (
 BAD = (
     BALL.format("contype='2' conaffinity='4'", "contype='1' conaffinity='8'"),
     BALL.format("", "contype='0' conaffinity='0'"),
-    "<mujoco><option><flag contact='disable'/></option><worldbody><geom type='plane' size='1 1 1'/>"
-    "<body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+    (
+        "<mujoco><option><flag contact='disable'/></option><worldbody><geom type='plane' size='1 1 1'/>"
+        "<body pos='0 0 1'><freejoint/><geom size='.1'/></body></worldbody></mujoco>"
+    ),
 )
 EVIDENCE = Measured("the ball falls through the floor", height_after, 1.0, "m")
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Every tree that hangs on a free joint."""
+    """Check every tree that hangs on a free joint."""
     flexes = bool(((view.flex_contype != 0) | (view.flex_conaffinity != 0)).any())
     visual = {o.name for o in view.plan.scene_objects if o.visual_only} if view.plan else set()
     for joint, kind in enumerate(view.joint_kind):

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...compiled.view import ModelView
+from ...harm import Measured, after
 from ...problem import Problem
-from ...proof import Measured, after
 
 CODE = "WM142"
 SEVERITY = "warning"
@@ -31,7 +31,7 @@ EVIDENCE = Measured("the bullet is behind the wall", lambda s: float(after(s, 0.
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Free bodies that are launched."""
+    """Check free bodies that are launched."""
     if "speculative" in view.enabled:
         return
     for body in np.flatnonzero(view.speed > 0):

@@ -10,8 +10,8 @@ Use instead: a light, or the default headlight; `worldkit.scene.new` brings both
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Measured, brightness
 from ...problem import Problem
-from ...proof import Measured, brightness
 
 CODE = "WM130"
 SEVERITY = "warning"
@@ -27,7 +27,7 @@ LEAST = 0.08
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """The brightest channel of all light together."""
+    """Check the brightest channel of all light together."""
     total = float(view.headlight_colour.sum(axis=0).max()) if view.headlight else 0.0
     for light, on in enumerate(view.light_active):
         if on:

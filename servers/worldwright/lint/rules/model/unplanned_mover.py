@@ -10,8 +10,8 @@ Use instead: declare it in `scene_objects` or `assets`, or fix it to the world.
 from collections.abc import Iterator
 
 from ...compiled.view import ModelView
+from ...harm import Argued
 from ...problem import Problem
-from ...proof import Argued
 from ._planned import THREE
 
 CODE = "WM158"
@@ -28,7 +28,7 @@ EVIDENCE = Argued("what an extra body does depends on the world; that nobody pla
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Free bodies whose name does not begin with a planned one's."""
+    """Check free bodies whose name does not begin with a planned one's."""
     assert view.plan is not None
     planned = view.plan.object_names()
     flexed = {int(b) for b in view.flex_vertbodyid}
@@ -38,4 +38,6 @@ def check(view: ModelView) -> Iterator[Problem]:
         ours = any(name == p or name.startswith((f"{p}_", f"{p}/", f"{p}.")) for p in planned)
         if kind == "free" and body not in flexed and not ours:
             message = f"{view.name('body', body)} can move, but the plan does not have it"
-            yield view.at("body", body, message, "declare it in the plan, or fix it")
+            yield view.at(
+                "body", body, message, "declare it in the plan (`worldwright plan complete` writes it down), or fix it"
+            )

@@ -11,11 +11,11 @@ Use instead: one entry `name: height in metres` per asset row.
 
 from collections.abc import Iterator
 
-from ....model.imported import is_model
+from ....model.plan.imported import is_model
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP107"
 SEVERITY = "error"
@@ -29,7 +29,7 @@ EVIDENCE = Argued("a mesh has no metric size of its own: any number would compil
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Every asset row, then every height."""
+    """Check every asset row, then every height."""
     heights = view.plan.asset_dimensions
     for index, row in enumerate(view.plan.assets):
         if row.name not in heights and not is_model(row):

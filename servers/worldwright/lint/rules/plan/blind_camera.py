@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP121"
 SEVERITY = "error"
@@ -39,7 +39,7 @@ EVIDENCE = Argued("worldkit refuses an unknown view with the known ones; its own
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Cameras of every step."""
+    """Check cameras of every step."""
     from worldkit.cameras import VIEWS
 
     for index, step in enumerate(view.plan.implementation_steps):

@@ -13,11 +13,11 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....model.errors import PlanError
-from ....model.imported import all_of, is_model, load
+from ....model.plan.imported import all_of, is_model, load
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import Place, PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP126"
 SEVERITY = "error"
@@ -32,7 +32,7 @@ AGREES = 0.02
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Each file, then the names and masses that the plan uses of it."""
+    """Check each file, then the names and masses that the plan uses of it."""
     plan = view.plan
     for index, row in enumerate(plan.assets):
         if is_model(row):

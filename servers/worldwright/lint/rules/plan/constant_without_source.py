@@ -12,9 +12,9 @@ user to audit.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP113"
 SEVERITY = "warning"
@@ -35,7 +35,7 @@ EVIDENCE = Argued("any constant simulates; whether it is right, only its source 
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Materials, constants, interventions."""
+    """Check materials, constants, interventions."""
     parameters = view.plan.simulation_parameters
     fix = "name the table, standard or textbook, or list it under `inferred`"
     for group, rows in (("materials", parameters.materials), ("constants", parameters.constants)):

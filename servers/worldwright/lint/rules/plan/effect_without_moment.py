@@ -15,35 +15,13 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...case import Changes
+from ...expectation_names import marked, vocabulary
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP128"
 SEVERITY = "warning"
-LASTING = frozenset(
-    [
-        "stays",
-        "stays_within",
-        "stays_upright",
-        "stays_in_contact",
-        "stays_intact",
-        "stays_together",
-        "stays_contained",
-        "never_touches",
-        "never_faster_than",
-        "no_penetration",
-        "conserves",
-        "moves_straight",
-        "keeps_speed",
-        "keeps_axis",
-        "keeps_length",
-        "rolls_without_slipping",
-        "spins_at_constant_rate",
-    ]
-)
-"""True of every beginning of a recording that they are true of, and their number need not move; the fitted acceleration of
-`follows_parabola` does, so it may be an effect."""
 FALLS = {"falls": {"body": "crate", "min_m": 0.2}}
 ABOVE = {"stays_within": {"body": "crate", "low": [None, None, 0.0], "high": [None, None, 2.0]}}
 CLAIM = {"claim": "Its weight brings it down.", "cause": "gravity", "expect": [FALLS, ABOVE]}
@@ -62,14 +40,12 @@ EVIDENCE = Argued("the audit would compare a number that may not move, or anothe
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Each objective with a cause whose effect names expectations."""
-    from .unknown_expectation import vocabulary
-
-    known = vocabulary()
+    """Check each objective with a cause whose effect names expectations."""
+    known, lasting = vocabulary(), marked("LASTING")
     for index, objective in enumerate(view.plan.objectives):
         own = {name: arguments for row in objective.expect for name, arguments in row.items()}
         words = objective.effect.replace(",", " ").split()
-        named = words if set(words) <= {*known} else [word for word in words if word in own]  # else it is a sentence
+        named = words if set(words) <= {*known} else [word for word in words if word in own]  # else a sentence
         if not named or not objective.cause:
             continue
         place = ("objectives", index, "effect")
@@ -77,8 +53,8 @@ def check(view: PlanView) -> Iterator[Problem]:
             if name not in own:
                 fix = f"add it to `expect`, or name one of its own: {', '.join(own) or 'it has none'}"
                 yield view.at(place, f"the effect `{name}` is none of the objective's expectations", fix)
-        if all(name in own and _lasts(name, own[name]) for name in named):
-            others = [name for name in own if name not in LASTING]
+        if all(name in own and name in lasting and _throughout(own[name]) for name in named):
+            others = [name for name in own if name not in lasting]
             fix = (
                 f"name {' or '.join(others)} too" if others else "add one that comes true: falls, crosses, happens_at …"
             )
@@ -88,7 +64,7 @@ def check(view: PlanView) -> Iterator[Problem]:
             )
 
 
-def _lasts(name: str, arguments: Any) -> bool:
-    """Whether it holds all the time, not only from some later instant on."""
+def _throughout(arguments: Any) -> bool:
+    """Whether an expectation speaks of the whole time, not only of the time after some instant."""
     window = arguments.get("window_s") if isinstance(arguments, dict) else None
-    return name in LASTING and not (isinstance(window, list | tuple) and window and window[0] != 0)
+    return not (isinstance(window, list | tuple) and window and window[0] != 0)

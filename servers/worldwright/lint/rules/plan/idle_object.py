@@ -10,9 +10,9 @@ Use instead: name it under `scene_objects` or `assets` of the step that builds i
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP120"
 SEVERITY = "warning"
@@ -26,14 +26,14 @@ EVIDENCE = Argued("what is left out of the steps is left out by a builder, not b
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Scene objects and asset rows; a row counts when one of its instances is named."""
+    """Check scene objects and asset rows; a row counts when one of its instances is named."""
     plan = view.plan
     if not plan.implementation_steps:
         return
     built = {name for step in plan.implementation_steps for name in (*step.scene_objects, *step.assets)}
     fix = "name it in the step that builds it"
     for index, row in enumerate(plan.scene_objects):
-        if row.name not in built:
+        if row.name not in built and not row.built:
             yield view.at(("scene_objects", index), f"no step builds {row.name}", fix)
     for index, asset in enumerate(plan.assets):
         if not built & {asset.name, *asset.instances}:

@@ -12,9 +12,9 @@ Use instead: SI units: 700 kg/m^3, -9.81 m/s^2.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Measured
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Measured
 
 CODE = "WP118"
 SEVERITY = "error"
@@ -29,8 +29,8 @@ BAD: Changes = (
 
 
 def _height_m(change: dict) -> float:
-    """Where a body is after half a second of the case's gravity, m."""
-    from ...proof import height_after
+    """The height of a body after half a second of the case's gravity, m."""
+    from ...harm import height_after
 
     gravity = change["simulation_parameters"]["gravity"]
     ball = "<worldbody><body><freejoint/><geom size='.1'/></body></worldbody>"
@@ -48,7 +48,7 @@ MOST_GRAVITY = 30.0
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Materials, masses, gravity."""
+    """Check materials, masses, gravity."""
     parameters, section = view.plan.simulation_parameters, "simulation_parameters"
     for name, row in parameters.materials.items():
         for word, (low, high, unit) in RANGES.items():

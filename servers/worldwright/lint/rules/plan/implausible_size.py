@@ -11,9 +11,9 @@ Use instead: metres: 95 mm is 0.095.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP117"
 SEVERITY = "warning"
@@ -30,7 +30,7 @@ LEAST_M, MOST_M = 3e-4, 200.0
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Scene objects but endless planes, then asset heights."""
+    """Check scene objects but endless planes, then asset heights."""
     for index, row in enumerate(view.plan.scene_objects):
         odd = [extent for extent in row.size if not LEAST_M <= extent <= MOST_M]
         if odd and row.primitive != "plane":

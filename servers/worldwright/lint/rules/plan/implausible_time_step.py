@@ -13,9 +13,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...case import Changes
+from ...harm import Measured
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Measured
 
 CODE = "WP102"
 SEVERITY = "error"
@@ -53,7 +53,7 @@ MAX_STEPS = 2_000_000
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """The step against contacts, frames and duration; only numbers are judged."""
+    """Check the step against contacts, frames and duration; only numbers are judged."""
     parameters = view.plan.simulation_parameters
     step, duration = parameters.time_step, parameters.simulation_duration
     place = ("simulation_parameters", "time_step")

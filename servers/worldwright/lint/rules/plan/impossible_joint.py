@@ -7,17 +7,17 @@ range, a spring, friction, a motor or an initial motion.
 Why is this bad: the engine refuses it, or builds a joint that cannot move. What closes a loop is a constraint: it has no
 coordinate that could be limited, driven or started.
 
-Use instead: an axis such as `[0, 0, 1]`, a range `[low, high]`, and `fixed: false` on what should turn or slide. Of a loop's joints
-list the one that slides, is limited or driven before the other joint of its child.
+Use instead: an axis such as `[0, 0, 1]`, a range `[low, high]`, and `fixed: false` on what should turn or slide. Of a
+loop's joints list the one that slides, is limited or driven before the other joint of its child.
 """
 
 from collections.abc import Iterator
 
-from ....model.plan import Joint
+from ....model.plan.committed import Joint
 from ...case import Changes
+from ...harm import Measured
 from ...plan_view import Place, PlanView
 from ...problem import Problem
-from ...proof import Measured
 
 CODE = "WP119"
 SEVERITY = "error"
@@ -66,7 +66,7 @@ EVIDENCE = Measured("the engine refuses the axis", _compiles, 0.5)
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Every joint of the plan."""
+    """Check every joint of the plan."""
     for index, joint in enumerate(view.plan.topology.joints):
         place = ("topology", "joints", index)
         if not any(joint.axis) and joint.type in ("hinge", "slide"):
@@ -83,7 +83,7 @@ def check(view: PlanView) -> Iterator[Problem]:
 
 
 def _loop(view: PlanView, joint: Joint, place: Place) -> Iterator[Problem]:
-    """What a joint that closes a loop cannot have."""
+    """Report what a joint that closes a loop cannot have."""
     plan = view.plan
     asked = [key for key in ("range", "stiffness", "damping", "frictionloss") if getattr(joint, key)]
     asked += ["type: slide"] if joint.type == "slide" else []

@@ -11,9 +11,9 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP105"
 SEVERITY = "error"
@@ -30,7 +30,7 @@ EVIDENCE = Argued("the recording ends before; what is not recorded cannot be sho
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Every time an expectation names."""
+    """Check every time an expectation names."""
     duration = view.plan.simulation_parameters.simulation_duration
     if isinstance(duration, str):
         return

@@ -11,9 +11,9 @@ Use instead: make the object dynamic, or take it out of the motion.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import Place, PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP110"
 SEVERITY = "error"
@@ -37,7 +37,7 @@ EVIDENCE = Argued("a body without a joint keeps no velocity: there is nothing to
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Initial motion, then expected motion; a fixed object on a joint moves after all."""
+    """Check initial motion, then expected motion; a fixed object on a joint moves after all."""
     rows = view.rows
     jointed = {joint.child for joint in view.plan.topology.joints if joint.type != "weld"}
     for name in view.plan.simulation_parameters.initial_motion:

@@ -10,12 +10,13 @@ Use instead: sizes in `scene_objects[].size` and `asset_dimensions`; masses once
 """
 
 from collections.abc import Iterator
+from functools import cache
 
-from ....model.weights import weight
+from ....model.plan.weights import weight
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import Place, PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP112"
 SEVERITY = "error"
@@ -55,7 +56,7 @@ SIZES = frozenset({"size", "extents", "dimensions", "radius", "diameter", "width
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Sizes, masses, positions."""
+    """Check sizes, masses, positions."""
     plan = view.plan
     for name in plan.asset_dimensions:
         if any(row.name == name for row in plan.scene_objects):
@@ -65,7 +66,7 @@ def check(view: PlanView) -> Iterator[Problem]:
         for key in SIZES & set(row.params):
             place = ("topology", "scene_predicates", index, "params", key)
             yield view.at(place, f"`{key}` of `{row.subject}` has its owner elsewhere", "sizes live with the object")
-        if row.predicate != "GROUP" and row.subject in plan.topology.body_positions:  # a group places nothing
+        if row.subject in plan.topology.body_positions and row.predicate not in _grouping():
             place = ("topology", "body_positions", row.subject)
             yield view.at(place, f"`{row.subject}` is placed twice", "keep the predicates, or the absolute position")
     for index, item in enumerate(plan.scene_objects):
@@ -83,3 +84,11 @@ def check(view: PlanView) -> Iterator[Problem]:
             for name in set(asset.instances) & set(masses):
                 place = ("simulation_parameters", "masses", name)
                 yield view.at(place, f"the mass of `{name}` is also given for all `{asset.name}`", "give one of them")
+
+
+@cache
+def _grouping() -> tuple[str, ...]:
+    """The predicates that place nothing: they only name a leader and its members."""
+    from ....place.tools import vocabulary
+
+    return vocabulary()["grouping"]

@@ -10,9 +10,9 @@ Use instead: one or more expectations with tolerances, or `visual_only: why it c
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP103"
 SEVERITY = "error"
@@ -29,7 +29,7 @@ EVIDENCE = Argued("a claim without a measurement is neither true nor false of an
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Each objective; then whether anything at all is measured; then the form of the expectations."""
+    """Check each objective; then whether anything at all is measured; then the form of the expectations."""
     for index, objective in enumerate(view.plan.objectives):
         if not objective.expect and not objective.visual_only:
             message = f'nothing could prove "{objective.claim[:80]}"'

@@ -12,9 +12,9 @@ where a contact matters.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import Place, PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP106"
 SEVERITY = "warning"
@@ -42,7 +42,7 @@ EVIDENCE = Argued("depth and what hides behind are judged by eyes, not by the en
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """The plan as a whole (an error without any camera), then each step."""
+    """Check the plan as a whole (an error without any camera), then each step."""
     plan = view.plan
     if plan.recording_mode.mode == "none":
         return

@@ -1,7 +1,8 @@
 """An objective's cause names nothing that the plan has.
 
 What it does: resolves every `cause` of an objective: objects, asset rows, joints, tendons, actuators, `gravity`, `wind`,
-`control`, or `kind:target` of an intervention; several may be joined by `+`.
+`control`, or `kind:target` of an intervention; of a body also `.velocity` (the one it starts with) and `.weight`. Several may
+be joined by `+`.
 
 Why is this bad: the causal audit takes the cause away and looks whether the effect vanishes. What is not there cannot be
 taken away, so the objective stays without that proof.
@@ -12,11 +13,11 @@ Use instead: the plan's own names; declare an intervention before naming it as a
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from ....model.imported import all_of
+from ....model.plan.imported import all_of
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP115"
 SEVERITY = "warning"
@@ -31,6 +32,7 @@ def _tow(name: str) -> dict:
 GOOD: Changes = (
     {"objectives": [{**CLAIM, "cause": "gravity"}]},
     {"objectives": [{**CLAIM, "cause": ["ramp + gravity"]}]},
+    {"objectives": [{**CLAIM, "cause": "crate.velocity"}]},
     {"objectives": [{**CLAIM, "cause": "force:crate"}], "simulation_parameters": PUSH},
     {"objectives": [{**CLAIM, "cause": "tow+tow_2"}], "topology": {"tendons": [_tow("tow"), _tow("tow_2")]}},
 )
@@ -38,16 +40,21 @@ BAD: Changes = (
     {"objectives": [{**CLAIM, "cause": "slope"}]},
     {"objectives": [{**CLAIM, "cause": "force:crate"}]},
     {"objectives": [{**CLAIM, "cause": ["gravity + wnid"]}]},
+    {"objectives": [{**CLAIM, "cause": "crate.colour"}]},
+    {"objectives": [{**CLAIM, "cause": "gravity.velocity"}]},
 )
 EVIDENCE = Argued("no run can be made without a thing that is not in it; the audit refuses the name")
 WORLD = ("gravity", "wind", "control")
+ASPECTS = ("velocity", "weight")
+"""Properties that can be taken away from a body while the body stays."""
 BUILT = ("actuator", "constraint", "equality", "tendon", "body", "geom", "joint", "flex")
 """Kinds that only the program declares: `actuator:winch` is believed."""
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Each part of each cause."""
+    """Check each part of each cause."""
     plan = view.plan
+    bodies = {*plan.object_names(), *(a.name for a in plan.assets)}
     known = {*WORLD, *plan.object_names(), *(a.name for a in plan.assets), *(j.name for j in plan.topology.joints)}
     known |= {row.name for row in plan.topology.tendons} | {row.name for row in plan.topology.actuators}
     known |= {name for _, _, model in all_of(plan) for name in model.names()}
@@ -57,8 +64,8 @@ def check(view: PlanView) -> Iterator[Problem]:
         for cause in objective.cause:
             for part in (p.strip() for p in cause.split("+")):
                 kind = part.partition(":")[0]
-                aspect = part.rpartition(".")
-                if part in known or (":" in part and kind in BUILT) or (aspect[0] in known and aspect[1]):
+                whole, _, aspect = part.rpartition(".")
+                if part in known or (":" in part and kind in BUILT) or (whole in bodies and aspect in ASPECTS):
                     continue
                 near = get_close_matches(part, sorted(known), n=3, cutoff=0.5)
                 fix = (

@@ -1,7 +1,7 @@
 """An expectation is not in the vocabulary, or names a body the plan does not have.
 
-What it does: compares the names under `expect` with the entries of the expectation shelf, and every `body`, `bodies`
-and `support` with the plan's objects.
+What it does: compares the names under `expect` with the entries of the expectation shelf, every `body`, `bodies`
+and `support` with the plan's objects, and `camera` with its cameras.
 
 Why is this bad: an unknown expectation is never measured, so its objective stays unproved and the run cannot be
 accepted.
@@ -11,15 +11,13 @@ Use instead: a listed name; `worldwright scan expect --help` and the shelf's pag
 
 from collections.abc import Iterator
 from difflib import get_close_matches
-from functools import cache
-from importlib.metadata import entry_points
-from pathlib import Path
 from typing import Any
 
 from ...case import Changes
+from ...expectation_names import vocabulary
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP104"
 SEVERITY = "error"
@@ -33,6 +31,11 @@ BAD: Changes = (
     {"objectives": [{"claim": "They stay.", "expect": [{"stays": {"bodies": ["ramp", "mugg"]}}]}]},
     {
         "objectives": [
+            {"claim": "Large.", "expect": [{"appears_as_large": {"body": "mug", "camera": "sid", "min_px": 9}}]}
+        ]
+    },
+    {
+        "objectives": [
             {"claim": "At 1 s.", "expect": [{"happens_at": {"event": {"falls": {"body": "mugg"}}, "at_s": 1}}]}
         ]
     },
@@ -43,8 +46,9 @@ SCENERY = ("ground", "world", "base", "floor")
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Names, then bodies."""
+    """Check names, then bodies."""
     known = vocabulary()
+    cameras = [row.name for row in view.plan.cameras()]
     objects = [*view.rows, *(joint.name for joint in view.plan.topology.joints), *SCENERY]
     for index, objective in enumerate(view.plan.objectives):
         for number, row in enumerate(objective.expect):
@@ -54,20 +58,15 @@ def check(view: PlanView) -> Iterator[Problem]:
                     near = get_close_matches(name, known, n=2, cutoff=0.5)
                     fix = (f"did you mean {' or '.join(near)}? " if near else "") + f"known: {', '.join(known)}"
                     yield view.at(place, f"there is no expectation `{name}`", fix)
+                camera = arguments.get("camera") if isinstance(arguments, dict) else None
+                if isinstance(camera, str) and camera not in cameras:
+                    fix = f"name a camera of implementation_steps: {', '.join(cameras) or '(none)'}"
+                    yield view.at(place, f"`{name}` looks through `{camera}`, which the plan does not have", fix)
                 for body in _bodies(arguments):
                     if body not in objects:
                         near = get_close_matches(body, objects, n=2, cutoff=0.5)
                         fix = f"did you mean {' or '.join(near)}?" if near else "name an object of the plan"
                         yield view.at(place, f"`{name}` names `{body}`, which the plan does not have", fix)
-
-
-@cache
-def vocabulary() -> tuple[str, ...]:
-    """The shelf's names: its files, read from disk (the engine that measures is another server's), and plug-ins."""
-    folder = Path(__file__).parents[3] / "scan" / "expectations"
-    names = {path.stem for path in folder.rglob("*.py") if not path.stem.startswith("_")}
-    names |= {point.name for point in entry_points(group="worldwright.scan.expectations")}
-    return tuple(sorted(names))
 
 
 def _bodies(arguments: Any) -> Iterator[str]:

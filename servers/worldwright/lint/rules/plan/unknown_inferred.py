@@ -13,9 +13,9 @@ from difflib import get_close_matches
 from typing import Any
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP124"
 SEVERITY = "error"
@@ -41,11 +41,14 @@ EVIDENCE = Argued("the list is for the user who approves the plan; no run reads 
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Each name, in the parameters and in the whole plan."""
+    """Check each name, in the parameters and in the whole plan."""
     whole = view.plan.model_dump()
     for index, name in enumerate(view.plan.simulation_parameters.inferred):
         parts = name.replace("[", ".").replace("]", "").split(".")
-        if not any(_leads(root, parts) for root in (whole["simulation_parameters"], whole)):
+        copied = [view.plan.families.get(part, (part,))[0] for part in parts]
+        if not any(
+            _leads_somewhere(root, way) for root in (whole["simulation_parameters"], whole) for way in (parts, copied)
+        ):
             place = ("simulation_parameters", "inferred", index)
             near = get_close_matches(name, _paths(whole["simulation_parameters"]), n=3, cutoff=0.6)
             near = near or get_close_matches(name, _paths(whole), n=3, cutoff=0.6)
@@ -63,16 +66,16 @@ def _paths(value: Any, above: str = "", room: int = 4) -> list[str]:
     return [*own, *(path for paths in inside for path in paths)]
 
 
-def _leads(value: Any, parts: list[str]) -> bool:
+def _leads_somewhere(value: Any, parts: list[str]) -> bool:
     """Whether a dotted path leads somewhere; rows of a list may be named by number or by name, keys may hold dots."""
     if not parts:
         return True
     if isinstance(value, dict):
         keys = ((".".join(parts[:n]), parts[n:]) for n in range(1, len(parts) + 1))
-        return any(key in value and _leads(value[key], rest) for key, rest in keys)
+        return any(key in value and _leads_somewhere(value[key], rest) for key, rest in keys)
     if isinstance(value, list | tuple):
         named = (v for i, v in enumerate(value) if str(i) == parts[0] or _name(v) == parts[0])
-        return any(_leads(v, parts[1:]) for v in named)
+        return any(_leads_somewhere(v, parts[1:]) for v in named)
     return False
 
 

@@ -14,17 +14,17 @@ import re
 from collections.abc import Iterator
 from difflib import get_close_matches
 
-from ....model.trigger import threshold
+from ....model.plan.trigger import threshold, touching
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP127"
 SEVERITY = "error"
 ON_BODIES = ("force", "torque", "pose", "velocity", "mocap")
 EVERYWHERE = ("wind", "gravity", "world")
-"""What acts on all bodies at once."""
+"""Names of what acts on all bodies at once."""
 WITH_A_BODY = ("contact force", "speed", "height")
 PATH = re.compile(r"\b(constants|materials|masses)\.([A-Za-z_]\w*)")
 
@@ -53,7 +53,7 @@ EVIDENCE = Argued("what is meant by a name that nobody has, no run tells; what a
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Bodies, triggers, and paths in words."""
+    """Check bodies, triggers, and paths in words."""
     plan, parameters = view.plan, view.plan.simulation_parameters
     objects = [*plan.object_names(), *(row.name for row in plan.assets)]
     joints = [row.name for row in plan.topology.joints]
@@ -79,6 +79,10 @@ def check(view: PlanView) -> Iterator[Problem]:
             if near and found.name not in near and not found.name.startswith(inner):
                 what = f"the trigger waits for the {found.quantity} of `{found.name}`, which the plan does not have"
                 yield view.at((*place, "trigger"), what, _fix(found.name, near))
+        for name in touching(row.trigger) or ():
+            if name not in (*objects, "ground") and not name.startswith(inner):
+                what = f"the trigger waits for a touch of `{name}`, which the plan does not have"
+                yield view.at((*place, "trigger"), what, _fix(name, objects))
         for field, text in (("law", row.law), ("trigger", row.trigger), ("source", row.source)):
             for kind, name in dict.fromkeys(PATH.findall(text)):
                 if name not in paths[kind]:

@@ -1,6 +1,7 @@
 """A look does not exist.
 
-What it does: compares `look` of objects, of their parts, of assets and of ropes, and the `floor`, with worldkit's library and the form `#rrggbb`.
+What it does: compares `look` of objects, of their parts, of assets and of ropes, and the `floor`, with worldkit's
+library and the form `#rrggbb`.
 
 Why is this bad: building the world fails at that object.
 
@@ -13,9 +14,9 @@ from difflib import get_close_matches
 from typing import Any
 
 from ...case import Changes
+from ...harm import Measured
 from ...plan_view import Place, PlanView
 from ...problem import Problem
-from ...proof import Measured
 
 CODE = "WP122"
 SEVERITY = "error"
@@ -39,7 +40,7 @@ BAD: Changes = (
 )
 
 
-def _made(change: dict[str, Any]) -> float:
+def _is_made(change: dict[str, Any]) -> float:
     """1 when worldkit makes the look of the case's asset, else 0."""
     import mujoco
 
@@ -52,11 +53,11 @@ def _made(change: dict[str, Any]) -> float:
     return 1.0
 
 
-EVIDENCE = Measured("worldkit refuses the look", _made, 0.5)
+EVIDENCE = Measured("worldkit refuses the look", _is_made, 0.5)
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Looks of objects, of parts, of assets, of ropes, of the floor."""
+    """Check looks of objects, of parts, of assets, of ropes, of the floor."""
     from worldkit.materials import LOOKS
 
     used: list[tuple[Place, str | None]] = [
@@ -72,7 +73,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     ]
     for place, look in used:
         if look is not None and look not in LOOKS and not re.fullmatch(r"#[0-9a-fA-F]{6}", look):
-            near = _alike(look, LOOKS) or get_close_matches(look, list(LOOKS), n=3, cutoff=0.55)
+            near = _similar_looks(look, LOOKS) or get_close_matches(look, list(LOOKS), n=3, cutoff=0.55)
             fix = (
                 "did you mean " + ", ".join(near) + "?"
                 if near
@@ -81,8 +82,8 @@ def check(view: PlanView) -> Iterator[Problem]:
             yield view.at(place, f"there is no look `{look}`", fix)
 
 
-def _alike(look: str, looks: Iterable[str]) -> list[str]:
-    """Looks that share a word with it: of `oak`, `wood_oak`; of `green_felt`, `felt_green`."""
+def _similar_looks(look: str, looks: Iterable[str]) -> list[str]:
+    """Looks that share a word with this one: `wood_oak` with `oak`, `felt_green` with `green_felt`."""
     words = set(look.lower().replace("-", "_").split("_"))
     shared = {name: len(words & set(name.split("_"))) for name in looks}
     return [name for name in sorted(shared, key=lambda name: -shared[name]) if shared[name]][:3]

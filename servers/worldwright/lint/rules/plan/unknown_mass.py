@@ -12,9 +12,9 @@ Use instead: an entry in `simulation_parameters.masses`, or a `material` with a 
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP108"
 SEVERITY = "error"
@@ -50,7 +50,7 @@ EVIDENCE = Argued("the engine would use the density of water without a word; tha
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Moving scene objects (assets bring the catalog's mass), then masses that are none."""
+    """Check moving scene objects (assets bring the catalog's mass), then masses that are none."""
     parameters = view.plan.simulation_parameters
     for name, mass in parameters.masses.items():
         if not 0 < mass < float("inf"):

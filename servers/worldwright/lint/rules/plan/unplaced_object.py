@@ -11,9 +11,9 @@ Use instead: a row in `topology.scene_predicates`, e.g. `PLACE-ON` its support.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP109"
 SEVERITY = "error"
@@ -40,9 +40,10 @@ EVIDENCE = Argued("everything without a place is built at the origin, inside eve
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Every object; copies made by COPY-GROUP are placed by the group they are in."""
+    """Check every object; copies made by COPY-GROUP are placed by the group they are in."""
     topology = view.plan.topology
     placed = {row.subject for row in topology.scene_predicates} | set(topology.body_positions)
+    placed |= {name for family in placed & set(view.plan.families) for name in view.plan.families[family]}
     placed |= {relation.body_a for relation in view.plan.geometry_relations}
     for row in topology.scene_predicates:
         for value in row.params.values():
@@ -52,5 +53,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     for name in view.plan.object_names():
         asset = view.rows[name]
         if name not in placed and asset.name not in placed:
-            fix = f"add a row with subject `{name}` to topology.scene_predicates"
+            fix = (
+                f"add a row with subject `{name}` to topology.scene_predicates (`worldwright plan complete`: as built)"
+            )
             yield view.at(view.place(name), f"`{name}` is not placed", fix)

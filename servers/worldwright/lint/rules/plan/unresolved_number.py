@@ -1,6 +1,7 @@
 """Something the user owns is still open.
 
-What it does: reports every `TO_CLARIFY` and every entry of `clarifications_needed`.
+What it does: reports every `TO_CLARIFY`, in whatever value of the plan it stands, and every entry of
+`clarifications_needed`.
 
 Why is this bad: code for an open question answers it silently. Time step and duration in particular are never
 defaulted.
@@ -12,9 +13,9 @@ conservative value and list its dotted name under `simulation_parameters.inferre
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP101"
 SEVERITY = "error"
@@ -23,13 +24,16 @@ BAD: Changes = (
     {"simulation_parameters": {"time_step": "TO_CLARIFY"}},
     {"clarifications_needed": ["How heavy is the crate?"]},
     {"topology": {"body_positions": {"crate": "TO_CLARIFY"}}},
+    {"geometry_relations": [{"relation_name": "TO_CLARIFY", "body_a": "crate", "body_b": "ramp"}]},
+    {"topology": {"scene_predicates": [{"subject": "crate", "predicate": "TO_CLARIFY", "object": "ramp"}]}},
+    {"objectives": [{"claim": "TO_CLARIFY how far it slides", "expect": [{"moves": {"body": "crate"}}]}]},
 )
 EVIDENCE = Argued("a number that is not there cannot be run; it would have to be invented")
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Everything `Plan.unresolved` names."""
+    """Check everything `Plan.unresolved` names."""
     for what in view.plan.unresolved():
         place, _, rest = what.partition(": ")
-        path = tuple(place.split("."))
+        path = tuple(int(part) if part.isdigit() else part for part in place.split("."))
         yield view.at(path, f"{what} is still open", f"ask the user, then write the answer into `{rest or place}`")

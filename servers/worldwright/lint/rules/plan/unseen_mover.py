@@ -11,9 +11,9 @@ Use instead: the object among the subjects of at least one camera.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP125"
 SEVERITY = "warning"
@@ -41,7 +41,7 @@ EVIDENCE = Argued("what a picture shows is judged by eyes; the world moves all t
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Movers of the whole plan against cameras of the whole plan."""
+    """Check movers of the whole plan against cameras of the whole plan."""
     cameras = view.plan.cameras()
     if (
         not cameras
@@ -49,15 +49,15 @@ def check(view: PlanView) -> Iterator[Problem]:
         or any(not c.subjects and c.target is None for c in cameras)
     ):
         return
-    if any(c.position is not None for c in cameras):  # what an explicit camera sees, the layout decides
+    if any(c.position is not None for c in cameras):  # the layout decides what a camera with a pose of its own sees
         return
     seen = {name for camera in cameras for name in camera.subjects}
     supports: dict[str, set[str]] = {}
     for row in view.plan.topology.scene_predicates:
-        if row.object:
-            supports.setdefault(row.subject, set()).add(row.object)
+        for name in view.plan.families.get(row.subject, (row.subject,)) if row.object else ():
+            supports.setdefault(name, set()).add(str(row.object))
     for joint in view.plan.topology.joints:
-        if joint.type == "weld":  # one body: who sees it, sees its parts
+        if joint.type == "weld":  # one body: a camera that sees it sees its parts
             supports.setdefault(joint.child, set()).add(joint.parent)
             supports.setdefault(joint.parent, set()).add(joint.child)
     for index, step in enumerate(view.plan.implementation_steps):
@@ -68,7 +68,7 @@ def check(view: PlanView) -> Iterator[Problem]:
 
 
 def _chain(name: str, supports: dict[str, set[str]]) -> set[str]:
-    """An object and everything it is placed by, directly or not."""
+    """An object and everything that it stands on, in or is welded to, directly or not."""
     found, waiting = set(), [name]
     while waiting:
         current = waiting.pop()

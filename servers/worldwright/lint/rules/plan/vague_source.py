@@ -13,9 +13,9 @@ import re
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import Place, PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP123"
 SEVERITY = "warning"
@@ -36,7 +36,7 @@ VAGUE = re.compile(
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Sources of materials, constants, interventions; what is listed as inferred is open already."""
+    """Check sources of materials, constants, interventions; what is listed as inferred is open already."""
     parameters, section = view.plan.simulation_parameters, "simulation_parameters"
     rows: list[tuple[Place, str, str]] = [
         *(((section, "materials", n), f"materials.{n}", row.source) for n, row in parameters.materials.items()),

@@ -11,9 +11,9 @@ Use instead: the arguments that the finding lists, in the units their names say.
 from collections.abc import Iterator
 
 from ...case import Changes
+from ...harm import Argued
 from ...plan_view import PlanView
 from ...problem import Problem
-from ...proof import Argued
 
 CODE = "WP114"
 SEVERITY = "error"
@@ -30,8 +30,8 @@ EVIDENCE = Argued("scan refuses to judge it; no run changes that")
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Each expectation of each objective."""
-    from worldwright.scan.tools import argument_problem
+    """Check each expectation of each objective."""
+    from ....scan.tools import argument_problem
 
     for index, objective in enumerate(view.plan.objectives):
         for number, row in enumerate(objective.expect):

@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from ...mjcf_text import Document, Tag
 
 GENERATES = frozenset({"include", "attach", "replicate", "flexcomp", "composite"})
-"""Elements that make objects, or bring them in, under names that do not stand in the text."""
+"""Elements that make or bring in objects whose names do not stand in the text."""
 JOINTS, TENDONS = ("joint", "freejoint"), ("spatial", "fixed")
 
 
 def walk(document: Document) -> Iterator[tuple[Tag, tuple[Tag, ...]]]:
-    """Every element with what it stands in, outermost first."""
+    """Every element with the elements around it, outermost first."""
     stack: list[tuple[Tag, tuple[Tag, ...]]] = [(document.root, ())] if document.root else []
     while stack:
         tag, around = stack.pop()
@@ -32,7 +32,7 @@ def kind(tag: Tag, around: tuple[Tag, ...]) -> str | None:
 
 
 def closed(document: Document) -> bool:
-    """Every object of the model stands in this text under its own name."""
+    """Whether every object of the model stands in this text under its own name."""
     if document.root is None or document.root.name != "mujoco" or document.computed:
         return False
     return not any(tag.name in GENERATES for tag, _ in walk(document))

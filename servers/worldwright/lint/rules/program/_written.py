@@ -4,7 +4,7 @@ import ast
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from ...program import Program
+from ...program_view import Program
 
 POSE = frozenset({"qpos"})
 MOTION = frozenset({"qvel", "qacc"})
@@ -18,7 +18,7 @@ _DERIVED_WORDS = """
     actuator_velocity ten_length xanchor xaxis efc_force qfrc_constraint qfrc_passive qfrc_bias qfrc_actuator
 """
 DERIVED = frozenset(_DERIVED_WORDS.split())
-"""Fields of MjData that the engine computes from the state: what is written there is overwritten, or was never felt."""
+"""Fields of MjData that the engine computes from the state: what a program writes there is overwritten, or never felt."""
 
 
 class Write(NamedTuple):
@@ -31,7 +31,7 @@ class Write(NamedTuple):
 
 
 def writes(program: Program) -> Iterator[Write]:
-    """Stores to fields of the data or the model: plain, sliced, named access, augmented, `np.copyto`, `.fill`."""
+    """Writes to fields of the data or the model: plain, sliced, by named access, augmented, `np.copyto`, `.fill`."""
     for target, _, statement in program.stores():
         found = field_of(program, target)
         if found is not None:

@@ -13,9 +13,9 @@ import ast
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Measured, height_after
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, height_after
+from ...program_view import Program
 
 CODE = "WL135"
 SEVERITY = "error"
@@ -51,7 +51,7 @@ EVIDENCE = Measured(
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Free bodies held by one variable, then free bodies in MJCF.
+    """Check free bodies held by one variable, then free bodies in MJCF.
 
     Only free bodies: a pendulum on a hinge may well be meant to touch nothing.
     """
@@ -86,7 +86,7 @@ def _masked(program: Program, call: ast.Call) -> bool:
 
 
 def _handed_on(program: Program, body: ast.AST) -> bool:
-    """The body is an argument of another call, which may add geoms to it."""
+    """Whether the body is an argument of another call, which may add geoms to it."""
     assigned = program.parent(body)
     names = {t.id for t in getattr(assigned, "targets", []) if isinstance(t, ast.Name)}
     return any(

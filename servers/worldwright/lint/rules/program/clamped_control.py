@@ -11,9 +11,9 @@ Use instead: a value within the range, or a wider range.
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 from ._written import writes
 
 CODE = "WL155"
@@ -29,7 +29,7 @@ BAD = (ARM.format("5.0"), ARM.format("-3"))
 
 
 def _lost(source: str) -> float:
-    """How much of the control that is written does not arrive as a force, N m."""
+    """How much of the written control does not arrive as a torque, N m."""
     data = executed(source)["data"]
     return float(data.ctrl[0] - data.actuator_force[0])
 
@@ -38,7 +38,7 @@ EVIDENCE = Measured("4 of 5 N m never arrive", _lost, 1.0, "N m")
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Numbers beyond every range."""
+    """Check numbers beyond every range."""
     if not program.whole_model or not any(True for _ in program.tags()):
         return
     ranges = []

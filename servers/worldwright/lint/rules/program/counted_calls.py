@@ -11,9 +11,9 @@ Use instead: `data.time`, or better the condition itself: a force, a distance, a
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL119"
 SEVERITY = "error"
@@ -58,7 +58,7 @@ EVIDENCE = Measured("at half the step the motor starts half a second earlier", _
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Increments in functions that run every step, of what outlives the call, when it is compared somewhere there."""
+    """Check increments in functions that run every step, of what outlives the call, when it is compared somewhere there."""
     for node in program.nodes(ast.AugAssign):
         if not isinstance(node.op, ast.Add | ast.Sub) or not program.runs_every_step(node):
             continue

@@ -1,7 +1,8 @@
 """An MJCF attribute names an object that the model does not have.
 
 What it does: resolves `joint`, `site`, `body1`, `geom1`, `material`, `mesh`, `texture`, `class`, `target` and the like
-against the names of the document; documents with includes or generated names are left alone.
+against the names of the document; documents with includes or generated names, and texts that the program makes
+other texts of, are left alone.
 
 Why is this bad: the model does not compile ("unknown transmission target", "material not found").
 
@@ -13,19 +14,24 @@ from difflib import get_close_matches
 from pathlib import PurePosixPath
 
 from ...case import Case
+from ...harm import Raises
 from ...mjcf_text import Document
 from ...problem import Problem
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 from ._mjcf import closed, kind, walk
 
 CODE = "WL108"
+ABOUT = "signatures"
 SEVERITY = "error"
 SCOPE = "any"
 ARM = "<mujoco><worldbody><body name='arm'><joint name='elbow'/><geom size='.1'/></body></worldbody>{0}</mujoco>"
 GOOD = (
     Case(ARM.format("<actuator><motor joint='elbow'/></actuator>"), path="a.xml"),
     Case(ARM.format("<contact><exclude body1='arm' body2='world'/></contact>"), path="a.xml"),
+    Case(
+        'import mujoco\nTEXT = "' + ARM.format("<actuator><motor joint='wrist'/></actuator>") + '"\n'
+        "model = mujoco.MjModel.from_xml_string(TEXT.replace('elbow', 'wrist'))\n"
+    ),
 )
 BAD = (
     Case(ARM.format("<actuator><motor joint='elbo'/></actuator>"), path="a.xml"),
@@ -46,7 +52,7 @@ PLACES = {"equality": ("joint1", "joint2", "body1", "body2", "site1", "site2", "
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Documents whose names all stand in the text."""
+    """Check documents whose names all stand in the text."""
     for document in program.documents:
         if closed(document):
             yield from _document(document)

@@ -13,9 +13,9 @@ import ast
 import math
 from collections.abc import Iterator
 
+from ...harm import Measured, model_of
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, model_of
+from ...program_view import Program
 
 CODE = "WL141"
 SEVERITY = "error"
@@ -51,7 +51,7 @@ TO_DEGREES = frozenset({"degrees", "rad2deg"})
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Keywords of `add_*` calls on bodies, then assignments to the same fields."""
+    """Check keywords of `add_*` calls on bodies, then assignments to the same fields."""
     if _radians(program):
         return
     fix = "give degrees (MjSpec's default), or set spec.compiler.degree = False"
@@ -75,7 +75,7 @@ def check(program: Program) -> Iterator[Problem]:
 
 
 def _radians(program: Program) -> bool:
-    """The program chooses radians somewhere, or loads models whose compiler it does not see."""
+    """Whether the program chooses radians somewhere, or loads models whose compiler settings it does not see."""
     for target, value, _ in program.stores():
         if isinstance(target, ast.Attribute) and target.attr == "degree" and program.value(value) in (False, 0):
             return True

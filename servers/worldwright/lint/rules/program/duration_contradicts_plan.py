@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from math import isclose
 
 from ... import stated
+from ...harm import Argued
 from ...problem import Problem
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL121"
 SEVERITY = "error"
@@ -27,7 +27,7 @@ EVIDENCE = Argued("any duration simulates; that another one was approved, only t
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every stated duration."""
+    """Check every stated duration."""
     planned = program.plan.simulation_parameters.simulation_duration if program.plan else None
     if not isinstance(planned, int | float):
         return

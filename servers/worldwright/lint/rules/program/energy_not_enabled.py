@@ -12,9 +12,9 @@ Use instead: `<flag energy="enable"/>`, or `spec.option.enableflags |= mujoco.mj
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL147"
 SEVERITY = "error"
@@ -34,7 +34,7 @@ EVIDENCE = Measured("the energy is zero", lambda s: float(executed(s)["energy"])
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Reads of the field, when the whole model stands in the program."""
+    """Check reads of the field, when the whole model stands in the program."""
     makes = any(full in ("mujoco.MjModel.from_xml_string", "mujoco.MjSpec") for full in program.calls_by_name)
     if not makes or not program.whole_model:
         return

@@ -3,9 +3,8 @@
 What it does: finds code that runs every step (`control`, callbacks, and what they call) and writes positions or
 velocities of the state: `data.qpos`, `data.qvel`, `data.mocap_pos`, named access, slices and views included.
 
-Why is this bad: the outcome does not emerge from the physics, it is animated. A written pose passes through walls, a
-written velocity ignores contact, and a judge of pictures cannot tell. worldkit's ledger will record it as an
-intervention anyway.
+Why is this bad: `data` is the program's own copy. What it writes there outside the inputs that the plan declares goes
+nowhere; the run reports it with its line. A remark, for the author who expects something to move.
 
 Use instead: initial velocities with `motion.launch`; forces, actuators or constraints with a law. If the plan means it
 (a kinematic conveyor, a hand that carries a tool), declare it under `simulation_parameters.interventions` with kind
@@ -15,13 +14,13 @@ Use instead: initial velocities with `motion.launch`; forces, actuators or const
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 from ._written import MOCAP, MOTION, POSE, writes
 
 CODE = "WL130"
-SEVERITY = "error"
+SEVERITY = "info"
 SCOPE = "contract"
 MAIN = "from worldkit import program\ndef build():\n    return None\n"
 END = "\nprogram.main(build, control, duration=3.0)\n"
@@ -53,7 +52,7 @@ LIFTS, FALLS = BALL.format("data.qpos[2] = data.time"), BALL.format("pass")
 
 
 def _unexplained(source: str) -> float:
-    """Way of the ball in half a second that its recorded velocity does not account for, m."""
+    """How far the ball gets in half a second without a velocity that accounts for it, m."""
     import mujoco
 
     space = executed(source)
@@ -63,7 +62,7 @@ def _unexplained(source: str) -> float:
     for _ in range(250):
         mujoco.mj_step1(model, data)
         space["control"](model, data)
-        data.qvel[2] *= source == FALLS  # what is carried along does not fall on its own account
+        data.qvel[2] *= source == FALLS  # what is carried along does not also fall
         mujoco.mj_step2(model, data)
         way += float(data.qvel[2]) * model.opt.timestep
     return abs(float(data.qpos[2]) - start - way)
@@ -73,7 +72,7 @@ EVIDENCE = Measured("the ball moves without a velocity", _unexplained, 0.05, "m"
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Writes to the state that run every step and that the plan does not declare."""
+    """Check writes to the state that run every step and that the plan does not declare."""
     declared = {i.kind for i in program.plan.simulation_parameters.interventions} if program.plan else set()
     for write in writes(program):
         if write.owner != "MjData" or not program.runs_every_step(write.node):

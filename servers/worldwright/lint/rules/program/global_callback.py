@@ -2,20 +2,20 @@
 
 What it does: finds `mujoco.set_mjcb_*` calls.
 
-Why is this bad: a callback acts on every simulation in the process, from inside the step, where neither a reader nor
-the intervention ledger sees what it does; it also slows every step through the interpreter.
+Why is this bad: the world runs in the engine's process, which never loads the program: a callback that is installed here is
+called by nothing that counts. It is a remark, for whoever wonders why it has no effect.
 
 Use instead: `control(model, data)`, which runs between the steps and is accounted for.
 """
 
 from collections.abc import Iterator
 
+from ...harm import Measured, executed, model_of
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed, model_of
+from ...program_view import Program
 
 CODE = "WL132"
-SEVERITY = "error"
+SEVERITY = "info"
 SCOPE = "contract"
 GOOD = ("import mujoco\nfrom worldkit import program\nmujoco.get_mjcb_control()\n",)
 BAD = (
@@ -49,7 +49,7 @@ EVIDENCE = Measured(
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every installation of a callback."""
+    """Check every installation of a callback."""
     for full, call in program.calls("mujoco."):
         if full.startswith("mujoco.set_mjcb_"):
             yield at(call, f"{full.removeprefix('mujoco.')} installs a global callback", "use control(model, data)")

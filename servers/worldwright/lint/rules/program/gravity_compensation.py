@@ -12,9 +12,9 @@ the fluid model (`option density`, geom `fluidshape`).
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, height_after
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, height_after
+from ...program_view import Program
 
 CODE = "WL134"
 SEVERITY = "error"
@@ -41,7 +41,7 @@ EVIDENCE = Measured(
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Keywords, assignments and attributes."""
+    """Check keywords, assignments and attributes."""
     fix = "let a support, an actuator or a declared force carry it"
     for call in program.nodes(ast.Call):
         for keyword in call.keywords:

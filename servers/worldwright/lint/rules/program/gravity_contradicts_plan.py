@@ -13,9 +13,9 @@ from math import isclose
 
 from ... import stated
 from ...case import Case
+from ...harm import Argued
 from ...problem import Problem
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL122"
 SEVERITY = "error"
@@ -37,7 +37,7 @@ EVIDENCE = Argued("any gravity simulates; that another one was approved, only th
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every stated gravity; the default when none is stated."""
+    """Check every stated gravity; the default when none is stated."""
     if program.plan is None:
         return
     planned = program.plan.simulation_parameters.gravity_vector

@@ -10,9 +10,9 @@ Use instead: `(0, 0, -9.81)`; in a world turned on purpose, an ignore that says 
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Measured, height_after
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, height_after
+from ...program_view import Program
 from ...stated import gravities
 
 CODE = "WL152"
@@ -28,7 +28,7 @@ EVIDENCE = Measured("the ball rises", lambda s: height_after(s, 0.5), 1.0, "m")
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every gravity the program states; a plan that says so is believed."""
+    """Check every gravity the program states; a plan that says so is believed."""
     planned = program.plan.simulation_parameters.gravity_vector[2] if program.plan else 0.0
     for value, line, node in gravities(program):
         if (

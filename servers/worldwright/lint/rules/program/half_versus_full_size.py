@@ -15,9 +15,9 @@ from math import isclose
 from typing import Any
 
 from ...case import Case
+from ...harm import Measured, model_of
 from ...problem import Problem
-from ...program import Program
-from ...proof import Measured, model_of
+from ...program_view import Program
 
 CODE = "WL125"
 SEVERITY = "error"
@@ -48,7 +48,7 @@ HALF_SIZES = {"box": 3, "ellipsoid": 3, "sphere": 1, "cylinder": 2}
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """worldkit's shapes, then geoms of named bodies, then MJCF."""
+    """Check worldkit's shapes, then geoms of named bodies, then MJCF."""
     if program.plan is None:
         return
     extents = {row.name: row for row in program.plan.scene_objects if row.primitive in (*HALF_SIZES, "capsule")}
@@ -87,7 +87,7 @@ def _shapes(program: Program) -> Iterator[tuple[str, tuple[float, ...], int, str
 
 
 def _geoms(program: Program) -> Iterator[tuple[str, tuple[float, ...], int, str]]:
-    """Bodies that hold exactly one geom: with several, their union need not be any one of them."""
+    """Bodies with exactly one geom: of several, none need have the size of the whole."""
     by_body: dict[ast.Call, list[ast.Call]] = {}
     for call in program.method_calls("add_geom"):
         made = _body(program, call.func.value)  # type: ignore[attr-defined]

@@ -11,9 +11,9 @@ Use instead: either the inertial or the geoms' masses; `<compiler inertiafromgeo
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Measured, model_of
 from ...problem import Problem
-from ...program import Program
-from ...proof import Measured, model_of
+from ...program_view import Program
 
 CODE = "WL154"
 SEVERITY = "warning"
@@ -30,7 +30,7 @@ EVIDENCE = Measured("the geom's 2 kg do not count", lambda s: float(model_of(s).
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Bodies with both; a mass of zero says the same as the inertial."""
+    """Check bodies with both; a mass of zero says the same as the inertial."""
     tags = list(program.tags())
     if any(t.name == "compiler" and t.attributes.get("inertiafromgeom") == "true" for t in tags):
         return

@@ -10,9 +10,9 @@ Use instead: one of the two.
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Measured, model_of
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, model_of
+from ...program_view import Program
 
 CODE = "WL153"
 SEVERITY = "warning"
@@ -34,7 +34,7 @@ EVIDENCE = Measured("halving the density changes nothing", _change_kg, 0.5, "kg"
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Elements, then calls."""
+    """Check elements, then calls."""
     message, fix = "the geom has a mass and a density: the density is ignored", "give one of the two"
     for tag in program.tags():
         if tag.name == "geom" and {"mass", "density"} <= set(tag.attributes):

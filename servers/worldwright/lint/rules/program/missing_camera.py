@@ -11,9 +11,9 @@ Use instead: `cameras.add(spec, "NAME", view=…, subjects=(…))` for every cam
 from collections.abc import Iterator
 
 from ... import stated
+from ...harm import Argued
 from ...problem import Problem
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL124"
 SEVERITY = "error"
@@ -32,7 +32,7 @@ EVIDENCE = Argued("no run shows an absence; what the camera should have shown ca
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every camera of the plan."""
+    """Check every camera of the plan."""
     if program.plan is None:
         return
     added = stated.named(program, "camera", "worldkit.cameras.add")
@@ -40,7 +40,7 @@ def check(program: Program) -> Iterator[Problem]:
         name = program.value(program.argument(call, "name"))
         if isinstance(name, str) and added is not None:
             added.add(name)
-    if added is None:  # names made in a loop: any string may be one
+    if added is None:  # names are made in a loop, so any string may be one
         added = program.strings
     for camera in program.plan.cameras():
         if camera.name not in added:

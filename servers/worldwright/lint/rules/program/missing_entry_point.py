@@ -11,18 +11,22 @@ Use instead: end the file with
 
 from collections.abc import Iterator
 
+from ...harm import Argued
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL110"
 SEVERITY = "error"
 SCOPE = "contract"
 GOOD = (
-    "from worldkit import program, scene\ndef build():\n    return scene.new('a', time_step=0.001)\n"
-    "if __name__ == '__main__':\n    program.main(build, duration=2.0)\n",
-    "from worldkit import program as p\nfrom worldkit.scene import new\ndef world():\n return new('a', time_step=1)\n"
-    "p.main(build=world, duration=2.0)\n",
+    (
+        "from worldkit import program, scene\ndef build():\n    return scene.new('a', time_step=0.001)\n"
+        "if __name__ == '__main__':\n    program.main(build, duration=2.0)\n"
+    ),
+    (
+        "from worldkit import program as p\nfrom worldkit.scene import new\ndef world():\n return new('a', time_step=1)\n"
+        "p.main(build=world, duration=2.0)\n"
+    ),
 )
 BAD = (
     "from worldkit import scene\nspec = scene.new('a', time_step=0.001)\n",
@@ -33,9 +37,11 @@ EVIDENCE = Argued("it runs and records nothing; that a recording was expected, o
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """The entry, its `build`, and what `build` returns."""
+    """Check the entry, its `build`, and what `build` returns."""
     import ast
 
+    if program.films:
+        return
     entry = program.entry
     if entry is None:
         fix = 'end with: if __name__ == "__main__": program.main(build, duration=DURATION)'

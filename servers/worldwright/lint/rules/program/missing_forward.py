@@ -13,9 +13,9 @@ Use instead: `mujoco.mj_forward(model, data)` (or `mj_kinematics` for poses alon
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 from ._written import DERIVED
 
 CODE = "WL144"
@@ -40,11 +40,11 @@ BAD = (
 EVIDENCE = Measured("the height is zero", lambda s: float(executed(s)["height"]), 1.0, "m")
 WRITES = frozenset({"qpos", "mocap_pos", "mocap_quat"})
 NOT_POSES = frozenset({"qacc", "energy"})
-"""Read before and after a step for reasons of their own."""
+"""Programs read these before and after a step for reasons of their own."""
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every block of statements, one after the other; what a branch or a loop did is taken for an update."""
+    """Check every block of statements, one after the other; what a branch or a loop did is taken for an update."""
     if not DERIVED & {n.attr for n in program.nodes(ast.Attribute)}:
         return
     for holder in [program.tree, *program.nodes(ast.FunctionDef)]:
@@ -55,7 +55,7 @@ def _block(program: Program, statements: list[ast.stmt]) -> Iterator[Problem]:
     stale: dict[str, str] = {}
     for statement in statements:
         nodes = [] if isinstance(statement, ast.FunctionDef | ast.ClassDef | ast.Import) else list(ast.walk(statement))
-        used = {name for node in nodes if isinstance(node, ast.Call) for name in _passed(node)}
+        used = {name for node in nodes if isinstance(node, ast.Call) for name in _passed_names(node)}
         for name in used & set(stale):
             del stale[name]
         simple = isinstance(statement, ast.Assign | ast.AugAssign | ast.AnnAssign | ast.Expr | ast.Return)
@@ -79,7 +79,7 @@ def _block(program: Program, statements: list[ast.stmt]) -> Iterator[Problem]:
                 stale[written[0]] = f"right after a write to {written[1]}"
 
 
-def _passed(call: ast.Call) -> Iterator[str]:
+def _passed_names(call: ast.Call) -> Iterator[str]:
     """Names that are handed to a call, also inside other arguments."""
     for argument in [*call.args, *(k.value for k in call.keywords)]:
         if isinstance(argument, ast.Name):
@@ -101,7 +101,7 @@ def _field(program: Program, node: ast.AST) -> tuple[str, str] | None:
 
 
 def _read(program: Program, node: ast.AST) -> tuple[str, str] | None:
-    """(variable, field) where a derived value is really taken: a number, an operand, an argument; not a view kept."""
+    """(variable, field) where a derived value is really read, as a number, operand or argument, not kept as a view."""
     if not (isinstance(node, ast.Attribute) and isinstance(node.ctx, ast.Load) and node.attr in DERIVED - NOT_POSES):
         return None
     named = isinstance(node.value, ast.Call)  # data.body('b').xpos is one row already
@@ -110,7 +110,7 @@ def _read(program: Program, node: ast.AST) -> tuple[str, str] | None:
     inner: ast.AST = node
     around = program.parent(node)
     while isinstance(around, ast.Subscript) and around.value is inner:
-        if not isinstance(around.ctx, ast.Load):  # it is written to: another rule
+        if not isinstance(around.ctx, ast.Load):  # it is written to, which is another rule's business
             return None
         parts = around.slice.elts if isinstance(around.slice, ast.Tuple) else [around.slice]
         left -= sum(not isinstance(part, ast.Slice | ast.List) for part in parts)

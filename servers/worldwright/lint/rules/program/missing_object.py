@@ -15,9 +15,9 @@ import re
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Argued
 from ...problem import Problem
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL123"
 SEVERITY = "error"
@@ -37,11 +37,11 @@ EVIDENCE = Argued("no run shows an absence; what the plan promises of the object
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every object name of the plan."""
+    """Check every object name of the plan."""
     if program.plan is None:
         return
-    # Names in docstrings and camera subjects are talk about an object, not the object; but a name used nowhere else
-    # than there is rare, and telling a subject from a name would need running the program. Docstrings are left out.
+    # A name in a docstring or among a camera's subjects is not the object; but a name that stands nowhere else is rare,
+    # and only a run could tell a subject from a name. Docstrings are left out.
     docstrings = {
         id(s.value)
         for n in (*program.nodes(ast.Module), *program.nodes(ast.FunctionDef))

@@ -13,9 +13,9 @@ import math
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Measured, model_of
 from ...problem import Problem
-from ...program import Program
-from ...proof import Measured, model_of
+from ...program_view import Program
 from ._mjcf import walk
 
 CODE = "WL143"
@@ -36,7 +36,7 @@ FRACTIONS = tuple(math.pi * f for f in (2, 1.5, 1, 0.75, 2 / 3, 0.5, 1 / 3, 0.25
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Ranges of hinges and balls, and Euler angles."""
+    """Check ranges of hinges and balls, and Euler angles."""
     fix = 'write degrees, or <compiler angle="radian"/>'
     for document in program.documents:
         tags = list(walk(document))
@@ -56,7 +56,7 @@ def check(program: Program) -> Iterator[Problem]:
 
 
 def _radian(word: str) -> bool:
-    """A fraction of pi with at least two decimals, as written by someone who meant radians."""
+    """Whether a number is a fraction of pi with at least two decimals, as somebody who meant radians writes it."""
     try:
         value = abs(float(word))
     except ValueError:

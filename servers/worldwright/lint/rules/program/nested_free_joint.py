@@ -12,12 +12,13 @@ import ast
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Raises
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 from ._mjcf import walk
 
 CODE = "WL116"
+ABOUT = "signatures"
 SEVERITY = "error"
 SCOPE = "any"
 HEAD = "import mujoco\nspec = mujoco.MjSpec()\na = spec.worldbody.add_body(name='a')\na.add_geom(size=[.1, 0, 0])\n"
@@ -38,7 +39,7 @@ EVIDENCE = Raises("top level|free joint")
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """MJCF, then variables bound to `body.add_body()`."""
+    """Check MJCF, then variables bound to `body.add_body()`."""
     message, fix = "a free joint on a body inside another body", "add the body to worldbody"
     for document in program.documents:
         for tag, around in walk(document):
@@ -46,12 +47,12 @@ def check(program: Program) -> Iterator[Problem]:
             if free and sum(a.name == "body" for a in around) > 1 and "default" not in {a.name for a in around}:
                 yield Problem(message, fix, tag.line)
     for call in program.method_calls("add_freejoint"):
-        made = _made(program, call.func.value)  # type: ignore[attr-defined]
-        if made is not None and _made(program, made.func.value) is not None:  # type: ignore[attr-defined]
+        made = _adding_call(program, call.func.value)  # type: ignore[attr-defined]
+        if made is not None and _adding_call(program, made.func.value) is not None:  # type: ignore[attr-defined]
             yield at(call, message, fix)
 
 
-def _made(program: Program, node: ast.AST) -> ast.Call | None:
+def _adding_call(program: Program, node: ast.AST) -> ast.Call | None:
     """The `add_body` call that a variable stands for."""
     bound = program.scopes.bound(node) if isinstance(node, ast.Name) else [node]
     made = bound[0] if len(bound) == 1 else None

@@ -3,25 +3,27 @@
 What it does: finds calls that advance, reset or draw the simulation (`mj_step`, `mj_resetData`, `Renderer`, a viewer)
 in a program that worldkit runs.
 
-Why is this bad: worldkit owns the clock, so that the same file runs in every pass, every state is recorded, every
-intervention is seen, and video replays states instead of computing them again. A second clock breaks all of it.
+Why is this bad: the engine owns the clock, in a process of its own. What the program steps or draws for itself is nobody's
+evidence and takes time; to settle a pile in a copy of the model before it is handed over is a good reason for it. So it is a
+remark.
 
-Use instead: build the model in `build()`, act in `control(model, data)`, film with `cameras.add`. Stepping a *copy* of
-the model inside `build()` (to settle a pile, say) is answered for with `# worldwright: ignore[WL111] reason`.
+Use instead: build the model in `build()`, act in `control(model, data)`, film with `cameras.add`.
 """
 
 from collections.abc import Iterator
 
+from ...harm import Argued
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL111"
-SEVERITY = "error"
+SEVERITY = "info"
 SCOPE = "contract"
 GOOD = (
-    "import mujoco\nfrom worldkit import program\ndef control(model, data):\n    data.ctrl[0] = 1.0\n"
-    "program.main(None, control)\n",
+    (
+        "import mujoco\nfrom worldkit import program\ndef control(model, data):\n    data.ctrl[0] = 1.0\n"
+        "program.main(None, control)\n"
+    ),
     "import mujoco\nfrom worldkit import program\nmujoco.mju_normalize3\n",
 )
 BAD = (
@@ -39,7 +41,7 @@ WHOLE = ("mujoco.viewer.", "mujoco.studio.", "mujoco.rollout.", "mujoco.batch.")
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every call that advances time, restores a state, or draws."""
+    """Check every call that advances time, restores a state, or draws."""
     for full, call in program.calls(*STEPS, *WHOLE):
         yield at(call, f"the program calls {full} itself", "leave the clock to worldkit.program.main")
     for full, call in program.calls(*DRAWS):

@@ -11,11 +11,12 @@ Use instead: `from_xml_path` and `from_file` for files, `from_xml_string` and `f
 import ast
 from collections.abc import Iterator
 
+from ...harm import Raises
 from ...problem import Edit, Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL117"
+ABOUT = "signatures"
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = ("import mujoco\nm = mujoco.MjModel.from_xml_string('<mujoco/>')\n",)
@@ -40,7 +41,7 @@ SUFFIXES = (".xml", ".mjcf", ".urdf", ".mjb", ".mjz")
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """The first argument of each call."""
+    """Check the first argument of each call."""
     for full, call in program.calls("mujoco.MjModel.", "mujoco.MjSpec."):
         method = full.rsplit(".", 1)[-1]
         given = program.value(call.args[0]) if method in OTHER and call.args else None

@@ -12,9 +12,9 @@ Use instead: `<visual><global offwidth="1280" offheight="720"/></visual>`, or
 import ast
 from collections.abc import Iterator
 
+from ...harm import Raises
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL148"
 SEVERITY = "error"
@@ -30,7 +30,7 @@ DEFAULT = {"height": 480, "width": 640}
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Sizes that are known."""
+    """Check sizes that are known."""
     if not program.whole_model:
         return
     given = {n.attr for n in program.nodes(ast.Attribute)} & {"offwidth", "offheight"}

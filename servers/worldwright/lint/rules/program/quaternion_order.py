@@ -17,9 +17,9 @@ from math import isclose
 from typing import Any
 
 from ...case import Case
+from ...harm import Measured, after
 from ...problem import Problem
-from ...program import Program
-from ...proof import Measured, after
+from ...program_view import Program
 
 CODE = "WL140"
 SEVERITY = "warning"
@@ -45,7 +45,7 @@ EVIDENCE = Measured("the body is turned by half a turn", _forward, 0.5, "m", goo
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Keywords, assignments and attributes named `quat`."""
+    """Check keywords, assignments and attributes named `quat`."""
     for call in program.nodes(ast.Call):
         for keyword in call.keywords:
             if keyword.arg == "quat":
@@ -69,5 +69,5 @@ def _judge(program: Program, value: Any, line: int) -> Iterator[Problem]:
     elif isclose(abs(value[3]), 1.0) and not any(value[:3]):
         message = "(0, 0, 0, 1) is half a turn about z: MuJoCo's quaternions are (w, x, y, z)"
         fix = "the identity is (1, 0, 0, 0); for half a turn write euler or axisangle"
-        # Elsewhere it may well be meant: only in programs drafted from yaw angles is it worth a warning.
+        # Elsewhere it may well be meant: it is worth a warning only in programs drafted from yaw angles.
         yield Problem(message, fix, line, severity="warning" if program.contract else "info")

@@ -10,12 +10,13 @@ Use instead: a name for each; `<replicate>` numbers its copies by itself.
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Raises
 from ...problem import Problem
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 from ._mjcf import kind, walk
 
 CODE = "WL109"
+ABOUT = "signatures"
 SEVERITY = "error"
 SCOPE = "any"
 TWO = "<mujoco><worldbody><geom name='{0}' size='1'/><{2} name='{1}' size='1'/></worldbody></mujoco>"
@@ -25,7 +26,7 @@ EVIDENCE = Raises("repeated name")
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Names of one kind, in the order of the text."""
+    """Check names of one kind, in the order of the text."""
     for document in program.documents:
         first: dict[tuple[str, str], int] = {}
         if document.computed:

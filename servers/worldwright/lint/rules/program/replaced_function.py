@@ -2,8 +2,8 @@
 
 What it does: finds assignments to attributes of imported modules, e.g. `mujoco.mj_step2 = …`.
 
-Why is this bad: everything that calls the function afterwards runs the program's version, the recorder and its ledger
-included: what is recorded is not what the engine did.
+Why is this bad: what is replaced is replaced in the program's own process. The engine that records the world is another
+process, so nothing of it changes there; here every later call runs the program's version. A remark, for it misleads a reader.
 
 Use instead: call the function, and do one's own work in `control`.
 """
@@ -11,12 +11,12 @@ Use instead: call the function, and do one's own work in `control`.
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL118"
-SEVERITY = "error"
+SEVERITY = "info"
 SCOPE = "contract"
 HEAD = "import mujoco\nfrom worldkit import scene\n"
 GOOD = (
@@ -25,7 +25,7 @@ GOOD = (
 )
 BAD = (
     HEAD + "mujoco.mj_step = lambda model, data: None\n",
-    HEAD + "import worldkit.record\nworldkit.record.Recorder = None\n",
+    HEAD + "import worldengine.recording.record\nworldengine.recording.record.Recorder = None\n",
     HEAD + "setattr(mujoco, 'mj_step2', print)\n",
 )
 
@@ -52,7 +52,7 @@ EVIDENCE = Measured("nothing falls any more", _fallen, 0.1, "m", good=1)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Assignments, deletions and `setattr` on what leads to an import."""
+    """Check assignments, deletions and `setattr` on what leads to an import."""
     fix = "leave the library as it is: write the program's own step into control"
     for target, _, statement in program.stores():
         if isinstance(target, ast.Attribute) and (full := program.dotted(target)) is not None:

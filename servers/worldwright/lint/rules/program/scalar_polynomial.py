@@ -11,11 +11,12 @@ Use instead: `joint.stiffness[0] = 5.0`, the linear coefficient.
 import ast
 from collections.abc import Iterator
 
+from ...harm import Raises
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL142"
+ABOUT = "signatures"
 SEVERITY = "error"
 SCOPE = "any"
 HEAD = "import mujoco\nspec = mujoco.MjSpec()\nj = spec.worldbody.add_body().add_joint()\n"
@@ -38,7 +39,7 @@ EVIDENCE = Raises(good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Assignments of a known number."""
+    """Check assignments of a known number."""
     for target, value, statement in program.stores():
         if not (isinstance(target, ast.Attribute) and target.attr in ("stiffness", "damping")):
             continue

@@ -13,9 +13,9 @@ data)` first.
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL127"
 SEVERITY = "error"
@@ -58,7 +58,7 @@ STALE = frozenset({"efc_force", "cfrc_ext", "cfrc_int"})
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Reads before the first `mj_forward` of the function."""
+    """Check reads before the first `mj_forward` of the function."""
     fix = "read a sensor, or call mujoco.mj_forward(model, data) first"
     for function in program.running:
         fresh = min(

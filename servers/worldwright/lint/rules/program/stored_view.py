@@ -12,9 +12,9 @@ Use instead: `.append(data.qpos.copy())`.
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL145"
 SEVERITY = "error"
@@ -50,13 +50,13 @@ EVIDENCE = Measured("first and last entry are the same", lambda s: float(abs(_en
 
 
 def _ends(source: str):
-    """Difference of the last entry and the first."""
+    """How far the last entry differs from the first."""
     log = executed(source)["log"]
     return log[-1] - log[0]
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Arguments of `append`, also inside tuples, lists and dicts."""
+    """Check arguments of `append`, also inside tuples, lists and dicts."""
     for call in program.method_calls("append", "appendleft"):
         if program.type_of(call.func.value) is not None:  # type: ignore[attr-defined]
             continue

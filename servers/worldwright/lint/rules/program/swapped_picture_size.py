@@ -10,9 +10,9 @@ Use instead: `mujoco.Renderer(model, height=480, width=640)`.
 
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL149"
 SEVERITY = "warning"
@@ -47,7 +47,7 @@ EVIDENCE = Measured("the picture is upright", _upright, 0.3, "")
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Sizes given by position."""
+    """Check sizes given by position."""
     for _, call in program.calls("mujoco.Renderer"):
         size = tuple(program.value(argument) for argument in call.args[1:3])
         if size in USUAL:

@@ -14,9 +14,9 @@ from math import isclose
 
 from ... import stated
 from ...case import Case
+from ...harm import Argued
 from ...problem import Problem
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL120"
 SEVERITY = "error"
@@ -40,7 +40,7 @@ EVIDENCE = Argued("any step simulates; that another one was approved, only the p
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every stated time step."""
+    """Check every stated time step."""
     planned = program.plan.simulation_parameters.time_step if program.plan else None
     if not isinstance(planned, int | float):
         return

@@ -12,9 +12,9 @@ from collections.abc import Iterator
 
 from ... import suppression
 from ...case import Case
+from ...harm import Argued
 from ...problem import Problem
-from ...program import Program
-from ...proof import Argued
+from ...program_view import Program
 
 CODE = "WL199"
 SEVERITY = "error"
@@ -35,9 +35,9 @@ EVIDENCE = Argued("a comment does nothing when it runs; who reads it later misse
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every suppression comment."""
+    """Check every suppression comment."""
     for comment in suppression.of(program.source):
-        if not comment.codes or not all(re.fullmatch(r"W[LMP]\d{3}", code) for code in comment.codes):
+        if not comment.codes or not all(re.fullmatch(r"W[LMPR]\d{3}", code) for code in comment.codes):
             yield Problem("the comment names no rule to ignore", "name it: ignore[WL123] reason", comment.line)
         elif not comment.reason:
             yield Problem("the suppression gives no reason", "say why after the bracket", comment.line)

@@ -12,14 +12,16 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....simulator import changelog, mjcf
+from ...bound_names import respelled
 from ...case import Case
+from ...harm import Raises
 from ...mjcf_text import Tag
-from ...naming import respelled
 from ...problem import Problem
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL104"
+ABOUT = "names"
+LOOK_UP = True
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
@@ -45,7 +47,7 @@ EVIDENCE = Raises("Schema violation", good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every attribute of every element whose place in the schema is known."""
+    """Check every attribute of every element whose place in the schema is known."""
     if not program.documents:
         return
     schema = mjcf.load()

@@ -13,12 +13,14 @@ from collections.abc import Iterator
 
 from ....simulator import changelog, mjcf
 from ...case import Case
+from ...harm import Raises
 from ...mjcf_text import Tag
 from ...problem import Problem
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL103"
+ABOUT = "names"
+LOOK_UP = True
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
@@ -36,7 +38,7 @@ EVIDENCE = Raises("Schema violation", good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every element, outermost first; what stands inside an unknown one is not judged."""
+    """Check every element, outermost first; what stands inside an unknown one is not judged."""
     if not program.documents:
         return
     schema = mjcf.load()

@@ -14,17 +14,21 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....simulator import changelog
-from ...naming import respelled
+from ...bound_names import respelled
+from ...harm import Raises
 from ...problem import Edit, Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL102"
+ABOUT = "names"
+LOOK_UP = True
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
-    "import mujoco\nspec = mujoco.MjSpec()\nb = spec.worldbody.add_body(name='b', pos=[0, 0, 1])\n"
-    "b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[1, 1, 1], friction=[1, 0, 0])\n",
+    (
+        "import mujoco\nspec = mujoco.MjSpec()\nb = spec.worldbody.add_body(name='b', pos=[0, 0, 1])\n"
+        "b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=[1, 1, 1], friction=[1, 0, 0])\n"
+    ),
     "import mujoco\nmujoco.Renderer(model=None, height=480, width=640)\n",
     "import mujoco\nspec = mujoco.MjSpec()\nextra = {'mass': 1}\nspec.worldbody.add_geom(**extra)\n",
 )
@@ -40,7 +44,7 @@ EVIDENCE = Raises(good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every call whose target is known."""
+    """Check every call whose target is known."""
     table = program.symbols
     for call in program.nodes(ast.Call):
         if not call.keywords:

@@ -13,13 +13,15 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....simulator import changelog, mjcf
+from ...bound_names import respelled
 from ...case import Case
-from ...naming import respelled
+from ...harm import Raises
 from ...problem import Problem
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL105"
+ABOUT = "names"
+LOOK_UP = True
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
@@ -39,7 +41,7 @@ EVIDENCE = Raises("invalid keyword", good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every single-word value of an attribute with a list of keywords."""
+    """Check every single-word value of an attribute with a list of keywords."""
     if not program.documents:
         return
     anchors, keywords = mjcf.anchors(), mjcf.keywords()

@@ -13,11 +13,12 @@ import ast
 from collections.abc import Iterator
 from difflib import get_close_matches
 
+from ...harm import Raises
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL151"
+ABOUT = "signatures"
 SEVERITY = "error"
 SCOPE = "any"
 HEAD = (
@@ -56,7 +57,7 @@ ACCESSORS = (
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Look-ups with a literal, against tags' names and all other literals."""
+    """Check look-ups with a literal, against tags' names and all other literals."""
     made = any(full in ("mujoco.MjModel.from_xml_string", "mujoco.MjSpec") for full in program.calls_by_name)
     if not made or not program.whole_model:
         return

@@ -14,12 +14,14 @@ import ast
 from collections.abc import Iterator
 
 from ....simulator import changelog
-from ...naming import respelled
+from ...bound_names import respelled
+from ...harm import Raises
 from ...problem import Edit, Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL101"
+ABOUT = "names"
+LOOK_UP = True
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
@@ -50,14 +52,14 @@ EVIDENCE = Raises(without=(5,), good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Imports, then dotted names, then members of inferred classes."""
+    """Check imports, then dotted names, then members of inferred classes."""
     yield from _imports(program)
     for node in program.nodes(ast.Attribute):
         if program.is_guarded(node):
             continue
         full = program.dotted(node)
         if full is not None:
-            # `a.b.c` is three nodes: judge each at its own level, so that the first missing part is the one reported.
+            # `a.b.c` is three nodes: each is judged at its own level, so that the first missing part is reported.
             yield from _dotted(program, node, full)
         elif (owner := program.type_of(node.value)) is not None and not node.attr.startswith("__"):
             yield from _member(program, node, owner, node.attr)

@@ -12,11 +12,12 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ... import worldkit_api
+from ...harm import Raises
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL106"
+ABOUT = "names"
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
@@ -33,7 +34,7 @@ EVIDENCE = Raises()
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Imports, attributes, then keywords."""
+    """Check imports, attributes, then keywords."""
     for node in program.nodes(ast.ImportFrom, ast.Import):
         if program.is_guarded(node):
             continue

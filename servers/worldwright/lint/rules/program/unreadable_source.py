@@ -11,11 +11,12 @@ Use instead: a UTF-8 Python file that parses. The line and column are where the 
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Raises
 from ...problem import Problem
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 
 CODE = "WL100"
+ABOUT = "names"
 SEVERITY = "error"
 SCOPE = "file"
 GOOD = ("x = 1\n", Case("<mujoco/>", path="model.xml"), 'XML = "<mujoco><worldbody/></mujoco>"\n')
@@ -31,11 +32,11 @@ EVIDENCE = Raises(without=(0, 5), good=False)
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """The reader's own complaint, then every MJCF document that does not parse."""
+    """Check the reader's own complaint, then every MJCF document that does not parse."""
     if program.source.problem is not None:
         yield program.source.problem
         return
     for document in program.documents:
-        if document.root is None and not document.computed:  # a part may be a whole attribute or element
+        if document.root is None and not document.computed:  # a computed part may be a whole attribute or element
             what = document.error or "it has no element"
             yield Problem(f"the MJCF is not well-formed XML: {what}", "close every element", document.error_line)

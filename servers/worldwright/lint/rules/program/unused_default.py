@@ -11,10 +11,10 @@ directly into the outermost `<default>`.
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Measured, model_of
 from ...mjcf_text import Tag
 from ...problem import Problem
-from ...program import Program
-from ...proof import Measured, model_of
+from ...program_view import Program
 from ._mjcf import closed, walk
 
 CODE = "WL156"
@@ -33,7 +33,7 @@ EVIDENCE = Measured("the ball is not of wood", lambda s: float(model_of(s).body_
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Classes of documents that are whole."""
+    """Check classes of documents that are whole."""
     for document in program.documents:
         if not closed(document):
             continue

@@ -10,9 +10,9 @@ Use instead: `data.time` in `control`, and step counts.
 
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL114"
 SEVERITY = "error"
@@ -29,7 +29,7 @@ EVIDENCE = Measured(
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every call into a clock."""
+    """Check every call into a clock."""
     for full, call in program.calls("time.", "datetime."):
         if full.startswith("time.") or full.rsplit(".", 1)[1] in ("now", "today", "utcnow"):
             yield at(call, f"the program asks the wall clock ({full})", "use data.time, the simulated seconds")

@@ -11,9 +11,9 @@ Use instead: assign to the field itself: `data.qpos[2] = 1`.
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL146"
 SEVERITY = "error"
@@ -37,7 +37,7 @@ COPIES = frozenset({"copy", "tolist", "astype", "flatten"})
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Targets of assignments."""
+    """Check targets of assignments."""
     for target, _, statement in program.stores():
         inner = target.value if isinstance(target, ast.Subscript) else None
         if inner is not None and _copies(program, inner):

@@ -12,9 +12,9 @@ declare it.
 
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 from ._written import DERIVED, writes
 
 CODE = "WL131"
@@ -40,7 +40,7 @@ EVIDENCE = Measured(
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every write to a derived field."""
+    """Check every write to a derived field."""
     for write in writes(program):
         if write.owner == "MjData" and write.field in DERIVED:
             fix = "it is computed from qpos and qvel: write the state, or apply a force"

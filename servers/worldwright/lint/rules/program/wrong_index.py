@@ -12,9 +12,9 @@ Use instead: `data.joint("x").qpos`, `data.body("x").xpos`, or `model.jnt_qposad
 import ast
 from collections.abc import Iterator
 
+from ...harm import Measured, executed
 from ...problem import Problem, at
-from ...program import Program
-from ...proof import Measured, executed
+from ...program_view import Program
 
 CODE = "WL150"
 SEVERITY = "error"
@@ -51,11 +51,11 @@ KINDS = {
     "light": "light", "tendon": "tendon", "actuator": "actuator", "sensor": "sensor", "equality": "equality", "eq": "equality",
 }  # fmt: skip
 SCALAR = {"joint address", "dof address"}
-"""A joint's id is its address while every joint before it has one coordinate: common, and not judged."""
+"""A joint's id is its address if every joint before it has one coordinate, which is common and not judged."""
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Subscripts of known arrays with ids of known kinds."""
+    """Check subscripts of known arrays with ids of known kinds."""
     for node in program.nodes(ast.Subscript):
         field = node.value
         if not isinstance(field, ast.Attribute) or program.type_of(field.value) not in ("MjData", "MjModel"):
@@ -65,10 +65,10 @@ def check(program: Program) -> Iterator[Problem]:
         kind = _kind(program, index)
         if order is None or kind is None or kind == order or (order in SCALAR and kind == "joint"):
             continue
-        yield at(node, f"`{field.attr}` is ordered by {order}, and indexed with the id of a {kind}", _fix(kind, order))
+        yield at(node, f"`{field.attr}` is ordered by {order}, and indexed with the id of a {kind}", _fix(order))
 
 
-def _fix(kind: str, order: str) -> str:
+def _fix(order: str) -> str:
     if order in SCALAR:
         return 'read data.joint("…"), or index with model.jnt_qposadr or jnt_dofadr of the joint'
     if order == "mocap body":

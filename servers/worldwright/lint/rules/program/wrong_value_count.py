@@ -11,12 +11,13 @@ Use instead: as many numbers as the attribute takes.
 from collections.abc import Iterator
 
 from ...case import Case
+from ...harm import Raises
 from ...problem import Problem
-from ...program import Program
-from ...proof import Raises
+from ...program_view import Program
 from ._mjcf import walk
 
 CODE = "WL107"
+ABOUT = "signatures"
 SEVERITY = "error"
 SCOPE = "any"
 GOOD = (
@@ -43,7 +44,7 @@ NOT_HERE = {("flag", "gravity"), ("material", "specular"), ("map", "zaxis"), ("d
 
 
 def check(program: Program) -> Iterator[Problem]:
-    """Every attribute with a known length, outside text that is made at run time."""
+    """Check every attribute with a known length, outside text that is made at run time."""
     for document in program.documents:
         if document.computed:
             continue

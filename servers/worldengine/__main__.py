@@ -1,0 +1,90 @@
+"""The engine's process: `python -m worldengine physics|storyboard|still|video|frame|view --world FILE --program FILE
+--out DIR …`.
+
+`physics --replay RECORDING` drives the world by the inputs that a recording holds: the same motion, and nobody is asked.
+
+It gets a world as one file and plain facts about its program, never the program. Like every pass it leaves `result.json`
+in DIR, or `error.json` with exit status 1, and `progress.json` on the way.
+"""
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import worldkit  # checks the environment contract before anything else is imported
+
+PASSES = ("physics", "storyboard", "still", "video", "frame", "view")
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one pass; returns the exit status."""
+    from worldkit.program import log_to_console
+    from worldkit.reporting import report_failure
+
+    from .given import Given
+
+    options = _parse(argv)
+    try:
+        log_to_console()
+        given = Given.read(options.world, options.program, options.inputs)
+        if options.run == "physics":
+            from .clock import physics
+
+            physics.run(given, options)
+        elif options.run == "view":
+            from .film import window
+
+            window.run(given, options)
+        elif options.run == "storyboard":
+            from . import storyboard
+
+            storyboard.run(given, options)
+        else:
+            from .film import passes
+
+            passes.run(given, options)
+    except KeyboardInterrupt:
+        return 130
+    except Exception as error:
+        report_failure(error, "", None, options.out)
+        return 1
+    return 0
+
+
+def _size(text: str) -> tuple[int, int]:
+    width, height = (int(side) for side in text.split("x"))
+    if not (16 <= width <= 8192 and 16 <= height <= 8192):
+        raise ValueError(text)
+    return width, height
+
+
+def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python -m worldengine", description="Own a world while it runs.")
+    parser.add_argument("run", choices=PASSES)
+    parser.add_argument("--world", type=Path, required=True, help="the world as one file")
+    parser.add_argument("--program", type=Path, required=True, help="facts about the program")
+    parser.add_argument("--inputs", type=Path, help="what may be written: rows of kind and bodies; all when left out")
+    parser.add_argument("--out", type=Path, required=True, help="folder for the results")
+    parser.add_argument("--from", dest="recording", type=Path, help="recording to draw")
+    parser.add_argument(
+        "--replay", type=Path, help="recorded inputs to be driven by again (physics): a recording's folder"
+    )
+    parser.add_argument("--channel", help="descriptors of the memory and the pipes to the author's process")
+    parser.add_argument("--source", type=Path, help="text of the program, never run: tells whether a motion is known")
+    parser.add_argument("--film", type=Path, help="folder with a film's description (still, video, frame)")
+    parser.add_argument("--film-alone", action="store_true", help="draw the film, not the plan's cameras (video)")
+    parser.add_argument("--at", type=float, default=0.0, help="seconds of the film, or of the recording (frame)")
+    parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame)")
+    parser.add_argument("--camera", dest="cameras", action="append", default=[])
+    parser.add_argument("--moment", dest="moments", action="append", default=[], help="of the storyboard: SECONDS:WORD")
+    parser.add_argument("--time-step-factor", type=float)
+    parser.add_argument("--without", action="append", default=[])
+    parser.add_argument("--weaken", action="append", default=[])
+    parser.add_argument("--reuse", action="append", default=[], type=Path)
+    return parser.parse_args(argv)
+
+
+if __name__ == "__main__":
+    assert worldkit
+    sys.exit(main())

@@ -1,0 +1,1 @@
+"""The clock advances a world step by step."""

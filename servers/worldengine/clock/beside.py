@@ -1,0 +1,123 @@
+"""Run the solvers of one world beside the engine: each step asks them, writes their forces and books their work."""
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+from worldkit.errors import ProgramError
+from worldkit.naming import names
+
+from ..inputs.ports import Ports
+from ..inputs.pushes import Pushes
+from ..recording.columns import Column
+from ..solvers import Row, called, check
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ..recording.record import Recorder
+    from ..variants.holding import Hold
+
+
+class Beside:
+    """Steps the solvers of a world.
+
+    In a step: `measure` when velocities are computed, `act` when the inputs have acted, `reacted` when forces are
+    computed, `ended` when the step is over; `finish` at the last state.
+
+    Args:
+        model, data: the world at its initial state.
+        rows: the solvers that the plan asks for, at least one.
+        inputs: the author's inputs; no body may be pushed by both.
+        hold: the share of the forces that a variant leaves; None leaves all.
+
+    Raises:
+        ProgramError: there is no such solver or body, a constant makes no sense, or two would push one body.
+    """
+
+    def __init__(
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        rows: Sequence[Row],
+        inputs: Ports | None = None,
+        hold: "Hold | None" = None,
+    ) -> None:
+        import numpy as np
+
+        self._model, self._data, self.rows = model, data, tuple(rows)
+        bodies = names(model, "body", model.nbody)
+        taken = {entry // 6 for entry in inputs.entries.get("xfrc_applied", ())} if inputs else set()
+        self._solvers = []
+        self.channels: dict[Column, np.ndarray] = {}
+        for name, row in zip(called(rows), rows, strict=True):
+            solver = check(row)
+            if unknown := [body for body in row.bodies if body not in bodies[1:]]:
+                raise ProgramError(
+                    f"the solver {row.solver} acts on {unknown[0]!r}, which is not in the world",
+                    "interventions",
+                    f"name one of: {', '.join(bodies[1:])}",
+                )
+            mine = [bodies.index(body) for body in row.bodies]
+            if twice := taken.intersection(mine):
+                raise ProgramError(
+                    f"{bodies[min(twice)]!r} would be pushed by the solver {row.solver} and by another",
+                    "interventions",
+                    "let one of them push it: of two forces on one body, nobody could tell whose work is whose",
+                )
+            taken |= set(mine)
+            running = solver.start(model, data, mine, row.constants)
+            self._solvers.append((np.array(mine), running, _shares(mine, hold)))
+            self.channels |= {_named(name, column): array for column, array in running.channels.items()}
+        pushed = frozenset(body for row in rows for body in row.bodies)
+        self._ports = Ports(model, (("force", pushed), ("torque", pushed)))
+        self._before: list[np.ndarray] = []
+
+    def record(self, recorder: "Recorder") -> None:
+        """Keep the ledger of their work in this recording; must be called before the first step."""
+        self._pushes = Pushes(self._model, self._data, self._ports, lambda rows: recorder.later("interventions", rows))
+        recorder.before_flush.append(self._pushes.flush)
+
+    def measure(self) -> None:
+        """Note the velocities, which are computed now."""
+        self._pushes.measure()
+
+    def act(self, interfered: bool) -> None:
+        """Ask each solver for its forces and write them; `interfered` says that the state was written since `measure`."""
+        if interfered:
+            self._pushes.interfered()
+        applied = self._data.xfrc_applied
+        self._before = [applied[bodies].copy() for bodies, _, _ in self._solvers]
+        for (bodies, running, shares), before in zip(self._solvers, self._before, strict=True):
+            applied[bodies] = before + running.look(self._data) * shares
+        self._pushes.note()
+
+    def reacted(self) -> None:
+        """Note the forces, which are computed now."""
+        self._pushes.reacted()
+
+    def ended(self) -> None:
+        """End the step: take the forces back, and let each solver advance."""
+        step_s = float(self._model.opt.timestep)
+        for (bodies, running, _), before in zip(self._solvers, self._before, strict=True):
+            self._data.xfrc_applied[bodies] = before
+            running.advance(step_s)
+
+    def finish(self) -> None:
+        """Bring the channels up to date with the last state, and close the ledger."""
+        for _, running, _ in self._solvers:
+            running.look(self._data)
+        self._pushes.measure()
+        self._pushes.finish()
+
+
+def _named(name: str, column: Column) -> Column:
+    return Column(f"{name}.{column.name}", column.shape, column.unit, column.description, column.dtype)
+
+
+def _shares(bodies: Sequence[int], hold: "Hold | None") -> "np.ndarray":
+    """(n, 6) the share of each force and torque that a variant leaves."""
+    import numpy as np
+
+    kept: Mapping[tuple[str, int], float] = hold.inputs if hold else {}
+    return np.array([[kept.get(("xfrc_applied", 6 * body + i), 1.0) for i in range(6)] for body in bodies])

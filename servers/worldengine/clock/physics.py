@@ -1,0 +1,176 @@
+"""The physics pass: the world as one file is compiled, simulated, and recorded."""
+
+import argparse
+import copy
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from worldkit.errors import ProgramError
+
+from ..given import Given
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from ..inputs.replayed_inputs import Drive
+
+TRAJECTORY = "trajectory"
+
+
+def run(given: Given, options: argparse.Namespace) -> None:
+    """Simulate into `options.out`, or take over a recording that fits already.
+
+    Raises:
+        WorldkitError: the world, its facts or its variant make no sense; the simulation blew up; the author's process
+            ended, keeps silent, or sends nonsense. What was recorded until then is kept.
+    """
+    from worldkit import world
+    from worldkit.files import write_json
+    from worldkit.reporting import Progress
+
+    from ..inputs.soft_start import wound
+    from ..recording import drawn_overlaps, still_surfaces, stored
+    from ..recording.record import Recorder
+    from ..recording.reuse import reuse
+    from ..variants import altered
+    from .beside import Beside
+    from .simulate import prepare, simulate
+
+    out: Path = options.out
+    variant = altered.Variant.parse(options.time_step_factor, options.without, options.weaken)
+    model = given.model()
+    world.check_cast(model, given.movers, given.visual_only)
+    # At a finer step the recorded instants stay the same, so that expectations measure the same thing.
+    every = world.record_every(model, world.steps_of(model, given.duration)) * variant.steps_per_step
+    hold = altered.alter(model, variant) if variant else None
+    asked = bool(options.replay or (given.control and options.channel)) and not (hold and hold.silent)
+    steps = world.steps_of(model, given.duration)
+    meta = _meta(model, given, variant, every, asked)
+    meta["motion_key"] = _motion_key(model, given, options, variant, steps, every, asked)
+    as_built = copy.copy(model)  # the simulation may write parameters
+    began = time.perf_counter()
+    kept = reuse(options.reuse, meta["motion_key"], meta, as_built, out / TRAJECTORY, overlap=not variant)
+    common = {"duration_s": given.duration, "time_step": meta["time_step"], "bodies": model.nbody - 1}
+    common |= {"motion_key": meta["motion_key"], "world_sha256": _sha256(given.world)}
+    if kept is not None:
+        wall = round(time.perf_counter() - began, 3)
+        write_json(out / "result.json", {"ok": True, "pass": "physics", **kept, **common, "wall_s": wall})
+        sys.stdout.write(f"moves as {kept['reused_from']} did, whose recording is taken over: nothing was simulated\n")
+        return
+    prepare(model)
+    data = world.start(model)
+    inputs = _inputs(model, data, given, options, variant, hold) if asked else None
+    if inputs is not None:
+        meta["inputs"] = inputs.ports.as_meta()
+    beside = Beside(model, data, given.solvers, inputs.ports if inputs else None, hold) if given.solvers else None
+    progress = Progress(out, steps, "steps")
+    started = time.perf_counter()
+    try:
+        channels = beside.channels if beside else None
+        with Recorder(model, data, out / TRAJECTORY, meta, channels=channels) as recorder:
+            for target, value, energy in wound(model, data.qpos):
+                recorder.event("interventions", 0.0, "pose", target, tuple(value), energy)
+            simulate(model, data, recorder, steps, inputs, every, progress, beside)
+    finally:
+        if inputs is not None:
+            inputs.close()
+    wall = time.perf_counter() - started
+    if not variant:
+        drawn_overlaps.write(as_built, stored.open(out / TRAJECTORY), out / TRAJECTORY)
+        still_surfaces.write(as_built, out / TRAJECTORY)
+    result = {
+        "ok": True,
+        "pass": "physics",
+        **common,
+        "steps": steps,
+        "trajectory_sha256": recorder.sha256(),
+        "inputs_sha256": stored.inputs_digest(out / TRAJECTORY),
+        "rows": recorder.rows,
+        "record_every": every,
+        "warnings": recorder.warnings,
+        "interventions": recorder.counts,
+        "max_penetration_m": recorder.max_depth_m,
+        "final_time": float(data.time),
+        "wall_s": round(wall, 3),
+        **({"variant": variant.as_meta()} if variant else {}),
+    }
+    write_json(out / "result.json", result)
+    sys.stdout.write(
+        f"{model.nbody - 1} bodies, {steps} steps, {data.time:.3f} s simulated in {wall:.1f} s "
+        f"({data.time / wall:.1f} times real time)\nrecorded in {out / TRAJECTORY}\n"
+    )
+
+
+def _inputs(
+    model: "mujoco.MjModel", data: "mujoco.MjData", given: Given, options: argparse.Namespace, variant: Any, hold: Any
+) -> "Drive":
+    """The source of the inputs: a recording, or the author's process at the other end of the channel."""
+    from worldkit.channel import ENGINE, Channel, descriptors
+
+    from ..inputs.author_link import Distant
+    from ..inputs.ports import Ports
+    from ..inputs.replayed_inputs import Asked, Replayed
+    from ..recording.stored import Replayable
+
+    ports = Ports(model, given.inputs)
+    if options.replay:
+        if variant:
+            raise ProgramError("a variant is another world", "--replay", "ask its author anew")
+        return Replayed(model, data, ports, Replayable(options.replay))
+    voice = Distant(model, data, ports, Channel(descriptors(options.channel), ENGINE))
+    # A rate that was asked for stays the same in time; a law that is asked at every step is asked at every finer one.
+    every = given.control_every * (variant.steps_per_step if given.control_every > 1 else 1)
+    return Asked(model, data, ports, voice, every, given.latency, hold.shares() if hold else None)
+
+
+def _meta(model: "mujoco.MjModel", given: Given, variant: Any, every: int, asked: bool) -> dict[str, Any]:
+    from ..recording.describing import describe
+
+    meta = {
+        **describe(model, given.visual_only),
+        "movers": list(given.movers),
+        "visual_only": list(given.visual_only),
+        "seed": given.seed,
+        "duration": given.duration,
+        "fps": given.fps,
+        "record_every": every,
+    }
+    if asked:
+        meta["control"] = {"every": given.control_every, "latency": given.latency}
+    if given.solvers:
+        meta["solvers"] = [row.written() for row in given.solvers]
+    return {**meta, "variant": variant.as_meta()} if variant else meta
+
+
+def _motion_key(
+    model: "mujoco.MjModel",
+    given: Given,
+    options: argparse.Namespace,
+    variant: Any,
+    steps: int,
+    every: int,
+    asked: bool,
+) -> str:
+    from ..recording.motion_key import motion_key
+
+    decided = {"steps": steps, "record_every": every, "seed": given.seed, "variant": variant.as_meta()}
+    if given.solvers:
+        decided["solvers"] = [row.written() for row in given.solvers]
+    if not asked:
+        return motion_key(model, decided)
+    rows = None if given.inputs is None else [[kind, sorted(names)] for kind, names in given.inputs]
+    decided["control"] = [given.control_every, given.latency, rows]
+    try:
+        source = options.source.read_text(encoding="utf-8") if options.source else None
+    except (OSError, ValueError):
+        source = None
+    return motion_key(model, decided, given.control, source)
+
+
+def _sha256(path: Path) -> str:
+    import hashlib
+
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

@@ -1,0 +1,272 @@
+"""Read a film's description, which its author's process left, with distrust, and refuse what no film may do."""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from worldkit.errors import ProgramError
+from worldkit.filming.drawn_only import SHAPES
+from worldkit.filming.telling import ARRAYS, DESCRIPTION
+
+from . import ground_skins
+from .treatment import LIMITS, Treatments
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..recording.stored import Recording
+
+PLACE = "film.py"
+MOST_FRAMES, MOST_THINGS, MOST_CAPTIONS = 20_000, 500, 500
+MOST_VERTICES, MOST_COPIES = 3_000_000, 2_000
+FAR_M = 1e5
+CAMERA: dict[str, tuple[int, ...]] = {
+    "eye": (3,), "target": (3,), "roll_deg": (), "fovy_deg": (), "focus_m": (), "aperture": (), "time": (),
+}  # fmt: skip
+"""Arrays with one row per frame, and the shape of a row."""
+PLACES = ("bottom", "top", "title", "left")
+
+
+class FilmError(ProgramError):
+    """The film asks for what cannot, or may not, be shown."""
+
+    code = "film"
+
+
+def _refuse(cause: str, remedy: str = "say it through worldkit.filming") -> FilmError:
+    return FilmError(cause, PLACE, remedy)
+
+
+@dataclass(frozen=True)
+class Described:
+    """One film, checked against the recording that it shows."""
+
+    shots: tuple[dict[str, Any], ...]
+    """`first` frame, number of `frames`, and the plan's camera that is meant (`planned`), if it is one."""
+    captions: tuple[dict[str, Any], ...]
+    treatments: Treatments
+    things: tuple[dict[str, Any], ...]
+    looks: dict[str, Any]
+    shutter: float
+    samples: int
+    arrays: "dict[str, np.ndarray]"
+
+    @property
+    def frames(self) -> int:
+        """The number of frames in the film."""
+        return len(self.arrays["time"])
+
+    def shot(self, frame: int) -> int:
+        """Number of the shot that a frame belongs to."""
+        return max(n for n, shot in enumerate(self.shots) if shot["first"] <= frame)
+
+    def speed(self, frame: int, fps: float) -> float:
+        """Recorded seconds in a second of film around a frame, by the shown times themselves."""
+        shot = self.shots[self.shot(frame)]
+        first, last = shot["first"], shot["first"] + shot["frames"] - 1
+        low, high = max(frame - 1, first), min(frame + 1, last)
+        time = self.arrays["time"]
+        return float(time[high] - time[low]) * fps / max(high - low, 1)
+
+    def drawn_only(self) -> list[str]:
+        """Say what is drawn and not simulated, for the statement and the report."""
+        said = []
+        for thing in self.things:
+            if thing.get("ways"):
+                copies = self.arrays[thing["ways"]].shape[1]
+                said.append(f"{thing['name']} ({copies} particles)")
+            elif thing["instead"]:
+                away = thing.get("off_m")
+                off = "" if away is None else f", up to {away:.2g} m off its surface"
+                off = ", within 1 mm of its surface" if away is not None and away < 1e-3 else off
+                said.append(f"{thing['name']} (skin over {thing['to']}{off})")
+            else:
+                said.append(f"{thing['name']} (on {thing['to']})" if thing["to"] else thing["name"])
+        treated = self.treatments.at(0.0)
+        said += ["sky"] if treated.sky_zenith is not None else []
+        return said + (["fog"] if treated.fog_rgb is not None else [])
+
+    def told(self, fps: float) -> dict[str, Any]:
+        """The film's entry in the statement: what is only drawn, its own looks, and each shot's recorded times and speed."""
+        time = self.arrays["time"]
+        rows = []
+        for shot in self.shots:
+            first, last = shot["first"], shot["first"] + shot["frames"] - 1
+            speed = (float(time[last]) - float(time[first])) * fps / max(last - first, 1)
+            rows.append(
+                {"film_s": round(first / fps, 4), "seconds": round(shot["frames"] / fps, 4)}
+                | {
+                    "from_s": round(float(time[first]), 4),
+                    "to_s": round(float(time[last]), 4),
+                    "speed": round(speed, 3),
+                }
+                | ({"camera": shot["planned"]} if shot["planned"] else {})
+            )
+        looks = {name: look if isinstance(look, str) else "a surface of its own" for name, look in self.looks.items()}
+        return {
+            "drawn_only": self.drawn_only(),
+            "looks": looks,
+            "shots": rows,
+            "captions": [c["text"] for c in self.captions],
+        }
+
+
+def read(folder: Path, recording: "Recording") -> Described:
+    """Read the description in a folder for a recording.
+
+    Raises:
+        FilmError: it is damaged or too large, or asks for what no film may do: there are no words to move, hide or
+        recolour a
+            body in the course of time, and names that the world lacks are refused.
+    """
+    import numpy as np
+
+    try:
+        told = json.loads((folder / DESCRIPTION).read_bytes())
+        with np.load(folder / ARRAYS, allow_pickle=False) as found:
+            arrays = {name: np.asarray(found[name]) for name in found.files}
+        return _checked(told, arrays, recording)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, IndexError, RecursionError) as cause:
+        raise _refuse(f"the film's description is damaged: {type(cause).__name__}: {cause}") from cause
+
+
+def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "Recording") -> Described:
+    import numpy as np
+
+    n = len(arrays["time"])
+    if not 1 <= n <= MOST_FRAMES:
+        raise _refuse(f"a film has 1 to {MOST_FRAMES} frames, not {n}")
+    for name, shape in CAMERA.items():
+        value = arrays[name] = np.asarray(arrays[name], dtype=float)
+        if value.shape != (n, *shape) or not np.isfinite(value).all() or np.abs(value).max() > FAR_M:
+            raise _refuse(f"{name} must be {(n, *shape)} finite numbers, is {value.shape}")
+    last = float(recording.time[-1] - recording.time[0])
+    if arrays["time"].min() < -1e-9 or arrays["time"].max() > last + 1e-9:
+        raise _refuse(f"the film shows moments outside the recording's {last:.4g} s")
+    if arrays["fovy_deg"].min() < 1 or arrays["fovy_deg"].max() > 120:
+        raise _refuse("a lens sees 1 to 120 degrees")
+    cameras = set(map(str, recording.meta.get("cameras", ())))
+    shots, at = [], 0
+    for shot in told["shots"]:
+        first, count, planned = int(shot["first"]), int(shot["frames"]), str(shot["planned"])
+        if first != at or count < 1 or (planned and planned not in cameras):
+            raise _refuse(f"the shot at frame {first} does not follow the one before, or names no camera of the plan")
+        shots.append({"first": first, "frames": count, "planned": planned})
+        at += count
+    if at != n:
+        raise _refuse(f"the shots have {at} frames, the film {n}")
+    captions = tuple(_caption(one) for one in told["captions"][: MOST_CAPTIONS + 1])
+    if len(captions) > MOST_CAPTIONS or len(told["things"]) > MOST_THINGS:
+        raise _refuse(f"a film has at most {MOST_CAPTIONS} captions and draws at most {MOST_THINGS} things")
+    bodies = set(recording.names)
+    things = tuple(_thing(one, arrays, bodies, n) for one in told["things"])
+    things = tuple(thing | ground_skins.off(thing, arrays, recording) for thing in things)
+    if len({thing["name"] for thing in things}) < len(things):
+        raise _refuse("two of the things that are drawn have the same name")
+    geoms = {str(geom["name"]) for geom in recording.meta["geoms"] if geom["name"]}
+    looks = {str(name): _look(look, arrays) for name, look in told["looks"].items()}
+    for name in looks:
+        if name not in bodies | geoms:
+            raise _refuse(
+                f"a look is given to {name!r}, which is no body and no geom of the world", "name one that it has"
+            )
+    share, samples = float(told["shutter"]), int(told["samples"])
+    if not (0 <= share <= 1 and 1 <= samples <= 32):
+        raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")
+    air = [_air(one) for one in told["air"]]
+    return Described(tuple(shots), captions, Treatments(air), things, looks, share, samples, arrays)
+
+
+def _caption(told: dict[str, Any]) -> dict[str, Any]:
+    text, place = str(told["text"]), str(told["place"])
+    if place not in PLACES or not 0 < len(text) <= 200:
+        raise _refuse(f"no caption can be put at {place!r}")
+    return {"text": text, "place": place, "start_s": float(told["start_s"]), "end_s": float(told["end_s"])}
+
+
+def _air(told: dict[str, Any]) -> dict[str, Any]:
+    import numpy as np
+
+    found: dict[str, Any] = {"at_s": float(told["at_s"])}
+    for name, value in told.items():
+        if name == "at_s":
+            continue
+        if name not in LIMITS:
+            raise _refuse(f"nothing of the light is called {name!r}")
+        low, high = LIMITS[name]
+        numbers = np.asarray(value, dtype=float)
+        wanted = (3,) if name.endswith("_rgb") or name in ("sky_zenith", "sky_horizon", "sky_ground") else ()
+        if numbers.shape != wanted or not ((numbers >= low) & (numbers <= high)).all():
+            said = name.replace("_", " ", 1)
+            raise _refuse(f"{said} must lie between {low} and {high}, got {value}", "give it such a number")
+        found[name] = tuple(numbers.tolist()) if wanted else float(numbers)
+    return found
+
+
+def _look(told: Any, arrays: "dict[str, np.ndarray]") -> Any:
+    """A look of the library by name, or a surface's numbers."""
+    import numpy as np
+
+    from worldkit.materials import look
+
+    if isinstance(told, str):
+        try:
+            look(told)
+        except ValueError as unknown:
+            raise _refuse(str(unknown), "name one of them, '#rrggbb', or make a Surface") from None
+        return told
+    found = {name: float(told[name]) for name in ("roughness", "metallic", "glow", "opacity", "tile_m")}
+    found["rgb"] = tuple(float(v) for v in told["rgb"])  # type: ignore[assignment]
+    if len(found["rgb"]) != 3 or not found["tile_m"] > 0 or not 0 <= found["glow"] <= 50:  # type: ignore[arg-type]
+        raise _refuse("a surface has a colour of three numbers, a tile above 0 m, and a glow of at most 50")
+    if "picture" in told:
+        pixels = arrays[str(told["picture"])]
+        if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or max(pixels.shape) > 4096:
+            raise _refuse("a painted picture is uint8 (height, width, 3), at most 4096 a side")
+        found["picture"] = str(told["picture"])  # type: ignore[assignment]
+    return found
+
+
+def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[str], frames: int) -> dict[str, Any]:
+    import numpy as np
+
+    name, shape, to = str(told["name"]), str(told["shape"]), str(told["to"])
+    if not 0 < len(name) <= 60 or shape not in SHAPES:
+        raise _refuse(f"{name!r} is drawn in no shape that there is", f"use one of: {', '.join(SHAPES)}")
+    if to and to not in bodies:
+        raise _refuse(
+            f"{name!r} is fixed to {to!r}, which is no body", f"name one of: {', '.join(sorted(bodies)[:10])}"
+        )
+    found: dict[str, Any] = {"name": name, "shape": shape, "to": to, "instead": bool(told["instead"]) and bool(to)}
+    for key, length in (("size", 3), ("pos", 3), ("quat", 4)):
+        numbers = [float(v) for v in told[key]]
+        if len(numbers) != length or not np.isfinite(numbers).all() or max(map(abs, numbers)) > FAR_M:
+            raise _refuse(f"the {key} of {name!r} must be {length} numbers")
+        found[key] = numbers
+    if min(found["size"]) <= 0 or abs(float(np.linalg.norm(found["quat"])) - 1) > 1e-3:
+        raise _refuse(f"{name!r} has no size, or its quaternion is none")
+    found["look"] = _look(told["look"], arrays)
+    if shape == "mesh":
+        points, faces = arrays[str(told["vertices"])], arrays[str(told["faces"])]
+        good = points.ndim == 2 and points.shape[1] == 3 and 3 < len(points) <= MOST_VERTICES and faces.ndim == 2
+        if (
+            not good
+            or faces.shape[1] != 3
+            or not np.isfinite(points).all()
+            or faces.min() < 0
+            or faces.max() >= len(points)
+        ):
+            raise _refuse(f"{name!r} is no mesh of at least four points and their triangles")
+        found |= {"vertices": str(told["vertices"]), "faces": str(told["faces"])}
+        if "uv" in told:
+            found["uv"] = str(told["uv"])
+            if arrays[found["uv"]].shape != (len(points), 2):
+                raise _refuse(f"{name!r} has not one uv for each vertex")
+    if "ways" in told:
+        ways, sizes = arrays[str(told["ways"])], arrays[str(told["sizes"])]
+        good = ways.ndim == 3 and ways.shape[0] == frames and ways.shape[2] == 3 and 1 <= ways.shape[1] <= MOST_COPIES
+        if not good or shape != "sphere" or sizes.shape != ways.shape[:2] or not np.isfinite(ways).all():
+            raise _refuse(f"{name!r} has no place in each of the {frames} frames")
+        found |= {"ways": str(told["ways"]), "sizes": str(told["sizes"])}
+    return found

@@ -1,0 +1,179 @@
+"""Draw a film as its author described it: each frame from recorded rows, through the film's own camera."""
+
+from typing import TYPE_CHECKING, Any
+
+from worldkit import cameras
+
+from ..recording.replay import Replay
+from .described import Described
+from .drawn_frames import Frames
+from .dressed import CAMERA, DressedReplay, dress
+from .lettering import letter
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from pathlib import Path
+    from types import TracebackType
+
+    import mujoco
+    import numpy as np
+
+    from ..recording.stored import Recording
+    from .renderers import Quality
+
+
+class Screening:
+    """A film ready to be drawn, frame by frame, in any order; a context manager.
+
+    Args:
+        world: the world as one file.
+        plain: the same, compiled.
+        recording: the recording to show.
+        film: the description of the film.
+        size: of the picture, pixels.
+        fps: frames per second of the film.
+    """
+
+    def __init__(
+        self,
+        world: "Path",
+        plain: "mujoco.MjModel",
+        recording: "Recording",
+        film: Described,
+        size: tuple[int, int],
+        fps: int,
+    ) -> None:
+        import numpy as np
+
+        self.film, self.fps = film, fps
+        self.model = dress(world, film)
+        self._replay = DressedReplay(self.model, plain, recording)
+        self._time = np.asarray(recording.time) - recording.time[0]
+        self._movers = [name for name in recording.meta.get("movers") or () if name in recording.names]
+        self._camera = int(self.model.camera(CAMERA).id)
+        self._copies = [
+            (self.model.geom(f"drawn.{thing['name']}/0").id, film.arrays[thing["ways"]], film.arrays[thing["sizes"]])
+            for thing in film.things
+            if thing.get("ways")
+        ]
+        self._planned: Replay | None = None
+        if any(shot["planned"] for shot in film.shots):
+            self._planned = Replay(plain, recording)
+            cameras.aim(plain, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
+        shown = film.arrays["time"]
+        self._again = [
+            bool(shot["first"] and shown[shot["first"]] < shown[: shot["first"]].max() - 1.5 / fps)
+            for shot in film.shots
+        ]
+        self.frames = Frames(self.model, *size)
+
+    def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
+        """One frame, words and all: uint8 (height, width, 3)."""
+        import numpy as np
+
+        film, samples = self.film, self.film.samples if self.film.shutter > 0 else 1
+        if samples == 1:
+            image = self._moment(float(frame), quality)
+        else:
+            total: Any = 0.0
+            for sample in range(samples):
+                drawn = self._moment(frame + film.shutter * sample / samples, quality)
+                total = total + (drawn.astype(np.float32) / 255) ** 2.2
+            image = (255 * (total / samples) ** (1 / 2.2) + 0.5).astype(np.uint8)
+        speed = film.speed(frame, self.fps)
+        return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)])
+
+    def _moment(self, at: float, quality: "Quality") -> "np.ndarray":
+        """The picture between two frames of one shot, without words."""
+        import numpy as np
+
+        film = self.film
+        shot = film.shots[film.shot(int(at))]
+        last = shot["first"] + shot["frames"] - 1
+        low = int(at)
+        high, part = min(low + 1, last), at - low
+
+        def told(name: str) -> Any:
+            values = film.arrays[name]
+            return (1 - part) * values[low] + part * values[high]
+
+        if shot["frames"] > 1 and high == low and part > 0:  # past the shot's last frame, it goes on as before
+            step = film.arrays["time"][low] - film.arrays["time"][low - 1]
+            time = min(float(film.arrays["time"][low] + part * step), float(self._time[-1]))
+        else:
+            time = float(told("time"))
+        row = int(np.abs(self._time - time).argmin())
+        data = self._replay.show(row)
+        for first, ways, sizes in self._copies:
+            count = ways.shape[1]
+            data.geom_xpos[first : first + count] = (1 - part) * ways[low] + part * ways[high]
+            self.model.geom_size[first : first + count, 0] = np.maximum(sizes[low] / 2, 1e-9)
+        self._look(data, shot, row, told)
+        treatment = film.treatments.at(at / self.fps, float(told("focus_m")), float(told("aperture")))
+        self.frames.treat(treatment)
+        return self.frames.image(data, self._camera, quality)
+
+    def _look(self, data: "mujoco.MjData", shot: dict[str, Any], row: int, told: "Callable[[str], Any]") -> None:
+        """Put the film's camera where the shot has it."""
+        camera = self._camera
+        if shot["planned"]:
+            assert self._planned is not None
+            theirs = self._planned.show(row)
+            cameras.track(self._planned.model, theirs)
+            index = self._planned.model.camera(shot["planned"]).id
+            data.cam_xpos[camera], data.cam_xmat[camera] = theirs.cam_xpos[index], theirs.cam_xmat[index]
+            self.model.cam_fovy[camera] = self._planned.model.cam_fovy[index]
+            return
+        data.cam_xpos[camera] = told("eye")
+        data.cam_xmat[camera] = axes(told("eye"), told("target"), float(told("roll_deg"))).ravel()
+        self.model.cam_fovy[camera] = float(told("fovy_deg"))
+
+    def hidden(self) -> list[str]:
+        """The film's own things that cover the middle of a moving body in the frame drawn last: `ball behind pillar`.
+
+        The plan's cameras are drawn without them, so evidence is never hidden; the statement tells where the film hides it.
+        """
+        import mujoco
+        import numpy as np
+
+        data, found, hit = self._replay.data, [], np.zeros(1, np.int32)
+        eye = np.array(data.cam_xpos[self._camera])
+        for name in self._movers if any(thing for thing in self.film.things) else ():
+            body = self.model.body(name).id
+            way = data.xipos[body] - eye
+            away = float(np.linalg.norm(way))
+            groups = np.array([1, 1, 1, 0, 0, 0], np.uint8)
+            met = mujoco.mj_ray(self.model, data, eye, way / max(away, 1e-9), groups, True, body, hit)
+            geom = self.model.geom(int(hit[0])).name if 0 <= met < away else ""
+            if geom.startswith("drawn."):
+                found.append(f"{name} behind {geom.removeprefix('drawn.').split('/')[0]}")
+        return found
+
+    def segmentation(self) -> "np.ndarray":
+        """Geom numbers of the dressed world in the frame drawn last: int32 (height, width)."""
+        return self.frames.segmentation(self._replay.data, self._camera)
+
+    def close(self) -> None:
+        """Free the graphics context."""
+        self.frames.close()
+
+    def __enter__(self) -> "Screening":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: "TracebackType | None"
+    ) -> None:
+        self.close()
+
+
+def axes(eye: "np.ndarray", target: "np.ndarray", roll_deg: float) -> "np.ndarray":
+    """(3, 3) columns right, up and back of a camera at `eye` that looks at `target`, upright but for its roll."""
+    import numpy as np
+
+    back = np.asarray(eye, dtype=float) - np.asarray(target, dtype=float)
+    back /= max(float(np.linalg.norm(back)), 1e-12)
+    right = np.cross([0.0, 0.0, 1.0] if abs(back[2]) < 0.9999 else [0.0, 1.0, 0.0], back)
+    right /= np.linalg.norm(right)
+    up = np.cross(back, right)
+    c, s = np.cos(np.radians(roll_deg)), np.sin(np.radians(roll_deg))
+    return np.stack([c * right + s * up, c * up - s * right, back], axis=1)

@@ -1,0 +1,122 @@
+"""Draw pictures of one model with the wanted renderer, or with the plain one where that cannot."""
+
+from types import TracebackType
+from typing import TYPE_CHECKING
+
+from . import renderers
+from .identity import renderer_version
+from .treatment import PLAIN as UNTREATED
+from .treatment import Treatment
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+
+class Frames:
+    """Draws pictures of one model, `width` x `height` pixels; a context manager.
+
+    `image` gives the good-looking picture, `segmentation` the geom behind each pixel. The same state, camera and quality
+    always give the same picture. Where the driver cannot do what the renderer asks, MuJoCo's own takes over, and
+    `renderer` and `reason` say so.
+
+    Raises:
+        SeamError: no renderer has the name in `WORLDKIT_RENDERER`.
+        ValueError: the size is less than 8 x 8 pixels.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", width: int, height: int) -> None:
+        if width < 8 or height < 8:
+            raise ValueError(f"a picture needs at least 8 x 8 pixels, got {width} x {height}")
+        self.model, self.width, self.height = model, width, height
+        self.wanted = self.renderer = renderers.wanted()
+        """The wanted renderer, and the one that draws."""
+        self.reason = ""
+        """Why the plain renderer draws in place of the wanted one."""
+        self.untreated = False
+        """Light, fog, focus or grading were asked for, which this renderer lacks."""
+        self._treatment = UNTREATED
+        self._drawing: renderers.Drawing | None = None
+        chosen = renderers.SEAM.find(self.wanted)
+        try:
+            self._drawing = chosen.take(model, width, height)
+        except Exception as error:
+            # Any driver may lack any feature in its own way; a plainer picture is better than none.
+            self._fall_back(error)
+
+    def _fall_back(self, why: Exception) -> None:
+        """Let the plain renderer draw from now on."""
+        if self.renderer == renderers.PLAIN:
+            raise why
+        self.close()
+        self.renderer, self.reason = renderers.PLAIN, f"{type(why).__name__}: {why}"
+        self._drawing = renderers.SEAM.find(renderers.PLAIN).take(self.model, self.width, self.height)
+
+    @property
+    def _open(self) -> renderers.Drawing:
+        if self._drawing is None:
+            raise RuntimeError("these Frames are closed; make new ones")
+        return self._drawing
+
+    def image(self, data: "mujoco.MjData", camera: str | int, quality: renderers.Quality = "video") -> "np.ndarray":
+        """The picture of `data` through a camera of the model: uint8 (height, width, 3), RGB, row 0 the top.
+
+        `data` needs positions and cameras up to date (`mj_kinematics`, `mj_comPos`, `mj_camlight`, or `mj_forward`).
+        Raises ValueError when there is no such camera, or quality.
+        """
+        if quality not in ("still", "video"):
+            raise ValueError(f"quality is 'still' or 'video', not {quality!r}")
+        index, drawing = _camera_index(self.model, camera), self._open
+        try:
+            return drawing.image(data, index, quality)
+        except RuntimeError as error:
+            # Programs are compiled when first used, so a driver may give up only here.
+            self._fall_back(error)
+            self.treat(self._treatment)
+            return self.image(data, index, quality)
+
+    def treat(self, treatment: Treatment) -> None:
+        """Apply this light, haze, focus and grading from now on, as far as the renderer can."""
+        self._treatment = treatment
+        if not self._open.treat(treatment):
+            self.untreated |= treatment != UNTREATED
+
+    def segmentation(self, data: "mujoco.MjData", camera: str | int) -> "np.ndarray":
+        """Geom number behind each pixel, -1 where there is none: int32 (height, width), row 0 the top."""
+        return self._open.segmentation(data, _camera_index(self.model, camera))
+
+    def told(self) -> dict[str, str]:
+        """The renderer, for the evidence: `name`, `version`; `instead_of` and `because` if another was wanted; `without`
+        if it left
+        something out."""
+        said = {"name": self.renderer, "version": renderer_version(self.renderer)}
+        said |= {"without": "light, sky, fog, focus, grading"} if self.untreated else {}
+        return said | ({"instead_of": self.wanted, "because": self.reason} if self.reason else {})
+
+    def close(self) -> None:
+        """Free the graphics context; may be called twice."""
+        if self._drawing is not None:
+            self._drawing.close()
+            self._drawing = None
+
+    def __enter__(self) -> "Frames":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+
+def _camera_index(model: "mujoco.MjModel", camera: str | int) -> int:
+    import mujoco
+
+    if isinstance(camera, int) and 0 <= camera < model.ncam:
+        return camera
+    index = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_CAMERA, camera) if isinstance(camera, str) else -1
+    if index < 0:
+        names = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_CAMERA, i) for i in range(model.ncam)]
+        raise ValueError(
+            f"no camera is called {camera!r}. Use one of: {', '.join(map(str, names)) or '(the model has none)'}."
+        )
+    return index

@@ -1,0 +1,179 @@
+"""Add to the world what a film shows: drawn things, looks, skins and a camera, none of which has mass or touches anything.
+
+The bodies, joints and coordinates are the recorded world's own, so its recording is replayed on it as it is.
+"""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from worldkit import materials, portable
+
+from ..recording.replay import Replay
+from .described import Described, FilmError
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ..recording.stored import Recording
+
+CAMERA = "film camera"
+DRAWN = {"contype": 0, "conaffinity": 0, "mass": 0.0, "group": 2}
+HIDDEN_GROUP = 5
+SHARE_OF_BODY = (0.4, 2.5)
+"""The size of a skin, as a share of that of the body it stands for, lies between these in each direction."""
+BY_BODY = ("geom", "cam")
+"""Arrays that lie in the order of the bodies, so that additions shift them."""
+
+
+def dress(world: Path, film: Described) -> "mujoco.MjModel":
+    """The model that the film shows.
+
+    Raises:
+        FilmError: a skin does not have the size of its body, or something cannot be added to the picture.
+    """
+    import numpy as np
+
+    spec = portable.spec(world)
+    for name, look in film.looks.items():
+        _relook(spec, name, _material(spec, film, look, f"drawn.look {name}"))
+    for thing in film.things:
+        _add(spec, film, thing)
+    eyes = film.arrays["eye"]
+    spec.worldbody.add_camera(name=CAMERA, pos=eyes[0])
+    for name, corner in (("low", eyes.min(axis=0)), ("high", eyes.max(axis=0))):  # a room surrounds all cameras
+        spec.worldbody.add_camera(name=f"{CAMERA} {name}", pos=np.asarray(corner))
+    try:
+        return spec.compile()
+    except ValueError as cause:
+        raise FilmError(
+            f"what the film draws cannot be drawn: {cause}", "film.py", "give it a plainer shape"
+        ) from cause
+
+
+def _material(spec: "mujoco.MjSpec", film: Described, look: Any, name: str) -> str:
+    """The name of the material of a look, which is made if it does not exist yet."""
+    import mujoco
+    import numpy as np
+
+    if isinstance(look, str):
+        return materials.add(spec, look)
+    material = spec.add_material(
+        name=name, rgba=(*look["rgb"], look["opacity"]), roughness=look["roughness"], metallic=look["metallic"],
+        emission=look["glow"], specular=0.3, shininess=(1 - look["roughness"]) ** 2,
+    )  # fmt: skip
+    if "picture" in look:
+        pixels = np.ascontiguousarray(film.arrays[look["picture"]])
+        texture = spec.add_texture(
+            name=name, type=mujoco.mjtTexture.mjTEXTURE_2D, width=pixels.shape[1], height=pixels.shape[0], nchannel=3
+        )
+        texture.data = pixels.tobytes()
+        material.texuniform = True
+        material.texrepeat = (1.0 / look["tile_m"], 1.0 / look["tile_m"])
+        roles = [""] * int(mujoco.mjtTextureRole.mjNTEXROLE)
+        roles[int(mujoco.mjtTextureRole.mjTEXROLE_RGB)] = name
+        material.textures = roles
+    return name
+
+
+def _relook(spec: "mujoco.MjSpec", name: str, material: str) -> None:
+    """Give a body's visible shapes, or one geom, another material."""
+    body = spec.body(name)
+    geoms = [geom for geom in body.geoms if geom.group <= 2] if body is not None else [spec.geom(name)]
+    for geom in geoms:
+        geom.material, geom.rgba = material, (0.5, 0.5, 0.5, 1.0)
+
+
+def _add(spec: "mujoco.MjSpec", film: Described, thing: dict[str, Any]) -> None:
+    import mujoco
+    import numpy as np
+
+    name = f"drawn.{thing['name']}"
+    body = spec.body(thing["to"]) if thing["to"] else spec.worldbody
+    material = _material(spec, film, thing["look"], name)
+    common: dict[str, Any] = {**DRAWN, "material": material}
+    if thing.get("ways"):
+        places, sizes = film.arrays[thing["ways"]], film.arrays[thing["sizes"]]
+        for number, place in enumerate(places[0]):
+            body.add_geom(
+                name=f"{name}/{number}", type=mujoco.mjtGeom.mjGEOM_SPHERE, pos=place.astype(float),
+                size=(max(float(sizes[:, number].max()) / 2, 1e-6), 0, 0), **common,
+            )  # fmt: skip
+        return
+    half = np.array(thing["size"]) / 2
+    common |= {"name": name, "pos": thing["pos"], "quat": thing["quat"]}
+    kinds = mujoco.mjtGeom
+    if thing["shape"] == "mesh":
+        points = film.arrays[thing["vertices"]].astype(float) * np.array(thing["size"])
+        mesh = spec.add_mesh(
+            name=name, uservert=points.ravel(), userface=film.arrays[thing["faces"]].astype(np.int32).ravel(),
+            inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
+        )  # fmt: skip
+        if "uv" in thing:
+            mesh.usertexcoord = film.arrays[thing["uv"]].astype(float).ravel()
+        if thing["instead"]:
+            _skin(spec, thing, points)
+        body.add_geom(type=kinds.mjGEOM_MESH, meshname=name, **common)
+        return
+    kind, size = {
+        "box": (kinds.mjGEOM_BOX, half),
+        "sphere": (kinds.mjGEOM_SPHERE, (half[0], 0, 0)),
+        "cylinder": (kinds.mjGEOM_CYLINDER, (half[0], half[2], 0)),
+        "capsule": (kinds.mjGEOM_CAPSULE, (half[0], max(half[2] - half[0], 1e-4), 0)),
+        "ellipsoid": (kinds.mjGEOM_ELLIPSOID, half),
+    }[thing["shape"]]
+    body.add_geom(type=kind, size=size, **common)
+
+
+def _skin(spec: "mujoco.MjSpec", thing: dict[str, Any], points: "np.ndarray") -> None:
+    """Leave out the shapes of the body that a skin stands for, if the skin has the body's size."""
+    import numpy as np
+
+    from worldkit.turning import turned
+
+    model = spec.copy().compile()
+    body = model.body(thing["to"]).id
+    first, count = int(model.body_geomadr[body]), int(model.body_geomnum[body])
+    low, high = np.full(3, np.inf), np.full(3, -np.inf)
+    signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    for geom in range(first, first + count):
+        if model.geom_group[geom] <= 2:
+            box = model.geom_aabb[geom]
+            corners = model.geom_pos[geom] + turned(model.geom_quat[geom][None], box[:3] + signs * box[3:])
+            low, high = np.minimum(low, corners.min(axis=0)), np.maximum(high, corners.max(axis=0))
+    placed = turned(np.array(thing["quat"])[None], points) + np.array(thing["pos"])
+    share = np.ptp(placed, axis=0) / np.maximum(high - low, 1e-9)
+    away = np.abs(0.5 * (placed.min(axis=0) + placed.max(axis=0) - low - high)) / np.maximum(high - low, 1e-9)
+    if not ((share > SHARE_OF_BODY[0]) & (share < SHARE_OF_BODY[1]) & (away < 0.5)).all():
+        raise FilmError(
+            f"the skin {thing['name']!r} is {np.round(share, 2).tolist()} times the size of {thing['to']!r}, or lies beside it",
+            "film.py",
+            "a skin stands for its body: give it the body's size and place",
+        )
+    for geom in spec.body(thing["to"]).geoms:
+        if not geom.name.startswith("drawn."):
+            geom.group = HIDDEN_GROUP
+
+
+class DressedReplay(Replay):
+    """Shows a recording on the dressed world: recorded edits reach the right rows, wherever additions shifted them.
+
+    Args:
+        model: the dressed world.
+        plain: the recorded world itself.
+        recording: the recording to show.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", plain: "mujoco.MjModel", recording: "Recording") -> None:
+        super().__init__(model, recording)
+        moved = []
+        for row, array, index, value in self._edits:
+            kind = array.split("_", 1)[0]
+            if kind in BY_BODY:
+                width = max(getattr(plain, array)[0].size, 1) if len(getattr(plain, array)) else 1
+                owner = int(getattr(plain, f"{kind}_bodyid")[index // width])
+                before = int((getattr(plain, f"{kind}_bodyid") < owner).sum())
+                after = int((getattr(model, f"{kind}_bodyid") < owner).sum())
+                index += (after - before) * width
+            moved.append((row, array, index, value))
+        self._edits = moved

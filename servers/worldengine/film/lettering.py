@@ -1,0 +1,143 @@
+"""Write words on a picture: captions, and how fast the film runs, which no author can leave out."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+
+FADE_S, FADE_SHARE = 0.35, 0.25
+"""A caption comes and goes within so many seconds, and within this share of the time that it stands."""
+USUAL = 0.02
+"""A speed this near to 1 counts as 1."""
+
+
+def pace(speed: float) -> str:
+    """Say how fast recorded time passes: empty at its own speed, `1/4 speed`, `0.6 × speed`, `held`, `backwards`."""
+    if abs(speed - 1) <= USUAL:
+        return ""
+    if abs(speed) < 1e-6:
+        return "held"
+    if speed < 0:
+        return f"backwards, {pace(-speed)}".removesuffix(", ")
+    part = round(1 / speed)
+    if part >= 2 and abs(speed * part - 1) < 0.015:
+        return f"1/{part} speed"
+    if speed > 1 and abs(speed - round(speed)) < 0.02:
+        return f"{round(speed)} × speed"
+    return f"{speed:.1f} × speed" if speed >= 0.1 else f"{speed:.2f} × speed"
+
+
+def letter(
+    image: "np.ndarray", film_s: float, captions: Sequence[dict[str, Any]], speed: float, again: bool
+) -> "np.ndarray":
+    """Write the words of this moment on a picture: uint8 (H, W, 3) RGB.
+
+    Args:
+        image: the picture, which stays unchanged.
+        film_s: time in the film, s.
+        captions: `text`, `place`, `start_s`, `end_s` of each.
+        speed: recorded seconds per second of film.
+        again: whether the film has shown this moment before.
+    """
+    import numpy as np
+
+    words = ", ".join(word for word in ("again" if again else "", pace(speed)) if word)
+    active = [c for c in captions if c["start_s"] <= film_s < c["end_s"]]
+    if not words and not active:
+        return image
+    out = np.array(image)
+    for caption in active:
+        since, left = film_s - caption["start_s"], caption["end_s"] - film_s
+        fade = min(FADE_S, FADE_SHARE * (since + left))
+        strength = float(np.clip(min(since, left) / fade + 0.08, 0.0, 1.0))
+        _caption(out, caption["text"], caption["place"], strength)
+    if words:
+        _badge(out, words)
+    return out
+
+
+def _font() -> Any:
+    import cv2
+
+    return cv2.FontFace("sans")
+
+
+def _extent(text: str, size: int, weight: int) -> tuple[int, int]:
+    """Width of a text, and how far its letters rise, pixels."""
+    import cv2
+
+    _, _, width, _ = cv2.getTextSize((10_000, 1_000), text, (0, 0), _font(), size, weight)
+    return int(width), round(0.72 * size)
+
+
+def _write(
+    image: "np.ndarray", text: str, at: tuple[int, int], size: int, weight: int, colour: Any, strength: float
+) -> None:
+    """Write letters with their foot at `at`, over a soft shadow."""
+    import cv2
+    import numpy as np
+
+    mask = np.zeros(image.shape[:2], np.uint8)
+    cv2.putText(mask, text, at, 255, _font(), size, weight)
+    shade = cv2.GaussianBlur(mask, (0, 0), max(size * 0.12, 0.8)).astype(np.float32) / 255 * 0.75 * strength
+    letters = mask.astype(np.float32) / 255 * strength
+    light = image.astype(np.float32) * (1 - shade[..., None])
+    light = light * (1 - letters[..., None]) + np.asarray(colour, np.float32) * letters[..., None]
+    image[...] = np.clip(light + 0.5, 0, 255).astype(np.uint8)
+
+
+def _lines(text: str, size: int, weight: int, most: int) -> list[str]:
+    """Break a text between words so that no line is wider than `most` pixels; its own spaces and line ends stay."""
+    lines: list[str] = []
+    for part in text.strip().splitlines():
+        lines.append("")
+        for number, word in enumerate(part.split(" ")):
+            longer = f"{lines[-1]} {word}" if number else word
+            if not word or not lines[-1].strip() or _extent(longer, size, weight)[0] <= most:
+                lines[-1] = longer
+            else:
+                lines.append(word)
+    return [line.rstrip() for line in lines]
+
+
+def _caption(image: "np.ndarray", text: str, place: str, strength: float) -> None:
+    height, width = image.shape[:2]
+    size, weight = {"title": (round(height * 0.085), 600)}.get(place, (max(round(height * 0.045), 12), 450))
+    lines = _lines(text, size, weight, round(width * (0.5 if place == "left" else 0.82)))
+    step = round(size * 1.3)
+    top = {
+        "title": round(height * 0.5 - step * (len(lines) - 1) / 2 + size * 0.3),
+        "top": round(height * 0.08 + size * 0.7),
+        "left": round(height * 0.80 - step * (len(lines) - 1)),
+        "bottom": round(height * 0.93 - step * (len(lines) - 1)),
+    }[place]
+    for number, line in enumerate(lines):
+        x = round(width * 0.06) if place == "left" else (width - _extent(line, size, weight)[0]) // 2
+        _write(image, line, (x, top + number * step), size, weight, (250, 248, 244), strength)
+
+
+def _badge(image: "np.ndarray", words: str) -> None:
+    """Write how fast the film runs on a dark tag in the upper right corner."""
+    import cv2
+    import numpy as np
+
+    height, width = image.shape[:2]
+    size = max(round(height * 0.036), 11)
+    wide, tall = _extent(words, size, 500)
+    pad, edge = round(size * 0.55), round(height * 0.035)
+    x0, y0, x1, y1 = width - edge - wide - 2 * pad, edge, width - edge, edge + tall + 2 * pad
+    tag = np.zeros((height, width), np.uint8)
+    radius = min(pad, (y1 - y0) // 2)
+    for box in ((x0 + radius, y0, x1 - radius, y1), (x0, y0 + radius, x1, y1 - radius)):
+        cv2.rectangle(tag, box[:2], box[2:], 255, -1)
+    for corner in (
+        (x0 + radius, y0 + radius),
+        (x1 - radius, y0 + radius),
+        (x0 + radius, y1 - radius),
+        (x1 - radius, y1 - radius),
+    ):
+        cv2.circle(tag, corner, radius, 255, -1, cv2.LINE_AA)
+    share = tag.astype(np.float32)[..., None] / 255 * 0.55
+    image[...] = (image * (1 - share) + np.array([18, 18, 20], np.float32) * share).astype(np.uint8)
+    _write(image, words, (x0 + pad, y1 - pad), size, 500, (255, 255, 255), 1.0)

@@ -1,0 +1,258 @@
+"""The still and the video pass: pictures of recorded states, through every camera."""
+
+import argparse
+import math
+import os
+import sys
+import time
+from collections import Counter
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from worldkit.errors import ProgramError
+from worldkit.files import write_json
+from worldkit.program import has_display
+
+from ..recording.replay import Replay, frame_rows
+from .encode import Video, write_png
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ..given import Given
+    from ..recording.stored import Recording
+    from .described import Described
+
+FILM = "film"
+"""Name of the file of an author's film, beside those of the plan's cameras."""
+Ticker = Callable[[int, int], object]
+"""It is called with the frames done and the frames in all."""
+
+
+def run(given: "Given", options: argparse.Namespace) -> None:
+    """Draw the recording `options.recording` into `options.out`, by the world as one file.
+
+    Raises:
+        WorldkitError: the recording is of another world, or cannot be read; there is no such camera.
+    """
+    headless_gl()
+    from worldkit.reporting import Progress
+
+    from ..recording import stored
+    from ..recording.describing import fingerprint
+    from . import described
+
+    recording, model, out = stored.open(options.recording), given.model(), options.out
+    same = fingerprint(model) == recording.meta["model"]["fingerprint"]
+    started = time.perf_counter()
+    film = None if options.film is None else described.read(options.film, recording)
+    if options.run == "frame":
+        summary = frame(model, recording, film, given, options)
+    elif options.run == "still":
+        summary = stills(model, recording, options.cameras, out, given.size, Progress(out, 0, "cameras"))
+    else:
+        summary = {"cameras": []}
+        if not options.film_alone:
+            size, fps = (given.size, given.fps) if film is None else beside_a_film(given.size, given.fps)
+            summary = video(model, recording, options.cameras, out, size, fps, Progress(out, 0, "frames"))
+        if film is not None:
+            summary["film"] = screen(model, recording, film, given, out, Progress(out, 0, "frames of the film"))
+    result = {"ok": True, "pass": options.run, **summary, "trajectory_sha256": recording.sha256, "same_model": same}
+    write_json(out / "result.json", {**result, "wall_s": round(time.perf_counter() - started, 3)})
+    made = [*summary["cameras"], *([FILM] if "film" in summary else [])]
+    sys.stdout.write(f"{', '.join(made)} in {out}\n")
+
+
+def beside_a_film(size: tuple[int, int], fps: int) -> tuple[tuple[int, int], int]:
+    """Size, pixels, and frame rate, 1/s, of the plan's cameras where the author's film is what is shown.
+
+    They are looked at as witnesses then: half as large and half as often costs about a sixth.
+    """
+    return (size[0] // 4 * 2, size[1] // 4 * 2), max(1, round(fps / 2))
+
+
+def headless_gl() -> None:
+    """Without a display, let MuJoCo draw through EGL, even if it was imported before anyone could choose."""
+    if sys.platform != "linux" or "MUJOCO_GL" in os.environ or has_display():
+        return
+    os.environ["MUJOCO_GL"] = "egl"
+    import importlib
+
+    import mujoco.gl_context
+    import mujoco.rendering.classic.gl_context as classic
+
+    importlib.reload(classic)
+    importlib.reload(mujoco.gl_context)
+
+
+def stills(
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    names: Sequence[str],
+    out: Path,
+    size: tuple[int, int],
+    tick: Ticker,
+) -> dict[str, Any]:
+    """Draw `<camera>.png` of the first recorded row; write `visibility.json`, what each camera sees of each body, and `cameras.json`."""
+    from worldkit import cameras
+
+    from .drawn_frames import Frames
+
+    names = choose_cameras(model, names)
+    replay = Replay(model, recording)
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
+    visibility, stands = {}, {}
+    with Frames(model, *size) as frames:
+        data = replay.show(0)
+        for done, name in enumerate(names):
+            cameras.track(model, data)
+            write_png(out / f"{name}.png", frames.image(data, name, quality="still"))
+            visibility[name] = visible(model, frames.segmentation(data, name))
+            stands[name] = cameras.standing(model, data, name)
+            tick(done + 1, len(names))
+    write_json(out / "visibility.json", visibility)
+    write_json(out / "cameras.json", {"size": list(size), "cameras": stands})
+    return {"cameras": list(names), "size": list(size), "renderer": frames.told()}
+
+
+def video(
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    names: Sequence[str],
+    out: Path,
+    size: tuple[int, int],
+    fps: int,
+    tick: Ticker,
+) -> dict[str, Any]:
+    """Draw `<camera>.mp4`, where frame k shows the recorded row nearest to k / fps; `mj_step` is never called."""
+    from worldkit import cameras
+
+    from .drawn_frames import Frames
+
+    names = choose_cameras(model, names)
+    replay = Replay(model, recording)
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
+    rows = frame_rows(recording.time, fps)
+    total = len(rows) * len(names)
+    with ExitStack() as stack:
+        frames = stack.enter_context(Frames(model, *size))
+        films = {name: stack.enter_context(Video(out / f"{name}.mp4", *size, fps)) for name in names}
+        done = 0
+        for row in rows:
+            data = replay.show(int(row))
+            cameras.track(model, data)
+            for name, film in films.items():
+                film.add(frames.image(data, name, quality="video"))
+                done += 1
+                tick(done, total)
+    return {
+        "cameras": list(names),
+        "frames": len(rows),
+        "fps": fps,
+        "size": list(size),
+        "seconds": len(rows) / fps,
+        "renderer": frames.told(),
+    }
+
+
+def screen(
+    model: "mujoco.MjModel", recording: "Recording", film: "Described", given: "Given", out: Path, tick: Ticker
+) -> dict[str, Any]:
+    """Draw `film.mp4`, the recording as the film's author shows it; returns its entry for the result."""
+    from .directed import Screening
+
+    with (
+        Screening(given.world, model, recording, film, given.size, given.fps) as screening,
+        Video(out / f"{FILM}.mp4", *given.size, given.fps) as film_file,
+    ):
+        hidden: Counter[str] = Counter()
+        for number in range(film.frames):
+            film_file.add(screening.picture(number))
+            hidden.update(screening.hidden())
+            tick(number + 1, film.frames)
+        renderer = screening.frames.told()
+    said = {"frames": film.frames, "seconds": film.frames / given.fps, "renderer": renderer, **film.told(given.fps)}
+    return said | {"hidden": {what: round(count / given.fps, 3) for what, count in sorted(hidden.items())}}
+
+
+def frame(
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    film: "Described | None",
+    given: "Given",
+    options: argparse.Namespace,
+) -> dict[str, Any]:
+    """Draw `frame.png`: the moment `options.at`, s, of the film, or of the recording through a camera of the plan."""
+    from worldkit import cameras
+
+    from .drawn_frames import Frames
+
+    size = options.size or given.size
+    if film is not None and not options.cameras:
+        from .directed import Screening
+
+        number = min(max(round(options.at * given.fps), 0), film.frames - 1)
+        with Screening(given.world, model, recording, film, size, given.fps) as screening:
+            screening.picture(number)  # the first one also sets the stage, which takes longer
+            started = time.perf_counter()
+            write_png(options.out / "frame.png", screening.picture(number))
+            larger = math.prod(given.size) / math.prod(size)
+            cost = (time.perf_counter() - started) * larger**0.5  # corners do not become more with the pixels
+            said = screening.frames.told()
+        shown = {"film_s": number / given.fps, "recorded_s": float(film.arrays["time"][number])}
+        shown |= {"frames": film.frames, "frame_s": round(cost, 3)}
+        return {"cameras": [FILM], "size": list(size), "renderer": said, **shown, "film": film.told(given.fps)}
+    name = choose_cameras(model, options.cameras)[0]
+    replay = Replay(model, recording)
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
+    row = int(abs(recording.time - recording.time[0] - options.at).argmin())
+    with Frames(model, *size) as frames:
+        data = replay.show(row)
+        cameras.track(model, data)
+        write_png(options.out / "frame.png", frames.image(data, name, quality="video"))
+        said = frames.told()
+    return {"cameras": [name], "size": list(size), "renderer": said, "recorded_s": float(recording.time[row])}
+
+
+def choose_cameras(model: "mujoco.MjModel", wanted: Sequence[str]) -> list[str]:
+    """The named cameras, or all; raises `ProgramError` when there is none, or a name is unknown or no file name."""
+    from worldkit.naming import names
+
+    known = names(model, "camera", model.ncam)
+    if not known:
+        raise ProgramError(
+            "the world has no camera", "build()", 'add one: cameras.add(spec, "overview", view="perspective")'
+        )
+    if unknown := [name for name in wanted if name not in known]:
+        raise ProgramError(f"there is no camera {', '.join(unknown)}", "--camera", f"name one of: {', '.join(known)}")
+    chosen = list(dict.fromkeys(wanted)) or known
+    if odd := [name for name in chosen if not name.replace("_", "").replace("-", "").replace(".", "").isalnum()]:
+        raise ProgramError(
+            f"camera {odd[0]!r} cannot name a file", "build()", "use letters, digits, dots, dashes and underscores"
+        )
+    return chosen
+
+
+def visible(model: "mujoco.MjModel", geoms: "np.ndarray") -> dict[str, dict[str, Any]]:
+    """Measure what a segmentation (height, width) of geom ids, or -1, shows of each body.
+
+    Each body with at least one pixel has `pixels`, `fraction` of the picture, `box` (x0, y0, x1, y1 in pixels, inclusive).
+    """
+    import numpy as np
+
+    from worldkit.naming import names
+
+    bodies = names(model, "body", model.nbody)
+    owner = np.where(geoms >= 0, model.geom_bodyid[np.maximum(geoms, 0)], -1)
+    found = {}
+    for body in np.unique(owner[owner >= 0]):
+        rows, columns = np.nonzero(owner == body)
+        found[bodies[body]] = {
+            "pixels": len(rows),
+            "fraction": len(rows) / owner.size,
+            "box": [int(columns.min()), int(rows.min()), int(columns.max()), int(rows.max())],
+        }
+    return found

@@ -1,0 +1,75 @@
+"""The renderers, one file or folder each, turn a recorded state into a picture.
+
+The folder is the list: a module that defines what `Renderer` names is a renderer of the still and the video pass, chosen by
+its name in `WORLDKIT_RENDERER`. The result of a pass tells which one drew, in which version; pictures of one renderer never
+answer for another.
+"""
+
+import os
+from importlib import metadata
+from typing import TYPE_CHECKING, Literal, Protocol
+
+from worldkit.seams import Seam
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ..treatment import Treatment
+
+VARIABLE = "WORLDKIT_RENDERER"
+USUAL = "preview"
+PLAIN = "classic"
+"""The renderer that takes over where a driver cannot do what another one asks."""
+Quality = Literal["still", "video"]
+
+
+class Drawing(Protocol):
+    """Draws one model at one size. The same state always gives the same picture."""
+
+    def image(self, data: "mujoco.MjData", camera: int, quality: Quality) -> "np.ndarray":
+        """The picture of `data` through a camera of the model: uint8 (height, width, 3), RGB, row 0 the top.
+
+        A RuntimeError says that the driver gave up; the plain renderer then draws.
+        """
+
+    def segmentation(self, data: "mujoco.MjData", camera: int) -> "np.ndarray":
+        """Geom number behind each pixel, -1 where there is none: int32 (height, width), row 0 the top."""
+
+    def treat(self, treatment: "Treatment") -> bool:
+        """Apply this light, haze, focus and grading from now on; False says that this renderer cannot."""
+
+    def close(self) -> None:
+        """Free what it holds; nothing is drawn afterwards."""
+
+
+class Renderer(Protocol):
+    """The protocol of the modules of this folder."""
+
+    PACKAGES: tuple[str, ...]
+    """Distributions that decide how its pictures look: their versions are part of its own."""
+
+    def take(self, model: "mujoco.MjModel", width: int, height: int) -> Drawing:
+        """Prepare to draw a model in pictures of `width` x `height` pixels.
+
+        Any exception says that it cannot draw here: the plain renderer takes over, and the result tells why.
+        """
+
+
+SEAM: Seam[Renderer] = Seam(__name__, Renderer, "renderer")
+
+
+def wanted() -> str:
+    """The wanted renderer: the one that `WORLDKIT_RENDERER` names, else the usual one."""
+    return os.environ.get(VARIABLE) or USUAL
+
+
+def installed(packages: tuple[str, ...]) -> dict[str, str]:
+    """The versions of the installed distributions, by name."""
+    found = {}
+    for package in packages:
+        try:
+            found[package] = metadata.version(package)
+        except metadata.PackageNotFoundError:
+            continue
+    return found

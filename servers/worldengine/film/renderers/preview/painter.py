@@ -1,0 +1,179 @@
+"""Draw the things of one model on the graphics side, all with one program or each with its own material."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from OpenGL import GL
+
+from . import gl
+from .eye import View
+from .shader_variants import Features, Variants, features, glossy
+from .shadows import ShadowMap
+from .soft import Soft
+from .supplies import Supplies
+from .things import FLOATS, Batch, Things
+
+if TYPE_CHECKING:
+    import mujoco
+
+ROUND = ("sphere", "capsule", "cylinder")
+CLOSED = (*ROUND, "box")
+"""Shapes whose far sides are never seen from outside."""
+UNSEEN_PX = 40.0
+"""The radius assumed where no eye looks, as in the shadow map."""
+
+
+class Painter:
+    """Draws the things of a model, the `walls` around them and what is soft.
+
+    `wall_rows` (W, 40) are the rows of the walls' batches, which follow the rows of `things`.
+    """
+
+    def __init__(
+        self,
+        model: mujoco.MjModel,
+        setting: int,
+        things: Things,
+        walls: Sequence[Batch],
+        wall_rows: np.ndarray,
+        height: int,
+    ):
+        self.setting = setting
+        self.things, self.soft, self.supplies = things, Soft(model), Supplies(model, height)
+        self._walls, self._wall_rows = walls, wall_rows
+        self._rows = things.rows
+        self._variants = Variants()
+        self._prepared: set[Features] = set()
+        self._buffer = GL.glGenBuffers(1)
+        self._rows_texture = GL.glGenTextures(1)
+
+    def upload(self, data: mujoco.MjData) -> None:
+        """Take over the poses of `data`."""
+        self.things.update(data)
+        self.soft.update(data)
+        rows = np.concatenate([self.things.rows, self._wall_rows, self.soft.rows])
+        if not len(rows):
+            rows = np.zeros((1, FLOATS), dtype=np.float32)
+        self._rows = rows
+        GL.glBindBuffer(GL.GL_TEXTURE_BUFFER, self._buffer)
+        GL.glBufferData(GL.GL_TEXTURE_BUFFER, rows.nbytes, np.ascontiguousarray(rows), GL.GL_STREAM_DRAW)
+        GL.glActiveTexture(GL.GL_TEXTURE2)
+        GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._rows_texture)
+        GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGBA32F, self._buffer)
+
+    def batches(self, *, clear: bool | None = False, ground: bool = True, walls: bool = True) -> Iterator[Batch]:
+        """Batches to draw: opaque (`clear` False), see-through (True) or all (None)."""
+        for batch in self.things.batches:
+            if (ground or batch.shape[0] != "disc") and (clear is None or batch.clear == clear):
+                yield batch
+        if walls and clear is not True:
+            yield from self._walls
+
+    def _soft(self) -> Iterator[tuple[gl.Shape | None, Batch, int]]:
+        """Soft things: shape (None: strands), a batch with their place and finish, and their number."""
+        start = len(self.things.rows) + len(self._wall_rows)
+        for shape, first, count, finish in self.soft.draws():
+            kind = ("capsule", -1) if shape is None else ("mesh", -1)
+            yield shape, Batch(kind, finish, False, first=start + first), count
+
+    def _shape(self, batch: Batch, view: View | None, height: int, count: int = -1) -> gl.Shape:
+        """The shape of a batch, as fine as a picture of `height` pixels needs it."""
+        count = len(batch.rows) if count < 0 else count
+        radius_px = UNSEEN_PX
+        if view is not None and count and batch.shape[0] in ROUND:
+            rows = self._rows[batch.first : batch.first + count]
+            depth = np.maximum((rows[:, [3, 7, 11]] - view.eye) @ view.forward, 0.05)
+            radius_px = float((rows[:, 12:14].max(axis=1) / depth).max() * height / (2.0 * view.tangents[1]))
+        return self.supplies.shape(*batch.shape, radius_px)
+
+    def draw(
+        self,
+        program: gl.Program,
+        view: View | None,
+        height: int,
+        *,
+        flipped: bool = False,
+        clear: bool | None = False,
+        ground: bool = True,
+        walls: bool = True,
+    ) -> None:
+        """Draw batches with one program into a picture of `height` pixels, seen by `view` (None: by the light)."""
+        program.set(things=2)
+        with gl.FarSides(flipped) as far_sides:
+            for batch in self.batches(clear=clear, ground=ground, walls=walls):
+                far_sides.hide(batch.shape[0] in CLOSED)
+                program.set(first=batch.first)
+                self._shape(batch, view, height).draw(len(batch.rows))
+            far_sides.hide(False)
+            if clear is not True:
+                for shape, batch, count in self._soft():
+                    program.set(first=batch.first)
+                    (shape or self._shape(batch, view, height, count)).draw(count)
+
+    def prepare(self, uniforms: dict[str, object], textures: dict[str, tuple[int, int]], shadow: ShadowMap) -> None:
+        """Set what materials are drawn with from now on: uniforms, textures (unit, handle) by name, and the shadow map."""
+        self._prepared.clear()
+        self._uniforms, self._textures, self._shadow = uniforms, textures, shadow
+
+    def _shade(self, batch: Batch, shape: gl.Shape, count: int, *, simple: bool = False, mirror: bool = False) -> None:
+        """Draw `count` things from the batch's first with its own variant of the surface shader."""
+        kind = self.supplies.paint_kind(batch.finish, float(self._rows[batch.first, 26]))
+        reflecting = "reflection" in self._textures
+        wanted = features(batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind)
+        program = self._variants.get(wanted).use()
+        if wanted not in self._prepared:
+            self._prepared.add(wanted)
+            program.set(**self._uniforms)
+            for name, (unit, handle) in self._textures.items():
+                program.texture(name, unit, handle)
+            self._shadow.bind(program)
+        if kind:
+            wide = batch.shape[0] == "disc" or batch.finish.look.tile_m > 1.0
+            target = GL.GL_TEXTURE_CUBE_MAP if kind == 2 else GL.GL_TEXTURE_2D
+            program.texture("paint", 1 if kind == 2 else 0, self.supplies.picture(batch.finish, wide), target)
+        program.set(first=batch.first)
+        shape.draw(count)
+
+    def shade(self, view: View, height: int, *, mirrored: bool = False) -> None:
+        """Draw everything opaque with its own material.
+
+        `mirrored` draws the world's mirror image, in less detail and without the ground. Glossy things are drawn in less
+        detail, too: `shade_mirrors` draws them again.
+        """
+        with gl.FarSides(mirrored) as far_sides:
+            for batch in self.batches(ground=not mirrored):
+                far_sides.hide(batch.shape[0] in CLOSED)
+                shape = self._shape(batch, view, height)
+                self._shade(batch, shape, len(batch.rows), simple=mirrored or glossy(batch))
+            far_sides.hide(False)
+            for shape, batch, count in self._soft():
+                self._shade(batch, shape or self._shape(batch, view, height, count), count, simple=mirrored)
+
+    def mirrors(self) -> list[Batch]:
+        """Batches so glossy that neighbours show in them."""
+        return [batch for batch in self.batches(walls=False) if glossy(batch)]
+
+    def shade_mirrors(self, view: View, height: int) -> None:
+        """Draw glossy things with the reflection of the picture so far."""
+        with gl.FarSides(False) as far_sides:
+            for batch in self.mirrors():
+                far_sides.hide(batch.shape[0] in CLOSED)
+                self._shade(batch, self._shape(batch, view, height), len(batch.rows), mirror=True)
+
+    def shade_glass(self, view: View, height: int) -> None:
+        """Draw see-through things, the farthest first, over the picture so far."""
+        GL.glEnable(GL.GL_BLEND)
+        GL.glBlendFuncSeparate(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA, GL.GL_ONE, GL.GL_ONE)
+        owners = [(row, batch) for batch in self.things.batches if batch.clear for row in batch.rows]
+        places = self._rows[:, [3, 7, 11]]
+        owners.sort(key=lambda pair: -float((places[pair[0]] - view.eye) @ view.forward))
+        with gl.FarSides(False) as far_sides:
+            far_sides.hide(True)
+            for row, batch in owners:
+                single = replace(batch, first=row)
+                self._shade(single, self._shape(single, view, height, 1), 1)
+        GL.glDisable(GL.GL_BLEND)

@@ -1,0 +1,357 @@
+"""Draw MuJoCo's scene with our own shaders on MuJoCo's own OpenGL context (hardware or software).
+
+Passes: shadow map; guide and ambient occlusion; the ground's mirror image where it is polished; depth alone, so that
+each pixel is shaded once; the picture itself; glass over a copy of it; development. Nothing depends on earlier frames:
+the same state gives the same picture in whatever order frames are drawn.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+from OpenGL import GL
+
+from worldkit.materials import look
+from worldkit.settings import STUDIO, Light
+
+from ...treatment import PLAIN, Treatment
+from . import gl, room
+from .develop import Developer
+from .eye import View, of_camera
+from .finish import Finish, linear
+from .focus import Focus
+from .lighting import relight, sky_uniforms
+from .occlusion import Occlusion
+from .painter import Painter
+from .scenery import light_rows, own_lights, setting_of, space_of
+from .shadows import ShadowMap
+from .surroundings import Surroundings, irradiance, noise_map
+from .things import FLOATS, SIDE_MODE, Batch, Things
+
+if TYPE_CHECKING:
+    import mujoco
+
+RANK_STEP = 2e-4
+"""The last of all geoms is drawn nearer by this share of its distance, so that coplanar faces never flicker."""
+
+
+@dataclass(frozen=True)
+class Quality:
+    """The effort spent on a picture."""
+
+    scale: int
+    shadow_pixels: int
+    blockers: int
+    filters: int
+    occlusion_divisor: int
+    occlusion_taps: int
+    march: int
+    """Steps of a mirror's ray through the picture."""
+
+
+VIDEO = Quality(1, 2048, 8, 18, 3, 14, 9)
+STILL = Quality(2, 4096, 24, 64, 3, 36, 22)
+QUALITIES = {"video": VIDEO, "still": STILL}
+
+
+class Stage:
+    """The targets of one quality."""
+
+    def __init__(self, width: int, height: int, quality: Quality):
+        w, h = width * quality.scale, height * quality.scale
+        self.width, self.height, self.quality = w, h, quality
+        self.picture = gl.Target(w, h, GL.GL_RGBA16F, depth=True)
+        self.behind: gl.Target | None = None
+        self.mirror: gl.Target | None = None
+        self.focus: Focus | None = None
+        d = quality.occlusion_divisor
+        self.occlusion = Occlusion(max(w // d, 1), max(h // d, 1), quality.occlusion_taps)
+        self.shadow = ShadowMap(quality.shadow_pixels)
+        self.developer = Developer(w, h)
+
+
+class Pipeline:
+    """Draws one model. Needs a current OpenGL context for every call; raises RuntimeError if the driver lacks something."""
+
+    def __init__(self, model: mujoco.MjModel, width: int, height: int):
+        import mujoco
+
+        self.model, self.width, self.height = model, width, height
+        chosen = setting_of(model)
+        self.setting = chosen or STUDIO
+        self.lights = own_lights(model)
+        rest = mujoco.MjData(model)
+        mujoco.mj_forward(model, rest)
+        if chosen is None:
+            self._adopt_key(rest)
+        self.things = Things(model)
+        self.things.update(rest)
+        low, high = self.things.bounds(rest)
+        space = space_of(model)
+        if space is not None:
+            low, high = np.minimum(low, space[0]), np.maximum(high, space[1])
+        self.low, self.high = low, high
+        self.centre = 0.5 * (low + high)
+        self.radius = max(float(np.linalg.norm(high - low)) / 2.0, 1e-3)
+        self.floor_z = float(self.things.rows[self.things.ground, 11]) if self.things.ground >= 0 else float(low[2])
+
+        gl.prepare_depth()
+        self._own, self._treatment = self.setting, PLAIN
+        self._stages: dict[str, Stage] = {}
+        self._noise = noise_map()
+        self._sky_uniforms = sky_uniforms(self.setting, PLAIN)
+        self._around = Surroundings(self.setting, self._noise, self._sky_uniforms)
+        self._weigh()
+        self._room: tuple[np.ndarray, np.ndarray] | None = None
+        walls, wall_rows = self._build_room(rest) if self.setting.name == "room" else ([], np.zeros((0, FLOATS)))
+        self.painter = Painter(model, self.setting.index, self.things, walls, wall_rows.astype(np.float32), height)
+        self._skies: dict[int, gl.Program] = {}
+        self._depth_program = gl.Program("thing.vert", "shadow.frag", FULL=0)
+        self._number: gl.Target | None = None
+
+    def _weigh(self) -> None:
+        """Compute the direction of the key light, and the light on level ground."""
+        self._key = np.array(self.setting.key.direction)
+        key = np.array(self.setting.key.colour) * max(self._key[2], 0.0)
+        self._ground_light = irradiance(self._around.harmonics, np.array([0.0, 0.0, 1.0])) + key
+
+    def treat(self, treatment: Treatment) -> None:
+        """Apply this light, haze, focus and grading from now on."""
+        relit = treatment.lit != self._treatment.lit
+        self._treatment = treatment
+        if relit:
+            self.setting = relight(self._own, treatment)
+            self._sky_uniforms = sky_uniforms(self.setting, treatment)
+            self._around.bake(self.setting, self._sky_uniforms)
+            self._weigh()
+            self.painter.setting = self.setting.index
+
+    def _adopt_key(self, rest: mujoco.MjData) -> None:
+        """Let a foreign model's own directional light be the key light."""
+        import mujoco
+
+        for light in self.lights:
+            if (
+                self.model.light_type[light] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL
+                and rest.light_xdir[light][2] < -0.2
+            ):
+                x, y, z = -rest.light_xdir[light]
+                elevation = float(np.degrees(np.arcsin(np.clip(z, -1, 1))))
+                key = Light(float(np.degrees(np.arctan2(y, x))), min(elevation, 75.0), self.setting.key.colour)
+                self.setting = replace(self.setting, key=key)
+                self.lights.remove(light)
+                return
+
+    def _build_room(self, rest: mujoco.MjData) -> tuple[list[Batch], np.ndarray]:
+        self._room = room.extent(self.low, self.high, np.array(rest.cam_xpos).reshape(-1, 3))
+        low, high = self._room
+        panels = room.panels(low, high, self.floor_z, self.setting.key.azimuth_deg)
+        looks = sorted({panel.look for panel in panels})
+        start = len(self.things.rows)
+        rows: list[np.ndarray] = []
+        walls = []
+        for name in looks:
+            entry = look("plastic_white" if name == "window_light" else name)
+            finish = Finish(entry)
+            batch = Batch(("box", -1), finish, False, first=start + len(rows))
+            for panel in (p for p in panels if p.look == name):
+                row = np.zeros(FLOATS, dtype=np.float32)
+                row[[0, 5, 10]] = 1.0
+                row[[3, 7, 11]] = panel.centre
+                row[12:15] = panel.half
+                row[16:20] = *linear(panel.rgba[:3]), 1.0
+                row[20:24] = entry.roughness, 0.0, entry.coat, 0.0
+                row[24:28] = 1.0 / entry.tile_m, entry.relief_m, SIDE_MODE, 0.0
+                row[28:32] = -1.0, 4.5 if name == "window_light" else 0.0, 0.0, 0.004
+                row[32:36] = *self.ground_mean(), self.floor_z
+                row[36:40] = 0.0, 0.0, 1e3, 0.0
+                rows.append(row)
+                batch.rows.append(batch.first + len(batch.rows))
+            walls.append(batch)
+        return walls, np.array(rows)
+
+    def ground_mean(self) -> tuple[float, float, float]:
+        """Scene-linear mean colour of the ground."""
+        if self.things.ground < 0:
+            return (0.18, 0.18, 0.18)
+        return self.things.finish(int(self.things.geoms[self.things.ground])).mean
+
+    def _uniforms(self, stage: Stage, view: View, data: mujoco.MjData, size: tuple[int, int]) -> dict[str, object]:
+        setting = self.setting
+        rows, aims, count = light_rows(self.model, data, setting, self.lights)
+        span = max(self.radius, 0.55 * float(np.linalg.norm(view.eye - self.centre)))
+        return {
+            **self._sky_uniforms, **self._air(), "view_projection": view.matrix(), "to_clip": view.matrix(), "eye": view.eye,
+            "forward": view.forward, "pixels": (float(size[0]), float(size[1])), "harmonics": self._around.harmonics,
+            "ground_light": self._ground_light, "ground_mean": self.ground_mean(), "key_sharp": 0.0 if setting.key_in_sky else 1.0,
+            "key_spread": setting.key_spread, "lights": rows, "light_aims": aims, "light_count": count,
+            "haze_m": setting.haze_m, "mirror_z": self.floor_z, "rank_step": RANK_STEP, "mirrored": 0, "things": 2,
+            "fade": (self.centre[0], self.centre[1], setting.fade[0] * span, setting.fade[1] * span),
+            "pool": (self.centre[0], self.centre[1], setting.pool[0] * self.radius, setting.pool[1] * self.radius),
+            "near_m": view.near_m, "march": stage.quality.march, "stride": 1.0 + 4.4 / stage.quality.march,
+            "blockers": stage.quality.blockers, "filters": stage.quality.filters,
+        }  # fmt: skip
+
+    def _air(self) -> dict[str, object]:
+        """Uniforms of the fog."""
+        told = self._treatment
+        colour = (0.0, 0.0, 0.0) if told.fog_rgb is None else tuple(linear(told.fog_rgb))
+        density = 0.0 if told.fog_rgb is None else told.fog_density
+        return {"fog": (*colour, density), "fog_height": told.fog_height_m, "fog_floor": self.floor_z}
+
+    def _sky(self, rays: np.ndarray, eye: np.ndarray) -> None:
+        index = self.setting.index
+        if index not in self._skies:
+            self._skies[index] = gl.Program("screen.vert", "sky.frag", BAKE=0, SETTING=index)
+        air = self._air() | {"eye": eye}
+        program = self._skies[index].use().set(depth=0.0, rays=rays, **self._sky_uniforms, **air)
+        program.texture("noise_map", 3, self._noise)
+        GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
+
+    def _focus(self, view: View, whole: tuple[np.ndarray, float]) -> tuple[np.ndarray, float]:
+        """The disc that the shadow map should cover: the whole scene, or the part of a larger one that the camera sees."""
+        centre, radius = whole
+        offset = centre - view.eye
+        along = float(np.clip(offset @ view.forward, 0.05 * radius, 4.0 * radius))
+        seen = 1.7 * along * float(np.hypot(*view.tangents)) + 0.15 * radius
+        if seen >= radius:
+            return centre, radius
+        pull = view.eye + along * view.forward - centre
+        reach = max(radius - 0.5 * seen, 0.0)
+        return centre + pull * min(1.0, reach / max(float(np.linalg.norm(pull)), 1e-9)), seen
+
+    def _open(self, view: View, height: int, *, mirrored: bool = False) -> None:
+        """Clear the bound target and draw depth alone, so that only visible surfaces get shaded."""
+        GL.glEnable(GL.GL_DEPTH_TEST)
+        GL.glDepthMask(GL.GL_TRUE)
+        GL.glDepthFunc(GL.GL_GEQUAL)
+        GL.glDisable(GL.GL_BLEND)
+        GL.glClearDepth(0.0)
+        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
+        GL.glColorMask(False, False, False, False)
+        self._depth_program.use().set(
+            view_projection=view.matrix(),
+            eye=view.eye,
+            rank_step=RANK_STEP,
+            mirrored=int(mirrored),
+            mirror_z=self.floor_z,
+        )
+        self.painter.draw(self._depth_program, view, height, flipped=mirrored, ground=not mirrored)
+        GL.glColorMask(True, True, True, True)
+
+    def _polished(self, view: View) -> bool:
+        if self.things.ground < 0 or view.eye[2] <= self.floor_z:
+            return False
+        entry = self.things.finish(int(self.things.geoms[self.things.ground])).look
+        return entry.coat >= 0.09 or entry.roughness < 0.3
+
+    def image(self, data: mujoco.MjData, camera: int, quality: str) -> np.ndarray:
+        """The picture of `data` through a camera: uint8 (H, W, 3); stills come at twice the size, to be averaged."""
+        if quality not in self._stages:
+            self._stages[quality] = Stage(self.width, self.height, QUALITIES[quality])
+        stage = self._stages[quality]
+        painter, height = self.painter, stage.height
+        view = of_camera(self.model, data, camera, self.width, self.height)
+        painter.upload(data)
+        low, high = self.things.bounds(data)
+        everything = np.minimum(low, self.low), np.maximum(high, self.high)
+        whole = self.centre, float(np.linalg.norm(np.maximum(everything[1] - self.centre, self.centre - everything[0])))
+        stage.shadow.draw(
+            self._key, self.setting.key_spread, *self._focus(view, whole), whole,
+            lambda program: painter.draw(program, None, height, flipped=True, ground=False, walls=False),
+        )  # fmt: skip
+        small = stage.occlusion.height
+        stage.occlusion.draw(view, lambda program: painter.draw(program, view, small))
+        reflecting = self._polished(view)
+        if reflecting:
+            self._reflect(stage, view, data)
+        mirrors, clear = painter.mirrors(), any(batch.clear for batch in self.things.batches)
+        if (mirrors or clear) and stage.behind is None:
+            stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F, depth=True)
+        stage.picture.bind()
+        self._open(view, height)
+        uniforms = self._uniforms(stage, view, data, (stage.width, stage.height))
+        painter.prepare(uniforms, self._textures(stage, reflecting), stage.shadow)
+        painter.shade(view, height)
+        self._sky(view.rays(), view.eye)
+        if mirrors:
+            self._copy(stage)
+            painter.shade_mirrors(view, height)
+        if clear:
+            self._copy(stage)
+            painter.shade_glass(view, height)
+        scene, told = stage.picture.colour, self._treatment
+        if told.aperture > 0:
+            if stage.focus is None:
+                stage.focus = Focus(stage.width, stage.height)
+            scene = stage.focus.draw(stage.picture, view, told.focus_m, told.aperture)
+        return stage.developer.draw(scene, self.setting.exposure, self.setting.vignette, told)
+
+    def _textures(self, stage: Stage, reflecting: bool) -> dict[str, tuple[int, int]]:
+        """Unit and texture of everything that materials read."""
+        behind, black = stage.behind, self.painter.supplies.black
+        out = {
+            "noise_map": (3, self._noise),
+            "around": (4, self._around.map),
+            "shade": (8, stage.occlusion.result.colour),
+            "behind": (9, behind.colour if behind else black),
+            "guide": (11, stage.occlusion.guide.colour),
+            "behind_depth": (12, behind.depth if behind else black),
+        }
+        return out | {"reflection": (10, stage.mirror.colour)} if reflecting and stage.mirror else out
+
+    def _reflect(self, stage: Stage, view: View, data: mujoco.MjData) -> None:
+        """Draw the world mirrored at the ground, with coarser copies for duller floors."""
+        if stage.mirror is None:
+            w, h = stage.width // 3, stage.height // 3
+            stage.mirror = gl.Target(max(w, 1), max(h, 1), GL.GL_RGBA16F, depth=True, levels=6)
+        mirror = stage.mirror
+        mirror.bind()
+        GL.glEnable(GL.GL_CLIP_DISTANCE0)
+        self._open(view, mirror.height, mirrored=True)
+        flip = np.array([1.0, 1.0, -1.0])
+        uniforms = self._uniforms(stage, view, data, (mirror.width, mirror.height)) | {
+            "mirrored": 1,
+            "eye": view.eye * flip + np.array([0.0, 0.0, 2.0 * self.floor_z]),
+            "forward": view.forward * flip,
+            "blockers": 4,
+            "filters": 6,
+        }
+        self.painter.prepare(uniforms, self._textures(stage, False), stage.shadow)
+        self.painter.shade(view, mirror.height, mirrored=True)
+        GL.glDisable(GL.GL_CLIP_DISTANCE0)
+        rays = view.rays()
+        rays[2, :] *= -1.0
+        self._sky(rays, view.eye)
+        GL.glActiveTexture(GL.GL_TEXTURE10)
+        GL.glBindTexture(GL.GL_TEXTURE_2D, mirror.colour)
+        GL.glGenerateMipmap(GL.GL_TEXTURE_2D)
+
+    def _copy(self, stage: Stage) -> None:
+        """Copy the picture so far for mirrors and glass to read."""
+        assert stage.behind is not None
+        stage.picture.blit_to(stage.behind, depth=True)
+        stage.picture.bind()
+
+    def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
+        """Geom number of each pixel, or -1: int32 (H, W), row 0 the top."""
+        if self._number is None:
+            self._number = gl.Target(self.width, self.height, GL.GL_R32I, depth=True, linear=False)
+            self._ident = gl.Program("thing.vert", "ident.frag", FULL=0)
+        view = of_camera(self.model, data, camera, self.width, self.height)
+        self.painter.upload(data)
+        self._number.bind()
+        GL.glEnable(GL.GL_DEPTH_TEST)
+        GL.glDepthMask(GL.GL_TRUE)
+        GL.glDepthFunc(GL.GL_GEQUAL)
+        GL.glDisable(GL.GL_BLEND)
+        GL.glClearDepth(0.0)
+        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
+        GL.glClearBufferiv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.int32))
+        self._ident.use().set(view_projection=view.matrix(), eye=view.eye, rank_step=RANK_STEP, mirrored=0)
+        self.painter.draw(self._ident, view, self.height, clear=None)
+        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
+        raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RED_INTEGER, GL.GL_INT)
+        return np.frombuffer(raw, dtype=np.int32).reshape(self.height, self.width)[::-1].copy()

@@ -1,0 +1,65 @@
+"""Draw one model with our shaders, in an OpenGL context of its own."""
+
+import os
+import sys
+from typing import TYPE_CHECKING, Any
+
+from .. import Quality
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ...treatment import Treatment
+
+
+class Shaded:
+    """The pipeline together with its OpenGL context."""
+
+    def __init__(self, model: "mujoco.MjModel", width: int, height: int) -> None:
+        self._size = (width, height)
+        self._context = _context(width, height)
+        try:
+            self._context.make_current()
+            from .pipeline import Pipeline
+
+            self._pipeline = Pipeline(model, width, height)
+        except Exception:
+            self._context.free()
+            raise
+
+    def image(self, data: "mujoco.MjData", camera: int, quality: Quality) -> "np.ndarray":
+        """The picture, a still drawn larger and scaled down: uint8 (height, width, 3)."""
+        import numpy as np
+
+        self._context.make_current()
+        picture = self._pipeline.image(data, camera, quality)
+        if picture.shape[0] != self._size[1]:
+            import cv2
+
+            picture = cv2.resize(np.ascontiguousarray(picture), self._size, interpolation=cv2.INTER_AREA)
+        return np.ascontiguousarray(picture)
+
+    def segmentation(self, data: "mujoco.MjData", camera: int) -> "np.ndarray":
+        """Geom number of each pixel, or -1: int32 (height, width)."""
+        self._context.make_current()
+        return self._pipeline.segmentation(data, camera)
+
+    def treat(self, treatment: "Treatment") -> bool:
+        """Apply this light, haze, focus and grading from now on."""
+        self._context.make_current()
+        self._pipeline.treat(treatment)
+        return True
+
+    def close(self) -> None:
+        """Free the graphics context with everything that was made on it."""
+        self._context.free()
+
+
+def _context(width: int, height: int) -> Any:
+    """An offscreen OpenGL context, by the back end that MUJOCO_GL names (EGL if it names none and there is no display)."""
+    if "MUJOCO_GL" not in os.environ and sys.platform == "linux" and not os.environ.get("DISPLAY"):
+        os.environ["MUJOCO_GL"] = "egl"
+    from mujoco import gl_context
+
+    return gl_context.GLContext(width, height)

@@ -1,0 +1,18 @@
+// Draws the surroundings: behind everything (BAKE 0) or the upper half of all directions, folded out to a square, for lighting (BAKE 1).
+#include "sky.glsl"
+#include "fog.glsl"
+in vec2 at;
+uniform vec3 eye;
+uniform mat4 rays;  // columns: right and up scaled by the lens, forward
+out vec4 colour;
+void main() {
+#if BAKE
+    vec2 q = at * 2.0 - 1.0, p = vec2(q.x + q.y, q.x - q.y) * 0.5;
+    vec3 d = normalize(vec3(p, max(1.0 - abs(p.x) - abs(p.y), 1e-4)));
+    colour = vec4(sky(d, true), 1.0);
+#else
+    vec2 p = at * 2.0 - 1.0;
+    vec3 d = normalize(rays[0].xyz * p.x + rays[1].xyz * p.y + rays[2].xyz);
+    colour = vec4(fogged_sky(sky(d, false), eye, d), 1.0);
+#endif
+}

@@ -1,0 +1,220 @@
+"""Turn the visible geoms of a model, grouped by shape and picture, into rows of numbers for the shaders.
+
+A row is ten texels of four floats; see `shaders/thing.vert` and `shaders/surface.frag` for their meaning.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from worldkit.materials.look import Look
+
+from .finish import DEFAULT_RGBA, Finish, linear, of_material, plain
+
+if TYPE_CHECKING:
+    import mujoco
+
+FLOATS = 40
+VISIBLE_GROUPS = (0, 1, 2)
+"""Geom groups that are drawn, as in MuJoCo's own viewers; collision hulls lie in group 3."""
+ENDLESS_M = 4096.0
+SIDE_MODE, EXACT_UV, FLAT_UV = 2.0, 6.0, 7.0
+
+
+@dataclass
+class Batch:
+    """Things of one shape under one picture."""
+
+    shape: tuple[str, int]
+    """Kind of the shape, and its index for meshes and height fields."""
+    finish: Finish
+    clear: bool
+    rows: list[int] = field(default_factory=list)
+    first: int = 0
+
+
+def _longest(size: np.ndarray) -> float:
+    """The paint mode that lays the grain along the longest side (2 x, 3 y, 4 z)."""
+    return SIDE_MODE + float(np.argmax(size))
+
+
+def _traits(look: Look) -> tuple[bool, ...]:
+    """The traits that plain looks must share to be drawn together."""
+    glossy = look.roughness < 0.3 and (look.metallic > 0.5 or look.coat >= 0.4)
+    return (look.coat > 0, look.sheen > 0, look.mark, look.vary > 0, look.clear > 0, glossy)
+
+
+class Things:
+    """The geoms of a model that can be seen.
+
+    `rows` (N, 40) float32 holds every thing; `update` moves them to the poses in an MjData.
+    """
+
+    def __init__(self, model: mujoco.MjModel):
+        import mujoco
+
+        self.model = model
+        kinds = mujoco.mjtGeom
+        self._finishes = {-1: plain(DEFAULT_RGBA)} | {i: of_material(model, i) for i in range(model.nmat)}
+        alpha = np.array([self._rgba(g)[3] for g in range(model.ngeom)])
+        shown = np.isin(model.geom_group, VISIBLE_GROUPS) & (alpha > 0.003) if model.ngeom else np.zeros(0, bool)
+        self.geoms = np.flatnonzero(shown)
+        self.rows = np.zeros((len(self.geoms), FLOATS), dtype=np.float32)
+        self.batches: list[Batch] = []
+        self.ground = -1
+        """Row of the first horizontal endless plane, or -1."""
+        groups: dict[tuple, Batch] = {}
+        names = {
+            kinds.mjGEOM_PLANE: "plane", kinds.mjGEOM_SPHERE: "sphere", kinds.mjGEOM_ELLIPSOID: "sphere",
+            kinds.mjGEOM_CAPSULE: "capsule", kinds.mjGEOM_CYLINDER: "cylinder", kinds.mjGEOM_BOX: "box",
+            kinds.mjGEOM_MESH: "mesh", kinds.mjGEOM_SDF: "mesh", kinds.mjGEOM_HFIELD: "hfield",
+        }  # fmt: skip
+        for row, geom in enumerate(self.geoms):
+            kind = kinds(model.geom_type[geom])
+            shape = (names[kind], int(model.geom_dataid[geom]) if names[kind] in ("mesh", "hfield") else -1)
+            endless = kind == kinds.mjGEOM_PLANE and model.geom_size[geom, :2].min() <= 0
+            if endless:
+                shape = ("disc", -1)
+                level = model.geom_bodyid[geom] == 0 or model.body_weldid[model.geom_bodyid[geom]] == 0
+                if self.ground < 0 and level:
+                    self.ground = row
+            finish, rgba = self.finish(geom), self._rgba(geom)
+            clear = finish.look.clear > 0 or rgba[3] < 0.997
+            self._fill(row, int(geom), kind, finish, rgba, endless)
+            picture = (
+                (finish.look, finish.texture) if finish.texture >= 0 or finish.look.paint else _traits(finish.look)
+            )
+            batch = groups.setdefault((shape, picture, clear), Batch(shape, finish, clear))
+            batch.rows.append(row)
+        self.batches = sorted(groups.values(), key=lambda b: b.shape[0] == "disc")
+        # Rows of a batch must lie side by side.
+        order = [row for batch in self.batches for row in batch.rows]
+        if order:
+            self.rows, self.geoms = self.rows[order], self.geoms[order]
+            self.ground = order.index(self.ground) if self.ground >= 0 else -1
+        start = 0
+        for batch in self.batches:
+            batch.first = start
+            batch.rows = list(range(start, start + len(batch.rows)))
+            start += len(batch.rows)
+        self._glossy = [
+            i for i, g in enumerate(self.geoms) if i != self.ground and model.geom_type[g] != kinds.mjGEOM_PLANE
+        ]
+        self._balls = np.flatnonzero(model.geom_type[self.geoms] == int(kinds.mjGEOM_SPHERE))
+        self._supports_of_fixed = False
+
+    def _rgba(self, geom: int) -> np.ndarray:
+        material = int(self.model.geom_matid[geom])
+        own = self.model.geom_rgba[geom]
+        if material < 0 or not np.allclose(own, DEFAULT_RGBA):
+            return own
+        return self.model.mat_rgba[material]
+
+    def finish(self, geom: int) -> Finish:
+        """The finish of a geom."""
+        material = int(self.model.geom_matid[geom])
+        return self._finishes[material] if material >= 0 else plain(self._rgba(geom))
+
+    def _fill(self, row: int, geom: int, kind: mujoco.mjtGeom, finish: Finish, rgba: np.ndarray, endless: bool) -> None:
+        import mujoco
+
+        kinds, entry, out = mujoco.mjtGeom, finish.look, self.rows[row]
+        size = self.model.geom_size[geom].astype(float)
+        full = size.copy()
+        half = 0.0
+        if kind == kinds.mjGEOM_SPHERE:
+            full[:] = size[0]
+        elif kind == kinds.mjGEOM_CYLINDER:
+            full[:] = size[0], size[0], size[1]
+        elif kind == kinds.mjGEOM_CAPSULE:
+            full[:], half = size[0], size[1]
+        elif kind == kinds.mjGEOM_PLANE:
+            full[:] = (ENDLESS_M, ENDLESS_M, -1.0) if endless else (size[0], size[1], 1.0)
+        elif kind in (kinds.mjGEOM_MESH, kinds.mjGEOM_SDF, kinds.mjGEOM_HFIELD):
+            full[:] = 1.0
+        out[12:16] = *full, half
+        out[16:19] = linear(rgba[:3])
+        out[19] = rgba[3]
+        out[20:24] = entry.roughness, entry.metallic, entry.coat, entry.sheen
+        extents = self.model.geom_aabb[geom, 3:]
+        out[24:28] = self._weave(geom, finish, extents, endless)
+        bevel = 0.0
+        if kind in (kinds.mjGEOM_BOX, kinds.mjGEOM_CYLINDER) and entry.clear == 0:
+            bevel = float(np.clip(0.035 * full.min(), 0.0004, 0.008))
+        out[28:32] = geom, entry.emission, 0.0, bevel
+        out[30] = geom / max(self.model.ngeom, 1)
+        shapes = {
+            kinds.mjGEOM_SPHERE: 1.0,
+            kinds.mjGEOM_ELLIPSOID: 1.0,
+            kinds.mjGEOM_BOX: 2.0,
+            kinds.mjGEOM_CYLINDER: 3.0,
+        }
+        out[36:40] = entry.vary, entry.clear, float(entry.mark), 4.0 if endless else shapes.get(kind, 0.0)
+
+    def _weave(
+        self, geom: int, finish: Finish, extents: np.ndarray, endless: bool
+    ) -> tuple[float, float, float, float]:
+        """Repeats per metre, relief, paint mode and a phase of its own for each geom."""
+        import mujoco
+
+        entry = finish.look
+        seed = 0.0 if endless else float((geom * 7919) % 97) / 9.7
+        if finish.texture < 0:
+            return (1.0 / entry.tile_m, entry.relief_m, _longest(extents) if entry.grain else SIDE_MODE, seed)
+        if entry.around:
+            return (1.0, 0.0, SIDE_MODE, 0.0)
+        mesh = int(self.model.geom_dataid[geom])
+        kind = self.model.geom_type[geom]
+        if kind == mujoco.mjtGeom.mjGEOM_MESH and mesh >= 0 and self.model.mesh_texcoordnum[mesh] > 0:
+            return (1.0, 0.0, EXACT_UV, 0.0)
+        a, b = finish.repeat
+        if endless or finish.uniform:
+            return (a / 2.0 if endless and not finish.uniform else a, 0.0, SIDE_MODE, seed)
+        return (a / max(2 * extents[0], 1e-6), b / max(2 * extents[1], 1e-6), FLAT_UV, 0.0)
+
+    def update(self, data: mujoco.MjData) -> None:
+        """Take over the poses of `data`, and find anew the surface below each thing."""
+        rotation = data.geom_xmat[self.geoms].reshape(-1, 3, 3)
+        frame = self.rows[:, :12].reshape(-1, 3, 4)
+        frame[:, :, :3] = rotation
+        frame[:, :, 3] = data.geom_xpos[self.geoms]
+        self.rows[self._balls, 12:15] = self.model.geom_size[self.geoms[self._balls], :1]
+        self._support(data)
+
+    def _support(self, data: mujoco.MjData) -> None:
+        """Find colour and height of the next surface below each thing, which tints its underside and mirrors in it."""
+        import mujoco
+
+        down = np.array([0.0, 0.0, -1.0])
+        groups = np.array([i in VISIBLE_GROUPS for i in range(6)], dtype=np.uint8)
+        hit = np.zeros(1, dtype=np.int32)
+        fixed = self.model.body_weldid[self.model.geom_bodyid[self.geoms]] == 0
+        for row in self._glossy:
+            if fixed[row] and self._supports_of_fixed:
+                continue
+            geom = self.geoms[row]
+            body = int(self.model.geom_bodyid[geom])
+            start = np.array(data.geom_xpos[geom], dtype=float)
+            if body == 0:
+                start[2] -= self.model.geom_rbound[geom] + 1e-4
+            distance = mujoco.mj_ray(self.model, data, start, down, groups, True, body or -1, hit)
+            mean = self.finish(int(hit[0])).mean if distance >= 0 else (0.18, 0.18, 0.18)
+            self.rows[row, 32:35] = mean
+            self.rows[row, 35] = start[2] - distance if distance >= 0 else start[2] - 1e3
+            wide = distance >= 0 and self.model.geom_rbound[hit[0]] > 0
+            self.rows[row, 38] = max(float(self.model.geom_aabb[hit[0], 3:].max()), 1e-3) if wide else 1e3
+        self._supports_of_fixed = True
+
+    def bounds(self, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
+        """Corners (3,), m, of the box around all but endless planes; a metre cube at the origin if there is nothing."""
+        finite = [g for g in self.geoms if self.model.geom_rbound[g] > 0]
+        if not finite:
+            return np.array([-0.5, -0.5, 0.0]), np.array([0.5, 0.5, 1.0])
+        rotation = np.abs(data.geom_xmat[finite].reshape(-1, 3, 3))
+        turned = data.geom_xmat[finite].reshape(-1, 3, 3)
+        centre = data.geom_xpos[finite] + np.einsum("nij,nj->ni", turned, self.model.geom_aabb[finite, :3])
+        half = np.einsum("nij,nj->ni", rotation, self.model.geom_aabb[finite, 3:])
+        return (centre - half).min(axis=0), (centre + half).max(axis=0)

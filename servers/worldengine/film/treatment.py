@@ -1,0 +1,91 @@
+"""The light, haze, focus and grading of one picture as a film asks for them: a value that every renderer may use."""
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+Rgb = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Treatment:
+    """A film's wishes for one picture; None leaves the world's own setting. Colours are sRGB from 0 to 1."""
+
+    light_azimuth_deg: float | None = None
+    light_elevation_deg: float | None = None
+    light_rgb: Rgb | None = None
+    light_strength: float | None = None
+    """1: a white surface that faces the light has radiance 3."""
+    light_softness_deg: float | None = None
+    sky_zenith: Rgb | None = None
+    """If it is given, the surroundings are a sky from `sky_horizon` up to it, over `sky_ground`."""
+    sky_horizon: Rgb = (0.8, 0.8, 0.8)
+    sky_ground: Rgb = (0.4, 0.4, 0.4)
+    sky_glow: float = 0.0
+    sky_clouds: float = 0.0
+    sky_stars: float = 0.0
+    sky_strength: float = 1.0
+    fog_rgb: Rgb | None = None
+    fog_density: float = 0.0
+    """The share that fog hides per metre at the ground, 1/m."""
+    fog_height_m: float = 1e6
+    grade_exposure_stops: float = 0.0
+    grade_contrast: float = 1.0
+    grade_saturation: float = 1.0
+    grade_temperature: float = 0.0
+    grade_tint: float = 0.0
+    grade_vignette: float | None = None
+    grade_glow: float | None = None
+    grade_fade: float = 0.0
+    focus_m: float = 0.0
+    """The distance that is sharp, m."""
+    aperture: float = 0.0
+    """The f-number of the lens; with 0 everything is sharp."""
+
+    @property
+    def lit(self) -> tuple[Any, ...]:
+        """Everything that the light of the scene depends on."""
+        return tuple(getattr(self, f.name) for f in fields(self) if f.name.startswith(("light_", "sky_")))
+
+
+PLAIN = Treatment()
+LIMITS: dict[str, tuple[float, float]] = {
+    "light_azimuth_deg": (-720, 720), "light_elevation_deg": (1, 90), "light_rgb": (0, 1), "light_strength": (0, 10),
+    "light_softness_deg": (0, 45), "sky_zenith": (0, 1), "sky_horizon": (0, 1), "sky_ground": (0, 1), "sky_glow": (0, 4),
+    "sky_clouds": (0, 1), "sky_stars": (0, 1), "sky_strength": (0, 10), "fog_rgb": (0, 1), "fog_density": (0, 100),
+    "fog_height_m": (1e-3, 1e6), "grade_exposure_stops": (-8, 8), "grade_contrast": (0, 3), "grade_saturation": (0, 3),
+    "grade_temperature": (-1, 1), "grade_tint": (-1, 1), "grade_vignette": (0, 1), "grade_glow": (0, 1),
+    "grade_fade": (0, 1),
+}  # fmt: skip
+"""The numbers that a film may give, each with its limits."""
+
+
+class Treatments:
+    """The moments of a film at which its light or grading is told, and the values between them."""
+
+    def __init__(self, told: list[dict[str, Any]]) -> None:
+        """Take `[{"at_s": film time, name: value, …}, …]`, checked already."""
+        import numpy as np
+
+        self._tracks: dict[str, tuple[Any, Any]] = {}
+        for name in LIMITS:
+            moments: dict[float, Any] = {float(one["at_s"]): one[name] for one in told if name in one}
+            if moments:
+                at = sorted(moments)
+                self._tracks[name] = (np.array(at), np.array([moments[t] for t in at], dtype=float))
+
+    def at(self, film_s: float, focus_m: float = 0.0, aperture: float = 0.0) -> Treatment:
+        """The treatment at a film time, s: linear between the told moments, constant before the first and after the last."""
+        import numpy as np
+
+        values: dict[str, Any] = {"focus_m": focus_m, "aperture": aperture}
+        for name, (at, told) in self._tracks.items():
+            if told.ndim == 2:
+                values[name] = tuple(float(np.interp(film_s, at, told[:, k])) for k in range(told.shape[1]))
+            else:
+                values[name] = float(np.interp(film_s, at, told))
+        return Treatment(**values)
+
+    @property
+    def told(self) -> bool:
+        """Whether the film tells anything of it."""
+        return bool(self._tracks)

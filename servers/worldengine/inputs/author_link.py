@@ -1,0 +1,136 @@
+"""Ask an author: show it the state of the world, and wait for its answer.
+
+The author is another process (`Distant`) or, where nobody has to be kept out, a function of this one with an MjData of its
+own (`Local`). Both see only copies, and both answer in the same way (`worldkit.speaking`).
+"""
+
+import ctypes
+from typing import TYPE_CHECKING, Protocol
+
+from worldkit.channel import HEAD, Channel, PeerError
+from worldkit.mirror import Mirror
+from worldkit.speaking import Control, Speaker, message_bytes
+
+from .ports import Ports
+
+if TYPE_CHECKING:
+    import mujoco
+
+BEGIN_S = 120.0
+"""The author's process may take so long, s, to be ready."""
+ANSWER_S = 60.0
+"""It may take so long, s, for one answer."""
+
+
+class Voice(Protocol):
+    """The protocol of an author's link."""
+
+    message: int
+    """Address of the latest answer."""
+
+    def ask(self) -> int:
+        """Copy the state for the author; returns the address of the copy, with which `go` lets the author begin."""
+
+    def go(self) -> None:
+        """Let the author begin."""
+
+    def hear(self) -> None:
+        """Wait until the answer is there."""
+
+    def close(self) -> None:
+        """End the link: the author will not be asked again."""
+
+
+class Distant:
+    """The author's process, at the other end of a channel.
+
+    Args:
+        model, data: the world, as it will be simulated.
+        ports: the open inputs.
+        channel: to the author's process.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: Ports, channel: Channel) -> None:
+        import mujoco
+        import numpy as np
+
+        self._data, self._channel = data, channel
+        self._mirror = mirror = Mirror(model, data)
+        slots = [HEAD + message_bytes(ports.width, bool(ports.parameters)) + n * mirror.size for n in (0, 1)]
+        at, size = slots[-1] + mirror.size, mujoco.mj_sizeModel(model)
+        channel.size(at + size)
+        mujoco.mj_saveModel(model, None, np.ctypeslib.as_array((ctypes.c_uint8 * size).from_address(channel.base + at)))
+        self.message = channel.base + HEAD
+        self._slots = [channel.base + slot for slot in slots]
+        self._turn = 0
+        hello = {"ports": ports.as_meta(), "message_at": HEAD, "slots_at": slots, "slot": mirror.size}
+        channel.greet({**hello, "model_at": at, "model": size})
+        with self:
+            channel.greeting(BEGIN_S)
+
+    def ask(self) -> int:
+        """Copy the state into the slot that the author no longer reads."""
+        self._turn += 1
+        slot = self._slots[self._turn % 2]
+        self._mirror.send(slot)
+        return slot
+
+    def go(self) -> None:
+        """Give the other end its turn."""
+        self._channel.post(self._turn)
+
+    def hear(self) -> None:
+        """Wait for the other end's turn.
+
+        Raises:
+            PeerError: the author's process ended, or keeps silent.
+        """
+        with self:
+            self._channel.wait(self._turn, ANSWER_S)
+
+    def close(self) -> None:
+        """Hang up."""
+        self._channel.close()
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
+        if isinstance(error, PeerError):
+            cause = error.cause.replace("the process at the other end", "the author's process")
+            raise PeerError(f"{cause} (t = {self._data.time:.4f} s)", "control", error.next_move) from None
+
+
+class Local:
+    """A function of this process, with an MjData of its own; `strays` lists what it wrote outside its ports."""
+
+    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: Ports, control: Control) -> None:
+        import copy
+
+        import mujoco
+
+        self._mirror = Mirror(model, data)
+        mine = copy.copy(model)
+        size = message_bytes(ports.width, bool(ports.parameters))
+        self._memory = ctypes.create_string_buffer(size + self._mirror.size)
+        self.message = ctypes.addressof(self._memory)
+        self._slot = self.message + size
+        self.strays: list[str] = []
+        stray = lambda name, of_model: self.strays.append(f"{'model' if of_model else 'data'}.{name}")  # noqa: E731
+        self._speaker = Speaker(mine, mujoco.MjData(mine), control, ports.as_meta(), self.message, stray)
+
+    def ask(self) -> int:
+        """Copy the state into the only slot."""
+        self._mirror.send(self._slot)
+        return self._slot
+
+    def go(self) -> None:
+        """Do nothing: no process runs beside."""
+
+    def hear(self) -> None:
+        """Call the function."""
+        self._speaker.answer(self._slot)
+        self._speaker.look_around(self._slot)
+
+    def close(self) -> None:
+        """Do nothing: there is no channel to close."""

@@ -1,0 +1,160 @@
+"""List the declared inputs of a world: the entries of its data and its model that may be written from outside.
+
+The engine's process makes this list from the plan's rows and its own model; what is not on it has no message. Entries are
+flat indices by array, in the order of `worldkit.speaking.ARRAYS`: that is the layout of an answer.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from worldkit.naming import names
+from worldkit.speaking import ARRAYS
+from worldkit.watch import BULKY, SHAPES, owner_of
+
+from .openings import opens
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ..given import Given
+
+FREE, BALL, SLIDE, HINGE = range(4)
+"""mjtJoint."""
+
+
+class Ports:
+    """The open entries of a world.
+
+
+    Args:
+        model: the world.
+        rows: declared (kind, names); None opens everything.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", rows: "tuple[tuple[str, frozenset[str]], ...] | None") -> None:
+        self._model, self._rows = model, rows
+        self._bodies = names(model, "body", model.nbody)
+        self._joints = names(model, "joint", model.njnt)
+        self.entries: dict[str, list[int]] = {name: [] for name in ARRAYS}
+        for kind, target, array, indices in self._candidates():
+            if self._open(kind, target):
+                self.entries[array] += indices
+        self.entries = {name: sorted(set(found)) for name, found in self.entries.items() if found}
+        self.parameters = self._parameters()
+
+    @property
+    def width(self) -> int:
+        """The number of entries of an answer's vector."""
+        return sum(map(len, self.entries.values()))
+
+    def __bool__(self) -> bool:
+        return bool(self.entries or self.parameters)
+
+    def as_meta(self) -> dict[str, Any]:
+        """The ports for the author's process and the recording: entries by array, and parameters in their order."""
+        return {**self.entries, "parameters": [[name, index] for name, index in self.parameters]}
+
+    def _open(self, kind: str, target: str) -> bool:
+        """Whether a row opens a target; a solver's row opens nothing, as the solver writes in the engine's own process."""
+        rows = self._rows
+        return rows is None or any(row != "solver" and opens(row, called, kind, target) for row, called in rows)
+
+    def _candidates(self) -> "list[tuple[str, str, str, list[int]]]":
+        """(kind, target in the ledger's words, array, flat indices) of everything in an MjData that can be written."""
+        from ..recording.describing import actuator_columns, pulled_bodies
+        from .force_outputs import outputs
+
+        model = self._model
+        found: list[tuple[str, str, str, list[int]]] = []
+        pulled = pulled_bodies(model)["actuator"]
+        for control, (name, output) in enumerate(zip(actuator_columns(model)[0], outputs(model).tolist(), strict=True)):
+            owners = pulled[output]
+            found.append(("control", f"{owners[0]}/{name}" if len(owners) == 1 else name, "ctrl", [control]))
+        for body, name in enumerate(self._bodies):
+            if body:
+                first = 6 * body
+                found.append(("force", name, "xfrc_applied", [first, first + 1, first + 2]))
+                found.append(("torque", name, "xfrc_applied", [first + 3, first + 4, first + 5]))
+            mocap = int(model.body_mocapid[body])
+            if mocap >= 0:
+                found.append(("mocap", name, "mocap_pos", list(range(3 * mocap, 3 * mocap + 3))))
+                found.append(("mocap", name, "mocap_quat", list(range(4 * mocap, 4 * mocap + 4))))
+        for joint in range(model.njnt):
+            found += self._of_joint(joint)
+        for equality, name in enumerate(names(model, "equality", model.neq)):
+            found.append(("constraint", name, "eq_active", [equality]))
+        found += [("parameter", f"act[{i}]", "act", [i]) for i in range(model.na)]
+        found += [("parameter", f"plastic[{i}]", "plastic", [i]) for i in range(model.nplastic)]
+        return found
+
+    def _of_joint(self, joint: int) -> "list[tuple[str, str, str, list[int]]]":
+        model, body = self._model, int(self._model.jnt_bodyid[joint])
+        target = self._bodies[body]
+        if model.body_jntnum[body] > 1:
+            target = f"{target}/{self._joints[joint]}"
+        first, dof, kind = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint]), int(model.jnt_type[joint])
+        positions, dofs = {FREE: (7, 6), BALL: (4, 3)}.get(kind, (1, 1))
+        linear = {FREE: 3, SLIDE: 1}.get(kind, 0)
+        found = [
+            ("pose", target, "qpos", list(range(first, first + positions))),
+            ("velocity", target, "qvel", list(range(dof, dof + dofs))),
+        ]
+        if linear:
+            found.append(("force", target, "qfrc_applied", list(range(dof, dof + linear))))
+        if dofs > linear:
+            found.append(("torque", target, "qfrc_applied", list(range(dof + linear, dof + dofs))))
+        return found
+
+    def _parameters(self) -> "list[tuple[str, list[int] | None]]":
+        """(array of the model or option, flat indices, None for all of it) of the parameters that are open, by name."""
+        import numpy as np
+
+        from worldkit.watch import Edit, Watch
+
+        if self._rows is not None and not any(kind == "parameter" for kind, _ in self._rows):
+            return []
+        values = {**Watch(self._model).values(), **Watch(self._model, bulky=True).values()}
+        values = {name: value for name, value in values.items() if _safe(name, value, self._rows is None)}
+        if self._rows is None:
+            return [(name, None) for name in sorted(values)]
+        found: list[tuple[str, list[int] | None]] = []
+        for name, value in sorted(values.items()):
+            everything = Edit(name, np.arange(len(value)), value.astype(float), looks_only=False)
+            mine = [
+                i
+                for target, index, _ in owner_of(self._model, everything)
+                if self._open("parameter", target)
+                for i in index.tolist()
+            ]
+            if mine:
+                found.append((name, sorted(mine)))
+        return found
+
+
+__all__ = ["BULKY", "SHAPES", "Ports"]
+
+
+CHOICES = ("geom_contype", "geom_conaffinity", "geom_group", "geom_priority", "site_group")
+"""Whole numbers that may be written: masks and groups, which the engine does not take for addresses."""
+LAWS = ("gravity", "wind", "magnetic", "density", "viscosity")
+"""Options that a plan can declare; the engine's accuracy is nobody's input."""
+
+
+def _safe(name: str, value: "np.ndarray", unplanned: bool) -> bool:
+    """Whether a parameter may be written at all: the engine takes most whole numbers for addresses, and trusts them."""
+    if name.startswith("opt."):
+        return unplanned or name.removeprefix("opt.") in LAWS
+    return value.dtype.kind in "fb" or name in CHOICES
+
+
+def of(model: "mujoco.MjModel", given: "Given") -> Ports:
+    """The ports of a world as its plan declares them."""
+    return Ports(model, given.inputs)
+
+
+def flat(model: "mujoco.MjModel", name: str) -> "np.ndarray":
+    """A parameter's live numbers as a flat array; a number of the options is copied into an array of one."""
+    import numpy as np
+
+    option = name.removeprefix("opt.")
+    return np.reshape(getattr(model.opt if option != name else model, option), -1)

@@ -1,0 +1,151 @@
+"""Drive a simulation by its inputs, step by step: ask for answers, write them, keep the ledger.
+
+With latency 0 the world waits for the answer to the state that it shows, and meanwhile makes its row of the recording. With
+latency 1 the answer to one question takes effect at the next, and both processes work at once.
+"""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from .ledger import Ledger
+from .messages import Recorded
+from .ports import Ports
+from .replies import Answers
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from ..recording.record import Recorder
+    from ..recording.stored import Recording, Replayable
+    from ..variants.holding import Shares
+    from .author_link import Voice
+
+
+class Drive:
+    """Drives a world by declared inputs, whoever answers; see `Asked` and `Replayed`."""
+
+    def __init__(
+        self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: Ports, shares: "Shares | None" = None
+    ) -> None:
+        self._model, self._data, self.ports = model, data, ports
+        self.answers = Answers(model, data, ports, shares)
+
+    def record(self, recorder: "Recorder") -> None:
+        """Keep the ledger in this recording; must be called before the first step."""
+        self._recorder = recorder
+        self._ledger = Ledger(self._model, self._data, self.ports, recorder)
+
+    def act(self, step: int, row: Callable[[], object] | None) -> None:
+        """Apply the inputs of a step, with everything that derives from positions and velocities up to date.
+
+        Args:
+            step: number of the step that begins.
+            row: makes the first half of a row of the recording; None when the step has no row.
+        """
+        raise NotImplementedError
+
+    def _apply(self, step: int) -> bool:
+        """Write the latest answer; returns whether it changed the state."""
+        answers, ledger = self.answers, self._ledger
+        ledger.messages.add(step, answers.vector)
+        changes = answers.changes
+        if changes:
+            ledger.about_to_change()
+        answers.push()
+        for edit in answers.edit():
+            ledger.edited(edit)
+        if changes:
+            answers.change()
+            ledger.changed()
+        return changes
+
+    def reacted(self) -> None:
+        """Note the forces, which are computed now, before the step ends."""
+        self._ledger.reacted()
+
+    def finish(self) -> None:
+        """Finish the ledger once the velocities of the last state are computed."""
+        self._ledger.pushes.measure()
+        self._ledger.finish()
+
+    def close(self) -> None:
+        """Nobody will be asked again."""
+
+
+class Asked(Drive):
+    """Asks an author.
+
+    Args:
+        model, data: the world, as it will be simulated.
+        ports: the open inputs.
+        voice: the link to the author.
+        every: steps from one question to the next.
+        latency: 0 or 1 questions from the state shown to the step that the answer acts on.
+        shares: the shares of the inputs that a variant leaves.
+    """
+
+    def __init__(
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        ports: Ports,
+        voice: "Voice",
+        every: int = 1,
+        latency: int = 0,
+        shares: "Shares | None" = None,
+    ) -> None:
+        super().__init__(model, data, ports, shares)
+        self._voice, self._every, self._latency = voice, every, latency
+        self._waiting = False
+
+    def act(self, step: int, row: Callable[[], object] | None) -> None:
+        """Ask, make the row meanwhile, and apply the answer."""
+        ledger, answers = self._ledger, self.answers
+        asks = step % self._every == 0
+        heard = False
+        if asks and self._latency and self._waiting:
+            heard = self._hear()
+        if asks:
+            answers.shown(self._voice.ask())
+            self._voice.go()
+            self._waiting = True
+        ledger.pushes.measure()
+        if row is not None:
+            row()
+        if asks and not self._latency:
+            heard = self._hear()
+        if heard and self._apply(step) and row is not None:
+            row()
+        elif heard and row is not None:
+            self._recorder.inputs_again()
+        ledger.pushes.note()
+
+    def _hear(self) -> bool:
+        self._voice.hear()
+        self.answers.read(self._voice.message)
+        return True
+
+    def close(self) -> None:
+        """Nobody will be asked again."""
+        self._voice.close()
+
+
+class Replayed(Drive):
+    """Drives a world by the answers of a recording."""
+
+    def __init__(
+        self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: Ports, recording: "Recording | Replayable"
+    ) -> None:
+        super().__init__(model, data, ports)
+        lasting = len(self.answers.vector) - len(self.answers.changing)
+        self._recorded = Recorded(recording, lasting, len(self.answers.vector))
+
+    def act(self, step: int, row: Callable[[], object] | None) -> None:
+        """Apply what the recording holds for this step."""
+        self._ledger.pushes.measure()
+        if self._recorded.speaks(step):
+            self.answers.replay(*self._recorded.answer(step))
+            self._apply(step)
+        if row is not None:
+            row()
+        self._ledger.pushes.note()

@@ -1,0 +1,336 @@
+"""Record a simulation into a folder without slowing it down.
+
+Why Arrow IPC *streams*: a stream is a sequence of self-contained record batches, so whatever was flushed before a
+crash can be read, with no footer to lose; uncompressed batches are memory-mapped and become numpy arrays without a
+copy; the schema travels with the data, with no pickle and nothing to execute; it is written as it happens, in constant
+memory; and every language reads it.
+
+How it stays fast: a row is a dozen plain copies into preallocated buffers. Everything else (velocities of points,
+contact forces, momentum, hashing, writing) is done for a whole batch at once, by numpy, on a second thread that runs
+while the engine (which lets go of the interpreter) computes the next batch.
+
+Row n holds the state at time n and the quantities derived from that same state; see `simulate`.
+"""
+
+import hashlib
+import queue
+import threading
+import time
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from worldkit.errors import RecordingError
+from worldkit.files import write_json
+
+from . import derive
+from .batch import PLAIN, Batch
+from .columns import SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+BATCH_BYTES = 3 << 20
+"""The raw size of a batch, bytes, which sets its number of rows."""
+FLUSH_S = 0.5
+"""A batch is flushed at the latest so long after its first row, s of wall-clock time."""
+HASHED = ("time", "qpos", "qvel", "pos", "quat")
+"""Columns that identify a trajectory."""
+
+
+class Recorder:
+    """Writes one recording; a context manager. Leaving it by an exception keeps what was recorded, marked incomplete.
+
+    Args:
+        model, data: the world; `data` must be the one that is simulated.
+        folder: it is created, and must not hold a recording yet.
+        meta: the content of `meta.json` besides the columns (see `describe`).
+        batch_rows: rows in a batch; None chooses by size. The hash of the trajectory does not depend on it.
+        channels: more columns of the state, each with the array that holds it when `after()` is called.
+
+    Call `before()` when positions and velocities are computed, `after()` when forces are, once for each row.
+    """
+
+    def __init__(
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        folder: Path,
+        meta: dict[str, Any],
+        batch_rows: int | None = None,
+        channels: "Mapping[Column, np.ndarray] | None" = None,
+    ) -> None:
+        import mujoco
+        import numpy as np
+
+        self._model, self._data, self._folder = model, data, Path(folder)
+        if (self._folder / "meta.json").exists():
+            raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
+        sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
+        self._channels = dict(channels or {})
+        self.columns = (*state_columns(sizes), *self._channels)
+        self._mass = np.where(model.body_treeid[1:] >= 0, model.body_mass[1:], 0.0)
+        self._root = model.body_rootid[1:]
+        self._momentum = mujoco.mj_subtreeVel
+        row_bytes = 8 * (model.nq + model.nv + 22 * model.nbody + 200)
+        self.batch_rows = batch_rows or max(8, min(1024, BATCH_BYTES // row_bytes))
+        live = {column.name: array for column, array in self._channels.items()}
+        batches = [Batch(model, data, self.batch_rows, live) for _ in range(3)]
+        self._batch = batches.pop()
+        self._free: queue.SimpleQueue[Batch] = queue.SimpleQueue()
+        for batch in batches:
+            self._free.put(batch)
+        self._full: queue.SimpleQueue[Batch | None] = queue.SimpleQueue()
+        self._failure: BaseException | None = None
+        self._started = 0.0
+        self.before_flush: list[Callable[[], object]] = []
+        """These are called before a batch is handed over, the last moment to add what belongs to it."""
+        self.rows = 0
+        self.max_depth_m = 0.0
+        self.counts: dict[str, int] = {}
+        self.warnings: dict[str, int] = {}
+        self._hashes = {name: hashlib.sha256() for name in HASHED}
+        tables = {name: as_meta(columns) for name, columns in TABLES.items()}
+        self._folder.mkdir(parents=True, exist_ok=True)
+        write_json(
+            self._folder / "meta.json",
+            {"schema": SCHEMA_VERSION, **meta, "columns": {"state": as_meta(self.columns), **tables}},
+        )
+        self._streams = {
+            name: _Stream(self._folder / f"{name}.arrows", columns)
+            for name, columns in {"state": self.columns, **TABLES}.items()
+        }
+        self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
+        self._thread.start()
+
+    def __enter__(self) -> "Recorder":
+        return self
+
+    def __exit__(self, kind: object, error: object, trace: object) -> None:
+        self.close(complete=kind is None)
+
+    @property
+    def recorded(self) -> int:
+        """The number of rows so far, which is the index of the next one."""
+        return self._batch.first_row + self._batch.rows
+
+    def before(self) -> None:
+        """Copy the state and what derives from positions and velocities (after `mj_step1`, before the step)."""
+        batch, row = self._batch, self._batch.rows
+        self._momentum(self._model, self._data)
+        batch.time[row] = self._data.time
+        for buffer, source in batch.before:
+            buffer[row] = source
+
+    def after(self) -> None:
+        """Copy what derives from forces (after `mj_step2`, or after `mj_forward`), and end the row."""
+        batch, row, data = self._batch, self._batch.rows, self._data
+        for buffer, source in batch.after:
+            buffer[row] = source
+        batch.nisland[row] = data.nisland
+        batch.add_contacts(row, data)
+        if batch.carries:
+            batch.add_loads(row, data)
+        batch.rows = row + 1
+        now = time.perf_counter()
+        if row == 0:
+            self._started = now
+        if batch.rows == batch.capacity or now - self._started > FLUSH_S:
+            self.flush()
+
+    def inputs_again(self) -> None:
+        """Copy the controls again into the row under way, as they were written after it began."""
+        batch = self._batch
+        if batch.controls is not None:
+            buffer, source = batch.controls
+            buffer[batch.rows] = source
+
+    def later(self, table: str, columns: Callable[[], dict[str, Any]]) -> None:
+        """Add rows to a table that the writer's thread computes."""
+        self._batch.later[table].append(columns)
+
+    def event(self, table: str, *values: Any) -> None:
+        """Add a row to `interventions`, `warnings` or `edits`, in the order of their columns."""
+        self._batch.events[table].append(values)
+        if table == "warnings":
+            self.warnings[values[1]] = self.warnings.get(values[1], 0) + values[2]
+
+    def flush(self) -> None:
+        """Hand the current batch to the writer; waits only when the disk is two batches behind."""
+        self._raise_failure()
+        self._hand_over()
+
+    def _hand_over(self) -> None:
+        for add in self.before_flush:
+            add()
+        self.rows = self._batch.first_row + self._batch.rows
+        self._full.put(self._batch)
+        self._batch = self._free.get()
+        self._batch.clear(self.rows)
+
+    def close(self, complete: bool) -> str:
+        """Flush, and with `complete` write `complete.json`; returns the trajectory's SHA-256."""
+        if self._thread.is_alive():
+            self._hand_over()
+            self._full.put(None)
+            self._thread.join()
+        for stream in self._streams.values():
+            stream.close()
+        if complete:
+            self._raise_failure()
+            write_json(self._folder / "complete.json", {"rows": self.rows, "sha256": self.sha256()})
+        return self.sha256()
+
+    def sha256(self) -> str:
+        """The hash of the hashed columns' bytes, valid once the recorder is closed; see `stored.digest`."""
+        return combine({name: digest.hexdigest() for name, digest in self._hashes.items()})
+
+    def _raise_failure(self) -> None:
+        if self._failure is not None:
+            raise RecordingError(
+                f"the recording cannot be written: {self._failure}",
+                str(self._folder),
+                "free some disk space, or raise the file size limit",
+            ) from self._failure
+
+    def _work(self) -> None:
+        """Work as the writer's thread: derive, hash, write, hand the buffers back."""
+        while (batch := self._full.get()) is not None:
+            if self._failure is None:
+                try:
+                    self._write(batch)
+                except BaseException as failure:  # the simulating thread learns of it at its next flush
+                    self._failure = failure
+            self._free.put(batch)
+
+    def _write(self, batch: Batch) -> None:
+        if batch.rows:
+            columns = self._columns(batch)
+            for name in HASHED:
+                self._hashes[name].update(columns[name].data)
+            self._streams["state"].write(columns)
+            if batch.contact_count:
+                contacts = self._contacts(batch)
+                self.max_depth_m = max(self.max_depth_m, float(contacts["depth_m"].max()))
+                self._streams["contacts"].write(contacts)
+        for table, events in batch.events.items():
+            names = [column.name for column in TABLES[table]]
+            parts = [made for make in batch.later[table] if len((made := make())[names[0]])]
+            if events:
+                parts.append(dict(zip(names, zip(*events, strict=True), strict=True)))
+            if parts:
+                self._add(table, parts)
+
+    def _add(self, table: str, parts: list[dict[str, Any]]) -> None:
+        """Write rows of a table in the order of their times (or steps), in whatever order they were noted."""
+        import numpy as np
+
+        names = [column.name for column in TABLES[table]]
+        columns = parts[0]
+        if len(parts) > 1:
+            order = np.argsort(np.concatenate([part[names[0]] for part in parts]), kind="stable")
+            columns = {}
+            for name in names:
+                whole = [value for part in parts for value in part[name]]
+                columns[name] = [whole[i] for i in order]
+        if table == "interventions":
+            for kind in columns["kind"]:
+                self.counts[kind] = self.counts.get(kind, 0) + 1
+        self._streams[table].write(columns)
+
+    def _columns(self, batch: Batch) -> "dict[str, np.ndarray]":
+        """The state columns of a batch, contiguous."""
+        import numpy as np
+
+        n = batch.rows
+        columns = {name: batch.buffer(name) for name in (*PLAIN, *(column.name for column in self._channels))}
+        columns |= {"time": batch.time[:n], "ncon": batch.ncon[:n], "eq_residual": batch.eq_residual[:n]}
+        columns |= {
+            "eq_force": batch.eq_force[:n],
+            "eq_torque": batch.eq_torque[:n],
+            "tendon_length": batch.buffer("ten_length"),
+        }
+        columns["tendon_force"] = derive.tension(
+            self._model, columns["tendon_length"], batch.buffer("ten_velocity"), batch.tendon_limit[:n]
+        )
+        iterations, islands = batch.buffer("solver_niter"), np.maximum(batch.nisland[:n], 1)
+        used = np.arange(iterations.shape[1]) < islands[:, None]
+        columns["solver_niter"] = np.where(used, iterations, 0).max(axis=1).astype(np.int32)
+        momentum = batch.buffer("linvel") * float(self._model.body_subtreemass[0])
+        columns |= {"linmom": momentum, "angmom": batch.buffer("angmom")}
+        columns |= {"pos": batch.buffer("xpos"), "quat": batch.buffer("xquat")}
+        if len(self._root):
+            cvel, trees = batch.buffer("cvel"), batch.buffer("subtree_com")
+            columns["angvel"] = np.ascontiguousarray(cvel[..., :3])
+            columns["linvel"] = derive.velocity_at(columns["pos"], cvel, trees[:, self._root])
+            if moving := float(self._mass.sum()):
+                # The engine's angular momentum refers to the centre of everything, with the scenery.
+                own = np.einsum("nbi,b->ni", batch.buffer("xipos"), self._mass) / moving
+                columns["angmom"] = derive.angular_momentum(columns["angmom"], trees[:, 0], own, momentum)
+        return columns
+
+    def _contacts(self, batch: Batch) -> "dict[str, np.ndarray]":
+        """The contact columns of a batch."""
+        import numpy as np
+
+        n, count = batch.rows, batch.contact_count
+        raw = {name: buffer[:count] for name, buffer in batch.contact.items()}
+        per_row = batch.ncon[:n]
+        first = np.cumsum(batch.nefc[:n]) - batch.nefc[:n]
+        address = raw["efc_address"]
+        address = np.where(address >= 0, address + np.repeat(first, per_row), -1)
+        batch.efc_force[batch.efc_count] = 0.0
+        forces = batch.efc_force[: batch.efc_count + 1]
+        normal_force, force = derive.contact_forces(forces, address, raw["dim"], raw.get("friction"), raw["frame"])
+        return {
+            "row": np.repeat(np.arange(batch.first_row, batch.first_row + n, dtype=np.int32), per_row),
+            "geom1": np.ascontiguousarray(raw["geom"][:, 0]),
+            "geom2": np.ascontiguousarray(raw["geom"][:, 1]),
+            "depth_m": -raw["dist"],
+            "normal_force": normal_force,
+            "force": force,
+            "position": raw["pos"],
+            "normal": np.ascontiguousarray(raw["frame"][:, :3]),
+        }
+
+
+class _Stream:
+    """One Arrow IPC stream file: each batch reaches the operating system in one go."""
+
+    def __init__(self, path: Path, columns: tuple[Column, ...]) -> None:
+        import pyarrow as pa
+
+        self._columns = columns
+        self._schema = arrow_schema(columns)
+        self._sink = pa.OSFile(str(path), "wb")
+        self._writer = pa.ipc.new_stream(self._sink, self._schema)
+
+    def write(self, values: dict[str, Any]) -> None:
+        """Append one record batch."""
+        import numpy as np
+        import pyarrow as pa
+
+        arrays = []
+        for column, field in zip(self._columns, self._schema, strict=True):
+            value = values[column.name]
+            if column.dtype == "string":
+                arrays.append(pa.array(value, pa.string()))
+                continue
+            flat = pa.array(np.asarray(value, column.dtype).reshape(-1))
+            arrays.append(pa.FixedSizeListArray.from_arrays(flat, type=field.type) if column.shape else flat)
+        self._writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=self._schema))
+
+    def close(self) -> None:
+        """End the stream."""
+        if not self._sink.closed:
+            self._writer.close()
+            self._sink.close()
+
+
+def combine(digests: dict[str, str]) -> str:
+    """The trajectory's hash from those of its columns: SHA-256 over `name digest` lines in the order of `HASHED`."""
+    return hashlib.sha256("".join(f"{name} {digests[name]}\n" for name in HASHED).encode()).hexdigest()
+
+
+_SIZES = ("nq", "nv", "na", "nu", "nmocap", "neq", "ntendon", "nsensordata", "nplastic")

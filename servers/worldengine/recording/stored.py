@@ -1,0 +1,293 @@
+"""Read a recording, memory-mapped, as numpy arrays; a torn one up to its last flushed batch.
+
+>>> recording = open("out/trajectory")  # doctest: +SKIP
+>>> recording.pos[-1, recording.body("cue_ball")]  # doctest: +SKIP
+
+The folder holds `meta.json`, `state.arrows` and the tables `contacts`, `interventions`, `warnings`, `edits`, `inputs`
+(Arrow IPC streams; `columns` says what is in them), and `complete.json` once the run ended well.
+"""
+
+import hashlib
+import json
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from worldkit.errors import RecordingError
+
+from .columns import OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
+from .record import HASHED, combine
+
+if TYPE_CHECKING:
+    import numpy as np
+    import pyarrow as pa
+
+RECORD = "record with `python simulation.py --pass physics --out DIR`"
+__all__ = ["Recording", "RecordingError", "Replayable", "Table", "digest", "inputs_digest", "open"]
+
+
+class Table:
+    """One stream file with its columns as attributes: (rows, …) arrays, made when first asked for.
+
+    A column that lies in one batch is a view into the mapped file; one of several batches is joined, once.
+    """
+
+    def __init__(self, path: Path, columns: tuple[Column, ...], limit: int | None = None) -> None:
+        self._path = path
+        self.columns = {column.name: column for column in columns}
+        self._batches = _read(path)
+        self._length = sum(batch.num_rows for batch in self._batches)
+        if limit is not None:
+            self._length = min(self._length, limit)
+        self._made: dict[str, np.ndarray] = {}
+
+    def __len__(self) -> int:
+        return self._length
+
+    def __getattr__(self, name: str) -> "np.ndarray":
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self[name]
+
+    def __getitem__(self, name: str) -> "np.ndarray":
+        """A column by name; unknown names list the known ones."""
+        if name not in self._made:
+            if name not in self.columns:
+                raise AttributeError(f"{self._path.name} has no column {name!r}; it has: {', '.join(self.columns)}")
+            self._made[name] = self._column(self.columns[name])
+        return self._made[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self.columns]
+
+    def _column(self, column: Column) -> "np.ndarray":
+        import numpy as np
+
+        if column.dtype == "string":
+            return np.array([v for batch in self._batches for v in batch[column.name].to_pylist()], dtype=str)[
+                : self._length
+            ]
+        parts = [_numbers(batch[column.name], column) for batch in self._batches if column.width]
+        if len(parts) == 1:
+            return parts[0][: self._length]
+        if not parts:
+            return np.empty((self._length if not column.width else 0, *column.shape), column.dtype)
+        joined = np.concatenate(parts)[: self._length]
+        joined.flags.writeable = False
+        return joined
+
+
+class Recording:
+    """A recording folder. `meta`, `complete`, `names`, and every state column as an attribute.
+
+    T rows, B bodies (all but the world, in the model's order), in the world frame; see `columns.state_columns` for
+    shapes and units. `contacts`, `interventions`, `warnings` and `edits` are tables.
+    """
+
+    def __init__(self, folder: Path | str) -> None:
+        self.folder = Path(folder)
+        self.meta: dict[str, Any] = _json(
+            self.folder / "meta.json", "this is not a recording, or it ended before it began"
+        )
+        if self.meta.get("schema") != SCHEMA_VERSION:
+            raise RecordingError(
+                f"the recording has schema {self.meta.get('schema')!r}, this version reads {SCHEMA_VERSION}",
+                str(self.folder),
+                "run the physics pass again",
+            )
+        end = self.folder / "complete.json"
+        self.ending: dict[str, Any] = _json(end, "the ending is damaged") if end.exists() else {}
+        self.complete = bool(self.ending)
+        """It is False when the run crashed, was killed, or blew up; the rows then end with the last flushed batch."""
+        self.names: tuple[str, ...] = tuple(body["name"] for body in self.meta["bodies"])
+        self._state = self._table("state")
+        if self.complete and len(self._state) != self.ending["rows"]:
+            raise RecordingError(
+                f"the recording ended with {self.ending['rows']} rows, but {len(self._state)} can be read",
+                str(self.folder / "state.arrows"),
+                "the file was damaged after it was written: run the physics pass again",
+            )
+
+    def _table(self, name: str) -> Table:
+        columns = from_meta(self.meta["columns"].get(name, ()))
+        if name == "state":  # columns without numbers are not in the file, and yet have a shape
+            from .columns import state_columns
+
+            known = {column.name for column in columns}
+            sizes = {"bodies": len(self.names), **self.meta["sizes"]}
+            columns += tuple(c for c in state_columns(sizes, empty=True) if c.name not in known)
+        return Table(self.folder / f"{name}.arrows", columns)
+
+    def __len__(self) -> int:
+        return len(self._state)
+
+    def __getattr__(self, name: str) -> "np.ndarray":
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self._state[name]
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self._state.columns]
+
+    @cached_property
+    def contacts(self) -> Table:
+        """Contacts, in the order of their rows; those of rows that were lost are left out."""
+        import numpy as np
+
+        table = self._table("contacts")
+        whole = int(np.searchsorted(table.row, len(self))) if len(table) else 0
+        return table if whole == len(table) else Table(table._path, tuple(table.columns.values()), whole)
+
+    @cached_property
+    def interventions(self) -> Table:
+        """The interventions: what acted on the state besides the engine's own step."""
+        return self._table("interventions")
+
+    @cached_property
+    def warnings(self) -> Table:
+        """The engine's warnings."""
+        return self._table("warnings")
+
+    @cached_property
+    def edits(self) -> Table:
+        """Changes of model arrays, for the replay."""
+        return self._table("edits")
+
+    @cached_property
+    def inputs(self) -> Table:
+        """What was sent to the world: of each answer, the difference from the one before."""
+        return self._table("inputs")
+
+    def channels(self, solver: str) -> "dict[str, np.ndarray]":
+        """(T, …) columns of a solver by their own names; `solver` is its name in `meta` (`solvers.called`)."""
+        own = (name for name in self._state.columns if name.startswith(f"{solver}."))
+        return {name.removeprefix(f"{solver}."): self._state[name] for name in own}
+
+    @cached_property
+    def overlaps(self) -> list[dict[str, Any]] | None:
+        """Visible geoms that overlap because they cannot collide (see `drawn_overlaps`); None when nobody looked."""
+        path = self.folder / OVERLAPS_FILE
+        return list(_json(path, "the list of overlaps is damaged")["pairs"]) if path.exists() else None
+
+    @cached_property
+    def com(self) -> "np.ndarray":
+        """(T, B, 3) m: centres of mass of the single bodies, from the poses and the offsets (`ipos`) in `meta`."""
+        return self.pos + self._com_offset
+
+    @cached_property
+    def comvel(self) -> "np.ndarray":
+        """(T, B, 3) m/s: velocity of the centres of mass."""
+        from worldkit.turning import cross
+
+        return self.linvel + cross(self.angvel, self._com_offset)
+
+    @cached_property
+    def _com_offset(self) -> "np.ndarray":
+        """(T, B, 3) m: from body origins to centres of mass, world frame."""
+        import numpy as np
+
+        from worldkit.turning import turned
+
+        return turned(self.quat, np.array([body["ipos"] for body in self.meta["bodies"]]).reshape(-1, 3))
+
+    @property
+    def sha256(self) -> str:
+        """The hash of the trajectory, as recorded; it is computed from the rows when the run did not end well."""
+        return str(self.ending.get("sha256") or digest(self))
+
+    @property
+    def time_step(self) -> float:
+        """The time step of the simulation, s."""
+        return float(self.meta["time_step"])
+
+    def body(self, name: str) -> int:
+        """Index of a body along the B axis; unknown names list the known ones."""
+        return self._index(name, self.names, "body")
+
+    def geom(self, name: str) -> int:
+        """Index of a geom, as in `contacts.geom1`."""
+        return self._index(name, tuple(geom["name"] for geom in self.meta["geoms"]), "geom")
+
+    def _index(self, name: str, known: tuple[str, ...], kind: str) -> int:
+        if name not in known:
+            raise RecordingError(
+                f"there is no {kind} {name!r} in this recording", str(self.folder), f"name one of: {', '.join(known)}"
+            )
+        return known.index(name)
+
+
+class Replayable:
+    """The part of a recording that drives its world again: the tables `inputs` and `edits`; the rest may be missing."""
+
+    def __init__(self, folder: Path | str) -> None:
+        self.folder = Path(folder)
+        self.inputs, self.edits = (Table(self.folder / f"{name}.arrows", TABLES[name]) for name in ("inputs", "edits"))
+
+
+def inputs_digest(folder: Path) -> str:
+    """SHA-256 of what was sent to a world, the rows of `inputs` and `edits`; empty when nothing was sent."""
+    import numpy as np
+
+    found = Replayable(folder)
+    digest = hashlib.sha256()
+    for name, table in (("inputs", found.inputs), ("edits", found.edits)):
+        for column in (c for c in TABLES[name] if c.name not in ("time", "row")):
+            values = table[column.name]
+            data = (
+                "\0".join(values.tolist()).encode() if column.dtype == "string" else np.ascontiguousarray(values).data
+            )
+            digest.update(f"\n{name}.{column.name} {len(table)} ".encode() + bytes(data))
+    return digest.hexdigest() if len(found.inputs) or len(found.edits) else ""
+
+
+def open(folder: Path | str) -> Recording:
+    """Open a recording folder; raises `RecordingError` when it is missing, foreign or damaged."""
+    return Recording(folder)
+
+
+def digest(recording: Recording) -> str:
+    """The trajectory's SHA-256, recomputed from the rows.
+
+    Of each column `time, qpos, qvel, pos, quat`, the bytes (float64, little-endian, row after row) are hashed, and the
+    result is the hash of the lines `<name> <hash>`. Batch boundaries do not matter.
+    """
+    import numpy as np
+
+    def column(name: str) -> str:
+        return hashlib.sha256(np.ascontiguousarray(getattr(recording, name)).data).hexdigest()
+
+    return combine({name: column(name) for name in HASHED})
+
+
+def _numbers(array: "pa.Array", column: Column) -> "np.ndarray":
+    """One batch of one column as a view into the mapped file."""
+    flat = array.flatten() if column.shape else array
+    return flat.to_numpy(zero_copy_only=True).reshape(-1, *column.shape)
+
+
+def _read(path: Path) -> "list[pa.RecordBatch]":
+    """All whole record batches of a stream file; a torn tail ends the list, a missing file is empty."""
+    import pyarrow as pa
+
+    if not path.exists() or not path.stat().st_size:
+        return []
+    batches = []
+    try:
+        reader = pa.ipc.open_stream(pa.memory_map(str(path)))
+        while True:
+            batches.append(reader.read_next_batch())
+    except StopIteration:
+        pass
+    except (pa.ArrowInvalid, OSError):
+        pass  # the process died while writing this batch
+    return batches
+
+
+def _json(path: Path, meaning: str) -> dict[str, Any]:
+    try:
+        value = json.loads(path.read_bytes())
+    except (OSError, ValueError) as failure:
+        raise RecordingError(f"{meaning} ({failure})", str(path), RECORD) from failure
+    if not isinstance(value, dict):
+        raise RecordingError(meaning, str(path), RECORD)
+    return value

@@ -1,0 +1,162 @@
+"""What a film draws and nobody simulated: surfaces, and meshes made of many small things."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..errors import ProgramError
+from .ground import Height
+
+Vec3 = tuple[float, float, float]
+SHAPES = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "mesh")
+MOST_PIXELS = 4096
+
+
+@dataclass(frozen=True)
+class Surface:
+    """A look of the film's own, where none of `worldkit.materials` fits.
+
+    `picture`, uint8 (H, W, 3), row 0 the top, repeats every `tile_m` metres, or lies on a mesh by its own coordinates.
+    """
+
+    colour: str = "#ffffff"
+    roughness: float = 0.6
+    metallic: float = 0.0
+    glow: float = 0.0
+    """Light it gives off, relative to its colour."""
+    opacity: float = 1.0
+    picture: np.ndarray | None = field(default=None, compare=False, repr=False)
+    tile_m: float = 1.0
+
+    def __post_init__(self) -> None:
+        rgb(self.colour)
+        for name in ("roughness", "metallic", "opacity"):
+            if not 0.0 <= getattr(self, name) <= 1.0:
+                raise ProgramError(f"{name} lies between 0 and 1, got {getattr(self, name)}", "Surface", "")
+        if self.picture is not None:
+            shape = np.shape(self.picture)
+            if (
+                len(shape) != 3
+                or shape[2] != 3
+                or max(shape[:2]) > MOST_PIXELS
+                or np.asarray(self.picture).dtype != np.uint8
+            ):
+                raise ProgramError(
+                    f"a picture is uint8 of (height, width, 3), at most {MOST_PIXELS} a side; got {shape}",
+                    "Surface",
+                    "",
+                )
+
+
+def rgb(colour: str) -> tuple[float, float, float]:
+    """`#rrggbb` as three numbers from 0 to 1 (sRGB); a `ProgramError` for anything else."""
+    text = colour.removeprefix("#") if isinstance(colour, str) else ""
+    try:
+        if len(text) != 6:
+            raise ValueError(colour)
+        red, green, blue = (int(text[i : i + 2], 16) / 255.0 for i in (0, 2, 4))
+    except ValueError:
+        raise ProgramError(f"a colour is written as '#rrggbb', not {colour!r}", "film.py", "e.g. '#ffb46a'") from None
+    return (red, green, blue)
+
+
+@dataclass(frozen=True)
+class Thing:
+    """One thing that is drawn only."""
+
+    name: str
+    shape: str
+    size: Vec3
+    """Full extents, m; of a mesh, the factors that it is scaled by."""
+    look: str | Surface
+    pos: Vec3
+    quat: tuple[float, float, float, float]
+    to: str = ""
+    """The body it is fixed to, whose frame `pos` and `quat` are in; the world's when empty."""
+    instead: bool = False
+    """A skin: the body's own shapes are left out."""
+    vertices: np.ndarray | None = None
+    faces: np.ndarray | None = None
+    uv: np.ndarray | None = None
+    ways: np.ndarray | None = None
+    """(F, P, 3), m: where P copies are in each frame of the film."""
+    sizes: np.ndarray | None = None
+    """(F, P): the diameter of each copy in each frame, m; 0 is not drawn."""
+
+    def facts(self, arrays: dict[str, np.ndarray], number: int) -> dict[str, Any]:
+        """This thing as JSON; its arrays go into `arrays`."""
+        found: dict[str, Any] = {
+            "name": self.name, "shape": self.shape, "size": list(map(float, self.size)), "pos": list(map(float, self.pos)),
+            "quat": list(map(float, self.quat)), "to": self.to, "instead": self.instead,
+            "look": look_facts(self.look, arrays, f"picture{number}"),
+        }  # fmt: skip
+        for name, kind in (("vertices", "f4"), ("faces", "i4"), ("uv", "f4"), ("ways", "f4"), ("sizes", "f4")):
+            value = getattr(self, name)
+            if value is not None:
+                arrays[f"{name}{number}"] = np.asarray(value, dtype=kind)
+                found[name] = f"{name}{number}"
+        return found
+
+
+def known(look: str | Surface) -> None:
+    """Raise a `ProgramError` that names the nearest where there is no such look."""
+    from .. import materials
+
+    if isinstance(look, str):
+        try:
+            materials.look(look)
+        except ValueError as unknown:
+            raise ProgramError(
+                str(unknown).split(" Use one of")[0], "film.py", "name a look, '#rrggbb', or a Surface"
+            ) from None
+
+
+def look_facts(look: str | Surface, arrays: dict[str, np.ndarray], key: str) -> Any:
+    """A look as JSON: its name, or its numbers."""
+    if isinstance(look, str):
+        return look
+    found: dict[str, Any] = {
+        "rgb": list(rgb(look.colour)), "roughness": look.roughness, "metallic": look.metallic, "glow": look.glow,
+        "opacity": look.opacity, "tile_m": look.tile_m,
+    }  # fmt: skip
+    if look.picture is not None:
+        arrays[key] = np.asarray(look.picture, dtype=np.uint8)
+        found["picture"] = key
+    return found
+
+
+def blades(
+    area: tuple[float, float, float, float],
+    height: float,
+    count: int,
+    ground: Height,
+    clear_of: Sequence[tuple[float, float, float]],
+    seed: int,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Vertices (V, 3) and triangles (F, 3) of blades of grass that stand in an area (x0, y0, x1, y1), m, on `ground`.
+
+    `clear_of` are discs (x, y, radius) where nothing grows.
+    """
+    random = np.random.default_rng(seed)
+    x0, y0, x1, y1 = area
+    foot = random.uniform((x0, y0), (x1, y1), (count, 2))
+    for x, y, radius in clear_of:
+        foot = foot[np.hypot(foot[:, 0] - x, foot[:, 1] - y) > radius]
+    level = np.asarray(ground(foot[:, 0], foot[:, 1]), dtype=float)
+    foot, level = foot[np.isfinite(level)], level[np.isfinite(level)]
+    n = len(foot)
+    tall = height * random.uniform(0.45, 1.0, n)
+    yaw, lean = random.uniform(0, 2 * np.pi, n), random.uniform(0.05, 0.55, n) * tall
+    across = np.stack([np.cos(yaw), np.sin(yaw), np.zeros(n)], -1) * (0.045 * tall)[:, None]
+    bend = random.uniform(0, 2 * np.pi, n)
+    toward = np.stack([np.cos(bend), np.sin(bend), np.zeros(n)], -1) * lean[:, None]
+    base = np.concatenate([foot, level[:, None] - 0.002], axis=1)
+    up = np.array([0.0, 0.0, 1.0])
+    middle = base + toward * 0.3 + up * (0.55 * tall)[:, None]
+    tip = base + toward + up * tall[:, None]
+    corners = np.stack([base - across, base + across, middle + 0.7 * across, middle - 0.7 * across, tip], axis=1)
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [3, 2, 4]])
+    faces = (np.arange(n)[:, None, None] * 5 + triangles[None]).reshape(-1, 3)
+    return corners.reshape(-1, 3), faces

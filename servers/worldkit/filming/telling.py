@@ -1,0 +1,53 @@
+"""The author's process of a film: `python -m worldkit.filming.telling FILM.PY --motion FILE --out DIR`.
+
+It runs `film.py` on what was recorded and leaves the description, `film.json` and `film.npz`; or `error.json` and status 1.
+"""
+
+import argparse
+import runpy
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+DESCRIPTION, ARRAYS = "film.json", "film.npz"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Have a film described; returns the exit status."""
+    import numpy as np
+
+    from ..errors import ProgramError
+    from ..files import write_json
+    from ..reporting import report_failure
+    from .director import Film
+    from .recorded import Recorded
+
+    parser = argparse.ArgumentParser(description="Have a film described.")
+    parser.add_argument("program", type=Path)
+    parser.add_argument("--motion", type=Path, required=True)
+    parser.add_argument("--out", type=Path, required=True)
+    options = parser.parse_args(argv)
+    program = str(options.program)
+    film: Film | None = None
+    try:
+        with np.load(options.motion, allow_pickle=False) as arrays:
+            film = Film(Recorded(dict(arrays)))
+        sys.path.insert(0, str(options.program.parent))
+        told = runpy.run_path(program).get("film")
+        if not callable(told):
+            raise ProgramError("there is no function film(film) in it", "film.py", "def film(film: Film) -> None: …")
+        told(film)
+        facts, numbers = film.description()
+        np.savez(options.out / ARRAYS, **numbers)  # type: ignore[arg-type]
+        write_json(options.out / DESCRIPTION, facts)
+        write_json(
+            options.out / "result.json", {"ok": True, "frames": len(numbers["time"]), "shots": len(facts["shots"])}
+        )
+    except Exception as error:  # author code may raise anything
+        report_failure(error, program, film.line if film else 1, options.out)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

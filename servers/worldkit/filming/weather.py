@@ -1,0 +1,97 @@
+"""Light, sky, air and developing of a film, as its author tells them."""
+
+from typing import Any
+
+import numpy as np
+
+from ..errors import ProgramError
+from .drawn_only import rgb
+from .moods import MOODS
+
+
+class Weather:
+    """What a film's pictures are lit, hazed and developed by; everything that is not told stays as the setting has it."""
+
+    def __init__(self) -> None:
+        self._air: list[dict[str, Any]] = []
+
+    def mood(self, name: str, *, at: float | None = None) -> None:
+        """Light, sky, fog and grading that go together: one of `MOODS`."""
+        if name not in MOODS:
+            raise ProgramError(f"no mood is called {name!r}", "film.py", f"use one of: {', '.join(MOODS)}")
+        for what, values in MOODS[name].items():
+            getattr(self, what)(at=at, **values)
+
+    def light(
+        self,
+        *,
+        azimuth_deg: float | None = None,
+        elevation_deg: float | None = None,
+        colour: str | None = None,
+        strength: float | None = None,
+        softness_deg: float | None = None,
+        at: float | None = None,
+    ) -> None:
+        """The key light: where it comes from, its colour, its strength (1: bright sun) and how wide it is (sun 0.5).
+
+        With `at`, a film time, every such call is a moment that the film goes through; in between it changes evenly. What is
+        left out stays as the setting has it.
+        """
+        self._told(
+            at, light_azimuth_deg=azimuth_deg, light_elevation_deg=elevation_deg,
+            light_rgb=None if colour is None else rgb(colour), light_strength=strength, light_softness_deg=softness_deg,
+        )  # fmt: skip
+
+    def sky(
+        self,
+        *,
+        zenith: str,
+        horizon: str,
+        ground: str = "#6f6f6a",
+        glow: float = 0.3,
+        clouds: float = 0.0,
+        stars: float = 0.0,
+        strength: float = 1.0,
+        at: float | None = None,
+    ) -> None:
+        """A sky from `zenith` to `horizon` instead of the setting's surroundings; `ground` is what lies below the horizon.
+
+        `glow` around the light, `clouds` and `stars` go from 0 to 1; `strength` is how much it lights the scene.
+        """
+        self._told(
+            at, sky_zenith=rgb(zenith), sky_horizon=rgb(horizon), sky_ground=rgb(ground), sky_glow=glow,
+            sky_clouds=clouds, sky_stars=stars, sky_strength=strength,
+        )  # fmt: skip
+
+    def fog(
+        self, *, colour: str = "#d8dde0", visibility_m: float, height_m: float | None = None, at: float | None = None
+    ) -> None:
+        """Air that hides what is far: 95 % of what is `visibility_m` away; thinner by half every `height_m` above the ground."""
+        if not visibility_m > 0 or (height_m is not None and not height_m > 0):
+            raise ProgramError("fog needs a visibility and a height above zero", "film.py", "visibility_m=30, say")
+        self._told(at, fog_rgb=rgb(colour), fog_density=3.0 / visibility_m, fog_height_m=height_m or 1e6)
+
+    def grade(
+        self,
+        *,
+        exposure_stops: float | None = None,
+        contrast: float | None = None,
+        saturation: float | None = None,
+        temperature: float | None = None,
+        tint: float | None = None,
+        vignette: float | None = None,
+        glow: float | None = None,
+        fade: float | None = None,
+        at: float | None = None,
+    ) -> None:
+        """Developing: `exposure_stops` (+1 twice the light), `contrast` and `saturation` (1: as it is), `temperature`
+        and `tint` (-1 cool or green to 1 warm or magenta), `vignette` and `glow` (0 to 1), `fade` (1: black).
+        """
+        self._told(
+            at, grade_exposure_stops=exposure_stops, grade_contrast=contrast, grade_saturation=saturation,
+            grade_temperature=temperature, grade_tint=tint, grade_vignette=vignette, grade_glow=glow, grade_fade=fade,
+        )  # fmt: skip
+
+    def _told(self, at: float | None, **values: Any) -> None:
+        found = {name: np.asarray(value, dtype=float).tolist() for name, value in values.items() if value is not None}
+        self._air.append({"at_s": 0.0 if at is None else float(at), **found})

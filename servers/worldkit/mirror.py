@@ -1,0 +1,177 @@
+"""Copying everything that an MjData holds from one process to another, through memory that both see.
+
+MuJoCo keeps all arrays of a data in one allocation (`buffer`), contacts and constraints in a second one (`arena`), and
+numbers such as the time, the energy and how many contacts there are in the struct itself. Two processes with the same
+compiled model have the same layout, so a copy is a few moves of memory, and whatever a program reads of its own data
+(poses, contacts, sensors, the forces of the last step) is what the engine holds, bit for bit, and nothing is computed twice.
+
+Addresses are never sent: the sender gives the offset of each array in its arena, and the receiver adds the address of its
+own arena. The struct's layout is read from `mujoco.introspect`, which belongs to the installed build, and is checked
+against the live data before it is relied on.
+"""
+
+import ctypes
+from collections.abc import Mapping, Sequence
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from .errors import WorldkitError
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+LINE = 64
+"""Parts of a slot begin at multiples of this many bytes."""
+MOST_ARENA = 8 << 20
+"""Contacts and constraints beyond this size are not sent: the receiver sees none."""
+NOWHERE = 0xFFFF_FFFF_FFFF_FFFF
+"""Stands in place of an offset when the array is not there."""
+
+
+class MirrorError(WorldkitError):
+    """The installed engine does not keep its data as its own description says."""
+
+    code = "engine"
+
+
+class Mirror:
+    """Copies an `MjData` to and from slots of `size` bytes.
+
+    A slot holds, in this order: the length of the used arena, the struct's numbers, where the arena's arrays begin, the
+    buffer, the used part of the arena.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
+        import numpy as np
+
+        self._kept = (model, data)  # their memory must not be given back
+        layout, base = struct("mjData"), data._address
+        self._live = live = layout.from_address(base)
+        _check(live, model, data)
+        first, last = layout.solver_niter.offset, layout.energy.offset + layout.energy.size
+        self._numbers, self._numbers_bytes = base + first, last - first
+        begin = layout.contact.offset
+        self._pointers, self._pointers_bytes = base + begin, layout.signature.offset - begin
+        self.buffer, self.buffer_bytes = int(live.buffer), int(live.nbuffer)
+        self._arena, self._room = int(live.arena), min(MOST_ARENA, int(live.narena))
+        self._at_numbers = LINE
+        self._at_pointers = _round(self._at_numbers + self._numbers_bytes)
+        self._at_buffer = _round(self._at_pointers + self._pointers_bytes)
+        self._at_arena = _round(self._at_buffer + self.buffer_bytes)
+        self.size = _round(self._at_arena + self._room)
+        count = self._pointers_bytes // 8
+        # The last values on one side of the translation, and what became of them on the other.
+        self._seen, self._told = np.zeros(count, np.uint64), np.zeros(count, np.uint64)
+        self._seen_at, self._told_at = address(self._seen), address(self._told)
+
+    def send(self, slot: int) -> None:
+        """Copy the data into the slot at this address."""
+        used = int(self._live.parena)
+        if used > self._room:
+            used = 0
+        move(slot + self._at_numbers, self._numbers, self._numbers_bytes)
+        move(slot + self._at_buffer, self.buffer, self.buffer_bytes)
+        if used:
+            if differ(self._pointers, self._seen_at, self._pointers_bytes):
+                move(self._seen_at, self._pointers, self._pointers_bytes)
+                self._told[:] = self._seen - self._arena
+                self._told[self._seen == 0] = NOWHERE
+            move(slot + self._at_pointers, self._told_at, self._pointers_bytes)
+            move(slot + self._at_arena, self._arena, used)
+        ctypes.c_uint64.from_address(slot).value = used
+
+    def receive(self, slot: int) -> None:
+        """Make the data what the slot at this address holds."""
+        used = int(ctypes.c_uint64.from_address(slot).value)
+        move(self._numbers, slot + self._at_numbers, self._numbers_bytes)
+        move(self.buffer, slot + self._at_buffer, self.buffer_bytes)
+        if 0 < used <= self._room:
+            if differ(slot + self._at_pointers, self._seen_at, self._pointers_bytes):
+                move(self._seen_at, slot + self._at_pointers, self._pointers_bytes)
+                self._told[:] = self._seen + self._arena
+                self._told[self._seen == NOWHERE] = 0
+            move(self._pointers, self._told_at, self._pointers_bytes)
+            move(self._arena, slot + self._at_arena, used)
+        else:
+            self._live.ncon = self._live.nefc = self._live.ne = self._live.nf = self._live.nl = 0
+            self._live.nJ = self._live.nisland = self._live.nA = self._live.nY = 0
+        self._live.parena = used
+
+    def numbers(self, entries: Mapping[str, Any], arrays: Sequence[str]) -> "tuple[np.ndarray, np.ndarray]":
+        """(all numbers of the buffer as a view, where in it the entries lie): flat indices by array, in this order."""
+        import numpy as np
+
+        view = words(self.buffer, self.buffer_bytes // 8)
+        return view, np.concatenate(
+            [np.zeros(0, np.intp), *(self.at(name) // 8 + np.array(entries.get(name, ()), np.intp) for name in arrays)]
+        )
+
+    def at(self, name: str) -> int:
+        """Where an array begins in the buffer, bytes."""
+        return int(getattr(self._live, name)) - self.buffer
+
+    def buffer_in(self, slot: int) -> int:
+        """Address of the buffer's copy in the slot at this address."""
+        return slot + self._at_buffer
+
+
+def _check(live: Any, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
+    """Refuse an engine whose struct does not read as its live data does."""
+    import numpy as np
+
+    mine = (live.qpos or 0, live.nbuffer, live.ncon, live.nefc, live.time, *live.energy, live.signature)
+    theirs = (
+        address(data.qpos) if model.nq else mine[0], model.nbuffer and mine[1], data.ncon, data.nefc, data.time,
+        *data.energy, data.signature,
+    )  # fmt: skip
+    inside = not model.nbody or int(live.buffer) <= address(data.xpos) < int(live.buffer) + int(live.nbuffer)
+    if not (np.array_equal(np.array(mine, float), np.array(theirs, float), equal_nan=True) and inside):
+        raise MirrorError(
+            "the engine's data is not laid out as its own description says", "mjData", "install the pinned mujoco build"
+        )
+
+
+@cache
+def struct(name: str) -> Any:
+    """The ctypes structure of one of the engine's structs, from the installed build's own description of it."""
+    from mujoco.introspect.structs import STRUCTS
+
+    kinds = {
+        "mjtNum": ctypes.c_double, "float": ctypes.c_float, "int": ctypes.c_int, "mjtBool": ctypes.c_bool,
+        "mjtSize": ctypes.c_int64, "size_t": ctypes.c_size_t, "uintptr_t": ctypes.c_size_t, "uint64_t": ctypes.c_uint64,
+    }  # fmt: skip
+    fields: list[tuple[str, Any]] = []
+    for field in STRUCTS[name].fields:
+        kind: Any = ctypes.c_void_p
+        if "Pointer" not in type(field.type).__name__:
+            inner = str(getattr(field.type, "inner_type", field.type))
+            kind = kinds[inner] if inner in kinds else struct(inner)
+            for extent in reversed(getattr(field.type, "extents", ())):
+                kind = kind * extent
+        fields.append((field.name, kind))
+    return type(name, (ctypes.Structure,), {"_fields_": fields})
+
+
+def address(array: "np.ndarray") -> int:
+    """Where an array's first number lies in memory."""
+    return int(array.__array_interface__["data"][0])
+
+
+def words(at: int, count: int) -> "np.ndarray":
+    """(count,) numbers (float64) at an address, as a view."""
+    import numpy as np
+
+    return np.ctypeslib.as_array((ctypes.c_double * count).from_address(at))
+
+
+def _round(size: int) -> int:
+    return -(-size // LINE) * LINE
+
+
+# Called without releasing the interpreter's lock, which would cost more than the move itself.
+_libc = ctypes.PyDLL(None)
+move = _libc.memmove
+move.argtypes, move.restype = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t), None
+differ = _libc.memcmp
+differ.argtypes, differ.restype = (ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t), ctypes.c_int

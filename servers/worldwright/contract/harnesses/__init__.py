@@ -1,0 +1,69 @@
+"""The coding harnesses, one module each: its own files, its names of tools, and what it lacks on this machine.
+
+The folder is the list: a module that defines what `Harness` names is a harness to `worldwright contract sync`, the guard
+and the doctor. Only the standard library is imported here and at the top of each module, since
+the guard reads them before every tool use.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import pkgutil
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol, cast
+
+from ..tool_names import ToolNames
+
+if TYPE_CHECKING:
+    from ...doctor.diagnosis import Diagnosis
+    from ..roles import Role
+
+
+class Harness(Protocol):
+    """The protocol of the modules of this folder."""
+
+    NAME: str
+    """The name that people give it."""
+    SHELL_SETS: tuple[str, ...]
+    """Environment variables that it sets in its shells: no person sits at a terminal there."""
+    PROGRAM: str
+    """The command that starts it."""
+    PACKAGE: str
+    """Its package on npm."""
+    TESTED: str
+    """The version that `make test-harness` installs and drives."""
+    LINKS: tuple[str, ...]
+    """Links in the project by which it shares `skills/` and `commands/`."""
+    TOOLS: ToolNames
+    """Its names of tools, for the guard."""
+
+    def files(self) -> dict[str, str]:
+        """Its generated files, without the agents, by their path in the project."""
+
+    def agent(self, role: Role) -> tuple[str, str]:
+        """The path and the text of one role's file."""
+
+    def diagnose(self, root: Path) -> Diagnosis | None:
+        """Tell what the person must do before it works in the project at `root`; None when it is not installed."""
+
+
+def known() -> dict[str, Harness]:
+    """Every harness by the name of its module."""
+    names = sorted(info.name for info in pkgutil.iter_modules(__path__))
+    return {name: find(name) for name in names}
+
+
+def around() -> str:
+    """The name of the harness in whose shell this process runs; empty when there is none."""
+    found = (harness for harness in known().values() if any(map(os.environ.get, harness.SHELL_SETS)))
+    return next((harness.NAME for harness in found), "")
+
+
+def find(name: str) -> Harness:
+    """The harness of this name.
+
+    Raises:
+        ModuleNotFoundError: there is no module of this name in the folder.
+    """
+    return cast(Harness, importlib.import_module(f"{__name__}.{name}"))

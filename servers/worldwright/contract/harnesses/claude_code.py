@@ -1,0 +1,91 @@
+"""Claude Code has agents with lists of tools, a hook before every tool use, and a sandbox around the shell.
+
+The sandbox keeps the shell from writing to the runs and to the suite; it needs bubblewrap and socat on Linux. File tools and
+MCP servers run outside it: the guard judges the former, the latter write the evidence.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..generated import GENERATED, PERSONAL, hook, instructions, json_text, mcp_names
+from ..roles import RUNS, SUITE, Role
+from ..tool_names import ToolNames
+
+if TYPE_CHECKING:
+    from ...doctor.diagnosis import Diagnosis
+
+NAME, SHELL_SETS = "Claude Code", ("CLAUDECODE",)
+PROGRAM, PACKAGE, TESTED = "claude", "@anthropic-ai/claude-code", "2.1.329"
+LINKS = (".claude/skills", ".claude/commands")
+READERS = ("Read", "Glob", "Grep")
+WRITERS = ("Write", "Edit")
+CONFINES = ("bwrap", "socat")
+"""Programs that its sandbox needs on Linux."""
+TOOLS = ToolNames(
+    writers=frozenset({"write", "edit", "multiedit", "notebookedit"}),
+    readers=frozenset({"read", "glob", "grep", "ls", "notebookread", "skill"}),
+    shells=frozenset({"bash", "powershell", "monitor"}),
+    agents=("agent", "task", "sendmessage", "team"),
+    harmless=frozenset({"toolsearch", "todowrite", "structuredoutput"}),
+    allows_in_scope=True,
+)
+
+
+def files() -> dict[str, str]:
+    """Its settings: servers, hook, sandbox, and the questions to the person."""
+    judged = {"type": "command", "command": hook('"$CLAUDE_PROJECT_DIR"/', "claude_code"), "timeout": 20}
+    settings = {
+        "enableAllProjectMcpServers": True,
+        "env": {"CLAUDE_CODE_DISABLE_BACKGROUND_TASKS": "1"},
+        "permissions": {"ask": list(mcp_names(PERSONAL))},
+        "sandbox": {
+            "enabled": True,
+            "allowUnsandboxedCommands": False,
+            "filesystem": {"denyWrite": [f"./{name}" for name in (RUNS, *SUITE)]},
+        },
+        "hooks": {"PreToolUse": [{"matcher": "*", "hooks": [judged]}]},
+    }
+    return {".claude/settings.json": json_text(settings)}
+
+
+def agent(role: Role) -> tuple[str, str]:
+    """The agent's file, with its tools by name, so that it gets no others."""
+    tools = [*(READERS if role.reads_files else ()), *(WRITERS if role.writes else ()), *mcp_names(role.tools)]
+    header = [
+        "---",
+        f"name: {role.agent}",
+        f"description: {json.dumps(role.purpose)}",
+        f"tools: {', '.join(tools)}",
+        "omitClaudeMd: true",
+        "---",
+        f"<!-- {GENERATED} -->",
+    ]
+    return f".claude/agents/{role.agent}.md", "\n".join(header) + "\n" + instructions(role)
+
+
+def diagnose(root: Path) -> Diagnosis | None:
+    """Tell whether the person trusts the folder: else Claude Code starts none of the project's servers and agents."""
+    from ...doctor.diagnosis import Diagnosis
+
+    if shutil.which("claude") is None:
+        return None
+    settings = Path(os.environ.get("CLAUDE_CONFIG_DIR", str(Path.home()))) / ".claude.json"
+    try:
+        known = json.loads(settings.read_text(encoding="utf-8")).get("projects", {})
+    except (OSError, ValueError):
+        known = {}
+    trusted = bool(known.get(str(root), {}).get("hasTrustDialogAccepted"))
+    if not trusted:
+        fix = f"start `claude` in {root} once and accept its question"
+        return Diagnosis("claude", False, "does not trust this folder yet", fix, essential=False)
+    missing = [name for name in CONFINES if shutil.which(name) is None] if sys.platform == "linux" else []
+    found = "trusts this folder" + (
+        f", but finds no {' and no '.join(missing)} to confine its shell with" if missing else ""
+    )
+    return Diagnosis("claude", not missing, found, "sudo apt-get install -y bubblewrap socat", essential=False)

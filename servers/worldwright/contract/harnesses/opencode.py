@@ -1,0 +1,129 @@
+"""OpenCode: permissions by pattern for each agent, and a plugin that asks the guard before every tool use.
+
+It has no sandbox: the guard starts every shell so that it cannot write to the runs and the suite (`shell.py`).
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..generated import COMMAND, GENERATED, GUARD, PERSONAL, instructions, json_text
+from ..roles import COMMANDS, MAIN_TOOLS, RUNS, SERVERS, Role
+from ..tool_names import ToolNames
+
+if TYPE_CHECKING:
+    from ...doctor.diagnosis import Diagnosis
+
+NAME, SHELL_SETS = "OpenCode", ("OPENCODE",)
+PROGRAM, PACKAGE, TESTED = "opencode", "opencode-ai", "1.18.33"
+LINKS = (".opencode/commands",)
+TOOLS = ToolNames(
+    writers=frozenset({"write", "edit", "multiedit", "patch", "apply_patch"}),
+    readers=frozenset({"read", "glob", "grep", "list", "skill"}),
+    shells=frozenset({"bash"}),
+    agents=("task",),
+    harmless=frozenset({"todowrite", "todoread", "invalid"}),
+    confined_by_guard=True,
+)
+
+
+def files() -> dict[str, str]:
+    """Its configuration and its plugin."""
+    return {".opencode/opencode.json": json_text(_config()), ".opencode/plugins/guard.js": _plugin()}
+
+
+def agent(role: Role) -> tuple[str, str]:
+    """The agent's file: every tool is denied but those it is given."""
+    edit = {"*": "deny", **{f"{RUNS}/*/{name}": "allow" for name in role.writes}}
+    reading = "allow" if role.reads_files else "deny"
+    permission: dict[str, object] = {
+        "*": "deny",
+        "edit": edit,
+        "bash": "deny",
+        "task": "deny",
+        "webfetch": "deny",
+        "external_directory": "deny",
+        "skill": {"*": reading},
+        "read": reading,
+        "grep": reading,
+        "glob": reading,
+        "list": reading,
+        **_tools(role.tools),
+    }
+    lines = ["---", f"# {GENERATED}", f"description: {json.dumps(role.purpose)}", "mode: subagent", "permission:"]
+    for key, value in permission.items():
+        if isinstance(value, dict):
+            lines += [f"  {key}:", *(f'    "{pattern}": {verdict}' for pattern, verdict in value.items())]
+        else:
+            lines.append(f'  "{key}": {value}')
+    return f".opencode/agents/{role.agent}.md", "\n".join([*lines, "---"]) + "\n" + instructions(role)
+
+
+def diagnose(root: Path) -> Diagnosis | None:
+    """OpenCode searches with ripgrep."""
+    from ...doctor.diagnosis import Diagnosis
+
+    if shutil.which("opencode") is None:
+        return None
+    here = shutil.which("rg") is not None
+    found = "finds ripgrep" if here else "does not find `rg` on the path"
+    return Diagnosis("opencode", here, found, "sudo apt-get install -y ripgrep", essential=False)
+
+
+def _tools(tools: tuple[str, ...]) -> dict[str, str]:
+    rules = {f"{server}_*": "deny" for server in SERVERS}
+    for tool in tools:
+        server, name = tool.split(".")
+        rules[f"{server}_{name}"] = "allow"
+    return rules
+
+
+def _plugin() -> str:
+    """OpenCode's permissions know patterns only; its plugin asks the guard too, which resolves links and confines shells."""
+    return f"""// {GENERATED}
+import {{ spawnSync }} from "node:child_process";
+import {{ join }} from "node:path";
+
+const agents = new Map();
+const ours = /^({"|".join(SERVERS)})_(.+)$/;
+
+export const WriteScope = async ({{ directory, worktree }}) => ({{
+  "chat.params": async (input) => {{
+    agents.set(input.sessionID, input.agent?.name ?? input.agent);
+  }},
+  "tool.execute.before": async (input, output) => {{
+    const event = {{
+      tool_name: input.tool.replace(ours, "mcp__$1__$2"),
+      tool_input: output.args,
+      cwd: directory,
+      agent_type: agents.get(input.sessionID) ?? "",
+    }};
+    const root = worktree && worktree !== "/" ? worktree : directory;
+    const told = {{ input: JSON.stringify(event), encoding: "utf8", timeout: 20000 }};
+    const done = spawnSync("python3", [join(root, "{GUARD}"), "opencode"], told);
+    if (done.status !== 0) throw new Error(`scope guard failed or denied: ${{done.stderr}}`);
+    const changed = done.stdout ? JSON.parse(done.stdout).hookSpecificOutput.updatedInput : undefined;
+    if (changed) Object.assign(output.args, changed);
+  }},
+}});
+"""
+
+
+def _config() -> dict[str, object]:
+    return {
+        "$schema": "https://opencode.ai/config.json",
+        "mcp": {
+            name: {"type": "local", "command": [COMMAND, "serve", name], "enabled": True, "timeout": 30000}
+            for name in SERVERS
+        },
+        "permission": {
+            "edit": {"*": "ask", f"{RUNS}/**": "deny"},
+            "external_directory": "deny",
+            "skill": {"*": "deny", **dict.fromkeys(COMMANDS, "allow")},
+            **_tools(MAIN_TOOLS),
+            **{tool.replace(".", "_"): "ask" for tool in PERSONAL},
+        },
+    }

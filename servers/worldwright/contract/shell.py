@@ -1,0 +1,95 @@
+#!/usr/bin/env python3
+"""Run a shell command that cannot write to the runs and the suite: `python3 shell.py PROJECT COMMAND`.
+
+The process gives the right to write up before it becomes the shell, by Landlock (landlock(7), Linux 5.13 and newer), and
+every process it starts inherits that. Landlock only knows what is allowed, which is everything beside the protected paths,
+up
+to the root. So a shell can make no new entries in the project's folder and those above it, while existing files there and
+everything in other folders stay writable. Reading is as free as before. Without Landlock in the kernel, the command does
+not run.
+
+Only the standard library is imported, so that any Python starts it, also inside a harness' own sandbox.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import struct
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+if not __package__:  # it was started as a program
+    sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from worldwright.contract.roles import RUNS, SUITE
+
+CREATE_RULESET, ADD_RULE, RESTRICT_SELF, SET_NO_NEW_PRIVS = 444, 445, 446, 38
+VERSION_FLAG, PATH_BENEATH = 1, 1
+WRITE_FILE, CHANGE_FOLDER, REFER, TRUNCATE = 1 << 1, 0b1_1111_1111 << 4, 1 << 13, 1 << 14
+"""Rights to write a file, remove and make entries of a folder, link across folders (ABI 2), and truncate a file (ABI 3)."""
+CANNOT = 126
+"""Exit code of a command that cannot be run."""
+
+
+def writable(project: Path) -> Iterator[Path]:
+    """Everything beside the protected paths, from the project up to the root."""
+    keep = {project / name for name in (RUNS, *SUITE)}
+    keep |= {Path(os.path.realpath(path)) for path in keep}
+    yield from _siblings(project, keep)
+    for folder in project.parents:
+        yield from _siblings(folder, {*keep, project, *project.parents})
+
+
+def _siblings(folder: Path, keep: set[Path]) -> Iterator[Path]:
+    for entry in sorted(folder.iterdir()):
+        if entry not in keep and not entry.is_symlink() and not any(entry in path.parents for path in keep):
+            yield entry
+
+
+def confine(project: Path) -> None:
+    """Take the right to write to the runs and the suite of `project` from this process and all that it starts, for good.
+
+    Raises:
+        OSError: the kernel has no Landlock, or refused.
+    """
+    libc = ctypes.CDLL(None, use_errno=True)
+    version = libc.syscall(CREATE_RULESET, None, 0, VERSION_FLAG)
+    if version < 1:
+        raise OSError(ctypes.get_errno(), "this kernel offers no Landlock")
+    rights = WRITE_FILE | CHANGE_FOLDER | (REFER if version >= 2 else 0) | (TRUNCATE if version >= 3 else 0)
+    ruleset = _called(libc, CREATE_RULESET, struct.pack("Q", rights), 8, 0)
+    for path in writable(project):
+        try:
+            handle = os.open(path, os.O_PATH | os.O_CLOEXEC)
+        except OSError:
+            continue  # it is gone, or may not be opened
+        allowed = rights if path.is_dir() else rights & (WRITE_FILE | TRUNCATE)
+        _called(libc, ADD_RULE, ruleset, PATH_BENEATH, struct.pack("=Qi", allowed, handle), 0)
+        os.close(handle)
+    libc.prctl(SET_NO_NEW_PRIVS, 1, 0, 0, 0)
+    _called(libc, RESTRICT_SELF, ruleset, 0)
+    os.close(ruleset)
+
+
+def _called(libc: ctypes.CDLL, number: int, *arguments: object) -> int:
+    answer: int = libc.syscall(number, *arguments)
+    if answer < 0:
+        raise OSError(ctypes.get_errno(), f"Landlock refused (system call {number})")
+    return answer
+
+
+def main() -> int:  # noqa: RET503 - after the shell is there, nothing returns
+    """Confine this process, then become the shell."""
+    project, command = Path(os.path.realpath(sys.argv[1])), sys.argv[2]
+    try:
+        confine(project)
+    except OSError as cause:
+        sys.stderr.write(f"scope guard: the shell cannot be kept from {RUNS}/ here, so it does not start: {cause}\n")
+        return CANNOT
+    os.execvp("bash", ["bash", "-c", command])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

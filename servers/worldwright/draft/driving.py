@@ -1,0 +1,66 @@
+"""Write what fastens and drives: ropes and springs between bodies, motors and servos on joints, and their control."""
+
+from ..model.plan.committed import Plan
+from ..model.plan.drives import Actuator
+from ..model.plan.fastening import point
+from ..model.plan.layout import Scene
+from .python_text import Raw, call, comment, constant_name, literal
+from .requirements import Needs
+
+
+def tendons(plan: Plan, scene: Scene, needs: Needs) -> str:
+    """Write ropes and springs between points of the placed bodies."""
+    lines = []
+    for row in plan.topology.tendons:
+        needs.use("tendons")
+        ends = [(end.body, point(end, plan, scene)) for end in row.ends]
+        keywords: dict = {"stiffness": row.stiffness} if row.stiffness else {}
+        keywords |= {
+            k: getattr(row, k) for k in ("length", "slack", "pretension", "damping", "time_constant") if getattr(row, k)
+        }
+        keywords |= {"diameter": row.diameter} | ({"look": row.look} if row.look else {})
+        made = "tendons.spring" if row.stiffness else "tendons.rope"
+        lines.append(call(made, Raw("spec"), row.name, ends, **keywords))
+    return "\n".join(lines)
+
+
+def actuators(plan: Plan, needs: Needs) -> str:
+    """Write motors and servos on the joints."""
+    lines = []
+    for row in plan.topology.actuators:
+        if row.kind == "imported":
+            continue
+        needs.use("actuators")
+        keywords: dict = {"joint": row.joint}
+        keywords |= {k: getattr(row, k) for k in ("gain", "damping", "limit") if getattr(row, k)}
+        lines.append(call(f"actuators.{row.kind}", Raw("spec"), row.name, **keywords))
+    return "\n".join(lines)
+
+
+def control(plan: Plan, needs: Needs) -> str:
+    """Write the `control` function: constant controls of the plan's actuators, and marks for what else it declares."""
+    # A solver beside the engine needs nothing from the program.
+    interventions = [row for row in plan.simulation_parameters.interventions if row.solver is None]
+    driven = {row.name: row for row in plan.topology.actuators if row.control is not None}
+    if not interventions and not driven:
+        return ""
+    lines = ["\ndef control(model: mujoco.MjModel, data: mujoco.MjData) -> None:"]
+    lines.append('    """What the plan declares to act on the state besides the engine."""')
+    for name, row in driven.items():
+        value = constant_name(row.control) if isinstance(row.control, str) else literal(row.control)
+        lines.append(f"    data.actuator({literal(name)}).ctrl[0] = {value}")
+    for item in interventions:
+        text = f"{item.kind} on {', '.join(item.bodies)}: {item.law} (trigger: {item.trigger}; source: {item.source})"
+        if item.kind == "control" and driven and set(item.bodies) <= driven_names(plan, driven):
+            lines.insert(2, comment(text))
+            continue
+        needs.leave(f"declared intervention: {text}", "its law, in control()")
+        lines.append(comment(f"AUTHOR: {text}"))
+    return "\n".join(lines) + "\n"
+
+
+def driven_names(plan: Plan, driven: dict[str, Actuator]) -> set[str]:
+    """Names of the actuators whose control the plan gives, of their joints, and of the bodies on those."""
+    joints = {row.joint for row in driven.values()}
+    children = {joint.child for joint in plan.topology.joints if joint.name in joints}
+    return {*driven, *joints, *children}

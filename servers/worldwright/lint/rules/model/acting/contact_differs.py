@@ -1,0 +1,175 @@
+"""Two bodies touch otherwise than their materials in the plan make them.
+
+What it does: works out, by the engine's own rules, how each pair of bodies touches (masks, exclusions, priorities, mixing,
+explicit pairs), and compares sliding, torsional and rolling friction, rebound, softness, margin, adhesion and the speed of
+surfaces with the world of the plan's draft. Our own pairs against hopping count as the contacts they replace. A stiffer
+contact of the same rebound is free; without a stated rebound MuJoCo's own contact is, too.
+
+Why is this bad: the friction that is written on a geom need not act: a pair or a priority overrides it, and a crate slides
+twice as far on the same plan.
+
+Use instead: `contacts.surface` with the plan's constants on every geom of the body, priorities and pairs left alone; to let
+two bodies pass through each other, say so in the plan with `visual_only`.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from worldkit.contacts import restitution_of
+from worldkit.sliding import GRIP
+
+from ....compiled.touching import Touch, Touching
+from ....compiled.view import ModelView
+from ....harm import Measured, after
+from ....problem import Problem
+from ._twins import GROUND, SOUND, changed, owner, rebounds_otherwise, shown, stated, twins
+
+CODE = "WM160"
+SEVERITY = "error"
+SCOPE = "acts"
+PAIR = "spec.add_pair(geomname1='crate', geomname2='ground', condim=3, friction=[0.01, 0.01, 0, 0, 0])"
+GOOD = (
+    *SOUND,
+    changed(
+        "spec.geom('crate').solref = (-1 / 0.008**2, 0)",
+        "spec.geom('crate').solref[1] = spec.geom('ground').solref[1] / 2",
+    ),
+)
+BAD = (
+    changed(PAIR),
+    changed("spec.geom('crate').priority = 1", "spec.geom('crate').friction = (0.05, 0.005, 0.0001)"),
+    changed("spec.geom('ground').friction[0] = 1.0"),
+    changed("spec.geom('crate').solref = (-250000, -20)", "spec.geom('ground').solref = (-250000, -20)"),
+    changed("spec.geom('crate').contype = spec.geom('crate').conaffinity = 0"),
+    changed("spec.add_exclude(bodyname1='crate', bodyname2='arm')"),
+    changed("spec.geom('ground').surfacevel = (1, 0, 0, 0, 0, 0)"),
+    changed("spec.geom('crate').adhesion = 30"),
+    changed("spec.geom('crate').margin = 0.02"),
+    changed("spec.geom('crate').gap = 0.02"),
+    changed("spec.geom('crate').solref = (-1e9, -1e4)", "spec.geom('ground').solref = (-1e9, -1e4)"),
+    changed(
+        "spec.geom('crate').solimp = (0.1, 0.2, 0.05, 0.5, 2)", "spec.geom('ground').solimp = (0.1, 0.2, 0.05, 0.5, 2)"
+    ),
+)
+EVIDENCE = Measured(
+    "the crate slides further",
+    lambda s: float(after(s, 1.0)[1].body("crate").xpos[0]),
+    0.1,
+    "m",
+    bad=changed(PAIR)[0],
+    good=changed()[0],
+)
+SHARE, LEAST = 0.01, 1e-3
+SPIN_M, ROLL_M = 0.005, 1e-4
+"""Torsional and rolling friction, m, of a plan that states none: a program may leave these out."""
+SOFTEST_S = 0.02
+MOST = 12
+"""So many pairs of one body are shown: more would say the same."""
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """Check pairs of bodies whose contacts are not the plan's, or not there."""
+    assert view.planned is not None
+    planned_view = view.planned
+    built = Touching(view, lambda body: owner(view, body))
+    plan_names = planned_view.texts["names"]["body"]
+    planned = Touching(planned_view, lambda body: plan_names[body] if body else GROUND)
+    yield from _swapped(view, planned_view)
+    known, seen = set(planned.geoms), set()
+    for one in built.suspects(planned):
+        shown_pairs = 0
+        for other in sorted(known & {*built.geoms} - {one}):
+            ends = Touching.ends(one, other)
+            if ends in seen or shown_pairs >= MOST:
+                continue
+            seen.add(ends)
+            message = _difference(view, built.between(one, other), planned.between(one, other))
+            if message:
+                shown_pairs += 1
+                yield _problem_of(view, one, other, message)
+
+
+def _swapped(view: ModelView, planned: ModelView) -> Iterator[Problem]:
+    """Bodies with several surfaces of which one part has another's: each geom is compared with the plan's nearest to it."""
+    for body, twin in twins(view, "body"):
+        mine, theirs = (
+            np.flatnonzero((world.geom_bodyid == index) & world.collides)
+            for world, index in ((view, body), (planned, twin))
+        )
+        if body == 0 or not len(mine) or len(np.unique(planned.geom_friction[theirs, 0])) < 2:
+            continue
+        for geom in mine:
+            near = theirs[np.argmin(((planned.geom_pos[theirs] - view.geom_pos[geom]) ** 2).sum(axis=1))]
+            here, there = float(view.geom_friction[geom, 0]), float(planned.geom_friction[near, 0])
+            if abs(here - there) > max(LEAST, SHARE * there):
+                message = f"{view.name('geom', int(geom))} has a friction of {shown(here)}, by the plan this part has {shown(there)}"
+                yield view.at("geom", int(geom), message, "give each part the plan's material")
+
+
+def _problem_of(view: ModelView, one: str, other: str, message: str) -> Problem:
+    bodies = view.texts["names"]["body"]
+    name = one if one in bodies else other
+    said = message.format(f"{one} and {other}")
+    return view.at("body", bodies.index(name) if name in bodies else 0, said, "give both geoms the plan's material")
+
+
+def _difference(view: ModelView, built: set[Touch], planned: set[Touch]) -> str:
+    """What differs between the contacts of two bodies, with a place for their names; empty when nothing does."""
+    if planned and not built:
+        return "{} pass through each other, by the plan they touch"
+    if built and not planned:
+        return "{} touch, by the plan they pass through each other or hold together"
+    for touch in sorted(built, key=repr):
+        said = [_describe_difference(view, touch, twin) for twin in planned]
+        if all(said):
+            return min(said, key=len)
+    return ""
+
+
+def _describe_difference(view: ModelView, built: Touch, planned: Touch) -> str:
+    """How one contact differs from what the plan makes it; empty when it does not."""
+    assert view.plan is not None
+    slide, across, spin, roll = built.acting
+    theirs = planned.acting
+    if abs(slide - theirs[0]) > max(LEAST, SHARE * theirs[0]) or abs(across - theirs[1]) > max(
+        LEAST, SHARE * theirs[1]
+    ):
+        here = shown(slide) if slide == across else f"{shown(slide)} one way and {shown(across)} across it"
+        return f"between {{}} a friction of {here} acts, by the plan {shown(theirs[0])}"
+    for word, mine, planned_m, free in (("torsional", spin, theirs[2], SPIN_M), ("rolling", roll, theirs[3], ROLL_M)):
+        if abs(mine - planned_m) > max(1e-6, 0.05 * planned_m) and not (mine == 0 and planned_m <= free):
+            return f"between {{}} a {word} friction of {shown(mine)} m acts, by the plan {shown(planned_m)} m"
+    (ratio, give), (wanted, planned_give) = built.spring(view.time_step), planned.spring(view.time_step)
+    if rebounds_otherwise(ratio, wanted):
+        return f"between {{}} the rebound is {restitution_of(ratio):.2f}, by the plan {restitution_of(wanted):.2f}"
+    if built.solref[0] < 0 and give < min(2 * view.time_step, 0.95 * planned_give):
+        return f"the contact between {{}} is too stiff for the time step (time constant {give * 1e3:.3g} ms)"
+    if give > 1.05 * max(planned_give, SOFTEST_S) or _yields(built, planned):
+        return f"the contact between {{}} is softer than the plan's (time constant {give * 1e3:.3g} ms, solimp {shown(built.solimp)})"
+    if not _same_grip(built, planned):
+        return f"friction between {{}} gives way by a rule of its own (solreffriction {shown(built.solref_friction)})"
+    if abs(built.margin - planned.margin) > 1e-4:
+        return f"{{}} touch at a distance of {shown(built.margin)} m, by the plan of {shown(planned.margin)} m"
+    if abs(built.gap - planned.gap) > 1e-4:
+        return f"{{}} count as touching {shown(built.gap)} m before they meet (gap)"
+    if abs(built.adhesion - planned.adhesion) > 1e-9 and not stated(view.plan, built.adhesion, "adhesion", "stick"):
+        return f"{{}} stick together by up to {shown(built.adhesion)} N at each point, which the plan does not say"
+    speeds = [v for v in built.surface if v]
+    if built.surface != planned.surface and not all(
+        stated(view.plan, v, "belt", "conveyor", "surface", "treadmill", "turntable") for v in speeds
+    ):
+        return f"a surface between {{}} runs at {shown(speeds)}, which is no constant of the plan"
+    return ""
+
+
+def _yields(built: Touch, planned: Touch) -> bool:
+    """Whether a contact gives way more than the plan's and than MuJoCo's own."""
+    least, most, width = built.solimp[:3]
+    soft = least < min(planned.solimp[0], 0.9) - 0.01 or most < min(planned.solimp[1], 0.95) - 0.01
+    return soft or (least < most and width > 1.05 * max(planned.solimp[2], 1e-3))
+
+
+def _same_grip(built: Touch, planned: Touch) -> bool:
+    ours = ((0.0, 0.0), (-1.0, -GRIP), built.solref, planned.solref_friction)
+    return tuple(built.solref_friction) in ours

@@ -1,0 +1,139 @@
+"""What can be touched of a body is not the shape that the plan gives it.
+
+What it does: compares the colliding geoms of each thing of the plan with those of its draft: the box around them (3 % and
+1 mm), the volume inside them (10 %), where in the box that volume lies, and for models and catalog meshes the collision meshes themselves, by hash.
+
+Why is this bad: the size that is checked may be that of what is drawn; what collides may be smaller, elsewhere, or round: a
+crate on a hidden ball rolls. A ramp that rises towards the other side has the same box and the same volume.
+
+Use instead: the plan's primitive, or hulls that fill it; a catalog asset as `assets.add` brings it.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .....model.plan.imported import is_model
+from ....compiled.view import ModelView
+from ....harm import Measured, after
+from ....problem import Problem
+from ._twins import SOUND, changed, owner, shown, twins
+
+CODE = "WM170"
+SEVERITY = "error"
+SCOPE = "acts"
+BALL = "spec.geom('crate').type, spec.geom('crate').size = mujoco.mjtGeom.mjGEOM_ELLIPSOID, (0.2, 0.15, 0.1)"
+RAMP = """\
+from worldkit import bodies, forms, scene
+def build():
+    spec = scene.new("a", time_step=0.002)
+    bodies.formed(spec, "slope", form=forms.wedge(size=(0.8, 0.4, 0.4)), pos=(0, 0, 0.2), fixed=True)
+    for geom in spec.body("slope").geoms:
+        w, x, y, z = geom.quat
+        geom.pos, geom.quat = (-geom.pos[0], -geom.pos[1], geom.pos[2]), (-z, -y, x, w)
+    return spec
+"""
+SLOPED: dict[str, object] = {
+    "simulation_parameters": {"materials": None, "masses": None, "initial_motion": None},
+    "implementation_steps": None,
+    "assets": None,
+    "asset_dimensions": None,
+    "scene_objects": [{"name": "slope", "primitive": "wedge", "size": [0.8, 0.4, 0.4], "fixed": True}],
+    "topology": {"scene_predicates": None, "body_positions": {"slope": {"x": 0, "y": 0, "z": 0.2}}},
+}
+GOOD = SOUND
+BAD = (
+    changed(BALL),
+    changed("spec.geom('crate').size = (0.19, 0.15, 0.1)"),
+    changed("spec.geom('arm').pos = (0.05, 0, 0)"),
+    changed("spec.body('crate').add_geom(size=(0.01, 0, 0), pos=(0, 0, -0.2), mass=0)"),
+    (RAMP, SLOPED),
+)
+EVIDENCE = Measured(
+    "the crate rocks where it should slide flat",
+    lambda s: float(abs(after(s, 1.0)[1].body("crate").xquat[1:3]).max()),
+    0.01,
+    bad=changed(BALL)[0],
+    good=changed()[0],
+)
+SHARE, LEAST_M, VOLUME = 0.03, 1e-3, 0.1
+MIDDLE, SPREAD = 0.03, 0.01
+"""Shares of its box by which the middle of what is inside may be off, and of the box's area its spread (1/12 of a full box)."""
+FIX = "let what collides have the plan's shape"
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """Check things of both worlds."""
+    planned = view.planned
+    assert planned is not None and view.plan is not None
+    meshed = {name for row in view.plan.assets for name in row.instances if row.type == "mesh" or is_model(row)}
+    here, there = _volumes(view), _volumes(planned)
+    for body, twin in twins(view, "body"):
+        name = view.texts["names"]["body"][body]
+        if body == 0 or name not in here or name not in there:
+            continue  # whether it can be touched at all is told by the rule about contacts
+        low, high = (
+            np.abs(a - b)
+            for a, b in (
+                (view.touch_low[body], planned.touch_low[twin]),
+                (view.touch_high[body], planned.touch_high[twin]),
+            )
+        )
+        size = planned.touch_high[twin] - planned.touch_low[twin]
+        room = np.maximum(SHARE * size / 2, LEAST_M)
+        if (low > room).any() or (high > room).any():
+            built = view.touch_high[body] - view.touch_low[body]
+            message = f"what can be touched of {name} measures {shown(built)} m, by the plan {shown(size)} m, or lies elsewhere in it"
+            yield view.at("body", body, message, FIX)
+        elif abs(here[name] - there[name]) > VOLUME * there[name]:
+            message = f"what can be touched of {name} fills {here[name] * 1e3:.4g} litres, by the plan {there[name] * 1e3:.4g}"
+            yield view.at("body", body, message, FIX)
+        elif there[name] and _elsewhere(_inside(view, body, name), _inside(planned, twin, name), size):
+            message = f"what can be touched of {name} fills its box otherwise than the plan's {name}"
+            yield view.at("body", body, message, FIX)
+        elif name in meshed and _meshes(view, name) != _meshes(planned, name):
+            yield view.at(
+                "body", body, f"the collision meshes of {name} are not those of its model", "use the catalog's hulls"
+            )
+
+
+def _volumes(view: ModelView) -> dict[str, float]:
+    """The volume inside the colliding geoms of each thing, m^3."""
+    found: dict[str, float] = {}
+    for geom in np.flatnonzero(view.collides):
+        name = _holder(view, int(view.geom_bodyid[geom]))
+        found[name] = found.get(name, 0.0) + float(view.geom_solid[geom])
+    return found
+
+
+def _inside(view: ModelView, body: int, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Middle (3,), m, and covariance (3, 3), m^2, of the points inside what can be touched of a thing, in its frame."""
+    mine = [g for g in np.flatnonzero(view.collides) if _holder(view, int(view.geom_bodyid[g])) == name]
+    share = view.geom_solid[mine] / view.geom_solid[mine].sum()
+    turns, back = view.geom_xmat[mine], view.xmat[body].T
+    middles = (view.geom_xpos[mine] + np.einsum("nij,nj->ni", turns, view.geom_middle[mine]) - view.xpos[body]) @ back.T
+    axes = back @ turns
+    spread = np.einsum("n,nij,njk,nlk->il", share, axes, view.geom_spread[mine], axes)
+    middle = share @ middles
+    off = middles - middle
+    return middle, spread + np.einsum("n,ni,nj->ij", share, off, off)
+
+
+def _elsewhere(here: tuple[np.ndarray, np.ndarray], there: tuple[np.ndarray, np.ndarray], size: np.ndarray) -> bool:
+    """Whether two shapes of one box and volume fill another part of the box; `size` (3,) is the box's, m."""
+    away, wider = np.abs(here[0] - there[0]), np.abs(here[1] - there[1])
+    return bool(
+        (away > np.maximum(MIDDLE * size, LEAST_M)).any() or (wider > SPREAD * np.outer(size, size) + LEAST_M**2).any()
+    )
+
+
+def _meshes(view: ModelView, name: str) -> set[str]:
+    return {
+        view.texts["mesh_sha256"][int(view.geom_dataid[geom])]
+        for geom in np.flatnonzero(view.collides)
+        if view.geom_kind[geom] == "mesh" and _holder(view, int(view.geom_bodyid[geom])) == name
+    }
+
+
+def _holder(view: ModelView, body: int) -> str:
+    return owner(view, body) if view.planned is not None else str(view.texts["names"]["body"][body])

@@ -1,0 +1,107 @@
+"""A solver beside the engine does not exist, or is not given what it reads.
+
+What it does: for each row of `interventions` with a `solver`: compares its name with the solvers that are installed, its
+`constants` with what that solver reads, each with the plan's constant of that name and its unit, its `bodies` with the
+plan's moving objects, and `shown_by` with the objects that are only drawn.
+
+Why is this bad: the physics pass refuses the world when it starts; and a constant in another unit gives another world,
+without a word.
+
+Use instead: the solver's own names, each with the name of a row of `simulation_parameters.constants` in the unit that it reads.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from ....model.plan.declared_inputs import Constant, Intervention
+from ...case import Changes
+from ...harm import Measured
+from ...plan_view import Place, PlanView
+from ...problem import Problem
+
+CODE = "WP130"
+SEVERITY = "error"
+_READ = {"density": "kg/m^3", "area": "m^2", "floor": "m", "volume": "m^3", "inflow": "m^3/s", "damping": "1/s"}
+
+
+def _with(bodies: tuple[str, ...] = ("crate",), **solver: Any) -> dict[str, Any]:
+    constants = {name: {"value": 1.0, "unit": unit, "source": "the prompt's bath"} for name, unit in _READ.items()}
+    said = {"name": "basin", "constants": {name: name for name in _READ}, **solver}
+    row = {"kind": "solver", "bodies": bodies, "law": "Archimedes", "source": "the prompt's bath", "solver": said}
+    return {"simulation_parameters": {"constants": constants, "interventions": [row]}}
+
+
+NAMELESS = {"kind": "solver", "bodies": ["crate"], "law": "3 N of air", "source": "a table"}
+GOOD: Changes = ({}, _with())
+BAD: Changes = (
+    _with(name="tide"),
+    _with(constants={}),
+    _with(constants={**{name: name for name in _READ}, "salt": "density"}),
+    _with(constants={**{name: name for name in _READ}, "area": "acreage"}),
+    _with(constants={**{name: name for name in _READ}, "area": "volume"}),
+    _with(shown_by="crate"),
+    _with(bodies=("whale",)),
+    {"simulation_parameters": {"interventions": [NAMELESS]}},
+)
+
+
+def _taken(change: Mapping[str, Any]) -> float:
+    """1 when the engine's process takes the case's solver, else 0."""
+    from worldengine.solvers import Row, check
+    from worldkit.errors import ProgramError
+
+    parameters = change["simulation_parameters"]
+    row = Intervention.model_validate(parameters["interventions"][0])
+    told = {name: Constant.model_validate(value) for name, value in parameters["constants"].items()}
+    try:
+        check(Row.read({"bodies": row.bodies, **row.beside(told)}))
+    except ProgramError:
+        return 0.0
+    return 1.0
+
+
+EVIDENCE = Measured("the engine refuses the solver", _taken, 0.5, good=1)
+
+
+def check(view: PlanView) -> Iterator[Problem]:
+    """Check every row of a solver."""
+    parameters = view.plan.simulation_parameters
+    for index, row in enumerate(parameters.interventions):
+        place = ("simulation_parameters", "interventions", index)
+        if row.solver is not None:
+            yield from _row_problems(view, row, place)
+        elif row.kind == "solver":
+            what = f"the solver on {', '.join(row.bodies)} has no name, so that nothing steps it"
+            yield view.at(
+                place, what, "name it under `solver`; for a law that `control` computes, declare its force or torque"
+            )
+
+
+def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[Problem]:
+    from worldengine.solvers import SEAM
+
+    said, rows = row.solver, view.rows
+    assert said is not None
+    if said.name not in SEAM.names():
+        yield view.at(place, f"there is no solver `{said.name}`", f"name one of: {', '.join(SEAM.names())}")
+        return
+    read, own = SEAM.find(said.name).CONSTANTS, view.plan.simulation_parameters.constants
+    listed = ", ".join(f"{name} ({unit}: {meaning})" for name, (unit, meaning) in read.items())
+    for name in sorted({*read, *said.constants}):
+        if name not in said.constants:
+            yield view.at(place, f"`{said.name}` is not told its {name}", f"it reads {listed}")
+        elif name not in read:
+            yield view.at(place, f"`{said.name}` has no use for `{name}`", f"it reads {listed}")
+        elif (found := own.get(said.constants[name])) is None:
+            what = f"the {name} of `{said.name}` is `{said.constants[name]}`, which is no constant of the plan"
+            yield view.at(place, what, f"known: {', '.join(own) or '(none)'}")
+        elif found.unit != read[name][0] or isinstance(found.value, tuple):
+            what = f"`{said.name}` reads its {name} in {read[name][0]}, and {said.constants[name]} is in {found.unit}"
+            yield view.at(place, what, f"give one number, in {read[name][0]}")
+    for body in row.bodies:
+        if body not in rows or not view.moves(rows[body]):
+            yield view.at(place, f"`{said.name}` acts on `{body}`, which does not move", "name objects that can move")
+    drawn = {name for name, thing in rows.items() if getattr(thing, "visual_only", None) is not None}
+    if said.shown_by and said.shown_by not in drawn:
+        what = f"`{said.name}` is shown by `{said.shown_by}`, which is no object that is only drawn"
+        yield view.at(place, what, "name one with `visual_only`: what is simulated is not moved by a picture")

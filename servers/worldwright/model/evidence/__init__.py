@@ -1,0 +1,1 @@
+"""What a run folder proves: passes, reports, verdicts, the journal, approvals."""

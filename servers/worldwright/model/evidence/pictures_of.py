@@ -1,0 +1,41 @@
+"""Which pictures a pass would make now: by what renderer and code, and, of the video pass, by what film of its author.
+
+`film.py`, beside the program, is no part of the physics: changing it leaves every recording and every still as it is, and
+makes the video pass another one, of which only the author's own film has to be drawn again.
+"""
+
+import hashlib
+
+from . import companions, environment
+from .reports import PassName
+from .run import Run, sha256_file
+
+FILM = "film.py"
+
+
+def identity(run: Run, stage: PassName) -> str:
+    """SHA-256 of everything but the recording that the pictures of a pass depend on; empty for physics.
+
+    Raises:
+        NotFoundError: there is no such renderer as `WORLDKIT_RENDERER` names.
+    """
+    if stage == "physics":
+        return ""
+    drawn = environment.film().sha256
+    authored = author_sha256(run) if stage == "video" else ""
+    return hashlib.sha256(f"{drawn}\n{authored}".encode()).hexdigest() if authored else drawn
+
+
+def author_sha256(run: Run) -> str:
+    """One hash over `film.py` and the files that belong to it; empty where nobody wrote one."""
+    path = run.folder / FILM
+    if not path.is_file():
+        return ""
+    beside = companions.sha256(path)
+    return hashlib.sha256(f"{sha256_file(path)}\n{beside}".encode()).hexdigest()
+
+
+def files(run: Run) -> dict[str, bytes]:
+    """`film.py` and what belongs to it, by path relative to the run; empty where nobody wrote one."""
+    path = run.folder / FILM
+    return {FILM: path.read_bytes(), **companions.of(path)} if path.is_file() else {}

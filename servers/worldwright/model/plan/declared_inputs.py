@@ -1,0 +1,54 @@
+"""What a plan declares to act on the state besides the engine's own step, and the constants of its laws."""
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import model_validator
+
+from ..frozen import Frozen
+
+
+class Constant(Frozen):
+    """A named physical constant with its unit and source."""
+
+    value: float | tuple[float, ...]
+    unit: str
+    source: str
+
+
+class Beside(Frozen):
+    """A solver that steps beside the engine (`worldengine.solvers`)."""
+
+    name: str
+    constants: dict[str, str] = {}
+    """What it reads, by its own names: each the name of a row of `constants`."""
+    shown_by: str = ""
+    """An object that is `visual_only` and shows it: the water's surface."""
+
+
+class Intervention(Frozen):
+    """Something the plan means to do to the state besides the engine's own step."""
+
+    kind: Literal["force", "torque", "control", "pose", "velocity", "mocap", "constraint", "parameter", "solver"]
+    bodies: tuple[str, ...]
+    law: str
+    """The law in words or a formula."""
+    trigger: str = "always"
+    source: str
+    """Where its constants come from."""
+    solver: Beside | None = None
+    """Of the kind `solver`: the one beside the engine that works it out. None: the program's `control` does."""
+
+    @model_validator(mode="after")
+    def _of_its_kind(self) -> "Intervention":
+        if self.solver is not None and self.kind != "solver":
+            raise ValueError(f"a row of kind `{self.kind}` has no `solver`; use the kind `solver`")
+        return self
+
+    def beside(self, constants: Mapping[str, Constant]) -> dict[str, Any]:
+        """What the engine is told of its solver, with the values of its constants; empty where it has none."""
+        if self.solver is None:
+            return {}
+        named = {own: constants[name].value for own, name in self.solver.constants.items() if name in constants}
+        values = {own: value for own, value in named.items() if not isinstance(value, tuple)}
+        return {"solver": {"name": self.solver.name, "constants": values, "shown_by": self.solver.shown_by}}

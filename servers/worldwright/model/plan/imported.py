@@ -1,0 +1,171 @@
+"""Models that a plan brings in as they are: asset rows of type `mjcf` and `urdf`, read from beside the plan or the catalog.
+
+A model is metric: it owns its size, its masses and its joints. The text goes into the program, so that evidence covers it.
+"""
+
+import json
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from ..errors import PlanError, WorldwrightError
+from .committed import Plan
+from .scene_objects import AssetRow, Vec3
+
+SUFFIXES = {"mjcf": (".xml", ".mjcf"), "urdf": (".urdf", ".xml")}
+LIMIT_S = 30.0
+_OPTION = re.compile(r"[ \t]*<option\b[^>]*?/>\n?|[ \t]*<option\b[^>]*>.*?</option>\n?", re.DOTALL)
+"""Time step, gravity and solver of an MJCF: the plan owns them, so they do not stand a second time in the program."""
+
+
+@dataclass(frozen=True)
+class Imported:
+    """A model that a row names."""
+
+    text: str
+    folder: str | None
+    """The catalog's folder with its meshes; None for a model beside the plan."""
+    extents: Vec3
+    """Extents of the box around its rest pose, m."""
+    mass_kg: float
+    bodies: tuple[str, ...]
+    """Names that its bodies get in the world, for the row's first instance; the root comes first."""
+    joints: dict[str, str]
+    """Names that its joints get in the world, each with its kind: hinge, slide, ball or free."""
+    actuators: tuple[str, ...]
+
+    def names(self) -> set[str]:
+        """All names that expectations, motions and joints may use."""
+        return {*self.bodies, *self.joints, *self.actuators}
+
+
+def is_model(row: Any) -> bool:
+    """Whether a row brings in a model with bodies and joints of its own."""
+    return isinstance(row, AssetRow) and row.type in SUFFIXES
+
+
+def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imported:
+    """The model of a row, with names as one instance has them (default: the first).
+
+    Args:
+        row: of type mjcf or urdf.
+        folder: the plan's; files are looked for there, then in the catalog.
+        instance: name of an instance.
+
+    Raises:
+        PlanError: the file is missing or is no such model; the message names it, and what is wrong in it.
+    """
+    path, home = _file(row, folder)
+    try:
+        text = path.read_text(encoding="utf-8").strip()
+    except (OSError, UnicodeDecodeError) as cause:
+        raise PlanError(
+            f"asset `{row.name}`: {row.filename} cannot be read: {cause}", next_move="save it as UTF-8 text"
+        ) from cause
+    wanted = {"urdf": "<robot", "mjcf": "<mujoco"}[row.type]
+    if wanted not in text and ("<robot" in text or "<mujoco" in text):
+        other = "urdf" if row.type == "mjcf" else "mjcf"
+        raise PlanError(
+            f"asset `{row.name}`: {row.filename} is not of type {row.type}", next_move=f"write `type: {other}`"
+        )
+    text = _OPTION.sub("", text)
+    name = instance or row.instances[0]
+    try:
+        known = _facts(text, name, home)
+    except ValueError as error:
+        raise PlanError(
+            f"asset `{row.name}`: {row.filename} does not load: {error}",
+            next_move=f"correct {row.filename} (skill importing-models); `worldwright stage start RUN --model FILE` shows a file as it is",
+        ) from error
+    x, y, z = known["extents"]
+    return Imported(
+        text=text,
+        folder=home,
+        extents=(x, y, z),
+        mass_kg=known["mass"],
+        bodies=tuple(known["bodies"]),
+        joints=known["joints"],
+        actuators=tuple(known["actuators"]),
+    )
+
+
+def files(plan: Plan) -> Iterator[Path]:
+    """The files beside a plan, relative to it, that its rows name; a copy of the plan needs them too."""
+    for row in plan.assets:
+        if is_model(row) and plan.folder is not None:
+            path = (plan.folder / row.filename).resolve()
+            if path.is_file() and path.is_relative_to(plan.folder.resolve()):
+                yield Path(row.filename)
+
+
+def beside(folder: Path) -> dict[str, bytes]:
+    """The files that the plan of a run folder names, by path relative to it; nothing when it cannot be read."""
+    from .plan_text import read_plan
+
+    with suppress(WorldwrightError, OSError):
+        return {path.as_posix(): (folder / path).read_bytes() for path in files(read_plan(folder / "plan.md").plan)}
+    return {}
+
+
+def all_of(plan: Plan) -> Iterator[tuple[str, AssetRow, Imported]]:
+    """Every instance of every model of a plan that loads, with its row and the names it has in the world."""
+    for row in plan.assets:
+        if is_model(row):
+            for instance in row.instances:
+                with suppress(PlanError):
+                    yield instance, row, load(row, plan.folder, instance)
+
+
+def _file(row: AssetRow, folder: Path | None) -> tuple[Path, str | None]:
+    """Where a row's file is, and its folder if that is in the catalog."""
+    from worldkit import assets
+
+    if not row.filename.endswith(SUFFIXES[row.type]):
+        endings = " or ".join(SUFFIXES[row.type])
+        raise PlanError(
+            f"asset `{row.name}` of type {row.type}: `{row.filename}` is not the name of such a file",
+            next_move=f"name a file ending in {endings}, relative to the plan's folder or to the catalog",
+        )
+    places: list[tuple[Path, str | None]] = [] if folder is None else [(folder, None)]
+    with suppress(FileNotFoundError):
+        places.append((assets.catalog_root(), str(Path(row.filename).parent)))
+    for root, home in places:
+        path = (root / row.filename).resolve()
+        if path.is_file() and path.is_relative_to(root.resolve()):
+            return path, home
+    raise PlanError(
+        f"asset `{row.name}`: there is no file {row.filename} beside the plan or in the catalog",
+        next_move="put the file beside plan.md, or correct `filename`; paths are relative and stay inside the folder",
+    )
+
+
+@lru_cache(maxsize=256)
+def _facts(text: str, name: str, folder: str | None) -> dict[str, Any]:
+    """See `worldkit.models.facts`; in a process of its own, for an engine error may end the process it happens in."""
+    servers = Path(__file__).parents[3]
+    request = json.dumps({"text": text, "name": name, "folder": folder})
+    try:
+        done = subprocess.run(
+            [sys.executable, "-m", "worldkit.models"],
+            input=request.encode(),
+            capture_output=True,
+            cwd=servers,
+            timeout=LIMIT_S,
+            check=False,
+        )
+    except subprocess.TimeoutExpired as cause:
+        raise ValueError(f"it took longer than {LIMIT_S:g} s to read") from cause
+    try:
+        answer: dict[str, Any] = json.loads(done.stdout)
+    except ValueError as cause:
+        last = done.stderr.decode(errors="replace").strip().splitlines()
+        raise ValueError(f"the engine gave up on it: {last[-1] if last else f'status {done.returncode}'}") from cause
+    if "error" in answer:
+        raise ValueError(answer["error"])
+    return answer

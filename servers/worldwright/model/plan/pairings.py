@@ -1,0 +1,60 @@
+"""Constants of what meets: two things that rub otherwise than their materials say, the ends of a joint's range, the air."""
+
+from pydantic import Field
+
+from ..frozen import Frozen
+from .object_parts import Vec3
+
+
+class Touch(Frozen):
+    """What two surfaces do to each other where they touch."""
+
+    friction: float = Field(0.5, ge=0)
+    """Sliding friction coefficient, unitless."""
+    torsional_friction: float = Field(0.005, ge=0)
+    """Metres (MuJoCo's convention: a coefficient times a contact radius)."""
+    rolling_friction: float = Field(0.0001, ge=0)
+    """Metres."""
+    restitution: float | None = Field(None, ge=0, le=1)
+    """Ratio of rebound to impact speed along the normal; None: the engine's default (nearly dead) contact."""
+    source: str = ""
+    """Where the constants come from."""
+
+
+class SurfaceConstants(Touch):
+    """Physical constants of one material, referred to by objects as `material`."""
+
+    density: float | None = Field(None, gt=0)
+    """kg/m^3."""
+    adhesion: float = Field(0.0, ge=0)
+    """N with which it sticks at each contact point; a box's face has four of them, a ball one.
+    What hangs by it alone is not held sideways: a breath of wind moves it."""
+
+
+class PairSurface(Touch):
+    """Physical constants between two things, instead of those of their materials."""
+
+    between: tuple[str, str]
+    """Two objects, or one and `ground`."""
+
+
+class Stop(Frozen):
+    """How a joint is stopped at the ends of its range."""
+
+    time_constant: float | None = Field(None, gt=0)
+    """s: shorter is harder, four time steps are as hard as holds; None: 20 ms."""
+    restitution: float | None = Field(None, ge=0, le=1)
+    """Ratio of the speeds after and before; None: it hardly rebounds."""
+
+
+class Medium(Frozen):
+    """What everything moves in: air, or water that fills the world; it drags, and moves with the wind."""
+
+    density: float = Field(1.2, ge=0)
+    """kg/m^3; air at 20 degrees Celsius."""
+    viscosity: float = Field(1.8e-5, ge=0)
+    """Pa·s."""
+    wind: Vec3 = (0.0, 0.0, 0.0)
+    """m/s, world frame, the same everywhere and always."""
+    source: str
+    """Where the constants come from."""

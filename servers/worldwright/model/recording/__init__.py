@@ -1,0 +1,1 @@
+"""A recorded motion as data: poses, contacts, loads, mechanics."""

@@ -1,0 +1,36 @@
+"""Forces of constraints, tendons and actuators, and what is drawn: the channels that show what carries and what acts."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Channels of one recording, T rows; names and bodies of their columns are in the recording's meta."""
+
+    eq_force: Array
+    """(T, E) N (N·m where an equality ties hinges): norm of each equality's force, 0 while it is off."""
+    eq_active: Array
+    """(T, E) bool."""
+    tendon_force: Array
+    """(T, N) N: tension of each tendon by its spring, damper and limit."""
+    actuator_force: Array
+    """(T, U) N or N·m."""
+    ctrl: Array
+    """(T, U)."""
+    eq_torque: Array | None = None
+    """(T, E) N·m: norm of each weld's torque, 0 for other equalities; None in recordings that do not have it."""
+    edits: Sequence[tuple[float, str, int, float]] = ()
+    """Time in s, name of the model array, flat index, new value: every edit of the model, looks included."""
+    overlaps: Sequence[dict[str, Any]] | None = None
+    """Visible geoms seen to overlap though they cannot collide; None when nobody looked."""
+
+    def before(self, row: int) -> "Loads":
+        """The channels up to `row`, exclusive."""
+        cut = {f.name: getattr(self, f.name)[:row] for f in fields(self)[:5]}
+        return replace(self, **cut, eq_torque=None if self.eq_torque is None else self.eq_torque[:row])

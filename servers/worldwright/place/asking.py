@@ -1,0 +1,189 @@
+"""Ask the pre-roll process which objects penetrate, and what happens when they are released."""
+
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..model.errors import JobError
+from ..model.plan.committed import AssetRow, Plan, SceneObject
+from ..model.plan.formed import arguments
+from ..model.plan.imported import is_model, load
+from ..model.plan.layout import Scene
+from .start import Motion
+
+LIMIT_S = 40.0
+
+
+def jointed(plan: Plan) -> set[str]:
+    """Objects that a joint holds, and their parents: the pre-roll leaves them where they are."""
+    return {name for joint in plan.topology.joints for name in (joint.parent, joint.child)} - {"world"}
+
+
+def why_held(plan: Plan, scene: Scene) -> dict[str, str]:
+    """The objects that are not released, and why: the pre-roll has no joints, without which mechanisms fall apart."""
+    reasons: dict[str, str] = {}
+    for joint in plan.topology.joints:
+        reasons.setdefault(joint.child, f"on {joint.type} {joint.name} of {joint.parent}")
+    for joint in plan.topology.joints:
+        reasons.setdefault(joint.parent, f"carries {joint.child} by {joint.type} {joint.name}")
+    reasons |= dict.fromkeys(drawn_only(plan), "drawn only")
+    return {o.name: reasons[o.name] for o in scene.objects if o.name in reasons}
+
+
+def drawn_only(plan: Plan) -> set[str]:
+    """Objects that are not simulated."""
+    return {row.name for row in plan.scene_objects if row.visual_only}
+
+
+def simulate(
+    plan: Plan,
+    scene: Scene,
+    *,
+    only: set[str] | None = None,
+    loose: bool = False,
+    duration_s: float = 0.0,
+    everything: bool = False,
+    pairs: Sequence[tuple[str, str]] = (),
+    far_m: float = 0.0,
+    falling: Sequence[str] = (),
+    cameras: Sequence[dict[str, Any]] = (),
+    ground: bool = False,
+    moved: Mapping[str, Motion] | None = None,
+) -> dict[str, Any]:
+    """Run the pre-roll on resolved objects (see `preroll.answer`).
+
+    Args:
+        plan: the plan, for materials, masses and gravity.
+        scene: its layout.
+        only: these objects alone; None for all that are simulated.
+        loose: give fixed things a free joint too, so that contacts between them are seen; there is then no ground,
+            unless `ground` asks for it.
+        duration_s: how long they move freely, s.
+        everything: include what is only drawn.
+        pairs, far_m: pairs whose distances are measured, up to so many metres.
+        falling: objects whose height above what stops them straight below is measured.
+        cameras: cameras whose view is measured (`visibility`).
+        moved: rigid motions to start from, by name (`start.motions`); others start where they are placed.
+
+    Raises:
+        JobError: the process failed, diverged, or took longer than 40 s.
+    """
+    hidden = drawn_only(plan)
+    names = {o.name for o in scene.objects if (everything or o.name not in hidden) and (only is None or o.name in only)}
+    request = _request(plan, scene, names, loose and not ground, loose) | {"duration_s": duration_s}
+    for row in request["objects"]:
+        motion = (moved or {}).get(row["name"])
+        row["moved"] = None if motion is None else [motion.rotation, motion.shift]
+    request |= {"pairs": list(pairs), "far_m": far_m, "falling": list(falling), "cameras": list(cameras)}
+    with tempfile.TemporaryDirectory(prefix="worldwright-preroll-") as folder:
+        out = Path(folder) / "answer.json"
+        sources = str(Path(__file__).resolve().parents[2])
+        paths = os.pathsep.join(p for p in (sources, os.environ.get("PYTHONPATH", "")) if p)
+        try:
+            done = subprocess.run(
+                [sys.executable, "-m", "worldwright.place.preroll"],
+                input=json.dumps(request | {"out": str(out)}).encode(),
+                capture_output=True,
+                cwd=folder,  # the engine may leave a log file where it runs
+                env={**os.environ, "PYTHONPATH": paths},
+                timeout=LIMIT_S,
+                check=False,
+            )
+        except subprocess.TimeoutExpired as cause:
+            raise JobError(
+                f"the pre-roll took longer than {LIMIT_S:g} s",
+                code="timed_out",
+                place="place.preroll",
+                next_move="settle for a shorter duration_s, or split the plan",
+            ) from cause
+        if not out.is_file():
+            last = done.stderr.decode(errors="replace").strip().splitlines()
+            raise JobError(
+                f"the pre-roll process ended with status {done.returncode}: {last[-1] if last else 'no message'}",
+                code="crashed",
+                place="place.preroll",
+                next_move="check the sizes and masses of the objects; `worldwright doctor` checks the simulator",
+            )
+        result: dict[str, Any] = json.loads(out.read_text(encoding="utf-8"))
+    if "error" in result:
+        raise JobError(
+            f"the pre-roll failed: {result['error']}",
+            code="crashed",
+            place="place.preroll",
+            next_move="check sizes, masses and materials of the objects it names",
+        )
+    return result
+
+
+def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: bool) -> dict[str, Any]:
+    parameters = plan.simulation_parameters
+    held = jointed(plan)
+    step = parameters.time_step
+    rows: dict[str, SceneObject | AssetRow] = {row.name: row for row in plan.scene_objects}
+    rows |= {name: row for row in plan.assets for name in row.instances}
+    ground = parameters.materials.get("ground")
+    objects = []
+    for placed in scene.objects:
+        if placed.name not in names:
+            continue
+        row = rows[placed.name]
+        surface = _surface(plan, row.material)
+        objects.append(
+            {
+                "name": placed.name,
+                "asset": row.filename if isinstance(row, AssetRow) and not is_model(row) else None,
+                "model": _model(plan, row),
+                "primitive": row.primitive if isinstance(row, SceneObject) else None,
+                "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
+                "size": row.size if isinstance(row, SceneObject) else placed.size,
+                "parts": _parts(plan, row),
+                "form": arguments(row.primitive, vars(row)) if isinstance(row, SceneObject) and row.formed else None,
+                "tilt_deg": row.deg_x if isinstance(row, SceneObject) else 0.0,
+                "position": placed.position,
+                "deg_z": placed.deg_z,
+                "fixed": not loose and (placed.fixed or placed.name in held),
+                "surface": surface,
+                "mass": parameters.masses.get(placed.name, parameters.masses.get(row.name)),
+            }
+        )
+    return {
+        "objects": objects,
+        "gravity": parameters.gravity_vector,
+        "time_step": min(step if isinstance(step, float) else 0.002, 0.002),
+        "ground": None if floating else (_surface(plan, "ground") if ground else {}),
+    }
+
+
+def _model(plan: Plan, row: SceneObject | AssetRow) -> dict[str, Any] | None:
+    """Text and catalog folder of a model file."""
+    if not isinstance(row, AssetRow) or not is_model(row):
+        return None
+    model = load(row, plan.folder)
+    return {"text": model.text, "folder": model.folder}
+
+
+def _parts(plan: Plan, row: SceneObject | AssetRow) -> list[dict[str, Any]]:
+    """Arguments of `worldkit.parts.Part` for each part of a compound."""
+    if not isinstance(row, SceneObject):
+        return []
+    return [vars(part.part()) | {"surface": _surface(plan, part.material)} for part in row.parts]
+
+
+def _surface(plan: Plan, material: str | None) -> dict[str, float] | None:
+    """Arguments of `worldkit.contacts.surface` for a material of the plan."""
+    constants = plan.simulation_parameters.materials.get(material or "")
+    if constants is None:
+        return None
+    values = {
+        "friction": constants.friction,
+        "torsional": constants.torsional_friction,
+        "rolling": constants.rolling_friction,
+        "restitution": constants.restitution,
+        "density": constants.density,
+    }
+    return {key: value for key, value in values.items() if value is not None}

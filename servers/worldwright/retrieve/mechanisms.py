@@ -1,0 +1,109 @@
+"""Mechanisms: what makes a world happen, as a sentence says it and as a plan has it, and the skill that explains it.
+
+Each row reads: name; words of a sentence (`*`: any ending; several words must all occur); expectations that measure it; skill.
+"""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from typing import NamedTuple
+
+from ..model.plan.committed import Plan
+
+_TABLE = """
+    rope     ; string, rope, cord, tether*, chain, yo-yo, yoyo, kite, crane, hang, hung, pulley, hoist ; keeps_length ; tendons-and-ropes
+    swinging ; swing, pendul*, sway, cradle, wrecking, metronome ; has_period, rings_down, oscillates, keeps_amplitude ; joints-and-actuators
+    turning  ; turn, rotat*, wheel, mill, windmill, door, hinge, pivot*, see-saw, seesaw, lever, crank, axle, propell*, clock, carousel, spin, orbit, circl* ; orbits, circles, turns, reaches_spin, spins_at_constant_rate, precesses ; joints-and-actuators
+    spring   ; spring, catapult*, slingshot, bow, arrow, jack-in-the-box, trampolin*, compress*, elastic*, bungee ; spring_becomes_kinetic ; tendons-and-ropes
+    motor    ; motor*, drive, driven, robot*, servo, engine, machine, conveyor, pump ; ; joints-and-actuators
+    rolling  ; roll, marble, slope, ramp, hill, downhill ; rolls_without_slipping ; contacts-and-friction
+    sliding  ; slid*, push, drag, skid, sled, sledge, puck, curling ; slides, slides_and_stops, sticks ; contacts-and-friction
+    flight   ; throw, thrown, hurl, shoot, shot, kick, toss, jump, leap, fly, flies, flight, trajector*, cannon*, launch ; follows_parabola ; cameras
+    bouncing ; bounc*, drop, rebound*, dribbl* ; bounces, rebounds ; materials
+    impact   ; collid*, collision, strik*, struck, hit, knock, crash, billiard*, cradle, hammer*, bowling ; opposite_directions ; contacts-and-friction
+    tipping  ; tip, toppl*, domino*, fall over, lean, balanc*, ladder*, wobbl*, overturn*, see-saw, seesaw ; tips_over ; solver-and-time-step
+    stacking ; stack, pile, tower, brick ; ; layouts
+    crowded  ; laid, crowd*, bookshel*, dining, dinner, desk, workshop, street ; ; layouts
+    air      ; wind, blow, draught, parachut*, feather, leaf, flutter*, sail, flag, kite, windmill, gust, air ; reaches_terminal_speed ; fluid-drag-and-wind
+    water    ; water, float, sink, swim, boat, ship, raft, river, wave, buoy* ; floats, sinks, surfaces, pours_into ; fluid-drag-and-wind
+    soft     ; cloth, flag, curtain, towel, jelly, rubber, sponge, soft*, bend, bent, hose, cable ; sags, bends, stretches, keeps_new_shape, returns_to_shape ; flex-cloth-soft-rods
+    breaking ; break, broke, broken, snap, shatter*, crack, tear, torn, burst, fractur*, collaps* ; breaks, breaks_at, comes_apart ; breakable-things
+    figure   ; person, man, woman, child, dancer, gymnast, doll, puppet, walk, acrobat ; ; articulated-figures
+    vehicle  ; car, truck, cart, bicycl*, bike, train, wagon, vehicl*, tractor, skateboard* ; ; vehicles
+    force    ; magnet*, attract*, repel*, electr*, planet*, thrust, rocket, charge ; ; custom-forces
+    model    ; urdf, mjcf, humanoid, quadruped ; ; importing-models
+"""
+
+
+class Mechanism(NamedTuple):
+    """One row of the table."""
+
+    name: str
+    said: tuple[tuple[str, ...], ...]
+    """Phrases; each a tuple of words."""
+    measured: tuple[str, ...]
+    """Names of expectations."""
+    skill: str
+
+
+@cache
+def table() -> tuple[Mechanism, ...]:
+    """Every mechanism, in the order of the table."""
+    rows = []
+    for line in _TABLE.strip().splitlines():
+        name, said, measured, skill = (part.strip() for part in line.split(";"))
+        phrases = tuple(tuple(phrase.split()) for phrase in said.split(",") if phrase.strip())
+        rows.append(Mechanism(name, phrases, tuple(measured.replace(",", " ").split()), skill))
+    return tuple(rows)
+
+
+def of_sentence(sentence: str) -> tuple[str, ...]:
+    """The mechanisms that a sentence names.
+
+    >>> of_sentence("a steady wind turns a windmill")
+    ('turning', 'air')
+    """
+    spoken = re.findall(r"[a-z][a-z-]*", sentence.lower())
+    return tuple(
+        row.name
+        for row in table()
+        if any(all(any(_means(word, part) for word in spoken) for part in phrase) for phrase in row.said)
+    )
+
+
+def _means(word: str, part: str) -> bool:
+    """Whether a word is one of the table: in a simple form of it, or beginning with it where it ends with `*`."""
+    if part.endswith("*"):
+        return word.startswith(part[:-1])
+    last = re.escape(part[-1])
+    stem, ending = (re.escape(part[:-1]), "e") if part.endswith("e") else (re.escape(part), "")
+    return re.fullmatch(rf"{stem}(?:{ending}s?|es|ed|er|ers|ing|{last}ed|{last}ing)", word) is not None or word == part
+
+
+def of_plan(plan: Plan) -> tuple[str, ...]:
+    """The mechanisms that a plan has, by its sections and by what it measures."""
+    found = {*of_sentence(plan.title), *_built(plan)}
+    names = {name for objective in plan.objectives for row in objective.expect for name in row}
+    found |= {row.name for row in table() if any(name in row.measured for name in names)}
+    return tuple(row.name for row in table() if row.name in found)
+
+
+def _built(plan: Plan) -> Iterator[str]:
+    topology, parameters = plan.topology, plan.simulation_parameters
+    if any(not tendon.stiffness for tendon in topology.tendons):
+        yield "rope"
+    if any(tendon.stiffness for tendon in topology.tendons) or any(joint.stiffness for joint in topology.joints):
+        yield "spring"
+    if any(joint.type in ("hinge", "ball") for joint in topology.joints):
+        yield "turning"
+    if topology.actuators:
+        yield "motor"
+    if any(row.kind == "wind" or "wind" in row.law.split() for row in parameters.interventions):
+        yield "air"
+    if plan.layout_density:
+        yield "crowded"
+
+
+def skills(names: tuple[str, ...]) -> tuple[str, ...]:
+    """The skills of mechanisms, each once."""
+    return tuple(dict.fromkeys(row.skill for row in table() if row.name in names))

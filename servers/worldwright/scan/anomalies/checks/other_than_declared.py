@@ -1,0 +1,228 @@
+"""What acts is not what the plan says acts: a stronger push than its law, a push before its time, another gravity.
+
+What it means: an exception was declared so that it passes, and something else was done. Readers of the report read the
+declaration; what is done must be what they read.
+
+Formula: for a declared force, torque or velocity whose law states a number in that kind's unit, the largest magnitude in
+the ledger against the first number stated, or the greater end of a range (kN and mN·m converted); velocities that are
+given again and again are added up over a second. A law `along +X` against the direction of all that acts, summed; a law
+that brakes or resists against the work done. A control that the plan gives as a number against the controls sent. For a
+trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the earliest time stated and, where two are
+stated, the last act against the latest. The recording's gravity, and gravity written while it runs, against the plan's or
+the law's m/s^2.
+Threshold: 5 % and 1e-6 of the number; 20 ms, or three recorded rows, of time; a cosine of 0.7; 0.02 m/s^2 of gravity
+(9.80665 or 9.81). Blocking.
+Source: the architecture's "Interventions are recorded".
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from ....model.plan import law_words
+from ....model.plan.committed import Intervention, Plan, SimulationParameters
+from ....model.recording.trajectory import Trajectory
+from ...known import analytic
+from ..declared import when
+from ..sign import Case, Context, Sign
+
+CODE = "WS317"
+STAGING = True
+NEEDS = ("pos",)
+SHARE, DELAY_S, GRAVITY, ASTRAY = 0.05, 0.02, 0.02, 0.7
+EACH = re.compile(r"\b(each|every|per)\b", re.IGNORECASE)
+LAWS = {
+    "gravity": ("gravity", "m/s^2"),
+    "wind": ("velocity", "m/s"),
+    "density": ("density", "kg/m^3"),
+    "viscosity": ("viscosity", "Pa s"),
+}
+"""Options of the world that a plan can declare, with the kind of number that binds each and its unit."""
+UNIT = {"force": "N", "torque": "N·m", "velocity": "m/s"}
+ENDS = re.compile(r"\b(until|till|before|up to)\b|<", re.IGNORECASE)
+SECONDS = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s\b|seconds?)")
+
+
+def times(trigger: str) -> tuple[float, float]:
+    """(begin, end) in s of what a trigger by the clock allows; infinite where it does not say."""
+    if when(trigger) != "time":
+        return -np.inf, np.inf
+    text = re.sub(r"(\d+(?:\.\d+)?)\s*(?:\.\.|to|and|-|–)\s*(?=\d+(?:\.\d+)?\s*(?:ms|s))", r"\1 s to ", trigger)
+    said = sorted(float(number) * (1e-3 if unit == "ms" else 1.0) for number, unit in SECONDS.findall(text))
+    if len(said) == 1:
+        return (-np.inf, said[0]) if ENDS.search(trigger) else (said[0], np.inf)
+    return (said[0], said[-1]) if said else (-np.inf, np.inf)
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield each declaration that the recording does not keep."""
+    if context.plan is not None and trajectory.mechanics.gravity is not None:
+        meant = np.asarray(context.plan.simulation_parameters.gravity_vector)
+        off = float(np.sqrt(((trajectory.gravity - meant) ** 2).sum()))
+        if off > GRAVITY:
+            here = ", ".join(f"{v:.4g}" for v in trajectory.gravity)
+            message = f"gravity is ({here}) m/s^2; the plan says ({', '.join(f'{v:.4g}' for v in meant)})"
+            whole = (trajectory.t[0], trajectory.t[-1])
+            yield Sign("world", whole, off, GRAVITY, "m/s^2", "blocking", message)
+    ledger = trajectory.interventions
+    if ledger is None:
+        return
+    kinds, targets = np.asarray(ledger.kind, dtype=str), np.asarray(ledger.target, dtype=str)
+    for row in context.interventions:
+        mine = np.array(
+            [
+                kind == row.kind and Context(interventions=(row,)).declares(str(kind), str(target))
+                for kind, target in zip(kinds, targets, strict=True)
+            ],
+            dtype=bool,
+        )
+        if mine.any():
+            yield from _stronger(trajectory, row, mine)
+            yield from _astray(trajectory, row, mine)
+            yield from _other_time(trajectory, row, mine)
+            yield from _other_law(trajectory, row, mine)
+    yield from _other_control(trajectory, context)
+
+
+def _acting(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> np.ndarray:
+    """(N, 3) the acts under a declaration, in the unit of its kind (N, N·m, m/s)."""
+    ledger = trajectory.interventions
+    assert ledger is not None
+    value = np.asarray(ledger.value)[mine]
+    return value[:, 3:] if row.kind == "torque" and np.any(value[:, 3:]) else value[:, :3]
+
+
+def _stronger(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
+    ledger, most = trajectory.interventions, law_words.limit(row.law, row.kind)
+    assert ledger is not None
+    if most is None:
+        return
+    size = np.sqrt((_acting(trajectory, row, mine) ** 2).sum(axis=1))
+    times_s = np.asarray(ledger.time)[mine]
+    if row.kind == "velocity" and not EACH.search(row.law):
+        total = np.concatenate(([0.0], np.cumsum(size)))
+        size = total[1:] - total[np.searchsorted(times_s, times_s - 1.0, side="right")]
+    worst = int(np.argmax(size))
+    if size[worst] <= most * (1 + SHARE) + 1e-6:
+        return
+    unit, time = UNIT[row.kind], float(times_s[worst])
+    message = f"the {row.kind} on {row.bodies[0]} reaches {size[worst]:.3g} {unit}; its declared law says {most:.3g}"
+    yield Sign(row.bodies[0], (time, time), size[worst], most, unit, "blocking", message)
+
+
+def _astray(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
+    """Find acts in another direction than the law's: off its axis, or driving what it should brake."""
+    ledger, axis = trajectory.interventions, law_words.direction(row.law)
+    assert ledger is not None
+    if row.kind not in UNIT:
+        return
+    acting, work = _acting(trajectory, row, mine), np.asarray(ledger.work_j)[mine]
+    times_s, total = np.asarray(ledger.time)[mine], acting.sum(axis=0)
+    whole, size = (float(times_s.min()), float(times_s.max())), float(np.sqrt((total**2).sum()))
+    if axis is not None and size > 0 and "wind" not in row.bodies:
+        cosine = float(total @ np.asarray(axis)) / size
+        if cosine < ASTRAY:
+            message = f"the {row.kind} on {row.bodies[0]} acts another way than its declared law says: {row.law}"
+            yield Sign(row.bodies[0], whole, cosine, ASTRAY, "cosine", "blocking", message)
+    gained, spent = float(work[work > 0].sum()), float(-work[work < 0].sum())
+    if law_words.BRAKES.search(row.law) and gained > max(spent, 1e-6):
+        message = f"the {row.kind} on {row.bodies[0]} drives it by {gained:.3g} J; its declared law brakes: {row.law}"
+        yield Sign(row.bodies[0], whole, gained, spent, "J", "blocking", message)
+
+
+def _other_law(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
+    """Find gravity, wind or a medium that is written to anything but what the law states in its unit."""
+    ledger = trajectory.interventions
+    assert ledger is not None
+    targets = np.asarray(ledger.target, dtype=str)
+    for name, (kind, unit) in LAWS.items():
+        written = mine & np.array([t.startswith(f"opt.{name}") for t in targets.tolist()], dtype=bool)
+        if not written.any():
+            continue
+        meant = [float(np.sqrt((trajectory.gravity**2).sum()))] if name == "gravity" else [0.0]
+        low, high = law_words.interval(row.law, kind)
+        said = np.array([*law_words.numbers(row.law, kind), *meant])
+        size = np.sqrt((np.asarray(ledger.value)[written, :3] ** 2).sum(axis=1))
+        off = np.abs(size[:, None] - said).min(axis=1) * ~((low <= size) & (size <= high))
+        worst = int(np.argmax(off))
+        if off[worst] > SHARE * size[worst] + 1e-9:
+            message = f"the {name} is made {size[worst]:.4g} {unit}, which its declared law does not say: {row.law}"
+            window = (float(np.asarray(ledger.time)[written][worst]),) * 2
+            yield Sign("world", window, float(size[worst]), float(said.max()), unit, "blocking", message)
+
+
+def _other_control(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Find controls that the plan gives as one number and that are sent as another."""
+    plan, ledger = context.plan, trajectory.interventions
+    if plan is None or ledger is None:
+        return
+    kinds, targets = np.asarray(ledger.kind, dtype=str), np.asarray(ledger.target, dtype=str)
+    constants = plan.simulation_parameters.constants
+    for row in plan.topology.actuators:
+        known = (
+            constants[row.control].value if isinstance(row.control, str) and row.control in constants else row.control
+        )
+        if not isinstance(known, (int, float)):
+            continue
+        mine = (kinds == "control") & np.array([t.rsplit("/", 1)[-1] == row.name for t in targets.tolist()], dtype=bool)
+        sent = np.asarray(ledger.value)[mine, 0]
+        off = np.abs(sent - known) if len(sent) else np.zeros(1)
+        worst = int(np.argmax(off))
+        if off[worst] > SHARE * abs(known) + 1e-6 and abs(sent[worst]) > 1e-9:
+            time = float(np.asarray(ledger.time)[mine][worst])
+            message = f"{row.name} is told {sent[worst]:.4g}; the plan's control is {known:.4g}"
+            yield Sign(
+                row.name, (time, time), float(abs(sent[worst])), abs(known), "of the control", "blocking", message
+            )
+
+
+def _other_time(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
+    ledger = trajectory.interventions
+    assert ledger is not None
+    begin, end = times(row.trigger)
+    acted = np.asarray(ledger.time)[mine]
+    first, last, slack = float(acted.min()), float(acted.max()), max(DELAY_S, 3 * trajectory.interval_s)
+    early, late = begin - first, last - end
+    if max(early, late) <= slack:
+        return
+    message = f"the {row.kind} on {row.bodies[0]} acts from {first:.3g} s to {last:.3g} s; declared: {row.trigger}"
+    yield Sign(row.bodies[0], (first, last), max(early, late), slack, "s", "blocking", message)
+
+
+def _pushed(value: float, law: str = "5 N along +x", trigger: str = "always") -> Case:
+    row = Intervention(kind="force", bodies=("body",), law=law, trigger=trigger, source="the prompt")
+    push = replace(analytic.resting(), interventions=analytic.pushed(value=value))
+    return Case(f"{value:g} N declared as {law}, {trigger}", push, Context(planned=True, interventions=(row,)))
+
+
+def _gravity(z: float) -> Case:
+    plan = Plan.model_construct(
+        plan_type="scene",
+        simulation_parameters=SimulationParameters(time_step=0.001, simulation_duration=1.0, gravity=z),
+        objectives=(),
+        scene_objects=(),
+        assets=(),
+    )
+    return Case(f"the plan says {z:g} m/s^2", analytic.resting(), Context(planned=True, plan=plan))
+
+
+GOOD = (
+    lambda: _pushed(5.0),
+    lambda: _pushed(40.0, "as the wind: rho c A v^2 / 2, v = 3 m/s"),
+    lambda: _pushed(60.0, "at most 0.06 kN, less 40 N·s/m of the speed"),
+    lambda: _pushed(5.0, "from 2 N to 5 N, far below its weight"),
+    lambda: _pushed(5.0, trigger="t in 0.1..0.11 s"),
+    lambda: _pushed(5.0, trigger="until 0.8 s"),
+    lambda: _gravity(-analytic.G),
+)
+BAD = (
+    lambda: replace(_pushed(40.0, "a breeze of 1 N, far below its weight of 49 N"), severity="blocking"),
+    lambda: replace(_pushed(5.0, "5 N along -X"), severity="blocking"),
+    lambda: replace(_pushed(5.0, "brakes with 5 N against the motion"), severity="blocking"),
+    lambda: replace(_pushed(50.0), severity="blocking"),
+    lambda: replace(_pushed(5.0, trigger="at t = 2 s"), severity="blocking"),
+    lambda: replace(_pushed(5.0, trigger="from 0.02 s to 0.05 s"), severity="blocking"),
+    lambda: replace(_gravity(-1.62), severity="blocking"),
+)

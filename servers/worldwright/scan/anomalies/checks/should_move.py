@@ -1,0 +1,52 @@
+"""A body that the plan expects to move does not.
+
+What it means: the cause never reaches it (a gap, a missing joint, a fixed body, a recording too short), so whatever the
+picture shows, the event did not happen.
+
+Formula: the largest distance from its first position, and the largest turn from its first orientation.
+Threshold: 2 % of the bounding radius and 2 degrees: less cannot be seen. Blocking: the plan lists the body under
+`motion_expectations`. A part that is welded to another body moves as far as that carries it, and turns as it does.
+Source: the reference paper's plan format, `motion_expectations`.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from ....model.recording.trajectory import Trajectory
+from ....model.recording.travel import least_m, stays_put, travel
+from ...known import analytic
+from ..sign import Case, Context, Sign, SkipError
+
+CODE = "WS111"
+FROM_THE_START = True
+NEEDS = ("pos",)
+
+
+def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Yield the expected movers that stay where they are."""
+    if not context.movers:
+        raise SkipError("no plan says which bodies move")
+    whole = (trajectory.t[0], trajectory.t[-1])
+    for name in context.movers:
+        if name not in trajectory.names:
+            message = f"the plan expects {name} to move, but the recording has no such body"
+            yield Sign(name, whole, 0.0, 1.0, "bodies", "blocking", message)
+            continue
+        b = trajectory.names.index(name)
+        if stays_put(trajectory, b):
+            moved, turned = travel(trajectory, b)
+            limit = least_m(trajectory, b)
+            turns = f"{np.degrees(turned):.2g} degrees"
+            message = f"the plan expects {name} to move, but it moves {moved:.3g} m and turns {turns}"
+            yield Sign(name, whole, moved, limit, "m", "blocking", message)
+
+
+GOOD = (
+    lambda: Case("a falling mover", analytic.falling(), Context(planned=True, movers=("body",))),
+    lambda: Case("a mover that only turns", analytic.tilting(45.0), Context(planned=True, movers=("body",))),
+)
+BAD = (
+    lambda: Case("a mover at rest", analytic.resting(), Context(planned=True, movers=("body",)), "blocking"),
+    lambda: Case("a mover that is missing", analytic.falling(), Context(planned=True, movers=("hammer",)), "blocking"),
+)

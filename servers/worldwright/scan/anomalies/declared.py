@@ -1,0 +1,60 @@
+"""What the plan says that it does to the world, for the checks of staging."""
+
+import re
+from typing import Any
+
+from ...model.evidence.audits import Trigger
+from ...model.finding import AnomalySeverity
+from ...model.plan.committed import Plan
+from .sign import Context
+
+TIME = re.compile(
+    r"^\s*(at\b|after\s+[\d.]|from\b.*\bs\b|until\b|between\b|t\b|time\b|every\b|[\d.]+\s*(s|ms|seconds?)\b|start\b|\W*t\s*=)",
+    re.IGNORECASE,
+)
+"""A trigger that looks at the clock alone: `t >= 3 s`, `at 3 s`, `after 2 s`, `0.5 s`."""
+ALWAYS = re.compile(r"^\s*(always|throughout|at all times|every step|constant|continuous(ly)?|)\s*$", re.IGNORECASE)
+
+
+def when(trigger: str) -> Trigger:
+    """Whether a declared trigger holds always, looks at the clock, or at the state of the world."""
+    if ALWAYS.match(trigger):
+        return "always"
+    return "time" if TIME.match(trigger) else "state"
+
+
+def cast(context: Context) -> frozenset[str]:
+    """Every name the plan makes a claim about: its objects, its movers, and what its expectations name."""
+    plan = context.plan
+    found = {*context.movers, *context.rests}
+    if plan is not None:
+        found |= {*plan.object_names(), *(joint.child for joint in plan.topology.joints), *plan.topology.body_positions}
+        for objective in plan.objectives:
+            for row in objective.expect:
+                found.update(mentioned(row))
+    return frozenset(found)
+
+
+def weighs(context: Context, declared: bool, *, claimed: bool = True) -> AnomalySeverity:
+    """The severity of what may stage an outcome: a remark if it is declared, else blocking for a plan that claims it."""
+    if declared:
+        return "info"
+    return "blocking" if context.planned and claimed else "warn"
+
+
+def drawn_only(context: Context, meta: Any, name: str) -> bool:
+    """Whether the program or the plan declares a body or geom to be drawn without being simulated."""
+    plan: Plan | None = context.plan
+    listed = meta.get("visual_only") or ()
+    return name in listed or (plan is not None and any(o.name == name and o.visual_only for o in plan.scene_objects))
+
+
+def mentioned(value: Any) -> set[str]:
+    """Every text anywhere in the arguments of expectations, as these are the names they speak of."""
+    if isinstance(value, str):
+        return {value}
+    if isinstance(value, dict):
+        return {name for inner in value.values() for name in mentioned(inner)}
+    if isinstance(value, (list, tuple)):
+        return {name for inner in value for name in mentioned(inner)}
+    return set()

@@ -1,0 +1,1 @@
+"""The means by which expectations and questions measure: channels, curves, energy, immersion."""

@@ -1,0 +1,1 @@
+"""Measure what a plan claims: the engine of expectations and their shelf."""

@@ -1,0 +1,50 @@
+"""A crowd of bodies stays inside a box of space: a glass that holds its water, a tray its beads.
+
+Measures the least share of them inside at any moment. A side that is null is open. Source: kinematics.
+"""
+
+import numpy as np
+from pydantic import Field, model_validator
+
+from .....model.recording.trajectory import Trajectory
+from ....known.flow import crowd
+from ....measuring.channels import OfParts, group
+from ....measuring.measured import Measured, at_least, window
+
+CODE = "WE266"
+LASTING = True
+Corner = tuple[float | None, float | None, float | None]
+
+
+class Given(OfParts):
+    """The crowd, the box, and the share that must stay inside."""
+
+    low: Corner = Field((None, None, None), description="lower corner [x, y, z], m; null leaves a side open")
+    high: Corner = Field((None, None, None), description="upper corner [x, y, z], m; null leaves a side open")
+    min_share: float = Field(default=1.0, gt=0, le=1, description="least share of them inside at any moment")
+
+    @model_validator(mode="after")
+    def _closed(self) -> "Given":
+        if all(side is None for side in (*self.low, *self.high)):
+            raise ValueError("give at least one side of the box in `low` or `high`")
+        return self
+
+
+def inside(points: np.ndarray, low: Corner, high: Corner) -> np.ndarray:
+    """(...) bool: whether each of the points (..., 3) lies in the box."""
+    least = np.array([-np.inf if v is None else v for v in low])
+    most = np.array([np.inf if v is None else v for v in high])
+    return np.all((points >= least) & (points <= most), axis=-1)
+
+
+def measure(trajectory: Trajectory, given: Given) -> Measured:
+    """Measure the least share inside."""
+    rows = window(trajectory, given.window_s)
+    share = inside(trajectory.pos[rows][:, group(trajectory, given.parts)], given.low, given.high).mean(axis=1)
+    worst = int(share.argmin())
+    message = f"at {trajectory.t[rows][worst]:.3f} s {share[worst]:.1%} of {given.told()} is inside, the least of all"
+    return at_least(float(share[worst]), given.min_share, "1", message)
+
+
+GOOD = ((crowd, {"parts": "grain_*", "low": [-0.4, -0.4, 0], "high": [0.4, 0.4, None]}),)
+BAD = ((crowd, {"parts": "grain_*", "low": [-0.2, -0.2, 0], "high": [0.2, 0.2, None], "min_share": 0.9}),)

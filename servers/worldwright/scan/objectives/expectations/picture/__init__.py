@@ -1,0 +1,1 @@
+"""What is seen: in the stills, and how large through their cameras."""

@@ -1,0 +1,1 @@
+"""Cross-check questions about a recording, and their answers."""

@@ -1,0 +1,151 @@
+"""Record any MJCF file: a model without a plan gets a folder of its own, and the same jobs, sandbox and evidence.
+
+The folder holds `model.json` (which file, for how long, and the SHA-256 of everything the model is made of) and a
+program of a few lines that hands the model to worldkit. Nothing is proved, because nothing is claimed; the
+recording can be scanned, queried, filmed and compared like any other.
+"""
+
+import hashlib
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+from worldkit.files import write_atomic, write_json
+
+from ..model.errors import GateError, JobError, NotFoundError
+from ..model.evidence.run import Run, sha256_file
+
+MOST_FILES = 5_000
+PROGRAM = '''"""Records {name} as it is, for {duration:g} s. Made by `worldwright stage start --model`."""
+
+import mujoco
+
+from worldkit import cameras, program
+
+MODEL = {path!r}
+
+
+def build() -> mujoco.MjSpec:
+    """The model as its file describes it, with a camera when it has none."""
+    spec = mujoco.MjSpec.from_file(MODEL)
+    if not spec.cameras:
+        cameras.add(spec, "overview", view="perspective")
+    return spec
+
+
+if __name__ == "__main__":
+    program.main(build, duration={duration!r})
+'''
+
+
+def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
+    """The run-like folder of one model, written anew when the model or the duration changed.
+
+    Args:
+        model: an MJCF (or URDF) file.
+        duration: simulated time, s; 5 when None.
+        folder: its folder; `runs/<name of the file>` when None.
+
+    Raises:
+        NotFoundError: there is no such file.
+        JobError: it cannot be read as XML.
+        GateError: the folder is a run with a plan.
+    """
+    model = model.absolute()
+    if not model.is_file():
+        raise NotFoundError("there is no such model", place=str(model), next_move="give the path of an MJCF file")
+    run = Run(folder or Path("runs") / model.stem)
+    if run.plan.exists():
+        raise GateError(
+            "this folder is a run with a plan, which says what its model is",
+            place=str(run.folder),
+            next_move="name another folder: `worldwright stage start FOLDER --model FILE`",
+        )
+    files = {str(path): sha256_file(path) for path in made_of(model)}
+    facts = {"model": str(model), "duration": duration or 5.0, "files": files}
+    if _facts(run) != facts:
+        write_atomic(run.program, PROGRAM.format(name=model.name, path=str(model), duration=facts["duration"]))
+        write_json(run.model, facts)
+    return run
+
+
+def files(run: Run) -> tuple[Path, ...]:
+    """The files that a model's program may read besides itself; none for a run with a plan.
+
+    Raises:
+        JobError: the model has changed since its folder was made.
+    """
+    facts = _facts(run)
+    changed = [path for path, sha256 in facts.get("files", {}).items() if _sha256(Path(path)) != sha256]
+    if changed:
+        raise JobError(
+            f"the model has changed since its folder was made: {', '.join(changed[:3])}",
+            code="refused",
+            place=str(run.model),
+            next_move=f"worldwright stage start {run.folder} --model {facts.get('model')}",
+        )
+    return tuple(Path(path) for path in facts.get("files", {}))
+
+
+def made_of(model: Path) -> list[Path]:
+    """The file and every existing file that it names: includes, meshes, textures, height fields, skins, other models."""
+    found: dict[Path, None] = {model: None}
+    folders = [model.parent]
+    named: list[tuple[Path, str]] = []
+    queue = [model]
+    while queue:
+        path = queue.pop()
+        for tag, attributes in _elements(path):
+            if tag == "compiler":
+                given = [attributes[name] for name in ("assetdir", "meshdir", "texturedir") if name in attributes]
+                folders += [base / name for base in (model.parent, path.parent) for name in given]
+            for attribute, value in attributes.items():
+                if not attribute.startswith("file"):
+                    continue
+                named.append((path, value))
+                if tag in ("include", "model"):
+                    queue += [p for p in _candidates(path, value, folders[:1]) if p not in found]
+                    found |= dict.fromkeys(_candidates(path, value, folders[:1]))
+        if len(found) + len(named) > MOST_FILES:
+            raise JobError(f"the model names more than {MOST_FILES} files", code="refused", place=str(model))
+    for path, value in named:
+        found |= dict.fromkeys(_candidates(path, value, folders))
+    return list(found)
+
+
+def _candidates(path: Path, value: str, folders: list[Path]) -> list[Path]:
+    """The places to which a name in a model may lead: beside the file, or in the folders of its `compiler`."""
+    name = value.removeprefix("package://").removeprefix("file://")
+    places = [base / word for base in (path.parent, *folders) for word in (name, Path(name).name)]
+    return [place.absolute() for place in dict.fromkeys(places) if place.is_file()]
+
+
+def _elements(path: Path) -> Iterator[tuple[str, dict[str, str]]]:
+    try:
+        for element in ElementTree.parse(path).iter():
+            yield element.tag, element.attrib
+    except (ElementTree.ParseError, OSError, ValueError, RecursionError) as cause:
+        line = getattr(cause, "position", (0, 0))[0]
+        raise JobError(
+            f"the model cannot be read as XML: {cause}",
+            code="refused",
+            place=f"{path}:{line}" if line else str(path),
+            next_move="correct it there: a model is an MJCF file",
+        ) from cause
+
+
+def _facts(run: Run) -> dict[str, Any]:
+    try:
+        value = json.loads(run.model.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return value if isinstance(value, dict) else {}
+
+
+def _sha256(path: Path) -> str:
+    try:
+        return sha256_file(path)
+    except OSError:
+        return hashlib.sha256().hexdigest()

@@ -1,0 +1,263 @@
+"""Run the processes of one job, pass by pass: the author builds and answers, the engine simulates and films."""
+
+import json
+import os
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from worldkit import channel
+from worldkit.files import write_json
+from worldkit.filming.telling import ARRAYS, DESCRIPTION
+
+from ..model.errors import WorldwrightError
+from ..model.evidence import assets_used, environment
+from ..model.evidence.run import Run, sha256_file
+from ..model.plan.plan_text import read_plan
+from . import authoring, plain
+from .crew import Crew, Member
+from .gates import folder_name
+from .job import Job, Spec
+from .limits import failed
+
+WORLD, FACTS, INPUTS = "world.mjz", "program.json", "inputs.json"
+"""The engine's files: the built world, the program's facts, the plan's declared inputs."""
+DRIVEN = ("inputs.arrows", "edits.arrows")
+"""The files of a recording that drove it."""
+PASS = {"physics": "physics", "storyboard": "storyboard", "stills": "still", "video": "video"}
+MB = 1 << 20
+FAREWELL_S = 3.0
+"""The author's process may take so long to end after the engine has ended, s."""
+MOST_STRAYS = 40
+
+
+@dataclass(frozen=True)
+class Ended:
+    """How a job's processes ended."""
+
+    failure: dict[str, str] | None
+    """Code, message, place and next move; None when all went well."""
+    summary: dict[str, Any] = field(default_factory=dict)
+    """What the engine reported."""
+    kept: tuple[Path, ...] = ()
+    """Files for the evidence that the engine did not write."""
+
+
+class Acting:
+    """The processes of one job in their order."""
+
+    def __init__(self, job: Job, run: Run, crew: Crew, tick: Callable[[float], bool]) -> None:
+        self.job, self.run, self.crew, self.tick = job, run, crew, tick
+        self.spec: Spec = job.spec
+        self.log = f"worldwright stage log {run.folder} --job {self.spec.job}"
+
+    def act(self) -> Ended:
+        """Run the pass to its end."""
+        if self.spec.given:
+            if failure := self.take(Path(self.spec.given)):
+                return Ended(failure)
+        elif self.spec.stage == "physics" and not self.spec.variant:
+            if failure := self.build():
+                return Ended(failure)
+        elif failure := self.fetch():
+            return Ended(failure)
+        if self.spec.stage != "physics":
+            return self.film()
+        return self.simulate()
+
+    @property
+    def physics(self) -> Path:
+        """The evidence that holds the world of this key."""
+        return self.run.evidence(self.spec.key) / folder_name("physics")
+
+    # -- the world ---------------------------------------------------------------------------------------------------
+
+    def author(self, what: str, folder: str, *more: str, descriptors: tuple[int, ...] = ()) -> Member:
+        """Start the program's own process, in a folder that is thrown away."""
+        program, out = self.job.inputs / "simulation.py", self.job.author / folder
+        call = [sys.executable, "-s", str(program), "--pass", what, "--out", str(out), *more]
+        reads = (self.job.inputs, *map(Path, self.spec.reads))
+        return self.crew.start("author", call, out, reads, descriptors)
+
+    def build(self) -> dict[str, str] | None:
+        """Have the program build its world, and take the file out of its folder."""
+        member = self.author("build", "build")
+        if failure := self.ended(member):
+            return failure
+        for name, limit in ((WORLD, self.spec.file_mb * MB), (FACTS, MB)):
+            if not plain.take(member.out / name, self.job.inputs / name, limit):
+                message = f"it left no {name}: does it hand its world to worldkit's program.main?"
+                return {
+                    "code": "no_result",
+                    "message": message,
+                    "next_move": "end the file with program.main(build, …)",
+                }
+        write_json(self.job.inputs / INPUTS, declared(self.job.inputs / self.run.source.name))
+        return self.unnamed()
+
+    def unnamed(self) -> dict[str, str] | None:
+        """Refuse a world with assets that no text names, since its evidence would not depend on them."""
+        said = plain.read_json(self.job.inputs / FACTS).get("assets")
+        taken = [name for name in said if isinstance(name, str)] if isinstance(said, list) else []
+        inputs = self.job.inputs
+        found = assets_used.unnamed(taken, inputs / self.run.source.name, inputs / "simulation.py")
+        if not found:
+            return None
+        return {
+            "code": "unnamed_asset",
+            "message": f"the world takes {', '.join(found)} of the catalog, which neither plan nor program names",
+            "next_move": "write each asset's key as a whole word in the program, so that its evidence depends on it",
+        }
+
+    def take(self, given: Path) -> dict[str, str] | None:
+        """Take an existing world with its recorded inputs."""
+        for name in (WORLD, FACTS, INPUTS):
+            if not plain.take(given / name, self.job.inputs / name, self.spec.file_mb * MB):
+                return {"code": "no_result", "message": f"there is no {name} to simulate", "next_move": "build it anew"}
+        return None
+
+    def fetch(self) -> dict[str, str] | None:
+        """Take the world of the physics pass, checked against the hashes in its result."""
+        vouched = plain.read_json(self.physics / "result.json").get("files") or {}
+        for name in (WORLD, FACTS, INPUTS):
+            copy = self.job.inputs / name
+            there = name in vouched and plain.take(self.physics / name, copy, self.spec.file_mb * MB)
+            if not there or sha256_file(copy) != vouched[name]:
+                message = f"the world of the physics pass is not there as it was ({name})"
+                again = f"worldwright stage start {self.run.folder} --stage physics --force"
+                return {"code": "no_result", "message": message, "next_move": again}
+        return None
+
+    # -- the engine --------------------------------------------------------------------------------------------------
+
+    def engine(self, *more: str, reads: tuple[Path, ...] = (), descriptors: tuple[int, ...] = ()) -> Member:
+        """Start the process that owns the world."""
+        inputs = self.job.inputs
+        given = [inputs / WORLD, inputs / FACTS, inputs / INPUTS]
+        words = [PASS[self.spec.stage], "--world", str(given[0]), "--program", str(given[1]), "--inputs", str(given[2])]
+        call = [sys.executable, "-s", "-m", "worldengine", *words, "--out", str(self.job.out), *more]
+        return self.crew.start("engine", call, self.job.out, (*given, self.job.lock, *reads), descriptors)
+
+    def film(self) -> Ended:
+        """Draw the recording; if the run has an author's film, let it be described first and draw it, too."""
+        recording = self.physics / "trajectory"
+        more, reads, earlier = list(self.spec.arguments), [recording], {}
+        authored = self.spec.stage == "video" and (self.job.inputs / authoring.PROGRAM).is_file()
+        if authored:
+            if failure := self.describe(recording):
+                return Ended(failure)
+            more += ["--film", str(self.job.inputs / authoring.FOLDER)]
+            reads.append(self.job.inputs / authoring.FOLDER)
+            if earlier := authoring.kept(self.run, self.spec, self.job.out):
+                more.append("--film-alone")
+        member = self.engine("--from", str(recording), *more, reads=tuple(reads))
+        failure = self.ended(member)
+        said = {**earlier, **plain.read_json(self.job.out / "result.json")}
+        if authored and not failure:
+            said |= {"drawn_by": environment.film().sha256} | ({"cameras": earlier["cameras"]} if earlier else {})
+        return Ended(failure, said)
+
+    def describe(self, recording: Path) -> dict[str, str] | None:
+        """Let `film.py` describe what is shown, in the author's sandbox, and take the description out."""
+        inputs, out = self.job.inputs, self.job.author / authoring.FOLDER
+        authoring.lay_out(recording, inputs / FACTS, inputs / authoring.MOTION)
+        call = authoring.call(inputs / authoring.PROGRAM, inputs / authoring.MOTION, out)
+        member = self.crew.start("author", call, out, (inputs,))
+        if failure := self.ended(member):
+            return failure
+        for name in (DESCRIPTION, ARRAYS):
+            if not plain.take(member.out / name, inputs / authoring.FOLDER / name, self.spec.file_mb * MB):
+                return {"code": "no_result", "message": f"film.py left no {name}", "next_move": "write film(film)"}
+        return None
+
+    def simulate(self) -> Ended:
+        """Simulate the world; if it has declared inputs, beside the process that answers for them."""
+        source = self.job.inputs / "simulation.py"
+        reuse = tuple(map(Path, self.spec.reuse))
+        more = [*self.spec.arguments, *(word for path in reuse for word in ("--reuse", str(path)))]
+        if not self.spec.key.companions_sha256:  # the text of a law does not tell what it reads from other files
+            more += ["--source", str(source)]
+        reads = (source, *reuse)
+        author: Member | None = None
+        silent = tuple(self.spec.arguments) == ("--without", "control")
+        if self.spec.given:
+            if driven := [Path(self.spec.given) / name for name in DRIVEN if (Path(self.spec.given) / name).is_file()]:
+                more += ["--replay", self.spec.given]
+            engine = self.engine(*more, reads=(*reads, *driven))
+        elif self.asks() and not silent:
+            ours, theirs = channel.pair()
+            try:
+                words = ("--channel", ",".join(map(str, theirs)))
+                author = self.author("control", "control", *words, descriptors=theirs)
+                more += ["--channel", ",".join(map(str, ours))]
+                engine = self.engine(*more, reads=reads, descriptors=ours)
+            finally:
+                for descriptor in (*ours, *theirs):
+                    os.close(descriptor)
+        else:
+            engine = self.engine(*more, reads=reads)
+        stopped = self.crew.watch(engine, self.tick)
+        said = plain.read_json(self.job.out / "error.json") if not stopped else {}
+        failure = stopped or self.ended(engine)
+        summary = plain.read_json(self.job.out / "result.json")
+        if author is not None and not stopped:
+            self.farewell(author)
+            # The engine only knows that the author's process ended; that process itself says why.
+            if failure and said.get("code") == "author":
+                failure = self.ended(author) or failure
+            if strays := _strays(plain.read_json(author.out / "result.json")):
+                summary["went_nowhere"] = strays
+        if author is None and not silent and not self.spec.given and self.controls():
+            summary["not_asked"] = True
+        names = (WORLD, FACTS, INPUTS) if not self.spec.variant else ()
+        return Ended(failure, summary, tuple(self.job.inputs / name for name in names))
+
+    def asks(self) -> bool:
+        """Whether the program has a control and the plan declares anything that it may control."""
+        rows = json.loads(plain.read(self.job.inputs / INPUTS, MB) or b"[]")
+        return self.controls() and any("solver" not in row for row in rows)
+
+    def controls(self) -> bool:
+        """Whether the program has a control."""
+        return bool(plain.read_json(self.job.inputs / FACTS).get("control"))
+
+    def farewell(self, author: Member) -> None:
+        """Let the author's process end by itself, as it does when the engine hangs up."""
+        deadline = time.monotonic() + FAREWELL_S
+        while author.process.poll() is None and time.monotonic() < deadline:
+            time.sleep(0.01)
+
+    def ended(self, member: Member) -> dict[str, str] | None:
+        """How a process failed or was stopped; None when neither happened."""
+        stopped = self.crew.watch(member, self.tick)
+        status = member.process.returncode
+        if stopped or status is None:
+            return stopped or {"code": "killed", "message": "it did not end"}
+        summary, error = (plain.read_json(member.out / name) for name in ("result.json", "error.json"))
+        return failed(status, summary, error, self.log) or self.crew.look()
+
+
+def declared(source: Path) -> list[dict[str, Any]]:
+    """Kind and names of every input that a plan declares; none without a plan."""
+    try:
+        plan = read_plan(source).plan
+    except (WorldwrightError, OSError):
+        return []
+    parameters = plan.simulation_parameters
+    return [
+        {"kind": row.kind, "bodies": list(row.bodies), **row.beside(parameters.constants)}
+        for row in parameters.interventions
+    ]
+
+
+def _strays(result: dict[str, Any]) -> list[dict[str, Any]]:
+    """What the control wrote without effect, by the word of the author's process."""
+    rows = result.get("went_nowhere")
+    found = []
+    for row in rows[:MOST_STRAYS] if isinstance(rows, list) else ():
+        if isinstance(row, dict) and isinstance(row.get("line"), int):
+            found.append({"array": str(row.get("array", ""))[:80], "line": row["line"]})
+    return found

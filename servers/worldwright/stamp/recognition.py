@@ -1,0 +1,109 @@
+"""Would a stranger know what this is, and believe it? What was named blindly, held against what was wanted.
+
+The visual role says what it sees before it has read any name: things, what happens, and how far it would take the film for one
+of real things. The review compares. A world in which nobody recognises what was asked for is not accepted, however right its
+numbers are; one that is not believed gets one repair of its look first.
+"""
+
+from collections import Counter
+from collections.abc import Iterator
+
+from ..model.evidence.reports import VisualDescription
+from ..model.evidence.verdict import Verdict
+from .refusal import Refusal
+from .state import State
+
+ROLE = "world-visual"
+"""Who names blindly; a person who describes may."""
+EVENT = "event"
+BELIEVED = 7
+"""Of 10: below it, one repair of the look is due."""
+DETAILS = 3
+LOOKS = ("look", "not_recognised", "visual_mismatch")
+
+
+def unnamed(description: VisualDescription, pictured: list[str]) -> Iterator[Refusal]:
+    """Refuse a description of the visual role that names, scores or explains nothing blindly."""
+    if description.author != ROLE and not description.named:
+        return
+    if not description.named:
+        yield Refusal(
+            cause="nothing is named",
+            next_move='say what you see in your own words under `named`: [{"seen": "a wooden crate", "camera": "side"}]',
+        )
+    for sighting in description.named:
+        if sighting.camera not in pictured:
+            yield Refusal(
+                cause=f"`{sighting.seen}` is named in `{sighting.camera}`, of which there is no picture",
+                next_move=f"the cameras: {', '.join(pictured)}",
+            )
+    if not description.event.strip():
+        yield Refusal(cause="nothing is said of what happens", next_move="say it in a sentence under `event`")
+    if description.belief is None:
+        yield Refusal(
+            cause="nothing is said of whether it looks real",
+            next_move="`belief`: 0 to 10, would you take this for a film of real things?",
+        )
+    elif description.belief < 10 and len(description.betrays) < DETAILS:
+        yield Refusal(
+            cause=f"{len(description.betrays)} details are named that give it away",
+            next_move=f"name {DETAILS} under `betrays`, the worst first",
+        )
+
+
+def wanted(state: State) -> tuple[str, ...]:
+    """What the pictures are about, by the names of the plan: the cameras' subjects and what may move, copies as one."""
+    plan = state.plan
+    if plan is None:
+        return ()
+    names = [name for camera in plan.cameras() for name in camera.subjects]
+    names += [name for step in plan.implementation_steps for name in step.motion_expectations]
+    drawn = set(plan.object_names())
+    family = {name: base for base, copies in plan.families.items() for name in copies}
+    return tuple(dict.fromkeys(family.get(name, name) for name in names if name in drawn or name in family))
+
+
+def problems(state: State, verdict: Verdict) -> Iterator[Refusal]:
+    """Why a verdict cannot stand on what was named blindly; nothing where nobody named anything."""
+    visual = state.visual.value
+    if visual is None or not visual.named:
+        return
+    things = {sighting.seen for sighting in visual.named}
+    for name, count in Counter(row.wanted for row in verdict.recognised).items():
+        if count > 1:
+            yield Refusal(
+                cause=f"`{name}` stands {count} times in `recognised`, and may be recognised once and not the next time",
+                next_move="say once whether it was",
+            )
+    for row in verdict.recognised:
+        # What happens is no thing, and a sentence about what happens names none.
+        known = {visual.event} if row.wanted == EVENT else things
+        if row.seen_as and row.seen_as not in known:
+            yield Refusal(
+                cause=f"the description names {'no event' if row.wanted == EVENT else 'nothing'} `{row.seen_as}`",
+                next_move=f"copy `seen_as` from it: {'; '.join(sorted(known))}",
+            )
+    if verdict.outcome != "pass":
+        return
+    given = {row.wanted: row for row in verdict.recognised}
+    for name in (*wanted(state), EVENT):
+        if (found := given.get(name)) is None:
+            yield Refusal(
+                cause=f"nothing is said of whether `{name}` was recognised",
+                next_move=f'add to `recognised`: {{"wanted": "{name}", "seen_as": "…", "same": true or false}}',
+            )
+        elif not found.same:
+            yield Refusal(
+                cause=f"`{name}` was not recognised: seen as `{found.seen_as or 'nothing'}`",
+                next_move="review it as `repair`, target `not_recognised`, and say what it was taken for",
+            )
+    if visual.belief is not None and visual.belief < BELIEVED and not _mended(state):
+        yield Refusal(
+            cause=f"belief is {visual.belief} of 10: {'; '.join(visual.betrays[:DETAILS])}",
+            next_move="review it as `repair`, target `look`: the one change that most of these ask for",
+        )
+
+
+def _mended(state: State) -> bool:
+    """Whether a repair of the look was ordered in this run before."""
+    return any(e.get("action") == "review" and e.get("target") in LOOKS for e in state.journal)

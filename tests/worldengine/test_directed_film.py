@@ -1,0 +1,372 @@
+"""A film shows the recording: its bodies stand where they stood, and what it may not do it is refused."""
+
+import json
+
+import mujoco
+import numpy as np
+import pytest
+
+from small_worlds import ball, empty, floor, record
+from worldengine.film import described, motion_facts
+from worldengine.film.described import FilmError
+from worldengine.film.directed import Screening, axes
+from worldengine.film.dressed import DressedReplay, dress
+from worldengine.film.lettering import letter, pace
+from worldengine.film.treatment import Treatments
+from worldkit import portable
+from worldkit.filming import Film, Recorded, Surface, follow, planned, still, wide
+
+SIZE = (96, 54)
+CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+FACES = np.array([(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)])  # fmt: skip
+
+
+def world():
+    """Two balls over a floor; the first is red and changes its colour while it falls."""
+    spec = empty()
+    floor(spec)
+    ball(spec, "first", (0, 0, 0.6), rgba=(0.8, 0.1, 0.1, 1))
+    ball(spec, "second", (0.5, 0, 0.4), rgba=(0.1, 0.1, 0.8, 1))
+    spec.worldbody.add_camera(name="side", pos=(0, -3, 0.5), xyaxes=(1, 0, 0, 0, 0, 1))
+    return spec
+
+
+class Made:
+    """A recorded world, and films of it."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        spec = world()
+
+        def glow(model, data):
+            model.geom_rgba[model.geom("second").id, 0] = min(1.0, data.time)
+
+        self.recording = record(spec, folder / "trajectory", 500, glow)
+        portable.write(world(), folder / "world.mjz")
+        self.plain = portable.read(folder / "world.mjz")
+        facts = {"fps": 24, "size": list(SIZE), "movers": ["first", "second"]}
+        motion_facts.write(self.recording, folder / "motion.npz", facts)
+        with np.load(folder / "motion.npz") as arrays:
+            self.seen = Recorded(dict(arrays))
+
+    def film(self, tell, change=None):
+        film = Film(self.seen)
+        tell(film)
+        facts, arrays = film.description()
+        if change:
+            change(facts, arrays)
+        (self.folder / "film.json").write_text(json.dumps(facts))
+        np.savez(self.folder / "film.npz", **arrays)
+        return described.read(self.folder, self.recording)
+
+    def screening(self, tell):
+        return Screening(self.folder / "world.mjz", self.plain, self.recording, self.film(tell), SIZE, 24)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return Made(tmp_path_factory.mktemp("film"))
+
+
+def looking(film, until=0.4):
+    film.shot(still((0.2, -2.5, 0.6), (0.2, 0, 0.4)), until=until)
+
+
+def test_the_author_is_told_where_bodies_were_and_what_they_touched(made):
+    assert made.seen.bodies == ("first", "second")
+    assert made.seen.cameras == ("side",)
+    assert made.seen.position("first", 0.0) == pytest.approx([0, 0, 0.6], abs=1e-6)
+    assert made.seen.radius("first") == pytest.approx(0.1 * np.sqrt(3))
+    touch = made.seen.touches("second", "world")[0]
+    assert touch.time_s == pytest.approx(np.sqrt(2 * 0.3 / 9.81), abs=0.01)
+    assert touch.force_n > 9.81
+    assert made.seen.event() in {t.time_s for t in made.seen.touches()}
+
+
+def test_bodies_stand_where_they_stood_whatever_is_drawn(made):
+    def tell(film):
+        looking(film)
+        film.draw("hat", "cylinder", (0.2, 0.2, 0.1), pos=(0, 0, 0.15), to="first")
+        film.draw("wall", "box", (2, 0.1, 1), pos=(0, 1, 0.5))
+        film.particles("dust", lambda times: np.zeros((len(times), 5, 3)))
+        film.grass(area=(-1, -1, 1, 1), count=50)
+
+    film = made.film(tell)
+    model = dress(made.folder / "world.mjz", film)
+    replay = DressedReplay(model, made.plain, made.recording)
+    for row in (0, 250, 500):
+        data = replay.show(row)
+        assert np.array_equal(data.xpos[1:], made.recording.pos[row])
+    hat = data.geom_xpos[model.geom("drawn.hat").id]
+    assert hat == pytest.approx(
+        data.xpos[model.body("first").id] + data.xmat[model.body("first").id].reshape(3, 3) @ [0, 0, 0.15]
+    )
+    drawn = [g for g in range(model.ngeom) if model.geom(g).name.startswith("drawn.")]
+    assert len(drawn) == 8
+    assert not model.geom_contype[drawn].any()
+    assert not model.geom_conaffinity[drawn].any()
+    assert model.body_mass == pytest.approx(made.plain.body_mass)
+    assert film.told(24)["drawn_only"] == ["hat (on first)", "wall", "grass", "dust (5 particles)"]
+
+
+def test_recorded_colours_reach_their_own_geom_wherever_additions_shifted_it(made):
+    film = made.film(lambda f: (looking(f), f.draw("hat", "box", 0.1, to="first")))
+    model = dress(made.folder / "world.mjz", film)
+    assert model.geom("second").id != made.plain.geom("second").id
+    replay = DressedReplay(model, made.plain, made.recording)
+    for row, red in ((0, 0.0), (400, 0.4), (100, 0.1)):
+        replay.show(row)
+        assert model.geom_rgba[model.geom("second").id, 0] == pytest.approx(red, abs=0.005)
+        assert model.geom_rgba[model.geom("drawn.hat").id, 0] == 0.5
+
+
+def test_a_look_is_given_to_a_body_and_told(made):
+    film = made.film(lambda f: (looking(f), f.look("first", "gold"), f.look("ground", Surface(colour="#224488"))))
+    model = dress(made.folder / "world.mjz", film)
+    assert model.mat(model.geom("first").matid[0]).name == "gold"
+    assert film.told(24)["looks"] == {"first": "gold", "ground": "a surface of its own"}
+
+
+def test_a_skin_takes_the_place_of_its_body_if_it_has_its_size(made):
+    film = made.film(lambda f: (looking(f), f.mesh("ox", 0.1 * CUBE, FACES, to="first", instead=True)))
+    model = dress(made.folder / "world.mjz", film)
+    assert model.geom_group[model.geom("first").id] > 2
+    assert model.geom_group[model.geom("second").id] <= 2
+    assert film.drawn_only() == ["ox (skin over first)"]
+    for size, pos in ((0.01, (0, 0, 0)), (1.0, (0, 0, 0)), (0.1, (0.3, 0, 0))):
+        wrong = made.film(
+            lambda f, size=size, pos=pos: (
+                looking(f),
+                f.mesh("ox", size * CUBE, FACES, pos=pos, to="first", instead=True),
+            )
+        )
+        with pytest.raises(FilmError, match="times the size"):
+            dress(made.folder / "world.mjz", wrong)
+
+
+def setting(name, value):
+    return lambda facts, arrays: facts.update({name: value})
+
+
+REFUSED = {
+    "nothing of the light": lambda f, a: f["air"].append({"at_s": 0.0, "body_rgb": [1, 0, 0]}),
+    "light elevation_deg must lie": lambda f, a: f["air"].append({"at_s": 0.0, "light_elevation_deg": -5}),
+    "no body": lambda f, a: f["things"][0].update(to="third"),
+    "neither|is no body and no geom": setting("looks", {"third": "gold"}),
+    "no look is called": setting("looks", {"first": "gould"}),
+    "moments outside": lambda f, a: a.update(time=a["time"] + 9.0),
+    "finite numbers": lambda f, a: a.update(eye=a["eye"] * np.nan),
+    "does not follow": lambda f, a: f["shots"][0].update(first=3),
+    "names no camera": lambda f, a: f["shots"][0].update(planned="top"),
+    "is damaged": setting("things", 7),
+    "no size": lambda f, a: f["things"][0].update(size=[0, 1, 1]),
+    "no shape": lambda f, a: f["things"][0].update(shape="plane"),
+    "a shutter": setting("samples", 1000),
+    "a lens sees": lambda f, a: a.update(fovy_deg=a["fovy_deg"] * 0 + 170.0),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_a_description_that_says_what_it_may_not_is_refused(made, words):
+    with pytest.raises(FilmError, match=words):
+        made.film(lambda f: (looking(f), f.draw("box", "box", 0.1, to="first")), REFUSED[words])
+
+
+def test_a_pickle_is_no_description(made):
+    made.film(looking)
+    np.savez(made.folder / "film.npz", time=np.array([{}], dtype=object), allow_pickle=True)
+    with pytest.raises(FilmError, match="damaged"):
+        described.read(made.folder, made.recording)
+
+
+def test_pictures_show_the_film(made):
+    def tell(film):
+        looking(film)
+        film.hold(follow("first"), 0.2)
+
+    with made.screening(tell) as screening:
+        first, again, held = screening.picture(0), screening.picture(0), screening.picture(10)
+        assert first.shape == (54, 96, 3)
+        assert np.array_equal(first, again)
+        seen = screening.segmentation()
+    assert np.abs(first.astype(int) - held).mean() > 3
+    middle = seen[27 - 3 : 27 + 3, 48 - 3 : 48 + 3]
+    assert (middle == made.plain.geom("first").id).mean() > 0.5
+
+
+def test_what_a_drawn_thing_hides_is_told(made):
+    made.recording.meta["movers"] = ["first", "second"]
+
+    def behind(y):
+        def tell(film):
+            looking(film)
+            film.draw("fence", "box", (0.3, 0.05, 2.0), pos=(0.0, y, 0.5))
+
+        with made.screening(tell) as screening:
+            screening.picture(0)
+            return screening.hidden()
+
+    assert behind(-0.5) == ["first behind fence"]
+    assert behind(0.5) == []
+
+
+def test_a_plan_s_camera_sees_what_it_sees_without_a_film(made):
+    from worldengine.film.drawn_frames import Frames
+    from worldengine.recording.replay import Replay
+
+    with made.screening(lambda f: f.shot(planned("side"), until=0.2)) as screening:
+        filmed = screening.picture(2)
+    data = Replay(made.plain, made.recording).show(int(np.abs(made.recording.time - 2 / 24).argmin()))
+    with Frames(made.plain, *SIZE) as frames:
+        drawn = frames.image(data, "side")
+    assert np.abs(filmed.astype(int) - drawn).mean() < 1.0
+
+
+def brightness(picture):
+    return float(picture.mean())
+
+
+def test_light_fog_and_grading_change_the_picture_as_they_say(made):
+    def treated(tell):
+        with made.screening(lambda f: (looking(f), tell(f))) as screening:
+            return screening.picture(1).astype(float)
+
+    plain = treated(lambda f: None)
+    assert brightness(treated(lambda f: f.grade(exposure_stops=1))) > brightness(plain) + 15
+    assert brightness(treated(lambda f: f.grade(fade=1))) < 2
+    grey = treated(lambda f: f.grade(saturation=0))
+    assert np.ptp(grey, axis=2).mean() < 2.5
+    warm = treated(lambda f: f.grade(temperature=0.8))
+    assert (warm[..., 0] - warm[..., 2]).mean() > (plain[..., 0] - plain[..., 2]).mean() + 15
+    foggy = treated(lambda f: f.fog(colour="#ff0000", visibility_m=1.0))
+    assert foggy[..., 0].mean() > 2 * foggy[..., 2].mean()
+    sky = treated(lambda f: f.sky(zenith="#0000ff", horizon="#0000ff", ground="#0000ff"))
+    assert sky[2, :, 2].mean() > sky[2, :, 0].mean() + 60
+
+
+def test_light_that_moves_moves_its_shadows(made):
+    def tell(film):
+        looking(film)
+        film.light(azimuth_deg=-160, elevation_deg=30, at=0.0)
+        film.light(azimuth_deg=-20, elevation_deg=30, at=0.3)
+
+    with made.screening(tell) as screening:
+        early, late = screening.picture(0).astype(int), screening.picture(7).astype(int)
+    assert np.abs(early - late).max() > 40
+
+
+def test_what_is_out_of_focus_is_blurred(made):
+    def sharp(aperture):
+        camera = still((0.0, -1.0, 0.6), (0, 0, 0.5), lens_mm=50, focus=0.25, aperture=aperture)
+        with made.screening(lambda f: f.shot(camera, until=0.1)) as screening:
+            picture = screening.picture(0).astype(float).mean(axis=2)
+        return np.abs(np.diff(picture, axis=1)).max()
+
+    assert sharp(1.4) < 0.6 * sharp(None)
+
+
+def test_an_open_shutter_smears_what_moves(made):
+    def edge(*shutter):
+        def tell(film):
+            film.shot(still((0.0, -1.2, 0.3), (0, 0, 0.3)), until=0.4)
+            if shutter:
+                film.shutter(shutter[0], samples=8)
+
+        with made.screening(tell) as screening:
+            picture = screening.picture(6).astype(float)
+        column = (picture[..., 0] - picture[..., 2])[:, 44:52].mean(axis=1)
+        return np.abs(np.diff(column[:40])).max()
+
+    assert edge(1.0) < 0.7 * edge()
+
+
+def test_how_fast_it_runs_stands_in_the_corner(made):
+    def tell(film):
+        looking(film, 0.2)
+        film.shot(still((0.2, -2.5, 0.6), (0.2, 0, 0.4)), until=0.4, speed=0.25)
+        film.shot(still((0.2, -2.5, 0.6), (0.2, 0, 0.4)), start=0.0, until=0.2)
+
+    film = made.film(tell)
+    assert [pace(film.speed(frame, 24)) for frame in (2, 8, 26)] == ["", "1/4 speed", ""]
+    with made.screening(tell) as screening:
+        corners = [screening.picture(frame)[:8, -40:].astype(int) for frame in (2, 8, film.frames - 1)]
+    assert np.abs(corners[0] - corners[1]).mean() > 3
+    assert np.abs(corners[0] - corners[2]).mean() > 3  # shown again
+
+
+@pytest.mark.parametrize(
+    ("speed", "words"),
+    [
+        (1.0, ""),
+        (0.5, "1/2 speed"),
+        (0.2, "1/5 speed"),
+        (0.0, "held"),
+        (2.0, "2 × speed"),
+        (0.62, "0.6 × speed"),
+        (0.01, "1/100 speed"),
+        (-1.0, "backwards"),
+    ],
+)
+def test_speeds_have_names(speed, words):
+    assert pace(speed) == words
+
+
+def test_a_caption_of_a_third_of_a_second_is_read_for_half_of_it():
+    black = np.zeros((180, 320, 3), np.uint8)
+    captions = [{"text": "7 J", "place": "bottom", "start_s": 0.0, "end_s": 0.3}]
+    seen = [int(letter(black, k / 24, captions, 1.0, False).max()) for k in range(7)]
+    assert max(seen) > 240 and sum(light > 240 for light in seen) >= 3
+
+
+def test_spaces_and_line_ends_of_a_caption_stay():
+    black = np.zeros((180, 640, 3), np.uint8)
+
+    def columns(text):
+        captions = [{"text": text, "place": "bottom", "start_s": 0.0, "end_s": 4.0}]
+        shown = letter(black, 2.0, captions, 1.0, False).max(axis=2) > 128
+        return np.ptp(np.flatnonzero(shown.any(axis=0))), np.ptp(np.flatnonzero(shown.any(axis=1)))
+
+    together, apart, below = columns("12 J 9 J"), columns("12 J      9 J"), columns("12 J\n9 J")
+    assert apart[0] > together[0] + 10 and apart[1] == together[1]
+    assert below[0] < together[0] and below[1] > 1.8 * together[1]
+
+
+def test_captions_come_and_go():
+    black = np.zeros((270, 480, 3), np.uint8)
+    captions = [{"text": "A ball falls", "place": "bottom", "start_s": 1.0, "end_s": 3.0}]
+    assert letter(black, 0.5, captions, 1.0, False) is black
+    shown = letter(black, 2.0, captions, 1.0, False)
+    assert shown[220:].max() > 200
+    assert shown[:200].max() == 0
+    assert letter(black, 3.0, captions, 1.0, False).max() == 0
+    assert black.max() == 0
+
+
+def test_between_two_moments_light_changes_evenly():
+    held = Treatments(
+        [{"at_s": 0.0, "grade_contrast": 1.0}, {"at_s": 2.0, "grade_contrast": 2.0, "fog_rgb": (1, 1, 1)}]
+    )
+    assert [held.at(t).grade_contrast for t in (-1, 0, 1, 2, 9)] == [1, 1, 1.5, 2, 2]
+    assert held.at(0.0).fog_rgb == (1.0, 1.0, 1.0)
+
+
+def test_a_camera_stands_upright_and_rolls():
+    upright = axes([0, -1, 0], [0, 0, 0], 0.0)
+    assert upright == pytest.approx(np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]]))
+    rolled = axes([0, -1, 0], [0, 0, 0], 90.0)
+    assert rolled[:, 0] == pytest.approx([0, 0, 1])
+    straight = axes([0, 0, 5], [0, 0, 0], 0.0)
+    assert straight.T @ straight == pytest.approx(np.eye(3))
+
+
+def test_a_renderer_that_cannot_light_says_so(made, monkeypatch):
+    monkeypatch.setenv("WORLDKIT_RENDERER", "classic")
+    with made.screening(lambda f: (looking(f), f.mood("noon"))) as screening:
+        screening.picture(0)
+        assert "fog" in screening.frames.told()["without"]
+
+
+def test_nothing_here_steps_the_physics(made, monkeypatch):
+    monkeypatch.setattr(mujoco, "mj_step", lambda *_: pytest.fail("a film stepped"))
+    with made.screening(lambda f: f.shot(wide(), until=0.1)) as screening:
+        screening.picture(0)

@@ -1,0 +1,227 @@
+"""The seam of solvers beside the engine, and the basin that proves it: stepped, logged, recorded, replayed, drawn."""
+
+import json
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from small_worlds import INTEGRATORS, ball, empty
+from worldengine.clock.beside import Beside
+from worldengine.clock.simulate import prepare, simulate
+from worldengine.inputs.ports import Ports
+from worldengine.recording import describing, stored
+from worldengine.recording.record import Recorder
+from worldengine.recording.replay import Replay
+from worldengine.solvers import SEAM, Row, called, check
+from worldengine.variants.altered import Variant, alter
+from worldkit import portable
+from worldkit.errors import ProgramError
+from worldkit.world import start
+
+RADIUS = 0.1
+VOLUME = 4 / 3 * math.pi * RADIUS**3
+WATER = {"density": 1000.0, "area": 1.0, "floor": 0.0, "volume": 0.5, "inflow": 0.0, "damping": 4.0}
+
+
+def pond(
+    integrator: str = "IMPLICITFAST", z: float = 0.5, mass: float = 500 * VOLUME, step: float = 0.002
+) -> mujoco.MjSpec:
+    """A ball over, in or on water, and a sheet that shows the water's surface."""
+    spec = empty(time_step=step, integrator=integrator)
+    ball(spec, "duck", (0, 0, z), radius=RADIUS, mass=mass)
+    spec.worldbody.add_geom(
+        name="surface", type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.5, 0.5, 0.01), pos=(0, 0, 0.1), contype=0, conaffinity=0
+    )
+    return spec
+
+
+def run(
+    spec: mujoco.MjSpec, folder: Path, steps: int, variant: Variant | None = None, every: int = 1, **changes: float
+):
+    model = spec.compile()
+    hold = alter(model, variant) if variant else None
+    rows = [Row("basin", ("duck",), {**WATER, **changes}, "surface")]
+    prepare(model)
+    data = start(model)
+    beside = Beside(model, data, rows, hold=hold)
+    meta = {**describing.describe(model), "solvers": [row.written() for row in rows]}
+    with Recorder(model, data, folder, meta, channels=beside.channels) as recorder:
+        simulate(model, data, recorder, steps, every=every, beside=beside)
+    return stored.open(folder)
+
+
+@pytest.mark.parametrize("integrator", INTEGRATORS)
+def test_what_weighs_half_of_its_water_floats_half_under(tmp_path: Path, integrator: str) -> None:
+    recording = run(pond(integrator), tmp_path / "out", 5000)
+    water = recording.channels("basin")
+    assert set(water) == {"level", "volume", "immersed"}
+    assert water["immersed"].shape == (5001, 1)
+    assert water["immersed"][-1, 0] == pytest.approx(VOLUME / 2, rel=1e-3)
+    assert water["level"][-1] == pytest.approx(0.5 + VOLUME / 2, rel=1e-6), "the water rises by what is under it"
+    assert recording.pos[-1, 0, 2] == pytest.approx(water["level"][-1], abs=2e-4), "half under"
+    assert abs(recording.linvel[-1, 0, 2]) < 1e-3
+
+
+@pytest.mark.parametrize("integrator", ["IMPLICITFAST", "RK4"])
+def test_its_work_is_in_the_ledger(tmp_path: Path, integrator: str) -> None:
+    """What gravity and water did is what the ball has: with no drag, and energy measured by the engine."""
+    recording = run(pond(integrator, z=0.8, step=0.0002), tmp_path / "out", 2500, damping=0.0)
+    ledger = recording.interventions
+    assert set(ledger.kind) == {"force"} and set(ledger.target) == {"duck"}
+    assert (ledger.value[:, 2] > 0).all() and not ledger.value[:, [0, 1, 3, 4, 5]].any()
+    total = recording.energy.sum(axis=1)
+    assert ledger.work_j.sum() == pytest.approx(total[-1] - total[0], rel=2e-3)
+    under = recording.channels("basin")["immersed"][:-1, 0]
+    assert (under > 0).sum() == len(ledger)
+    assert ledger.value[:, 2] == pytest.approx(1000 * 9.81 * under[under > 0])
+
+
+def test_its_own_state_goes_on_with_the_engine(tmp_path: Path) -> None:
+    recording = run(pond(), tmp_path / "out", 500, every=10, inflow=0.2)
+    water = recording.channels("basin")
+    assert water["volume"] == pytest.approx(0.5 + 0.2 * recording.time)
+    assert water["level"] == pytest.approx(water["volume"] + water["immersed"][:, 0])
+    assert recording.pos[-1, 0, 2] > recording.pos[0, 0, 2], "the bath lifts the duck"
+    finer = run(pond(), tmp_path / "fine", 1000, Variant(time_step_factor=0.5), inflow=0.2)
+    assert finer.channels("basin")["volume"][-1] == pytest.approx(water["volume"][-1])
+
+
+def test_without_its_force_it_does_nothing(tmp_path: Path) -> None:
+    recording = run(pond(z=0.5), tmp_path / "out", 300, Variant(without=("force:duck",)))
+    fallen = 0.5 * 9.81 * recording.time[-1] ** 2
+    assert recording.pos[0, 0, 2] - recording.pos[-1, 0, 2] == pytest.approx(fallen, rel=0.02)
+    assert not len(recording.interventions)
+
+
+def test_a_box_rights_itself_not_but_is_pushed_at_its_middle(tmp_path: Path) -> None:
+    """Two geoms of one body: the one under water turns it."""
+    spec = empty(time_step=0.002)
+    body = spec.worldbody.add_body(name="duck", pos=(0, 0, 0.5))
+    body.add_freejoint()
+    for x in (-0.3, 0.3):
+        body.add_geom(
+            type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.05, 0.05, 0.05), pos=(x, 0, 0.0 if x < 0 else 0.3), mass=0.5
+        )
+    model = spec.compile()
+    data = start(model)
+    mujoco.mj_forward(model, data)
+    running = check(Row("basin", ("duck",), WATER)).start(model, data, [1], WATER)
+    wrench = running.look(data)
+    level = running.channels[next(c for c in running.channels if c.name == "level")]
+    under = 0.01 * (float(level) - 0.45)
+    assert float(level) == pytest.approx(0.5 + under)
+    assert wrench[0, 2] == pytest.approx(9810 * under)
+    assert wrench[0, 4] == pytest.approx(0.3 * 9810 * under), "about +Y: the left end goes up"
+    assert np.array_equal(running.look(data), wrench), "looking twice is looking once"
+
+
+def as_files(folder: Path, rows: list, name: str, **facts: object) -> list[str]:
+    (folder / name).mkdir()
+    spec = pond(z=0.7)
+    spec.add_key(name="start", qpos=spec.compile().qpos0)
+    portable.write(spec, folder / "world.mjz")
+    given = {
+        "duration": 0.6, "fps": 10, "size": [160, 96], "movers": ["duck"], "visual_only": ["surface"], "seed": 0,
+        "control": None, "control_every": 1, "latency": 0, **facts,
+    }  # fmt: skip
+    (folder / "program.json").write_text(json.dumps(given))
+    (folder / "inputs.json").write_text(json.dumps(rows))
+    words = ["--world", "world.mjz", "--program", "program.json", "--inputs", "inputs.json", "--out", name]
+    return [sys.executable, "-m", "worldengine", "physics", *words]
+
+
+def test_the_same_files_give_the_same_hash_again(tmp_path: Path) -> None:
+    """By the engine's own command line, twice, and driven by what is recorded."""
+    rows = [Row("basin", ("duck",), {**WATER, "inflow": 0.1}, "surface").written()]
+    found = []
+    for name, more in (("one", []), ("two", []), ("three", ["--replay", "one/trajectory"])):
+        done = subprocess.run([*as_files(tmp_path, rows, name), *more], cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout + done.stderr
+        found.append(json.loads((tmp_path / name / "result.json").read_text()))
+    assert len({row["trajectory_sha256"] for row in found}) == 1
+    assert found[0]["interventions"]["force"] > 100
+    first, third = (stored.open(tmp_path / name / "trajectory") for name in ("one", "three"))
+    assert np.array_equal(first.channels("basin")["level"], third.channels("basin")["level"])
+    assert first.meta["motion_key"] == stored.open(tmp_path / "two" / "trajectory").meta["motion_key"]
+    rows[0]["solver"]["constants"]["inflow"] = 0.2
+    done = subprocess.run(as_files(tmp_path, rows, "four"), cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0
+    fourth = stored.open(tmp_path / "four" / "trajectory")
+    assert fourth.meta["motion_key"] != first.meta["motion_key"] and fourth.sha256 != first.sha256
+
+
+def test_what_is_recorded_of_it_is_drawn(tmp_path: Path) -> None:
+    recording = run(pond(), tmp_path / "out", 200, inflow=0.5)
+    model = pond().compile()
+    replay = Replay(model, recording)
+    surface = model.geom("surface").id
+    for row in (0, 100, 200, 50):
+        data = replay.show(row)
+        level = recording.channels("basin")["level"][row]
+        assert data.geom_xpos[surface, 2] + 0.01 == pytest.approx(level)
+
+
+def test_two_of_a_kind_have_channels_of_their_own() -> None:
+    rows = [Row("basin", (name,), WATER) for name in ("a", "b")]
+    assert called(rows) == ["basin", "basin#2"]
+
+
+@pytest.mark.parametrize(
+    ("row", "said"),
+    [
+        (Row("tide", ("duck",), WATER), "no solver 'tide'"),
+        (Row("basin", ("goose",), WATER), "acts on 'goose'"),
+        (Row("basin", ("duck",), {**WATER, "salt": 1.0}), "does not know salt"),
+        (Row("basin", ("duck",), {k: v for k, v in WATER.items() if k != "area"}), "lacks area"),
+        (Row("basin", ("duck",), {**WATER, "area": 0.0}), "positive density and area"),
+    ],
+)
+def test_a_row_that_makes_no_sense_is_refused_with_what_would(row: Row, said: str) -> None:
+    model = pond().compile()
+    with pytest.raises(ProgramError, match=said) as refused:
+        Beside(model, mujoco.MjData(model), [row])
+    assert refused.value.next_move
+
+
+def test_a_body_has_one_who_pushes_it() -> None:
+    model = pond().compile()
+    data = mujoco.MjData(model)
+    row = Row("basin", ("duck",), WATER)
+    with pytest.raises(ProgramError, match="'duck' would be pushed by the solver basin and by another"):
+        Beside(model, data, [row], Ports(model, (("force", frozenset({"duck"})),)))
+    with pytest.raises(ProgramError, match="'duck' would be pushed"):
+        Beside(model, data, [row, row])
+
+
+@pytest.mark.parametrize("name", SEAM.names())
+def test_every_solver_says_what_it_reads_and_has_cases(name: str) -> None:
+    solver = SEAM.find(name)
+    assert solver.CONSTANTS and all(unit and meaning for unit, meaning in solver.CONSTANTS.values())
+    assert solver.CASES and all(case.because for case in solver.CASES)
+
+
+@pytest.mark.parametrize(("integrator", "finer"), [(name, 1) for name in INTEGRATORS] + [("IMPLICITFAST", 2)])
+@pytest.mark.parametrize(
+    ("name", "number"), [(name, n) for name in SEAM.names() for n, _ in enumerate(SEAM.find(name).CASES)]
+)
+def test_a_case_comes_out_as_it_is_known_to(
+    tmp_path: Path, name: str, number: int, integrator: str, finer: int
+) -> None:
+    case = SEAM.find(name).CASES[number]
+    spec = mujoco.MjSpec.from_string(case.world)
+    spec.option.integrator = getattr(mujoco.mjtIntegrator, f"mjINT_{integrator}")
+    spec.option.timestep /= finer
+    model = spec.compile()
+    prepare(model)
+    data = start(model)
+    beside = Beside(model, data, [Row(name, case.bodies, case.constants)])
+    with Recorder(model, data, tmp_path / "out", describing.describe(model), channels=beside.channels) as recorder:
+        simulate(model, data, recorder, round(case.seconds / model.opt.timestep), every=10 * finer, beside=beside)
+    recording = stored.open(tmp_path / "out")
+    found = recording.channels(name)[case.channel][-1]
+    assert float(np.reshape(found, -1)[0]) == pytest.approx(case.expected, abs=case.tolerance), case.because

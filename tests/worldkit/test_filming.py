@@ -1,0 +1,294 @@
+"""What a film's author says becomes a description of every frame, or is refused with what to do instead."""
+
+import json
+
+import numpy as np
+import pytest
+
+from worldkit.errors import ProgramError
+from worldkit.filming import MOODS, Film, Recorded, Surface, along, follow, orbit, planned, ride, still, telling, wide
+from worldkit.filming.viewpoints import between, fovy_deg
+
+T = np.linspace(0.0, 3.0, 301)[:, None]
+
+
+def rehearsal():
+    return Recorded.rehearsal(
+        {"ball": np.hstack([T, 0 * T, 0.1 + 0 * T]), "post": np.hstack([2 + 0 * T, 1 + 0 * T, 0 * T])}, duration=3.0
+    )
+
+
+@pytest.fixture
+def film():
+    return Film(rehearsal())
+
+
+def described(film):
+    facts, arrays = film.description()
+    json.dumps(facts)
+    return facts, arrays
+
+
+def test_shots_follow_each_other_at_their_speed(film):
+    film.shot(follow("ball"), until=1.0)
+    film.shot(follow("ball"), until=2.0, speed=0.25)
+    assert film.reached == pytest.approx(2.0)
+    assert film.now == pytest.approx(1.0 + 4.0)
+    facts, arrays = described(film)
+    assert [shot["frames"] for shot in facts["shots"]] == [24, 96]
+    step = np.diff(arrays["time"])
+    assert step[:23] == pytest.approx(1 / 24)
+    assert step[24:] == pytest.approx(1 / 96)
+
+
+def test_a_speed_is_exact_where_a_shot_is_no_whole_number_of_frames(film):
+    film.shot(wide(), until=0.61)
+    _, arrays = described(film)
+    assert np.diff(arrays["time"]) == pytest.approx(1 / 24)
+
+
+def test_a_ramp_begins_at_one_speed_and_ends_at_the_other(film):
+    film.shot(wide(), until=3.0, speed=(1.0, 0.25))
+    _, arrays = described(film)
+    speed = np.diff(arrays["time"]) * 24
+    assert speed[0] == pytest.approx(1.0, abs=0.02)
+    assert speed[-1] == pytest.approx(0.25, abs=0.02)
+    assert (np.diff(speed) < 1e-9).all()
+
+
+def test_a_held_moment_stands_still_while_the_camera_moves(film):
+    film.hold(orbit("ball", azimuth_deg=(0, 90)), 1.0, at=1.5)
+    _, arrays = described(film)
+    assert arrays["time"].tolist() == [1.5] * 24
+    assert np.linalg.norm(arrays["eye"][-1] - arrays["eye"][0]) > 0.3
+
+
+def test_a_following_camera_keeps_its_body_in_the_middle_and_its_size(film):
+    film.shot(follow("ball", lens_mm=50, fill=0.25), until=3.0)
+    _, arrays = described(film)
+    ball = film.recorded.position("ball", arrays["time"])
+    inner = (arrays["time"] > 0.3) & (arrays["time"] < 2.7)
+    assert np.abs(arrays["target"] - ball)[inner].max() < 1e-6
+    away = np.linalg.norm(arrays["eye"] - arrays["target"], axis=1)
+    seen = film.recorded.radius("ball") / (away * np.tan(np.radians(arrays["fovy_deg"]) / 2))
+    assert seen == pytest.approx(0.25)
+
+
+@pytest.mark.parametrize("lens", [24, (35, 85)])
+def test_a_camera_that_follows_two_keeps_both_in_the_picture_as_they_part(lens):
+    t = np.linspace(0.0, 4.0, 400)[:, None]
+    ways = {"a": np.hstack([t**2, 0 * t, 0 * t + 0.2]), "b": np.hstack([0.2 * t**2, -1.5 * t, 0 * t + 0.2])}
+    film = Film(Recorded.rehearsal(ways, duration=4.0, radius=0.2))
+    film.shot(follow(["a", "b"], azimuth_deg=(-60, -20), lens_mm=lens), until=4.0)
+    _, frames = film.description()
+    eye, target = frames["eye"], frames["target"]
+    ahead = (target - eye) / np.linalg.norm(target - eye, axis=1, keepdims=True)
+    right = np.cross(ahead, (0, 0, 1.0))
+    right /= np.linalg.norm(right, axis=1, keepdims=True)
+    up = np.cross(right, ahead)
+    half = np.tan(np.radians(frames["fovy_deg"]) / 2)
+    widest = 0.0
+    for name in ways:
+        apart = film.recorded.position(name, frames["time"]) - eye
+        deep = (apart * ahead).sum(axis=1)
+        shares = [
+            ((apart * side).sum(axis=1).__abs__() + 0.2) / deep / k for side, k in ((right, half * 16 / 9), (up, half))
+        ]
+        widest = max(widest, float(np.max(shares)))
+    assert 0.6 < widest <= 0.85  # room is a quarter of what they take
+    away = np.linalg.norm(eye - target, axis=1)
+    assert away[-1] > 2 * away[0] or isinstance(lens, tuple)
+    assert np.abs(np.diff(away, 2)).max() < 0.02 * away.max()
+
+
+def test_a_focused_lens_knows_how_far_its_subject_is(film):
+    film.shot(still((0, -2, 0.1), "post", focus="ball", aperture=2.0), until=1.0)
+    _, arrays = described(film)
+    expected = np.linalg.norm(film.recorded.position("ball", arrays["time"]) - arrays["eye"], axis=1)
+    assert arrays["focus_m"] == pytest.approx(expected)
+    assert set(arrays["aperture"]) == {2.0}
+
+
+def test_a_way_passes_through_its_points_with_a_gentle_start_and_end(film):
+    points = [(0, -3, 1), (1, -2, 1), (3, -3, 2)]
+    film.shot(along(points, "ball"), until=2.0)
+    _, arrays = described(film)
+    for point in points:
+        assert np.linalg.norm(arrays["eye"] - point, axis=1).min() < 0.08
+    way = np.linalg.norm(np.diff(arrays["eye"], axis=0), axis=1)
+    assert max(way[0], way[-1]) < 0.02 * way.max()
+
+
+def test_a_rider_looks_where_the_body_goes(film):
+    film.shot(ride("ball", seat=(-1, 0, 0.5)), until=2.0)
+    _, arrays = described(film)
+    assert (arrays["target"] - arrays["eye"]) == pytest.approx(np.tile([1.0, 0, 0], (48, 1)))
+
+
+def test_a_wide_camera_holds_the_whole_way(film):
+    film.shot(wide(), until=3.0)
+    _, arrays = described(film)
+    for frame in (0, len(arrays["time"]) - 1):
+        eye, target = arrays["eye"][frame], arrays["target"][frame]
+        forward = (target - eye) / np.linalg.norm(target - eye)
+        right = np.cross(forward, [0, 0, 1.0])
+        right /= np.linalg.norm(right)
+        up = np.cross(right, forward)
+        tangent = np.tan(np.radians(arrays["fovy_deg"][frame]) / 2)
+        for at in (0.0, 3.0):
+            way = film.recorded.position("ball", at) - eye
+            assert abs(way @ right) < way @ forward * tangent * 16 / 9
+            assert abs(way @ up) < way @ forward * tangent
+
+
+def test_a_film_without_a_shot_tells_the_event_by_itself(film):
+    facts, arrays = described(film)
+    speeds = {round(float(s), 2) for s in np.diff(arrays["time"]) * 24}
+    assert len(facts["shots"]) >= 2
+    assert 0.25 in speeds
+    assert arrays["time"][0] == 0.0
+    assert arrays["time"].max() == pytest.approx(3.0, abs=0.09)
+
+
+def test_a_lens_zooms_gently():
+    assert between((24, 48), np.array([0.0, 0.5, 1.0])).tolist() == [24.0, 36.0, 48.0]
+    assert fovy_deg(50.0) == pytest.approx(22.9, abs=0.05)
+
+
+@pytest.mark.parametrize("name", MOODS)
+def test_every_mood_can_be_told(film, name):
+    film.mood(name)
+    facts, _ = described(film)
+    assert any("sky_zenith" in told for told in facts["air"])
+
+
+def test_what_grows_is_one_mesh_that_keeps_clear(film):
+    film.grass(area=(-1, -1, 1, 1), height=0.2, count=500, clear_of=[(0, 0, 0.5)])
+    facts, arrays = described(film)
+    points = arrays[facts["things"][0]["vertices"]].reshape(-1, 5, 3)
+    feet = points[:, :2, :2].mean(axis=1)
+    assert np.hypot(*feet.T).min() > 0.49
+    assert 0.05 < points[..., 2].max() <= 0.2
+
+
+def test_particles_have_a_place_in_every_frame(film):
+    film.shot(wide(), until=1.0)
+    film.particles("sparks", lambda times: (np.zeros((len(times), 3, 3)), np.full((len(times), 3), 0.01)))
+    facts, arrays = described(film)
+    assert arrays[facts["things"][0]["ways"]].shape == (24, 3, 3)
+
+
+def test_touches_are_told_with_their_bodies():
+    arrays = {name: value for name, value in vars(rehearsal()).items() if name == "time"}
+    assert arrays["time"][-1] == 3.0
+    assert rehearsal().touches() == []
+    assert rehearsal().event() <= 3.0
+
+
+REFUSED = {
+    "no body is called": lambda f: f.shot(follow("bal"), until=1.0) or f.description(),
+    "shows nothing": lambda f: f.shot(wide(), until=1.0, start=2.0),
+    "a speed lies between": lambda f: f.shot(wide(), until=1.0, speed=0.0),
+    "the plan has no camera": lambda f: f.shot(planned("side"), until=1.0),
+    "a shot needs a camera": lambda f: f.shot("side", until=1.0),
+    "no mood is called": lambda f: f.mood("sunny"),
+    "a colour is written": lambda f: f.light(colour="red"),
+    "no look is called 'gould'": lambda f: f.look("ball", "gould"),
+    "needs a name of its own": lambda f: [f.draw("a", "box", 1.0), f.draw("a", "box", 1.0)],
+    "there is no shape": lambda f: f.draw("a", "cone", 1.0),
+    "belongs to no body": lambda f: f.mesh("a", np.eye(4)[:, :3], [[0, 1, 2]], instead=True),
+    "a caption has words": lambda f: f.caption(" "),
+    "fog needs a visibility": lambda f: f.fog(visibility_m=0),
+    "lens_mm must lie": lambda f: f.shot(wide(lens_mm=2), until=1.0),
+    "stands where it looks": lambda f: f.shot(still((1, 1, 1), (1, 1, 1)), until=1.0) or f.description(),
+    "must be": lambda f: f.particles("p", lambda times: np.zeros(3)) or f.description(),
+    "a picture is uint8": lambda f: Surface(picture=np.zeros((4, 4, 3))),
+}
+
+
+@pytest.mark.parametrize("words", REFUSED)
+def test_what_cannot_be_shown_is_refused(film, words):
+    with pytest.raises(ProgramError, match=words):
+        REFUSED[words](film)
+
+
+def motion_file(tmp_path):
+    seen = rehearsal()
+    nothing = np.zeros(0)
+    np.savez(
+        tmp_path / "motion.npz", time=seen.time, pos=seen._pos, quat=seen._quat, middle=seen._middle, half=seen._half,
+        bodies=np.array(seen.bodies), cameras=np.array(["side"]), movers=np.array(["ball"]), fps=24, size=[64, 36], floor_z=0.0,
+        touch_time=nothing, touch_a=nothing, touch_b=nothing, touch_force=nothing,
+    )  # fmt: skip
+    return tmp_path / "motion.npz"
+
+
+def test_a_film_is_described_in_a_process_of_its_own(tmp_path):
+    (tmp_path / "film.py").write_text(
+        "from worldkit.filming import Film, follow\ndef film(film: Film):\n    film.shot(follow('ball'), until=1.0)\n"
+    )
+    words = [str(tmp_path / "film.py"), "--motion", str(motion_file(tmp_path)), "--out", str(tmp_path)]
+    assert telling.main(words) == 0
+    assert json.loads((tmp_path / "film.json").read_text())["shots"][0]["frames"] == 24
+    with np.load(tmp_path / "film.npz", allow_pickle=False) as arrays:
+        assert arrays["eye"].shape == (24, 3)
+
+
+def test_a_film_that_fails_names_its_line(tmp_path):
+    (tmp_path / "film.py").write_text(
+        "from worldkit.filming import Film, follow\n\n\ndef film(film: Film):\n    film.shot(follow('bell'), until=1.0)\n"
+    )
+    words = [str(tmp_path / "film.py"), "--motion", str(motion_file(tmp_path)), "--out", str(tmp_path)]
+    assert telling.main(words) == 1
+    error = json.loads((tmp_path / "error.json").read_text())
+    assert error["line"] == 5
+    assert "ball" in error["next_move"]
+
+
+HILL = np.array([(-2, -2, 0), (2, -2, 1), (-2, 2, 0), (2, 2, 1)], float), np.array([(0, 1, 2), (1, 3, 2)])
+
+
+@pytest.fixture
+def on_hill():
+    ways = {"ball": np.hstack([T, 0 * T, 0.1 + 0 * T]), "hill": np.zeros((301, 3))}
+    return Film(Recorded.rehearsal(ways, duration=3.0, ground={"hill": HILL}))
+
+
+@pytest.mark.parametrize("z", ["hill", lambda x, y: 0.5 + x / 4])
+def test_grass_stands_on_a_hill_or_on_a_function(on_hill, z):
+    on_hill.grass(area=(-2, -2, 2, 2), count=500, height=0.2, z=z)
+    _, arrays = described(on_hill)
+    feet = arrays["vertices0"].reshape(-1, 5, 3)[:, :2]
+    assert len(feet) == 500
+    middle = feet.mean(axis=1)
+    assert middle[:, 2] == pytest.approx(0.5 + middle[:, 0] / 4 - 0.002, abs=1e-5)
+
+
+def test_grass_grows_only_where_there_is_ground(on_hill):
+    on_hill.grass(area=(-2, -2, 6, 2), count=400, z="hill")
+    _, arrays = described(on_hill)
+    feet = arrays["vertices0"].reshape(-1, 5, 3)[:, :2].mean(axis=1)
+    assert 150 < len(feet) < 250 and feet[:, 0].max() < 2.01
+    with pytest.raises(ProgramError, match="no blade"):
+        on_hill.grass("more", area=(3, -2, 6, 2), z="hill")
+    with pytest.raises(ProgramError, match="nothing that stands still") as told:
+        on_hill.grass("more", area=(3, -2, 6, 2), z="hil")
+    assert "hill" in str(told.value.remedy if hasattr(told.value, "remedy") else told.value)
+
+
+@pytest.mark.parametrize("kind", ["conifer", "broadleaf"])
+def test_trees_keep_their_budget_stand_on_the_ground_and_are_the_same_again(on_hill, kind):
+    on_hill.tree("wood", kind, at=[(-1, 0), (1.5, 1)], height=4, z="hill")
+    facts, arrays = described(on_hill)
+    assert [thing["name"] for thing in facts["things"]] == ["wood", "wood (leaves)"]
+    assert len(arrays["faces0"]) + len(arrays["faces1"]) <= 2 * 6000
+    feet = [arrays["vertices0"][np.abs(arrays["vertices0"][:, 0] - x) < 0.5][:, 2].min() for x in (-1, 1.5)]
+    assert feet == pytest.approx([0.25 - 0.02, 0.875 - 0.02], abs=0.1)
+    assert 0.8 * 4 + 0.8 < arrays["vertices1"][:, 2].max() < 1.1 * 4 + 1.2
+    again = Film(on_hill.recorded)
+    again.tree("wood", kind, at=[(-1, 0), (1.5, 1)], height=4, z="hill")
+    assert (again.description()[1]["vertices1"] == arrays["vertices1"]).all()
+    with pytest.raises(ProgramError, match="beside its ground"):
+        on_hill.tree("more", kind, at=[(5, 0)], z="hill")
+    with pytest.raises(ProgramError, match="conifer or broadleaf"):
+        on_hill.tree("more", "palm", at=[(0, 0)])

@@ -1,0 +1,168 @@
+"""Keeping an accepted run in its small form, and making again what was left out."""
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from worldwright.cli import main
+from worldwright.gallery import making, pages, worlds
+from worldwright.model.errors import GateError, NotFoundError
+from worldwright.model.evidence.run import Run, sha256_file
+from worldwright.stamp import bundle, poster, small_form
+from worldwright.stamp import tools as stamp
+from worldwright.stamp.verification import static
+
+Copy = Callable[[Path], Path]
+
+
+@pytest.fixture(scope="module")
+def small(accepted: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The small form of the accepted world, in an `examples/` of its own."""
+    target = tmp_path_factory.mktemp("checkout") / "examples" / accepted.name
+    small_form.write(Run(accepted), target)
+    return target
+
+
+def checks(folder: Path) -> dict[str, str]:
+    """What does not hold of a small form, without running it."""
+    return {c.name: c.detail for c in static(Run(folder), folder) if not c.ok}
+
+
+def test_the_small_form_is_what_a_person_reads(small: Path, accepted: Path) -> None:
+    names = {path.name for path in small.iterdir()}
+    assert names - {"stamp.dsse.json", "stamp.pub"} == {
+        "prompt.md", "plan.md", "simulation.py", "journal.jsonl", "motion.json", "poster.webp", "stamp.json", "SHA256SUMS",
+    }  # fmt: skip
+    assert sum(path.stat().st_size for path in small.iterdir()) < 120_000
+    assert (small / "stamp.json").read_bytes() == (accepted / "accepted" / "stamp.json").read_bytes()
+    sums = ["sha256sum", "--check", "--quiet", "SHA256SUMS"]
+    assert subprocess.run(sums, cwd=small, capture_output=True, check=False).returncode == 0
+
+
+def test_the_poster_is_small_and_shows_something(small: Path) -> None:
+    import cv2
+
+    path = small / poster.NAME
+    image = cv2.imread(str(path))
+    assert path.stat().st_size <= poster.BYTES
+    assert image.shape[1] == poster.WIDTH
+    assert image.std() > 3
+
+
+def test_a_world_is_proved_again_from_its_small_form(small: Path) -> None:
+    before = {path.name: sha256_file(path) for path in small.iterdir()}
+    result = stamp.verify(str(small), timeout_s=60)
+    assert (result.state, result.mode) == ("proved", "bitwise"), result.text()
+    assert "left out of the small form" in result.text()
+    assert {path.name: sha256_file(path) for path in small.iterdir()} == before
+    assert stamp.status(str(small)).state == "accepted"
+    assert stamp.accept(str(small)).already
+
+
+@pytest.mark.parametrize("name", ["plan.md", "prompt.md", "simulation.py", "motion.json", "poster.webp", "SHA256SUMS"])
+def test_a_small_form_that_was_changed_or_lost_a_file_is_not_as_stamped(small: Path, copy: Copy, name: str) -> None:
+    folder = copy(small)
+    path = folder / name
+    path.write_bytes(path.read_bytes() + b"\n")
+    assert name in checks(folder)["checksums"]
+    path.unlink()
+    assert "cannot be read" in checks(folder)["checksums"]
+
+
+def test_what_was_left_out_must_be_as_stamped_where_it_is_there(small: Path, accepted: Path, copy: Copy) -> None:
+    folder = copy(small)
+    (folder / "world.mjz").write_bytes((accepted / "accepted" / "world.mjz").read_bytes())
+    present = [s for s in Run(folder).folder.iterdir() if s.name == "world.mjz"]
+    assert present
+    assert "world.mjz was changed" not in str(checks(folder))
+    (folder / "world.mjz").write_bytes(b"another world")
+    assert "world.mjz was changed" in checks(folder)["checksums"]
+
+
+def test_a_file_that_nobody_stamped_is_named_and_a_build_beside_is_not(small: Path, copy: Copy) -> None:
+    folder = copy(small)
+    (folder / "evidence").mkdir()
+    (folder / "evidence" / "anything.json").write_text("{}")
+    (folder / "report.html").write_text("<p>")
+    assert checks(folder) == {}
+    (folder / "numpy.py").write_text("raise SystemExit")
+    assert "numpy.py is not in the stamp" in checks(folder)["checksums"]
+
+
+def test_only_an_accepted_and_whole_run_is_kept(reviewed: Path, accepted: Path, copy: Copy, tmp_path: Path) -> None:
+    with pytest.raises(NotFoundError, match="not accepted"):
+        small_form.write(Run(reviewed), tmp_path / "examples" / "ball")
+    folder = copy(accepted)
+    (folder / "accepted" / "plan.md").write_text("another plan")
+    with pytest.raises(GateError, match="not as it was stamped"):
+        small_form.write(Run(folder), tmp_path / "examples" / "ball")
+    assert not (tmp_path / "examples" / "ball").exists()
+
+
+def test_keeping_again_replaces_the_older_small_form(accepted: Path, tmp_path: Path) -> None:
+    target = tmp_path / "examples" / "ball"
+    small_form.write(Run(accepted), target)
+    (target / "leftover.txt").write_text("of before")
+    small_form.write(Run(accepted), target)
+    assert not (target / "leftover.txt").exists()
+    assert [path.name for path in target.parent.iterdir()] == ["ball"]
+
+
+def test_the_gallery_builds_what_was_left_out_and_does_nothing_twice(
+    small: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(small.parents[1])
+    (slug,) = worlds.slugs()
+    made = making.one("build", slug)
+    assert made.ok, made.detail
+    built = worlds.BUILT / slug
+    films = sorted(built.glob("evidence/*/video/*.mp4"))
+    assert films and (built / "report.html").is_file()
+    assert "Accepted" in (built / "report.html").read_text()
+    before = {path: path.stat().st_mtime_ns for path in films}
+    again = making.one("build", slug)
+    assert again.ok and again.seconds < made.seconds
+    assert {path: path.stat().st_mtime_ns for path in films} == before
+    page = pages.write_index([slug]).read_text()
+    assert films[0].name in page or any(film.name in page for film in films)
+    assert "The ball falls to the floor." in page
+
+
+def test_a_world_that_is_not_as_stamped_fails_the_gallery(
+    small: Path, copy: Copy, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "examples").mkdir()
+    folder = copy(small).rename(tmp_path / "examples" / "ball")
+    monkeypatch.chdir(tmp_path)
+    (folder / "plan.md").write_bytes((folder / "plan.md").read_bytes() + b"\n")
+    done = CliRunner().invoke(main, ["gallery", "prove", "ball", "--jobs", "1"])
+    assert done.exit_code == 1
+    assert "FAIL ball" in done.output and "plan.md was changed" in done.output
+    unknown = CliRunner().invoke(main, ["gallery", "prove", "cube"])
+    assert unknown.exit_code == 2
+    assert "name some of: ball" in unknown.output
+
+
+def test_accepting_anew_drafts_again_and_keeps(small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    small_form.write(Run(small), tmp_path / "examples" / "ball")
+    (tmp_path / "README.md").write_text(f"# Worlds\n{pages.BEGIN}\n{pages.END}\n")
+    stamped = (tmp_path / "examples/ball/stamp.json").read_bytes()
+    made = making.one("accept", "ball")
+    assert made.ok, made.detail
+    kept = tmp_path / "examples" / "ball"
+    assert bundle.is_small(kept) and (kept / "stamp.json").read_bytes() != stamped
+    assert stamp.verify(str(kept), timeout_s=60).ok
+    assert pages.write_table()
+    assert 'src="examples/ball/poster.webp"' in (tmp_path / "README.md").read_text()
+    assert not pages.write_table()
+
+
+def test_the_readme_shows_the_posters_that_there_are() -> None:
+    root = Path(__file__).parents[3]
+    text = (root / "README.md").read_text(encoding="utf-8")
+    between = text.split(pages.BEGIN)[1].split(pages.END)[0].strip()
+    assert between == pages.table(root), "`worldwright gallery keep` or `accept` writes it"

@@ -1,0 +1,127 @@
+"""`retrieve.begin`: the nearest world by mechanism, its plan adapted, and what is refused."""
+
+import shutil
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from worldwright.cli import main
+from worldwright.model.errors import GateError, NotFoundError
+from worldwright.model.evidence.run import Run
+from worldwright.model.plan.plan_text import read_plan
+from worldwright.retrieve import mechanisms, nearest_worlds, tools
+from worldwright.scan.objectives.claims import EXPECTATIONS
+
+REPO = Path(__file__).parents[3]
+NEAREST = {
+    "A yo-yo rises and falls on its string": {"slack-rope-pulls-box", "tetherball-swings"},
+    "A small and a large stone are rolled down a slope": {"rolling-marble"},
+    "a steady wind turns a windmill": {"pendulum-dies-out", "tetherball-swings"},
+    "A grandfather clock's pendulum swings": {"pendulum-dies-out"},
+    "A row of dominoes falls": {"bowling-pin-tips"},
+    "A mug slides across the table and stops": {"box-slides-to-rest"},
+    "A jack-in-the-box jumps out": {"spring-toy-launches"},
+    "A crane lifts a crate by a rope": {"slack-rope-pulls-box"},
+    "A tennis ball is dropped on clay and bounces lower each time": {"bouncing-basketball"},
+    "A plate is set down on a crowded dinner table": {"breakfast-table"},
+    "A rock is hurled over a wall": {"stone-across-river"},
+}
+"""Sentences that no example has, each with the worlds that show its mechanism."""
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.parametrize("meaning", [True, False], ids=["with-meaning", "words-alone"])
+@pytest.mark.parametrize("sentence", NEAREST)
+def test_the_nearest_world_has_the_mechanism(sentence, meaning, monkeypatch, here):
+    if not meaning:
+        monkeypatch.setattr("worldwright.retrieve.semantic.installed", lambda: False)
+    first, *_ = nearest_worlds.nearest(sentence, list(nearest_worlds.worlds()))
+    assert first.world.slug in NEAREST[sentence]
+
+
+def test_a_run_is_begun_with_prompt_plan_and_journal(here):
+    begun = tools.begin("A yo-yo rises and falls on its string")
+    run = Run(here / "runs/yo-yo-rises-falls-string")
+    assert begun.run == "runs/yo-yo-rises-falls-string" and begun.plan == f"{begun.run}/plan.md"
+    assert run.prompt.read_text() == "A yo-yo rises and falls on its string\n"
+    assert read_plan(run.plan).plan.title == "A yo-yo rises and falls on its string"
+    (line,) = run.entries()
+    assert (line["actor"], line["action"], line["like"]) == ("retrieve", "plan", begun.like)
+    assert 2 <= len(begun.skills) <= 4 and begun.skills[0].name == "tendons-and-ropes"
+    marked = run.plan.read_text().splitlines()
+    assert begun.to_change and all("TO_CHANGE" in marked[number - 1] for number in begun.to_change)
+    assert "worldwright go runs/yo-yo" in begun.next_move and begun.like in begun.text()
+
+
+def test_a_world_is_named_and_a_prompt_that_is_there_is_kept(here):
+    (here / "runs/mine").mkdir(parents=True)
+    (here / "runs/mine/prompt.md").write_text("all of the person's words")
+    begun = tools.begin("something spins", like="examples/bowling-pin-tips", run="mine")
+    assert begun.like == "bowling-pin-tips" and begun.run == "runs/mine"
+    assert (here / "runs/mine/prompt.md").read_text() == "all of the person's words"
+
+
+def test_what_the_nearest_world_lacks_is_said(here):
+    begun = tools.begin("a steady wind turns a windmill")
+    assert "has no air" in begun.nearest[0].why
+    assert "fluid-drag-and-wind" in {skill.name for skill in begun.skills}
+
+
+def test_a_plan_is_never_overwritten(here):
+    tools.begin("a marble rolls", run="mine")
+    before = (here / "runs/mine/plan.md").read_bytes()
+    with pytest.raises(GateError, match="not overwritten"):
+        tools.begin("another thing", run="mine")
+    assert (here / "runs/mine/plan.md").read_bytes() == before
+
+
+@pytest.mark.parametrize(("sentence", "like"), [("a marble rolls", "no-such-world"), ("the of", None)])
+def test_what_is_not_there_is_named(here, sentence, like):
+    with pytest.raises(NotFoundError) as refused:
+        tools.begin(sentence, like=like)
+    assert refused.value.next_move
+    assert not (here / "runs").exists()
+
+
+def test_an_accepted_run_of_the_users_is_a_world_too(here):
+    shutil.copytree(REPO / "examples/rolling-marble", here / "runs/skittles")
+    (here / "runs/skittles/prompt.md").write_text("A skittle ball is rolled down a long lawn.\n")
+    shutil.copytree(REPO / "examples/rolling-marble", here / "runs/unfinished")
+    (here / "runs/unfinished/stamp.json").unlink()
+    known = [world.slug for world in nearest_worlds.worlds()]
+    assert "skittles" in known and "unfinished" not in known
+    assert tools.begin("A skittle ball is rolled down a lawn", run="new").like == "skittles"
+
+
+def test_the_command_says_the_same(here):
+    done = CliRunner().invoke(main, ["plan", "new", "A marble rolls", "--like", "rolling-marble", "--run", "one"])
+    assert done.exit_code == 0 and "runs/one/plan.md: begun from rolling-marble" in done.output
+    again = CliRunner().invoke(main, ["plan", "new", "A marble rolls", "--run", "one"])
+    assert again.exit_code == 2 and "not overwritten" in again.output
+
+
+def test_every_word_of_the_table_means_something_that_there_is():
+    for row in mechanisms.table():
+        assert (REPO / "skills" / row.skill / "SKILL.md").is_file(), row.skill
+        for name in row.measured:
+            EXPECTATIONS.find(name)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "names"),
+    [
+        ("The breakfast table is laid", ("crowded",)),  # and nothing breaks
+        ("A kite flies in a gust", ("rope", "flight", "air")),
+        ("Two cars crash", ("impact", "vehicle")),
+        ("A vase is shattered by a hammer", ("impact", "breaking")),
+        ("Nothing of the kind", ()),
+    ],
+)
+def test_a_sentence_names_its_mechanisms(sentence, names):
+    assert mechanisms.of_sentence(sentence) == names

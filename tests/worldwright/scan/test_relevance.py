@@ -1,0 +1,75 @@
+"""A finding blocks when a claim rests on it or a viewer can see it; else it is a remark that says so."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from worldwright.model.finding import Anomaly
+from worldwright.model.plan.committed import Objective, Plan, RecordingMode
+from worldwright.model.plan.implementation_steps import CameraRow, Step
+from worldwright.model.recording.records import Contacts
+from worldwright.model.recording.trajectory import Trajectory
+from worldwright.scan.anomalies.relevance import weighed
+from worldwright.scan.known import analytic
+
+
+def scene(touching_row: int | None = None) -> Trajectory:
+    """A body that falls, and a leaf that falls two metres beside it; they touch in one row, or never."""
+    fall = analytic.falling(seconds=0.8)
+    beside = fall.pos + np.array([2.0, 0.0, 0.0])
+    pair = {name: np.repeat(getattr(fall, name), 2, axis=1) for name in ("quat", "linvel", "angvel")}
+    rows = np.array([] if touching_row is None else [touching_row], int)
+    none = np.zeros(len(rows))
+    touch = Contacts(
+        row=rows, body1=np.zeros(len(rows), int), body2=np.ones(len(rows), int), depth_m=none, normal_force=none
+    )
+    return replace(
+        fall, names=("body", "leaf"), pos=np.concatenate((fall.pos, beside), axis=1), contacts=touch,
+        contact_force_sum=None, mechanics=type(fall.mechanics)(), **pair,
+    )  # fmt: skip
+
+
+def plan(*expect: dict[str, object]) -> Plan:
+    camera = CameraRow(name="side", subjects=("body", "leaf"))
+    return Plan.model_construct(
+        objectives=(Objective(claim="It falls.", expect=expect),),
+        implementation_steps=(Step(description="all", cameras=(camera,)),),
+        recording_mode=RecordingMode(size=(640, 360), fps=24),
+        scene_objects=(), assets=(), geometry_relations=(), topology=Plan.model_fields["topology"].default,
+    )  # fmt: skip
+
+
+FALLS = {"falls": {"body": "body", "min_m": 0.5}}
+STAYS = {"never_faster_than": {"body": "body", "max_mps": 50}}
+
+
+def found(body: str, metres: float, start: float = 0.1, end: float = 0.7) -> Anomaly:
+    return Anomaly(
+        code="WS110", name="deep_penetration", severity="blocking", body=body, window_s=(start, end), measured=metres,
+        threshold=0.001, unit="m", message="it sinks in",
+    )  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("anomaly", "expect", "row", "severity", "why"),
+    [
+        (found("body", 0.001), FALLS, None, "blocking", "objective 0 rests on it"),
+        (found("leaf and world", 0.001), FALLS, None, "info", "no claim rests on it and no planned picture shows it"),
+        (found("leaf", 0.5), FALLS, None, "blocking", "pixels in camera side"),
+        (found("leaf", 0.5, 0.3, 0.31), FALLS, None, "info", "no planned picture"),
+        (found("leaf", 0.001), FALLS, 100, "blocking", "objective 0 rests on it"),
+        (found("leaf", 0.001), FALLS, 390, "info", "no claim rests on it"),
+        (found("body", 0.001, 0.6, 0.7), FALLS, None, "info", "no claim rests on it"),
+        (found("body", 0.001, 0.6, 0.7), STAYS, None, "blocking", "objective 0 rests on it"),
+        (found("world", 0.001), FALLS, None, "blocking", "it sinks in"),
+    ],
+)
+def test_what_blocks_says_why_it_matters(anomaly, expect, row, severity, why):
+    (said,) = weighed([anomaly], scene(row), plan(expect))
+    assert said.severity == severity and why in said.message, said
+
+
+def test_what_does_not_block_is_left_alone():
+    quiet = found("leaf", 0.001).model_copy(update={"severity": "warn"})
+    assert list(weighed([quiet], scene(), plan(FALLS))) == [quiet]

@@ -1,0 +1,66 @@
+"""A stamp that nobody known signed: its pictures are drawn again."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from worldwright.stamp import tools as stamp
+
+from . import forging
+
+
+def painted(path: Path) -> None:
+    """A red block in the middle, as large as an eighth of the picture."""
+    picture = cv2.imread(str(path))
+    height, width = picture.shape[:2]
+    picture[3 * height // 8 : 5 * height // 8, 3 * width // 8 : 5 * width // 8] = (0, 0, 255)
+    cv2.imwrite(str(path), picture)
+
+
+def another_film(path: Path) -> None:
+    """As long and as large as the film, of noise."""
+    film = cv2.VideoCapture(str(path))
+    count, fps = int(film.get(cv2.CAP_PROP_FRAME_COUNT)), film.get(cv2.CAP_PROP_FPS)
+    shown = film.read()[1]
+    film.release()
+    out = cv2.VideoWriter(str(path), cv2.VideoWriter.fourcc(*"mp4v"), fps, (shown.shape[1], shown.shape[0]))
+    for _ in range(count):
+        out.write(np.full_like(shown, (200, 40, 20)))
+    out.release()
+
+
+def test_honest_pictures_of_a_stranger_look_as_when_drawn_again(accepted: Path, copy) -> None:
+    run = copy(accepted)
+    forging.resealed(run, key="stranger")
+    told = stamp.verify(str(run), timeout_s=120, anybody=True)
+    assert told.ok, told.text()
+    assert "look as when drawn again" in told.text()
+
+
+@pytest.mark.parametrize(
+    ("name", "forge"),
+    [("stills/overview.png", painted), ("video/side.mp4", another_film), ("poster.webp", painted)],
+)
+def test_pictures_of_another_world_are_refused_by_name(accepted: Path, copy, name: str, forge) -> None:
+    run = copy(accepted)
+    forge(run / "accepted" / name)
+    forging.resealed(run, key="stranger")
+    told = stamp.verify(str(run), timeout_s=120, anybody=True)
+    assert not told.ok
+    assert f"{Path(name).name}" in told.text()
+    assert "does not show this world" in told.text()
+
+
+def test_pictures_by_code_that_is_not_here_are_said_to_be_uncompared(accepted: Path, copy) -> None:
+    run = copy(accepted)
+
+    def older(value: dict) -> dict:
+        value["predicate"]["environment"]["film"]["sha256"] = "0" * 64
+        return value
+
+    forging.resealed(run, older, key="stranger")
+    told = stamp.verify(str(run), timeout_s=120, anybody=True)
+    assert told.ok, told.text()
+    assert "NOT compared with this world" in told.text()

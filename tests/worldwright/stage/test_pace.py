@@ -1,0 +1,103 @@
+"""Limits count progress, not the clock on the wall; what is left is told by the last steps."""
+
+import pytest
+
+from worldwright.stage.pace import WINDOW_S, Pace
+from worldwright.stage.tools import start, status, wait
+
+
+def test_the_time_left_is_that_of_the_last_steps():
+    """A world that falls into a heap after 1000 quick steps: 100 a second, then 10."""
+    pace = Pace()
+    for second in range(10):
+        assert pace.advanced(second, 100.0 * second)
+    assert pace.left_s(2000) == pytest.approx((2000 - 900) / 100)
+    for second in range(40):
+        assert pace.advanced(10 + second, 1000 + 10 * second)
+    assert pace.left_s(2000) == pytest.approx((2000 - 1390) / 10)
+    overall = 49 * (2000 - 1390) / 1390
+    assert overall < 0.4 * (2000 - 1390) / 10  # what all steps together would have promised
+
+
+def test_what_stands_still_has_not_advanced_and_what_counts_anew_starts_anew():
+    pace = Pace()
+    assert pace.advanced(0, 5) and pace.left_s(10) is None
+    assert not pace.advanced(1, 5) and pace.left_s(10) is None
+    assert pace.advanced(2, 6)
+    assert pace.advanced(3, 1) and pace.left_s(10) is None
+    assert not pace.advanced(3 + 2 * WINDOW_S, 1)
+
+
+TIRED = """
+import time
+import mujoco
+from worldkit import program
+
+def build():
+    spec = mujoco.MjSpec()
+    ball = spec.worldbody.add_body(name="ball", pos=(0, 0, 1))
+    ball.add_freejoint()
+    ball.add_geom(size=(0.1, 0, 0))
+    return spec
+
+def control(model, data):
+    time.sleep(PAUSE if data.time < 0.001 else 0.02)
+
+program.main(build, control, duration=DURATION)
+"""
+
+
+@pytest.mark.slow
+def test_a_pass_that_advances_may_take_all_its_time_and_one_that_stands_still_may_not(make, finish, small_plan):
+    """Each step of the first takes 20 ms, all of them three times what it may stand still; the second sleeps once."""
+    declared = small_plan.replace(
+        "inferred: [",
+        'interventions:\n  - {kind: force, bodies: [ball], law: "a breath", trigger: always, source: "a test"}\ninferred: [',
+    )
+    slow = TIRED.replace("PAUSE", "0.02").replace("DURATION", "1.2")
+    job = finish(make(slow, "advances", declared), still_s=4)
+    assert job.state == "succeeded" and job.wall_s > 8, job.text()
+    asleep = TIRED.replace("PAUSE", "60").replace("DURATION", "1.2")
+    job = finish(make(asleep, "stands", declared), still_s=4)
+    assert (job.state, job.code) == ("failed", "timed_out") and "nothing advanced for 4 s" in job.message, job.text()
+
+
+BALL = TIRED.replace("program.main(build, control, duration=DURATION)", "program.main(build, duration=0.02)")
+
+
+def test_what_needs_a_pass_under_way_queues_and_is_what_is_waited_for(make, evidence):
+    run = make(
+        BALL.replace(
+            "    return spec",
+            '    spec.worldbody.add_camera(name="eye", pos=(0, -3, 1), xyaxes=(1, 0, 0, 0, 0, 1))\n    time.sleep(1)\n    return spec',
+        )
+    )
+    first = start(str(run.folder))
+    second = start(str(run.folder), stage="stills")
+    assert (first.state, second.state) == ("queued", "queued") and second.job != first.job
+    assert start(str(run.folder), stage="stills").job == second.job
+    done = wait(str(run.folder), timeout_s=40)
+    assert (done.job, done.state) == (second.job, "succeeded"), done.text()
+    assert (evidence(run) / "stills/eye.png").is_file()
+
+
+def test_what_queues_behind_a_pass_that_fails_fails_with_its_reason(make):
+    run = make("import time; time.sleep(1); raise SystemExit(3)")
+    first = start(str(run.folder))
+    queued = start(str(run.folder), stage="stills")
+    last = wait(str(run.folder), job=queued.job, timeout_s=40)
+    assert (last.state, last.code) == ("failed", "refused") and "physics pass has not succeeded" in last.message
+    assert wait(str(run.folder), job=first.job, timeout_s=5).state == "failed"
+
+
+def test_an_audit_is_never_what_is_waited_for_unasked(make, finish):
+    from worldwright.stage.tools import cancel, run_variant
+
+    run = make(BALL)
+    job = finish(run)
+    beside = run_variant(run, "half-step", ("--time-step-factor", "0.5"), timeout_s=0)
+    assert wait(str(run.folder), timeout_s=0.1).job == job.job == cancel(str(run.folder)).job
+    shown = status(str(run.folder))
+    assert [one.job for one in shown.jobs] == [job.job]
+    assert wait(str(run.folder), job=beside.job, timeout_s=40).state == "succeeded"
+    assert status(str(run.folder)).audits == ()

@@ -1,0 +1,156 @@
+"""`go`: how far one call brings a run, that it tells everything wrong together, and that nothing is done twice."""
+
+import shutil
+import time
+from collections import Counter
+
+import pytest
+from click.testing import CliRunner
+
+from worldwright import cli
+from worldwright.model.errors import WorldwrightError
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.reports import LintReport
+from worldwright.model.evidence.run import Run
+from worldwright.stamp import tools as stamp
+
+
+def journal(folder) -> Counter:
+    """How often each thing was done."""
+    return Counter((e.get("action"), e.get("stage", "")) for e in Run(folder).entries())
+
+
+def to_the_end(folder, **options):
+    """Call as an agent does, until it is no longer running."""
+    for _ in range(40):
+        gone = stamp.go(str(folder), timeout_s=30, **options)
+        if gone.state != "running":
+            return gone
+    raise AssertionError(gone.text())
+
+
+def plan_of(folder, *changes):
+    text = (folder / "plan.md").read_text(encoding="utf-8")
+    for before, after in changes:
+        assert before in text
+        text = text.replace(before, after)
+    (folder / "plan.md").write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture
+def fresh(tmp_path, small_plan):
+    """A run that is a plan and nothing else."""
+    (tmp_path / "ball").mkdir()
+    (tmp_path / "ball/plan.md").write_text(small_plan, encoding="utf-8")
+    return tmp_path / "ball"
+
+
+def test_it_waits_for_a_persons_word_and_gives_none_itself(fresh):
+    gone = stamp.go(str(fresh))
+    assert (gone.state, gone.ok, gone.wrong) == ("waiting", True, ())
+    assert set(gone.held) == {"check", "place"} and "worldwright stamp approve" in gone.next_move
+    assert not (fresh / "simulation.py").exists() and not Run(fresh).entries().__next__().get("by")
+
+
+def test_what_is_wrong_with_a_plan_is_told_together(fresh):
+    plan_of(
+        fresh, ("falls: {body: ball,", "falls: {body: bail,"), ("params: {bottom: 0.45}", "params: {bottom: -0.45}")
+    )
+    gone = stamp.go(str(fresh))
+    assert gone.state == "stopped" and not gone.ok
+    assert [wrong.step for wrong in gone.wrong] == ["check", "place"], gone.text()
+    assert "bail" in gone.wrong[0].what and gone.next_move == gone.wrong[0].next_move
+
+
+@pytest.mark.gl
+@pytest.mark.slow
+def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_twice(fresh):
+    stamp.go(str(fresh))
+    stamp.approve(str(fresh), by="tester")
+    first = stamp.go(str(fresh), timeout_s=0.01)
+    assert first.state == "running" and first.under_way and first.next_move.startswith("worldwright go")
+    gone = to_the_end(fresh)
+    assert gone.state == "waiting" and "stamp describe" in gone.next_move, gone.text()
+    assert list(gone.held) == [
+        "check", "place", "approve", "draft", "lint", "physics", "scan", "expect", "causes", "stills", "video",
+    ]  # fmt: skip
+    assert gone.storyboard.endswith("storyboard") and "deepest penetration" in gone.held["physics"]
+    done = journal(fresh)
+    once = [("draft", ""), ("scan", ""), ("expect", ""), ("stage", "physics"), ("stage", "storyboard")]
+    assert all(done[what] == 1 for what in (*once, ("stage", "stills"), ("stage", "video"))), done
+    again = stamp.go(str(fresh))
+    assert (again.state, again.held.keys()) == ("waiting", gone.held.keys()) and journal(fresh) == done
+
+
+@pytest.mark.slow
+def test_the_walk_ends_where_it_is_told_to(fresh):
+    stamp.approve(str(fresh), by="tester")
+    gone = stamp.go(str(fresh), until="expect", timeout_s=120)
+    assert list(gone.held)[-1] == "expect" and gone.storyboard, gone.text()
+    assert not [job for job in (fresh / "jobs").iterdir() if job.name.startswith(("stills", "video"))]
+
+
+@pytest.mark.slow
+def test_what_the_recording_refutes_is_told_at_once_together_and_nothing_is_filmed(fresh):
+    claims = "- falls: {body: ball, min_m: 3.0}\n    - comes_to_rest: {body: ball, before_s: 1.0}"
+    plan_of(fresh, ("- falls: {body: ball, min_m: 0.3}", claims), ("duration: 0.5", "duration: 1.1"))
+    stamp.go(str(fresh))
+    stamp.approve(str(fresh), by="tester")
+    gone = to_the_end(fresh)
+    assert gone.state == "stopped" and gone.storyboard
+    assert [wrong.step for wrong in gone.wrong] == ["scan", "expect"], gone.text()
+    assert "failure_to_settle" in gone.wrong[0].what
+    assert "falls" in gone.wrong[1].what and "comes_to_rest" in gone.wrong[1].what
+    assert not {("stage", "stills"), ("stage", "video")} & set(journal(fresh))
+    assert gone.wrong == to_the_end(fresh).wrong
+
+
+FAILING = """
+import time
+from worldkit import program
+
+def build():
+    time.sleep(1)
+    raise ValueError("no world")
+
+program.main(build, duration=0.1)
+"""
+
+
+@pytest.mark.slow
+def test_a_pass_that_failed_while_nobody_waited_is_told_once_and_then_tried_again(fresh):
+    stamp.go(str(fresh))
+    stamp.approve(str(fresh), by="tester")
+    (fresh / "simulation.py").write_text(FAILING, encoding="utf-8")
+    run = Run(fresh)
+    run.keep(run.evidence_key(environment.current().sha256()), "lint", LintReport(rules=1))
+    assert stamp.go(str(fresh), timeout_s=0.01).state == "running"
+    time.sleep(0.1)
+    gone = to_the_end(fresh)
+    assert gone.state == "stopped" and "no world" in gone.wrong[0].what, gone.text()
+    assert len(list(run.jobs.glob("physics-*"))) == 1
+    assert to_the_end(fresh).state == "stopped" and len(list(run.jobs.glob("physics-*"))) == 2
+
+
+def test_the_command_tells_each_step_and_answers_no_while_a_decision_is_due(fresh):
+    done = CliRunner().invoke(cli.main, ["go", str(fresh)])
+    assert done.exit_code == 1 and "· approve" in done.output and "next: read" in done.output
+
+
+def test_an_approved_plan_is_not_written_again(planned, tmp_path):
+    shutil.copytree(planned, tmp_path / "run")
+    stamp.approve(str(tmp_path / "run"), by="tester")
+    before = (tmp_path / "run/plan.md").stat()
+    assert "place" in stamp.go(str(tmp_path / "run"), timeout_s=0.01).held
+    assert (tmp_path / "run/plan.md").stat().st_mtime_ns == before.st_mtime_ns
+
+
+def test_no_pose_is_written_into_a_plan_that_still_stands_as_copied(fresh):
+    plan_of(fresh, ("## topology\n", "## topology\n\n<!-- TO_CHANGE: where they stand -->\n"))
+    before = (fresh / "plan.md").read_bytes()
+    gone = stamp.go(str(fresh))
+    assert [wrong.step for wrong in gone.wrong] == ["check"] and "WP133" in gone.wrong[0].what
+    assert "place" in gone.held and (fresh / "plan.md").read_bytes() == before
+    with pytest.raises(WorldwrightError, match="still as copied"):
+        stamp.approve(str(fresh), by="tester")

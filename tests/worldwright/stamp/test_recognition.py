@@ -1,0 +1,106 @@
+"""What a stranger names blindly decides whether a world is recognised and believed."""
+
+import pytest
+
+from worldwright.model.errors import GateError
+from worldwright.model.evidence.reports import Sighting, VisualDescription
+from worldwright.model.evidence.run import Run
+from worldwright.model.evidence.verdict import CrossCheck, ObjectiveVerdict, Recognition, Verdict
+from worldwright.stamp import recognition
+from worldwright.stamp import tools as stamp
+from worldwright.stamp.state import State
+
+BLIND = {
+    "named": (Sighting(seen="a red ball", camera="overview"),),
+    "event": "it drops to the ground",
+    "belief": 8,
+    "betrays": ("an empty floor", "a flat sky", "no dust"),
+}
+
+
+def seen(**more) -> VisualDescription:
+    return VisualDescription(
+        author="world-visual",
+        summary="something red above a floor",
+        cameras={"overview": "something red", "side": "the same"},
+        objects={"ball": "red, in the air"},
+        **{**BLIND, **more},
+    )
+
+
+def passed(*recognised: Recognition, **more) -> Verdict:
+    return Verdict(
+        **{
+            "reviewer": "world-review",
+            "outcome": "pass",
+            "numeric": "clean",
+            "visual": "a ball",
+            "plan": "bound",
+            "objectives": (
+                ObjectiveVerdict(index=0, met=True, evidence=("expect:falls",)),
+                ObjectiveVerdict(index=1, met=True, evidence=("visual:overview",)),
+            ),
+            "recognised": recognised,
+            "cross_checks": (CrossCheck(claim="it moves", channel="visual", tested_in="numeric", confirmed=True),),
+            **more,
+        }
+    )
+
+
+BALL = Recognition(wanted="ball", seen_as="a red ball", same=True)
+EVENT = Recognition(wanted="event", seen_as="it drops to the ground", same=True)
+
+
+def test_what_is_recognised_and_believed_passes(reviewed, copy):
+    run = copy(reviewed)
+    stamp.describe(str(run), seen())
+    assert recognition.wanted(State(Run(run))) == ("ball",)
+    stamp.review(str(run), passed(BALL, EVENT))
+    assert State(Run(run)).review.value.outcome == "pass"
+
+
+@pytest.mark.parametrize(
+    ("left_out", "why"),
+    [
+        ({"named": ()}, "nothing is named"),
+        ({"event": " "}, "nothing is said of what happens"),
+        ({"belief": None}, "whether it looks real"),
+        ({"betrays": ("a flat sky",)}, "1 details"),
+        ({"named": (Sighting(seen="a ball", camera="above"),)}, "of which there is no picture"),
+    ],
+)
+def test_the_visual_role_names_blindly(reviewed, copy, left_out, why):
+    with pytest.raises(GateError, match=why):
+        stamp.describe(str(copy(reviewed)), seen(**left_out))
+
+
+@pytest.mark.parametrize(
+    ("rows", "why"),
+    [
+        ((EVENT,), "whether `ball` was recognised"),
+        ((BALL,), "whether `event` was recognised"),
+        ((Recognition(wanted="ball", seen_as="a football", same=True), EVENT), "names nothing `a football`"),
+        ((Recognition(wanted="ball", seen_as="a red ball", same=False), EVENT), "seen as `a red ball`"),
+    ],
+)
+def test_a_world_that_nobody_recognises_does_not_pass(reviewed, copy, rows, why):
+    run = copy(reviewed)
+    stamp.describe(str(run), seen())
+    with pytest.raises(GateError, match=why):
+        stamp.review(str(run), passed(*rows))
+
+
+def test_a_world_that_nobody_believes_gets_one_repair_of_its_look(reviewed, copy):
+    run = copy(reviewed)
+    stamp.describe(str(run), seen(belief=4))
+    with pytest.raises(GateError, match="belief is 4 of 10: an empty floor"):
+        stamp.review(str(run), passed(BALL, EVENT))
+    stamp.review(str(run), passed(BALL, EVENT, outcome="repair", repair_target="look", repair="give it a ground"))
+    stamp.review(str(run), passed(BALL, EVENT))
+    assert State(Run(run)).review.value.outcome == "pass"
+
+
+def test_copies_of_one_object_are_wanted_once(small_plan, tmp_path):
+    (tmp_path / "plan.md").write_text(small_plan.replace("name: ball,", "name: ball, count: 3,", 1))
+    wanted = recognition.wanted(State(Run(tmp_path)))
+    assert wanted == ("ball",)

@@ -1,0 +1,53 @@
+"""Whatever arguments a tool is called with, the answer says what was wrong with them and what there is."""
+
+import anyio
+import mcp
+import pytest
+from click.testing import CliRunner
+
+from worldwright import expose
+from worldwright.cli import main
+
+LONG = "x" * 300
+
+
+def refused(server, tool, arguments):
+    async def run():
+        async with mcp.Client(expose.build_server(server)) as client:
+            return await client.call_tool(tool, arguments)
+
+    result = anyio.run(run)
+    assert result.is_error
+    assert result.structured_content["error"] == "arguments"
+    assert len(str(result.structured_content)) < 2000
+    return result.structured_content["cause"] + " | " + result.structured_content["next"]
+
+
+@pytest.mark.parametrize(
+    ("server", "tool", "arguments", "said"),
+    [
+        (
+            "retrieve",
+            "search",
+            {},
+            "`question` is missing | search takes question (a text), k (a whole number, optional)",
+        ),
+        ("retrieve", "search", {"question": ["a"]}, "`question` must be a text, not ['a']"),
+        ("retrieve", "search", {"question": "a", "ranks": 1}, "there is no argument `ranks` (is `ranking` meant?)"),
+        ("retrieve", "search", {"question": "a", "ranking": "best"}, "must be one of auto, hybrid, full_text, vectors"),
+        ("retrieve", "find", {}, "there is no tool `find` | "),
+        ("stamp", "status", {"run": "a\0b"}, "`run` holds a NUL character"),
+        ("stamp", "status", {"run": LONG}, "`run` has 300 characters, which is too long for a file's name"),
+        ("stamp", "status", {"run": "a" * 2_000_000}, "`run` has 2000000 characters"),
+        ("lint", "check_program", {"files": ["a\0"]}, "`files` holds a NUL character"),
+        ("stage", "wait", {"run": "a", "timeout_s": "soon"}, "`timeout_s` must be a number, not 'soon'"),
+    ],
+)
+def test_wrong_arguments_are_named(server, tool, arguments, said):
+    assert said in refused(server, tool, arguments)
+
+
+def test_a_name_too_long_for_a_file_is_named_on_the_command_line_too():
+    done = CliRunner().invoke(main, ["stamp", "status", LONG])
+    assert done.exit_code == 2
+    assert "too long for a file's name" in done.output
