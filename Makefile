@@ -3,9 +3,11 @@ PYTHON ?= python3
 BIN := .venv/bin
 JOBS ?= 2
 export PIP_DISABLE_PIP_VERSION_CHECK := 1
-export PIP_CONSTRAINT := $(CURDIR)/.ci/constraints.txt
+# Relative: pip reads a list of files here, and would cut a path at its blanks.
+export PIP_CONSTRAINT := .ci/constraints.txt
+PYTEST = $(BIN)/python -m pytest $(if $(REPORT),--junit-xml="$(REPORT)")
 
-.PHONY: help demo test lint fmt bench examples gallery test-faults test-tricks test-conformance test-harness test-semantic docs lock clean
+.PHONY: help demo test tests lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-conformance test-harness test-semantic docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -15,13 +17,26 @@ demo: .venv/.core ## Build and accept the billiards world from its plan, and say
 	$(BIN)/worldwright go examples/two-billiard-balls/plan.md --run runs/demo --approve --accept
 	@echo; echo "Open $(CURDIR)/runs/demo/report.html in a browser."
 
-test: .venv/.dev lint ## Everything that must hold, in under eight minutes on two cores
-	$(BIN)/python -m pytest -n $(JOBS) --dist worksteal
+test: lint tests ## Everything that must hold, in under eight minutes on two cores
 
-lint: .venv/.dev ## Format, lint and types
+tests: .venv/.dev ## The tests alone
+	$(PYTEST) -n $(JOBS) --dist worksteal
+
+lint: style types ## Format, lint and types
+
+style: .venv/.dev
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
+
+types: .venv/.dev
 	$(BIN)/mypy
+
+set-up:
+	@PYTHON=$(PYTHON) bash .ci/system.sh $(suites)
+	@$(MAKE) --no-print-directory .venv/.dev
+
+ci: ## What CI runs, from a fresh clone of HEAD in a folder of its own
+	@clone=$$(mktemp -d)/worldwright && git clone --quiet . "$$clone" && bash "$$clone/.ci/run"; code=$$?; rm -rf "$$(dirname "$$clone")"; exit $$code
 
 fmt: .venv/.dev ## Format and apply safe fixes
 	$(BIN)/ruff check --fix .
@@ -37,19 +52,19 @@ gallery: .venv/.dev ## Re-prove every example and build its recording, films and
 	$(BIN)/worldwright gallery build --jobs $(JOBS)
 
 test-faults: .venv/.dev ## kill -9 at a hundred random moments (make test does a few)
-	WORLDWRIGHT_KILLS=100 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/stage/test_faults.py tests/worldwright/stamp/test_stamp_faults.py
+	WORLDWRIGHT_KILLS=100 $(PYTEST) -n $(JOBS) --dist worksteal tests/worldwright/stage/test_faults.py tests/worldwright/stamp/test_stamp_faults.py
 
 test-tricks: .venv/.dev ## Every trick to get a false claim stamped (make test tries a dozen)
-	WORLDWRIGHT_TRICKS=1 $(BIN)/python -m pytest -n $(JOBS) --dist worksteal tests/worldwright/security
+	WORLDWRIGHT_TRICKS=1 $(PYTEST) -n $(JOBS) --dist worksteal tests/worldwright/security
 
 test-conformance: .venv/.dev ## The official MCP suite over HTTP and the inspector over stdio, on all six servers (needs npm)
-	WORLDWRIGHT_CONFORMANCE=1 $(BIN)/python -m pytest tests/conformance -p no:xdist
+	WORLDWRIGHT_CONFORMANCE=1 $(PYTEST) tests/conformance -p no:xdist
 
 test-harness: .venv/.dev ## The contract in the real Claude Code, Codex and OpenCode, offline, with a scripted model (needs npm)
-	cd tests/harness && PYTHONPATH=. WORLDWRIGHT_HARNESSES=1 ../../$(BIN)/python -m pytest . -p no:xdist
+	cd tests/harness && PYTHONPATH=. WORLDWRIGHT_HARNESSES=1 ../../$(PYTEST) . -p no:xdist
 
 test-semantic: .venv/.semantic ## Ranking by meaning with torch and LanceDB in place of numpy and a file
-	WORLDWRIGHT_SEMANTIC=1 $(BIN)/python -m pytest tests/worldwright/retrieve -p no:xdist
+	WORLDWRIGHT_SEMANTIC=1 $(PYTEST) tests/worldwright/retrieve -p no:xdist
 
 lock: .venv/.dev ## Pin what is installed now
 	$(BIN)/pip list --format=freeze --exclude-editable | grep -viE '^(pip|setuptools|wheel)==' | LC_ALL=C sort -f > .ci/constraints.txt

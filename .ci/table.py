@@ -1,0 +1,68 @@
+"""The table that closes a run of CI: `python3 .ci/table.py FOLDER` prints it, and exits with 1 if a part failed.
+
+FOLDER holds `parts` (a line each: name, exit code, seconds), `NAME.log` (all that the part printed) and, for test suites,
+`NAME.xml` (what pytest found, in JUnit's form). A name with a dash before it is no suite. A suite without results failed.
+"""
+
+import sys
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+MOST = 40
+"""So many failures of a part are named; the log has all of them."""
+WIDE = 200
+
+
+def cases(report: Path) -> list[ElementTree.Element]:
+    """The tests of a JUnit report; none if it is missing or was cut off."""
+    try:
+        return list(ElementTree.parse(report).getroot().iter("testcase"))
+    except (OSError, ElementTree.ParseError):
+        return []
+
+
+def failures(found: list[ElementTree.Element]) -> list[str]:
+    """Name and first error line of each test that failed."""
+    named = []
+    for case in found:
+        for outcome in (*case.iter("failure"), *case.iter("error")):
+            lines = (outcome.get("message") or outcome.text or "").strip().splitlines() or ["no message"]
+            named.append(f"{case.get('classname')}::{case.get('name')}: {lines[0]}")
+            break
+    return named
+
+
+def first_error(log: Path) -> str:
+    """The line of a log that best says why a command without results of its own failed."""
+    lines = [line.strip() for line in log.read_text(errors="replace").splitlines()] if log.exists() else []
+    said = [line for line in lines if line]
+    telling = [line for line in said if "error" in line.lower() or line.startswith("Would reformat")]
+    return (telling or said or ["it printed nothing"])[0]
+
+
+def main(folder: Path) -> int:
+    """Print the table; the exit code."""
+    told, bad = [], False
+    print(f"\n{'part':<14}{'ok':>8}{'failed':>8}{'skipped':>9}{'seconds':>9}")
+    for name, code, seconds in (line.split() for line in (folder / "parts").read_text().splitlines()):
+        suite, name = not name.startswith("-"), name.lstrip("-")
+        found = cases(folder / f"{name}.xml")
+        wrong = failures(found)
+        if not wrong and (code != "0" or (suite and not found)):
+            wrong = [f"exit code {code}: {first_error(folder / f'{name}.log')}"]
+        skipped = sum(case.find("skipped") is not None for case in found)
+        good = sum(
+            len(case) == 0 or all(part.tag.startswith("system-") or part.tag == "properties" for part in case)
+            for case in found
+        )
+        counts = (good, len(wrong), skipped) if suite else ("", "yes" if wrong else "no", "")
+        print(f"{name:<14}{counts[0]:>8}{counts[1]:>8}{counts[2]:>9}{seconds:>9}")
+        told += [f"{name}: {line}"[:WIDE] for line in wrong[:MOST]]
+        told += [f"{name}: and {len(wrong) - MOST} more"] if len(wrong) > MOST else []
+        bad = bad or bool(wrong)
+    print("\n".join(["", *told]))
+    return int(bad)
+
+
+if __name__ == "__main__":
+    sys.exit(main(Path(sys.argv[1])))

@@ -1,0 +1,89 @@
+"""One run of CI tells all: every part runs, the table counts from the runners' own results, and one failure fails it all."""
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+CI = Path(__file__).parents[1] / ".ci"
+TESTS = {
+    "passes": "def test_a():\n    pass\n\ndef test_b():\n    pass\n",
+    "fails": "def test_a():\n    pass\n\ndef test_wrong():\n    assert 1 == 2, 'one is not two'\n",
+    "breaks": "import no_such_module\n",
+    "skips": "import pytest\n\ndef test_it():\n    pytest.skip('not here')\n",
+}
+
+
+def results(tmp_path: Path, name: str) -> Path:
+    """What pytest leaves of a small suite of this name, in JUnit's form."""
+    suite, report = tmp_path / name, tmp_path / f"{name}.xml"
+    suite.mkdir()
+    (suite / f"test_{name}.py").write_text(TESTS[name])
+    call = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junit-xml={report}", str(suite)]
+    done = subprocess.run(call, cwd=suite, capture_output=True, text=True, timeout=120)
+    (tmp_path / f"{name}.log").write_text(done.stdout)
+    with (tmp_path / "parts").open("a") as parts:
+        parts.write(f"{name} {done.returncode} 7\n")
+    return report
+
+
+def table(folder: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, str(CI / "table.py"), str(folder)], capture_output=True, text=True, timeout=60
+    )
+
+
+def rows(text: str) -> dict[str, list[str]]:
+    return {line.split()[0]: line.split()[1:] for line in text.splitlines() if line and ":" not in line}
+
+
+def test_the_table_counts_what_the_runner_found(tmp_path):
+    for name in TESTS:
+        results(tmp_path, name)
+    done = table(tmp_path)
+    found = rows(done.stdout)
+    assert found["passes"] == ["2", "0", "0", "7"] and found["fails"] == ["1", "1", "0", "7"]
+    assert found["breaks"] == ["0", "1", "0", "7"] and found["skips"] == ["0", "0", "1", "7"]
+    assert done.returncode == 1 and "test_wrong: AssertionError: one is not two" in done.stdout
+
+
+def test_all_that_pass_end_with_nothing(tmp_path):
+    results(tmp_path, "passes")
+    (tmp_path / "parts").open("a").write("-style 0 1\n")
+    done = table(tmp_path)
+    assert done.returncode == 0 and rows(done.stdout)["style"] == ["no", "1"]
+
+
+@pytest.mark.parametrize("cut", [None, "<testsuites><testsuite><testca"], ids=["missing", "cut off"])
+def test_a_suite_without_results_failed(tmp_path, cut):
+    (tmp_path / "parts").write_text("tests 0 3\n")
+    if cut:
+        (tmp_path / "tests.xml").write_text(cut)
+    (tmp_path / "tests.log").write_text("\nmake: something\nValueError: it is broken\n")
+    done = table(tmp_path)
+    assert done.returncode == 1 and "tests: exit code 0: ValueError: it is broken" in done.stdout
+
+
+def test_every_part_runs_after_one_that_failed(tmp_path):
+    """The script itself, with a `make` that only says what it was asked for and fails at the types."""
+    home, tools = tmp_path / "a folder" / ".ci", tmp_path / "bin"
+    home.mkdir(parents=True)
+    tools.mkdir()
+    for name in ("run", "table.py"):
+        shutil.copy(CI / name, home)
+    make = tools / "make"
+    make.write_text(
+        '#!/bin/sh\necho "asked for $*"\n[ "$1" != types ] || { echo "x.py:1: error: wrong type"; exit 2; }\n'
+    )
+    make.chmod(0o755)
+    env = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "PYTHON": sys.executable}
+    done = subprocess.run(["bash", str(home / "run")], env=env, capture_output=True, text=True, timeout=60)
+    for part in ("set-up", "style", "types", "test", "test-conformance", "test-harness"):
+        assert f"asked for {part}" in done.stdout.replace("-k ", "")
+    found = rows(done.stdout)
+    assert done.returncode == 1 and found["style"][0] == "no" and found["types"][0] == "yes"
+    assert "types: exit code 2: x.py:1: error: wrong type" in done.stdout
+    assert "tests: exit code 0: asked for -k test" in done.stdout  # it left no results
