@@ -15,10 +15,11 @@ archive is opened again here and compared with the world it was made of, array b
 import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .alike import compared
+from .closed_archive import XML, entries
 from .errors import ProgramError
 
 if TYPE_CHECKING:
@@ -27,8 +28,6 @@ if TYPE_CHECKING:
 NAME = "world.mjz"
 TOLERANCE = 1e-6
 """Relative difference that writing numbers as text may leave."""
-XML = "model.xml"
-MOST_BYTES = 4 << 30
 
 
 def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
@@ -78,34 +77,16 @@ def read(path: Path) -> "mujoco.MjModel":
     """The model compiled from an archive; where the archive lies leaves no trace in it.
 
     Raises:
-        ValueError: it is no archive, or what is in it does not compile.
+        ValueError: it is no archive, names what is not in it, or does not compile.
     """
     return spec(path).compile()
 
 
 def spec(path: Path) -> "mujoco.MjSpec":
     """The world of an archive as it was built, not compiled yet; raises ValueError as `read` does."""
-    import zipfile
-
     import mujoco
 
-    try:
-        with zipfile.ZipFile(path) as archive:
-            if sum(entry.file_size for entry in archive.infolist()) > MOST_BYTES:
-                raise ValueError(f"its files are larger than {MOST_BYTES >> 20} MB")
-            listed = archive.namelist()
-            if odd := [
-                name
-                for name in listed
-                if name != PurePosixPath(name).as_posix() or not {"..", "/"}.isdisjoint(PurePosixPath(name).parts)
-            ]:
-                raise ValueError(f"its entry {odd[0]!r} is no plain name: other readers could open another world")
-            if len(set(listed)) < len(listed):
-                raise ValueError("an entry is in it twice: other readers could open another world")
-            files = {name: archive.read(name) for name in listed}
-        text = files.pop(XML).decode()
-    except (OSError, KeyError, zipfile.BadZipFile, RuntimeError, NotImplementedError) as cause:
-        raise ValueError(f"it is no archive of a world: {cause}") from cause
+    text, files = entries(path)
     return mujoco.MjSpec.from_string(text, assets=files)
 
 
@@ -166,6 +147,7 @@ def take_in(spec: "mujoco.MjSpec") -> None:
         elif not texture.file and (pixels := bytes(texture.data)):
             _painted(spec, texture, pixels)
     spec.meshdir = spec.texturedir = ""
+    spec.strippath = False
 
 
 def _asset(spec: "mujoco.MjSpec", name: str, folder: Path) -> str:
