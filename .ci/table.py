@@ -11,6 +11,8 @@ from pathlib import Path
 MOST = 40
 """So many failures of a part are named; the log has all of them."""
 WIDE = 200
+SLOWEST, LONG_S = 8, 20.0
+"""So many of the slowest tests are named; none should take longer than that on an idle machine."""
 
 
 def cases(report: Path) -> list[ElementTree.Element]:
@@ -40,6 +42,17 @@ def first_error(log: Path) -> str:
     return (telling or said or ["it printed nothing"])[0]
 
 
+def slowest(folder: Path) -> list[str]:
+    """The tests that took longest, of all suites; what takes long is the machine's affair too, so none fails by it."""
+    taken = [(float(case.get("time") or 0), case) for report in folder.glob("*.xml") for case in cases(report)]
+    taken.sort(key=lambda row: -row[0])
+    over = sum(seconds > LONG_S for seconds, _ in taken)
+    lines = [
+        f"{seconds:7.1f} s  {case.get('classname')}::{case.get('name')}"[:WIDE] for seconds, case in taken[:SLOWEST]
+    ]
+    return [f"slowest ({over} over {LONG_S:.0f} s):", *lines] if taken else []
+
+
 def main(folder: Path) -> int:
     """Print the table; the exit code."""
     told, bad = [], False
@@ -60,7 +73,7 @@ def main(folder: Path) -> int:
         told += [f"{name}: {line}"[:WIDE] for line in wrong[:MOST]]
         told += [f"{name}: and {len(wrong) - MOST} more"] if len(wrong) > MOST else []
         bad = bad or bool(wrong)
-    print("\n".join(["", *told]))
+    print("\n".join(["", *told, *slowest(folder)]))
     return int(bad)
 
 

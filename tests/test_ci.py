@@ -55,6 +55,7 @@ def test_all_that_pass_end_with_nothing(tmp_path):
     (tmp_path / "parts").open("a").write("-style 0 1\n")
     done = table(tmp_path)
     assert done.returncode == 0 and rows(done.stdout)["style"] == ["no", "1"]
+    assert "slowest (0 over 20 s):" in done.stdout and "test_passes::test_a" in done.stdout
 
 
 @pytest.mark.parametrize("cut", [None, "<testsuites><testsuite><testca"], ids=["missing", "cut off"])
