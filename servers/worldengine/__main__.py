@@ -73,7 +73,6 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--channel", help="descriptors of the memory and the pipes to the author's process")
     parser.add_argument("--source", type=Path, help="text of the program, never run: tells whether a motion is known")
     parser.add_argument("--film", type=Path, help="folder with a film's description (still, video, frame)")
-    parser.add_argument("--film-alone", action="store_true", help="draw the film, not the plan's cameras (video)")
     parser.add_argument("--at", type=float, default=0.0, help="seconds of the film, or of the recording (frame)")
     parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame)")
     parser.add_argument("--camera", dest="cameras", action="append", default=[])
@@ -81,7 +80,9 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--time-step-factor", type=float)
     parser.add_argument("--without", action="append", default=[])
     parser.add_argument("--weaken", action="append", default=[])
-    parser.add_argument("--reuse", action="append", default=[], type=Path)
+    parser.add_argument(
+        "--reuse", action="append", default=[], type=Path, help="an earlier pass that may hold the same"
+    )
     return parser.parse_args(argv)
 
 

@@ -48,10 +48,10 @@ def compared(one: "mujoco.MjModel", other: "mujoco.MjModel") -> tuple[float, str
     return worst, where
 
 
-def kind_names(model: "mujoco.MjModel") -> dict[str, list[str]]:
+def kind_names(model: "mujoco.MjModel", kinds: tuple[str, ...] = NAMED) -> dict[str, list[str]]:
     """Names by kind, in the order of the ids."""
     table = bytes(model.names)
     return {
         kind: [table[at : table.index(b"\0", at)].decode(errors="replace") for at in getattr(model, f"name_{kind}adr")]
-        for kind in NAMED
+        for kind in kinds
     }

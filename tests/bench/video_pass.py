@@ -84,7 +84,7 @@ def ours(recording: stored.Recording, out: Path, size: tuple[int, int]) -> float
     mujoco.mj_step = mujoco.mj_step1 = mujoco.mj_step2 = None
     started = time.perf_counter()
     try:
-        passes.video(model, recording, ["overview"], out, size, FPS, lambda done, total: None)
+        passes.video(model, recording, ["overview"], out, lambda done, total: None, (), size, FPS)
         return time.perf_counter() - started
     finally:
         mujoco.mj_step, mujoco.mj_step1, mujoco.mj_step2 = step

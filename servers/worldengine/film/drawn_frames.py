@@ -85,6 +85,13 @@ class Frames:
         """Geom number behind each pixel, -1 where there is none: int32 (height, width), row 0 the top."""
         return self._open.segmentation(data, _camera_index(self.model, camera))
 
+    def shared(self) -> bytes:
+        """What the model's other cameras add to the picture of any one of them."""
+        shared = getattr(self._drawing, "shared", None)
+        return (
+            shared() if shared is not None else b"".join(x.tobytes() for x in (self.model.cam_pos, self.model.cam_quat))
+        )
+
     def told(self) -> dict[str, str]:
         """The renderer, for the evidence: `name`, `version`; `instead_of` and `because` if another was wanted; `without`
         if it left

@@ -52,14 +52,15 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     if options.run == "frame":
         summary = frame(model, recording, film, given, options)
     elif options.run == "still":
-        summary = stills(model, recording, options.cameras, out, given.size, Progress(out, 0, "cameras"))
+        tick = Progress(out, 0, "cameras")
+        summary = stills(model, recording, options.cameras, out, given.size, tick, options.reuse)
     else:
-        summary = {"cameras": []}
-        if not options.film_alone:
-            size, fps = (given.size, given.fps) if film is None else beside_a_film(given.size, given.fps)
-            summary = video(model, recording, options.cameras, out, size, fps, Progress(out, 0, "frames"))
+        rest = model, recording, options.cameras, out, Progress(out, 0, "frames"), options.reuse
+        whole = given.size, given.fps
+        found = video(*rest, *whole, only_known=True) if film is not None else None
+        summary = found or video(*rest, *(whole if film is None else beside_a_film(*whole))) or {}
         if film is not None:
-            summary["film"] = screen(model, recording, film, given, out, Progress(out, 0, "frames of the film"))
+            directed(model, recording, film, given, options, summary)
     result = {"ok": True, "pass": options.run, **summary, "trajectory_sha256": recording.sha256, "same_model": same}
     write_json(out / "result.json", {**result, "wall_s": round(time.perf_counter() - started, 3)})
     made = [*summary["cameras"], *([FILM] if "film" in summary else [])]
@@ -95,27 +96,36 @@ def stills(
     out: Path,
     size: tuple[int, int],
     tick: Ticker,
+    earlier: Sequence[Path] = (),
 ) -> dict[str, Any]:
-    """Draw `<camera>.png` of the first recorded row; write `visibility.json`, what each camera sees of each body, and `cameras.json`."""
+    """Draw `<camera>.png` of the first recorded row; write `visibility.json`, what each camera sees of each body, and `cameras.json`.
+
+    What a pass in `earlier` drew of the same is taken over; `drawn` counts what was not.
+    """
     from worldkit import cameras
 
     from .drawn_frames import Frames
+    from .known_pictures import Known
 
     names = choose_cameras(model, names)
     replay = Replay(model, recording)
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
-    visibility, stands = {}, {}
+    visibility, stands, drawn = {}, {}, 0
     with Frames(model, *size) as frames:
+        known = Known(model, recording, {"quality": "still", "size": size}, earlier, frames.shared())
         data = replay.show(0)
         for done, name in enumerate(names):
             cameras.track(model, data)
-            write_png(out / f"{name}.png", frames.image(data, name, quality="still"))
-            visibility[name] = visible(model, frames.segmentation(data, name))
             stands[name] = cameras.standing(model, data, name)
+            if not known.camera(name, ".png", out):
+                write_png(out / f"{name}.png", frames.image(data, name, quality="still"))
+                drawn += 1
+            visibility[name] = visible(model, frames.segmentation(data, name))
             tick(done + 1, len(names))
+        renderer = frames.told()
     write_json(out / "visibility.json", visibility)
     write_json(out / "cameras.json", {"size": list(size), "cameras": stands})
-    return {"cameras": list(names), "size": list(size), "renderer": frames.told()}
+    return {"cameras": list(names), "size": list(size), "renderer": renderer, "drawn": drawn, **known.told(renderer)}
 
 
 def video(
@@ -123,39 +133,81 @@ def video(
     recording: "Recording",
     names: Sequence[str],
     out: Path,
+    tick: Ticker,
+    earlier: Sequence[Path],
     size: tuple[int, int],
     fps: int,
-    tick: Ticker,
-) -> dict[str, Any]:
-    """Draw `<camera>.mp4`, where frame k shows the recorded row nearest to k / fps; `mj_step` is never called."""
+    only_known: bool = False,
+) -> dict[str, Any] | None:
+    """Draw `<camera>.mp4`, where frame k shows the recorded row nearest to k / fps; `mj_step` is never called.
+
+    What a pass in `earlier` drew of the same is taken over; `drawn` counts the frames that were not. None, and no film, when
+    any would have to be drawn and `only_known` is set.
+    """
     from worldkit import cameras
 
     from .drawn_frames import Frames
+    from .known_pictures import Known
 
     names = choose_cameras(model, names)
     replay = Replay(model, recording)
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     rows = frame_rows(recording.time, fps)
-    total = len(rows) * len(names)
     with ExitStack() as stack:
         frames = stack.enter_context(Frames(model, *size))
-        films = {name: stack.enter_context(Video(out / f"{name}.mp4", *size, fps)) for name in names}
-        done = 0
-        for row in rows:
+        facts = {"quality": "video", "size": size, "fps": fps}
+        known = Known(model, recording, facts, earlier, frames.shared())
+        new = [name for name in names if not known.camera(name, ".mp4", out)]
+        if new and only_known:
+            for name in known.taken:
+                (out / name).unlink()
+            return None
+        films = {name: stack.enter_context(Video(out / f"{name}.mp4", *size, fps)) for name in new}
+        done, total = 0, len(rows) * len(new)
+        for row in rows if new else ():
             data = replay.show(int(row))
             cameras.track(model, data)
             for name, film in films.items():
                 film.add(frames.image(data, name, quality="video"))
                 done += 1
                 tick(done, total)
+        renderer = frames.told()
     return {
         "cameras": list(names),
         "frames": len(rows),
         "fps": fps,
         "size": list(size),
         "seconds": len(rows) / fps,
-        "renderer": frames.told(),
+        "renderer": renderer,
+        "drawn": done,
+        **known.told(renderer),
     }
+
+
+def directed(
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    film: "Described",
+    given: "Given",
+    options: argparse.Namespace,
+    summary: dict[str, Any],
+) -> None:
+    """Draw the author's film, or take it over where an earlier pass drew the same; enter it in the summary."""
+    from worldkit.reporting import Progress
+
+    from .known_pictures import Known
+
+    name = f"{FILM}.mp4"
+    known = Known(model, recording, {"quality": "film", "size": given.size, "fps": given.fps}, options.reuse)
+    earlier = known.film(options.film, name, options.out)
+    if earlier is None:
+        tick = Progress(options.out, 0, "frames of the film")
+        summary["film"] = screen(model, recording, film, given, options.out, tick)
+        summary["drawn"] += film.frames
+    else:
+        summary["film"] = earlier["film"]
+    for field, told in known.told(summary["film"]["renderer"]).items():
+        summary[field] = {**summary.get(field, {}), **told}
 
 
 def screen(

@@ -12,7 +12,7 @@ from typing import Any
 from worldkit import lock
 
 from ..model.errors import GateError
-from ..model.evidence import approval, lookups, pictures_of
+from ..model.evidence import approval, environment, lookups, pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
 from .sandbox.confinement import gl_backend
@@ -65,6 +65,22 @@ def earlier(run: Run, key: EvidenceKey, variant: str = "") -> list[Path]:
         if motion and result.get("ok") and (folder / "trajectory" / "complete.json").is_file():
             found[motion] = max(found.get(motion, ("", folder)), (started, folder))
     return [folder for _, folder in sorted(found.values(), reverse=True)[:8]]
+
+
+def earlier_pictures(run: Run, stage: PassName) -> list[Path]:
+    """At most eight passes that drew pictures of this kind by the renderer and code of now, newest first."""
+    drawn = environment.film().sha256
+    found: list[tuple[str, Path]] = []
+    for folder in run.folder.glob(f"evidence/*/{stage}"):
+        result = _json(folder / "result.json")
+        summary = result.get("summary") or {}
+        if (
+            result.get("ok")
+            and summary.get("pictures")
+            and drawn in (summary.get("drawn_by"), result.get("film_sha256"))
+        ):
+            found.append((str(result.get("started", "")), folder))
+    return [folder for _, folder in sorted(found, reverse=True)[:8]]
 
 
 def require_environment(run: Run) -> None:

@@ -51,7 +51,7 @@ class Spec(Frozen):
     reads: tuple[str, ...] = ()
     """Files outside its folder that the program may read: what a recorded model is made of."""
     reuse: tuple[str, ...] = ()
-    """Folders of earlier physics passes whose recording may fit already."""
+    """Folders of earlier passes whose recording or pictures may fit already."""
     given: str = ""
     """A folder with a world, its facts and its recorded inputs, which are simulated without running the program."""
     after: str = ""

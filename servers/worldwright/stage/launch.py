@@ -117,7 +117,7 @@ def launch(
             file_mb=file_mb,
             disk_mb=disk_mb,
             reads=reads,
-            reuse=() if force or given or stage != "physics" else tuple(map(str, gates.earlier(run, key, variant))),
+            reuse=() if force or given else tuple(map(str, _earlier(run, key, stage, variant))),
             after=after,
             token=family.new_token(),
             given=str(given.absolute()) if given else "",
@@ -128,6 +128,13 @@ def launch(
         job = Job.create(run, spec)
         _detach(job)
         return job.read()
+
+
+def _earlier(run: Run, key: EvidenceKey, stage: PassName, variant: str) -> list[Path]:
+    """Earlier passes that may hold what this one is to make."""
+    if stage == "physics":
+        return gates.earlier(run, key, variant)
+    return gates.earlier_pictures(run, stage) if stage in ("stills", "video") else []
 
 
 def _needed_job(run: Run, key: EvidenceKey, stage: PassName, variant: str) -> str:

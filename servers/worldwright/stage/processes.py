@@ -144,20 +144,20 @@ class Acting:
     def film(self) -> Ended:
         """Draw the recording; if the run has an author's film, let it be described first and draw it, too."""
         recording = self.physics / "trajectory"
-        more, reads, earlier = list(self.spec.arguments), [recording], {}
+        earlier = tuple(map(Path, self.spec.reuse))
+        more = [*self.spec.arguments, *(word for path in earlier for word in ("--reuse", str(path)))]
+        reads = [recording, *earlier]
         authored = self.spec.stage == "video" and (self.job.inputs / authoring.PROGRAM).is_file()
         if authored:
             if failure := self.describe(recording):
                 return Ended(failure)
             more += ["--film", str(self.job.inputs / authoring.FOLDER)]
             reads.append(self.job.inputs / authoring.FOLDER)
-            if earlier := authoring.kept(self.run, self.spec, self.job.out):
-                more.append("--film-alone")
         member = self.engine("--from", str(recording), *more, reads=tuple(reads))
         failure = self.ended(member)
-        said = {**earlier, **plain.read_json(self.job.out / "result.json")}
+        said = plain.read_json(self.job.out / "result.json")
         if authored and not failure:
-            said |= {"drawn_by": environment.film().sha256} | ({"cameras": earlier["cameras"]} if earlier else {})
+            said["drawn_by"] = environment.film().sha256
         return Ended(failure, said)
 
     def describe(self, recording: Path) -> dict[str, str] | None:

@@ -2,7 +2,8 @@
 
 The folder is the list: a module that defines what `Renderer` names is a renderer of the still and the video pass, chosen by
 its name in `WORLDKIT_RENDERER`. The result of a pass tells which one drew, in which version; pictures of one renderer never
-answer for another.
+answer for another. A drawing may also have `shared() -> bytes`: what all cameras together add to each picture (how far the
+room reaches). Where it lacks that, a change of any camera makes the pictures of all others anew.
 """
 
 import os

@@ -48,6 +48,10 @@ class Classic:
         """Refuse the treatment: the model's own lights are all that it knows."""
         return False
 
+    def shared(self) -> bytes:
+        """Nothing: each camera's picture is its own."""
+        return b""
+
     def close(self) -> None:
         """Free the renderer."""
         self._renderer.close()

@@ -104,7 +104,7 @@ class Pipeline:
         self._sky_uniforms = sky_uniforms(self.setting, PLAIN)
         self._around = Surroundings(self.setting, self._noise, self._sky_uniforms)
         self._weigh()
-        self._room: tuple[np.ndarray, np.ndarray] | None = None
+        self.room_extent: tuple[np.ndarray, np.ndarray] | None = None
         walls, wall_rows = self._build_room(rest) if self.setting.name == "room" else ([], np.zeros((0, FLOATS)))
         self.painter = Painter(model, self.setting.index, self.things, walls, wall_rows.astype(np.float32), height)
         self._skies: dict[int, gl.Program] = {}
@@ -145,8 +145,8 @@ class Pipeline:
                 return
 
     def _build_room(self, rest: mujoco.MjData) -> tuple[list[Batch], np.ndarray]:
-        self._room = room.extent(self.low, self.high, np.array(rest.cam_xpos).reshape(-1, 3))
-        low, high = self._room
+        self.room_extent = room.extent(self.low, self.high, np.array(rest.cam_xpos).reshape(-1, 3))
+        low, high = self.room_extent
         panels = room.panels(low, high, self.floor_z, self.setting.key.azimuth_deg)
         looks = sorted({panel.look for panel in panels})
         start = len(self.things.rows)

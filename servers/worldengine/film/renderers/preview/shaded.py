@@ -51,6 +51,11 @@ class Shaded:
         self._pipeline.treat(treatment)
         return True
 
+    def shared(self) -> bytes:
+        """How far the room reaches, which depends on where all cameras stand; empty where there is none."""
+        room = self._pipeline.room_extent
+        return b"" if room is None else b"".join(corner.tobytes() for corner in room)
+
     def close(self) -> None:
         """Free the graphics context with everything that was made on it."""
         self._context.free()
