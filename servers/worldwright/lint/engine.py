@@ -2,7 +2,7 @@
 
 import ast
 from collections.abc import Iterable, Iterator
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -319,7 +319,12 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
 
 
 def check_program_file(
-    path: Path, plan: Plan | None, contract: bool | None = None, model: bool | None = None, wall_s: float = 20.0
+    path: Path,
+    plan: Plan | None,
+    contract: bool | None = None,
+    model: bool | None = None,
+    wall_s: float = 20.0,
+    bundle: tuple[Path, float] | None = None,
 ) -> tuple[list[Finding], str]:
     """Findings on one file, and a few words on how building its world went (none if nobody asked for it).
 
@@ -329,6 +334,7 @@ def check_program_file(
         contract: whether it is a program of ours (None: its imports tell).
         model: whether to build its world in the sandbox (None: for programs of ours and model files).
         wall_s: the most time that building may take, s.
+        bundle: the world that this program has built already, as one file, and how long it is simulated, s.
     """
     source = sources.read(path)
     found = check_source(source, plan, contract)
@@ -353,8 +359,11 @@ def check_program_file(
     if wall_s < LEAST_WALL_S:
         return found, f"{path.name}: the world is not built: the call's time went into the files before it"
     planned = None
+    world = partial(fetch.world, path, is_mjcf=source.is_mjcf, wall_s=wall_s)
+    if bundle is not None:
+        world = partial(fetch.world, bundle[0], is_mjcf=True, wall_s=wall_s, lasting_s=bundle[1])
     if plan is None:
-        outcome = fetch.world(path, is_mjcf=source.is_mjcf, wall_s=wall_s)
+        outcome = world()
     else:
         from concurrent.futures import ThreadPoolExecutor
 
@@ -362,7 +371,7 @@ def check_program_file(
 
         with ThreadPoolExecutor(1) as beside:  # each runs in a process that cannot see the other
             waiting = beside.submit(plans.world, plan, wall_s)
-            outcome = fetch.world(path, is_mjcf=source.is_mjcf, wall_s=wall_s)
+            outcome = world()
             planned = waiting.result()
     if outcome.status == "refused":
         return found, f"{path.name}: the world is not built: no sandbox confines here (worldwright doctor says why)"

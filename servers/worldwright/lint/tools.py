@@ -74,7 +74,8 @@ def check_program(
             fixed.append(f"{file.name}: {len(codes)} safe fix{'es' * (len(codes) > 1)} ({', '.join(codes)})")
             key = _key(file.parent) if evidence else None
         left = min(WORLD_S, deadline - time.monotonic())
-        looked, world = engine.check_program_file(file, committed, True if chosen else None, model, left)
+        bundle = _bundle(file.parent, key) if key is not None and model is not False else None
+        looked, world = engine.check_program_file(file, committed, True if chosen else None, model, left, bundle)
         here += looked
         worlds += [world] if world else []
         if key is not None and key == _key(file.parent):  # if it was edited meanwhile, they fit neither version
@@ -198,6 +199,14 @@ def _key(folder: Path) -> EvidenceKey:
     from ..model.evidence.run import Run
 
     return Run(folder).evidence_key(current().sha256())
+
+
+def _bundle(folder: Path, key: EvidenceKey) -> tuple[Path, float] | None:
+    """The world that the run's bundle pass has made already, which is then looked at in place of another build."""
+    from ..model.evidence.run import Run
+    from .compiled import fetch
+
+    return fetch.bundled(Run(folder), key)
 
 
 def _keep(folder: Path, key: EvidenceKey, found: list[Finding], rules: int) -> str:

@@ -1,6 +1,7 @@
 """Decide from the run's files whether a pass may start.
 
-Physics needs this exact plan approved, with the model files that it names, and this exact program linted clean against it;
+The bundle, the world as one file, needs this exact plan approved, with the model files that it names. Physics also needs this
+exact program linted clean against it;
 a name that the simulator did not know must have been looked up. Storyboard and stills need physics on this key, video
 needs stills.
 """
@@ -39,7 +40,7 @@ def passed(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> di
     recorded = stage == "physics" and (not variant or ending in (result.get("files") or {}))
     if recorded and not (run.evidence(key) / name / ending).is_file():
         return None
-    if not result.get("ok") or (stage != "physics" and result.get("film_sha256") != pictures_of.identity(run, stage)):
+    if not result.get("ok") or (result.get("film_sha256") or "") != pictures_of.identity(run, stage):
         return None
     return result
 
@@ -114,7 +115,9 @@ def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> N
         return
     if run.source == run.model:  # a bare model makes no claim that a person would have to approve
         return
-    approval.require(run, "the physics pass needs an approval")
+    approval.require(run, f"the {stage} pass needs an approval")
+    if stage == "bundle":
+        return
     lint = _read(run, key, "lint.json")
     if not lint or any(f.get("severity") == "error" for f in lint.get("findings", ())):
         raise GateError(

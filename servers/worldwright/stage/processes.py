@@ -59,14 +59,14 @@ class Acting:
         if self.spec.given:
             if failure := self.take(Path(self.spec.given)):
                 return Ended(failure)
-        elif self.spec.stage == "physics" and not self.spec.variant:
-            if failure := self.build():
+        elif self.spec.stage in ("bundle", "physics") and not self.spec.variant:
+            if not (self.spec.stage == "physics" and self.bundled()) and (failure := self.build()):
                 return Ended(failure)
-        elif failure := self.fetch():
+        elif failure := self.fetch(self.physics):
             return Ended(failure)
-        if self.spec.stage != "physics":
-            return self.film()
-        return self.simulate()
+        if self.spec.stage == "bundle":
+            return self.bundle()
+        return self.simulate() if self.spec.stage == "physics" else self.film()
 
     @property
     def physics(self) -> Path:
@@ -119,14 +119,26 @@ class Acting:
                 return {"code": "no_result", "message": f"there is no {name} to simulate", "next_move": "build it anew"}
         return None
 
-    def fetch(self) -> dict[str, str] | None:
-        """Take the world of the physics pass, checked against the hashes in its result."""
-        vouched = plain.read_json(self.physics / "result.json").get("files") or {}
+    def bundled(self) -> bool:
+        """Whether the bundle pass has made the world already, and it could be taken."""
+        folder = self.run.evidence(self.spec.key) / folder_name("bundle")
+        known = not self.spec.force and plain.read_json(folder / "result.json").get("ok")
+        return bool(known) and self.fetch(folder) is None
+
+    def bundle(self) -> Ended:
+        """Keep the built world, once it compiles."""
+        self.job.out.mkdir(parents=True, exist_ok=True)
+        kept = tuple(self.job.inputs / name for name in (WORLD, FACTS, INPUTS))
+        return Ended(None, {"world_sha256": sha256_file(kept[0])}, kept)
+
+    def fetch(self, folder: Path) -> dict[str, str] | None:
+        """Take the world out of a pass's evidence, checked against the hashes in its result."""
+        vouched = plain.read_json(folder / "result.json").get("files") or {}
         for name in (WORLD, FACTS, INPUTS):
             copy = self.job.inputs / name
-            there = name in vouched and plain.take(self.physics / name, copy, self.spec.file_mb * MB)
+            there = name in vouched and plain.take(folder / name, copy, self.spec.file_mb * MB)
             if not there or sha256_file(copy) != vouched[name]:
-                message = f"the world of the physics pass is not there as it was ({name})"
+                message = f"the world of the {folder.name} pass is not there as it was ({name})"
                 again = f"worldwright stage start {self.run.folder} --stage physics --force"
                 return {"code": "no_result", "message": message, "next_move": again}
         return None

@@ -216,8 +216,8 @@ class Supervision:
             self.journal(result, result_sha256=sha256_file(self.job.out / "result.json"))
             self.job.out.rename(target)
             return result
-        first = (earlier.get("summary") or {}).get("trajectory_sha256")
-        again = result.summary.get("trajectory_sha256")
+        made = "world_sha256" if self.spec.stage == "bundle" else "trajectory_sha256"
+        first, again = (earlier.get("summary") or {}).get(made), result.summary.get(made)
         if first == again:
             result = result.model_copy(update={"message": "the same result as before; the first evidence is kept"})
             self.journal(result)
@@ -226,7 +226,7 @@ class Supervision:
             update={
                 "ok": False,
                 "code": "not_repeatable",
-                "message": f"the trajectory differs from the first run's ({again} against {first})",
+                "message": f"the {made.partition('_')[0]} differs from the first run's ({again} against {first})",
                 "next_move": "seed every random draw and take wall-clock and set order out of the program",
             }
         )

@@ -101,7 +101,12 @@ def start(
     run: Annotated[
         str | None, Field(description="The run folder; with `model`, where to record it."), Positional()
     ] = None,
-    stage: Annotated[PassName, Field(description="physics, then storyboard, stills, video.")] = "physics",
+    stage: Annotated[
+        PassName,
+        Field(
+            description="bundle (the world as one file; physics makes it, too), physics, then storyboard, stills, video."
+        ),
+    ] = "physics",
     force: Annotated[bool, Field(description="Run again although it succeeded, and compare.")] = False,
     still_s: Annotated[float, Field(description="Ended when nothing advances for so long.", gt=0)] = 180,
     memory_mb: Annotated[int, Field(description="Resident memory limit.", ge=64)] = 4096,

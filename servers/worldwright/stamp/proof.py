@@ -138,6 +138,9 @@ def prove(
     models = approval.model_hashes(run)
     if approval.standing(run.entries(), key.plan_sha256, models) is None:
         run.log("stamp", "approve", plan_sha256=key.plan_sha256, by=reason, models=models)
+    # Lint looks at the world that is then simulated; where it cannot be built, lint says why.
+    if _ended(run, stage.start(str(folder), stage="bundle"), deadline, progress) is None:
+        return None
     report = lint.check_program([run.program], plan=run.plan)
     errors = [f for f in report.findings if f.severity == "error"]
     if errors:
@@ -167,14 +170,10 @@ def measure(proved: Proved, progress: Progress = silent) -> ExpectReport:
 
 def _followed(run: Run, job: Any, lint: LintReport, deadline: float, progress: Progress) -> Proved | None:
     """Follow a physics job to its end, and look at what it left; None when it needs longer."""
-    from ..stage import tools as stage
-
-    folder, key = run.folder, run.evidence_key(_environment_sha256())
-    while job.state in ("queued", "running"):
-        left = deadline - time.monotonic()
-        if left <= 0:
-            return None
-        job = stage.wait(str(folder), job=job.job, timeout_s=min(POLL_S, max(left, 0.1)), progress=progress)
+    key = run.evidence_key(_environment_sha256())
+    job = _ended(run, job, deadline, progress)
+    if job is None:
+        return None
     result = Kept.read(run.evidence(key) / "physics" / "result.json", PassResult)
     if job.state != "succeeded" or result.value is None or not result.value.ok:
         raise GateError(
@@ -199,6 +198,18 @@ def _followed(run: Run, job: Any, lint: LintReport, deadline: float, progress: P
             next_move="let worldkit record the run and write its result; change neither",
         )
     return proved
+
+
+def _ended(run: Run, job: Any, deadline: float, progress: Progress) -> Any:
+    """Follow a job to its end; None when it needs longer."""
+    from ..stage import tools as stage
+
+    while job.state in ("queued", "running"):
+        left = deadline - time.monotonic()
+        if left <= 0:
+            return None
+        job = stage.wait(str(run.folder), job=job.job, timeout_s=min(POLL_S, max(left, 0.1)), progress=progress)
+    return job
 
 
 def _recorded_sha256(recording: Path) -> str:

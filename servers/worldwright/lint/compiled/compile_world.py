@@ -1,9 +1,9 @@
 """Compile a world and write down what it is: run in the sandbox by `fetch.py`, never imported into a server.
 
-    compile_world.py program|mjcf FILE OUT
+    compile_world.py program|mjcf FILE OUT [SECONDS]
 
-A program is run as a script up to the moment it hands its world to worldkit, or takes its first step; a model file is
-compiled. What is left behind is `outcome.json` and, when there is a world, `facts.npz`: numbers and names, no code.
+A program is run as a script up to the moment it hands its world to worldkit, or takes its first step; a model file, or the
+archive that a bundle pass has made, is compiled; SECONDS is how long such a world is simulated. What is left behind is `outcome.json` and, when there is a world, `facts.npz`: numbers and names, no code.
 """
 
 import contextlib
@@ -120,7 +120,7 @@ def failure(error: BaseException, path: Path) -> dict[str, Any]:
     }
 
 
-def main(kind: str, path: Path, out: Path) -> None:
+def main(kind: str, path: Path, out: Path, lasting_s: float | None = None) -> None:
     """Write the outcome; the process's exit code says nothing."""
     import mujoco
     import numpy as np
@@ -139,7 +139,7 @@ def main(kind: str, path: Path, out: Path) -> None:
                 (out / "compiling").touch()
                 model = portable.read(path) if path.suffix == ".mjz" else mujoco.MjSpec.from_file(str(path)).compile()
                 (out / "compiling").unlink()
-                outcome["made_by"] = "file"
+                outcome |= {"made_by": "file", "duration_s": lasting_s}
             else:
                 model, more = run(path, out / "compiling")
                 outcome.update(more)
@@ -161,6 +161,6 @@ def main(kind: str, path: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]))
+    main(sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3]), *map(float, sys.argv[4:]))
     sys.stdout.flush()
     os._exit(0)  # what the program left running is of no interest

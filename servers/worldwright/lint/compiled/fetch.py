@@ -16,6 +16,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import numpy as np
 
+    from ...model.evidence.reports import EvidenceKey
+    from ...model.evidence.run import Run
+
 MOST_BYTES = 128 << 20
 WALL_S = 20.0
 PROGRAM = "simulation.py"
@@ -23,6 +26,7 @@ OURS = ("evidence", "accepted", "__pycache__", "journal.jsonl", "blocked.json")
 MOST_BESIDE = 500
 """So many files beside a program are copied into the sandbox."""
 MEMORY_MB = 2048
+BUNDLE, FACTS = "world.mjz", "program.json"
 
 
 @dataclass(frozen=True)
@@ -54,13 +58,14 @@ class Outcome:
         return numbers[2] * numbers[1] / numbers[0] if len(numbers) == 3 else None
 
 
-def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S) -> Outcome:
+def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S, lasting_s: float | None = None) -> Outcome:
     """Compile the world of a program, or a model file, in the sandbox.
 
     Args:
         path: the file.
         is_mjcf: it is a model and not a program.
         wall_s: the attempt ends after so many seconds.
+        lasting_s: how long the world of a file is simulated, s, where that is known.
     """
     from ...model.errors import WorldwrightError
     from ...stage.tools import model_files, run_confined
@@ -74,6 +79,7 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S) -> Outco
         with contextlib.suppress(WorldwrightError):  # not well-formed: the compiler says it better
             reads += model_files(path)
     call = [sys.executable, "-s", str(here / "compile_world.py"), "mjcf" if is_mjcf else "program", str(path), "{out}"]
+    call += [] if lasting_s is None else [str(lasting_s)]
     wanted = ("outcome.json", "facts.npz", "compiling")
     done = run_confined(call, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
     common: dict[str, Any] = {"wall_s": done.wall_s, "level": done.level}
@@ -98,6 +104,21 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S) -> Outco
         last = (done.log.strip().splitlines() or [f"it ended with status {done.exit_code}"])[-1]
         return Outcome("died", message=last[:500], **common)
     return Outcome("compiled", arrays=arrays, texts=told, **common)
+
+
+def bundled(run: "Run", key: "EvidenceKey") -> tuple[Path, float] | None:
+    """The world that the bundle pass has made of this program and plan, and how long it is simulated, s; None without."""
+    from ...model.evidence.run import sha256_file
+
+    folder = run.evidence(key) / "bundle"
+    try:
+        result = _object((folder / "result.json").read_bytes())
+        files = result.get("files") or {}
+        if not result.get("ok") or any(sha256_file(folder / name) != files.get(name) for name in (BUNDLE, FACTS)):
+            return None
+        return folder / BUNDLE, float(_object((folder / FACTS).read_bytes())["duration"])
+    except (OSError, KeyError, TypeError, ValueError, AttributeError):
+        return None
 
 
 def beside(program: Path) -> list[Path]:

@@ -14,12 +14,12 @@ FILM = "film.py"
 
 
 def identity(run: Run, stage: PassName) -> str:
-    """SHA-256 of everything but the recording that the pictures of a pass depend on; empty for physics.
+    """SHA-256 of everything but the recording that the pictures of a pass depend on; empty for those without pictures.
 
     Raises:
         NotFoundError: there is no such renderer as `WORLDKIT_RENDERER` names.
     """
-    if stage == "physics":
+    if stage in ("bundle", "physics"):
         return ""
     drawn = environment.film().sha256
     authored = author_sha256(run) if stage == "video" else ""
