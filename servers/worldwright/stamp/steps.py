@@ -77,7 +77,7 @@ def _place(state: State) -> Answer:
 
 def _of_layout(point: str) -> bool:
     """Whether what is open in a plan is the pose of a row, which `place` answers."""
-    return "scene_predicates" in point
+    return point.startswith("topology.scene_predicates.")
 
 
 def _told(points: list[str]) -> str:

@@ -81,6 +81,34 @@ def test_whatever_is_marked_to_clarify_is_unresolved():
     assert path.startswith("simulation_parameters.materials.") and path.endswith(".source")
 
 
+UNREAD = {
+    "under the title": ("## plan_type", "TO_CLARIFY whether the ball is hollow.\n\n## plan_type"),
+    "unfenced, in layout_density": ("## layout_density\n", "## layout_density\n\n- fill TO_CLARIFY\n"),
+    "prose, in assets": ("## assets\n", "## assets\n\nA lamp, TO_CLARIFY which one.\n"),
+    "a bullet, in assets": ("## assets\n", "## assets\n\n- TO_CLARIFY which lamp\n"),
+    "a comment of the YAML": ("time_step:", "# TO_CLARIFY with the user\ntime_step:"),
+    "a comment of the markdown": ("## assets\n", "## assets\n\n<!-- TO_CLARIFY which lamp -->\n"),
+    "behind a bare word": ("## plan_type\n\nmbs\n", "## plan_type\n\nmbs\n\nTO_CLARIFY or scene?\n"),
+}
+
+
+@pytest.mark.parametrize("where", UNREAD)
+def test_what_is_marked_where_no_section_reads_it_is_unresolved(where):
+    old, new = UNREAD[where]
+    assert GOOD.count(old) == 1
+    document = parse_plan(GOOD.replace(old, new))
+    ((section, line, text),) = document.plan.open_lines
+    assert "TO_CLARIFY" in text and text in document.text.splitlines()[line - 1]
+    assert section == ("title" if where == "under the title" else section) and list(document.plan.unresolved())
+    assert not list(document.plan.open_values())
+
+
+def test_a_mark_in_a_value_or_the_title_is_told_once():
+    marked = GOOD.replace("source: handbook", "source: TO_CLARIFY ask whose table").replace("# ", "# TO_CLARIFY ", 1)
+    assert [place for place in parse_plan(marked).plan.unresolved() if place != "title"] != []
+    assert parse_plan(marked).plan.open_lines == () and len(list(parse_plan(marked).plan.unresolved())) == 2
+
+
 def test_yaml_1_2_scalars():
     text = GOOD.replace("source: handbook", 'source: "no"').replace("name: ball", "name: no").replace("ball", "no")
     assert parse_plan(text).plan.object_names() == ("box", "no")

@@ -8,10 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model.errors import GateError, NotFoundError
+from worldwright.draft.assembly import draft
+from worldwright.lint import tools as lint
+from worldwright.model.errors import GateError, NotFoundError, PlanError
 from worldwright.model.evidence.reports import ExpectReport, VisualDescription
 from worldwright.model.evidence.run import Run
 from worldwright.model.evidence.verdict import CrossCheck, ObjectiveVerdict, Verdict
+from worldwright.model.plan.layout import Scene
+from worldwright.model.plan.plan_text import read_plan
+from worldwright.place.tools import resolve
 from worldwright.stage import tools as stage
 from worldwright.stamp import by_measurement, gates
 from worldwright.stamp import tools as stamp
@@ -137,6 +142,25 @@ def test_approval_needs_a_finished_plan(planned: Path, copy: Copy) -> None:
     plan.write_text(whole, encoding="utf-8")
     assert stamp.approve(str(folder)).run == folder.name
     assert [e["by"] for e in Run(folder).entries() if e["action"] == "approve"] == ["user"]
+
+
+@pytest.mark.parametrize("section", ["layout_density", "assets", "plan_type"])
+def test_a_question_in_prose_blocks_approval_and_code(section: str, planned: Path, copy: Copy) -> None:
+    folder = copy(planned)
+    plan = folder / "plan.md"
+    whole = plan.read_text(encoding="utf-8")
+    head = f"## {section}\n"
+    asked = "TO_CLARIFY how many blocks."
+    # the sentence under the title stands before the first section
+    marked = f"{asked}\n\n{head}" if section == "plan_type" else f"{head}\n{asked}\n"
+    plan.write_text(whole.replace(head, marked), encoding="utf-8")
+    (found,) = [f for f in lint.check_plan(plan).findings if f.code == "WP101"]
+    assert found.severity == "error" and plan.read_text(encoding="utf-8").splitlines()[found.line - 1] == asked
+    with pytest.raises(GateError, match="TO_CLARIFY how many"):
+        stamp.approve(str(folder))
+    document = read_plan(plan)
+    with pytest.raises(PlanError, match="TO_CLARIFY how many"):
+        draft(document.plan, Scene(objects=resolve(plan, write=False).objects))
 
 
 def test_auto_approval_needs_every_chosen_value_marked(planned: Path, copy: Copy) -> None:

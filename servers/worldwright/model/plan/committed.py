@@ -310,6 +310,15 @@ class Plan(Frozen):
         """Know the lines of the text that still stand as they were copied."""
         self.__dict__["copied"] = lines
 
+    @cached_property
+    def open_lines(self) -> tuple[tuple[str, int, str], ...]:
+        """Section, 1-based line and text of each line that holds TO_CLARIFY and belongs to no value. No part of the plan."""
+        return ()
+
+    def left_open_at(self, lines: tuple[tuple[str, int, str], ...]) -> None:
+        """Know the lines of the text that nobody reads and that are still to clarify."""
+        self.__dict__["open_lines"] = lines
+
     def declared(self) -> tuple[Intervention, ...]:
         """What may act besides the engine's step: the declared interventions, and joints that are set before it begins."""
         parameters = self.simulation_parameters
@@ -345,7 +354,12 @@ class Plan(Frozen):
         return tuple(dict.fromkeys(n for step in self.implementation_steps for n in step.motion_expectations))
 
     def unresolved(self) -> Iterator[str]:
-        """Every open clarification, and every value, anywhere in the plan, in which TO_CLARIFY stands: each blocks code."""
+        """Every open clarification, and every value or line of the text in which TO_CLARIFY stands: each blocks code."""
+        yield from self.open_values()
+        yield from (f"{section}: line {line}, `{text}`" for section, line, text in self.open_lines)
+
+    def open_values(self) -> Iterator[str]:
+        """Every open clarification, and the path of every value, anywhere in the plan, in which TO_CLARIFY stands."""
         yield from (f"clarifications_needed: {text}" for text in self.clarifications_needed)
         for path in _marked((), self.model_dump(exclude={"clarifications_needed"})):
             yield ".".join(map(str, path))

@@ -20,7 +20,8 @@ from pydantic import ValidationError
 
 from ..errors import NotFoundError, PlanError
 from ..finding import Finding
-from .committed import SECTIONS, TO_CHANGE, Plan
+from .committed import SECTIONS, TO_CHANGE, TO_CLARIFY, Plan
+from .open_marks import unread
 from .plan_problems import Problem, dotted, keys_of, unsafe_numbers, value_problems
 from .plan_references import reference_problems
 from .plan_sections import Lines, Section, split
@@ -143,6 +144,7 @@ def _parsed(text: str) -> PlanDocument:
         )
     marked = (match.start() for match in re.finditer(TO_CHANGE, text))
     plan.copied_at(tuple(dict.fromkeys(lines.at(offset) for offset in marked)))
+    plan.left_open_at(tuple(unread(TO_CLARIFY, text, title, sections, reader.nodes, lines)))
     return PlanDocument(file, text, plan, sections, reader.nodes, lines)
 
 

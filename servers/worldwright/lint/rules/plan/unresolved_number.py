@@ -1,7 +1,7 @@
 """Something the user owns is still open.
 
-What it does: reports every `TO_CLARIFY`, in whatever value of the plan it stands, and every entry of
-`clarifications_needed`.
+What it does: reports every `TO_CLARIFY`, in whatever value or line of the plan it stands (prose, comments and the sentence
+under the title too), and every entry of `clarifications_needed`.
 
 Why is this bad: code for an open question answers it silently. Time step and duration in particular are never
 defaulted.
@@ -32,8 +32,11 @@ EVIDENCE = Argued("a number that is not there cannot be run; it would have to be
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Check everything `Plan.unresolved` names."""
-    for what in view.plan.unresolved():
+    """Check everything `Plan.unresolved` names: each line of the text at that line, all else at its value."""
+    for section, line, text in view.plan.open_lines:
+        fix = f"ask the user, then write the answer into the `{section}` and take the mark out of its text"
+        yield Problem(f"{section}: `{text}` is still open", fix, line, section=section)
+    for what in view.plan.open_values():
         place, _, rest = what.partition(": ")
         path = tuple(int(part) if part.isdigit() else part for part in place.split("."))
         yield view.at(path, f"{what} is still open", f"ask the user, then write the answer into `{rest or place}`")
