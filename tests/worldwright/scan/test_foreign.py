@@ -1,9 +1,13 @@
 """Foreign recordings as they come: names that the model does not have, clocks that are broken, one row, nothing at all."""
 
 import json
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 from worldwright.model.recording.trajectory_files import read_trajectory
 from worldwright.scan.anomalies import engine
@@ -88,3 +92,50 @@ def test_json_tells_what_was_skipped(tmp_path, capsys):
     told = json.loads(capsys.readouterr().out)
     skipped = {row["name"] for row in told["skipped"]}
     assert "flight_force" in skipped and all(row["reason"] for row in told["skipped"])
+
+
+CHANNELS = (*ARRAYS[1:], "energy")
+VALUES = st.sampled_from((np.nan, np.inf, -np.inf, 0.0, -1.0, 1e9, -1e9))
+PLACES = st.sampled_from(("all", "first row", "last row", "head", "tail", "first column", "one"))
+
+
+def spoiled(values, place, value):
+    """The array with `value` written where `place` says."""
+    made = np.array(values, dtype=float)
+    half = len(made) // 2
+    parts = {"first row": made[:1], "last row": made[-1:], "head": made[:half], "tail": made[half:], "all": made}
+    part = parts | {"first column": made[:, :1] if made.ndim > 1 else made, "one": made.reshape(-1)[half : half + 1]}
+    part[place][...] = value
+    return made
+
+
+@settings(max_examples=25, deadline=None, derandomize=True)
+@given(
+    st.dictionaries(st.sampled_from(CHANNELS), st.tuples(PLACES, VALUES), min_size=1, max_size=4),
+    st.sampled_from((SCENE, "")),
+)
+@example({"max_penetration": ("all", np.nan)}, SCENE)
+@example({"max_penetration": ("tail", np.nan)}, "")
+@example({"quat": ("all", np.nan)}, SCENE)
+@example({"quat": ("first row", np.inf)}, SCENE)
+def test_no_check_fails_whatever_the_arrays_hold(broken, xml):
+    made = modelled.run(SCENE, 0.6)
+    whole = {key: getattr(made, key) for key in ARRAYS} | {"energy": np.zeros((len(made.t), 2))}
+    arrays = {key: spoiled(whole[key], *how) for key, how in broken.items()}
+    with tempfile.TemporaryDirectory() as folder:
+        report = engine.scan(read_trajectory(stored(Path(folder), xml=xml, **arrays)))
+    assert not [c for c in report.checks if "the check itself failed" in c.reason]
+    if any(
+        place in ("all", "first row") and not np.isfinite(v) and key in CHANNELS[:4]
+        for key, (place, v) in broken.items()
+    ):
+        assert {c.status for c in report.checks if not engine.CHECKS[c.code].UNCUT} == {"skipped"}
+
+
+def test_a_depth_that_some_rows_do_not_tell_is_judged_by_the_others(tmp_path):
+    made = modelled.run(SCENE, 0.6)
+    deep = np.where(np.arange(len(made.t)) < 3, np.nan, 0.5)
+    (found,) = [
+        a for a in engine.scan(read_trajectory(stored(tmp_path, max_penetration=deep))).anomalies if a.code == "WS110"
+    ]
+    assert found.severity == "blocking" and found.window_s[0] == pytest.approx(made.t[3])

@@ -1,5 +1,7 @@
 """Run the shelf of checks over one recording."""
 
+from functools import partial
+
 import numpy as np
 
 from ...model.evidence.reports import CheckRun, ScanReport
@@ -34,25 +36,27 @@ ORDER = {"blocking": 0, "warn": 1, "info": 2}
 def scan(trajectory: Trajectory, context: Context | None = None) -> ScanReport:
     """Every check's outcome and every anomaly, the gravest first.
 
-    When the recording turns into nan, `nan` reports it and the other checks look at what came before.
+    When the recording turns into nan, `nan` reports it and the other checks look at what came before; where nothing came
+    before, they are skipped.
     """
     context = context or Context()
     finite = _finite_part(trajectory)
     runs, anomalies = [], []
     for entry in CHECKS.values():
-        run, found = run_check(entry, trajectory if entry.UNCUT else finite, context)
+        if finite is None and not entry.UNCUT:
+            runs.append(_outcome(entry, "skipped", "the first row of the recording is not finite"))
+            continue
+        run, found = run_check(entry, trajectory if entry.UNCUT or finite is None else finite, context)
         runs.append(run)
-        anomalies += relevance.weighed(found, finite, context.plan) if entry.RELATIVE and context.plan else found
+        weigh = entry.RELATIVE and context.plan and finite is not None
+        anomalies += relevance.weighed(found, finite, context.plan) if weigh else found
     anomalies.sort(key=lambda a: (ORDER[a.severity], a.code, a.window_s))
     return ScanReport(trajectory_sha256=trajectory.sha256, checks=tuple(runs), anomalies=tuple(anomalies))
 
 
 def run_check(entry: Entry, trajectory: Trajectory, context: Context) -> tuple[CheckRun, list[Anomaly]]:
     """One check's outcome with its anomalies."""
-
-    def outcome(status: str, reason: str = "") -> CheckRun:
-        return CheckRun.model_validate({"code": entry.code, "name": entry.name, "status": status, "reason": reason})
-
+    outcome = partial(_outcome, entry)
     missing = [name for name in entry.NEEDS if trajectory.channel(name) is None]
     if missing:
         return outcome("skipped", f"the recording has no {', '.join(missing)}"), []
@@ -74,6 +78,10 @@ def run_check(entry: Entry, trajectory: Trajectory, context: Context) -> tuple[C
         last = kept[-1]
         kept[-1] = last._replace(message=f"{last.message} (and {len(signs) - len(kept)} more bodies like it)")
     return outcome("found" if kept else "clean"), [_anomaly(entry, sign) for sign in kept]
+
+
+def _outcome(entry: Entry, status: str, reason: str = "") -> CheckRun:
+    return CheckRun.model_validate({"code": entry.code, "name": entry.name, "status": status, "reason": reason})
 
 
 def _world_signs(trajectory: Trajectory, signs: list[Sign]) -> list[Sign]:
@@ -101,7 +109,8 @@ def _anomaly(entry: Entry, sign: Sign) -> Anomaly:
     return Anomaly(code=entry.code, name=entry.name, **fields)
 
 
-def _finite_part(trajectory: Trajectory) -> Trajectory:
+def _finite_part(trajectory: Trajectory) -> Trajectory | None:
+    """The rows before the first that is not finite; None where that is the first of all."""
     if trajectory.finite:
         return trajectory
     rows = np.ones(len(trajectory.t), dtype=bool)
@@ -109,4 +118,4 @@ def _finite_part(trajectory: Trajectory) -> Trajectory:
         rows &= np.isfinite(channel).all(axis=(1, 2))
     if rows.all():
         return trajectory
-    return trajectory.before(max(1, int(np.argmin(rows))))
+    return trajectory.before(int(np.argmin(rows))) if rows[0] else None

@@ -69,9 +69,8 @@ def _deepest(trajectory: Trajectory) -> Iterator[Sign]:
     Which bodies overlap is not told, and a hard blow on the usual soft contacts goes deep for a moment: a whole bounding
     radius blocks, as does a quarter at the start or, where at most three bodies move, for 0.25 s.
     """
-    deepest, half = trajectory.max_penetration, trajectory.mechanics.half_extents
-    if deepest is None or half is None:
-        raise SkipError("the recording has neither contacts nor max_penetration")
+    deepest, half = _told(trajectory), trajectory.mechanics.half_extents
+    assert half is not None
     known = trajectory.moves_freely & ~np.isnan(half).any(axis=1)
     if not known.any():
         raise SkipError("the sizes of the bodies that move are not known")
@@ -91,9 +90,9 @@ def _deepest(trajectory: Trajectory) -> Iterator[Sign]:
 
 def _unsized(trajectory: Trajectory) -> Iterator[Sign]:
     """Judge poses alone: a depth that no contact of everyday things has, at the start or for long."""
-    deepest, pressed = trajectory.max_penetration, trajectory.contact_force_sum
-    if deepest is None or pressed is None:
-        raise SkipError("the recording has neither contacts nor max_penetration")
+    deepest, pressed = _told(trajectory), trajectory.contact_force_sum
+    if pressed is None:
+        raise SkipError("the recording has neither contacts nor contact_force_sum")
     rows = max(1, round(LASTING_S / trajectory.interval_s))
     lasting = _lasting_level(deepest, rows)
     if max(float(deepest[0]), lasting) < EVERYDAY_M:
@@ -104,6 +103,16 @@ def _unsized(trajectory: Trajectory) -> Iterator[Sign]:
     message = f"bodies overlap by up to {deepest.max():.3g} m; their sizes are not known"
     name = trajectory.names[int(np.argmax(pressed[n]))]
     yield Sign(name, window, float(deepest.max()), EVERYDAY_M, "m", "warn", message)
+
+
+def _told(trajectory: Trajectory) -> np.ndarray:
+    """(T,) m: the deepest penetration of each row, 0 in a row that tells none."""
+    deepest = trajectory.max_penetration
+    if deepest is None:
+        raise SkipError("the recording has neither contacts nor max_penetration")
+    if np.isnan(deepest).all():
+        raise SkipError("max_penetration holds no number")
+    return np.where(np.isnan(deepest), 0.0, deepest)
 
 
 def _inside(trajectory: Trajectory, n: int) -> str:
