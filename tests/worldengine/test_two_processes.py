@@ -296,6 +296,18 @@ def test_a_spring_that_begins_wound_is_in_the_ledger(tmp_path):
     assert told("slack", 0.0) == [] and told("undone", 0.5, "--without", "pose:door") == []
 
 
+FLEX = """<mujoco><worldbody><body name="cloth_9"><freejoint/><geom size=".1"/></body>
+  <body name="post" pos="0 0 1"><flexcomp name="cloth" type="grid" count="3 3 1" spacing=".1 .1 .1" dim="2" radius=".01">
+  <pin id="0"/><edge equality="true"/></flexcomp></body></worldbody></mujoco>"""
+
+
+def test_a_flex_declared_opens_its_points_and_nothing_that_is_only_called_like_one():
+    model = mujoco.MjSpec.from_string(FLEX).compile()
+    points = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, f"cloth_{i}") for i in range(1, 9)]
+    opened = Ports(model, (("force", frozenset({"cloth"})),)).entries["xfrc_applied"]
+    assert opened == sorted(6 * b + i for b in points for i in range(3))
+
+
 def test_an_answer_has_room_for_what_is_declared_and_no_more():
     assert message_bytes(3, edits=False) == 64
     assert message_bytes(3, edits=True) > 64

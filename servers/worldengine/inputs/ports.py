@@ -10,6 +10,7 @@ from worldkit.naming import names
 from worldkit.speaking import ARRAYS
 from worldkit.watch import BULKY, SHAPES, owner_of
 
+from . import flex_points
 from .openings import opens
 
 if TYPE_CHECKING:
@@ -28,11 +29,13 @@ class Ports:
 
     Args:
         model: the world.
-        rows: declared (kind, names); None opens everything.
+        rows: declared (kind, names); None opens everything. A flex' name stands for its points too.
     """
 
     def __init__(self, model: "mujoco.MjModel", rows: "tuple[tuple[str, frozenset[str]], ...] | None") -> None:
-        self._model, self._rows = model, rows
+        points = {} if rows is None else flex_points.of_model(model)
+        self._model = model
+        self._rows = None if rows is None else [(kind, frozenset(flex_points.covered(of, points))) for kind, of in rows]
         self._bodies = names(model, "body", model.nbody)
         self._joints = names(model, "joint", model.njnt)
         self.entries: dict[str, list[int]] = {name: [] for name in ARRAYS}

@@ -24,6 +24,12 @@ def jointed(plan: Plan) -> set[str]:
     return {name for joint in plan.topology.joints for name in (joint.parent, joint.child)} - {"world"}
 
 
+def tied(plan: Plan) -> set[str]:
+    """Objects that a declared constraint holds: pins of a cloth, a tie, a latch."""
+    rows = plan.simulation_parameters.interventions
+    return {name for row in rows if row.kind == "constraint" for name in row.bodies}
+
+
 def why_held(plan: Plan, scene: Scene) -> dict[str, str]:
     """The objects that are not released, and why: the pre-roll has no joints, without which mechanisms fall apart."""
     reasons: dict[str, str] = {}
@@ -31,6 +37,8 @@ def why_held(plan: Plan, scene: Scene) -> dict[str, str]:
         reasons.setdefault(joint.child, f"on {joint.type} {joint.name} of {joint.parent}")
     for joint in plan.topology.joints:
         reasons.setdefault(joint.parent, f"carries {joint.child} by {joint.type} {joint.name}")
+    for name in tied(plan):
+        reasons.setdefault(name, "held by a declared constraint")
     reasons |= dict.fromkeys(drawn_only(plan), "drawn only")
     return {o.name: reasons[o.name] for o in scene.objects if o.name in reasons}
 
@@ -122,7 +130,7 @@ def simulate(
 
 def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: bool) -> dict[str, Any]:
     parameters = plan.simulation_parameters
-    held = jointed(plan)
+    held = jointed(plan) | tied(plan)
     step = parameters.time_step
     rows: dict[str, SceneObject | AssetRow] = {row.name: row for row in plan.scene_objects}
     rows |= {name: row for row in plan.assets for name in row.instances}

@@ -14,7 +14,7 @@ import numpy as np
 from ..model.errors import WorldwrightError
 from ..model.evidence.run import Run
 from ..model.plan.committed import Intervention, Plan
-from ..model.plan.declaration import declaration
+from ..model.plan.declaration import covering, declaration
 from ..model.plan.plan_text import read_plan
 from ..model.recording.trajectory import Trajectory
 from ..model.recording.trajectory_files import read_trajectory
@@ -82,7 +82,7 @@ def _acted(trajectory: Trajectory, plan: Plan | None) -> Iterator[str]:
     ledger = trajectory.interventions
     if ledger is None:
         return
-    declared = plan.declared() if plan else ()
+    declared = covering(plan.declared() if plan else (), trajectory.flex_points)
     rows: dict[tuple[str, str], list[int]] = {}
     for n, pair in enumerate(zip(ledger.kind, ledger.target, strict=True)):
         rows.setdefault((str(pair[0]), str(pair[1])), []).append(n)
@@ -98,7 +98,7 @@ def _acted(trajectory: Trajectory, plan: Plan | None) -> Iterator[str]:
         lines.append(f"{kind} on {target} {_time_words(trajectory, ledger.time[mine])}{peak}{said}")
     if lines:
         yield f"acted besides the engine's step: {_first_few(sorted(lines, key=_undeclared_first), '; ')}"
-    asked = plan.simulation_parameters.interventions if plan else ()
+    asked = declared[: len(plan.simulation_parameters.interventions)] if plan else ()
     idle = [row for row in asked if id(row) not in seen and not _acts_unseen(trajectory, row)]
     if idle and trajectory.complete:
         named = [f"{row.kind} on {', '.join(row.bodies)} (trigger: {row.trigger})" for row in idle]

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..model.errors import RecordingError
 from ..model.frozen import Frozen
 from ..model.plan.committed import Intervention
-from ..model.plan.declaration import declaration
+from ..model.plan.declaration import covering, declaration
 
 
 class Acted(Frozen):
@@ -38,7 +38,8 @@ def acted(recording: Path, declared: tuple[Intervention, ...]) -> tuple[Acted, .
     """
     from ..model.recording.trajectory_files import read_trajectory
 
-    ledger = read_trajectory(recording).interventions
+    trajectory = read_trajectory(recording)
+    ledger, declared = trajectory.interventions, covering(declared, trajectory.flex_points)
     if ledger is None:
         raise RecordingError(
             "the recording has no ledger of interventions",

@@ -106,6 +106,24 @@ def test_what_sinks_into_a_hill_is_as_deep_as_geometry_says(on_a_hill, deep):
     assert depth == pytest.approx(deep / (1 + SLOPE**2) ** 0.5, abs=3e-3)
 
 
+# --- held by a constraint -------------------------------------------------------------------------------------------
+
+PINS = {"kind": "constraint", "bodies": ["cloth"], "law": "two edges are held fast", "source": "the prompt"}
+
+
+@pytest.mark.parametrize(("pins", "falls"), [([], True), ([PINS], False)])
+def test_a_pinned_cloth_does_not_fall(pins, falls):
+    told = codes(
+        report(
+            [box("cloth", 1.0, 1.0, 0.01)],
+            [],
+            topology={"body_positions": {"cloth": {"x": 0, "y": 0, "z": 0.305}}},
+            simulation_parameters={"time_step": 0.002, "simulation_duration": 1.0, "interventions": pins},
+        )
+    )
+    assert ("WP304" in told) is falls
+
+
 # --- support --------------------------------------------------------------------------------------------------------
 
 

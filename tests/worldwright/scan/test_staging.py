@@ -293,6 +293,62 @@ def test_a_pinned_cloth_is_caught(tmp_path):
     assert "WS306" not in found.codes()
 
 
+# -- flexes ----------------------------------------------------------------------------------------------------------
+
+
+def sheet():
+    """A cloth of sixteen points in the air."""
+    spec = empty()
+    cloth = mujoco.MjSpec.from_string(
+        """<mujoco><worldbody><flexcomp name="th" type="grid" count="4 4 1" spacing=".1 .1 .1" pos="0 0 1" dim="2"
+        radius=".005" mass=".1"><edge equality="true"/></flexcomp></worldbody></mujoco>"""
+    )
+    spec.attach(cloth, frame=spec.worldbody.add_frame(), prefix="clo")
+    return spec
+
+
+def gust(model, data):
+    """A push on each point of the cloth, along x."""
+    for body in range(1, model.nbody):
+        data.xfrc_applied[body, 0] = 0.02
+
+
+@pytest.mark.parametrize(
+    ("bodies", "declared"), [((), False), (("cloth",), True), (("cloth_3",), False), (("clo",), False)]
+)
+def test_a_force_on_the_points_of_a_flex_is_declared_by_the_name_of_the_flex(bodies, declared, tmp_path):
+    rows = (declare("force", *bodies),) if bodies else ()
+    found = audit(World(sheet, gust, 0.3, movers=("cloth",), interventions=rows), tmp_path)
+    assert ("WS108" in found.codes()) is not declared
+    acted = [row for row in found.ledger.acting if row.kind == "force"]
+    assert len(acted) == 16 and sum(row.declared for row in acted) == {(): 0, ("cloth",): 16}.get(
+        bodies, int(bodies == ("cloth_3",))
+    )
+    assert ("WS111" in found.codes()) is False
+
+
+def test_a_flex_moves_as_one_thing(tmp_path):
+    def lamp():
+        spec = sheet()
+        box(spec, "lamp", (3, 0, 1))
+        return spec
+
+    def told(code, movers, folder, build=lamp, seconds=0.3):
+        found = audit(World(build, None, seconds, movers=movers), tmp_path / folder).scan.anomalies
+        return [(a.body, a.severity) for a in found if a.code == code]
+
+    assert told("WS112", ("lamp", "cloth"), "both") == []
+    assert told("WS112", ("lamp",), "lamp") == [("cloth", "info")]
+    assert told("WS111", ("cloth",), "falls") == []
+
+    def floating():
+        spec = lamp()
+        spec.option.gravity = (0, 0, 0)
+        return spec
+
+    assert told("WS111", ("cloth",), "floats", floating) == [("cloth", "blocking")]
+
+
 # -- launches at fixed moments and speeds ----------------------------------------------------------------------------
 
 

@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from worldengine.inputs.flex_points import own_points
 from worldkit.turning import cross, turned
 
 from ..errors import NotFoundError, RecordingError
@@ -192,6 +193,13 @@ class Trajectory:
             return (body,)
         found = assemblies.heads(facts.parent, facts.jointed, (body,))
         return tuple(int(b) for b in np.flatnonzero(found == body))
+
+    @cached_property
+    def flex_points(self) -> dict[str, tuple[str, ...]]:
+        """The recorded point bodies of each flex, by its name."""
+        rows = [row for row in self.meta.get("flexes") or () if isinstance(row, Mapping)]
+        told = {str(row.get("name")): own_points(str(row.get("name")), row.get("bodies") or ()) for row in rows}
+        return {name: tuple(b for b in bodies if b in self.names) for name, bodies in told.items()}
 
     def rows(self, start_s: float | None = None, end_s: float | None = None) -> slice:
         """The rows from `start_s` to `end_s` inclusive; at least one row."""

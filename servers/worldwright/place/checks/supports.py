@@ -6,7 +6,7 @@ from ...model.errors import JobError
 from ...model.plan.committed import AssetRow, SceneObject
 from ...model.plan.layout import PlacedObject
 from ..anchors import TOLERANCE_M, Box, Surface, shown
-from ..asking import simulate
+from ..asking import simulate, tied
 from ..footprints import area_of, centre_of_mass, clipped, footprint, hull, inset, rows, turned
 from .checked_layout import CONTACT_M, CheckedLayout
 
@@ -15,8 +15,11 @@ SURE_M = 1e-3
 
 
 def check(layout: CheckedLayout) -> None:
-    """Report WP304 for loose objects that start in mid-air, WP307 for those that tip over the edge of what they stand on."""
-    scene_rows = rows(layout.plan)
+    """Report WP304 for loose objects that start in mid-air, WP307 for those that tip over the edge of what they stand on.
+
+    What a declared constraint holds (a pinned cloth) is not loose.
+    """
+    scene_rows, pinned = rows(layout.plan), tied(layout.plan)
     below: dict[str, list[str]] = defaultdict(list)
     for first, second, _ in layout.close:
         below[first].append(second)
@@ -25,7 +28,7 @@ def check(layout: CheckedLayout) -> None:
     floating: dict[str, tuple[PlacedObject, float]] = {}
     for placed in layout.scene.objects:
         name = placed.name
-        if placed.fixed or name in layout.held or name in layout.hidden:
+        if placed.fixed or name in layout.held or name in layout.hidden or name in pinned:
             continue
         low = placed.position[2] - placed.size[2] / 2
         row = scene_rows.get(name)

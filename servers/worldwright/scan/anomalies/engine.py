@@ -39,7 +39,7 @@ def scan(trajectory: Trajectory, context: Context | None = None) -> ScanReport:
     When the recording turns into nan, `nan` reports it and the other checks look at what came before; where nothing came
     before, they are skipped.
     """
-    context = context or Context()
+    context = (context or Context()).of_recording(trajectory)
     finite = _finite_part(trajectory)
     runs, anomalies = [], []
     for entry in CHECKS.values():

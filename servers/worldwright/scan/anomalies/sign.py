@@ -1,14 +1,14 @@
 """What a check reports, and what it may ask: the vocabulary between the engine and the shelf of checks."""
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ...model.finding import AnomalySeverity
 from ...model.plan.committed import Intervention, Plan
-from ...model.plan.declaration import declaration
+from ...model.plan.declaration import covering, declaration
 from ...model.recording.trajectory import Trajectory
 from ..objectives.claims import EXPECTATIONS
 
@@ -93,6 +93,12 @@ class Context:
             rest_claims=tuple(claims),
             plan=plan,
         )
+
+    def of_recording(self, trajectory: Trajectory) -> "Context":
+        """The same facts, said of the points too where a row of interventions names a flex."""
+        if not trajectory.flex_points:
+            return self
+        return replace(self, interventions=covering(self.interventions, trajectory.flex_points))
 
     def declares(self, kind: str, target: str) -> bool:
         """Whether the plan means this kind of intervention on this target; see `model.declared`."""

@@ -50,7 +50,7 @@ def report(trajectory: Trajectory, context: Context, anomalies: tuple[Anomaly, .
 
 def acting(trajectory: Trajectory, context: Context) -> Iterator[Acting]:
     """Each kind of intervention on each target, with the actuators that push without any control."""
-    ledger = trajectory.interventions
+    ledger, context = trajectory.interventions, context.of_recording(trajectory)
     if ledger is None:
         return
     groups: dict[tuple[str, str], list[int]] = {}

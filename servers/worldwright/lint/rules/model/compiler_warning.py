@@ -21,10 +21,16 @@ SCOPE = "any"
 HEAD = "<mujoco><worldbody><body name='b'><flexcomp name='f' type='grid' dim='2' count='4 4 1' spacing='.1 .1 .1'"
 GOOD = (HEAD + " radius='.01'><edge equality='true'/></flexcomp></body></worldbody></mujoco>",)
 BAD = (HEAD + " radius='.01'/></body></worldbody></mujoco>",)
+FIXES = {
+    "empty prefix": "split the name of the part between the two, e.g. prefix='clo' before a flex called 'th'; or build it in the "
+    "world's own spec"
+}
+"""What to do, by words of the warning."""
 EVIDENCE = Warns("no equality constraints or passive forces")
 
 
 def check(view: ModelView) -> Iterator[Problem]:
     """Check every warning, once."""
     for said in dict.fromkeys(view.outcome.warnings):
-        yield Problem(" ".join(said.split()), "mend what the compiler warns of", 1)
+        fix = next((fix for words, fix in FIXES.items() if words in said), "mend what the compiler warns of")
+        yield Problem(" ".join(said.split()), fix, 1)

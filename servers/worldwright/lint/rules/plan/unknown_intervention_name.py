@@ -1,7 +1,7 @@
 """A declared intervention names something that the plan does not have.
 
 What it does: resolves what each row of `interventions` speaks of. Its `bodies`, for forces, torques, poses, velocities and
-mocap motion (objects, or `wind`), and for controls where the plan declares actuators; the body or tendon in a `trigger` such
+mocap motion (objects, the numbered points of one such as `cloth_12`, or `wind`), and for controls where the plan declares actuators; the body or tendon in a `trigger` such
 as `speed of cart > 2 m/s`; and every `constants.NAME`, `materials.NAME` and `masses.NAME` in its law, trigger and source.
 
 Why is this bad: a declaration covers what it names and nothing else. One that names nothing is never seen to act, and what
@@ -26,6 +26,8 @@ ON_BODIES = ("force", "torque", "pose", "velocity", "mocap")
 EVERYWHERE = ("wind", "gravity", "world")
 """Names of what acts on all bodies at once."""
 WITH_A_BODY = ("contact force", "speed", "height")
+POINT = re.compile(r"(.+?)(?:_\d+){1,3}")
+"""What the points of a flex are called; the flex' own name stands for all of them."""
 PATH = re.compile(r"\b(constants|materials|masses)\.([A-Za-z_]\w*)")
 
 
@@ -37,6 +39,7 @@ def _with(**changes: object) -> dict[str, object]:
 GOOD: Changes = (
     _with(),
     _with(bodies=["wind"]),
+    _with(bodies=["crate_12", "crate_0_0_3"]),  # points of a flex
     _with(trigger="speed of crate > 2 m/s"),
     _with(source="materials.wood.density of the crate"),
     _with(kind="control", bodies=["winch_motor"]),  # an actuator that the program makes
@@ -44,6 +47,7 @@ GOOD: Changes = (
 BAD: Changes = (
     _with(bodies=["locomotive"]),
     _with(kind="velocity", bodies=["crate", "locomotive"]),
+    _with(bodies=["locomotive_3"]),
     _with(trigger="speed of locomotive > 2 m/s"),
     _with(source="constants.pull, inferred"),
     _with(law="F = constants.pull along +X"),
@@ -60,6 +64,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     tendons = [row.name for row in plan.topology.tendons]
     actuators = [row.name for row in plan.topology.actuators]
     inner = tuple(f"{row.name}_" for row in plan.assets if row.type in ("mjcf", "urdf"))
+    soft = {row.name for row in plan.scene_objects if row.dynamic and not row.fixed and not row.parts}
     known = [*objects, *joints, *tendons, *actuators]
     paths = {
         "constants": list(parameters.constants),
@@ -70,6 +75,9 @@ def check(view: PlanView) -> Iterator[Problem]:
         place = ("simulation_parameters", "interventions", index)
         closed = row.kind in ON_BODIES or (row.kind == "control" and bool(actuators))
         for n, name in enumerate(row.bodies if closed else ()):
+            point = POINT.fullmatch(name)
+            if point and point[1] in soft:
+                continue
             if name not in known and name not in EVERYWHERE and not name.startswith(inner):
                 what = f"the {row.kind} acts on `{name}`, which the plan does not have"
                 yield view.at((*place, "bodies", n), what, _fix(name, known))

@@ -1,7 +1,7 @@
 """An object of the plan does not appear in the program.
 
 What it does: looks for the name of every scene object and asset instance among the program's strings, f-strings and
-MJCF names.
+MJCF names; a name may be split between a `prefix` or `suffix` of `attach` and the name in the part attached.
 
 Why is this bad: the world lacks something the user approved, and every expectation, camera subject and placement that
 names it has nothing to hold on to.
@@ -26,9 +26,11 @@ TWO_MUGS = {"assets": [{"name": "mug", "filename": "mug", "count": 2}]}
 GOOD = (
     "names = ('ramp', 'crate', 'mug')\n",
     Case("for i in range(2):\n    name = f'mug_{i + 1}'\nparts = ['ramp', 'crate']\n", TWO_MUGS),
+    "names = ('ramp', 'crate')\nspec.attach(part, frame=frame, prefix='m')\nname = 'ug'\n",
     'XML = \'<mujoco><worldbody><body name="ramp"/><body name="crate"/><body name="mug"/></worldbody></mujoco>\'\n',
 )
 BAD = (
+    "names = ('ramp', 'crate')\nspec.attach(part, frame=frame, prefix='mu')\nname = 'gg'\n",
     "names = ('ramp', 'mug')\n",
     "names = ('ramp', 'crate_', 'mug')  # crate\n",
     Case("names = ('ramp', 'crate', 'mug_1')\n", TWO_MUGS),
@@ -50,12 +52,24 @@ def check(program: Program) -> Iterator[Problem]:
     }
     strings = {n.value for n in program.nodes(ast.Constant) if isinstance(n.value, str) and id(n) not in docstrings}
     strings |= {tag.attributes["name"] for tag in program.tags() if "name" in tag.attributes}
+    before, after = _affixes(program, "prefix"), _affixes(program, "suffix")
     patterns = [_pattern(node) for node in program.nodes(ast.JoinedStr)]
     for name in program.plan.object_names():
-        if name not in strings and not any(p.fullmatch(name) for p in patterns if p is not None):
+        split = any(
+            name.startswith(p) and name.endswith(s) and name[len(p) : len(name) - len(s)] in strings
+            for p in before
+            for s in after
+        )
+        if name not in strings and not split and not any(p.fullmatch(name) for p in patterns if p is not None):
             fix = f'add a body named "{name}", or take the object out of the plan'
             place = getattr(program.build, "lineno", 1)
             yield Problem(f"the plan's object `{name}` is nowhere in the program", fix, place)
+
+
+def _affixes(program: Program, which: str) -> list[str]:
+    """What calls put before (or after) the names in a part: the constants given as `prefix` (`suffix`), and nothing."""
+    given = [k.value for call in program.nodes(ast.Call) for k in call.keywords if k.arg == which]
+    return ["", *(v.value for v in given if isinstance(v, ast.Constant) and isinstance(v.value, str))]
 
 
 def _pattern(node: ast.JoinedStr) -> re.Pattern[str] | None:

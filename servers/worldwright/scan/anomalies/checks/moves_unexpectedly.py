@@ -5,7 +5,8 @@ fixes must never move at all. A part is expected to move where the body that it 
 
 Formula: the largest distance from its first position, against half of the bounding radius (a fixed body: 1e-6 of it).
 Severity: blocking for a fixed body; otherwise a warning when it moves before anything that is expected to move has
-touched it (or without any touch), else a remark: being hit is a reason to move.
+touched it (or without any touch), else a remark: being hit is a reason to move. A flex is one thing, not its points: it
+moves where their mean does, against half of its reach; what touches it is not recorded by name, so that is a remark.
 Source: the reference paper's plan format, `motion_expectations`, `fixed`.
 """
 
@@ -32,8 +33,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     for b in (trajectory.names.index(name) for name in context.fixed if name in trajectory.names):
         yield from _moves(trajectory, b, 1e-6 * float(trajectory.size_m[b]), "blocking", "although the plan fixes it")
     asked, whole = asked_of_wholes(context, trajectory), assembled(trajectory)
+    soft = {point for points in trajectory.flex_points.values() for point in points}
+    if context.movers:
+        yield from _flexes(trajectory, context)
     for b, name in enumerate(whole.names):
-        if not context.movers or name in context.fixed or name in asked.movers or not whole.moves_freely[b]:
+        if (
+            not context.movers
+            or name in soft
+            or name in context.fixed
+            or name in asked.movers
+            or not whole.moves_freely[b]
+        ):
             continue
         limit = 0.5 * float(whole.size_m[b])
         away = _away(whole, b)
@@ -44,6 +54,23 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         else:
             why = "although nothing that should move touched it and no step expects it"
             yield from _moves(whole, b, limit, "warn", why)
+
+
+def _flexes(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """A remark on each flex that leaves its place as a whole and that no step expects to move."""
+    for name, points in trajectory.flex_points.items():
+        if not points or name in context.movers or set(points) & set(context.movers):
+            continue
+        pos = trajectory.pos[:, [trajectory.names.index(point) for point in points]]
+        middle = pos.mean(axis=1)
+        limit = 0.5 * float(np.sqrt(((pos[0] - middle[0]) ** 2).sum(axis=1)).max())
+        away = np.sqrt(((middle - middle[0]) ** 2).sum(axis=1))
+        if away.max() > limit:
+            window = (trajectory.t[int(np.argmax(away > limit))], trajectory.t[-1])
+            message = (
+                f"{name}, a flex of {len(points)} points, moves {away.max():.3g} m as a whole, and no step expects it"
+            )
+            yield Sign(name, window, away.max(), limit, "m", "info", message)
 
 
 def _away(trajectory: Trajectory, b: int) -> np.ndarray:

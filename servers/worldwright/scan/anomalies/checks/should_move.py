@@ -5,7 +5,8 @@ picture shows, the event did not happen.
 
 Formula: the largest distance from its first position, and the largest turn from its first orientation.
 Threshold: 2 % of the bounding radius and 2 degrees: less cannot be seen. Blocking: the plan lists the body under
-`motion_expectations`. A part that is welded to another body moves as far as that carries it, and turns as it does.
+`motion_expectations`. A part that is welded to another body moves as far as that carries it, and turns as it does; a flex
+moves where one of its points does.
 Source: the reference paper's plan format, `motion_expectations`.
 """
 
@@ -29,6 +30,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         raise SkipError("no plan says which bodies move")
     whole = (trajectory.t[0], trajectory.t[-1])
     for name in context.movers:
+        if points := trajectory.flex_points.get(name):
+            yield from _of_flex(trajectory, name, points)
+            continue
         if name not in trajectory.names:
             message = f"the plan expects {name} to move, but the recording has no such body"
             yield Sign(name, whole, 0.0, 1.0, "bodies", "blocking", message)
@@ -40,6 +44,16 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             turns = f"{np.degrees(turned):.2g} degrees"
             message = f"the plan expects {name} to move, but it moves {moved:.3g} m and turns {turns}"
             yield Sign(name, whole, moved, limit, "m", "blocking", message)
+
+
+def _of_flex(trajectory: Trajectory, name: str, points: tuple[str, ...]) -> Iterator[Sign]:
+    """A sign where no point of a flex moves: a pinned edge stays, the rest hangs, swings or is squashed."""
+    bodies = [trajectory.names.index(point) for point in points]
+    if all(stays_put(trajectory, b) for b in bodies):
+        moved = max(travel(trajectory, b)[0] for b in bodies)
+        message = f"the plan expects {name} to move, but none of its {len(bodies)} points moves more than {moved:.3g} m"
+        whole = (trajectory.t[0], trajectory.t[-1])
+        yield Sign(name, whole, moved, max(least_m(trajectory, b) for b in bodies), "m", "blocking", message)
 
 
 GOOD = (
