@@ -95,5 +95,5 @@ def replay(spec: mujoco.MjSpec, folder: Path, steps: int, recording: stored.Reco
     data = start(model)
     ports = Ports(model, None)
     with Recorder(model, data, folder, {**meta, "inputs": ports.as_meta()}) as recorder:
-        simulate(model, data, recorder, steps, Replayed(model, data, ports, recording))
+        simulate(model, data, recorder, steps, Replayed(model, data, ports, recording, steps))
     return stored.open(folder)

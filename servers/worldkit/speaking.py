@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 HELD = ("ctrl", "qfrc_applied", "xfrc_applied")
 """Arrays whose entries act as long as they stand."""
-STATE = ("qpos", "qvel", "act", "plastic", "mocap_pos", "mocap_quat")
+STATE = ("qpos", "qvel", "act", "plastic", "mocap_pos", "mocap_quat", "userdata")
 """Arrays whose entries are the state itself: they act by being changed."""
 SWITCHES = ("eq_active",)
 ARRAYS = (*HELD, *STATE, *SWITCHES)

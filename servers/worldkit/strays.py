@@ -81,7 +81,8 @@ class Strays:
     def _name(self, start: int, different: "np.ndarray") -> None:
         """Report the arrays in which these bytes lie."""
         for name in (
-            "qpos", "qvel", "act", "plastic", "ctrl", "qfrc_applied", "xfrc_applied", "eq_active", "mocap_pos", "mocap_quat"
+            "qpos", "qvel", "act", "plastic", "ctrl", "qfrc_applied", "xfrc_applied", "eq_active", "mocap_pos", "mocap_quat",
+            "userdata",
         ):  # fmt: skip
             array = getattr(self._data, name)
             at = self._mirror.at(name) - start

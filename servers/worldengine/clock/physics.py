@@ -107,6 +107,7 @@ def _inputs(
     model: "mujoco.MjModel", data: "mujoco.MjData", given: Given, options: argparse.Namespace, variant: Any, hold: Any
 ) -> "Drive":
     """The source of the inputs: a recording, or the author's process at the other end of the channel."""
+    from worldkit import world
     from worldkit.channel import ENGINE, Channel, descriptors
 
     from ..inputs.author_link import Distant
@@ -118,7 +119,8 @@ def _inputs(
     if options.replay:
         if variant:
             raise ProgramError("a variant is another world", "--replay", "ask its author anew")
-        return Replayed(model, data, ports, Replayable(options.replay))
+        steps = world.steps_of(model, given.duration)
+        return Replayed(model, data, ports, Replayable(options.replay), steps, given.control_every)
     voice = Distant(model, data, ports, Channel(descriptors(options.channel), ENGINE))
     # A rate that was asked for stays the same in time; a law that is asked at every step is asked at every finer one.
     every = given.control_every * (variant.steps_per_step if given.control_every > 1 else 1)

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from ..recording.record import Recorder
     from .ports import Ports
 
-PARTS = ("TIME", "QPOS", "QVEL", "ACT", "EQ_ACTIVE", "MOCAP_POS", "MOCAP_QUAT", "PLASTIC")
+PARTS = ("TIME", "QPOS", "QVEL", "ACT", "EQ_ACTIVE", "MOCAP_POS", "MOCAP_QUAT", "PLASTIC", "USERDATA")
 """Components of the engine's state (`mjSTATE_…`) that can be changed by a message, and the time."""
 MOST_ELEMENTS = 64
 """The ledger lists so many elements of one model array that is edited at one instant."""
@@ -102,7 +102,7 @@ class Ledger:
             value = self._new[self._part["EQ_ACTIVE"]][equality]
             load = 0.0 if value else self._load(int(equality))
             self._record("constraint", self._equalities[equality], (value, load))
-        for name, target in (("ACT", "act"), ("PLASTIC", "plastic")):
+        for name, target in (("ACT", "act"), ("PLASTIC", "plastic"), ("USERDATA", "userdata")):
             for index in changed(name)[:MOST_ELEMENTS]:
                 part = self._part[name]
                 self._record("parameter", f"{target}[{index}]", (self._new[part][index], self._old[part][index]))

@@ -26,7 +26,6 @@ FREE, BALL, SLIDE, HINGE = range(4)
 class Ports:
     """The open entries of a world.
 
-
     Args:
         model: the world.
         rows: declared (kind, names); None opens everything. A flex' name stands for its points too.
@@ -86,8 +85,8 @@ class Ports:
             found += self._of_joint(joint)
         for equality, name in enumerate(names(model, "equality", model.neq)):
             found.append(("constraint", name, "eq_active", [equality]))
-        found += [("parameter", f"act[{i}]", "act", [i]) for i in range(model.na)]
-        found += [("parameter", f"plastic[{i}]", "plastic", [i]) for i in range(model.nplastic)]
+        for array, size in (("act", model.na), ("plastic", model.nplastic), ("userdata", model.nuserdata)):
+            found += [("parameter", f"{array}[{i}]", array, [i]) for i in range(size)]
         return found
 
     def _of_joint(self, joint: int) -> "list[tuple[str, str, str, list[int]]]":

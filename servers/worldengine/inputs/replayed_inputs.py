@@ -8,9 +8,9 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from .ledger import Ledger
-from .messages import Recorded
 from .ports import Ports
 from .replies import Answers
+from .strict_stream import Recorded
 
 if TYPE_CHECKING:
     import mujoco
@@ -131,14 +131,19 @@ class Asked(Drive):
 
 
 class Replayed(Drive):
-    """Drives a world by the answers of a recording."""
+    """Drives a world by the answers of a recording; see `Recorded`, which refuses a stream that makes no sense."""
 
     def __init__(
-        self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: Ports, recording: "Recording | Replayable"
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        ports: Ports,
+        recording: "Recording | Replayable",
+        steps: int,
+        every: int = 1,
     ) -> None:
         super().__init__(model, data, ports)
-        lasting = len(self.answers.vector) - len(self.answers.changing)
-        self._recorded = Recorded(recording, lasting, len(self.answers.vector))
+        self._recorded = Recorded(recording, model, ports, steps, every)
 
     def act(self, step: int, row: Callable[[], object] | None) -> None:
         """Apply what the recording holds for this step."""

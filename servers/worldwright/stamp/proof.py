@@ -86,7 +86,8 @@ def replay(
         write_atomic(run.plan, plan)
         for name, content in (near or {}).items():
             write_atomic(folder / name, content)
-    return _followed(run, stage.simulate_given(run, given), LintReport(), deadline, progress)
+    job = stage.simulate_given(run, given)
+    return _followed(run, job, LintReport(), deadline, progress, "the world, driven by its recorded inputs,")
 
 
 def lay_out(given: Path, world: Path, facts: Path, recording: Path) -> Path:
@@ -168,7 +169,9 @@ def measure(proved: Proved, progress: Progress = silent) -> ExpectReport:
     return report
 
 
-def _followed(run: Run, job: Any, lint: LintReport, deadline: float, progress: Progress) -> Proved | None:
+def _followed(
+    run: Run, job: Any, lint: LintReport, deadline: float, progress: Progress, what: str = "the program"
+) -> Proved | None:
     """Follow a physics job to its end, and look at what it left; None when it needs longer."""
     key = run.evidence_key(_environment_sha256())
     job = _ended(run, job, deadline, progress)
@@ -177,7 +180,7 @@ def _followed(run: Run, job: Any, lint: LintReport, deadline: float, progress: P
     result = Kept.read(run.evidence(key) / "physics" / "result.json", PassResult)
     if job.state != "succeeded" or result.value is None or not result.value.ok:
         raise GateError(
-            f"the program does not run again: {job.code}: {job.message or result.problem or job.state}",
+            f"{what} does not run again: {job.code}: {job.message or result.problem or job.state}",
             place=job.place,
             next_move=job.next_move or "run it again; a program that runs once must run twice",
         )

@@ -1,0 +1,159 @@
+"""Read a stored input stream as strictly as it was written: whoever forges one gets a typed error, never another world.
+
+The engine takes what it is given: an entry of -5 counts from the end, a row that is never due is never looked at, an edit
+acts whether a plan declares it or not. So everything is checked before the first step: the columns, steps in their order and
+within the run, each entry once a step, finite values, and edits of declared parameters only. What passes is just another
+true run, and its ledger says what pushed.
+"""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from worldkit.errors import RecordingError
+from worldkit.speaking import HELD
+from worldkit.watch import LOOKS, Edit
+
+from ..recording.columns import TABLES, arrow_schema
+from .ports import Ports, flat
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ..recording.stored import Recording, Replayable
+
+REMEDY = "restore it as it was recorded, or record the world anew"
+
+
+class Recorded:
+    """Gives the answers of a recording again.
+
+    Args:
+        recording: the recording.
+        model: the world that it drives.
+        ports: its open inputs.
+        steps: the number of steps of the run.
+        every: steps from one question to the next: an answer acts from such a step on.
+
+    Raises:
+        RecordingError: the stream cannot be what was sent to this world; it names the file, the row and the cause.
+    """
+
+    def __init__(
+        self, recording: "Recording | Replayable", model: "mujoco.MjModel", ports: Ports, steps: int, every: int = 1
+    ) -> None:
+        import numpy as np
+
+        for name in ("inputs", "edits"):
+            _whole(recording.folder / f"{name}.arrows", name)
+        self._lasting = sum(len(ports.entries.get(name, ())) for name in HELD)
+        self._at = self._edit_at = 0
+        self.vector = np.full(ports.width, np.nan)
+        self.vector[: self._lasting] = 0.0
+        inputs, edits = recording.inputs, recording.edits
+        self._step, self._entry, self._value = (np.asarray(inputs[name]) for name in ("step", "entry", "value"))
+        self._edits = [np.asarray(edits[name]) for name in ("step", "array", "index", "value")]
+        self._check_inputs(Rows(recording.folder / "inputs.arrows", self._step), steps, every)
+        self._check_edits(Rows(recording.folder / "edits.arrows", self._edits[0]), model, ports, steps, every)
+
+    def _check_inputs(self, rows: "Rows", steps: int, every: int) -> None:
+        import numpy as np
+
+        entry, value, width = self._entry, self._value, len(self.vector)
+        rows.due(steps, every)
+        rows.refuse((entry < 0) | (entry >= width), f"its entry is none of the {width} that are declared", entry)
+        again = np.zeros(len(entry), bool)
+        again[1:] = (np.diff(self._step) == 0) & (np.diff(entry) <= 0)
+        rows.refuse(again, "its entry is not after that of the row before, in the same step", entry)
+        unwritten = np.isnan(value) & (entry >= self._lasting)  # of the state, it means that nothing was written
+        rows.refuse(~np.isfinite(value) & ~unwritten, "its value is not finite", value)
+
+    def _check_edits(self, rows: "Rows", model: "mujoco.MjModel", ports: Ports, steps: int, every: int) -> None:
+        import numpy as np
+
+        _, arrays, indices, values = self._edits
+        rows.due(steps, every)
+        declared = dict(ports.parameters)
+        rows.refuse(~np.isin(arrays, list(declared)), "it edits what is no declared parameter", arrays)
+        rows.refuse(~np.isfinite(values), "its value is not finite", values)
+        by_place = np.lexsort((indices, arrays, rows.steps))
+        again = np.zeros(len(arrays), bool)
+        again[by_place[1:]] = np.logical_and.reduce(
+            [c[by_place][1:] == c[by_place][:-1] for c in (indices, arrays, rows.steps)]
+        )
+        rows.refuse(again, "it edits in one step what was edited already", indices)
+        for name in dict.fromkeys(arrays.tolist()):
+            live, allowed, mine = flat(model, name), declared[name], arrays == name
+            outside = (indices < 0) | (indices >= live.size)
+            if allowed is not None:
+                outside |= ~np.isin(indices, allowed)
+            rows.refuse(mine & outside, f"it edits an element of {name} that is not declared", indices)
+            with np.errstate(over="ignore", invalid="ignore"):
+                kept = values.astype(live.dtype).astype(float)
+            rows.refuse(mine & (kept != values), f"its value is none that {name} can hold", values)
+
+    def speaks(self, step: int) -> bool:
+        """Whether an answer acts from this step on."""
+        numbers = self._at < len(self._step) and self._step[self._at] == step
+        return bool(numbers or (self._edit_at < len(self._edits[0]) and self._edits[0][self._edit_at] == step))
+
+    def answer(self, step: int) -> "tuple[np.ndarray, list[Edit]]":
+        """The vector and the edits that act from this step on; steps must come in their order."""
+        import numpy as np
+
+        self.vector[self._lasting :] = np.nan
+        end = int(np.searchsorted(self._step, step, side="right"))
+        self.vector[self._entry[self._at : end]] = self._value[self._at : end]
+        self._at = end
+        edits: list[Edit] = []
+        steps, arrays, indices, values = self._edits
+        end = int(np.searchsorted(steps, step, side="right"))
+        mine = slice(self._edit_at, end)
+        for name in dict.fromkeys(arrays[mine].tolist()):
+            these = arrays[mine] == name
+            looks = any(part in name for part in LOOKS)
+            edits.append(Edit(str(name), indices[mine][these].astype(np.intp), values[mine][these], looks_only=looks))
+        self._edit_at = end
+        return self.vector, edits
+
+
+class Rows:
+    """The rows of one file, by their steps, and the words for what is wrong with one of them."""
+
+    def __init__(self, path: Path, steps: "np.ndarray") -> None:
+        self._path, self.steps = path, steps
+
+    def due(self, steps: int, every: int) -> None:
+        """Refuse steps that are not in their order, that the run never takes, or at which nobody is asked."""
+        import numpy as np
+
+        mine = self.steps
+        self.refuse((mine < 0) | (mine >= steps), f"its step is none of the run's {steps}", mine)
+        late = np.zeros(len(mine), bool)
+        late[1:] = np.diff(mine) < 0
+        self.refuse(late, "its step is before that of the row before", mine)
+        self.refuse(mine % every != 0, f"its step is none at which the author is asked, every {every} steps", mine)
+
+    def refuse(self, bad: "np.ndarray", cause: str, told: "np.ndarray") -> None:
+        """Refuse the first row that is bad, with what it holds."""
+        if bad.any():
+            row = int(bad.argmax())
+            where = f"{self._path.name}, row {row} (step {self.steps[row]})"
+            raise RecordingError(f"{where}: {cause}: {told[row]}", str(self._path), REMEDY)
+
+
+def _whole(path: Path, name: str) -> None:
+    """Refuse a file that is torn, or that is no such table; one that is not there says that nothing was sent."""
+    import pyarrow as pa
+
+    if not path.exists():
+        return
+    try:
+        with pa.memory_map(str(path)) as file, pa.ipc.open_stream(file) as reader:
+            wanted: Any = arrow_schema(TABLES[name])
+            if not reader.schema.equals(wanted):
+                raise RecordingError(f"{path.name} is no table of {name}: its columns are others", str(path), REMEDY)
+            for batch in reader:
+                batch.validate(full=True)
+    except (pa.ArrowException, OSError, ValueError) as cause:
+        raise RecordingError(f"{path.name} is damaged: {str(cause).splitlines()[0]}", str(path), REMEDY) from cause
