@@ -7,20 +7,26 @@ WINDOW_S = 10.0
 
 
 class Pace:
-    """The recent progress of a pass."""
+    """The recent progress of a pass.
+
+    What goes before the first step or frame (compiling a world, opening a window, a renderer's programs) is done once and
+    is no part of the pace: it begins with the first thing that is done.
+    """
 
     def __init__(self) -> None:
         self._said: deque[tuple[float, float]] = deque()
+        self._last: float | None = None
 
     def advanced(self, now_s: float, done: float) -> bool:
         """Note how much is done; returns whether that has changed."""
-        moved = not self._said or self._said[-1][1] != done
-        if self._said and done < self._said[-1][1]:  # the pass counts something else now
+        last, self._last = self._last, done
+        if last is not None and done < last:  # the pass counts something else now
             self._said.clear()
-        self._said.append((now_s, done))
+        if done > 0:
+            self._said.append((now_s, done))
         while len(self._said) > 2 and self._said[1][0] <= now_s - WINDOW_S:
             self._said.popleft()
-        return moved
+        return last != done
 
     def left_s(self, total: float) -> float | None:
         """Seconds until `total` is done at the recent pace; None while that is not known."""

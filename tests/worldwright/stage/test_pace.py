@@ -28,6 +28,26 @@ def test_what_stands_still_has_not_advanced_and_what_counts_anew_starts_anew():
     assert not pace.advanced(3 + 2 * WINDOW_S, 1)
 
 
+FILMED = (
+    (2.49, 0), (2.91, 0), (3.32, 0), (3.75, 0), (4.16, 0), (4.58, 0), (4.99, 0), (5.4, 0), (5.85, 0), (6.26, 1), (6.67, 7), (7.08, 14), (7.49, 18), (7.9, 30), (8.31, 35), (8.73, 44), (9.14, 49), (9.55, 60), (9.96, 64), (10.37, 78), (10.78, 84), (11.19, 99), (11.61, 105), (12.02, 110), (12.43, 113), (12.84, 127), (13.25, 134), (13.66, 146), (14.07, 153), (14.49, 166), (14.9, 172), (15.31, 179), (15.72, 193), (16.13, 209), (16.56, 215), (16.97, 220), (17.38, 226), (17.79, 240)
+)  # fmt: skip
+"""Progress of a real film of 240 frames, (s, frames drawn): half of its first ten seconds went into setting it up."""
+
+
+def test_what_sets_a_film_up_is_no_frame():
+    """After a tenth of the work the estimate is within 30 % of what it really took; with the set-up it was 3.8 times that."""
+    pace, told = Pace(), []
+    for now, done in FILMED:
+        assert pace.advanced(now, done) or done == 0
+        if 24 <= done <= 216:
+            told.append(pace.left_s(240) / (FILMED[-1][0] - now))
+        elif not done:
+            assert pace.left_s(240) is None
+    assert len(told) > 20
+    assert told[0] == pytest.approx(1.0, abs=0.3)
+    assert told == pytest.approx([1.0] * len(told), abs=0.35)  # its frames came by fits and starts, on a busy machine
+
+
 TIRED = """
 import time
 import mujoco
