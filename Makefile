@@ -61,6 +61,7 @@ test-conformance: .venv/.dev ## The official MCP suite over HTTP and the inspect
 	WORLDWRIGHT_CONFORMANCE=1 $(PYTEST) tests/conformance -p no:xdist
 
 test-harness: .venv/.dev ## The contract in the real Claude Code, Codex and OpenCode, offline, with a scripted model (needs npm)
+	@PYTHON=$(PYTHON) bash .ci/system.sh harness
 	cd tests/harness && PYTHONPATH=. WORLDWRIGHT_HARNESSES=1 ../../$(PYTEST) . -p no:xdist
 
 test-semantic: .venv/.semantic ## Ranking by meaning with torch and LanceDB in place of numpy and a file

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Bring what wheels do not carry: installs what is missing when root, names the command otherwise.
 #   software OpenGL (EGL, OSMesa): rendering without a display       bubblewrap: the strongest sandbox level (optional)
-# With `suites` also what all that CI runs needs:
-#   make, git       npm: the MCP judges and the harnesses       ripgrep: OpenCode does not start without it       socat: Claude Code confines its shell with it
+# With `harness` also what the harnesses need:
+#   npm: brings them       ripgrep: OpenCode does not start without it       socat: Claude Code confines its shell with it
+# With `suites` also what all that CI runs needs: those, and make and git.
 set -euo pipefail
 
 missing=()
@@ -16,6 +17,8 @@ need_program bwrap bubblewrap
 if [ "${1:-}" = suites ]; then
   need_program make make
   need_program git git
+fi
+if [ "${1:-}" = suites ] || [ "${1:-}" = harness ]; then
   need_program npm npm
   need_program rg ripgrep
   need_program socat socat

@@ -58,6 +58,23 @@ def test_all_that_pass_end_with_nothing(tmp_path):
     assert "slowest (0 over 20 s):" in done.stdout and "test_passes::test_a" in done.stdout
 
 
+@pytest.mark.skipif(shutil.which("ldconfig") is None, reason="the set-up asks ldconfig")
+def test_the_harness_suite_brings_what_its_harnesses_need(tmp_path):
+    """Alone, without the set-up of all suites: OpenCode does not start without ripgrep."""
+    told = subprocess.run(["make", "-n", "test-harness"], cwd=CI.parent, capture_output=True, text=True, check=True)
+    steps = [
+        line for line in told.stdout.splitlines() if "system.sh harness" in line or "WORLDWRIGHT_HARNESSES=1" in line
+    ]
+    assert len(steps) == 2 and "system.sh harness" in steps[0]
+    for name in ("bash", "ldconfig", "grep"):
+        (tmp_path / name).symlink_to(shutil.which(name))
+    done = subprocess.run(  # on a system without anything, apt-get least of all
+        [tmp_path / "bash", CI / "system.sh", "harness"],
+        env={"PATH": str(tmp_path), "PYTHON": sys.executable}, capture_output=True, text=True, timeout=60,
+    )  # fmt: skip
+    assert done.returncode == 1 and {"npm", "ripgrep", "socat"} <= set(done.stderr.replace("Missing:", "").split())
+
+
 @pytest.mark.parametrize("cut", [None, "<testsuites><testsuite><testca"], ids=["missing", "cut off"])
 def test_a_suite_without_results_failed(tmp_path, cut):
     (tmp_path / "parts").write_text("tests 0 3\n")
