@@ -70,11 +70,11 @@ def build(slug: tuple[str, ...], jobs: int) -> None:
 @command.command()
 @SLUGS
 @JOBS
-def accept(slug: tuple[str, ...], jobs: int) -> None:
-    """Build the examples from their plans with the code as it is now, accept them, and keep their small forms.
+@click.option("--redraft", is_flag=True, help="Draft the drafted programs again, by the code as it is now.")
+def accept(slug: tuple[str, ...], jobs: int, redraft: bool) -> None:
+    """Build the examples from their plans and programs in this environment, accept them, and keep their small forms.
 
-    A plan is approved as before: in auto mode, or in your name. Description and review are by measurement. A world that
-    an author programmed keeps its program; one that was drafted is drafted anew. An example whose world cannot be
+    A plan is approved as before: in auto mode, or in your name. Description and review are by measurement. An example whose world cannot be
     accepted stays as it was. When all are accepted, examples/known_keys names the one key that signed them.
     """
 
@@ -82,7 +82,7 @@ def accept(slug: tuple[str, ...], jobs: int) -> None:
         from ..stamp import keyring, signing
         from . import pages, worlds
 
-        code = _each("accept", slug, jobs)
+        code = _each("redraft" if redraft else "accept", slug, jobs)
         if not code and not slug:
             path = worlds.EXAMPLES / keyring.KNOWN
             path.unlink(missing_ok=True)

@@ -52,17 +52,17 @@ def build(slug: str) -> Made:
     return Made(slug=slug, ok=ok, detail=f"{proved.detail}; {run.report}" if ok else "\n".join(told))
 
 
-def accept(slug: str) -> Made:
-    """Build a world from its plan, accept it, and write its small form in place of the older one.
+def accept(slug: str, redraft: bool = False) -> Made:
+    """Build a world from its plan and program, accept it, and write its small form in place of the older one.
 
-    Its plan is approved as for the older stamp: in auto mode, or in the name of the person who gives the command.
+    With `redraft`, a program that was drafted is drafted again by the present code. Its plan is approved as for the older stamp: in auto mode, or in the name of the person who gives the command.
     """
     from ..go import Options
     from ..go import go as run_steps
     from ..stamp import small_form
     from ..stamp.state import State
 
-    run = worlds.restarted(slug)
+    run = worlds.restarted(slug, redraft)
     told: list[str] = []
     before = State.find(str(worlds.EXAMPLES / slug)).stamp.value
     auto = before is None or before.predicate.approval.auto
@@ -72,7 +72,12 @@ def accept(slug: str) -> Made:
     return Made(slug=slug, ok=True, detail=f"accepted anew, {len(files)} files kept")
 
 
-WORK: dict[str, Callable[[str], Made]] = {"prove": prove, "build": build, "accept": accept}
+def redraft(slug: str) -> Made:
+    """See `accept`."""
+    return accept(slug, redraft=True)
+
+
+WORK: dict[str, Callable[[str], Made]] = {"prove": prove, "build": build, "accept": accept, "redraft": redraft}
 
 
 def one(work: str, slug: str) -> Made:

@@ -3,6 +3,8 @@
 import shutil
 from pathlib import Path
 
+from worldkit.files import write_atomic
+
 from ..model.errors import NotFoundError
 from ..model.evidence.run import Run
 from ..stamp import keyring
@@ -48,22 +50,25 @@ def seeded(slug: str) -> Run:
     return Run(target)
 
 
-def restarted(slug: str) -> Run:
-    """The folder in which a world is accepted anew: its prompt, its plan, and its program if an author wrote it.
+def restarted(slug: str, redraft: bool = False) -> Run:
+    """The folder in which a world is accepted anew: its prompt, its plan, its program and film, and what belongs to them.
 
-    A program that was drafted from the plan will be drafted again by the present code. A folder that was accepted in another
-    environment (an older suite, engine or catalog) begins again from nothing.
+    With `redraft`, a program that was drafted from the plan is left out, so that the present code drafts it again. A folder
+    that was accepted in another environment (an older suite, engine or catalog) begins again from nothing.
     """
     from ..go import started_from
-    from ..model.evidence import environment
+    from ..model.evidence import companions, environment, pictures_of
     from ..stamp.state import State
 
     source, before = Run(EXAMPLES / slug), State(Run(ANEW / slug)).stamp.value
     if before is not None and before.predicate.environment != environment.current():
         shutil.rmtree(ANEW / slug)
     target = started_from(source, ANEW / slug)
-    if source.program.is_file() and not target.program.exists() and not drafted(source):
-        shutil.copy(source.program, target.program)
+    own = source.program.is_file() and not (redraft and drafted(source))
+    if own and (not target.program.exists() or drafted(target)):
+        for name, content in {**companions.of(source.program), **pictures_of.files(source)}.items():
+            write_atomic(target.folder / name, content)
+        write_atomic(target.program, source.program.read_bytes())
     return target
 
 

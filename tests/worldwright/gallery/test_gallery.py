@@ -1,5 +1,6 @@
 """Keeping an accepted run in its small form, and making again what was left out."""
 
+import hashlib
 import subprocess
 from collections.abc import Callable
 from pathlib import Path
@@ -146,15 +147,35 @@ def test_a_world_that_is_not_as_stamped_fails_the_gallery(
     assert "name some of: ball" in unknown.output
 
 
-def test_accepting_anew_drafts_again_and_keeps(small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_accepting_anew_keeps_the_program_unless_it_is_to_be_drafted_again(
+    small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    source = tmp_path / "examples" / "ball"
+    small_form.write(Run(small), source)
+    program = source / "simulation.py"
+    drafted = program.read_bytes()
+    Run(source).log("build", "draft", program_sha256=sha256_file(program))
+    assert not worlds.restarted("ball", redraft=True).program.exists()
+    assert worlds.restarted("ball").program.read_bytes() == drafted
+    program.write_bytes(older := drafted.replace(b"import", b"#\nimport", 1))  # by older code, which folded otherwise
+    Run(source).log("build", "draft", program_sha256=sha256_file(program))
+    worlds.restarted("ball").log("build", "draft", program_sha256=hashlib.sha256(drafted).hexdigest())
+    assert worlds.restarted("ball").program.read_bytes() == older
+    assert worlds.restarted("ball", redraft=True).program.exists()  # a draft that is there is gone on with
+
+
+def test_accepting_anew_keeps_the_small_form(small: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     small_form.write(Run(small), tmp_path / "examples" / "ball")
+    program = (small / "simulation.py").read_bytes()
     (tmp_path / "README.md").write_text(f"# Worlds\n{pages.BEGIN}\n{pages.END}\n")
     stamped = (tmp_path / "examples/ball/stamp.json").read_bytes()
     made = making.one("accept", "ball")
     assert made.ok, made.detail
     kept = tmp_path / "examples" / "ball"
     assert bundle.is_small(kept) and (kept / "stamp.json").read_bytes() != stamped
+    assert (kept / "simulation.py").read_bytes() == program
     assert stamp.verify(str(kept), timeout_s=60).ok
     assert pages.write_table()
     assert 'src="examples/ball/poster.webp"' in (tmp_path / "README.md").read_text()
