@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
+from ..model.evidence import approval
 from ..model.evidence.reports import ExpectationResult
 from .chart import quantity
 from .material import Material, acting
@@ -104,9 +105,7 @@ def story(material: Material) -> list[Event]:
             seen[name] = entry.get(name, seen.get(name))
         named = ((key.removesuffix("_sha256").replace("_", " "), _short(value)) for key, value in rest.items())
         detail = ", ".join(f"{name} {value}" for name, value in named)
-        events.append(
-            Event(str(entry.get("time", "")), str(entry.get("actor", "")), str(entry.get("action", "")), detail)
-        )
+        events.append(Event(str(entry.get("time", "")), _actor(entry), str(entry.get("action", "")), detail))
     return events
 
 
@@ -129,7 +128,7 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             (
                 "approved by",
                 (
-                    f"{_word(material.stamp.predicate.approval.by, material.stamp.predicate.approval.came)}, "
+                    f"{_word(material.stamp.predicate.approval.who, material.stamp.predicate.approval.came)}, "
                     f"{material.stamp.predicate.approval.time}"
                 ),
             ),
@@ -163,6 +162,12 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             *((name, str(version)) for name, version in sorted(packages.items())),
         ]
     return {name: [(k, v) for k, v in rows if v] for name, rows in tables.items()}
+
+
+def _actor(entry: dict[str, Any]) -> str:
+    """Who did what a line of the journal tells: nobody, where a plan was approved in auto mode."""
+    actor = str(entry.get("actor", ""))
+    return approval.who(actor, auto=True) if entry.get("action") == "approve" and entry.get("auto") else actor
 
 
 def _word(name: str, came: str) -> str:

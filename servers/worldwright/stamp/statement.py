@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
+from ..model.evidence import approval
 from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
 
@@ -97,14 +98,20 @@ class ObjectiveOutcome(Frozen):
 
 
 class Approval(Frozen):
-    """The person who approved the plan, and the time."""
+    """The person who approved the plan, if anybody did, and the time."""
 
     by: str
-    """The name that the approval gives."""
+    """The name that the approval gives; see `who`."""
     time: str
     auto: bool = False
+    """Whether nobody read the plan."""
     came: str = ""
     """How the approval was sent: by a person at a terminal, a harness, a command line or automation."""
+
+    @property
+    def who(self) -> str:
+        """The name, or that it was nobody's."""
+        return approval.who(self.by, auto=self.auto)
 
 
 class Acceptance(Frozen):

@@ -79,6 +79,7 @@ def approve(
     Needs a plan that reads, lints without error and leaves nothing TO_CLARIFY. Use `by=user` only for a person's own
     word; in auto mode, values that neither the prompt nor a source states must be listed in `inferred`.
     """
+    from ..model.evidence import approval
     from . import gates
 
     state = State.find(run)
@@ -87,9 +88,10 @@ def approve(
         gates.pass_through("auto_approve", state)
     facts: dict[str, object] = {"models": state.model_hashes} if state.model_hashes else {}
     facts["came"] = _came()
-    state.run.log(by, "approve", plan_sha256=state.plan_sha256, by=by, auto=auto, repairs=repairs, **facts)
-    what = "".join(f", with {name}" for name in state.model_hashes) + (" in auto mode" if auto else "")
-    return _recorded(run, f"plan {state.plan_sha256[:16]} approved by {by}{what}")
+    who = approval.who(by, auto=auto)
+    state.run.log(who, "approve", plan_sha256=state.plan_sha256, by=who, auto=auto, repairs=repairs, **facts)
+    what = "".join(f", with {name}" for name in state.model_hashes)
+    return _recorded(run, f"plan {state.plan_sha256[:16]} approved by {who}{what}")
 
 
 def describe(

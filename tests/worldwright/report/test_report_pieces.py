@@ -137,3 +137,17 @@ def test_what_hardly_changes_is_drawn_flat_and_every_tick_differs():
     assert len(set(labels)) == len(labels) > 1
     heights = [float(point.split(",")[1]) for point in drawn.curves[0].points.split()]
     assert max(heights) - min(heights) < 5  # of a thousand
+
+
+def test_a_plan_that_nobody_read_was_approved_by_nobody() -> None:
+    """The committed stamps of auto mode name a user, who never saw the plan."""
+    from worldwright.gallery.worlds import EXAMPLES
+    from worldwright.model.evidence.run import Run
+    from worldwright.report.facts import provenance, story
+    from worldwright.report.material import gather
+
+    found = gather(Run(EXAMPLES / "ladder-leans"))
+    assert found.stamp is not None and found.stamp.predicate.approval.auto
+    ((name, said),) = [row for row in provenance(found)["Stamp"] if row[0] == "approved by"]
+    assert (name, said.split(",")[0].split(" (")[0]) == ("approved by", "nobody: auto mode")
+    assert {e.actor for e in story(found) if e.action == "approve"} == {"nobody: auto mode"}

@@ -21,6 +21,7 @@ from worldwright.stage import tools as stage
 from worldwright.stamp import by_measurement, gates
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
+from worldwright.stamp.statement import Approval
 
 Copy = Callable[[Path], Path]
 
@@ -175,7 +176,20 @@ def test_auto_approval_needs_every_chosen_value_marked(planned: Path, copy: Copy
         stamp.approve(str(folder), auto=True)
     (folder / "prompt.md").write_text("Drop a ball of 0.2 kg.", encoding="utf-8")
     plan.write_text(whole.replace(", masses.ball]", "]"), encoding="utf-8")
-    assert "auto" in stamp.approve(str(folder), auto=True).what
+    assert "approved by nobody: auto mode" in stamp.approve(str(folder), auto=True, by="user").what
+    (line,) = [e for e in Run(folder).entries() if e["action"] == "approve"]
+    assert (line["actor"], line["by"], line["auto"]) == ("nobody: auto mode", "nobody: auto mode", True)
+    assert "by nobody: auto mode (automation), " in stamp.status(str(folder)).text()
+
+
+def test_an_older_approval_in_auto_mode_is_nobody_s_too(planned: Path, copy: Copy) -> None:
+    """Older lines and stamps name a user there, who never read the plan."""
+    folder = copy(planned)
+    run = Run(folder)
+    run.log("user", "approve", by="user", auto=True, repairs=12)
+    assert "by nobody: auto mode, " in stamp.status(str(folder)).text()
+    assert Approval(by="user", time="then", auto=True).who == "nobody: auto mode"
+    assert Approval(by="user", time="then").who == "user"
 
 
 def test_a_reviewed_run_holds_every_step_but_the_last(reviewed: Path) -> None:

@@ -14,6 +14,13 @@ from ..plan import imported
 from .run import Run, sha256_file
 
 MODELS = "models"
+NOBODY = "nobody: auto mode"
+"""In place of a name, when nobody read the plan."""
+
+
+def who(by: str, *, auto: bool) -> str:
+    """The name that an approval gives, or that it was nobody's: lines and stamps of older versions name a user there."""
+    return NOBODY if auto else by or "unknown"
 
 
 def model_hashes(run: Run) -> dict[str, str]:
