@@ -324,6 +324,13 @@ def simulate_given(run: Run, given: Path) -> JobStatus:
     return launch(run, run.evidence_key(environment.current().sha256()), "physics", given=given)
 
 
+def read_plain(path: Path, limit: int) -> bytes | None:
+    """For other servers (no tool): a plain file of a pass, None for a link or a larger one; see `stage.plain.read`."""
+    from . import plain
+
+    return plain.read(path, limit)
+
+
 def variant_folder(run: Run, variant: str) -> Path | None:
     """For the audits of other servers (no tool): see `stage.variants.folder`."""
     from . import variants

@@ -1,8 +1,10 @@
 """Accepting: strip, prove, assemble, publish. Nothing appears under `accepted/` before all of it is on disk."""
 
+import hashlib
 import shutil
 import time
 from collections import Counter
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal
@@ -34,6 +36,10 @@ from .steps import steps
 from .strip import Stripped, strip
 
 REPORTS = ("key", "lint", "scan", "expect", "interventions", "causes", "refine", "visual", "review")
+
+
+LARGEST = 4 << 30
+"""A film or a report is at most so large, bytes."""
 
 
 class Accepted(Frozen):
@@ -91,6 +97,8 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
                 signing.sign(state.run.stamped, bundle.STAMP, signer)
             return _again(state)
         gates.pass_through("accept", state)
+        for _, path in _published(state):
+            _plain(state, path)  # now, rather than after the proof run
         stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
         program, plan = stripped.source.encode(), state.plan_bytes or b""
         work = private.proofs(state.run, state.key.key if state.key else "")
@@ -154,20 +162,40 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
         write_atomic(folder / proved.world.name, proved.world.read_bytes())
         for path in driven_by(proved):
             write_atomic(folder / bundle.WORLD / path.name, path.read_bytes())
-    kept = {f"{name}.json": state.folder / f"{name}.json" for name in REPORTS}
-    kept |= {f"{name}.json": state.folder / name / "result.json" for name in state.passes}
     evidence = {}
-    for name, path in kept.items():
-        if path.is_file():
-            write_atomic(folder / "evidence" / name, path.read_bytes())
-            evidence[str(path.relative_to(state.folder))] = Digest(sha256=bundle.sha256_file(path))
-    for stage, pattern in (("stills", "*.png"), ("video", "*.mp4")):
-        for path in sorted((state.folder / stage).glob(pattern)):
-            write_atomic(folder / stage / path.name, path.read_bytes())
+    for name, path in _published(state):
+        content = _plain(state, path)
+        write_atomic(folder / name, content)
+        if path.suffix == ".json":
+            evidence[str(path.relative_to(state.folder))] = Digest(sha256=hashlib.sha256(content).hexdigest())
     filmed = _filmed(state)
     cameras = [camera.name for camera in state.plan.cameras()] if state.plan else []
     poster.write(folder, cameras, filmed.shots if filmed else ())
     return Statement(subject=bundle.subjects(folder), predicate=_predicate(state, stripped, proved, evidence))
+
+
+def _published(state: State) -> Iterator[tuple[str, Path]]:
+    """Files of the evidence that are copied, by their names in the accepted folder: reports, results and pictures."""
+    kept = {f"{name}.json": state.folder / f"{name}.json" for name in REPORTS}
+    kept |= {f"{name}.json": state.folder / name / "result.json" for name in state.passes}
+    yield from ((f"evidence/{name}", path) for name, path in kept.items() if path.is_file())
+    for stage, pattern in (("stills", "*.png"), ("video", "*.mp4")):
+        yield from ((f"{stage}/{path.name}", path) for path in sorted((state.folder / stage).glob(pattern)))
+
+
+def _plain(state: State, path: Path) -> bytes:
+    """The content of a file of the evidence; what is no plain file may be somebody else's, and is not published."""
+    from ..stage import tools as stage
+
+    content = stage.read_plain(path, LARGEST)
+    if content is None:
+        raise GateError(
+            f"{path.relative_to(state.run.folder)} is no plain file of at most {LARGEST >> 30} GB: a link, or one with "
+            "another name elsewhere, is not copied",
+            place=str(path),
+            next_move=f"worldwright stage start {state.place} --stage {path.parent.name} --force",
+        )
+    return content
 
 
 def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[str, Digest]) -> Acceptance:

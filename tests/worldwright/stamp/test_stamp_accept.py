@@ -336,6 +336,20 @@ def test_a_proof_that_needs_longer_goes_on_by_itself(reviewed: Path, copy: Copy)
     assert stamp.accept(str(folder), timeout_s=60).ok
 
 
+@pytest.mark.parametrize("kind", ["symlink_to", "hardlink_to"])
+@pytest.mark.parametrize("name", ["stills/overview.png", "expect.json"])
+def test_what_is_no_plain_file_is_not_published(reviewed: Path, copy: Copy, name: str, kind: str) -> None:
+    """Its bytes are as they were, so that no hash tells; but it leads out of the run, to a file of the host."""
+    run = copy(reviewed)
+    path = next((run / "evidence").glob(f"*/{name}"))
+    elsewhere = run.parent / "of-the-host"
+    path.rename(elsewhere)
+    getattr(path, kind)(elsewhere)
+    with pytest.raises(GateError, match=r"is no plain file of at most 4 GB"):
+        stamp.accept(str(run), timeout_s=60)
+    assert not (run / "accepted").exists() and elsewhere.is_file()
+
+
 def test_another_machine_is_compared_within_a_tolerance(accepted: Path, copy: Copy) -> None:
     """The same world stamped on a machine whose last bits differ: proved by tolerance, and what differs is named."""
     folder = copy(accepted)
