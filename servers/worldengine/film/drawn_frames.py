@@ -1,4 +1,4 @@
-"""Draw pictures of one model with the wanted renderer, or with the plain one where that cannot."""
+"""Draw pictures of one model with the wanted renderer, or with a plainer one where that cannot."""
 
 from types import TracebackType
 from typing import TYPE_CHECKING
@@ -17,8 +17,8 @@ class Frames:
     """Draws pictures of one model, `width` x `height` pixels; a context manager.
 
     `image` gives the good-looking picture, `segmentation` the geom behind each pixel. The same state, camera and quality
-    always give the same picture. Where the driver cannot do what the renderer asks, MuJoCo's own takes over, and
-    `renderer` and `reason` say so.
+    always give the same picture. Where a renderer's packages are missing, or the driver cannot do what it asks, the usual
+    one takes over, and MuJoCo's own where that cannot either; `renderer` and `reason` say so.
 
     Raises:
         SeamError: no renderer has the name in `WORLDKIT_RENDERER`.
@@ -32,7 +32,7 @@ class Frames:
         self.wanted = self.renderer = renderers.wanted()
         """The wanted renderer, and the one that draws."""
         self.reason = ""
-        """Why the plain renderer draws in place of the wanted one."""
+        """Why a plainer renderer draws in place of the wanted one."""
         self.untreated = False
         """Light, fog, focus or grading were asked for, which this renderer lacks."""
         self._treatment = UNTREATED
@@ -45,12 +45,17 @@ class Frames:
             self._fall_back(error)
 
     def _fall_back(self, why: Exception) -> None:
-        """Let the plain renderer draw from now on."""
-        if self.renderer == renderers.PLAIN:
+        """Let the next plainer renderer draw from now on."""
+        plainer = renderers.plainer(self.renderer)
+        if not plainer:
             raise why
         self.close()
-        self.renderer, self.reason = renderers.PLAIN, f"{type(why).__name__}: {why}"
-        self._drawing = renderers.SEAM.find(renderers.PLAIN).take(self.model, self.width, self.height)
+        said = f"{type(why).__name__}: {' '.join(str(why).split())}"
+        self.renderer, self.reason = plainer, f"{self.reason}; {said}" if self.reason else said
+        try:
+            self._drawing = renderers.SEAM.find(plainer).take(self.model, self.width, self.height)
+        except Exception as error:
+            self._fall_back(error)
 
     @property
     def _open(self) -> renderers.Drawing:

@@ -39,8 +39,12 @@ def identity(renderer: str = "") -> Identity:
     packages = renderers.installed((*PACKAGES, *renderers.SEAM.find(name).PACKAGES))
     own = [*Path(__file__).parent.glob("*.py"), *Path(filming.__file__ or "").parent.glob("*.py")]
     own.append(Path(renderers.__file__ or ""))
-    # The plain renderer may take over from any other, so it counts for all.
-    drawn = [*renderers.SEAM.files(name), *renderers.SEAM.files(renderers.PLAIN)]
+    # Plainer renderers may take over from any other, so they count for it.
+    drawn: list[Path] = []
+    one = name
+    while one:
+        drawn += renderers.SEAM.files(one)
+        one = renderers.plainer(one)
     digest = hashlib.sha256(json.dumps([name, packages]).encode())
     for path in dict.fromkeys([*sorted(own), *drawn]):
         digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())

@@ -22,6 +22,8 @@ VARIABLE = "WORLDKIT_RENDERER"
 USUAL = "preview"
 PLAIN = "classic"
 """The renderer that takes over where a driver cannot do what another one asks."""
+FINAL = "traced"
+"""The renderer of the final pass."""
 Quality = Literal["still", "video"]
 
 
@@ -53,7 +55,7 @@ class Renderer(Protocol):
     def take(self, model: "mujoco.MjModel", width: int, height: int) -> Drawing:
         """Prepare to draw a model in pictures of `width` x `height` pixels.
 
-        Any exception says that it cannot draw here: the plain renderer takes over, and the result tells why.
+        Any exception says that it cannot draw here: a plainer renderer takes over, and the result tells why.
         """
 
 
@@ -63,6 +65,11 @@ SEAM: Seam[Renderer] = Seam(__name__, Renderer, "renderer")
 def wanted() -> str:
     """The wanted renderer: the one that `WORLDKIT_RENDERER` names, else the usual one."""
     return os.environ.get(VARIABLE) or USUAL
+
+
+def plainer(name: str) -> str:
+    """The renderer that takes over from this one; empty for the plain one, after which there is none."""
+    return "" if name == PLAIN else PLAIN if name == USUAL else USUAL
 
 
 def installed(packages: tuple[str, ...]) -> dict[str, str]:

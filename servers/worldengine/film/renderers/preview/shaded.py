@@ -18,7 +18,7 @@ class Shaded:
 
     def __init__(self, model: "mujoco.MjModel", width: int, height: int) -> None:
         self._size = (width, height)
-        self._context = _context(width, height)
+        self._context = context(width, height)
         try:
             self._context.make_current()
             from .pipeline import Pipeline
@@ -61,7 +61,7 @@ class Shaded:
         self._context.free()
 
 
-def _context(width: int, height: int) -> Any:
+def context(width: int, height: int) -> Any:
     """An offscreen OpenGL context, by the back end that MUJOCO_GL names (EGL if it names none and there is no display)."""
     if "MUJOCO_GL" not in os.environ and sys.platform == "linux" and not os.environ.get("DISPLAY"):
         os.environ["MUJOCO_GL"] = "egl"

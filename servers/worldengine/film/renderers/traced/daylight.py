@@ -1,0 +1,106 @@
+"""Where the light comes from: the surroundings as a picture around everything, the key light as a disk, lamps of the world."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from worldkit.settings import Setting
+
+from ...treatment import Treatment
+from ..preview import sky_maps
+from ..preview.scenery import LIGHT_GAIN
+
+if TYPE_CHECKING:
+    import mujoco
+
+SEEN_WIDTH, SOFT_WIDTH = 2048, 256
+"""Pixels around: of surroundings that are seen, and of those that only light a room."""
+BRIGHTEST = 1.3
+"""The lamps that glossy things mirror already light everything as key and fills."""
+LOBE = 8.0
+"""A fill is so broad: its radiance falls with this power of the cosine."""
+SHARE = {"studio": 1.0, "room": 0.97, "outdoor": 1.0, "dark": 1.0}
+"""What is left to the surroundings where light that comes back from floor and walls is traced."""
+AWAY = 60.0
+"""The key light is so many radii of the scene away."""
+
+
+def directions(width: int) -> np.ndarray:
+    """Unit directions (width / 2, width, 3) of the pixels of a picture around everything, as `sky_maps` has them."""
+    turn = (np.arange(width) + 0.5) / width * 2 * np.pi
+    down = (np.arange(width // 2) + 0.5) / (width // 2) * np.pi
+    p, t = np.meshgrid(turn, down)
+    return np.stack([np.sin(t) * np.sin(p), np.sin(t) * np.cos(p), np.cos(t)], -1)
+
+
+def seen(setting: Setting, told: Treatment) -> np.ndarray:
+    """Radiance (N, 2 N, 3) of the surroundings as a camera sees them."""
+    return sky_maps.draw(setting, told, SEEN_WIDTH, lamps=False)
+
+
+def lighting(setting: Setting, told: Treatment, shown: np.ndarray) -> np.ndarray:
+    """Radiance of the surroundings as they light things, with the fill lights of the setting as broad glows."""
+    if setting.name == "outdoor" or told.sky_zenith is not None:
+        return np.minimum(shown, BRIGHTEST)
+    picture = SHARE[setting.name] * np.minimum(sky_maps.draw(setting, told, SOFT_WIDTH, lamps=True), BRIGHTEST)
+    around = directions(picture.shape[1])
+    for fill in setting.fills:
+        toward = np.maximum(around @ np.array(fill.direction), 0.0) ** LOBE
+        picture += (toward[..., None] * np.array(fill.colour) * (LOBE + 2) / 2).astype(np.float32)
+    return picture
+
+
+def looked_up(picture: np.ndarray, ways: np.ndarray) -> np.ndarray:
+    """The radiance of surroundings (N, 2 N, 3) along unit directions (..., 3)."""
+    height, width, _ = picture.shape
+    turn = np.arctan2(ways[..., 0], ways[..., 1]) / (2 * np.pi) % 1.0
+    down = np.arccos(np.clip(ways[..., 2], -1.0, 1.0)) / np.pi
+    return picture[np.minimum((down * height).astype(int), height - 1), (turn * width).astype(int) % width]
+
+
+def environment(picture: np.ndarray) -> dict[str, Any]:
+    """The surroundings as a light."""
+    import mitsuba as mi
+
+    turn = mi.ScalarTransform4f().rotate([1, 0, 0], 90)
+    return {"type": "envmap", "bitmap": mi.Bitmap(np.ascontiguousarray(picture, np.float32)), "to_world": turn}
+
+
+def key_light(setting: Setting, centre: np.ndarray, radius: float) -> dict[str, Any]:
+    """The key light: a disk of its spread, by which a white surface that faces it has the radiance of its colour."""
+    import mitsuba as mi
+
+    way = np.array(setting.key.direction)
+    spread = max(setting.key_spread, 0.008)
+    place = centre + AWAY * radius * way
+    up = [0, 0, 1] if abs(way[2]) < 0.99 else [0, 1, 0]
+    move = mi.ScalarTransform4f().look_at(origin=place.tolist(), target=centre.tolist(), up=up)
+    radiance = (np.array(setting.key.colour) / spread**2).tolist()
+    return {
+        "type": "disk", "to_world": move @ mi.ScalarTransform4f().scale(AWAY * radius * spread),
+        "emitter": {"type": "area", "radiance": {"type": "rgb", "value": radiance}},
+    }  # fmt: skip
+
+
+def lamps(model: mujoco.MjModel, data: mujoco.MjData, chosen: list[int]) -> dict[str, dict[str, Any]]:
+    """The world's own lights, as far as they stand somewhere, by name."""
+    import mitsuba as mi
+    import mujoco
+
+    found: dict[str, dict[str, Any]] = {}
+    for light in chosen:
+        colour = np.asarray(model.light_diffuse[light], dtype=float) * LIGHT_GAIN * np.pi
+        value = {"type": "rgb", "value": colour.tolist()}
+        kind, place, way = model.light_type[light], data.light_xpos[light], data.light_xdir[light]
+        if kind == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL:
+            found[f"lamp{light}"] = {"type": "directional", "direction": way.tolist(), "irradiance": value}
+        elif kind == mujoco.mjtLightType.mjLIGHT_SPOT:
+            up = [0, 0, 1] if abs(way[2]) < 0.99 else [0, 1, 0]
+            move = mi.ScalarTransform4f().look_at(origin=place.tolist(), target=(place + way).tolist(), up=up)
+            cutoff = float(np.clip(model.light_cutoff[light], 1.0, 89.0))
+            found[f"lamp{light}"] = {"type": "spot", "to_world": move, "intensity": value, "cutoff_angle": cutoff}
+        else:
+            found[f"lamp{light}"] = {"type": "point", "position": place.tolist(), "intensity": value}
+    return found

@@ -1,0 +1,186 @@
+"""Everything of a model that is drawn, as meshes grouped by body and material, which move with the recorded poses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ..preview import unit_shapes
+from ..preview.things import EXACT_UV, FLAT_UV, Things
+from . import rounded
+from .coatings import CLEAR, Coatings
+from .ground_rings import rings
+from .relief import displaced
+from .rounded import Mesh
+from .unwrapped import along_sides, around_centre
+
+if TYPE_CHECKING:
+    import mujoco
+
+MANY = 60
+"""Of more spheres than this, each is drawn coarser."""
+
+
+@dataclass
+class Figure:
+    """Geoms of one material that move together; `shape` is Mitsuba's mesh of them."""
+
+    coating: Any
+    glow: np.ndarray
+    """Radiance that it gives off, (3,)."""
+    geoms: list[int] = field(default_factory=list)
+    meshes: list[Mesh] = field(default_factory=list)
+    shape: Any = None
+    params: Any = None
+    _poses: np.ndarray | None = None
+
+    def finish(self) -> None:
+        """Join its meshes, and hand the mesh over to Mitsuba."""
+        counts = [len(mesh.points) for mesh in self.meshes]
+        self.owner = np.repeat(np.arange(len(counts)), counts)
+        self.points = np.concatenate([mesh.points for mesh in self.meshes])
+        self.normals = np.concatenate([mesh.normals for mesh in self.meshes])
+        uv = np.concatenate([np.zeros((len(m.points), 2)) if m.uv is None else m.uv for m in self.meshes])
+        starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
+        faces = np.concatenate([mesh.faces + start for mesh, start in zip(self.meshes, starts, strict=True)])
+        self.shape, self.params = mesh_of(len(self.points), faces, uv, self.coating, self.glow)
+
+    def place(self, data: mujoco.MjData, sizes: np.ndarray) -> bool:
+        """Move it to the poses in `data`, with the geoms' present sizes over those drawn; returns whether anything changed."""
+        rotation = data.geom_xmat[self.geoms].reshape(-1, 3, 3)
+        places = data.geom_xpos[self.geoms]
+        poses = np.column_stack([rotation.reshape(-1, 9), places, sizes[self.geoms]])
+        if self._poses is not None and np.array_equal(poses, self._poses):
+            return False
+        self._poses = poses.copy()
+        scaled = self.points * sizes[self.geoms][self.owner, None]
+        points = np.einsum("vij,vj->vi", rotation[self.owner], scaled) + places[self.owner]
+        normals = np.einsum("vij,vj->vi", rotation[self.owner], self.normals)
+        fill(self.params, points, normals)
+        return True
+
+
+def mesh_of(vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow: np.ndarray) -> tuple[Any, Any]:
+    """An empty mesh of Mitsuba with these triangles, and its parameters."""
+    import mitsuba as mi
+
+    props = mi.Properties()
+    props["mesh_bsdf"] = coating
+    if glow.max() > 0:
+        light = {"type": "area", "radiance": {"type": "rgb", "value": glow.tolist()}, "sampling_weight": 0.0}
+        props["mesh_emitter"] = mi.load_dict(light)
+    shape = mi.Mesh("figure", vertices, len(faces), props=props, has_vertex_normals=True, has_vertex_texcoords=True)
+    params = mi.traverse(shape)
+    params["faces"] = np.ascontiguousarray(faces, dtype=np.uint32).ravel()
+    params["vertex_texcoords"] = np.ascontiguousarray(uv, dtype=np.float32).ravel()
+    return shape, params
+
+
+def fill(params: Any, points: np.ndarray, normals: np.ndarray) -> None:
+    """Give a mesh its vertices and normals (V, 3)."""
+    params["vertex_positions"] = np.ascontiguousarray(points, dtype=np.float32).ravel()
+    params["vertex_normals"] = np.ascontiguousarray(normals, dtype=np.float32).ravel()
+    params.update()
+
+
+class Figures:
+    """The figures of one model."""
+
+    def __init__(self, model: mujoco.MjModel, rest: mujoco.MjData) -> None:
+        self.model = model
+        self.things = Things(model)
+        self.things.update(rest)
+        self.coatings = Coatings(model)
+        self._sizes = np.array(model.geom_size[:, 0])
+        self.all: list[Figure] = []
+        self.clear = any(batch.clear for batch in self.things.batches)
+        """Glass or water is in the world, which takes longer paths."""
+        groups: dict[Any, Figure] = {}
+        for batch in self.things.batches:
+            if batch.shape[0] == "disc":
+                continue
+            for row in batch.rows:
+                self._add(groups, batch, row)
+        for figure in groups.values():
+            figure.finish()
+        self.all = list(groups.values())
+
+    def _add(self, groups: dict[Any, Figure], batch: Any, row: int) -> None:
+        numbers, kind = self.things.rows[row], batch.shape[0]
+        geom = int(self.things.geoms[row])
+        entry = batch.finish.look
+        rgb, alpha = numbers[16:19].astype(float), float(numbers[19])
+        body = int(self.model.geom_bodyid[geom])
+        fixed = self.model.body_weldid[body] == 0
+        sheet = kind == "plane"
+        extent = float(self.model.geom_rbound[geom])
+        coating = self.coatings.of(batch.finish, rgb, alpha, ball=kind == "sphere", wide=extent > 0.8, sheet=sheet)
+        glow = rgb * float(numbers[29]) if entry.emission > 0 and entry.clear == 0 and alpha >= CLEAR else np.zeros(3)
+        if batch.finish.texture >= 0 or entry.paint:  # what glows by a picture glows in its mean colour
+            glow = np.asarray(batch.finish.mean) * float(numbers[29]) if glow.any() else glow
+        see_through = batch.clear and not sheet
+        key = (-1 if fixed else body, id(coating), tuple(glow), geom if see_through else -1)
+        figure = groups.setdefault(key, Figure(coating, glow))
+        figure.geoms.append(geom)
+        figure.meshes.append(self._shape(batch, numbers, geom))
+
+    def _shape(self, batch: Any, numbers: np.ndarray, geom: int) -> Mesh:
+        """The mesh of a geom in its own frame, with texture coordinates."""
+        kind, finish = batch.shape[0], batch.finish
+        entry, size, half = finish.look, numbers[12:15].astype(float), float(numbers[15])
+        many = len(batch.rows) > MANY
+        mesh: Mesh
+        if kind == "sphere":
+            mesh = displaced(size, entry, geom, many) or rounded.sphere(size, 20 if many else 64)
+        elif kind == "capsule":
+            mesh = rounded.capsule(size[0], half, 16 if many else 32)
+        elif kind == "cylinder":
+            mesh = rounded.cylinder(size[0], size[2], 24 if many else 72)
+        elif kind == "box":
+            mesh = rounded.box(size)
+        elif kind == "plane":
+            mesh = rounded.sheet(size[0], size[1])
+        else:
+            made = unit_shapes.mesh if kind == "mesh" else unit_shapes.height_field
+            rows, faces = made(self.model, batch.shape[1])
+            v = np.column_stack([rows[:, 7], 1.0 - rows[:, 8]])
+            mesh = Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v)
+        if finish.texture < 0 and entry.paint is None:
+            return mesh
+        per_metre, other, mode, seed = (float(x) for x in numbers[24:28])
+        if entry.around:
+            return around_centre(mesh) if kind != "sphere" or mesh.uv is None else mesh
+        if mode == EXACT_UV and mesh.uv is not None:
+            return mesh._replace(uv=mesh.uv * per_metre)
+        if mode == FLAT_UV:
+            flat = mesh.points[:, :2] * (per_metre, other) + 0.5
+            return mesh._replace(uv=np.column_stack([flat[:, 0], 1.0 - flat[:, 1]]))
+        return along_sides(mesh, int(mode + 0.5), per_metre, seed)
+
+    def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
+        """Meshes of the endless planes, none of which moves."""
+        import mitsuba as mi
+
+        from .coatings import texture, told
+
+        for batch in (batch for batch in self.things.batches if batch.shape[0] == "disc"):
+            for row in batch.rows:
+                numbers, look = self.things.rows[row], batch.finish.look
+                frame = numbers[:12].reshape(3, 4).astype(float)
+                own = (frame[:, :3].T @ (np.append(centre, 0.0) - frame[:, 3]))[:2]
+                tile = self.coatings.picture(batch.finish, True)
+                for ring in rings(tile, numbers[16:19], look, float(numbers[24]), own, radius):
+                    coating = mi.load_dict(told(texture(ring.pixels), look))
+                    shape, params = mesh_of(len(ring.mesh.points), ring.mesh.faces, ring.mesh.uv, coating, np.zeros(3))
+                    fill(params, ring.mesh.points @ frame[:, :3].T + frame[:, 3], ring.mesh.normals @ frame[:, :3].T)
+                    yield shape
+
+    def place(self, data: mujoco.MjData) -> bool:
+        """Move all figures to the poses in `data`; returns whether anything changed."""
+        sizes = np.ones(self.model.ngeom)
+        balls = self.things.geoms[self.things._balls]
+        sizes[balls] = self.model.geom_size[balls, 0] / np.maximum(self._sizes[balls], 1e-12)
+        return bool(sum([figure.place(data, sizes) for figure in self.all]))

@@ -1,0 +1,250 @@
+"""Draw one model by tracing paths: its figures in their light, each frame at the poses of its moment."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import atan, degrees
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from worldkit.materials import look
+from worldkit.settings import STUDIO, Light
+
+from ...treatment import PLAIN, Treatment
+from ..preview.eye import View, of_camera
+from ..preview.finish import Finish, linear
+from ..preview.focus import FRAME_M
+from ..preview.lighting import relight
+from ..preview.scenery import own_lights, setting_of, space_of
+from . import daylight, rounded
+from .darkroom import Scene, air, develop
+from .denoised import Denoiser
+from .figures import Figures, fill, mesh_of
+from .half_room import Face, Walls
+from .strand_meshes import Strands
+from .unwrapped import along_sides
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from .. import Drawing, Quality
+
+SAMPLES = {"still": 32, "video": 3}
+DEPTH, CLEAR_DEPTH = 4, 8
+"""The longest paths, and those where light goes through glass."""
+GUIDE_SAMPLES = 4
+BRIGHTEST = 12.0
+"""A pixel of more scene light would be a speck that the denoiser cannot take out."""
+
+
+class Rays(NamedTuple):
+    """One picture as it was traced: scene light, surface colours, normals, places (H, W, 3), and the share of things (H, W)."""
+
+    light: np.ndarray
+    albedo: np.ndarray
+    normals: np.ndarray
+    places: np.ndarray
+    seen: np.ndarray
+
+
+class Tracing:
+    """Draws one model at one size."""
+
+    def __init__(self, model: mujoco.MjModel, width: int, height: int) -> None:
+        import mujoco
+
+        self.model, self.width, self.height = model, width, height
+        rest = mujoco.MjData(model)
+        mujoco.mj_forward(model, rest)
+        self._rest = rest
+        chosen = setting_of(model)
+        self._own = chosen or STUDIO
+        self._lights = own_lights(model)
+        if chosen is None:
+            self._adopt_key(rest)
+        self.setting, self._treatment = self._own, PLAIN
+        self.figures = Figures(model, rest)
+        self._strands = Strands(model, rest, self.figures.coatings)
+        low, high = self.figures.things.bounds(rest)
+        space = space_of(model)
+        if space is not None:
+            low, high = np.minimum(low, space[0]), np.maximum(high, space[1])
+        self._centre, self._radius = 0.5 * (low + high), max(float(np.linalg.norm(high - low)) / 2.0, 1e-3)
+        ground = self.figures.things.ground
+        self._floor_z = float(self.figures.things.rows[ground, 11]) if ground >= 0 else float(low[2])
+        self._ground = list(self.figures.ground(self._centre[:2], self._radius))
+        eyes = np.array(rest.cam_xpos).reshape(-1, 3)
+        inside = self._own.name == "room"
+        self._walls = Walls(self._own, low, high, eyes, self._floor_z) if inside else None
+        self._panels: dict[Face, list[Any]] = {}
+        self._scenes: dict[Any, Any] = {}
+        self._denoiser = Denoiser(width, height)
+        self._plain: Drawing | None = None
+        self._sensors: dict[bool, Any] = {}
+        self.figures.place(rest)
+        self._strands.place(rest)
+        self._relight()
+
+    def _adopt_key(self, rest: mujoco.MjData) -> None:
+        """Let a foreign model's own directional light be the key light."""
+        import mujoco
+
+        for light in self._lights:
+            way = -rest.light_xdir[light]
+            if self.model.light_type[light] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL and way[2] > 0.2:
+                elevation = min(float(np.degrees(np.arcsin(np.clip(way[2], -1, 1)))), 75.0)
+                key = Light(float(np.degrees(np.arctan2(way[1], way[0]))), elevation, self._own.key.colour)
+                self._own = replace(self._own, key=key)
+                self._lights.remove(light)
+                return
+
+    def _relight(self) -> None:
+        """Take over the light of the setting."""
+        self._shown = daylight.seen(self.setting, self._treatment)
+        self._around = daylight.lighting(self.setting, self._treatment, self._shown)
+        self._scenes.clear()
+
+    def treat(self, treatment: Treatment) -> bool:
+        """Apply this light, haze, focus and grading from now on."""
+        relit = treatment.lit != self._treatment.lit
+        self._treatment = treatment
+        if relit:
+            self.setting = relight(self._own, treatment)
+            self._relight()
+        return True
+
+    def _scene(self, walls: frozenset[Face], data: mujoco.MjData) -> Any:
+        """The scene with these walls; its meshes are those of all others."""
+        if walls not in self._scenes:
+            import mitsuba as mi
+
+            reach = max(self._radius, 1.0)
+            parts: dict[str, Any] = {
+                "type": "scene", "around": daylight.environment(self._around),
+                "key": daylight.key_light(self.setting, self._centre, reach),
+                **daylight.lamps(self.model, data, self._lights),
+            }  # fmt: skip
+            shapes = [figure.shape for figure in self.figures.all] + self._strands.shapes + self._ground
+            for face in sorted(walls):
+                shapes += self._wall(face)
+            for number, shape in enumerate(shapes):
+                parts[f"shape{number}"] = shape
+            self._scenes[walls] = mi.load_dict(parts, optimize=False)
+        return self._scenes[walls]
+
+    def _wall(self, face: Face) -> list[Any]:
+        """Meshes of the panels of a wall."""
+        if face not in self._panels:
+            self._panels[face] = []
+            assert self._walls is not None
+            for panel in self._walls.panels[face]:
+                shining = panel.look == "window_light"
+                entry = look("plastic_white" if shining else panel.look)
+                mesh = rounded.box(np.array(panel.half))
+                if entry.paint is not None:
+                    mesh = along_sides(mesh, 2, 1.0 / entry.tile_m, 0.0)
+                tint = linear(panel.rgba[:3])
+                coating = self.figures.coatings.of(Finish(entry), tint, 1.0, wide=True)
+                uv = np.zeros((len(mesh.points), 2)) if mesh.uv is None else mesh.uv
+                glow = 4.5 * tint if shining else np.zeros(3)
+                shape, params = mesh_of(len(mesh.points), mesh.faces, uv, coating, glow)
+                fill(params, mesh.points + np.array(panel.centre), mesh.normals)
+                self._panels[face].append(shape)
+        return self._panels[face]
+
+    def _sensor(self, view: View, channels: str) -> Any:
+        """The camera; one with a lens where the film focuses."""
+        import mitsuba as mi
+
+        told, tangent = self._treatment, view.tangents[1]
+        place = (view.eye - view.axes[:, 2]).tolist()
+        move = mi.ScalarTransform4f().look_at(origin=view.eye.tolist(), target=place, up=view.axes[:, 1].tolist())
+        film = {
+            "type": "hdrfilm", "width": self.width, "height": self.height, "rfilter": {"type": "box"},
+            "pixel_format": channels, "component_format": "float32",
+        }  # fmt: skip
+        lens: dict[str, Any] = {"type": "perspective"}
+        if told.aperture > 0:
+            radius = FRAME_M / (2.0 * tangent) / told.aperture / 2.0
+            lens = {"type": "thinlens", "aperture_radius": radius, "focus_distance": max(told.focus_m, 0.02)}
+        return mi.load_dict(
+            {**lens, "fov": 2 * degrees(atan(tangent)), "fov_axis": "y", "near_clip": 0.01, "far_clip": 1e5,
+             "to_world": move, "film": film}
+        )  # fmt: skip
+
+    def ways(self, view: View) -> np.ndarray:
+        """Unit viewing directions (H, W, 3) of the pixels' centres."""
+        x = ((np.arange(self.width) + 0.5) / self.width * 2 - 1) * view.tangents[0]
+        y = (1 - (np.arange(self.height) + 0.5) / self.height * 2) * view.tangents[1]
+        ways = x[None, :, None] * view.axes[:, 0] + y[:, None, None] * view.axes[:, 1] - view.axes[:, 2]
+        return ways / np.linalg.norm(ways, axis=-1, keepdims=True)
+
+    def trace(self, data: mujoco.MjData, view: View, faces: frozenset[Face], samples: int, seed: int) -> Rays:
+        """Trace the picture of `data`, with these walls."""
+        import mitsuba as mi
+
+        self.figures.place(data)
+        self._strands.place(data)
+        scene = self._scene(faces, data)
+        depth = CLEAR_DEPTH if self.figures.clear else DEPTH
+        path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": 16})
+        light = mi.render(scene, sensor=self._sensor(view, "rgb"), integrator=path, spp=samples, seed=seed)
+        # A second walk for the guides: around the path tracer itself they would double its time.
+        guide = mi.load_dict({"type": "aov", "aovs": "a:albedo,n:sh_normal,p:position", "any": {"type": "depth"}})
+        said = mi.render(scene, sensor=self._sensor(view, "rgba"), integrator=guide, spp=GUIDE_SAMPLES, seed=0)
+        return _rays(np.array(light), np.array(said))
+
+    def image(self, data: mujoco.MjData, camera: int, quality: Quality) -> np.ndarray:
+        """The picture: uint8 (height, width, 3)."""
+        return self.picture(data, camera, SAMPLES[quality])
+
+    def picture(self, data: mujoco.MjData, camera: int, samples: int, seed: int = 0) -> np.ndarray:
+        """The picture by so many samples a pixel: uint8 (height, width, 3)."""
+        view = of_camera(self.model, data, camera, self.width, self.height)
+        ways = self.ways(view)
+        drawn: frozenset[Face] = frozenset()
+        painted: frozenset[Face] = frozenset()
+        if self._walls is not None:
+            some = ways[:: max(self.height // 24, 1), :: max(self.width // 40, 1)].reshape(-1, 3)
+            drawn, painted = self._walls.seen(view.eye, some)
+        rays = self.trace(data, view, drawn, samples, seed)
+        light = self._denoiser.clean(rays.light, rays.albedo, rays.normals)
+        if self._around is not self._shown:
+            behind = daylight.looked_up(self._shown, ways) - daylight.looked_up(self._around, ways)
+            light = light + (1.0 - rays.seen)[..., None].astype(np.float32) * behind
+        if painted:
+            assert self._walls is not None
+            away = np.linalg.norm(rays.places - view.eye, axis=-1)
+            reach = np.where(rays.seen > 0.5, away, np.inf)
+            light = self._walls.paint_in(light, painted, view.eye, ways, reach, self._around)
+        span = max(self._radius, 0.55 * float(np.linalg.norm(view.eye - self._centre)))
+        horizon = self._shown[self._shown.shape[0] // 2 - 2]
+        scene = Scene(self.setting, self._centre, self._radius, self._floor_z, span, horizon)
+        light = air(np.maximum(light, 0.0), rays.places, rays.seen, view.eye, ways, scene, self._treatment)
+        return develop(light, self.setting, self._treatment)
+
+    def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
+        """Geom number of each pixel, or -1: int32 (height, width), by MuJoCo's own renderer."""
+        if self._plain is None:
+            from .. import classic
+
+            self._plain = classic.take(self.model, self.width, self.height)
+        return self._plain.segmentation(data, camera)
+
+    def close(self) -> None:
+        """Free what it holds."""
+        self._scenes.clear()
+        self._denoiser.close()
+        if self._plain is not None:
+            self._plain.close()
+            self._plain = None
+
+
+def _rays(light: np.ndarray, said: np.ndarray) -> Rays:
+    """Bring what was traced into order; where there is only sky, nothing has a place."""
+    seen = np.clip(said[..., 3], 0.0, 1.0)
+    said = np.nan_to_num(said)
+    albedo, normals, places = said[..., 4:7], said[..., 7:10], said[..., 10:13]
+    light = np.clip(np.nan_to_num(light, nan=0.0, posinf=BRIGHTEST, neginf=0.0), 0.0, BRIGHTEST)
+    return Rays(light, np.clip(albedo, 0, 1), normals, places / np.maximum(seen, 1e-6)[..., None], seen)

@@ -1,0 +1,151 @@
+"""The traced renderer: its shapes, its light, its denoiser, and what happens where its packages are missing."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from worldengine.film import renderers
+from worldengine.film.drawn_frames import Frames
+from worldengine.film.renderers.traced import coatings, denoised, rounded, unwrapped, variant
+from worldengine.film.renderers.traced.half_room import Walls
+from worldkit import bodies, cameras, materials, scene
+from worldkit.settings import ROOM
+
+SHAPES = {
+    "box": (rounded.box(np.array([0.2, 0.1, 0.05])), 8 * 0.2 * 0.1 * 0.05),
+    "sphere": (rounded.sphere(np.array([0.2, 0.1, 0.3])), 4 / 3 * np.pi * 0.2 * 0.1 * 0.3),
+    "cylinder": (rounded.cylinder(0.1, 0.2), np.pi * 0.1**2 * 0.4),
+    "capsule": (rounded.capsule(0.1, 0.2), np.pi * 0.1**2 * 0.4 + 4 / 3 * np.pi * 0.1**3),
+}
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_a_primitive_is_closed_as_large_as_it_should_be_and_turned_outward(name) -> None:
+    mesh, volume = SHAPES[name]
+    corners = mesh.points[mesh.faces]
+    enclosed = np.einsum("fk,fk->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+    assert enclosed == pytest.approx(volume, rel=0.02)
+    assert np.allclose(np.linalg.norm(mesh.normals, axis=1), 1.0)
+    assert (np.einsum("vk,vk->v", mesh.points, mesh.normals) > 0).all()
+
+
+def test_edges_are_rounded_and_sides_stay_flat() -> None:
+    half = np.array([0.2, 0.1, 0.05])
+    mesh = rounded.box(half)
+    assert np.allclose(np.abs(mesh.points).max(axis=0), half)
+    missing = np.linalg.norm(mesh.points - half, axis=1).min()
+    assert missing == pytest.approx((np.sqrt(3) - 1) * rounded.edge(0.05), rel=0.02)
+
+
+def test_paint_lies_at_its_true_scale_on_every_side() -> None:
+    mesh = unwrapped.along_sides(rounded.box(np.array([0.5, 0.3, 0.2])), 2, 4.0, 0.0)
+    assert mesh.uv is not None
+    flat = mesh.points[mesh.faces], mesh.uv[mesh.faces]
+    long = np.linalg.norm(flat[0][:, 1] - flat[0][:, 0], axis=1)
+    on_paint = np.linalg.norm(flat[1][:, 1] - flat[1][:, 0], axis=1)
+    wide = long > 0.1
+    assert wide.sum() > 6 and np.allclose(on_paint[wide] / long[wide], 4.0, rtol=0.02)
+
+
+def test_a_picture_around_a_centre_has_no_seam_across_a_face() -> None:
+    mesh = unwrapped.around_centre(rounded.box(np.array([0.1, 0.1, 0.1])))
+    assert mesh.uv is not None
+    assert np.ptp(mesh.uv[mesh.faces][..., 0], axis=1).max() <= 0.5
+
+
+def test_a_cube_map_becomes_one_picture_of_all_directions() -> None:
+    faces = np.stack([np.full((8, 8, 3), k / 10) for k in range(6)])
+    picture = coatings.round_picture(faces, 32)
+    assert picture.shape == (32, 64, 3)
+    assert picture[1, 0, 0] == pytest.approx(0.4) and picture[-2, 0, 0] == pytest.approx(0.5)  # +z above, -z below
+    assert picture[16, 1, 0] == pytest.approx(0.0) and picture[16, 16, 0] == pytest.approx(0.2)  # +x, then +y
+
+
+def test_a_room_leaves_out_the_wall_that_its_light_comes_through() -> None:
+    low, high = np.array([-1.0, -1.0, 0.0]), np.array([1.0, 1.0, 1.0])
+    walls = Walls(ROOM, low, high, np.array([[2.0, 0.0, 1.5]]), 0.0)
+    around = np.stack(np.meshgrid(*[np.linspace(-1, 1, 9)] * 3), -1).reshape(-1, 3)
+    around = around[np.linalg.norm(around, axis=1) > 0.1]
+    drawn, painted = walls.seen(np.array([0.0, 0.0, 1.0]), around)
+    assert len(painted) == 1 and len(drawn) == 4 and not drawn & painted
+    assert walls.seen(np.array([50.0, 0.0, 1.0]), around) == (frozenset(), frozenset())
+
+
+def test_the_denoiser_takes_noise_out_and_keeps_what_the_guides_show() -> None:
+    denoiser = denoised.Denoiser(64, 64)
+    assert denoiser.there
+    albedo = np.full((64, 64, 3), 0.2, np.float32)
+    albedo[:, 32:] = 0.8
+    light = albedo * np.random.default_rng(1).exponential(1.0, (64, 64, 1)).astype(np.float32)
+    clean = denoiser.clean(light, albedo, np.zeros_like(albedo))
+    denoiser.close()
+    assert clean[:, :28].std() < 0.3 * light[:, :28].std()
+    assert clean[:, 36:].mean() > 2.5 * clean[:, :28].mean()
+
+
+def test_without_llvm_it_computes_plainly(monkeypatch, tmp_path) -> None:
+    monkeypatch.setattr(variant, "FOLDERS", (tmp_path,))
+    for name in ("libLLVM-16.so.1", "libLLVM-14.so"):
+        (tmp_path / name).touch()
+    assert variant.library() == "" or "llvm-" in variant.library()
+    (tmp_path / "libLLVM.so.19.1").touch()
+    assert variant.library().endswith("libLLVM.so.19.1")
+
+
+@pytest.fixture(scope="module")
+def glass():
+    spec = scene.new("glass", time_step=0.002)
+    bodies.box(spec, "behind", size=(0.05, 0.05, 1.0), pos=(0, 0.5, 0.5), look="plastic_red")
+    bodies.sphere(spec, "lens", diameter=0.4, pos=(0.0, 0, 0.3), look="glass_clear")
+    cameras.add(spec, "eye", subjects=("behind", "lens"))
+    model = spec.compile()
+    cameras.aim(model)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+@pytest.mark.gl
+def test_missing_packages_are_named_and_the_usual_renderer_draws(glass, monkeypatch) -> None:
+    def missing() -> str:
+        raise variant.MissingRendererError("it needs Mitsuba", "mitsuba", variant.INSTALL)
+
+    monkeypatch.setattr(variant, "choose", missing)
+    monkeypatch.setenv(renderers.VARIABLE, "traced")
+    with Frames(glass[0], 64, 36) as frames:
+        assert frames.image(glass[1], "eye").std() > 5
+        told = frames.told()
+    assert told["name"] == "preview" and told["instead_of"] == "traced"
+    assert "MissingRendererError" in told["because"] and "pip install 'worldwright[film]'" in told["because"]
+
+
+@pytest.mark.gl
+def test_glass_bends_what_is_behind_it(glass) -> None:
+    model, data = glass
+    eye = model.camera("eye").id
+    data.cam_xpos[eye] = (0.12, -2.0, 0.3)
+    data.cam_xmat[eye] = (1, 0, 0, 0, 0, -1, 0, 1, 0)
+    model.cam_fovy[eye] = 20
+    drawing = renderers.SEAM.find("traced").take(model, 160, 90)
+    image = drawing.image(data, eye, "video").astype(float)
+    drawing.close()
+    red = (image[..., 0] > 1.5 * image[..., 1]).astype(float)
+    columns = np.arange(160)
+
+    def at(rows: slice) -> float:
+        return float((red[rows] * columns).sum() / max(red[rows].sum(), 1))
+
+    assert red[40:50].sum() > 20 and red[:15].sum() > 20
+    assert abs(at(slice(40, 50)) - at(slice(0, 15))) > 3, "through the ball the bar stands elsewhere"
+
+
+def test_looks_become_materials_of_their_kind() -> None:
+    variant.choose()
+    from worldengine.film.renderers.preview.finish import Finish
+
+    spec = scene.new("looks", time_step=0.002)
+    made = coatings.Coatings(spec.compile())
+    grey = np.full(3, 0.5)
+    assert "Principled" in str(made.of(Finish(materials.look("chrome")), grey, 1.0))
+    assert "Dielectric" in str(made.of(Finish(materials.look("glass_clear")), grey, 0.2))
+    assert made.of(Finish(materials.look("chrome")), grey, 1.0) is made.of(Finish(materials.look("chrome")), grey, 1.0)
