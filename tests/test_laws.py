@@ -152,6 +152,7 @@ def test_tools_import_nothing_heavy(server):
 
 
 TREE_BYTES = 25_000_000
+WORLD_BYTES = 1_500_000
 POSTER_BYTES = 60_000
 KEPT = {
     "prompt.md", "plan.md", "simulation.py", "journal.jsonl", "motion.json", "poster.webp",
@@ -168,6 +169,26 @@ def tracked() -> list[str]:
     if listed.returncode:
         pytest.skip("not a git checkout")
     return [name for name in listed.stdout.split("\0") if name and (SERVERS.parent / name).is_file()]
+
+
+def too_large(sizes):
+    """What is wrong with the size of accepted worlds: bytes by name of the file, one line each."""
+    worlds = {}
+    for name, size in sizes.items():
+        if name.startswith("examples/") and name.count("/") > 1:
+            worlds.setdefault(name.split("/")[1], {})[name] = size
+    for world, files in worlds.items():
+        if sum(files.values()) > WORLD_BYTES:
+            largest = max(files, key=files.__getitem__)
+            yield f"examples/{world} has {sum(files.values()):,} B, more than {WORLD_BYTES:,}: {largest} {files[largest]:,} B"
+
+
+def test_each_accepted_world_adds_little_to_a_clone():
+    assert list(too_large({name: (SERVERS.parent / name).stat().st_size for name in tracked()})) == []
+    sizes = {"examples/known_keys": 5_000_000, "examples/a/plan.md": 9_000, "examples/a/hull.stl": 1_499_000}
+    assert list(too_large(sizes)) == [
+        "examples/a has 1,508,000 B, more than 1,500,000: examples/a/hull.stl 1,499,000 B"
+    ]
 
 
 def test_a_clone_stays_small():

@@ -1,5 +1,5 @@
-"""The engine's process: `python -m worldengine physics|storyboard|still|video|frame|view --world FILE --program FILE
---out DIR …`.
+"""The engine's process: `python -m worldengine physics|storyboard|still|video|final|frame|sheet|view --world FILE
+--program FILE --out DIR …`.
 
 `physics --replay RECORDING` drives the world by the inputs that a recording holds: the same motion, and nobody is asked.
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import worldkit  # checks the environment contract before anything else is imported
 
-PASSES = ("physics", "storyboard", "still", "video", "frame", "view")
+PASSES = ("physics", "storyboard", "still", "video", "final", "frame", "sheet", "view")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -40,6 +40,14 @@ def main(argv: Sequence[str] | None = None) -> int:
             from . import storyboard
 
             storyboard.run(given, options)
+        elif options.run == "sheet":
+            from . import from_all_sides
+
+            from_all_sides.run(given, options)
+        elif options.run == "final":
+            from .film import refining
+
+            refining.run(given, options)
         else:
             from .film import passes
 
@@ -59,6 +67,11 @@ def _size(text: str) -> tuple[int, int]:
     return width, height
 
 
+def _point(text: str) -> tuple[float, float, float]:
+    x, y, z = (float(number) for number in text.split(","))
+    return x, y, z
+
+
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m worldengine", description="Own a world while it runs.")
     parser.add_argument("run", choices=PASSES)
@@ -72,9 +85,13 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--channel", help="descriptors of the memory and the pipes to the author's process")
     parser.add_argument("--source", type=Path, help="text of the program, never run: tells whether a motion is known")
-    parser.add_argument("--film", type=Path, help="folder with a film's description (still, video, frame)")
+    parser.add_argument("--film", type=Path, help="folder with a film's description (still, video, final, frame)")
+    parser.add_argument("--minutes", type=float, default=5.0, help="time for drawing (final)")
     parser.add_argument("--at", type=float, default=0.0, help="seconds of the film, or of the recording (frame)")
-    parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame)")
+    parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame, sheet)")
+    parser.add_argument("--eye", type=_point, help="where an unplanned camera stands: X,Y,Z in m (frame)")
+    parser.add_argument("--target", type=_point, default=(0.0, 0.0, 0.0), help="what it looks at: X,Y,Z in m")
+    parser.add_argument("--fovy", type=float, default=45.0, help="height of what it sees, degrees")
     parser.add_argument("--camera", dest="cameras", action="append", default=[])
     parser.add_argument("--moment", dest="moments", action="append", default=[], help="of the storyboard: SECONDS:WORD")
     parser.add_argument("--time-step-factor", type=float)

@@ -1,6 +1,7 @@
 """What the engine's process gets: a world as one file, facts about its program, and the inputs that may be written."""
 
 import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -63,8 +64,10 @@ class Given:
                 else tuple((str(r["kind"]), frozenset(_names(r["bodies"]))) for r in rows if "solver" not in r),
                 solvers=tuple(Row.read(r) for r in rows or () if "solver" in r),
             )
-        except (KeyError, TypeError, ValueError) as cause:
+        except (KeyError, TypeError, ValueError, OverflowError) as cause:
             raise ProgramError(f"the facts of the program are damaged: {cause!r}", str(program), REMEDY) from cause
+        if not (math.isfinite(found.duration) and found.duration > 0):
+            raise ProgramError(f"the facts of the program say duration {found.duration}", str(program), REMEDY)
         good = 1 <= found.fps <= 1000 and all(16 <= side <= 8192 and side % 2 == 0 for side in found.size)
         if not (good and found.control_every >= 1 and found.latency in (0, 1) and found.seed >= 0):
             raise ProgramError("the facts of the program make no sense", str(program), REMEDY)

@@ -6,7 +6,7 @@ People look at it before the real pictures are drawn: does it happen, and is it 
 import argparse
 import sys
 import time
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from worldkit.files import write_atomic, write_json
 
@@ -30,6 +30,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     from worldkit.reporting import Progress
 
     from .film.drawn_frames import Frames
+    from .film.light_meter import reading
     from .film.passes import choose_cameras, headless_gl
     from .recording import stored
     from .recording.replay import Replay
@@ -46,17 +47,26 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     tick = Progress(options.out, len(names) * len(moments), "pictures")
     cells: dict[str, list[np.ndarray]] = {name: [] for name in names}
+    readings: dict[str, list[dict[str, Any]]] = {name: [] for name in names}
     with Frames(model, *size) as frames:
         for at, word in moments:
             data = replay.show(_row(recording.time, at))
             cameras.track(model, data)
             for name in names:
-                cells[name].append(_labelled(frames.image(data, name, quality="video"), f"{word} {at:.2f} s".strip()))
+                image = frames.image(data, name, quality="video")
+                readings[name].append(reading(model, image, frames.segmentation(data, name), given.movers))
+                cells[name].append(labelled(image, f"{word} {at:.2f} s".strip()))
                 tick(sum(map(len, cells.values())))
         renderer = frames.told()
     for name, pictures in cells.items():
-        write_atomic(options.out / f"{name}.jpg", _sheet(pictures))
-    told = {"cameras": names, "moments": [[at, word] for at, word in moments], "size": list(size), "renderer": renderer}
+        write_atomic(options.out / f"{name}.jpg", laid_out(pictures))
+    told: dict[str, Any] = {
+        "cameras": names,
+        "moments": [[at, word] for at, word in moments],
+        "size": list(size),
+        "renderer": renderer,
+    }
+    told["readings"] = readings
     wall = round(time.perf_counter() - started, 3)
     result = {"ok": True, "pass": "storyboard", **told, "trajectory_sha256": recording.sha256, "wall_s": wall}
     write_json(options.out / "result.json", result)
@@ -70,7 +80,7 @@ def _row(times: "np.ndarray", at: float) -> int:
     return int(np.abs(times[:] - at).argmin())
 
 
-def _labelled(image: "np.ndarray", label: str) -> "np.ndarray":
+def labelled(image: "np.ndarray", label: str) -> "np.ndarray":
     """Write words in the upper left corner of a picture: uint8 (H, W, 3) RGB."""
     import cv2
 
@@ -81,13 +91,13 @@ def _labelled(image: "np.ndarray", label: str) -> "np.ndarray":
     return image
 
 
-def _sheet(pictures: "list[np.ndarray]") -> bytes:
+def laid_out(pictures: "list[np.ndarray]", most: int = COLUMNS) -> bytes:
     """Lay pictures of one size row by row on white, as a JPEG."""
     import cv2
     import numpy as np
 
     height, width, _ = pictures[0].shape
-    columns = min(COLUMNS, len(pictures))
+    columns = min(most, len(pictures))
     rows = -(-len(pictures) // columns)
     page = np.full((rows * (height + GAP) + GAP, columns * (width + GAP) + GAP, 3), 255, np.uint8)
     for index, picture in enumerate(pictures):

@@ -50,11 +50,14 @@ class Mirror:
         self._live = live = layout.from_address(base)
         _check(live, model, data)
         first, last = layout.solver_niter.offset, layout.energy.offset + layout.energy.size
+        self._data_at = base
         self._numbers, self._numbers_bytes = base + first, last - first
         begin = layout.contact.offset
         self._pointers, self._pointers_bytes = base + begin, layout.signature.offset - begin
         self.buffer, self.buffer_bytes = int(live.buffer), int(live.nbuffer)
         self._arena, self._room = int(live.arena), min(MOST_ARENA, int(live.narena))
+        # What lies between contacts and constraints there is never written: it must not tell what was in memory before.
+        ctypes.memset(self._arena + int(live.parena), 0, max(0, self._room - int(live.parena)))
         self._at_numbers = LINE
         self._at_pointers = _round(self._at_numbers + self._numbers_bytes)
         self._at_buffer = _round(self._at_pointers + self._pointers_bytes)
@@ -110,6 +113,22 @@ class Mirror:
     def at(self, name: str) -> int:
         """Where an array begins in the buffer, bytes."""
         return int(getattr(self._live, name)) - self.buffer
+
+    @property
+    def time_at(self) -> int:
+        """Address of the data's own time."""
+        return int(self._data_at) + int(struct("mjData").time.offset)
+
+    def time_in(self, slot: int) -> float:
+        """The time in the slot at this address, s."""
+        return float(ctypes.c_double.from_address(slot + self._at_numbers + self.time_at - self._numbers).value)
+
+    def contacts_differ(self, slot: int) -> bool:
+        """Whether the data's contacts are no longer those in the slot at this address, which must hold their arena."""
+        first, size = int(self._live.contact or 0), int(self._live.ncon) * ctypes.sizeof(struct("mjContact"))
+        if not size or first < self._arena or first + size > self._arena + self._room:
+            return False
+        return bool(differ(slot + self._at_arena + first - self._arena, first, size))
 
     def buffer_in(self, slot: int) -> int:
         """Address of the buffer's copy in the slot at this address."""

@@ -71,7 +71,8 @@ class Speaker:
         )
         from .strays import Strays
 
-        self._strays = Strays(model, data, self.mirror, self._index, self._switches, self._parameters is None, stray)
+        edits = self._parameters is None
+        self._strays = Strays(model, data, self.mirror, self._index, self._switches, edits, stray, control)
 
     def answer(self, slot: int) -> None:
         """Read the state at this address, let `control` act on it, and write the answer."""

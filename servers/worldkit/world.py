@@ -1,5 +1,6 @@
 """From a program's `build` to a compiled world with a checked clock, cast and seed."""
 
+import functools
 import inspect
 import math
 from collections.abc import Callable, Iterable
@@ -115,7 +116,12 @@ def controller(control: Callable[..., Any] | None, rng: "np.random.Generator") -
     if not callable(control):
         raise ProgramError(f"control is {control!r}, not a function", "program.main", "pass a function, or nothing")
     if _positional(control) >= 3:
-        return lambda model, data: control(model, data, rng)
+
+        @functools.wraps(control)
+        def drawing(model: "mujoco.MjModel", data: "mujoco.MjData") -> object:
+            return control(model, data, rng)
+
+        return drawing
     return control
 
 

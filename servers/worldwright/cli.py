@@ -2,7 +2,8 @@
 
 A server's verbs are its tool functions. Only the called group is imported, so `--help` and a lint run start
 fast. Exit codes: 0 yes, 1 the answer is no (findings, a failed pass), 2 the call could
-not be answered (its cause and the next move are printed), 3 a defect of ours.
+not be answered (its cause and the next move are printed), 3 `stamp verify` proved the world, but nobody who is known here
+vouches for it, 70 a defect of ours (as in `sysexits.h`).
 """
 
 import functools
@@ -29,6 +30,7 @@ COMMANDS = {
         "Advance a run as far as it goes without a decision; with --accept from a plan to an accepted world.",
     ),
     "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
+    "sculpt": ("worldwright.sculpting", "See something sculpted from four sides: `sculpt sheet FILE.py[:NAME]`."),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
     "gallery": (
         "worldwright.gallery.command",
@@ -268,7 +270,7 @@ def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
         click.echo(
             "  next: this is a defect of ours; WORLDWRIGHT_DEBUG=1 shows where. Your files are untouched.", err=True
         )
-        sys.exit(3)
+        sys.exit(70)
     except KeyboardInterrupt:
         click.echo("interrupted; what was finished is kept", err=True)
         sys.exit(130)
@@ -306,7 +308,8 @@ def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter
     flag = ("--" if len(parameter.name) > 1 else "-") + parameter.name.replace("_", "-")
     if item is bool:
         return click.Option([f"{flag}/--no-{flag[2:]}", parameter.name], default=default, help=help_text)
-    names = [flag, parameter.name]
+    also = [mark.flag for mark in typing.get_args(annotation)[1:] if isinstance(mark, expose.Also)]
+    names = [flag, *also, parameter.name]
     return click.Option(
         names,
         type=_click_type(item),

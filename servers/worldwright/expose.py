@@ -109,6 +109,17 @@ class Positional:
     """Marks a parameter that may be left out and yet has a place on the command line."""
 
 
+class Also:
+    """Another flag of a parameter on the command line.
+
+    Args:
+        flag: with its dashes.
+    """
+
+    def __init__(self, flag: str) -> None:
+        self.flag = flag
+
+
 def reads(function: Callable[..., Any]) -> Callable[..., Any]:
     """Mark a tool that changes nothing, so that clients may call it without asking."""
     function.read_only = True  # type: ignore[attr-defined]
@@ -268,9 +279,9 @@ def call(function: Callable[..., Any], arguments: dict[str, Any], progress: Prog
 
 
 def exit_code(result: Any) -> int:
-    """0 when the answer is yes: a result with `ok` false is 1."""
+    """0 when the answer is yes; a result with `ok` false is 1, or the `exit_code` that it gives itself."""
     data = result.data if isinstance(result, Illustrated) else result
-    return 0 if getattr(data, "ok", True) else 1
+    return 0 if getattr(data, "ok", True) else int(getattr(data, "exit_code", 1))
 
 
 def to_json(result: Any) -> str:

@@ -418,3 +418,54 @@ def test_a_body_alone_opens_its_looks_and_no_whole_number_that_the_engine_trusts
     assert set(named) == {"body_mass"}
     everything = dict(Ports(model, None).parameters)
     assert not {"body_parentid", "geom_bodyid", "jnt_qposadr", "dof_Madr"} & everything.keys()
+
+
+def test_pushed_joints_of_every_kind_are_told_with_the_energy_they_get(tmp_path):
+    spec = empty(gravity=0.0, time_step=1e-4)
+    ball(spec, "loose", (0, 0, 0), mass=2.0)
+    ball(spec, "other", (1, 0, 0), mass=1.0)
+    for n, kind in enumerate(("BALL", "HINGE", "SLIDE"), 2):
+        body = spec.worldbody.add_body(name=kind.lower(), pos=(n, 0, 0))
+        body.add_joint(type=getattr(mujoco.mjtJoint, f"mjJNT_{kind}"), axis=(0, 0, 1))
+        body.add_geom(size=(0.1, 0, 0), pos=(0, 0.2, 0), mass=1.0)
+    forces = np.array([1, 0, 0, 0, 0.02, 0, 0, 0.5, 0, 0, 0, 0, 0.01, 0.02, 0.03, 0.2, 0.7])
+
+    def push(model, data):
+        data.qfrc_applied[:] = forces * (1 + data.time)
+
+    recording = record(spec, tmp_path / "t", 400, push)
+    table = recording.interventions
+    told = sorted(set(zip(table.kind, table.target, strict=True)))
+    assert told == [
+        ("force", "loose"), ("force", "other"), ("force", "slide"),
+        ("torque", "ball"), ("torque", "hinge"), ("torque", "loose"),
+    ]  # fmt: skip
+    assert len(table) == 400 * len(told) and bool((np.diff(table.time) >= 0).all())
+    assert table.work_j.sum() == pytest.approx(recording.energy[-1, 1], rel=1e-4)
+    first = {
+        (k, t): v for k, t, v in zip(table.kind, table.target, table.value, strict=True) if (k, t) == ("force", "slide")
+    }
+    assert first["force", "slide"][2] == pytest.approx(0.7 * (1 + recording.time[-2]))
+
+
+def test_what_pushes_many_bodies_takes_little_room_and_is_driven_again(tmp_path):
+    def crowd():
+        spec = empty(gravity=0.0)
+        for n in range(60):
+            ball(spec, f"ball_{n}", (n, 0, 0), mass=1.0 + n)
+        return spec
+
+    def wind(model, data):
+        force = data.qfrc_applied.reshape(-1, 6)
+        force[:, :3] = 1.0 - 0.5 * data.qvel.reshape(-1, 6)[:, :3]
+
+    steps = 100
+    first = record(crowd(), tmp_path / "a", steps, wind)
+    plain = 16 * 180 * steps  # a step, an entry and a value for each force
+    assert len(first.inputs) > 100 * steps
+    assert (tmp_path / "a/inputs.arrows").stat().st_size < 0.6 * plain
+    assert (tmp_path / "a/interventions.arrows").stat().st_size < 0.6 * 80 * len(first.interventions)
+    again = replay(crowd(), tmp_path / "b", steps, first)
+    assert again.sha256 == first.sha256
+    for name in ("kind", "target", "value", "work_j"):
+        assert np.array_equal(getattr(again.interventions, name), getattr(first.interventions, name))

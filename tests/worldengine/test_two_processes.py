@@ -2,6 +2,7 @@
 
 import contextlib
 import ctypes
+import inspect
 import json
 import os
 import subprocess
@@ -17,7 +18,7 @@ import pytest
 
 from small_worlds import ball, empty, floor
 from worldengine.inputs import author_link
-from worldengine.inputs.author_link import Distant
+from worldengine.inputs.author_link import Distant, Local
 from worldengine.inputs.ports import Ports
 from worldengine.inputs.replies import Answers
 from worldengine.recording import stored
@@ -126,9 +127,9 @@ def test_the_author_is_shown_everything_the_engine_holds_bit_for_bit(tmp_path):
 def test_addresses_of_the_engine_are_not_shown():
     model = world().compile()
     data = mujoco.MjData(model)
+    mirror = Mirror(model, data)
     for _ in range(300):
         mujoco.mj_step(model, data)
-    mirror = Mirror(model, data)
     memory = ctypes.create_string_buffer(mirror.size)
     mirror.send(ctypes.addressof(memory))
     places = {int(value) >> 24 for value in (mirror.buffer, data._address)}
@@ -318,3 +319,62 @@ def test_an_answer_has_room_for_what_is_declared_and_no_more():
         "qfrc_applied": [0, 1, 2],
         "xfrc_applied": [6, 7, 8],
     }
+
+
+def derived(model, data):
+    data.xpos[1, 2] = 5.0
+    data.qacc[0] = 3.0
+    data.qfrc_bias[:] = 0.0
+    data.qacc_warmstart.fill(1.0)
+    spin = data.cvel
+    spin[1, 0] = 2.0
+    data.time = 0.0
+    data.contact.friction[:] = 0.01
+
+
+def asking(model, data):
+    mujoco.mj_forward(model, data)
+    mujoco.mj_subtreeVel(model, data)
+    mujoco.mj_rnePostConstraint(model, data)
+    data.xfrc_applied[1, 0] = 1e-3 * data.xpos[1, 2]
+
+
+def late_and_by_another_name(model, data):
+    if 0.0205 < data.time < 0.0215:  # in one step of fifty
+        setattr(data, "xpos", data.xpos + 1.0)  # noqa: B010
+
+
+def both(model, data):
+    mujoco.mj_forward(model, data)
+    data.xipos[1, 0] = 9.0
+
+
+@pytest.mark.parametrize(
+    ("control", "told"),
+    [
+        (derived, {"xpos", "qacc", "qfrc_bias", "qacc_warmstart", "cvel", "time", "contact"}),
+        (asking, set()),
+        (both, {"xipos"}),
+        (late_and_by_another_name, {"xpos"}),
+    ],
+)
+def test_what_the_engine_derives_is_written_in_vain_and_told_by_array(control, told, tmp_path):
+    """A program that calls the engine changes what derives, too: then only what its text writes is named."""
+    text = "import mujoco\n" + inspect.getsource(control)
+    source = tmp_path / "simulation.py"
+    source.write_text(text)
+    names = {}
+    exec(compile(text, str(source), "exec"), names)
+    model = world().compile()
+    data = mujoco.MjData(model)
+    data.qpos[2] = 0.1
+    ports = Ports(model, ROWS)
+    mujoco.mj_step1(model, data)
+    voice = Local(model, data, ports, names[control.__name__])
+    for _ in range(50):
+        voice.ask()
+        voice.hear()
+        mujoco.mj_step(model, data)
+        mujoco.mj_step1(model, data)
+    assert voice.strays == [f"data.{name}" for name in dict.fromkeys(n.removeprefix("data.") for n in voice.strays)]
+    assert {name.removeprefix("data.") for name in voice.strays} == told

@@ -36,6 +36,7 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
     run, plan = str(world), str(world / "plan.md")
     key = Run(world).evidence_key(environment.current().sha256()).key
     copied = Run(copy)
+    (copy / "pebble.py").write_text("from worldkit import sculpt\n\npebble = sculpt.sphere(0.05)\n", encoding="utf-8")
     return {
         "retrieve": {
             "search": {"question": "how does restitution follow from solref", "k": 3},
@@ -66,7 +67,9 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "start": {"run": run, "stage": "physics"},
             "wait": {"run": run},
             "status": {"run": run},
+            "look": {"run": run, "at": 0.1},
             "frames": {"run": run, "count": 2},
+            "sheet": {"thing": str(copied.folder / "pebble.py")},
             "log": {"run": run},
             "cancel": {"run": run},
         },

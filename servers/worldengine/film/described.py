@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.errors import ProgramError
 from worldkit.filming.drawn_only import SHAPES
 from worldkit.filming.telling import ARRAYS, DESCRIPTION
+from worldkit.scene import GROUND
 
 from . import ground_skins
 from .treatment import LIMITS, Treatments
@@ -171,6 +172,8 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
             raise _refuse(
                 f"a look is given to {name!r}, which is no body and no geom of the world", "name one that it has"
             )
+    if told.get("ground") is not None and GROUND in geoms:
+        looks.setdefault(GROUND, _look(told["ground"], arrays))
     share, samples = float(told["shutter"]), int(told["samples"])
     if not (0 <= share <= 1 and 1 <= samples <= 32):
         raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")

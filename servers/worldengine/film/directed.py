@@ -32,6 +32,7 @@ class Screening:
         film: the description of the film.
         size: of the picture, pixels.
         fps: frames per second of the film.
+        renderer: the wanted one, in place of that of `WORLDKIT_RENDERER`.
     """
 
     def __init__(
@@ -42,6 +43,7 @@ class Screening:
         film: Described,
         size: tuple[int, int],
         fps: int,
+        renderer: str = "",
     ) -> None:
         import numpy as np
 
@@ -65,7 +67,7 @@ class Screening:
             bool(shot["first"] and shown[shot["first"]] < shown[: shot["first"]].max() - 1.5 / fps)
             for shot in film.shots
         ]
-        self.frames = Frames(self.model, *size)
+        self.frames = Frames(self.model, *size, renderer)
 
     def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame, words and all: uint8 (height, width, 3)."""
@@ -76,6 +78,8 @@ class Screening:
             image = self._moment(float(frame), quality)
         else:
             total: Any = 0.0
+            if isinstance(quality, int):
+                quality = max(1, round(quality / samples))
             for sample in range(samples):
                 drawn = self._moment(frame + film.shutter * sample / samples, quality)
                 total = total + (drawn.astype(np.float32) / 255) ** 2.2

@@ -20,16 +20,21 @@ class Frames:
     always give the same picture. Where a renderer's packages are missing, or the driver cannot do what it asks, the usual
     one takes over, and MuJoCo's own where that cannot either; `renderer` and `reason` say so.
 
+    Args:
+        model: the model to draw.
+        width, height: pixels.
+        renderer: the wanted one, in place of that of `WORLDKIT_RENDERER`.
+
     Raises:
-        SeamError: no renderer has the name in `WORLDKIT_RENDERER`.
+        SeamError: no renderer has this name.
         ValueError: the size is less than 8 x 8 pixels.
     """
 
-    def __init__(self, model: "mujoco.MjModel", width: int, height: int) -> None:
+    def __init__(self, model: "mujoco.MjModel", width: int, height: int, renderer: str = "") -> None:
         if width < 8 or height < 8:
             raise ValueError(f"a picture needs at least 8 x 8 pixels, got {width} x {height}")
         self.model, self.width, self.height = model, width, height
-        self.wanted = self.renderer = renderers.wanted()
+        self.wanted = self.renderer = renderer or renderers.wanted()
         """The wanted renderer, and the one that draws."""
         self.reason = ""
         """Why a plainer renderer draws in place of the wanted one."""
@@ -69,8 +74,8 @@ class Frames:
         `data` needs positions and cameras up to date (`mj_kinematics`, `mj_comPos`, `mj_camlight`, or `mj_forward`).
         Raises ValueError when there is no such camera, or quality.
         """
-        if quality not in ("still", "video"):
-            raise ValueError(f"quality is 'still' or 'video', not {quality!r}")
+        if quality not in ("still", "video") and not (isinstance(quality, int) and quality > 0):
+            raise ValueError(f"quality is 'still', 'video' or a number of samples, not {quality!r}")
         index, drawing = _camera_index(self.model, camera), self._open
         try:
             return drawing.image(data, index, quality)

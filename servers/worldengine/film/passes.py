@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 FILM = "film"
 """Name of the file of an author's film, beside those of the plan's cameras."""
+FREE = "free"
+"""Name of a camera that is not planned."""
 Ticker = Callable[[int, int], object]
 """It is called with the frames done and the frames in all."""
 
@@ -237,26 +239,39 @@ def frame(
     given: "Given",
     options: argparse.Namespace,
 ) -> dict[str, Any]:
-    """Draw `frame.png`: the moment `options.at`, s, of the film, or of the recording through a camera of the plan."""
+    """Draw `frame.png` with its `reading`: the moment `options.at`, s, of the film, or of the recording.
+
+    The recording is seen through a camera of the plan, or from `options.eye` to `options.target`.
+    """
     from worldkit import cameras
 
     from .drawn_frames import Frames
+    from .light_meter import reading
 
     size = options.size or given.size
-    if film is not None and not options.cameras:
+    if film is not None and not options.cameras and options.eye is None:
         from .directed import Screening
 
         number = min(max(round(options.at * given.fps), 0), film.frames - 1)
         with Screening(given.world, model, recording, film, size, given.fps) as screening:
             screening.picture(number)  # the first one also sets the stage, which takes longer
             started = time.perf_counter()
-            write_png(options.out / "frame.png", screening.picture(number))
+            image = screening.picture(number)
+            write_png(options.out / "frame.png", image)
             larger = math.prod(given.size) / math.prod(size)
             cost = (time.perf_counter() - started) * larger**0.5  # corners do not become more with the pixels
             said = screening.frames.told()
+            read = reading(screening.model, image, screening.segmentation(), given.movers)
         shown = {"film_s": number / given.fps, "recorded_s": float(film.arrays["time"][number])}
         shown |= {"frames": film.frames, "frame_s": round(cost, 3)}
-        return {"cameras": [FILM], "size": list(size), "renderer": said, **shown, "film": film.told(given.fps)}
+        return {
+            "cameras": [FILM],
+            "size": list(size),
+            "renderer": said,
+            **shown,
+            "film": film.told(given.fps),
+            "reading": read,
+        }
     name = choose_cameras(model, options.cameras)[0]
     replay = Replay(model, recording)
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
@@ -264,9 +279,24 @@ def frame(
     with Frames(model, *size) as frames:
         data = replay.show(row)
         cameras.track(model, data)
-        write_png(options.out / "frame.png", frames.image(data, name, quality="video"))
-        said = frames.told()
-    return {"cameras": [name], "size": list(size), "renderer": said, "recorded_s": float(recording.time[row])}
+        if options.eye is not None:
+            free(model, data, name, options)
+        image = frames.image(data, name, quality="video")
+        write_png(options.out / "frame.png", image)
+        said, read = frames.told(), reading(model, image, frames.segmentation(data, name), given.movers)
+    seen_by = name if options.eye is None else FREE
+    at = float(recording.time[row] - recording.time[0])
+    return {"cameras": [seen_by], "size": list(size), "renderer": said, "recorded_s": at, "reading": read}
+
+
+def free(model: "mujoco.MjModel", data: "mujoco.MjData", name: str, options: argparse.Namespace) -> None:
+    """Let a camera of the model stand at `options.eye`, look at `options.target`, and see `options.fovy` degrees of height."""
+    from .directed import axes
+
+    index = model.camera(name).id
+    data.cam_xpos[index] = options.eye
+    data.cam_xmat[index] = axes(options.eye, options.target, 0.0).ravel()
+    model.cam_fovy[index] = options.fovy
 
 
 def choose_cameras(model: "mujoco.MjModel", wanted: Sequence[str]) -> list[str]:

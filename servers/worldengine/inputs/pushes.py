@@ -5,12 +5,13 @@ exactly the kinetic energy that it hands to a body of constant mass. So a step's
 happens, one copy of a few numbers each, and everything is worked out later for a thousand steps at once.
 """
 
-from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from worldkit.mirror import Mirror
 from worldkit.naming import names
 
+from ..recording.coded_words import Words
 from ..recording.columns import VALUES
 from ..recording.describing import actuator_columns, pulled_bodies
 from .force_outputs import outputs
@@ -25,6 +26,8 @@ ROWS = 1024
 MOST_BYTES = 4 << 20
 FREE, BALL, SLIDE, HINGE = range(4)
 """mjtJoint."""
+WRENCH = {"force": slice(0, 3), "torque": slice(3, 6)}
+"""Parts of a row's values, by its kind."""
 Columns = dict[str, Any]
 """Columns of the interventions table, by name."""
 
@@ -133,6 +136,7 @@ class _Book:
         dofs = np.array(ports.entries.get("qfrc_applied", ()), np.intp)
         self._joints = np.unique(model.dof_jntid[dofs]) if len(dofs) else np.zeros(0, np.intp)
         self._dofs = {int(j): _dofs(model, int(j)) for j in self._joints}
+        self._by_kind = _alike(model.jnt_type[self._joints])
         pulled, columns = pulled_bodies(model)["actuator"], actuator_columns(model)[0]
         output = outputs(model)
         self._actuators = [  # an actuator that moves one body's joint is called `body/actuator`
@@ -195,21 +199,22 @@ class _Book:
         parts += [*self._external(pushed, begin, end, step), *self._generalised(pushed, begin, end, step)]
         at = np.concatenate([np.zeros(0, np.intp), *(part[0] for part in parts)])
         order = np.argsort(at, kind="stable")
-        kinds = np.repeat([part[1] for part in parts], [len(part[0]) for part in parts]) if parts else at.astype(str)
-        called = np.repeat([part[2] for part in parts], [len(part[0]) for part in parts]) if parts else kinds
+        counts = np.array([len(part[0]) for part in parts], np.intp)
+        kinds = Words(np.repeat(np.arange(len(parts), dtype=np.int32), counts), [part[1] for part in parts])
+        called = Words.joined([part[2] for part in parts])
         values = np.concatenate([np.zeros((0, VALUES)), *(part[3] for part in parts)])
         works = np.concatenate([np.zeros(0), *(part[4] for part in parts)])
         return {
             "time": time[at][order],
-            "kind": kinds[order].tolist(),
-            "target": called[order].tolist(),
+            "kind": kinds.taken(order),
+            "target": called.taken(order),
             "value": values[order],
             "work_j": works[order],
         }
 
     def _controlled(
         self, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any, step: Any
-    ) -> "Iterator[tuple[Any, str, str, Any, Any]]":
+    ) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
         """(steps, kind, target, values, works) of each actuator, while its control is not zero or changes."""
         import numpy as np
 
@@ -217,26 +222,19 @@ class _Book:
         former = np.concatenate([before[None], value[:-1]])
         works = exerted * (begin[:, speed] + end[:, speed]) / 2 * step[:, None]
         told = (value != 0) | (value != former)
-        for c, target in enumerate(self._actuators):
-            at = np.flatnonzero(told[:, c])
-            values = np.zeros((len(at), VALUES))
-            values[:, 0], values[:, 1] = value[at, c], exerted[at, c]
-            yield at, "control", target, values, works[at, c]
+        yield _told("control", self._actuators, told, np.stack([value, exerted], axis=2), slice(0, 2), works)
 
-    def _external(self, pushed: Any, begin: Any, end: Any, step: Any) -> "Iterator[tuple[Any, str, str, Any, Any]]":
+    def _external(self, pushed: Any, begin: Any, end: Any, step: Any) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
         """Forces (N) and torques (N·m) on bodies, at their centres of mass, world frame."""
-        import numpy as np
 
         wrench = pushed[:, self._parts["xfrc"]].reshape(len(step), -1, 6)
         if not wrench.any():
             return
         motion = (self._twist(begin) + self._twist(end)) / 2
-        for b, target in enumerate(self._called):
-            for kind, part in (("force", slice(0, 3)), ("torque", slice(3, 6))):
-                at = np.flatnonzero(wrench[:, b, part].any(axis=1))
-                values = np.zeros((len(at), VALUES))
-                values[:, part] = wrench[at, b, part]
-                yield at, kind, target, values, (values * motion[at, b]).sum(axis=1) * step[at]
+        for kind, part in WRENCH.items():
+            vector = wrench[..., part]
+            works = (vector * motion[..., part]).sum(axis=2) * step[:, None]
+            yield _told(kind, self._called, vector.any(axis=2), vector, part, works)
 
     def _twist(self, speeds: Any) -> Any:
         """(S, B, 6) m/s and rad/s: velocity of the bodies' centres of mass and angular velocity, world frame."""
@@ -247,7 +245,9 @@ class _Book:
         spin = velocity[..., :3]
         return np.concatenate([velocity[..., 3:] + np.cross(spin, arm), spin], axis=2)
 
-    def _generalised(self, pushed: Any, begin: Any, end: Any, step: Any) -> "Iterator[tuple[Any, str, str, Any, Any]]":
+    def _generalised(
+        self, pushed: Any, begin: Any, end: Any, step: Any
+    ) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
         """Forces on joints, as force (N) or torque (N·m) on the bodies that own them, world frame."""
         import numpy as np
 
@@ -258,26 +258,60 @@ class _Book:
         power = force * (begin[:, self._parts["qvel"]] + end[:, self._parts["qvel"]]) / 2
         turned = begin[:, self._parts["turned"]].reshape(len(step), -1, 3, 3)
         axis = begin[:, self._parts["axis"]].reshape(len(step), -1, 3)
-        first = 0
-        for j, (joint, target) in enumerate(zip(self._joints.tolist(), self._owners, strict=True)):
-            kind = int(self._model.jnt_type[joint])
-            width = {FREE: 6, BALL: 3}.get(kind, 1)
-            mine = slice(first, first + width)
-            first += width
-            pieces: list[tuple[str, slice, Any]]
+        for kind, mine in self._by_kind.items():
+            owners = [self._owners[j] for j in mine.joints]
+
+            def told(word: str, dofs: Any, vector: Any, owners: list[str] = owners) -> Any:
+                works = power[:, dofs].sum(axis=2) * step[:, None]
+                return _told(word, owners, vector.any(axis=2), vector, WRENCH[word], works)
+
             if kind == FREE:
-                last = slice(mine.start + 3, mine.stop)
-                pieces = [("force", slice(mine.start, mine.start + 3), force[:, mine.start : mine.start + 3])]
-                pieces.append(("torque", last, np.einsum("sij,sj->si", turned[:, j], force[:, last])))
-            elif kind == BALL:
-                pieces = [("torque", mine, np.einsum("sij,sj->si", turned[:, j], force[:, mine]))]
+                yield told("force", mine.dofs[:, :3], force[:, mine.dofs[:, :3]])
+            if kind in (FREE, BALL):
+                own = force[:, mine.dofs[:, -3:]]
+                yield told("torque", mine.dofs[:, -3:], np.einsum("sjkl,sjl->sjk", turned[:, mine.joints], own))
             else:
-                pieces = [("torque" if kind == HINGE else "force", mine, axis[:, j] * force[:, mine])]
-            for word, dofs, vector in pieces:
-                at = np.flatnonzero(vector.any(axis=1))
-                values = np.zeros((len(at), VALUES))
-                values[:, slice(0, 3) if word == "force" else slice(3, 6)] = vector[at]
-                yield at, word, target, values, power[at, dofs].sum(axis=1) * step[at]
+                vector = axis[:, mine.joints] * force[:, mine.dofs]
+                yield told("torque" if kind == HINGE else "force", mine.dofs, vector)
+
+
+class _Alike(NamedTuple):
+    """Joints of one kind: their places among the pushed ones, and of their forces, (J,) and (J, dofs)."""
+
+    joints: Any
+    dofs: Any
+
+
+def _alike(kinds: Any) -> dict[int, _Alike]:
+    """The joints by their kind, for joints of these kinds whose forces lie one after the other."""
+    import numpy as np
+
+    width = np.array([{FREE: 6, BALL: 3}.get(int(kind), 1) for kind in kinds], np.intp)
+    first = np.cumsum(width) - width
+    found = {}
+    for kind in dict.fromkeys(int(kind) for kind in kinds):
+        mine = np.flatnonzero(kinds == kind)
+        found[kind] = _Alike(mine, first[mine][:, None] + np.arange(width[mine[0]]))
+    return found
+
+
+def _told(kind: str, targets: Sequence[str], acts: Any, vectors: Any, part: slice, works: Any) -> Any:
+    """(steps, kind, targets, values, works) of the rows of one kind.
+
+    Args:
+        kind: of the rows.
+        targets: names of B bodies or actuators.
+        acts: (S, B) whether there is a row.
+        vectors: (S, B, …) their numbers, which become this `part` of the values.
+        part: of the values.
+        works: (S, B) J.
+    """
+    import numpy as np
+
+    at, which = np.nonzero(acts)
+    values = np.zeros((len(at), VALUES))
+    values[:, part] = vectors[at, which]
+    return at, kind, Words(which.astype(np.int32), targets), values, works[at, which]
 
 
 def twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndarray":

@@ -25,6 +25,7 @@ from worldkit.files import write_json
 
 from . import derive
 from .batch import PLAIN, Batch
+from .coded_words import Words
 from .columns import SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
 
 if TYPE_CHECKING:
@@ -98,7 +99,7 @@ class Recorder:
             {"schema": SCHEMA_VERSION, **meta, "columns": {"state": as_meta(self.columns), **tables}},
         )
         self._streams = {
-            name: _Stream(self._folder / f"{name}.arrows", columns)
+            name: _Stream(self._folder / f"{name}.arrows", columns, packed=name != "state")
             for name, columns in {"state": self.columns, **TABLES}.items()
         }
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
@@ -226,17 +227,20 @@ class Recorder:
         """Write rows of a table in the order of their times (or steps), in whatever order they were noted."""
         import numpy as np
 
-        names = [column.name for column in TABLES[table]]
-        columns = parts[0]
+        columns: dict[str, Any] = {}
+        for column in TABLES[table]:
+            found = [part[column.name] for part in parts]
+            if column.dtype == "string":
+                columns[column.name] = Words.joined([f if isinstance(f, Words) else Words.of(f) for f in found])
+            else:
+                arrays = [np.asarray(f, column.dtype).reshape(-1, *column.shape) for f in found]
+                columns[column.name] = arrays[0] if len(arrays) == 1 else np.concatenate(arrays)
         if len(parts) > 1:
-            order = np.argsort(np.concatenate([part[names[0]] for part in parts]), kind="stable")
-            columns = {}
-            for name in names:
-                whole = [value for part in parts for value in part[name]]
-                columns[name] = [whole[i] for i in order]
+            order = np.argsort(columns[TABLES[table][0].name], kind="stable")
+            columns = {n: c.taken(order) if isinstance(c, Words) else c[order] for n, c in columns.items()}
         if table == "interventions":
-            for kind in columns["kind"]:
-                self.counts[kind] = self.counts.get(kind, 0) + 1
+            for kind, count in columns["kind"].counts().items():
+                self.counts[kind] = self.counts.get(kind, 0) + count
         self._streams[table].write(columns)
 
     def _columns(self, batch: Batch) -> "dict[str, np.ndarray]":
@@ -296,15 +300,20 @@ class Recorder:
 
 
 class _Stream:
-    """One Arrow IPC stream file: each batch reaches the operating system in one go."""
+    """One Arrow IPC stream file: each batch reaches the operating system in one go.
 
-    def __init__(self, path: Path, columns: tuple[Column, ...]) -> None:
+    Tables are packed, as their rows repeat each other: what pushes hundreds of bodies takes a third of the room, in no more
+    time. The state is not: it is read from the disk as it lies there.
+    """
+
+    def __init__(self, path: Path, columns: tuple[Column, ...], packed: bool) -> None:
         import pyarrow as pa
 
         self._columns = columns
         self._schema = arrow_schema(columns)
         self._sink = pa.OSFile(str(path), "wb")
-        self._writer = pa.ipc.new_stream(self._sink, self._schema)
+        options = pa.ipc.IpcWriteOptions(compression="zstd" if packed else None)
+        self._writer = pa.ipc.new_stream(self._sink, self._schema, options=options)
 
     def write(self, values: dict[str, Any]) -> None:
         """Append one record batch."""
@@ -315,7 +324,7 @@ class _Stream:
         for column, field in zip(self._columns, self._schema, strict=True):
             value = values[column.name]
             if column.dtype == "string":
-                arrays.append(pa.array(value, pa.string()))
+                arrays.append(value.arrow() if isinstance(value, Words) else pa.array(value, pa.string()))
                 continue
             flat = pa.array(np.asarray(value, column.dtype).reshape(-1))
             arrays.append(pa.FixedSizeListArray.from_arrays(flat, type=field.type) if column.shape else flat)

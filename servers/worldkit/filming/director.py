@@ -1,19 +1,17 @@
 """`Film`: what is shown, from where, how fast, in what light, with what around it. A description, drawn by another process."""
 
 import sys
-from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 
 from ..errors import ProgramError
-from . import trees, viewpoints
-from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, look_facts
+from . import sets, viewpoints
+from .drawn_only import look_facts
+from .dressing import Dressing
 from .frame_by_frame import grown, sampled
-from .ground import Height
 from .recorded import Recorded
 from .viewpoints import Viewpoint
-from .weather import Weather
 
 MOST_FRAMES = 20_000
 SLOWEST, FASTEST = 1 / 200, 50.0
@@ -21,7 +19,7 @@ PLACES = ("bottom", "top", "title", "left")
 Speed = float | tuple[float, float]
 
 
-class Film(Weather):
+class Film(Dressing):
     """A film in the making; `recorded` is what happened.
 
     Shots follow each other; what is not said has good defaults: without any shot the film tells the event by itself, without
@@ -29,17 +27,13 @@ class Film(Weather):
     """
 
     def __init__(self, recorded: Recorded) -> None:
-        super().__init__()
-        self.recorded = recorded
+        super().__init__(recorded)
         self.now = 0.0
         """Film time at which the next shot begins, s."""
         self.reached = 0.0
         """Recorded time that the last shot ended at, s."""
         self._shots: list[dict[str, Any]] = []
         self._captions: list[dict[str, Any]] = []
-        self._things: list[Thing] = []
-        self._grown: list[tuple[Thing, Callable[[np.ndarray], Any]]] = []
-        self._looks: dict[str, str | Surface] = {}
         self._shutter, self._samples = 0.0, 1
         self.line = 1
         """Line of film.py that what is being described comes from."""
@@ -143,169 +137,16 @@ class Film(Weather):
             raise ProgramError("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples", "film.py", "shutter(0.5)")
         self._shutter, self._samples = float(share), int(samples)
 
-    # -- what is drawn only --------------------------------------------------------------------------------------------
+    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1) -> None:
+        """Surroundings in one line: `film.set("meadow")`, drawn only, with light, sky and air that suit them.
 
-    def draw(
-        self,
-        name: str,
-        shape: str,
-        size: Vec3 | float,
-        *,
-        pos: Vec3 = (0.0, 0.0, 0.0),
-        yaw_deg: float = 0.0,
-        quat: tuple[float, float, float, float] | None = None,
-        look: str | Surface = "plastic_grey",
-        to: str = "",
-    ) -> None:
-        """Draw a thing that is not simulated: a box, sphere, cylinder, capsule or ellipsoid of full extents `size` (m).
-
-        It stands in the world, or is fixed `to` a body, in whose frame `pos` (m) and the turn are then. `look` is a name of
-        `worldkit.materials`, `#rrggbb`, or a `Surface`.
-        """
-        if shape not in SHAPES or shape == "mesh":
-            raise ProgramError(f"there is no shape {shape!r}", "film.py", f"use one of: {', '.join(SHAPES[:-1])}")
-        extents = tuple(float(v) for v in (size if isinstance(size, (tuple, list)) else (size,) * 3))
-        self._add(Thing(name, shape, extents, look, pos, quat or _yaw(yaw_deg), to))  # type: ignore[arg-type]
-
-    def mesh(
-        self,
-        name: str,
-        vertices: np.ndarray,
-        faces: np.ndarray,
-        *,
-        uv: np.ndarray | None = None,
-        pos: Vec3 = (0.0, 0.0, 0.0),
-        yaw_deg: float = 0.0,
-        look: str | Surface = "plastic_grey",
-        to: str = "",
-        instead: bool = False,
-    ) -> None:
-        """Draw a mesh that is not simulated: `vertices` (V, 3) in metres, `faces` (F, 3), `uv` (V, 2) for its picture.
-
-        With `instead` it is a skin: drawn in place of the shapes of the body `to`, in the body's frame, and of its size. The
-        ground may have one, too: `film.recorded.into("hill", points)` brings points of the world into the hill's frame, and
-        the statement says how far the drawn surface is from the simulated one at most.
-        """
-        points, triangles = np.asarray(vertices, dtype=float), np.asarray(faces, dtype=int)
-        good = points.ndim == 2 and points.shape[1] == 3 and triangles.ndim == 2 and triangles.shape[1] == 3
-        if not good or not np.isfinite(points).all() or triangles.min() < 0 or triangles.max() >= len(points):
-            raise ProgramError(f"the mesh {name!r} is no (V, 3) vertices and (F, 3) faces among them", "film.py", "")
-        if uv is not None and np.shape(uv) != (len(points), 2):
-            raise ProgramError(f"the uv of {name!r} must be ({len(points)}, 2)", "film.py", "one for each vertex")
-        if instead and not to:
-            raise ProgramError(f"the skin {name!r} belongs to no body", "film.py", "name it: to='…'")
-        self._add(Thing(name, "mesh", (1, 1, 1), look, pos, _yaw(yaw_deg), to, instead, points, triangles, uv))
-
-    def grass(
-        self,
-        name: str = "grass",
-        *,
-        area: tuple[float, float, float, float],
-        height: float = 0.12,
-        count: int = 6000,
-        look: str | Surface = "#5f7a35",
-        clear_of: Sequence[tuple[float, float, float]] = (),
-        z: float | str | Height | None = None,
-        seed: int = 1,
-    ) -> None:
-        """Blades of grass in an area (x0, y0, x1, y1), m, but for the discs (x, y, radius) of `clear_of`.
-
-        They stand on the ground, or at `z`: a height, m; a body that stands still, such as a hill, on whose height field, mesh
-        or box they stand (`film.recorded.surface`); or a function z(x, y) of arrays, NaN where nothing grows. A blade costs
-        three triangles: 60000, the most of one call, cost 180000 of the 3 million that a film may draw in one mesh.
-        """
-        if not 1 <= count <= 60_000:
-            raise ProgramError(f"grass has 1 to 60000 blades, got {count}", "film.py", "cover less of the ground")
-        points, faces = blades(area, height, count, self._ground(z), clear_of, seed)
-        if not len(points):
-            raise ProgramError(
-                f"no blade of {name!r} stands on the ground that it is given", "film.py", "move its area"
-            )
-        self._add(Thing(name, "mesh", (1, 1, 1), look, (0, 0, 0), (1, 0, 0, 0), vertices=points, faces=faces))
-
-    def tree(
-        self,
-        name: str,
-        kind: str = "broadleaf",
-        *,
-        at: Sequence[tuple[float, float]],
-        height: float = 8.0,
-        z: float | str | Height | None = None,
-        leaves: str | Surface = "",
-        bark: str | Surface = "#5b4a3a",
-        seed: int = 1,
-    ) -> None:
-        """Trees that are drawn only: a `conifer` or a `broadleaf` at each of some places (x, y), m, about `height` m high.
-
-        They stand on the ground or on `z` as `grass` does; each differs from the others, and is the same at every drawing of
-        one `seed`. A tree costs at most 6000 triangles: a wood of 100 far away is 600000, the most of one call.
+        `facing_deg` is the side from which the camera looks (an azimuth; `wide()` looks from -57) and which is kept free;
+        another `seed` makes another of the same kind. What is said afterwards (light, mood, grade) changes it.
 
         Raises:
-            ProgramError: there is no such kind, there are none or more than 100 places, or one of them is beside the ground.
+            ProgramError: there is no such set, or what happens is too large for it.
         """
-        if kind not in trees.KINDS or not 1 <= len(at) <= 100 or not height > 0:
-            raise ProgramError(
-                f"1 to 100 trees of {' or '.join(trees.KINDS)}, got {len(at)} of {kind!r}",
-                "film.py",
-                "name one of them",
-            )
-        places = np.asarray(at, dtype=float).reshape(-1, 2)
-        levels = np.asarray(self._ground(z)(places[:, 0], places[:, 1]), dtype=float)
-        if not np.isfinite(levels).all():
-            where = places[~np.isfinite(levels)][0].tolist()
-            raise ProgramError(f"a tree of {name!r} at {where} stands beside its ground", "film.py", "move it")
-        random = np.random.default_rng(seed)
-        parts: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {"wood": [], "leaves": []}
-        for place, level in zip(places, levels, strict=True):
-            one = trees.tree(kind, height * random.uniform(0.8, 1.1), int(random.integers(1 << 30)))
-            foot = np.array([*place, level - 0.02])
-            parts["wood"].append((one.wood + foot, one.wood_faces))
-            parts["leaves"].append((one.leaves + foot, one.leaf_faces))
-        green = leaves or {"conifer": "#2f4a2c", "broadleaf": "#557a32"}[kind]
-        for part, look in (("wood", bark), ("leaves", green)):
-            starts = np.cumsum([0, *(len(points) for points, _ in parts[part])])
-            faces = np.concatenate([f + s for (_, f), s in zip(parts[part], starts, strict=False)])
-            points = np.concatenate([points for points, _ in parts[part]])
-            title = name if part == "wood" else f"{name} ({part})"
-            self._add(Thing(title, "mesh", (1, 1, 1), look, (0, 0, 0), (1, 0, 0, 0), vertices=points, faces=faces))
-
-    def _ground(self, z: float | str | Height | None) -> Height:
-        """What things stand on, as a height over x and y."""
-        if isinstance(z, str):
-            return self.recorded.surface(z)
-        if callable(z):
-            return z
-        level = self.recorded.floor_z if z is None else float(z)
-        return lambda x, _y: np.full(np.shape(x), level)
-
-    def particles(
-        self,
-        name: str,
-        at: Callable[[np.ndarray], Any],
-        *,
-        look: str | Surface = "#ffffff",
-        diameter: float = 0.02,
-    ) -> None:
-        """Small balls that are not simulated: `at(times)` gives for recorded times (F,) their places (F, P, 3), m.
-
-        It may give a pair: places, and diameters (F, P) in metres, where 0 is not drawn. Asked once, when the film is whole.
-        """
-        self._add(Thing(name, "sphere", (diameter,) * 3, look, (0, 0, 0), (1, 0, 0, 0)))
-        self._grown.append((self._things.pop(), at))
-
-    def look(self, name: str, look: str | Surface) -> None:
-        """Another look for a body, or for one geom, through the whole film; it is listed in the report."""
-        known(look)
-        self._looks[name] = look
-
-    def _add(self, thing: Thing) -> None:
-        known(thing.look)
-        taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
-        if not thing.name or len(thing.name) > 60 or thing.name in taken:
-            raise ProgramError(f"what is drawn needs a name of its own, not {thing.name!r}", "film.py", "name it anew")
-        if thing.to:
-            self.recorded.index(thing.to)
-        self._things.append(thing)
+        sets.build(self, name, facing_deg, seed)
 
     # -- the description -----------------------------------------------------------------------------------------------
 
@@ -332,6 +173,7 @@ class Film(Weather):
             "schema": 1, "shots": shots, "captions": self._captions, "air": self._air,
             "things": [thing.facts(arrays, number) for number, thing in enumerate(things)],
             "looks": {name: look_facts(look, arrays, f"look_{n}") for n, (name, look) in enumerate(self._looks.items())},
+            "ground": None if self._ground_look is None else look_facts(self._ground_look, arrays, "look_ground"),
             "shutter": self._shutter, "samples": self._samples,
         }  # fmt: skip
         return facts, arrays
@@ -343,8 +185,3 @@ def _line() -> int:
     while frame is not None and not frame.f_code.co_filename.endswith("film.py"):
         frame = frame.f_back
     return int(frame.f_lineno) if frame is not None else 1
-
-
-def _yaw(yaw_deg: float) -> tuple[float, float, float, float]:
-    half = np.radians(yaw_deg) / 2
-    return (float(np.cos(half)), 0.0, 0.0, float(np.sin(half)))

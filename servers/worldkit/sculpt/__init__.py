@@ -12,7 +12,7 @@ it. `worldwright sculpt sheet FILE.py` draws it from four sides. See `skills/scu
 from . import brushes, crisp
 from .copied import linear, radial, repeat
 from .deformed import bend, noise, rough, twist
-from .figure import Part, add, assemble
+from .figure import Part, add, assemble, dress
 from .minting import Made, made
 from .primitives import box, capsule, cylinder, ellipsoid, half_space, round_cone, sphere, torus
 from .profiles import extruded, revolved
@@ -20,7 +20,7 @@ from .signed import Shape, difference, intersection, union
 from .tubing import strap, tube
 
 __all__ = [
-    "Made", "Part", "Shape", "add", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference",
+    "Made", "Part", "Shape", "add", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference", "dress",
     "ellipsoid", "extruded", "half_space", "intersection", "linear", "made", "noise", "radial", "repeat", "revolved", "rough",
     "round_cone", "sphere", "strap", "torus", "tube", "twist", "union",
 ]  # fmt: skip

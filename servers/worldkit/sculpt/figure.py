@@ -104,6 +104,47 @@ def add(
     return body
 
 
+def dress(
+    spec: "mujoco.MjSpec",
+    name: str,
+    shape: "Shape | Solid",
+    *,
+    pos: Vec3 = (0.0, 0.0, 0.0),
+    paint: "Paint | None" = None,
+    look: str | None = None,
+    roughness: float = 0.6,
+    metallic: float = 0.0,
+    **make: Any,
+) -> None:
+    """Draw a sculpted skin in place of a body's own geoms, which go on to collide and weigh, unseen.
+
+    So a plan owns a body of primitives (`worldkit.bodies.compound`), and the program what it looks like.
+
+    Args:
+        spec: the world under construction.
+        name: of the body, which is there already.
+        shape: from `worldkit.sculpt`.
+        pos: where the centre of the box around the shape lies in the body's frame, m.
+        paint: as of `add`, with `look`, `roughness`, `metallic` and `make`.
+        look: see `paint`.
+        roughness: see `paint`.
+        metallic: see `paint`.
+        make: see `paint`.
+
+    Raises:
+        ValueError: there is no such body, or what `made` refuses.
+    """
+    body = spec.body(name)
+    if body is None:
+        known = ", ".join(b.name for b in spec.bodies if b.name != "world")
+        raise ValueError(f"there is no body {name!r} to dress; known: {known or 'none'}")
+    solid = made(shape, paint=paint, hulls="convex", **make)
+    for geom in body.geoms:
+        geom.group = COLLIDES["group"]
+    centre = (solid.low + solid.high) / 2 - np.asarray(pos, dtype=float)
+    _draw(spec, body, name, solid, centre, look, roughness, metallic)
+
+
 def assemble(
     spec: "mujoco.MjSpec",
     parts: Sequence[Part],
@@ -178,16 +219,22 @@ def _draw(
 
     from .. import materials
 
+    moved = np.round(centre - (solid.low + solid.high) / 2, 7)
     levels = np.unique(solid.roughness) if len(solid.roughness) else np.array([roughness])
     for number, level in enumerate(levels):
         faces = solid.faces[solid.roughness == level] if len(solid.roughness) else solid.faces
         label = f"{name}/look" if number == 0 else f"{name}/look{number + 1}"
-        mesh = _mesh_file(spec, f"sculpt_{solid.signature[:16]}_{number}", solid, faces, centre)
+        mesh = _mesh_file(spec, f"sculpt_{solid.signature[:16]}_{number}" + _away(moved), solid, faces, centre)
         if len(solid.picture):
             material = _material(spec, solid, float(level), metallic)
         else:
             material = materials.add(spec, look or "plastic_white")
         body.add_geom(name=label, type=mujoco.mjtGeom.mjGEOM_MESH, meshname=mesh, material=material, **DRAWN)
+
+
+def _away(moved: Array) -> str:
+    """The end of a mesh's name that tells where it lies in its body, if not in the middle."""
+    return "" if not moved.any() else "_" + "_".join(f"{v:g}" for v in moved)
 
 
 def _material(spec: "mujoco.MjSpec", solid: Made, roughness: float, metallic: float) -> str:

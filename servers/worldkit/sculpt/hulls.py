@@ -43,7 +43,7 @@ def hulls(
     if wanted not in ("auto", "convex") and not (isinstance(wanted, int) and 1 <= wanted <= 200):
         raise ValueError(f"hulls: 'auto', 'convex', a number from 1 to 200, or shapes; not {wanted!r}")
     whole = corners_of(skin.vertices)
-    if wanted in ("convex", 1) or (wanted == "auto" and volume > CONVEX * _hull_volume(whole)):
+    if wanted in ("convex", 1) or (wanted == "auto" and volume > CONVEX * _hull(whole).volume()):
         return (whole,)
     thin = skin
     if shape is not None:
@@ -80,9 +80,7 @@ def cut(solid: "manifold3d.Manifold", most: int) -> "list[manifold3d.Manifold]":
 
 def corners_of(points: Array) -> Array:
     """The corners (N, 3) of the hull of points, at most 80: those that reach farthest in even directions."""
-    from scipy.spatial import ConvexHull
-
-    hull = points[np.unique(ConvexHull(points, qhull_options="QJ Pp").simplices)]
+    hull = np.asarray(_hull(points).to_mesh64().vert_properties)[:, :3]
     if len(hull) <= CORNERS:
         return hull
     k = np.arange(4 * CORNERS) + 0.5
@@ -117,7 +115,7 @@ def _solid(skin: Skin) -> "manifold3d.Manifold | None":
     return None if solid.is_empty() or not solid.volume() > 0 else solid
 
 
-def _hull_volume(corners: Array) -> float:
-    from scipy.spatial import ConvexHull
+def _hull(points: Array) -> "manifold3d.Manifold":
+    import manifold3d
 
-    return float(ConvexHull(corners, qhull_options="QJ Pp").volume)
+    return manifold3d.Manifold.hull_points(np.ascontiguousarray(points, dtype=float))

@@ -114,6 +114,8 @@ def _made(key: str, shape: Any, cells: int, triangles: int, paint: Any, texels: 
         drawn, skin = shape.drawn(), shape.skin()
     bulk = Form(skin.vertices, skin.faces, (), np.zeros(3))
     collide = pieces(shape if isinstance(shape, Shape) else None, skin, bulk.volume, hulls)
+    if isinstance(hulls, str | int):
+        collide = _boxed_alike(collide, drawn.vertices)
     vertices, normals, faces = drawn.vertices, drawn.normals, drawn.faces
     uv, picture, roughness = np.zeros((0, 2)), np.zeros((0, 0, 3), np.uint8), np.zeros(0)
     if paint is not None:
@@ -122,6 +124,16 @@ def _made(key: str, shape: Any, cells: int, triangles: int, paint: Any, texels: 
         vertices, normals, uv, faces, picture, roughness, collide, bulk.volume, bulk.centre_of_mass, bulk.inertia,
         _bits(skin), key,
     )  # fmt: skip
+
+
+def _boxed_alike(hulls: tuple[Array, ...], drawn: Array) -> tuple[Array, ...]:
+    """Hulls that reach exactly as far along x, y and z as what is drawn: one box holds both."""
+    low, high = drawn.min(axis=0), drawn.max(axis=0)
+    found = [np.clip(corners, low, high) for corners in hulls]
+    for point in drawn[np.concatenate([drawn.argmin(axis=0), drawn.argmax(axis=0)])]:
+        nearest = int(np.argmin([np.linalg.norm(corners - point, axis=1).min() for corners in found]))
+        found[nearest] = np.concatenate([found[nearest], point[None]])
+    return tuple(found)
 
 
 def _painted(drawn: Skin, paint: "Paint", texels: int) -> tuple[Array, Array, Array, Array, Array, Array]:

@@ -2,7 +2,7 @@
 
 import time
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -167,6 +167,13 @@ def acts_as_planned(bundle: Path, plan: Plan) -> list[Finding]:
             file=bundle.name,
         )
     ]
+
+
+def stated_facts(program: Path) -> dict[str, Any]:
+    """What a program says of itself in its call of `program.main`; for other servers, no tool: see `lint.main_call`."""
+    from . import main_call
+
+    return main_call.facts(program)
 
 
 def _read_plan(path: Path):

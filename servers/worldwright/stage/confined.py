@@ -20,6 +20,7 @@ from .sandbox.enter import enter
 TICK_S = 0.02
 MB = 1 << 20
 LOG_BYTES = 20_000
+MOST_MATCHING = 64
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,7 @@ def run(
     Args:
         call: the command line.
         reads: files and folders it may read besides what every program may.
-        wanted: names of the files in that folder that the caller wants to see.
+        wanted: names of the files in that folder that the caller wants to see, or patterns such as `*.jpg`.
         wall_s: the run is killed after so many seconds.
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
@@ -83,8 +84,14 @@ def run(
             wall = time.monotonic() - began
             log.seek(max(0, log.seek(0, os.SEEK_END) - LOG_BYTES))
             tail = log.read().decode(errors="replace")
-        files = {file: data for file in wanted if (data := plain.read(out / file, file_mb * MB)) is not None}
+        names = [name for word in wanted for name in (_matching(out, word) if "*" in word else [word])]
+        files = {file: data for file in names if (data := plain.read(out / file, file_mb * MB)) is not None}
     return Confined(status, code, files, tail, round(wall, 3), name)
+
+
+def _matching(out: Path, pattern: str) -> list[str]:
+    """At most so many names in a folder that fit a pattern, sorted."""
+    return sorted(path.name for path in out.glob(pattern))[:MOST_MATCHING]
 
 
 def _watched(

@@ -1,9 +1,8 @@
 """Decide from the run's files whether a pass may start.
 
 The bundle, the world as one file, needs this exact plan approved, with the model files that it names. Physics also needs this
-exact program linted clean against it;
-a name that the simulator did not know must have been looked up. Storyboard and stills need physics on this key, video
-needs stills.
+exact program linted clean against it; a name that the simulator did not know must have been looked up. Storyboard, stills and
+final film need physics on this key, video needs stills.
 """
 
 import json
@@ -20,7 +19,7 @@ from .sandbox.confinement import gl_backend
 
 PINNED = "environment.lock"
 """A run that holds this file runs in the environment it names, or not at all."""
-BEFORE: dict[PassName, PassName] = {"storyboard": "physics", "stills": "physics", "video": "stills"}
+BEFORE: dict[PassName, PassName] = {"storyboard": "physics", "stills": "physics", "video": "stills", "final": "physics"}
 
 
 def folder_name(stage: PassName, variant: str = "") -> str:

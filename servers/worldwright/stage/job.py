@@ -137,7 +137,7 @@ class Job:
             folder.mkdir(parents=True)
         for path in (run.program, run.source):
             write_atomic(job.inputs / path.name, path.read_bytes())
-        beside = companions.of(run.program) | (pictures_of.files(run) if spec.stage == "video" else {})
+        beside = companions.of(run.program) | (pictures_of.files(run) if spec.stage in pictures_of.AUTHORED else {})
         for name, content in beside.items():
             write_atomic(job.inputs / name, content)
         write_json(job.lock, lock.observe(gl_backend()))

@@ -20,7 +20,7 @@ from ..model.errors import GateError, JobError
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
-from . import bare_models, family, gates
+from . import bare_models, family, gates, refined
 from .job import Job, JobStatus, Spec
 
 STILL_S = 180.0
@@ -65,7 +65,9 @@ def launch(
     """
     with _writable(run), _one_at_a_time(run):
         earlier = gates.passed(run, key, stage, variant)
-        if earlier is not None and tuple(earlier.get("arguments", ())) != tuple(arguments):
+        if earlier is not None and stage == "final" and not (earlier.get("summary") or {}).get("complete"):
+            earlier = None  # more minutes make it better
+        if earlier is not None and stage != "final" and tuple(earlier.get("arguments", ())) != tuple(arguments):
             raise JobError(
                 f"'{stage}@{variant}' stands already, made with {list(earlier.get('arguments', ()))}",
                 code="refused",
@@ -95,10 +97,13 @@ def launch(
                     raise
         reads = tuple(str(path) for path in bare_models.files(run))
         film = pictures_of.identity(run, stage)
-        wanted = (stage, variant, tuple(arguments), key, film)
+        # Whatever its minutes, one final pass at a time goes on with the same frames.
+        told = () if stage == "final" else tuple(arguments)
+        wanted = (stage, variant, told, key, film)
         for other in Job.all(run):
             spec = other.spec
-            if force or (spec.stage, spec.variant, spec.arguments, spec.key, spec.film_sha256) != wanted:
+            theirs = () if stage == "final" else spec.arguments
+            if force or (spec.stage, spec.variant, theirs, spec.key, spec.film_sha256) != wanted:
                 continue
             if not (state := other.read()).ended:
                 return state
@@ -149,6 +154,7 @@ def _tidy(run: Run) -> None:
     for job in Job.all(run):
         if job.scratch.exists() and job.read().ended:
             family.sweep(job.spec.token)
+            refined.put_aside(job)
             shutil.rmtree(job.scratch, ignore_errors=True)
             shutil.rmtree(job.out, ignore_errors=True)
 

@@ -40,20 +40,14 @@ def draw(
         GateError: nothing is recorded of this program and plan.
         JobError: `film.py` does not run, or asks for what may not be shown; the error has its line.
     """
-    physics = run.evidence(key) / "physics"
-    if gates.passed(run, key, "physics") is None:
-        raise GateError(
-            "there is no recording of this program and plan to show",
-            place=str(physics),
-            next_move=f"worldwright stage start {run.folder} --stage physics",
-        )
+    physics = recorded(run, key)
     authored = camera in (None, FILM) and (run.folder / pictures_of.FILM).is_file()
     with tempfile.TemporaryDirectory(prefix="worldwright-frame-") as folder:
         here = Path(folder)
         told = describe(run, physics, here) if authored else None
-        words = ["frame", *_given(physics), "--out", "{out}", "--at", str(at_s), "--size", f"{size[0]}x{size[1]}"]
+        words = ["frame", *given_words(physics), "--out", "{out}", "--at", str(at_s), "--size", f"{size[0]}x{size[1]}"]
         words += ["--film", str(told)] if told else ["--camera", camera] if camera else []
-        found = _run(
+        found = run_process(
             [sys.executable, "-s", "-m", "worldengine", *words],
             (physics, *([told] if told else ())),
             ("frame.png",),
@@ -73,6 +67,18 @@ def draw(
     return Illustrated(Shown(cameras=tuple(said["cameras"]), captions=tuple(lines)), (picture,))
 
 
+def recorded(run: Run, key: EvidenceKey) -> Path:
+    """The evidence of the physics pass; a `GateError` where nothing is recorded."""
+    physics = run.evidence(key) / "physics"
+    if gates.passed(run, key, "physics") is None:
+        raise GateError(
+            "there is no recording of this program and plan to show",
+            place=str(physics),
+            next_move=f"worldwright stage start {run.folder} --stage physics",
+        )
+    return physics
+
+
 def minutes(seconds: float) -> str:
     """A duration as one says it."""
     return f"{seconds / 60:.0f} min" if seconds > 100 else f"{seconds:.0f} s"
@@ -85,21 +91,22 @@ def describe(run: Run, physics: Path, here: Path) -> Path:
         write_atomic(source / name, content)
     authoring.lay_out(physics / "trajectory", physics / "program.json", source / authoring.MOTION)
     call = authoring.call(source / authoring.PROGRAM, source / authoring.MOTION, "{out}")
-    found = _run(call, (source,), (DESCRIPTION, ARRAYS), here)
+    found = run_process(call, (source,), (DESCRIPTION, ARRAYS), here)
     for name in (DESCRIPTION, ARRAYS):
         write_atomic(told / name, found[name])
     return told
 
 
-def _given(physics: Path) -> list[str]:
+def given_words(physics: Path) -> list[str]:
+    """The engine's words for the world, its facts and its recording in the evidence of a physics pass."""
     files = {"world": "world.mjz", "program": "program.json", "inputs": "inputs.json", "from": "trajectory"}
     return [word for name, file in files.items() for word in (f"--{name}", str(physics / file))]
 
 
-def _run(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here: Path) -> dict[str, Any]:
-    """Run one of the two processes; returns what it left, by name, with its `result.json` read."""
+def run_process(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here: Path) -> dict[str, Any]:
+    """Run a process of the author or the engine, confined; returns what it left, by name, with its `result.json` read."""
     ended = confined.run(
-        call, reads=reads, wanted=(*wanted, "result.json", "error.json"), wall_s=40.0, memory_mb=8192, file_mb=512
+        call, reads=reads, wanted=(*wanted, "result.json", "error.json"), wall_s=120.0, memory_mb=8192, file_mb=512
     )
     said = {}
     for name in ("result.json", "error.json"):
@@ -112,7 +119,7 @@ def _run(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here
         failure = failed(
             ended.exit_code, said["result.json"], said["error.json"], "worldwright stage frames RUN --at S"
         )
-    if failure or any(name not in ended.files for name in wanted):
+    if failure or any(name not in ended.files for name in wanted if "*" not in name):
         failure = failure or {"code": "no_result", "message": ended.log[-500:] or "it left nothing"}
         raise JobError(
             failure["message"],
@@ -120,4 +127,4 @@ def _run(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here
             place=failure.get("place", ""),
             next_move=failure.get("next_move", ""),
         )
-    return {**{name: ended.files[name] for name in wanted}, "result.json": said["result.json"]}
+    return {**ended.files, "result.json": said["result.json"]}

@@ -70,7 +70,7 @@ def contact(
             "there is no film yet", place=str(evidence / "video"), next_move="run the video pass, or show stills"
         )
     share = BUDGET_BYTES // len(images)
-    pictures = tuple(Picture(_jpeg(image, share), caption, "jpeg") for caption, image in images)
+    pictures = tuple(Picture(jpeg(image, share), caption, "jpeg") for caption, image in images)
     times = three.named() if three else {}
     return Illustrated(
         Shown(cameras=tuple(cameras), captions=tuple(p.caption for p in pictures), moments=times), pictures
@@ -95,7 +95,7 @@ def beside(reference: Path, evidence: Path, camera: str) -> Illustrated:
     left = cv2.resize(left, (width, right.shape[0]), interpolation=cv2.INTER_AREA)
     gap = np.full((right.shape[0], 8, 3), 255, np.uint8)
     caption = f"{reference.name}, as it was given, beside {camera}: still at 0.00 s"
-    picture = Picture(_jpeg(np.hstack([left, gap, right]), BUDGET_BYTES), caption, "jpeg")
+    picture = Picture(jpeg(np.hstack([left, gap, right]), BUDGET_BYTES), caption, "jpeg")
     return Illustrated(Shown(cameras=(camera,), captions=(caption,)), (picture,))
 
 
@@ -200,7 +200,7 @@ def _read(path: Path) -> Any:
     return cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
 
 
-def _jpeg(image: Any, budget: int) -> bytes:
+def jpeg(image: Any, budget: int) -> bytes:
     """JPEG of at most `budget` bytes: first a lower quality, then a smaller size."""
     import cv2
 

@@ -14,10 +14,10 @@ from worldkit.files import write_json
 from worldkit.filming.telling import ARRAYS, DESCRIPTION
 
 from ..model.errors import WorldwrightError
-from ..model.evidence import assets_used, environment
+from ..model.evidence import assets_used, environment, pictures_of
 from ..model.evidence.run import Run, sha256_file
 from ..model.plan.plan_text import read_plan
-from . import authoring, plain
+from . import authoring, plain, refined
 from .crew import Crew, Member
 from .gates import folder_name
 from .job import Job, Spec
@@ -27,7 +27,7 @@ WORLD, FACTS, INPUTS = "world.mjz", "program.json", "inputs.json"
 """The engine's files: the built world, the program's facts, the plan's declared inputs."""
 DRIVEN = ("inputs.arrows", "edits.arrows")
 """The files of a recording that drove it."""
-PASS = {"physics": "physics", "storyboard": "storyboard", "stills": "still", "video": "video"}
+PASS = {"physics": "physics", "storyboard": "storyboard", "stills": "still", "video": "video", "final": "final"}
 MB = 1 << 20
 FAREWELL_S = 3.0
 """The author's process may take so long to end after the engine has ended, s."""
@@ -159,7 +159,10 @@ class Acting:
         earlier = tuple(map(Path, self.spec.reuse))
         more = [*self.spec.arguments, *(word for path in earlier for word in ("--reuse", str(path)))]
         reads = [recording, *earlier]
-        authored = self.spec.stage == "video" and (self.job.inputs / authoring.PROGRAM).is_file()
+        final = self.spec.stage == "final"
+        authored = self.spec.stage in pictures_of.AUTHORED and (self.job.inputs / authoring.PROGRAM).is_file()
+        if final:
+            refined.carry_over(self.run, self.spec, self.job)
         if authored:
             if failure := self.describe(recording):
                 return Ended(failure)
@@ -168,7 +171,7 @@ class Acting:
         member = self.engine("--from", str(recording), *more, reads=tuple(reads))
         failure = self.ended(member)
         said = plain.read_json(self.job.out / "result.json")
-        if authored and not failure:
+        if authored and not final and not failure:
             said["drawn_by"] = environment.film().sha256
         return Ended(failure, said)
 

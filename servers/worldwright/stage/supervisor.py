@@ -20,7 +20,7 @@ from ..model.errors import GateError, JobError
 from ..model.evidence.reports import PassResult
 from ..model.evidence.run import Run, sha256_file
 from ..model.storage import FULL
-from . import bare_models, plain, sandbox
+from . import bare_models, plain, refined, sandbox
 from .crew import Crew, adopt_orphans
 from .gates import folder_name, require
 from .job import Job, JobStatus, Spec
@@ -117,6 +117,7 @@ class Supervision:
         """Decide how the pass ended, write its result, and move a success into the evidence."""
         out = self.job.out
         failure = ended.failure or self.changed() or self.strange()
+        refined.put_aside(self.job)
         result = PassResult(
             stage=self.spec.stage,
             variant=self.spec.variant,
@@ -208,7 +209,8 @@ class Supervision:
         target = folder / folder_name(self.spec.stage, self.spec.variant)
         write_json(folder / "key.json", self.spec.key.model_dump(mode="json"))
         earlier = plain.read_json(target / "result.json")
-        if not earlier.get("ok") or earlier.get("film_sha256", "") != self.spec.film_sha256:
+        better = self.spec.stage == "final"  # it goes on where the earlier one ended
+        if better or not earlier.get("ok") or earlier.get("film_sha256", "") != self.spec.film_sha256:
             if (
                 target.exists()
             ):  # an interrupted result proves nothing, and pictures of another film prove nothing any more

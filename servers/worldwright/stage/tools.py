@@ -1,23 +1,47 @@
 """The tools of `stage`: start a pass, follow it, look at what it shows."""
 
 import time
-from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from ..expose import Positional, reads
+from ..expose import Also, Positional, reads
 from ..model.errors import NotFoundError
 from ..model.evidence.reports import PASSES, PassName
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
+from .for_servers import (
+    declared_inputs,
+    draw_moment,
+    latest,
+    model_files,
+    read_plain,
+    run_confined,
+    run_variant,
+    simulate_given,
+    start_storyboard,
+    try_film,
+    variant_folder,
+)
 from .job import Job, JobStatus
 
-if TYPE_CHECKING:
-    from .confined import Confined
+__all__ = [
+    "TOOLS",
+    "declared_inputs",
+    "draw_moment",
+    "latest",
+    "model_files",
+    "read_plain",
+    "run_confined",
+    "run_variant",
+    "simulate_given",
+    "start_storyboard",
+    "try_film",
+    "variant_folder",
+]
 
 RunName = Annotated[str, Field(description="The run folder, or its name.")]
 JobName = Annotated[str | None, Field(description="Job id; the latest pass when left out.")]
@@ -102,27 +126,26 @@ def start(
         str | None, Field(description="The run folder; with `model`, where to record it."), Positional()
     ] = None,
     stage: Annotated[
-        PassName,
-        Field(
-            description="bundle (the world as one file; physics makes it, too), physics, then storyboard, stills, video."
-        ),
+        PassName, Field(description="bundle, physics, storyboard, stills, video; final: a traced film."), Also("--pass")
     ] = "physics",
     force: Annotated[bool, Field(description="Run again although it succeeded, and compare.")] = False,
     still_s: Annotated[float, Field(description="Ended when nothing advances for so long.", gt=0)] = 180,
-    memory_mb: Annotated[int, Field(description="Resident memory limit.", ge=64)] = 4096,
+    memory_mb: Annotated[int, Field(description="Resident memory limit (final: 6144 at least).", ge=64)] = 4096,
     cpu_s: Annotated[float | None, Field(description="Limit of processor time.", gt=0)] = None,
     file_mb: Annotated[int, Field(description="Size limit of one file.", ge=1)] = 2048,
     disk_mb: Annotated[int, Field(description="Size limit of all it writes.", ge=1)] = 8192,
     model: Annotated[Path | None, Field(description="An MJCF file to record without any plan.")] = None,
     duration: Annotated[float | None, Field(description="Simulated seconds of `model`.", gt=0, le=3600)] = None,
+    minutes: Annotated[float, Field(description="`final` draws for so long; again goes on.", gt=0, le=600)] = 5,
 ) -> JobStatus:
     """Start one pass of the run's program in the sandbox and return at once with its job; follow it with `wait`.
 
     Physics needs an approved plan and a clean lint; what needs a pass under way queues. What succeeded for this program,
     plan and environment is answered from its evidence. With `model`, any MJCF file is recorded (runs/<its name>).
+    `final` needs physics alone: film.py's film (else the first camera) traced, whole soon, then better.
     """
     from ..model.evidence import environment
-    from . import bare_models, storyboards
+    from . import bare_models, refined, storyboards
     from .account import with_account
     from .launch import launch
 
@@ -138,6 +161,8 @@ def start(
     limits: dict[str, Any] = {"still_s": still_s, "memory_mb": memory_mb, "cpu_s": cpu_s}
     if stage == "storyboard":
         limits["arguments"] = storyboards.arguments(folder, key)
+    elif stage == "final":
+        limits |= {"arguments": refined.arguments(minutes), "memory_mb": max(memory_mb, refined.MEMORY_MB)}
     job = launch(folder, key, stage, force=force, **limits, file_mb=file_mb, disk_mb=disk_mb)
     return with_account(folder, job) if job.cached else job
 
@@ -246,11 +271,44 @@ def frames(
     return contact(evidence, camera, count, show, (start_s, 1e9 if end_s is None else end_s))
 
 
+@reads
+def sheet(
+    thing: Annotated[str, Field(description="FILE.py or FILE.py:NAME (else the last thing in it).")],
+) -> Illustrated:
+    """Draw what a file sculpts from four sides, with extents, mass and hulls: `skills/sculpting`."""
+    from .sheets import drawn
+
+    return drawn(thing)
+
+
 def _first_camera(run: Run) -> str:
     """The plan's first camera; with a reference image, it looks from where that was taken."""
     from ..model.plan.plan_text import read_plan
 
     return next((camera.name for camera in read_plan(run.plan).plan.cameras()), "")
+
+
+@reads
+def look(
+    run: RunName,
+    at: Annotated[float | None, Field(description="Recorded s, or of the film.", ge=0)] = None,
+    camera: Annotated[str | None, Field(description="A camera of the plan, or `film`.")] = None,
+    eye: Annotated[str | None, Field(description="x,y,z of a free camera, m."), Also("--from")] = None,
+    target: Annotated[str | None, Field(description="x,y,z it looks at."), Also("--to")] = None,
+    fov: Annotated[float, Field(description="Degrees.", gt=1, lt=150)] = 45,
+) -> Illustrated:
+    """See a recording at once: one moment through any camera, planned or not; else a storyboard of all cameras.
+
+    With each picture: luma, blown and crushed shares, contrast, each mover's pixels.
+    """
+    from ..model.evidence import environment
+    from . import looking
+
+    folder = Run.find(run)
+    key = folder.evidence_key(environment.current().sha256())
+    if (at, camera, eye, target) == (None,) * 4:
+        return looking.storyboard(folder, key)
+    return looking.moment(folder, key, at or 0.0, camera, eye, target, fov)
 
 
 @reads
@@ -269,113 +327,8 @@ def log(
         stream.seek(offset)
         content = stream.read(PAGE)
     end = offset + len(content)
-    text = content.decode(errors="replace")
-    return LogPage(
-        job=found.folder.name, content=text, offset=offset, next_offset=end if end < size else None, size=size
-    )
+    name, text, more = found.folder.name, content.decode(errors="replace"), end if end < size else None
+    return LogPage(job=name, content=text, offset=offset, next_offset=more, size=size)
 
 
-def run_variant(
-    run: Run,
-    variant: str,
-    arguments: tuple[str, ...],
-    *,
-    timeout_s: float = 40,
-    progress: Progress = silent,
-) -> JobStatus:
-    """For the audits of other servers (no tool): see `stage.variants.run`."""
-    from . import variants
-
-    return variants.run(run, variant, arguments, timeout_s=timeout_s, progress=progress)
-
-
-def start_storyboard(run: Run, claimed: Sequence[tuple[float, str]]) -> JobStatus:
-    """For another server's walk (no tool): start the storyboard with (instant in s, name) of proven objectives."""
-    from ..model.evidence import environment
-    from . import storyboards
-    from .launch import launch
-
-    key = run.evidence_key(environment.current().sha256())
-    return launch(run, key, "storyboard", arguments=storyboards.arguments(run, key, claimed))
-
-
-def latest(run: Run, stage: PassName) -> JobStatus | None:
-    """For the walk of another server (no tool): the newest job of a pass on the current key and film, if there is one."""
-    from ..model.evidence import environment
-
-    key = run.evidence_key(environment.current().sha256())
-    film = "" if stage == "physics" else environment.film().sha256
-    for job in Job.all(run):
-        spec = job.spec
-        if (spec.stage, spec.variant, spec.key, spec.film_sha256) == (stage, "", key, film):
-            return job.read()
-    return None
-
-
-def simulate_given(run: Run, given: Path) -> JobStatus:
-    """For proofs of other servers (no tool): simulate a world that exists as a file, with its recorded inputs.
-
-    `given` holds `world.mjz`, `program.json`, `inputs.json`, and `inputs.arrows` and `edits.arrows` if it was driven. The
-    program is not run. Follow the job with `wait`.
-    """
-    from ..model.evidence import environment
-    from .launch import launch
-
-    return launch(run, run.evidence_key(environment.current().sha256()), "physics", given=given)
-
-
-def read_plain(path: Path, limit: int) -> bytes | None:
-    """For other servers (no tool): a plain file of a pass, None for a link or a larger one; see `stage.plain.read`."""
-    from . import plain
-
-    return plain.read(path, limit)
-
-
-def variant_folder(run: Run, variant: str) -> Path | None:
-    """For the audits of other servers (no tool): see `stage.variants.folder`."""
-    from . import variants
-
-    return variants.folder(run, variant)
-
-
-def run_confined(call: Sequence[str], **limits: Any) -> "Confined":
-    """For other servers (no tool): a short confined run that leaves nothing behind; see `stage.confined.run`."""
-    from . import confined
-
-    return confined.run(call, **limits)
-
-
-def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]) -> bytes:
-    """For other servers (no tool): one moment of a run as PNG; see `stage.one_frame.draw`."""
-    from ..model.evidence import environment
-    from .one_frame import draw
-
-    return draw(run, run.evidence_key(environment.current().sha256()), at_s, camera, size).pictures[0].data
-
-
-def try_film(folder: Path) -> dict[str, str] | None:
-    """For other servers (no tool): let the author describe the film of a run, and draw one small picture of it.
-
-    Returns how it failed (`code`, `message`, `line`, `next_move`), empty if it did not; None without a recording.
-    """
-    from ..model.errors import GateError, JobError
-
-    try:
-        draw_moment(Run.find(folder), 0.0, None, (64, 36))
-    except (NotFoundError, GateError):
-        return None
-    except JobError as failure:
-        line = failure.place.rpartition(":")[2]
-        said = {"code": failure.code, "message": failure.cause, "next_move": failure.next_move}
-        return {**said, "line": line if line.isdecimal() else ""}
-    return {}
-
-
-def model_files(model: Path) -> list[Path]:
-    """For other servers (no tool): a model file and every file it names; see `stage.bare_models.made_of`."""
-    from .bare_models import made_of
-
-    return made_of(model)
-
-
-TOOLS = (draft, start, wait, status, cancel, frames, log)
+TOOLS = (draft, start, wait, status, cancel, look, frames, sheet, log)

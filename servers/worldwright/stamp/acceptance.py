@@ -18,8 +18,22 @@ from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
 from ..model.progress import Progress, silent
 from ..model.storage import writing
-from . import bundle, departures, digest, gates, keyring, poster, private, processor, repeats, sampled, signing
-from .proof import Proved, beside, driven_by, prove
+from . import (
+    bundle,
+    departures,
+    digest,
+    exactness,
+    gates,
+    keyring,
+    poster,
+    private,
+    processor,
+    repeats,
+    sampled,
+    signing,
+    world_facts,
+)
+from .proof import WORLD, Proved, beside, driven_by, prove
 from .state import State
 from .statement import (
     Acceptance,
@@ -162,6 +176,7 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
         write_atomic(folder / proved.world.name, proved.world.read_bytes())
         for path in driven_by(proved):
             write_atomic(folder / bundle.WORLD / path.name, path.read_bytes())
+        _factual(state, folder)
     evidence = {}
     for name, path in _published(state):
         content = _plain(state, path)
@@ -172,6 +187,33 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
     cameras = [camera.name for camera in state.plan.cameras()] if state.plan else []
     poster.write(folder, cameras, filmed.shots if filmed else ())
     return Statement(subject=bundle.subjects(folder), predicate=_predicate(state, stripped, proved, evidence))
+
+
+def _factual(state: State, folder: Path) -> None:
+    """Refuse facts of the world that are not those of plan and program (`GateError`): verification would, too."""
+    world, facts = folder / WORLD, folder / bundle.WORLD
+    for found in world_facts.differ(world, facts, folder / "simulation.py", folder / "plan.md"):
+        raise GateError(
+            f"the program calls `program.main` otherwise than its text says: {found}",
+            place=f"{state.place}/simulation.py",
+            next_move="write plain values there, or names that are bound once",
+        )
+
+
+def _proof(state: State, proved: Proved) -> Proof:
+    """What the proof run was, and of which kind it proves each channel."""
+    return Proof(
+        trajectory_sha256=proved.trajectory_sha256,
+        rows=proved.physics.summary.get("rows"),
+        simulated_s=proved.physics.summary.get("final_time"),
+        wall_s=proved.physics.wall_s,
+        sandbox=proved.physics.sandbox,
+        confinement=proved.physics.confinement,
+        world_sha256=proved.world_sha256,
+        inputs_sha256=proved.inputs_sha256,
+        channels=exactness.channels(proved, (name for name, _ in _published(state))),
+        marks=exactness.marks(proved),
+    )
 
 
 def _published(state: State) -> Iterator[tuple[str, Path]]:
@@ -193,7 +235,7 @@ def _plain(state: State, path: Path) -> bytes:
             f"{path.relative_to(state.run.folder)} is no plain file of at most {LARGEST >> 30} GB: a link, or one with "
             "another name elsewhere, is not copied",
             place=str(path),
-            next_move=f"worldwright stage start {state.place} --stage {path.parent.name} --force",
+            next_move=f"put the file itself there, or remove it and make it again: worldwright stamp status {state.place}",
         )
     return content
 
@@ -219,16 +261,7 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
             stripped_lines=stripped.removed,
             materials=_materials(state, environment),
         ),
-        proof=Proof(
-            trajectory_sha256=proved.trajectory_sha256,
-            rows=proved.physics.summary.get("rows"),
-            simulated_s=proved.physics.summary.get("final_time"),
-            wall_s=proved.physics.wall_s,
-            sandbox=proved.physics.sandbox,
-            confinement=proved.physics.confinement,
-            world_sha256=proved.world_sha256,
-            inputs_sha256=proved.inputs_sha256,
-        ),
+        proof=_proof(state, proved),
         film=_filmed(state),
         environment=environment.model_copy(update={"film": state.film}),
         cpu=processor.cpu(),

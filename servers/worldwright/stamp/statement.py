@@ -1,7 +1,7 @@
 """The stamp: an in-toto shaped statement about an accepted world (`accepted/stamp.json`).
 
 Subjects are the files of the accepted folder with their SHA-256; the predicate says what they were made from, what
-proved them and where. Shape: in-toto Attestation Framework, Statement v1.
+proved them, of which kind each proof is, and where. Shape: in-toto Attestation Framework, Statement v1.
 """
 
 from typing import Any, Literal
@@ -56,6 +56,10 @@ class Proof(Frozen):
     """SHA-256 of `world.mjz`, the world that was simulated."""
     inputs_sha256: str = ""
     """SHA-256 of the inputs that were sent to the world while it ran; empty when there were none."""
+    channels: dict[str, Literal["exact", "law re-run", "tolerance"]] = {}
+    """The kind of proof by channel (`motion`, `inputs`, a solver's, `pictures`), from version 2 on; see `exactness`."""
+    marks: tuple[str, ...] = ()
+    """What limits that exactness, from version 2 on: worlds that sleep, barrier contact (`ipc`), plugins, a GPU."""
     no_world: str = ""
     """Why there is no `world.mjz`, in stamps of worlds that were simulated by their own program."""
 
@@ -155,10 +159,16 @@ class Statement(Frozen):
 
     type: Literal["https://in-toto.io/Statement/v1"] = Field("https://in-toto.io/Statement/v1", alias="_type")
     subject: tuple[Subject, ...]
-    predicate_type: Literal["urn:worldwright:acceptance:v1"] = Field(
-        "urn:worldwright:acceptance:v1", alias="predicateType"
+    predicate_type: Literal["urn:worldwright:acceptance:v1", "urn:worldwright:acceptance:v2"] = Field(
+        "urn:worldwright:acceptance:v2", alias="predicateType"
     )
+    """Version 1 does not say how each channel was proved. Other versions are refused."""
     predicate: Acceptance
+
+    @property
+    def first(self) -> bool:
+        """Whether it is of version 1."""
+        return self.predicate_type.endswith(":v1")
 
     @property
     def not_looked_at(self) -> tuple[int, ...]:

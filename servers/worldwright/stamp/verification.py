@@ -13,26 +13,18 @@ from typing import Literal
 
 from ..model.errors import GateError, NotFoundError, WorldwrightError
 from ..model.evidence import assets_used, environment
-from ..model.evidence.journal import Journal
 from ..model.evidence.reports import Environment, ExpectReport
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.plan.plan_text import read_plan
 from ..model.progress import Progress, silent
 from ..model.storage import StorageError, writing
-from . import agreement, bundle, departures, digest, private, processor, redrawn, signing
+from . import agreement, bundle, departures, digest, exactness, private, processor, redrawn, signing, world_facts
+from .as_stamped import Check, static
 from .kept import Kept
 from .proof import FACTS, WORLD, Proved, beside, lay_out, measure, prove, replay
 from .state import State
 from .statement import Statement
-
-
-class Check(Frozen):
-    """One thing that was checked."""
-
-    name: str
-    ok: bool
-    detail: str
 
 
 class Verification(Frozen):
@@ -56,6 +48,11 @@ class Verification(Frozen):
     def ok(self) -> bool:
         """Whether the world was proved again and its signer is known here (or any signer will do)."""
         return self.state == "proved" and (self.anybody or bool(self.signature and self.signature.vouched))
+
+    @property
+    def exit_code(self) -> int:
+        """0 for yes, 3 for a world that is proved but that nobody known here vouches for, 1 for any other no."""
+        return 0 if self.ok else 3 if self.state == "proved" else 1
 
     def text(self) -> str:
         """The answer as a person reads it."""
@@ -115,6 +112,10 @@ def _prove_again(
     with writing("the copy to be run", scratch), bundle.only_one(Run(scratch)):
         proof = scratch / "proof"
         try:
+            if _kept(folder) and not rebuild:
+                checks += _facts(folder)
+                if not checks[-1].ok:
+                    return _refuted(run, checks, differences)
             proved = _again(folder, scratch, statement, rebuild, timeout_s, progress)
         except GateError as error:
             shutil.rmtree(proof, ignore_errors=True)
@@ -132,6 +133,7 @@ def _prove_again(
         checks += _acts(folder, proved, bool(differences) and signing.check(folder, bundle.STAMP, signer).vouched)
         mode, found = _motion(folder, statement, proved, differences)
         checks += found
+        checks += _kinds(statement, proved)
         checks += _objectives(folder, statement, proved, mode == "bitwise")
         if not signing.check(folder, bundle.STAMP, signer).vouched:
             checks += _pictures(folder, statement, proved)
@@ -161,6 +163,14 @@ def _again(
         progress=progress,
         near=beside(folder),
     )
+
+
+def _facts(folder: Path) -> Iterator[Check]:
+    """Check the facts beside the kept world against plan and program."""
+    kept = folder / bundle.WORLD
+    found = list(world_facts.differ(folder / WORLD, kept, folder / "simulation.py", folder / "plan.md"))
+    detail = "; ".join(found[:3]) or "of the kept world: as plan and program say"
+    yield Check(name="facts", ok=not found, detail=detail)
 
 
 def _kept(folder: Path) -> bool:
@@ -228,62 +238,6 @@ def _locate(name: str) -> tuple[Run, Path]:
     return run, run.stamped
 
 
-def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:
-    """The checks of an accepted folder that need no simulation."""
-    kept = Kept.read(folder / bundle.STAMP, Statement)
-    if kept.value is None:
-        return [Check(name="stamp", ok=False, detail=kept.problem or "there is no stamp.json")]
-    signed = signing.check(folder, bundle.STAMP, signer)
-    return [
-        *_static(run, folder, kept.value),
-        Check(name="signature", ok=signed.holder != "broken", detail=signed.text()),
-        *_beside(run, folder),
-    ]
-
-
-def _beside(run: Run, folder: Path) -> Iterator[Check]:
-    """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan."""
-    if folder == run.folder or not run.plan.is_file():
-        return
-    if run.plan.read_bytes() != (folder / run.plan.name).read_bytes():
-        detail = (
-            f"the plan of the run is another than the stamped one in {folder.name}/, which this stamp says nothing of"
-        )
-        yield Check(name="beside", ok=False, detail=detail)
-
-
-def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
-    broken = bundle.damage(folder, statement)
-    count = sum((folder / s.name).is_file() for s in statement.subject)
-    left = len(statement.subject) - count
-    kept = f"{count} files as stamped" + (f", {left} left out of the small form" if left else "")
-    yield Check(name="checksums", ok=not broken, detail="; ".join(broken[:5]) or kept)
-    source = statement.predicate.source
-    for what, name, wanted in (
-        ("plan", "plan.md", source.plan_sha256),
-        ("prompt", "prompt.md", source.prompt_sha256),
-    ):
-        if wanted and statement.digest_of(name) != wanted:
-            yield Check(name=what, ok=False, detail=f"{name} is not the one that was approved")
-    wrong = _journal(run, statement, bundle.sha256_file(folder / bundle.STAMP)) if run.journal.is_file() else None
-    if wrong is not None:
-        yield Check(name="journal", ok=not wrong, detail=wrong or "unbroken, and it knows this stamp")
-
-
-def _journal(run: Run, statement: Statement, stamped: str) -> str | None:
-    """How the run's journal contradicts this stamp; empty when it agrees, None when it does not mention it."""
-    journal = Journal(run.journal)
-    broken, head = journal.breaks(), statement.predicate.journal_head
-    if broken:
-        return broken[0]
-    if head and head not in journal.heads():
-        return "it lacks the line that stood last when the stamp was made"
-    accepts = [e for e in State(run).journal if e.get("action") == "accept"]
-    if accepts and not any(e.get("stamp_sha256") == stamped for e in accepts):
-        return "it does not know this stamp"
-    return "" if accepts else None
-
-
 def _motion(
     folder: Path, statement: Statement, proved: Proved, differences: tuple[str, ...]
 ) -> tuple[Literal["bitwise", "tolerance"], list[Check]]:
@@ -300,6 +254,20 @@ def _motion(
     within = bool(difference and difference.within)
     detail = f"{'within' if within else 'outside'} the tolerance ({digest.TOLERANCE}); {apart}"
     return "tolerance", [Check(name="trajectory", ok=within, detail=detail)]
+
+
+def _kinds(statement: Statement, proved: Proved) -> Iterator[Check]:
+    """Check what the stamp says about the kind of each proof, and tell it."""
+    stamped = statement.predicate.proof
+    if statement.first:
+        yield Check(name="kinds", ok=True, detail="an older stamp, which does not tell how each channel was proved")
+        return
+    found, marks = exactness.channels(proved, (s.name for s in statement.subject)), exactness.marks(proved)
+    same = stamped.channels == found and stamped.marks == marks
+    told = ", ".join(f"{channel} {kind}" for channel, kind in found.items())
+    limits = "".join(f"; {mark}" for mark in marks)
+    detail = f"{told}{limits}" if same else f"the stamp says another kind of proof than there is: {told}{limits}"
+    yield Check(name="kinds", ok=same, detail=detail)
 
 
 def _objectives(folder: Path, statement: Statement, proved: Proved, exact: bool) -> Iterator[Check]:

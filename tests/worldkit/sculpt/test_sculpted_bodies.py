@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from worldkit import contacts, joints, portable, scene, sculpt
+from worldkit import bodies, contacts, joints, portable, scene, sculpt
 from worldkit.sculpt import brushes, minting
 
 BALL = sculpt.sphere(0.1)
@@ -183,3 +183,24 @@ def test_a_surface_is_the_contact_of_all_pieces():
     pieces = [g for g in range(model.ngeom) if model.geom(g).name.startswith("ring/") and model.geom_contype[g]]
     assert len(pieces) > 3 and np.allclose(model.geom_friction[pieces, 0], 0.05)
     assert model.body("ring").mass[0] == pytest.approx(900 * 2 * math.pi**2 * 0.08 * 0.02**2, rel=0.01)
+
+
+def test_a_dressed_body_acts_as_before_and_looks_sculpted():
+    bare, dressed = world(), world()
+    for spec in (bare, dressed):
+        bodies.box(spec, "crate", size=(0.2, 0.1, 0.1), pos=(0, 0, 0.05), mass=2.0)
+    sculpt.dress(dressed, "crate", sculpt.box((0.2, 0.1, 0.1), rounded=0.02).translate(1.0), look="wood_oak", cells=24)
+    before, after = bare.compile(), dressed.compile()
+    assert np.allclose(after.body_inertia, before.body_inertia) and after.body("crate").mass[0] == 2.0
+    assert after.geom("crate").group[0] == 3 and after.geom("crate/look").contype[0] == 0
+    data = mujoco.MjData(after)
+    mujoco.mj_forward(after, data)
+    assert np.abs(data.geom("crate/look").xpos - (0, 0, 0.05)).max() < 1e-3
+    with pytest.raises(ValueError, match="no body 'box' to dress; known: crate"):
+        sculpt.dress(dressed, "box", BALL)
+
+
+def test_one_box_holds_what_is_drawn_and_what_collides():
+    made = sculpt.made(sculpt.torus(0.2, 0.04), cells=32, triangles=1000)
+    corners = np.concatenate(made.hulls)
+    assert np.allclose(corners.min(axis=0), made.low) and np.allclose(corners.max(axis=0), made.high)

@@ -1,7 +1,10 @@
 """Each check finds what it is for, at its size, and leaves a sound layout alone."""
 
+import mujoco
 import pytest
 
+from worldkit import models
+from worldwright.lint import tools as lint
 from worldwright.model.plan.committed import Plan
 from worldwright.model.plan.observation import Viewpoint
 from worldwright.place import categories
@@ -61,6 +64,8 @@ SLOPE = 0.25
 HILLS = {
     "hfield": """<mujoco><asset><hfield name="h" nrow="2" ncol="2" size="5 5 2.5 1" elevation="0 1 0 1"/></asset>
       <worldbody><body name="hill"><geom type="hfield" hfield="h"/></body></worldbody></mujoco>""",
+    "off_centre": """<mujoco><asset><hfield name="h" nrow="2" ncol="2" size="5 5 2.5 1" elevation="0 1 0 1"/></asset>
+      <worldbody><body name="hill"><geom type="hfield" hfield="h" pos="2 -1 -3"/></body></worldbody></mujoco>""",
     "mesh": """<mujoco><asset><mesh name="h" vertex="-5 -5 -1 -5 5 -1 5 -5 -1 5 5 -1 -5 -5 0 -5 5 0 5 -5 2.5 5 5 2.5"/></asset>
       <worldbody><body name="hill"><geom type="mesh" mesh="h"/></body></worldbody></mujoco>""",
 }
@@ -104,6 +109,42 @@ def test_what_sinks_into_a_hill_is_as_deep_as_geometry_says(on_a_hill, deep):
     assert set(told) == {"WP302"}
     depth = float(told["WP302"][0].split("by ")[1].split(" m")[0])
     assert depth == pytest.approx(deep / (1 + SLOPE**2) ** 0.5, abs=3e-3)
+
+
+@pytest.mark.parametrize("low", [0.0, -0.4])
+@pytest.mark.parametrize("kind", ["hfield", "off_centre"])
+def test_a_hill_reaches_below_the_ground_as_far_as_its_base_does(kind, low, tmp_path):
+    """The base is one metre thick and the hill 2.5 m high, so its middle lies 1.75 m above its lowest point."""
+    (tmp_path / "hill.xml").write_text(HILLS[kind])
+    told = codes(
+        report(
+            [],
+            [],
+            assets=[{"name": "hill", "type": "mjcf", "filename": "hill.xml", "fixed": True}],
+            topology={"body_positions": {"hill": {"x": 0, "y": 0, "z": 1.75 + low}}},
+            folder=tmp_path,
+        )
+    )
+    assert ("WP303" in told) is (low < 0)
+    if low < 0:
+        assert "reaches 0.4 m below the ground" in told["WP303"][0]
+
+
+@pytest.mark.parametrize("kind", ["hfield", "off_centre"])
+@pytest.mark.parametrize("deep", [-0.002, 0.05])
+def test_the_compiled_hill_is_where_the_plan_has_it(kind, deep, tmp_path):
+    """A ball of 0.4 m over the slope's place x = 1 m, straight up: WM112 where it is sunk, and only there."""
+    spec = mujoco.MjSpec()
+    models.attach(spec, HILLS[kind], name="hill", pos=(0, 0, 1.75), fixed=True)
+    height = 1.0 + SLOPE * 6.0 + 0.2 * (1 + SLOPE**2) ** 0.5 - deep
+    ball = spec.worldbody.add_body(name="ball", pos=(1.0, 0.3, height))
+    ball.add_freejoint()
+    ball.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(0.2, 0, 0))
+    spec.compile()
+    (tmp_path / "world.xml").write_text(spec.to_xml())
+    found = [f for f in lint.check_program([tmp_path / "world.xml"]).findings if f.code == "WM112"]
+    assert bool(found) is (deep > 0)
+    assert all("hill" in f.message and "ball" in f.message for f in found)
 
 
 # --- held by a constraint -------------------------------------------------------------------------------------------

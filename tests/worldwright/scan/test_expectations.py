@@ -1,5 +1,6 @@
 """Every expectation on its own cases; and what must hold of all of them."""
 
+import re
 from dataclasses import replace
 from itertools import pairwise
 
@@ -12,6 +13,7 @@ from worldkit.turning import about, product
 from worldwright.model.plan.committed import Objective
 from worldwright.scan.audits.moment import event_s
 from worldwright.scan.known.analytic import bouncing, falling, resting, sliding
+from worldwright.scan.known.motions import thrown
 from worldwright.scan.known.pictured import from_above
 from worldwright.scan.objectives.claims import EXPECTATIONS
 from worldwright.scan.objectives.events import moment_s
@@ -354,3 +356,55 @@ def test_a_claim_about_a_picture_waits_until_the_stills_are_drawn():
     away = {"light": {**light["light"], "place": [9, 9, 0]}}
     unseen = _objective(drawn, 0, Objective.model_validate({"claim": "…", "expect": [away]}))
     assert unseen.status == "unproved" and not unseen.waits
+
+
+@pytest.mark.parametrize(
+    ("trajectory", "name", "arguments", "time_s"),
+    [
+        (thrown((0, 0, 3.0)), "rises", {"body": "body", "min_m": 0.2}, 0.0767),  # 3 t - g t^2 / 2 = 0.2
+        (sliding(1.0, seconds=2.0), "crosses", {"body": "body", "axis": "x", "at_m": 1.5}, 1.5),
+    ],
+)
+def test_what_rises_or_crosses_says_when(trajectory, name, arguments, time_s):
+    result = measure(trajectory, name, arguments)
+    assert result.status == "holds"
+    told = float(re.search(r"(?:at|by [0-9.]+ m at) ([0-9.]+) s", result.message)[1])
+    assert told == pytest.approx(time_s, abs=1.5 * trajectory.interval_s + 1e-3)
+
+
+def test_what_holds_as_its_window_opens_has_no_moment_and_what_comes_later_has():
+    trajectory = sliding(1.0, seconds=2.0)
+    past = {"body": "body", "low": [0.4, None, None], "high": [None] * 3, "window_s": [0.5, 2.0]}
+    assert measure(trajectory, "stays_within", past).status == "holds"
+    assert event_s(trajectory, "stays_within", past) is None
+    crossing = {"body": "body", "axis": "x", "at_m": 1.5, "window_s": [0.5, 2.0]}
+    assert event_s(trajectory, "crosses", crossing) == pytest.approx(1.5, abs=2 * trajectory.interval_s)
+
+
+def blow(rows, impulse, interval_s=0.002):
+    """A ground that pushes a body up evenly over so many rows."""
+    still = resting(seconds=1.0)
+    t = np.arange(len(still.t)) * interval_s
+    force = np.zeros_like(still.contacts.force)
+    struck = (still.contacts.row >= 10) & (still.contacts.row < 10 + rows)
+    force[struck, 2] = impulse / (struck.sum() * interval_s)
+    return replace(still, t=t, contacts=replace(still.contacts, force=force))
+
+
+@pytest.mark.parametrize(
+    ("rows", "least", "status"),
+    [
+        (5, 4.7, "unknown"),
+        (5, 4.2, "holds"),
+        (5, 5.2, "unknown"),
+        (5, 5.6, "fails"),
+        (20, 4.85, "holds"),
+        (60, 4.99, "holds"),
+    ],
+)
+def test_an_impulse_within_its_uncertainty_of_a_bound_is_not_decided(rows, least, status):
+    found = measure(blow(rows, 5.0), "receives_impulse", {"body": "body", "other": "ground", "min_n_s": least})
+    assert found.status == status, found.message
+    if status == "unknown":  # a step that makes the uncertainty as small as what is between the two
+        finer = float(re.search(r"rows of ([0-9.e-]+) s would decide", found.message)[1])
+        assert finer == pytest.approx(0.002 * rows * abs(least - 5.0) / (0.4 * 5.0), rel=0.15)

@@ -198,11 +198,9 @@ def planted_stamp(run: Path) -> None:
 
 
 def planted_verification(run: Path) -> None:
-    """The folder in which the verification will run is there already, with a recording that was stretched."""
+    """The folder in which the verification would run, if it were beside the world, holds a recording that was stretched."""
     from worldengine.recording import stored
-    from worldwright.model.evidence import environment
-    from worldwright.stamp import bundle, digest, verification
-    from worldwright.stamp.statement import Statement
+    from worldwright.stamp import digest
 
     evidence = forging.folder_of(run)
     stretch(run)
@@ -212,17 +210,17 @@ def planted_verification(run: Path) -> None:
 
     def told(value: Any) -> Any:
         value["predicate"]["proof"]["trajectory_sha256"] = sha256
+        for expectation in value["predicate"]["expectations"]:
+            expectation |= {"measured": 0.61, "margin": 0.33}
         return value
 
     forging.resealed(run, told)
-    folder = run / "accepted"
-    statement = Statement.model_validate_json((folder / bundle.STAMP).read_bytes())
-    scratch = verification._scratch(folder, statement, environment.current(), False)
-    proof = scratch / "proof"
-    proof.mkdir(parents=True)
-    for name in ("simulation.py", "plan.md"):
-        shutil.copy(run / name, proof / name)
-    shutil.copytree(evidence, proof / "evidence" / evidence.name)
+    for proof in (run / "proof", run / "proof" / evidence.name, run.parent / "proof", run.parent / "proofs" / run.name):
+        shutil.rmtree(proof, ignore_errors=True)
+        proof.mkdir(parents=True)
+        for name in ("simulation.py", "plan.md"):
+            shutil.copy(run / name, proof / name)
+        shutil.copytree(evidence, proof / "evidence" / evidence.name)
 
 
 WALL = (
@@ -469,8 +467,9 @@ TRICKS = (
     Trick(
         "anybody_plants_the_verification",
         "evidence",
-        "For whoever: the folder of the verification is planted with a stretched recording.",
-        touch={"expected": forging.report("expect", proved, journal=True), "accepted": planted_verification},
+        "For whoever: folders of a verification are planted with a stretched recording, which the stamp tells of.",
+        plan=TRUE,
+        touch={"accepted": planted_verification},
         anybody=True,
     ),
     trick("folder_in_a_folder", "The accepted folder holds itself.", "accepted", nested, plan=TRUE),

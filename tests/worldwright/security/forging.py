@@ -124,6 +124,19 @@ def resealed(run: Path, edit: Edit | None = None, *, key: str = "none") -> None:
         signing.sign(folder, "stamp.json", Ed25519PrivateKey.generate())
 
 
+def table(path: Path, name: str, **columns: list[Any]) -> None:
+    """Write one of a recording's tables; columns that are left out are zero."""
+    import pyarrow as pa
+
+    from worldengine.recording.columns import TABLES, arrow_schema
+
+    schema = arrow_schema(TABLES[name])
+    rows = len(next(iter(columns.values())))
+    arrays = [pa.array(columns.get(f.name, [0] * rows), f.type) for f in schema]
+    with pa.OSFile(str(path), "wb") as sink, pa.ipc.new_stream(sink, schema) as writer:
+        writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=schema))
+
+
 def sha256(text: str) -> str:
     """Of a text."""
     return hashlib.sha256(text.encode()).hexdigest()

@@ -8,6 +8,7 @@ import pytest
 
 from . import (
     attack,
+    bundle_tricks,
     contact_tricks,
     evidence_tricks,
     input_tricks,
@@ -26,7 +27,7 @@ PHYSICAL = (contact_tricks, law_tricks, shape_tricks, weight_tricks, linked_tric
 """Here the plan's claim is false in numbers, whatever the trick."""
 ALL: tuple[Trick, ...] = tuple(
     trick
-    for family in (*PHYSICAL, program_tricks, evidence_tricks, plan_tricks, new_word_tricks)
+    for family in (*PHYSICAL, program_tricks, evidence_tricks, bundle_tricks, plan_tricks, new_word_tricks)
     for trick in family.TRICKS
 )
 TELLING = frozenset(

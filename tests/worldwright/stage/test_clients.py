@@ -84,7 +84,7 @@ def test_http_lists_and_runs_and_tells_its_progress(http, make):
             return names, ended, wrong
 
     names, ended, wrong = anyio.run(talk)
-    assert names == {"draft", "start", "wait", "status", "cancel", "frames", "log"}
+    assert names == {"draft", "start", "wait", "status", "cancel", "look", "frames", "sheet", "log"}
     assert ended["state"] == "succeeded"
     assert wrong.is_error
     assert json.loads(wrong.content[0].text)["next"]

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
+from worldwright import expose
 from worldwright.cli import main
 from worldwright.model.errors import GateError
 from worldwright.model.evidence.journal import Journal
@@ -86,6 +87,8 @@ def small(accepted: Path, tmp_path: Path) -> Path:
 
 def first_line(folder: Path, **options: Any) -> tuple[bool, str]:
     result = stamp.verify(str(folder), timeout_s=120, **options)
+    # A world that is proved, and that nobody known here vouches for, is told by the exit code from one that is not.
+    assert expose.exit_code(result) == (0 if result.ok else 3 if result.state == "proved" else 1)
     return result.ok, result.text().splitlines()[0]
 
 
@@ -130,7 +133,7 @@ def test_a_forged_folder_without_a_signature_is_no_yes_and_its_first_line_says_w
         (small / name).unlink()
     ok, line = first_line(small)
     assert not ok
-    assert "UNSIGNED" in line
+    assert "UNSIGNED" in line and ": proved" in line
     assert first_line(small, anybody=True)[0]  # the world itself does what it claims; who said so is another question
 
 

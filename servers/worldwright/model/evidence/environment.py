@@ -47,8 +47,8 @@ def physics_code(servers: Path) -> Named:
     return tuple((path, name) for path, name in found if not name.startswith(FILM))
 
 
-def film() -> Film:
-    """The film that pictures would be made with now.
+def film(renderer: str = "") -> Film:
+    """The film that pictures would be made with now, by a renderer other than the wanted one if it is named.
 
     Raises:
         NotFoundError: there is no such renderer as `WORLDKIT_RENDERER` names.
@@ -56,7 +56,7 @@ def film() -> Film:
     from worldengine.film.identity import identity
 
     try:
-        found = identity()
+        found = identity(renderer)
     except SeamError as cause:
         raise NotFoundError(cause.cause, place=cause.place, next_move=cause.next_move) from cause
     return Film(renderer=found.renderer, version=found.version, packages=found.packages, sha256=found.sha256)

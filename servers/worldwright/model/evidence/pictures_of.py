@@ -1,16 +1,20 @@
-"""Which pictures a pass would make now: by what renderer and code, and, of the video pass, by what film of its author.
+"""Which pictures a pass would make now: by what renderer and code, and, of video and final pass, by what film of its author.
 
 `film.py`, beside the program, is no part of the physics: changing it leaves every recording and every still as it is, and
-makes the video pass another one, of which only the author's own film has to be drawn again.
+makes video and final pass others; of the video pass only the author's own film has to be drawn again.
 """
 
 import hashlib
+
+from worldengine.film.renderers import FINAL
 
 from . import companions, environment
 from .reports import PassName
 from .run import Run, sha256_file
 
 FILM = "film.py"
+AUTHORED: tuple[PassName, ...] = ("video", "final")
+"""The passes that draw the author's film."""
 
 
 def identity(run: Run, stage: PassName) -> str:
@@ -21,8 +25,8 @@ def identity(run: Run, stage: PassName) -> str:
     """
     if stage in ("bundle", "physics"):
         return ""
-    drawn = environment.film().sha256
-    authored = author_sha256(run) if stage == "video" else ""
+    drawn = environment.film(FINAL if stage == "final" else "").sha256
+    authored = author_sha256(run) if stage in AUTHORED else ""
     return hashlib.sha256(f"{drawn}\n{authored}".encode()).hexdigest() if authored else drawn
 
 

@@ -12,7 +12,7 @@ from pydantic import Field
 from ..finding import Anomaly, Finding
 from ..frozen import Frozen
 
-PassName = Literal["bundle", "physics", "storyboard", "stills", "video"]
+PassName = Literal["bundle", "physics", "storyboard", "stills", "video", "final"]
 PASSES: tuple[PassName, ...] = get_args(PassName)
 
 

@@ -13,6 +13,10 @@ if TYPE_CHECKING:
     from ...treatment import Treatment
 
 
+MANY = 6
+"""Whoever asks for so many samples a pixel gets a still."""
+
+
 class Shaded:
     """The pipeline together with its OpenGL context."""
 
@@ -33,6 +37,8 @@ class Shaded:
         import numpy as np
 
         self._context.make_current()
+        if isinstance(quality, int):
+            quality = "still" if quality >= MANY else "video"
         picture = self._pipeline.image(data, camera, quality)
         if picture.shape[0] != self._size[1]:
             import cv2

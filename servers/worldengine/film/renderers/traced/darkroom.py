@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -57,7 +58,10 @@ def air(
         told: what the film asks for.
     """
     setting, out = scene.setting, light
-    reach = np.linalg.norm(places - eye, axis=-1)
+    foggy = told.fog_rgb is not None and told.fog_density > 0
+    if setting.name == "room" and told.sky_zenith is None and not foggy:
+        return light
+    reach = np.linalg.norm(places - eye.astype(np.float32), axis=-1)
 
     def mixed(colour: np.ndarray, share: np.ndarray) -> None:
         nonlocal out
@@ -79,7 +83,7 @@ def air(
             0.45 * ground * _smooth(setting.pool[0] * scene.radius, setting.pool[1] * scene.radius, away),
         )
         mixed(backdrop(), ground * _smooth(setting.fade[0] * scene.span, setting.fade[1] * scene.span, away))
-    if told.fog_rgb is not None and told.fog_density > 0:
+    if foggy:
         out = _fogged(out, reach, ways, seen, eye, scene, told)
     return out
 
@@ -109,6 +113,14 @@ def _fogged(
     return light + share * (fog - light)
 
 
+@lru_cache(maxsize=2)
+def _vignette(width: int, height: int, strength: float) -> np.ndarray:
+    """The share of light (H, W) that a lens leaves to each pixel."""
+    x = ((np.arange(width) + 0.5) / width - 0.5) ** 2
+    y = (((np.arange(height) + 0.5) / height - 0.5) * 0.85) ** 2
+    return (1.0 - strength * _smooth(0.05, 0.62, (x[None] + y[:, None]) * 1.9)).astype(np.float32)
+
+
 def develop(light: np.ndarray, setting: Setting, told: Treatment) -> np.ndarray:
     """The picture, uint8 (H, W, 3), of scene light (H, W, 3), as the preview renderer develops it."""
     import cv2
@@ -119,14 +131,15 @@ def develop(light: np.ndarray, setting: Setting, told: Treatment) -> np.ndarray:
     share = 0.045 if told.grade_glow is None else told.grade_glow
     c = (light + np.float32(share) * (glow - light)) * gains(told.grade_temperature, told.grade_tint).astype(np.float32)
     vignette = setting.vignette if told.grade_vignette is None else told.grade_vignette
-    x = ((np.arange(width) + 0.5) / width - 0.5) ** 2
-    y = (((np.arange(height) + 0.5) / height - 0.5) * 0.85) ** 2
-    shade = 1.0 - vignette * _smooth(0.05, 0.62, (x[None] + y[:, None]) * 1.9)
-    c *= (setting.exposure * 2.0**told.grade_exposure_stops * shade)[..., None].astype(np.float32)
+    shade = _vignette(width, height, vignette)
+    c *= np.float32(setting.exposure * 2.0**told.grade_exposure_stops) * shade[..., None]
     grey = (c @ np.array([0.25, 0.6, 0.15], np.float32))[..., None]
-    c += (0.35 * _smooth(1.0, 9.0, c.max(axis=-1)))[..., None].astype(np.float32) * (grey - c)
-    c = np.maximum(grey + 1.07 * (c - grey), 0.0)
-    index = np.minimum(np.sqrt(np.sqrt(c / BRIGHTEST)) * (STEPS - 1) + 0.5, STEPS - 1).astype(np.int32)
+    strong = np.maximum(np.maximum(c[..., 0], c[..., 1]), c[..., 2])
+    if strong.max() > 1.0:
+        c += (np.float32(0.35) * _smooth(1.0, 9.0, strong))[..., None] * (grey - c)
+    c = np.maximum(grey + np.float32(1.07) * (c - grey), np.float32(0.0))
+    root = np.sqrt(np.sqrt(c * np.float32(1 / BRIGHTEST)))
+    index = np.minimum(root * np.float32(STEPS - 1) + np.float32(0.5), np.float32(STEPS - 1)).astype(np.int32)
     c = _CURVE[index]
     if (told.grade_contrast, told.grade_saturation, told.grade_fade) != (1.0, 1.0, 0.0):
         c = np.clip((c - 0.42) * told.grade_contrast + 0.42, 0.0, 1.0)

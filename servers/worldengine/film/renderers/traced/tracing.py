@@ -48,6 +48,13 @@ class Rays(NamedTuple):
     seen: np.ndarray
 
 
+class Outlook(NamedTuple):
+    """Unit viewing directions (H, W, 3), and by how much the surroundings look otherwise than they light things."""
+
+    ways: np.ndarray
+    behind: np.ndarray | None
+
+
 class Tracing:
     """Draws one model at one size."""
 
@@ -104,6 +111,7 @@ class Tracing:
         self._shown = daylight.seen(self.setting, self._treatment)
         self._around = daylight.lighting(self.setting, self._treatment, self._shown)
         self._scenes.clear()
+        self._looked: Any = None
 
     def treat(self, treatment: Treatment) -> bool:
         """Apply this light, haze, focus and grading from now on."""
@@ -173,12 +181,19 @@ class Tracing:
              "to_world": move, "film": film}
         )  # fmt: skip
 
-    def ways(self, view: View) -> np.ndarray:
-        """Unit viewing directions (H, W, 3) of the pixels' centres."""
-        x = ((np.arange(self.width) + 0.5) / self.width * 2 - 1) * view.tangents[0]
-        y = (1 - (np.arange(self.height) + 0.5) / self.height * 2) * view.tangents[1]
-        ways = x[None, :, None] * view.axes[:, 0] + y[:, None, None] * view.axes[:, 1] - view.axes[:, 2]
-        return ways / np.linalg.norm(ways, axis=-1, keepdims=True)
+    def _outlook(self, view: View) -> Outlook:
+        """What a view needs of the surroundings; that of the last one is kept, as most cameras stand still."""
+        key = (view.eye.tobytes(), view.axes.tobytes(), view.tangents)
+        if key != self._looked:
+            x = ((np.arange(self.width) + 0.5) / self.width * 2 - 1) * view.tangents[0]
+            y = (1 - (np.arange(self.height) + 0.5) / self.height * 2) * view.tangents[1]
+            ways = x[None, :, None] * view.axes[:, 0] + y[:, None, None] * view.axes[:, 1] - view.axes[:, 2]
+            ways = (ways / np.linalg.norm(ways, axis=-1, keepdims=True)).astype(np.float32)
+            behind = None
+            if self._around is not self._shown:
+                behind = daylight.looked_up(self._shown, ways) - daylight.looked_up(self._around, ways)
+            self._last, self._looked = Outlook(ways, behind), key
+        return self._last
 
     def trace(self, data: mujoco.MjData, view: View, faces: frozenset[Face], samples: int, seed: int) -> Rays:
         """Trace the picture of `data`, with these walls."""
@@ -197,12 +212,13 @@ class Tracing:
 
     def image(self, data: mujoco.MjData, camera: int, quality: Quality) -> np.ndarray:
         """The picture: uint8 (height, width, 3)."""
-        return self.picture(data, camera, SAMPLES[quality])
+        return self.picture(data, camera, quality if isinstance(quality, int) else SAMPLES[quality])
 
     def picture(self, data: mujoco.MjData, camera: int, samples: int, seed: int = 0) -> np.ndarray:
         """The picture by so many samples a pixel: uint8 (height, width, 3)."""
         view = of_camera(self.model, data, camera, self.width, self.height)
-        ways = self.ways(view)
+        outlook = self._outlook(view)
+        ways = outlook.ways
         drawn: frozenset[Face] = frozenset()
         painted: frozenset[Face] = frozenset()
         if self._walls is not None:
@@ -210,9 +226,8 @@ class Tracing:
             drawn, painted = self._walls.seen(view.eye, some)
         rays = self.trace(data, view, drawn, samples, seed)
         light = self._denoiser.clean(rays.light, rays.albedo, rays.normals)
-        if self._around is not self._shown:
-            behind = daylight.looked_up(self._shown, ways) - daylight.looked_up(self._around, ways)
-            light = light + (1.0 - rays.seen)[..., None].astype(np.float32) * behind
+        if outlook.behind is not None and rays.seen.min() < 1:
+            light += (1.0 - rays.seen)[..., None] * outlook.behind
         if painted:
             assert self._walls is not None
             away = np.linalg.norm(rays.places - view.eye, axis=-1)
@@ -243,8 +258,9 @@ class Tracing:
 
 def _rays(light: np.ndarray, said: np.ndarray) -> Rays:
     """Bring what was traced into order; where there is only sky, nothing has a place."""
+    for traced in (light, said):
+        if not np.isfinite(traced).all():
+            np.nan_to_num(traced, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
     seen = np.clip(said[..., 3], 0.0, 1.0)
-    said = np.nan_to_num(said)
-    albedo, normals, places = said[..., 4:7], said[..., 7:10], said[..., 10:13]
-    light = np.clip(np.nan_to_num(light, nan=0.0, posinf=BRIGHTEST, neginf=0.0), 0.0, BRIGHTEST)
-    return Rays(light, np.clip(albedo, 0, 1), normals, places / np.maximum(seen, 1e-6)[..., None], seen)
+    places = said[..., 10:13] / np.maximum(seen, 1e-6)[..., None]
+    return Rays(np.clip(light, 0.0, BRIGHTEST), np.clip(said[..., 4:7], 0, 1), said[..., 7:10], places, seen)

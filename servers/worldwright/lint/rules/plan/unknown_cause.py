@@ -1,11 +1,11 @@
-"""An objective's cause names nothing that the plan has.
+"""An objective's cause names nothing that the plan has, or nothing that could be taken away.
 
 What it does: resolves every `cause` of an objective: objects, asset rows, joints, tendons, actuators, `gravity`, `wind`,
-`control`, or `kind:target` of an intervention; of a body also `.velocity` (the one it starts with) and `.weight`. Several may
-be joined by `+`.
+`control`, or `kind:target` of an intervention; of a body also `.weight`, and `.velocity` where it starts with one. Several may be
+joined by `+`.
 
 Why is this bad: the causal audit takes the cause away and looks whether the effect vanishes. What is not there cannot be
-taken away, so the objective stays without that proof.
+taken away, so the objective stays without that proof; without a starting velocity the weakened world is the same world.
 
 Use instead: the plan's own names; declare an intervention before naming it as a cause.
 """
@@ -13,6 +13,7 @@ Use instead: the plan's own names; declare an intervention before naming it as a
 from collections.abc import Iterator
 from difflib import get_close_matches
 
+from ....model.plan.committed import Plan
 from ....model.plan.imported import all_of
 from ...case import Changes
 from ...harm import Argued
@@ -42,6 +43,8 @@ BAD: Changes = (
     {"objectives": [{**CLAIM, "cause": ["gravity + wnid"]}]},
     {"objectives": [{**CLAIM, "cause": "crate.colour"}]},
     {"objectives": [{**CLAIM, "cause": "gravity.velocity"}]},
+    {"objectives": [{**CLAIM, "cause": "mug.velocity"}]},
+    {"objectives": [{**CLAIM, "cause": "gravity + crate.velocity"}], "simulation_parameters": {"initial_motion": None}},
 )
 EVIDENCE = Argued("no run can be made without a thing that is not in it; the audit refuses the name")
 WORLD = ("gravity", "wind", "control")
@@ -65,6 +68,11 @@ def check(view: PlanView) -> Iterator[Problem]:
             for part in (p.strip() for p in cause.split("+")):
                 kind = part.partition(":")[0]
                 whole, _, aspect = part.rpartition(".")
+                if whole in bodies and aspect == "velocity" and part not in known and not _starts_moving(plan, whole):
+                    fix = f"name {whole}, {whole}.weight or what sets it moving; or give it an `initial_motion`"
+                    what = f"the cause `{part}` can take nothing away: {whole} starts at rest"
+                    yield view.at(("objectives", index, "cause"), what, fix)
+                    continue
                 if part in known or (":" in part and kind in BUILT) or (whole in bodies and aspect in ASPECTS):
                     continue
                 near = get_close_matches(part, sorted(known), n=3, cutoff=0.5)
@@ -72,3 +80,20 @@ def check(view: PlanView) -> Iterator[Problem]:
                     "did you mean " + ", ".join(near) + "?" if near else "name one of: " + ", ".join(sorted(known)[:30])
                 )
                 yield view.at(("objectives", index, "cause"), f"the cause `{part}` is not in the plan", fix)
+
+
+def _starts_moving(plan: Plan, name: str) -> bool:
+    """Whether a body, one of its copies, or a joint that carries it has a velocity at the start."""
+    parameters = plan.simulation_parameters
+    rows = {asset.name: asset.instances for asset in plan.assets}
+    families = [(family, *copies) for family, copies in (*plan.families.items(), *rows.items())]
+    called = {name, *(n for family in families if name in family for n in family)}
+    called |= {joint.name for joint in plan.topology.joints if joint.child in called}
+    models = tuple(f"{asset.name}_" for asset in plan.assets if asset.name in called or called & set(asset.instances))
+    moving = [
+        body
+        for body, motion in parameters.initial_motion.items()
+        if any(motion.linear) or any(motion.angular) or motion.joint_velocity
+    ]
+    moving += [body for row in parameters.interventions if row.kind in ("velocity", "solver") for body in row.bodies]
+    return any(body in called or body.startswith(models) for body in moving)

@@ -1,7 +1,7 @@
-"""A round body travels over the ground without turning, or turns without travelling, and friction does not mind.
+"""A round body travels over the ground without turning, and friction does not mind.
 
 What it means: the motion was scripted, or the turning was lost on its way to the picture. Friction turns a sliding ball
-until it rolls, within v / (3.5 mu g).
+until it rolls, within v / (3.5 mu g). One that turns without travelling is WS143's.
 
 Formula: a body whose only colliding geom is a sphere, in contact and on a level way, for 0.4 s:
 |w x r| < 0.1 v, with v > 0.3 sqrt(g r) and the deceleration less than a fifth of mu g.
@@ -101,7 +101,16 @@ def shaped(trajectory: Trajectory, kind: str, friction: float) -> Trajectory:
     return replace(trajectory, mechanics=facts)
 
 
+def _on_the_spot() -> Case:
+    turning = analytic.rolling()
+    still = replace(
+        turning, pos=np.repeat(turning.pos[:1], len(turning.t), axis=0), linvel=np.zeros_like(turning.linvel)
+    )
+    return Case("a ball that spins on the spot", shaped(still, "sphere", 0.5))
+
+
 GOOD = (
+    _on_the_spot,
     lambda: Case("a rolling ball", shaped(analytic.rolling(), "sphere", 0.5)),
     lambda: Case("a ball braked by friction", shaped(analytic.sliding(3.0, 4.9), "sphere", 0.5)),
     lambda: Case("a ball on ice", shaped(analytic.sliding(3.0), "sphere", 0.01)),

@@ -1,0 +1,52 @@
+"""Draw a world as it starts through every camera it has, small, on one sheet: `sheet.jpg`."""
+
+import argparse
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from worldkit.files import write_atomic, write_json
+
+from .storyboard import labelled, laid_out
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from .given import Given
+
+SIZE = 448, 336
+COLUMNS = 2
+SHEET = "sheet.jpg"
+
+
+def run(given: "Given", options: argparse.Namespace) -> None:
+    """Draw it into `options.out`; no recording is needed.
+
+    Raises:
+        WorldkitError: the world does not compile, or has no such camera.
+    """
+    import mujoco
+
+    from worldkit import cameras
+
+    from .film.drawn_frames import Frames
+    from .film.passes import choose_cameras, headless_gl
+
+    headless_gl()
+    started = time.perf_counter()
+    model = given.model()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    width, height = options.size or SIZE
+    cameras.aim(model, aspect=width / height)
+    pictures: list[np.ndarray] = []
+    names = choose_cameras(model, options.cameras)
+    with Frames(model, width, height) as frames:
+        for name in names:
+            pictures.append(labelled(frames.image(data, name, quality="video"), name))
+        renderer = frames.told()
+    write_atomic(options.out / SHEET, laid_out(pictures, COLUMNS))
+    wall = round(time.perf_counter() - started, 3)
+    told = {"cameras": names, "size": [width, height], "renderer": renderer, "wall_s": wall}
+    write_json(options.out / "result.json", {"ok": True, "pass": "sheet", **told})
+    sys.stdout.write(f"{len(names)} cameras in {wall:.1f} s\n")

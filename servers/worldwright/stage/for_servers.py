@@ -1,0 +1,120 @@
+"""What the stage does for other servers, which reach it through `stage.tools`; none of it is a tool."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..model.errors import NotFoundError
+from ..model.evidence.reports import PassName
+from ..model.evidence.run import Run
+from ..model.progress import Progress, silent
+from .job import Job, JobStatus
+
+if TYPE_CHECKING:
+    from .confined import Confined
+
+
+def run_variant(
+    run: Run,
+    variant: str,
+    arguments: tuple[str, ...],
+    *,
+    timeout_s: float = 40,
+    progress: Progress = silent,
+) -> JobStatus:
+    """See `stage.variants.run`."""
+    from . import variants
+
+    return variants.run(run, variant, arguments, timeout_s=timeout_s, progress=progress)
+
+
+def start_storyboard(run: Run, claimed: Sequence[tuple[float, str]]) -> JobStatus:
+    """For another server's walk (no tool): start the storyboard with (instant in s, name) of proven objectives."""
+    from ..model.evidence import environment
+    from . import storyboards
+    from .launch import launch
+
+    key = run.evidence_key(environment.current().sha256())
+    return launch(run, key, "storyboard", arguments=storyboards.arguments(run, key, claimed))
+
+
+def latest(run: Run, stage: PassName) -> JobStatus | None:
+    """For the walk of another server (no tool): the newest job of a pass on the current key and film, if there is one."""
+    from ..model.evidence import environment, pictures_of
+
+    wanted = (stage, "", run.evidence_key(environment.current().sha256()), pictures_of.identity(run, stage))
+    jobs = (job for job in Job.all(run) if (s := job.spec) and (s.stage, s.variant, s.key, s.film_sha256) == wanted)
+    return next((job.read() for job in jobs), None)
+
+
+def simulate_given(run: Run, given: Path) -> JobStatus:
+    """For proofs of other servers (no tool): simulate a world that exists as a file, with its recorded inputs.
+
+    `given` holds `world.mjz`, `program.json`, `inputs.json`, and `inputs.arrows` and `edits.arrows` if it was driven. The
+    program is not run. Follow the job with `wait`.
+    """
+    from ..model.evidence import environment
+    from .launch import launch
+
+    return launch(run, run.evidence_key(environment.current().sha256()), "physics", given=given)
+
+
+def declared_inputs(plan: Path) -> list[dict[str, Any]]:
+    """The inputs that a plan declares, as `inputs.json` has them; see `stage.processes`."""
+    from .processes import declared
+
+    return declared(plan)
+
+
+def read_plain(path: Path, limit: int) -> bytes | None:
+    """For other servers (no tool): a plain file of a pass, None for a link or a larger one; see `stage.plain.read`."""
+    from . import plain
+
+    return plain.read(path, limit)
+
+
+def variant_folder(run: Run, variant: str) -> Path | None:
+    """See `stage.variants.folder`."""
+    from . import variants
+
+    return variants.folder(run, variant)
+
+
+def run_confined(call: Sequence[str], **limits: Any) -> "Confined":
+    """For other servers (no tool): a short confined run that leaves nothing behind; see `stage.confined.run`."""
+    from . import confined
+
+    return confined.run(call, **limits)
+
+
+def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]) -> bytes:
+    """For other servers (no tool): one moment of a run as PNG; see `stage.one_frame.draw`."""
+    from ..model.evidence import environment
+    from .one_frame import draw
+
+    return draw(run, run.evidence_key(environment.current().sha256()), at_s, camera, size).pictures[0].data
+
+
+def try_film(folder: Path) -> dict[str, str] | None:
+    """For other servers (no tool): let the author describe the film of a run, and draw one small picture of it.
+
+    Returns how it failed (`code`, `message`, `line`, `next_move`), empty if it did not; None without a recording.
+    """
+    from ..model.errors import GateError, JobError
+
+    try:
+        draw_moment(Run.find(folder), 0.0, None, (64, 36))
+    except (NotFoundError, GateError):
+        return None
+    except JobError as failure:
+        line = failure.place.rpartition(":")[2]
+        said = {"code": failure.code, "message": failure.cause, "next_move": failure.next_move}
+        return {**said, "line": line if line.isdecimal() else ""}
+    return {}
+
+
+def model_files(model: Path) -> list[Path]:
+    """For other servers (no tool): a model file and every file it names; see `stage.bare_models.made_of`."""
+    from .bare_models import made_of
+
+    return made_of(model)

@@ -1,0 +1,138 @@
+"""A sheet of something sculpted: an author's file makes it in the sandbox, and the engine draws it there from four sides."""
+
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from worldkit.files import write_atomic
+
+from ..model.errors import JobError, NotFoundError
+from ..model.evidence import companions
+from ..model.frozen import Frozen
+from ..model.picture import Illustrated, Picture
+from . import confined, plain
+from .confined import Confined
+from .limits import failed
+
+WORLD, PROGRAM, FACTS, SHEET = "world.mjz", "program.json", "sheet.json", "sheet.jpg"
+RESULT, ERROR = "result.json", "error.json"
+AGAIN = "worldwright sculpt sheet FILE.py[:NAME]"
+
+
+class SculptedPart(Frozen):
+    """What was measured of one part."""
+
+    name: str
+    extent_m: tuple[float, float, float]
+    volume_l: float
+    mass_kg: float
+    triangles: int
+    cells: int
+    """Along its longest side; 0 for an exact solid."""
+    hulls: int
+    """Convex pieces that collide."""
+    bits: int
+    """Pieces that do not hang together."""
+
+    def text(self) -> str:
+        """One line, with what looks like a mistake."""
+        size = " x ".join(f"{side:g}" for side in self.extent_m)
+        loose = f"; {self.bits} pieces that do not touch each other" if self.bits > 1 else ""
+        return (
+            f"{self.name}: {size} m, {self.volume_l:g} l, {self.mass_kg:g} kg, {self.triangles} triangles, "
+            f"{self.hulls} hull{'s' * (self.hulls != 1)}{loose}"
+        )
+
+
+class SculptSheet(Frozen):
+    """What a sheet shows, and what was measured."""
+
+    name: str
+    extent_m: tuple[float, float, float]
+    """Full extents in x, y, z: the size for a plan."""
+    mass_kg: float
+    bodies: int
+    made_s: float
+    parts: tuple[SculptedPart, ...] = ()
+
+    def text(self) -> str:
+        """The size of the whole, and a line a part."""
+        size = " x ".join(f"{side:g}" for side in self.extent_m)
+        return "\n".join(
+            [
+                f"{self.name}: {size} m, {self.mass_kg:g} kg, made in {self.made_s:g} s",
+                *(part.text() for part in self.parts),
+            ]
+        )
+
+
+def drawn(thing: str) -> Illustrated:
+    """Make what a file holds, and draw it from four sides.
+
+    Args:
+        thing: FILE.py or FILE.py:NAME. Modules and data beside the file come along. NAME is that of a shape, solid, part, row
+            of parts, or of a function that gives one of them or a whole world; without it, the last one in the file.
+
+    Raises:
+        NotFoundError: there is no such file.
+        JobError: it does not run, or holds nothing that can be drawn; the error has its line.
+    """
+    path_text, colon, name = thing.rpartition(":")
+    file = Path(path_text) if colon and path_text.endswith(".py") else Path(thing)
+    name = name if str(file) == path_text else ""
+    if not file.is_file():
+        raise NotFoundError(f"there is no file {file}", next_move=AGAIN)
+    with tempfile.TemporaryDirectory(prefix="worldwright-sheet-") as folder:
+        source, laid = Path(folder) / "source", Path(folder) / "laid"
+        for path, content in {file.name: file.read_bytes(), **companions.of(file)}.items():
+            write_atomic(source / path, content)
+        call = ["-m", "worldkit.sculpt.showing", str(source / file.name), "--name", name, "--out", "{out}"]
+        made = _run(call, (source,), (WORLD, PROGRAM, FACTS), file)
+        for path in (WORLD, PROGRAM):
+            write_atomic(laid / path, made[path])
+        words = [f"--{word}={laid / path}" for word, path in (("world", WORLD), ("program", PROGRAM))]
+        sheet = _run(["-m", "worldengine", "sheet", *words, "--out", "{out}"], (laid,), (SHEET,), file)[SHEET]
+    try:
+        found = SculptSheet.model_validate_json(made[FACTS])
+    except ValueError as cause:  # it comes out of the sandbox, where the file could have written anything
+        raise JobError(
+            f"what it measured cannot be read: {cause}", code="damaged", place=str(file), next_move=AGAIN
+        ) from cause
+    return Illustrated(found, (Picture(sheet, f"{found.name}: front, three quarters, side, back", "jpeg"),))
+
+
+def _run(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], file: Path) -> dict[str, bytes]:
+    ended = confined.run(
+        [sys.executable, "-s", *call],
+        reads=reads,
+        wanted=(*wanted, RESULT, ERROR),
+        wall_s=120.0,
+        memory_mb=4096,
+        file_mb=512,
+    )
+    failure = _failure(ended, wanted)
+    if failure is None:
+        return {path: ended.files[path] for path in wanted}
+    line = failure.get("place", "").rpartition(":")[2]
+    raise JobError(
+        failure["message"],
+        code=failure["code"],
+        place=f"{file}:{line}" if line.isdecimal() else str(file),
+        next_move=failure.get("next_move") or AGAIN,
+    )
+
+
+def _failure(ended: Confined, wanted: Sequence[str]) -> dict[str, Any] | None:
+    if ended.status != "ended":
+        return {"code": ended.status, "message": f"it was stopped: {ended.status}"}
+    said: dict[str, Any] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        for path in (RESULT, ERROR):
+            write_atomic(Path(folder) / path, ended.files.get(path, b"{}"))
+            said[path] = plain.read_json(Path(folder) / path)
+    failure = failed(ended.exit_code, said[RESULT], said[ERROR], AGAIN)
+    if failure is None and any(path not in ended.files for path in wanted):
+        failure = {"code": "no_result", "message": ended.log[-500:] or "it left nothing"}
+    return failure

@@ -1,0 +1,76 @@
+"""Checking an accepted folder without running anything: bytes, plan and prompt, journal, signature, the plan beside it."""
+
+from collections.abc import Iterator
+from pathlib import Path
+
+from ..model.evidence.journal import Journal
+from ..model.evidence.run import Run
+from ..model.frozen import Frozen
+from . import bundle, signing
+from .kept import Kept
+from .state import State
+from .statement import Statement
+
+
+class Check(Frozen):
+    """One thing that was checked."""
+
+    name: str
+    ok: bool
+    detail: str
+
+
+def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:
+    """The checks of an accepted folder that need no simulation."""
+    kept = Kept.read(folder / bundle.STAMP, Statement)
+    if kept.value is None:
+        return [Check(name="stamp", ok=False, detail=kept.problem or "there is no stamp.json")]
+    signed = signing.check(folder, bundle.STAMP, signer)
+    return [
+        *_static(run, folder, kept.value),
+        Check(name="signature", ok=signed.holder != "broken", detail=signed.text()),
+        *_beside(run, folder),
+    ]
+
+
+def _beside(run: Run, folder: Path) -> Iterator[Check]:
+    """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan."""
+    if folder == run.folder or not run.plan.is_file():
+        return
+    if run.plan.read_bytes() != (folder / run.plan.name).read_bytes():
+        detail = (
+            f"the plan of the run is another than the stamped one in {folder.name}/, which this stamp says nothing of"
+        )
+        yield Check(name="beside", ok=False, detail=detail)
+
+
+def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
+    broken = bundle.damage(folder, statement)
+    count = sum((folder / s.name).is_file() for s in statement.subject)
+    left = len(statement.subject) - count
+    kept = f"{count} files as stamped" + (f", {left} left out of the small form" if left else "")
+    yield Check(name="checksums", ok=not broken, detail="; ".join(broken[:5]) or kept)
+    source = statement.predicate.source
+    for what, name, wanted in (
+        ("plan", "plan.md", source.plan_sha256),
+        ("prompt", "prompt.md", source.prompt_sha256),
+    ):
+        if wanted and statement.digest_of(name) != wanted:
+            yield Check(name=what, ok=False, detail=f"{name} is not the one that was approved")
+    wrong = _journal(run, statement, bundle.sha256_file(folder / bundle.STAMP)) if run.journal.is_file() else None
+    if wrong is not None:
+        yield Check(name="journal", ok=not wrong, detail=wrong or "unbroken, and it knows this stamp")
+
+
+def _journal(run: Run, statement: Statement, stamped: str) -> str | None:
+    """How the run's journal contradicts this stamp; empty when it agrees, None when it does not mention it."""
+    journal = Journal(run.journal)
+    broken, head = journal.breaks(), statement.predicate.journal_head
+    if broken:
+        return broken[0]
+    if head and head not in journal.heads():
+        return "it lacks the line that stood last when the stamp was made"
+    accepts = [e for e in State(run).journal if e.get("action") == "accept"]
+    if accepts and not any(e.get("stamp_sha256") == stamped for e in accepts):
+        return "it does not know this stamp"
+    return "" if accepts else None

@@ -1,0 +1,85 @@
+"""Sets: one line of a film gives surroundings at true scale, around what happens and never in front of the camera."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from worldkit.errors import ProgramError
+from worldkit.filming import Film, Recorded, sets
+
+NAMES = [name for name in sets.SETS.names() if name not in sets.NO_SETS]
+MOST = 3_000_000
+
+
+def recorded(radius: float) -> Recorded:
+    t = np.linspace(0.0, 1.0, 30)[:, None]
+    way = np.hstack([radius * (2 * t - 1), 0 * t, 0.1 + 0 * t])
+    return Recorded.rehearsal({"ball": way}, duration=2.0, radius=0.1 * radius)
+
+
+def described(name: str, radius: float, **how: float) -> tuple[dict, dict, Film]:
+    film = Film(recorded(radius))
+    film.set(name, **how)
+    return *film.description(), film
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_set_stands_around_the_action_and_leaves_the_camera_its_side(name):
+    radius = 0.4 * min(sets.SETS.find(name).WIDEST, 2.0)
+    facts, arrays, film = described(name, radius)
+    assert sets.SETS.find(name).__doc__ and facts["ground"] is not None and facts["air"]
+    place = sets.Place.of(film.recorded, -57.0, 1)
+    toward = np.array(place.spot(1.0, 0.0)[:2]) - place.middle
+    triangles = 0
+    for thing in facts["things"]:
+        if "vertices" not in thing:
+            continue
+        triangles += len(arrays[thing["faces"]])
+        points = arrays[thing["vertices"]] + np.array(thing["pos"])
+        assert np.isfinite(points).all()
+        ahead = (points[:, :2] - place.middle) @ toward
+        beside = np.linalg.norm((points[:, :2] - place.middle) - ahead[:, None] * toward, axis=1)
+        inside = np.linalg.norm(points[:, :2] - place.middle, axis=1) < 0.5 * radius
+        tall = points[:, 2] > film.recorded.floor_z + 0.5
+        assert not (inside & tall).any(), f"{thing['name']} stands in the action"
+        assert not (tall & (ahead > radius) & (beside < 0.5 * ahead)).any(), f"{thing['name']} stands before the camera"
+    assert triangles < MOST
+
+
+def test_the_same_seed_gives_the_same_set_and_another_another():
+    one, again, other = (described("meadow", 1.0, seed=seed)[1] for seed in (1, 1, 2))
+    assert all(np.array_equal(one[name], again[name]) for name in one)
+    assert any(not np.array_equal(one[name], other[name]) for name in one if name in other)
+
+
+def test_it_turns_with_the_camera():
+    here, there = (described("park", 1.0, facing_deg=facing)[0] for facing in (-57.0, 90.0))
+    path = [next(t for t in facts["things"] if t["name"] == "path")["pos"] for facts in (here, there)]
+    assert path[0] != path[1] and path[1][1] < 0  # behind, for a camera that looks from +y
+
+
+def test_an_unknown_set_lists_those_that_there_are():
+    with pytest.raises(ProgramError, match="no set 'moon'") as refused:
+        Film(recorded(1.0)).set("moon")
+    assert "living_room" in refused.value.next_move and "furniture" not in refused.value.next_move
+
+
+def test_what_is_too_large_for_a_room_is_told_with_wider_sets():
+    with pytest.raises(ProgramError, match="holds 4 m") as refused:
+        Film(recorded(9.0)).set("living_room")
+    assert "gym" in refused.value.next_move and "kitchen_counter" not in refused.value.next_move
+
+
+def test_what_is_said_afterwards_changes_it():
+    film = Film(recorded(1.0))
+    film.set("street")
+    film.mood("night")
+    film.ground("snow")
+    facts, _ = film.description()
+    assert facts["ground"] == "snow" and facts["air"][-1]["grade_exposure_stops"] == pytest.approx(0.9)
+
+
+def test_the_skill_names_every_set():
+    text = (Path(__file__).parents[2] / "skills/film/SKILL.md").read_text()
+    assert [name for name in NAMES if f"`{name}`" not in text] == []
