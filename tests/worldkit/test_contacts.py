@@ -35,6 +35,56 @@ def test_a_ball_rebounds_as_stated_whatever_its_mass_size_and_time_step(restitut
     assert rebound(restitution, time_step, speed, radius, mass) == pytest.approx(restitution, abs=allowed)
 
 
+@pytest.mark.parametrize("restitution", [0.2, 0.4, 0.7])
+@pytest.mark.parametrize("speed", [0.5, 2.0])
+def test_a_quiet_onset_leaves_rebounds_as_stated(restitution, speed):
+    quiet = {"onset": contacts.QUIET_ONSET}
+    ground = contacts.surface(restitution=restitution, **quiet)
+    assert rebound(restitution, 0.001, speed, ground=ground, **quiet) == pytest.approx(restitution, abs=0.06)
+
+
+def hops_on_a_slope(restitution, **more):
+    """The largest speed along the normal (m/s) of a box that has lain a second on a slope of 20 degrees."""
+    spec = empty(0.001)
+    surface = contacts.surface(friction=0.8, restitution=restitution, **more)
+    lean = np.radians(20)
+    tilt = (np.cos(lean / 2), 0.0, np.sin(lean / 2), 0.0)
+    normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
+    box = mujoco.mjtGeom.mjGEOM_BOX
+    spec.worldbody.add_geom(type=box, size=(2, 1, 0.1), quat=tilt, **surface)
+    body = spec.worldbody.add_body(pos=0.2 * normal, quat=tilt)
+    body.add_freejoint()
+    body.add_geom(type=box, size=(0.1, 0.1, 0.1), mass=1.0, **surface)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    fastest = 0.0
+    while data.time < 2:
+        mujoco.mj_step(model, data)
+        if data.time > 1:
+            fastest = max(fastest, abs(data.qvel[:3] @ normal))
+    return fastest
+
+
+@pytest.mark.parametrize("restitution", [0.1, 0.3, 0.5, 0.7])
+def test_a_box_lies_still_on_a_slope_whatever_its_rebound(restitution):
+    assert hops_on_a_slope(restitution, onset=contacts.QUIET_ONSET) < 1e-6
+
+
+def test_without_the_onset_it_hops():
+    """What the default does, as said in its docs: if this ends, the argument may go."""
+    assert hops_on_a_slope(0.3) > 1e-3
+
+
+@pytest.mark.parametrize(("arguments", "said"), [
+    ({"restitution": 0.3, "onset": 0.0}, "between 0.1 and 0.99"),
+    ({"restitution": 0.3, "onset": float("nan")}, "between 0.1 and 0.99"),
+    ({"onset": 0.7}, "goes with a stated restitution"),
+])  # fmt: skip
+def test_an_onset_out_of_place_is_refused(arguments, said):
+    with pytest.raises(ValueError, match=said):
+        contacts.surface(**arguments)
+
+
 @pytest.mark.parametrize("restitution", [0.3, 0.8, 0.95])
 def test_runge_kutta_rebounds_as_stated_too(restitution):
     assert rebound(restitution, 0.001, integrator="RK4") == pytest.approx(restitution, abs=0.04)

@@ -159,6 +159,7 @@ class _Writer:
                 keywords["adhesion"] = exact(m.adhesion)
             if m.restitution is not None:
                 keywords["restitution"] = m.restitution
+                keywords["onset"] = Raw("contacts.QUIET_ONSET")  # or what has come to rest hops on a slope
             # Little overlap and a firm grip, also where no rebound is stated; the damping is chosen for this constant, so
             # that a stated restitution holds.
             keywords["time_constant"] = Raw("4 * TIME_STEP")
@@ -180,6 +181,7 @@ class _Writer:
             }  # fmt: skip
             if row.restitution is not None:
                 keywords["restitution"] = row.restitution
+                keywords["onset"] = Raw("contacts.QUIET_ONSET")
             keywords["time_constant"] = Raw("4 * TIME_STEP")
             lines.append(call("contacts.pair", Raw("spec"), *row.between, **keywords))
         return "\n".join(lines)
