@@ -18,6 +18,9 @@ from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
 
 TICK_S = 0.02
+LOOK_S = 0.2
+STARVED = 20.0
+"""A run that gets less than this part of its time is ended all the same."""
 MB = 1 << 20
 LOG_BYTES = 20_000
 MOST_MATCHING = 64
@@ -53,7 +56,8 @@ def run(
         call: the command line.
         reads: files and folders it may read besides what every program may.
         wanted: names of the files in that folder that the caller wants to see, or patterns such as `*.jpg`.
-        wall_s: the run is killed after so many seconds.
+        wall_s: the run is killed after so many seconds of its own: while it sleeps the clock on the wall counts, while it
+            computes only what it gets of a processor, so that other work beside it does not end it.
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
     """
@@ -89,6 +93,26 @@ def run(
     return Confined(status, code, files, tail, round(wall, 3), name)
 
 
+class OwnTime:
+    """The seconds that a run had for itself: all in which it slept, and of the others those that it computed."""
+
+    def __init__(self, now_s: float) -> None:
+        self.spent_s, self._now, self._cpu, self._began = 0.0, now_s, 0.0, now_s
+
+    def after(self, now_s: float, cpu_s: float, wanting: bool) -> float:
+        """The seconds until now.
+
+        Args:
+            now_s: of a clock that never goes back.
+            cpu_s: processor time of all its processes so far.
+            wanting: whether one of them computes or would like to; several at once count as one.
+        """
+        passed, computed = now_s - self._now, max(cpu_s - self._cpu, 0.0)
+        self.spent_s += min(passed, computed) if wanting else passed
+        self._now, self._cpu = now_s, cpu_s
+        return max(self.spent_s, (now_s - self._began) / STARVED)
+
+
 def _matching(out: Path, pattern: str) -> list[str]:
     """At most so many names in a folder that fit a pattern, sorted."""
     return sorted(path.name for path in out.glob(pattern))[:MOST_MATCHING]
@@ -99,16 +123,17 @@ def _watched(
 ) -> tuple[str, int]:
     entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
     process, status = entered.process, "ended"
-    deadline, look = time.monotonic() + wall_s, 0.0
+    own, look = OwnTime(time.monotonic()), 0.0
     try:
         while process.poll() is None:
             now = time.monotonic()
-            if now > deadline:
-                status = "timed_out"
-                break
             if now > look:
-                look = now + 0.2
-                if family.census(process.pid).resident_bytes > memory:
+                look = now + LOOK_S
+                seen = family.census(process.pid)
+                if own.after(now, seen.cpu_s, seen.wanting) > wall_s:
+                    status = "timed_out"
+                    break
+                if seen.resident_bytes > memory:
                     status = "out_of_memory"
                     break
             time.sleep(TICK_S)

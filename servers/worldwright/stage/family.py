@@ -26,12 +26,14 @@ class Census:
     """Processor time of the living and of the children that they waited for, s."""
     resident_bytes: int
     """Resident memory; pages that processes share count once for each."""
+    wanting: bool
+    """Whether some process computes, or waits for the processor or a disk; else all of them sleep."""
 
 
 def census(root: int, *, itself: bool = True) -> Census:
     """The process and all its living descendants, found through /proc."""
     children: dict[int, list[int]] = {}
-    facts: dict[int, tuple[int, float, int]] = {}
+    facts: dict[int, tuple[int, float, int, bool]] = {}
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:
@@ -42,18 +44,19 @@ def census(root: int, *, itself: bool = True) -> Census:
             pid, parent, zombie = int(entry.name), int(words[1]), words[0] == "Z"
             children.setdefault(parent, []).append(pid)
             spent = sum(int(word) for word in words[11:15]) / TICKS
-            facts[pid] = (0 if zombie else int(words[17]), spent, int(words[21]) * PAGE)
+            facts[pid] = (0 if zombie else int(words[17]), spent, int(words[21]) * PAGE, words[0] in "RD")
     found, queue = [], [root]
     while queue:
         process = queue.pop()
         found.append(process)
         queue += children.get(process, [])
-    living = [p for p in found if facts.get(p, (0, 0, 0))[0] and (itself or p != root)]
+    living = [p for p in found if facts.get(p, (0,))[0] and (itself or p != root)]
     return Census(
         processes=tuple(living),
         threads=sum(facts[p][0] for p in living),
         cpu_s=sum(facts[p][1] for p in living),
         resident_bytes=sum(facts[p][2] for p in living),
+        wanting=any(facts[p][3] for p in living),
     )
 
 

@@ -4,9 +4,11 @@ import sys
 from pathlib import Path
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from worldwright.stage import sandbox
-from worldwright.stage.confined import run
+from worldwright.stage.confined import STARVED, OwnTime, run
 
 pytestmark = pytest.mark.skipif(sandbox.level() not in sandbox.CONFINING, reason="no level confines here")
 
@@ -26,6 +28,25 @@ def test_what_is_asked_for_comes_back_and_the_rest_is_gone():
 def test_links_and_pipes_do_not_come_back():
     code = "import os, sys; os.chdir(sys.argv[1]); os.symlink('/etc/hostname', 'a'); os.mkfifo('b'); os.mkdir('c')"
     assert python(code, wanted=("a", "b", "c")).files == {}
+
+
+@given(st.lists(st.tuples(st.floats(0, 10), st.floats(0, 20), st.booleans()), max_size=20))
+def test_a_run_is_charged_what_it_sleeps_and_what_it_computes(looks):
+    own, now, cpu, charged = OwnTime(100.0), 100.0, 0.0, 0.0
+    for passed, computed, wanting in looks:
+        now, cpu = now + passed, cpu + computed
+        charged += min(passed, computed) if wanting else passed
+        assert own.after(now, cpu, wanting) == pytest.approx(max(charged, (now - 100.0) / STARVED), abs=1e-9)
+
+
+def test_other_work_on_the_machine_does_not_end_a_run():
+    own = OwnTime(0.0)
+    assert own.after(50.0, 2.0, True) < 3.0  # 48 s long it only waited for a processor
+    assert own.after(52.0, 2.0, False) > 3.0  # and then it slept
+
+
+def test_who_sleeps_is_ended_too():
+    assert python("import time; time.sleep(60)", wall_s=1.0).status == "timed_out"
 
 
 def test_time_memory_and_output_are_limited():
