@@ -83,6 +83,43 @@ def test_the_denoiser_takes_noise_out_and_keeps_what_the_guides_show() -> None:
     assert clean[:, 36:].mean() > 2.5 * clean[:, :28].mean()
 
 
+def test_a_card_of_nvidias_comes_first_then_llvm_then_plain_computing(monkeypatch) -> None:
+    assert variant.candidates(True, True) == ("cuda_ad_rgb", "llvm_ad_rgb", "scalar_rgb")
+    assert variant.candidates(True, False) == ("cuda_ad_rgb", "scalar_rgb")
+    assert variant.candidates(False, True) == ("llvm_ad_rgb", "scalar_rgb")
+
+    class Driver:
+        def __init__(self, cards: int) -> None:
+            self.cards = cards
+
+        def cuInit(self, flags: int) -> int:
+            return 0 if self.cards >= 0 else 100
+
+        def cuDeviceGetCount(self, count) -> int:
+            count._obj.value = self.cards
+            return 0
+
+    for cards, there in ((1, True), (0, False), (-1, False)):
+        monkeypatch.setattr(variant.ctypes, "CDLL", lambda name, cards=cards: Driver(cards))
+        assert variant.nvidia() is there
+
+    def missing(name: str) -> None:
+        raise OSError(name)
+
+    monkeypatch.setattr(variant.ctypes, "CDLL", missing)
+    assert not variant.nvidia()
+
+
+def test_the_denoiser_computes_on_the_processor_where_there_is_no_card() -> None:
+    denoiser = denoised.Denoiser(32, 32, card=True)
+    light = np.random.default_rng(2).random((32, 32, 3)).astype(np.float32)
+    plain = denoised.Denoiser(32, 32)
+    guides = np.full_like(light, 0.5), np.zeros_like(light)
+    assert denoiser.card or np.array_equal(denoiser.clean(light, *guides), plain.clean(light, *guides))
+    denoiser.close()
+    plain.close()
+
+
 def test_without_llvm_it_computes_plainly(monkeypatch, tmp_path) -> None:
     monkeypatch.setattr(variant, "FOLDERS", (tmp_path,))
     for name in ("libLLVM-16.so.1", "libLLVM-14.so"):

@@ -143,9 +143,7 @@ def test_a_wide_camera_holds_the_whole_way(film):
 
 def test_a_film_without_a_shot_tells_the_event_by_itself(film):
     facts, arrays = described(film)
-    speeds = {round(float(s), 2) for s in np.diff(arrays["time"]) * 24}
-    assert len(facts["shots"]) >= 2
-    assert 0.25 in speeds
+    assert len(facts["shots"]) == 1, "nothing happens on an even way that is worth seeing twice"
     assert arrays["time"][0] == 0.0
     assert arrays["time"].max() == pytest.approx(3.0, abs=0.09)
 

@@ -74,11 +74,13 @@ class Screening:
         import numpy as np
 
         film, samples = self.film, self.film.samples if self.film.shutter > 0 else 1
+        if not isinstance(quality, str) and quality < 1:
+            samples = 1  # a draft is sharp
         if samples == 1:
             image = self._moment(float(frame), quality)
         else:
             total: Any = 0.0
-            if isinstance(quality, int):
+            if not isinstance(quality, str):
                 quality = max(1, round(quality / samples))
             for sample in range(samples):
                 drawn = self._moment(frame + film.shutter * sample / samples, quality)

@@ -74,7 +74,7 @@ class Frames:
         `data` needs positions and cameras up to date (`mj_kinematics`, `mj_comPos`, `mj_camlight`, or `mj_forward`).
         Raises ValueError when there is no such camera, or quality.
         """
-        if quality not in ("still", "video") and not (isinstance(quality, int) and quality > 0):
+        if quality not in ("still", "video") and not (isinstance(quality, int | float) and quality > 0):
             raise ValueError(f"quality is 'still', 'video' or a number of samples, not {quality!r}")
         index, drawing = _camera_index(self.model, camera), self._open
         try:

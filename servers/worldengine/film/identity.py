@@ -37,7 +37,7 @@ def identity(renderer: str = "") -> Identity:
     """
     name = renderer or renderers.wanted()
     packages = renderers.installed((*PACKAGES, *renderers.SEAM.find(name).PACKAGES))
-    own = [*Path(__file__).parent.glob("*.py"), *Path(filming.__file__ or "").parent.glob("*.py")]
+    own = [*Path(__file__).parent.glob("*.py"), *Path(filming.__file__ or "").parent.rglob("*.py")]
     own.append(Path(renderers.__file__ or ""))
     # Plainer renderers may take over from any other, so they count for it.
     drawn: list[Path] = []

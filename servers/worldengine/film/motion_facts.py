@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from ..recording import still_surfaces
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     import numpy as np
 
     from ..recording.stored import Recording
@@ -17,13 +19,14 @@ RATE_HZ = 250.0
 """The author gets so many rows per second: cameras are no faster."""
 
 
-def write(recording: "Recording", path: Path, facts: dict[str, Any]) -> None:
+def write(recording: "Recording", path: Path, facts: dict[str, Any], told: "Mapping[str, Any] | None" = None) -> None:
     """Write the facts of a recording to `path` (.npz).
 
     Args:
         recording: the recording to film.
         path: the file.
         facts: `fps`, `size` and `movers` of the program, as `program.json` has them.
+        told: what the plan tells of the place: `setting`, `floor`, `words`, and `looks`, pairs of a name and a look.
     """
     import numpy as np
 
@@ -35,12 +38,13 @@ def write(recording: "Recording", path: Path, facts: dict[str, Any]) -> None:
     ground = {f"ground_{name}": value for name, value in still_surfaces.read(recording.folder).items()}
     touch = _touches(recording, time)
     cameras = list(map(str, recording.meta.get("cameras", ())))
+    place = {name: np.array(value, dtype=str) for name, value in (told or {}).items()}
     np.savez(
         path,
         time=time[rows] - time[0], pos=recording.pos[rows], quat=recording.quat[rows], middle=middle, half=half,
         bodies=np.array(recording.names, dtype=str), cameras=np.array(cameras, dtype=str),
         movers=np.array([name for name in facts.get("movers", ()) if name in recording.names], dtype=str),
-        fps=int(facts["fps"]), size=np.array(facts["size"], dtype=int), floor_z=_floor(recording), **{**touch, **ground},
+        fps=int(facts["fps"]), size=np.array(facts["size"], dtype=int), floor_z=_floor(recording), **{**touch, **ground, **place},
     )  # fmt: skip
 
 

@@ -1,6 +1,6 @@
 """The final pass: a film that is whole after its first minute and becomes better until its minutes are over.
 
-All frames are drawn coarsely first, every eighth, then those between, so that a film stands whenever it is cut: a frame that
+All frames are drafted first, at half the size with their surfaces' colours at the whole, every eighth, then those between, so that a film stands whenever it is cut: a frame that
 is missing is shown by the one before it. Then they are drawn again in place, with more samples. What is drawn lies in
 `frames/` and is gone on with later.
 """
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
     from .described import Described
 
 NAME, FRAMES, STATE = "final", "frames", "state.json"
-LEVELS = (2, 6, 18, 54)
-"""Samples a pixel, round by round."""
+LEVELS = (0.5, 2, 6, 18, 54)
+"""Samples a pixel, round by round; less than one is a draft, which costs about a quarter of the next."""
 STRIDES = (8, 4, 2, 1)
 ENCODE_S = 0.06
 """Kept back for each frame of the film, s: reading it again and encoding it."""
@@ -42,7 +42,7 @@ class Shown(Protocol):
     count: int
     """The number of its frames."""
 
-    def picture(self, number: int, samples: int) -> "np.ndarray":
+    def picture(self, number: int, samples: float) -> "np.ndarray":
         """One frame with so many samples a pixel: uint8 (height, width, 3)."""
 
     def told(self) -> dict[str, Any]:
@@ -68,7 +68,7 @@ class OfThePlan:
         self.count = len(self._rows)
         self._frames = stack.enter_context(Frames(model, *size, renderers.FINAL))
 
-    def picture(self, number: int, samples: int) -> "np.ndarray":
+    def picture(self, number: int, samples: float) -> "np.ndarray":
         """One frame."""
         from worldkit import cameras
 
@@ -93,7 +93,7 @@ class OfTheAuthor:
         screening = Screening(given.world, model, recording, film, given.size, given.fps, renderers.FINAL)
         self._screening = stack.enter_context(screening)
 
-    def picture(self, number: int, samples: int) -> "np.ndarray":
+    def picture(self, number: int, samples: float) -> "np.ndarray":
         """One frame, words and all."""
         return self._screening.picture(number, samples)
 
@@ -155,17 +155,17 @@ class Refined:
         folder.mkdir(parents=True, exist_ok=True)
         try:
             said = json.loads((folder / STATE).read_text(encoding="utf-8"))
-            samples = [int(n) for n in said["samples"]] if said["about"] == self._about else []
+            samples = [float(n) for n in said["samples"]] if said["about"] == self._about else []
         except (OSError, ValueError, KeyError, TypeError):
             samples = []
-        self.samples = samples if len(samples) == count else [0] * count
-        self.samples = [n if self.path(k).is_file() else 0 for k, n in enumerate(self.samples)]
+        self.samples = samples if len(samples) == count else [0.0] * count
+        self.samples = [n if self.path(k).is_file() else 0.0 for k, n in enumerate(self.samples)]
 
     def path(self, number: int) -> Path:
         """The file of a frame."""
         return self._folder / f"{number:05d}.png"
 
-    def keep(self, number: int, image: "np.ndarray", samples: int) -> None:
+    def keep(self, number: int, image: "np.ndarray", samples: float) -> None:
         """Replace a frame by a better one."""
         write_png(self.path(number), image)
         self.samples[number] = samples
@@ -186,10 +186,10 @@ class Refined:
         """The same in words."""
         said = self.told()
         head = f"{said['drawn']} of {len(self.samples)} frames"
-        return f"{head}, {said['samples']['least']} to {said['samples']['most']} samples a pixel"
+        return f"{head}, {said['samples']['least']:g} to {said['samples']['most']:g} samples a pixel"
 
 
-def rounds(count: int) -> Iterator[tuple[int, int]]:
+def rounds(count: int) -> Iterator[tuple[int, float]]:
     """(frame, samples) in the order of drawing: each level over every eighth frame first, then those between."""
     for samples in LEVELS:
         done: set[int] = set()

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
-from . import sets, viewpoints
+from . import hero, sets
 from .drawn_only import look_facts
 from .dressing import Dressing
 from .frame_by_frame import grown, sampled
@@ -94,28 +94,8 @@ class Film(Dressing):
         self.reached, self.now = reached, (first + len(times)) / self.recorded.fps
 
     def usual(self) -> None:
-        """The shots of a film that nobody has thought about: where we are, what moves, the event slowly, the outcome."""
-        recorded, event = self.recorded, self.recorded.event()
-        if not recorded.movers:
-            self.shot(viewpoints.wide(), until=recorded.duration)
-            return
-        lead = max(
-            recorded.movers,
-            key=lambda name: float(np.max(recorded.speed(name, recorded.time[:: 1 + len(recorded.time) // 100]))),
-        )
-        end, slow = recorded.duration, min(0.5, 0.15 * recorded.duration)
-        opening = min(max(event - slow, 0.0), 0.45 * end)
-        if opening > 0.2:
-            self.shot(viewpoints.wide(), until=opening)
-        if event - slow - self.reached > 0.2:
-            self.shot(viewpoints.follow(lead, azimuth_deg=(-70, -55)), until=event - slow)
-        after = min(end, event + slow)
-        if after - self.reached > 0.05:
-            self.shot(
-                viewpoints.follow(lead, azimuth_deg=(-50, -35), fill=0.26, elevation_deg=14), until=after, speed=0.25
-            )
-        if end - self.reached > 0.04:
-            self.shot(viewpoints.wide(azimuth_deg=(-45, -35)), until=end)
+        """The shots of a film that nobody has thought about: the whole event, then its heart again, close and slowly."""
+        hero.shots(self)
 
     # -- words ---------------------------------------------------------------------------------------------------------
 

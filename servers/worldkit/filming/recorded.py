@@ -47,6 +47,16 @@ class Recorded:
         """The cameras that the plan names."""
         self.floor_z = float(arrays["floor_z"])
         """Height of the ground, m (of the lowest thing where there is none)."""
+        self.setting = str(arrays["setting"]) if "setting" in arrays else ""
+        """`studio`, `room`, `outdoor` or `dark`, as the plan says; empty where nothing does."""
+        self.floor = str(arrays["floor"]) if "floor" in arrays else ""
+        """The look of the ground that the plan names; empty for the setting's own."""
+        self.words: tuple[str, ...] = tuple(str(word) for word in arrays["words"]) if "words" in arrays else ()
+        """The plan's title, thrice, its first paragraph and the names of its things, word by word, in small letters."""
+        self.looks: dict[str, str] = {}
+        """The looks that the plan gives its things, by name."""
+        if "looks" in arrays:
+            self.looks = {str(name): str(look) for name, look in np.asarray(arrays["looks"]).reshape(-1, 2)}
         self._ground = {name: np.asarray(arrays[f"ground_{name}"]) for name in GROUND if f"ground_{name}" in arrays}
         self._heights: dict[str, ground.Height] = {}
         moving = np.ptp(self._pos, axis=0).max(axis=-1) > 1e-3 if len(self.bodies) else np.zeros(0, bool)
@@ -159,6 +169,18 @@ class Recorded:
             mine = self._ground["owner"] == names.index(body)
             self._heights[body] = ground.over(self._ground["vertices"], self._ground["faces"][mine])
         return self._heights[body]
+
+    @property
+    def still(self) -> tuple[str, ...]:
+        """Bodies that stand still and have an upper side (`surface`); `world` among them where it has shapes of its own."""
+        return tuple(str(name) for name in self._ground.get("names", ()))
+
+    def extent(self, body: str) -> tuple[np.ndarray, np.ndarray]:
+        """The two corners (3,), m, of what a body of `still` takes up in the world."""
+        self.surface(body)
+        mine = self._ground["owner"] == self.still.index(body)
+        points = self._ground["vertices"][np.unique(self._ground["faces"][mine])]
+        return points.min(axis=0), points.max(axis=0)
 
     def into(self, body: str, points: np.ndarray, at: float = 0.0) -> np.ndarray:
         """Points (N, 3) of the world, m, in a body's own frame at a recorded time: what `to=` and skins are drawn in."""

@@ -1,21 +1,53 @@
-"""Hand a recording to a film's author, and ask it what the film is to show."""
+"""Hand a recording to a film's author, and ask it what the film is to show; where nobody wrote a film, the house's own tells."""
 
+import re
 import sys
 from pathlib import Path
+from typing import Any
 
+from worldkit.filming import unasked
+
+from ..model.errors import WorldwrightError
 from ..model.evidence import pictures_of
+from ..model.plan.plan_text import read_plan
 from . import plain
 
 PROGRAM = pictures_of.FILM
 MOTION, FOLDER = "motion.npz", "film"
+UNASKED = Path(unasked.__file__)
+"""The film of a run whose author wrote none."""
+TITLE_COUNTS = 3
+MOST_WORDS = 2000
 
 
-def lay_out(recording: Path, facts: Path, motion: Path) -> None:
-    """Write the part of a recording that the film's author sees; `facts` is the program's `program.json`."""
+def lay_out(recording: Path, facts: Path, motion: Path, source: Path | None = None) -> None:
+    """Write the part of a recording that the film's author sees; `facts` is the program's `program.json`, `source` the plan."""
     from worldengine.film import motion_facts
     from worldengine.recording import stored
 
-    motion_facts.write(stored.open(recording), motion, plain.read_json(facts))
+    motion_facts.write(stored.open(recording), motion, plain.read_json(facts), place(source) if source else None)
+
+
+def place(source: Path) -> dict[str, Any]:
+    """What a plan tells of where it is: `setting`, `floor`, `words`, and `looks`, rows of a name and a look; `{}` of no plan."""
+    try:
+        document = read_plan(source)
+    except (WorldwrightError, OSError):
+        return {}
+    plan, text = document.plan, source.read_text(encoding="utf-8")
+    head = text.partition("\n## ")[0].strip()
+    title, _, intro = head.partition("\n")
+    names = " ".join(plan.object_names()) if hasattr(plan, "object_names") else ""
+    words = re.findall(r"[a-z]+", f"{f'{title} ' * TITLE_COUNTS} {intro} {names}".lower().replace("_", " "))
+    rows = [*plan.scene_objects, *plan.assets]
+    looks = [[row.name, row.look] for row in rows if row.look]
+    shown = plan.visualization
+    return {
+        "setting": shown.setting,
+        "floor": shown.floor or "",
+        "words": words[:MOST_WORDS],
+        "looks": looks or [["", ""]],
+    }
 
 
 def call(program: Path, motion: Path, out: Path | str) -> list[str]:

@@ -32,8 +32,8 @@ def draw(
     Args:
         run: the run with its program and plan, and its film if it has one.
         key: the hashes of the recording.
-        at_s: seconds of the film, or of the recording where a camera of the plan is named or the run has no film.
-        camera: a camera of the plan; None or `film` for the film's own.
+        at_s: seconds of the film, or of the recording where a camera of the plan is named, or none is and there is no `film.py`.
+        camera: a camera of the plan; None or `film` for the film's own; without a `film.py`, `film` is the house's own film.
         size: pixels.
 
     Raises:
@@ -41,7 +41,7 @@ def draw(
         JobError: `film.py` does not run, or asks for what may not be shown; the error has its line.
     """
     physics = recorded(run, key)
-    authored = camera in (None, FILM) and (run.folder / pictures_of.FILM).is_file()
+    authored = camera == FILM or (camera is None and (run.folder / pictures_of.FILM).is_file())
     with tempfile.TemporaryDirectory(prefix="worldwright-frame-") as folder:
         here = Path(folder)
         told = describe(run, physics, here) if authored else None
@@ -85,12 +85,14 @@ def minutes(seconds: float) -> str:
 
 
 def describe(run: Run, physics: Path, here: Path) -> Path:
-    """Let the author describe the run's film in the sandbox; returns the folder of the description, below `here`."""
+    """Have the run's film described in the sandbox, or the house's own where it has none; returns the folder of the description, below `here`."""
     source, told = here / "source", here / authoring.FOLDER
     for name, content in pictures_of.files(run).items():
         write_atomic(source / name, content)
-    authoring.lay_out(physics / "trajectory", physics / "program.json", source / authoring.MOTION)
-    call = authoring.call(source / authoring.PROGRAM, source / authoring.MOTION, "{out}")
+    motion, written = source / authoring.MOTION, source / authoring.PROGRAM
+    source.mkdir(parents=True, exist_ok=True)
+    authoring.lay_out(physics / "trajectory", physics / "program.json", motion, run.source)
+    call = authoring.call(written if written.is_file() else authoring.UNASKED, motion, "{out}")
     found = run_process(call, (source,), (DESCRIPTION, ARRAYS), here)
     for name in (DESCRIPTION, ARRAYS):
         write_atomic(told / name, found[name])

@@ -17,7 +17,7 @@ from ..model.errors import WorldwrightError
 from ..model.evidence import assets_used, environment, pictures_of
 from ..model.evidence.run import Run, sha256_file
 from ..model.plan.plan_text import read_plan
-from . import authoring, plain, refined
+from . import authoring, family, plain, refined
 from .crew import Crew, Member
 from .gates import folder_name
 from .job import Job, Spec
@@ -28,6 +28,8 @@ WORLD, FACTS, INPUTS = "world.mjz", "program.json", "inputs.json"
 DRIVEN = ("inputs.arrows", "edits.arrows")
 """The files of a recording that drove it."""
 PASS = {"physics": "physics", "storyboard": "storyboard", "stills": "still", "video": "video", "final": "final"}
+ITS_OWN = ("program", "film", "crashed", "no_result", "timed_out", "file_too_large", "out_of_memory", "killed")
+"""How a film fails by its own fault; the house's own is made then."""
 MB = 1 << 20
 FAREWELL_S = 3.0
 """The author's process may take so long to end after the engine has ended, s."""
@@ -154,34 +156,49 @@ class Acting:
         return self.crew.start("engine", call, self.job.out, (*given, self.job.lock, *reads), descriptors)
 
     def film(self) -> Ended:
-        """Draw the recording; if the run has an author's film, let it be described first and draw it, too."""
-        recording = self.physics / "trajectory"
-        earlier = tuple(map(Path, self.spec.reuse))
-        more = [*self.spec.arguments, *(word for path in earlier for word in ("--reuse", str(path)))]
-        reads = [recording, *earlier]
+        """Draw the recording, and the run's film; where its author's cannot be told or drawn, the house's own, and say why."""
         final = self.spec.stage == "final"
         authored = self.spec.stage in pictures_of.AUTHORED and (self.job.inputs / authoring.PROGRAM).is_file()
         if final:
             refined.carry_over(self.run, self.spec, self.job)
-        if authored:
-            if failure := self.describe(recording):
-                return Ended(failure)
-            more += ["--film", str(self.job.inputs / authoring.FOLDER)]
-            reads.append(self.job.inputs / authoring.FOLDER)
-        member = self.engine("--from", str(recording), *more, reads=tuple(reads))
-        failure = self.ended(member)
-        said = plain.read_json(self.job.out / "result.json")
-        if authored and not final and not failure:
-            said["drawn_by"] = environment.film().sha256
-        return Ended(failure, said)
+        if not (final or authored):
+            return Ended(*self.drawn([]))
+        if not authored:
+            return Ended(*self.told(authoring.UNASKED))
+        failure, said = self.told(self.job.inputs / authoring.PROGRAM)
+        if failure is None:
+            return Ended(None, said if final else {**said, "drawn_by": environment.film().sha256})
+        if failure.get("code") in ITS_OWN and not (self.job.folder / "cancel").exists():
+            (self.job.out / "error.json").unlink(missing_ok=True)
+            instead, _ = self.told(authoring.UNASKED)
+            if instead is None:
+                name = "final.mp4" if final else "film.mp4"
+                where = f"the film that nobody asked for is {self.job.out / name}"
+                failure = {**failure, "message": f"{failure['message']}; until then, {where}"}
+        return Ended(failure)
 
-    def describe(self, recording: Path) -> dict[str, str] | None:
-        """Let `film.py` describe what is shown, in the author's sandbox, and take the description out."""
-        inputs, out = self.job.inputs, self.job.author / authoring.FOLDER
-        authoring.lay_out(recording, inputs / FACTS, inputs / authoring.MOTION)
-        call = authoring.call(inputs / authoring.PROGRAM, inputs / authoring.MOTION, out)
-        member = self.crew.start("author", call, out, (inputs,))
+    def told(self, program: Path) -> tuple[dict[str, str] | None, dict[str, Any]]:
+        """Have a film described by its program, and draw it."""
+        failure = self.describe(self.physics / "trajectory", program)
+        return (failure, {}) if failure else self.drawn([self.job.inputs / authoring.FOLDER])
+
+    def drawn(self, film: list[Path]) -> tuple[dict[str, str] | None, dict[str, Any]]:
+        """Draw the recording, and the films described in these folders; returns the failure and what the engine says."""
+        recording, earlier = self.physics / "trajectory", tuple(map(Path, self.spec.reuse))
+        more = [*self.spec.arguments, *(word for path in earlier for word in ("--reuse", str(path)))]
+        more += [word for folder in film for word in ("--film", str(folder))]
+        member = self.engine("--from", str(recording), *more, reads=(recording, *earlier, *film))
+        failure = self.ended(member)
+        return failure, plain.read_json(self.job.out / "result.json")
+
+    def describe(self, recording: Path, program: Path) -> dict[str, str] | None:
+        """Let a film's program describe what is shown, in the author's sandbox, and take the description out."""
+        inputs, out = self.job.inputs, self.job.author / f"{authoring.FOLDER}-{program.stem}"
+        authoring.lay_out(recording, inputs / FACTS, inputs / authoring.MOTION, inputs / self.run.source.name)
+        member = self.crew.start("author", authoring.call(program, inputs / authoring.MOTION, out), out, (inputs,))
         if failure := self.ended(member):
+            if failure["code"] == "timed_out":
+                family.end(member.process.pid, 0)
             return failure
         for name in (DESCRIPTION, ARRAYS):
             if not plain.take(member.out / name, inputs / authoring.FOLDER / name, self.spec.file_mb * MB):

@@ -142,7 +142,7 @@ def start(
 
     Physics needs an approved plan and a clean lint; what needs a pass under way queues. What succeeded for this program,
     plan and environment is answered from its evidence. With `model`, any MJCF file is recorded (runs/<its name>).
-    `final` needs physics alone: film.py's film (else the first camera) traced, whole soon, then better.
+    `final` needs physics alone: film.py's film (else our own) traced, whole soon, then better.
     """
     from ..model.evidence import environment
     from . import bare_models, refined, storyboards

@@ -139,3 +139,42 @@ def test_a_film_is_no_companion_of_the_program(reviewed: Path, copy: Copy) -> No
     (run.folder / "palette.py").write_text("BLUE = '#0000fe'\n")
     assert len({one, other, pictures_of.author_sha256(run)}) == 3
     assert run.evidence_key(environment.current().sha256()) == key
+
+
+FORGED = """\
+    import worldkit.filming.director as d
+    old = d.sampled
+    d.sampled = lambda *a: {**old(*a), 'eye': old(*a)['eye'] * float('nan')}
+"""
+PIXELS = """\
+    import numpy as np
+    from worldkit.filming import Surface
+    film.draw('x', 'box', 1, look=Surface(picture=np.zeros((8, 40000, 3), np.uint8)))
+"""
+HOSTILE = {
+    "NaN cameras": ("    film.shot(still((float('nan'), 0, 1), 'ball'), until=0.2)\n", "shot", ":6"),
+    "forged NaN cameras": (FORGED, "eye must be", ""),
+    "40,000 pixels": (PIXELS, "4096", ":8"),
+    "raises": ("    raise ValueError('no')\n", "ValueError: no", ":6"),
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_a_hostile_film_is_refused_with_its_line_and_the_house_makes_one(reviewed: Path, copy: Copy, name: str) -> None:
+    line, words, where = HOSTILE[name]
+    run = Run(copy(reviewed))
+    write(
+        run,
+        "from worldkit.filming import Film, still\n\n\ndef film(film: Film) -> None:\n    film.mood('noon')\n" + line,
+    )
+    job = video(run)
+    assert job.state == "failed" and words in job.message, job.text()
+    assert job.place == f"film.py{where}"
+    made = run.jobs / job.job / "out" / "film.mp4"
+    assert str(made) in job.message and made.stat().st_size > 10_000
+
+
+def test_a_run_without_a_film_has_the_houses_own(reviewed: Path) -> None:
+    shown = stage.frames(str(reviewed), at=0.1, camera="film")
+    assert "film at 0.12 s" in shown.data.text() or "film at 0.08 s" in shown.data.text()
+    assert "frames like this one take" in shown.data.text()

@@ -24,8 +24,8 @@ PLAIN = "classic"
 """The renderer that takes over where a driver cannot do what another one asks."""
 FINAL = "traced"
 """The renderer of the final pass."""
-Quality = Literal["still", "video"] | int
-"""The effort spent on a picture; a number asks for so many samples a pixel, where a renderer takes any."""
+Quality = Literal["still", "video"] | float
+"""The effort spent on a picture; a number asks for so many samples a pixel, where a renderer takes any (less than one: a draft)."""
 
 
 class Drawing(Protocol):

@@ -5,7 +5,7 @@ camera looks, and gives light, sky and air; what the film says afterwards change
 `seed` makes another of the same kind.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -29,8 +29,14 @@ class Set(Protocol):
 
 
 SETS: Seam[Set] = Seam(__name__, Set, "set")
+ROOMS = ("living_room", "workshop", "gym")
+"""Sets with walls and furniture, which stand around the furniture of the world, too."""
 NO_SETS = ("pieces", "land", "furniture")
 """Modules of this folder that the sets are made with."""
+
+
+LAND_M = 2.0
+"""What is at least twice so wide is ground, not furniture, m."""
 
 
 @dataclass(frozen=True)
@@ -50,6 +56,8 @@ class Place:
     ways: np.ndarray
     """(N, 3): x, y and radius of discs, m, that the movers pass: nothing grows there."""
     random: np.random.Generator
+    standing: float = 0.0
+    """The radius, m, with the things of the world that stand near what moves; a room leaves them their place."""
 
     @classmethod
     def of(cls, recorded: Recorded, facing_deg: float, seed: int) -> "Place":
@@ -64,14 +72,16 @@ class Place:
             np.column_stack([way[:, :2], np.full(len(way), 1.3 * recorded.radius(n))])
             for n, way in zip(names, points, strict=False)
         ]
+        middle, radius = 0.5 * (low + high)[:2], float(np.linalg.norm((high - low)[:2]) / 2 + own)
         return cls(
-            middle=0.5 * (low + high)[:2],
-            radius=float(np.linalg.norm((high - low)[:2]) / 2 + own),
+            middle=middle,
+            radius=radius,
             top=float(high[2] + own),
             floor=recorded.floor_z,
             facing_deg=float(facing_deg),
             ways=np.concatenate(rows) if rows else np.zeros((0, 3)),
             random=np.random.default_rng(seed),
+            standing=max([radius, *_furniture(recorded, middle)]),
         )  # fmt: skip
 
     def spot(self, away: float, turn_deg: float, up: float = 0.0) -> tuple[float, float, float]:
@@ -95,6 +105,17 @@ class Place:
         return [(float(x), float(y), float(r) + room) for x, y, r in self.ways[:: max(1, len(self.ways) // 150)]]
 
 
+def _furniture(recorded: Recorded, middle: np.ndarray) -> list[float]:
+    """How far from a place (2,), m, things of the world reach that are no land."""
+    found = []
+    for name in recorded.bodies:
+        half = recorded.box(name)[1]
+        if half[:2].max() < LAND_M:
+            away = np.linalg.norm(recorded.position(name, 0.0)[:2] - middle)
+            found.append(float(away + np.linalg.norm((np.abs(recorded.orientation(name, 0.0)) @ half)[:2])))
+    return [far for far in found if far < 2 * LAND_M]
+
+
 def build(film: "Dressing", name: str, facing_deg: float, seed: int) -> None:
     """Draw a set around what is recorded.
 
@@ -112,4 +133,4 @@ def build(film: "Dressing", name: str, facing_deg: float, seed: int) -> None:
             "film.py",
             f"use a wider one: {', '.join(larger) or 'none is wider'}",
         )
-    found.build(film, place)
+    found.build(film, replace(place, radius=place.standing) if name in ROOMS else place)

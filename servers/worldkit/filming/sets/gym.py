@@ -53,5 +53,7 @@ def build(film: "Dressing", place: Place) -> None:
         "fabric_blue",
         12,
     )
-    for number, (turn, look) in enumerate(((168.0, "rubber_orange"), (172.0, "football"), (196.0, "rubber_red"))):
-        film.draw(f"ball {number + 1}", "sphere", 0.22, pos=place.spot(away - 0.5, turn, 0.11), look=look)
+    for number, (turn, look) in enumerate(
+        ((166.0, "leather_brown"), (172.0, "leather_black"), (199.0, "leather_brown"))
+    ):
+        film.draw(f"medicine ball {number + 1}", "sphere", 0.28, pos=place.spot(away - 0.5, turn, 0.14), look=look)

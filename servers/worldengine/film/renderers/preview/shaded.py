@@ -37,7 +37,7 @@ class Shaded:
         import numpy as np
 
         self._context.make_current()
-        if isinstance(quality, int):
+        if not isinstance(quality, str):
             quality = "still" if quality >= MANY else "video"
         picture = self._pipeline.image(data, camera, quality)
         if picture.shape[0] != self._size[1]:

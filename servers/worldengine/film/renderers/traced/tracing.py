@@ -17,7 +17,7 @@ from ..preview.finish import Finish, linear
 from ..preview.focus import FRAME_M
 from ..preview.lighting import relight
 from ..preview.scenery import own_lights, setting_of, space_of
-from . import daylight, rounded
+from . import daylight, rounded, variant
 from .darkroom import Scene, air, develop
 from .denoised import Denoiser
 from .figures import Figures, fill, mesh_of
@@ -30,10 +30,14 @@ if TYPE_CHECKING:
 
     from .. import Drawing, Quality
 
-SAMPLES = {"still": 32, "video": 3}
+SAMPLES: dict[str, float] = {"still": 32, "video": 3}
 DEPTH, CLEAR_DEPTH = 4, 8
 """The longest paths, and those where light goes through glass."""
 GUIDE_SAMPLES = 4
+DRAFT_SIDE = 2
+"""Of a draft, light is traced for every second pixel of every second row."""
+LEAST_ALBEDO = 0.2
+"""Darker surfaces show light as it comes: of what they hardly reflect no draft can tell what fell on them."""
 BRIGHTEST = 12.0
 """A pixel of more scene light would be a speck that the denoiser cannot take out."""
 
@@ -86,7 +90,7 @@ class Tracing:
         self._walls = Walls(self._own, low, high, eyes, self._floor_z) if inside else None
         self._panels: dict[Face, list[Any]] = {}
         self._scenes: dict[Any, Any] = {}
-        self._denoiser = Denoiser(width, height)
+        self._denoisers: dict[int, Denoiser] = {}
         self._plain: Drawing | None = None
         self._sensors: dict[bool, Any] = {}
         self.figures.place(rest)
@@ -161,7 +165,7 @@ class Tracing:
                 self._panels[face].append(shape)
         return self._panels[face]
 
-    def _sensor(self, view: View, channels: str) -> Any:
+    def _sensor(self, view: View, channels: str, coarser: int = 1) -> Any:
         """The camera; one with a lens where the film focuses."""
         import mitsuba as mi
 
@@ -169,7 +173,7 @@ class Tracing:
         place = (view.eye - view.axes[:, 2]).tolist()
         move = mi.ScalarTransform4f().look_at(origin=view.eye.tolist(), target=place, up=view.axes[:, 1].tolist())
         film = {
-            "type": "hdrfilm", "width": self.width, "height": self.height, "rfilter": {"type": "box"},
+            "type": "hdrfilm", "width": self.width // coarser, "height": self.height // coarser, "rfilter": {"type": "box"},
             "pixel_format": channels, "component_format": "float32",
         }  # fmt: skip
         lens: dict[str, Any] = {"type": "perspective"}
@@ -195,8 +199,10 @@ class Tracing:
             self._last, self._looked = Outlook(ways, behind), key
         return self._last
 
-    def trace(self, data: mujoco.MjData, view: View, faces: frozenset[Face], samples: int, seed: int) -> Rays:
-        """Trace the picture of `data`, with these walls."""
+    def trace(
+        self, data: mujoco.MjData, view: View, faces: frozenset[Face], samples: int, seed: int, coarser: int = 1
+    ) -> Rays:
+        """Trace the picture of `data`, with these walls; its light `coarser` times smaller each way."""
         import mitsuba as mi
 
         self.figures.place(data)
@@ -204,7 +210,7 @@ class Tracing:
         scene = self._scene(faces, data)
         depth = CLEAR_DEPTH if self.figures.clear else DEPTH
         path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": 16})
-        light = mi.render(scene, sensor=self._sensor(view, "rgb"), integrator=path, spp=samples, seed=seed)
+        light = mi.render(scene, sensor=self._sensor(view, "rgb", coarser), integrator=path, spp=samples, seed=seed)
         # A second walk for the guides: around the path tracer itself they would double its time.
         guide = mi.load_dict({"type": "aov", "aovs": "a:albedo,n:sh_normal,p:position", "any": {"type": "depth"}})
         said = mi.render(scene, sensor=self._sensor(view, "rgba"), integrator=guide, spp=GUIDE_SAMPLES, seed=0)
@@ -212,10 +218,10 @@ class Tracing:
 
     def image(self, data: mujoco.MjData, camera: int, quality: Quality) -> np.ndarray:
         """The picture: uint8 (height, width, 3)."""
-        return self.picture(data, camera, quality if isinstance(quality, int) else SAMPLES[quality])
+        return self.picture(data, camera, SAMPLES[quality] if isinstance(quality, str) else quality)
 
-    def picture(self, data: mujoco.MjData, camera: int, samples: int, seed: int = 0) -> np.ndarray:
-        """The picture by so many samples a pixel: uint8 (height, width, 3)."""
+    def picture(self, data: mujoco.MjData, camera: int, samples: float, seed: int = 0) -> np.ndarray:
+        """The picture by so many samples a pixel, less than one for a draft: uint8 (height, width, 3)."""
         view = of_camera(self.model, data, camera, self.width, self.height)
         outlook = self._outlook(view)
         ways = outlook.ways
@@ -224,8 +230,9 @@ class Tracing:
         if self._walls is not None:
             some = ways[:: max(self.height // 24, 1), :: max(self.width // 40, 1)].reshape(-1, 3)
             drawn, painted = self._walls.seen(view.eye, some)
-        rays = self.trace(data, view, drawn, samples, seed)
-        light = self._denoiser.clean(rays.light, rays.albedo, rays.normals)
+        coarser = DRAFT_SIDE if samples < 1 else 1
+        rays = self.trace(data, view, drawn, max(1, round(samples * coarser**2)), seed, coarser)
+        light = self._cleaned(rays, coarser)
         if outlook.behind is not None and rays.seen.min() < 1:
             light += (1.0 - rays.seen)[..., None] * outlook.behind
         if painted:
@@ -239,6 +246,24 @@ class Tracing:
         light = air(np.maximum(light, 0.0), rays.places, rays.seen, view.eye, ways, scene, self._treatment)
         return develop(light, self.setting, self._treatment)
 
+    def _cleaned(self, rays: Rays, coarser: int) -> np.ndarray:
+        """Light without noise (H, W, 3); that of a draft is spread over the colours of the surfaces, which are as fine as ever."""
+        height, width = rays.light.shape[:2]
+        if coarser not in self._denoisers:
+            self._denoisers[coarser] = Denoiser(width, height, variant.choose() == variant.GPU)
+        denoiser = self._denoisers[coarser]
+        if coarser == 1:
+            return denoiser.clean(rays.light, rays.albedo, rays.normals)
+        import cv2
+
+        def smaller(picture: np.ndarray) -> np.ndarray:
+            return cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA)
+
+        albedo = np.maximum(np.where(rays.seen[..., None] > 0.01, rays.albedo, 1.0), LEAST_ALBEDO).astype(np.float32)
+        clean = denoiser.clean(rays.light, smaller(rays.albedo), smaller(rays.normals))
+        fallen = clean / smaller(albedo)
+        return cv2.resize(fallen, (self.width, self.height), interpolation=cv2.INTER_LINEAR) * albedo
+
     def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
         """Geom number of each pixel, or -1: int32 (height, width), by MuJoCo's own renderer."""
         if self._plain is None:
@@ -250,7 +275,9 @@ class Tracing:
     def close(self) -> None:
         """Free what it holds."""
         self._scenes.clear()
-        self._denoiser.close()
+        for denoiser in self._denoisers.values():
+            denoiser.close()
+        self._denoisers.clear()
         if self._plain is not None:
             self._plain.close()
             self._plain = None

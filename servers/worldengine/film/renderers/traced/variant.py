@@ -1,5 +1,6 @@
 """Choose how Mitsuba computes: compiled by LLVM where a library that works is found, else plainly and 3 to 5 times slower."""
 
+import ctypes
 import os
 import platform
 from functools import cache
@@ -11,7 +12,7 @@ LIBRARY = "DRJIT_LIBLLVM_PATH"
 LEAST = 17
 """Versions 15 and 16 stop with `Cannot select fminimum`."""
 FOLDERS = (Path("/usr/lib"), Path("/usr/lib64"), Path("/usr/local/lib"), Path("/opt/homebrew/opt/llvm/lib"))
-COMPILED, PLAIN = "llvm_ad_rgb", "scalar_rgb"
+GPU, COMPILED, PLAIN = "cuda_ad_rgb", "llvm_ad_rgb", "scalar_rgb"
 INSTALL = "pip install 'worldwright[film]' (in a clone: make .venv/.dev)"
 
 
@@ -35,10 +36,10 @@ def choose() -> str:
         import mitsuba
     except (ImportError, OSError) as cause:
         raise MissingRendererError(f"the traced renderer needs Mitsuba: {cause}", "mitsuba", INSTALL) from cause
-    for name in (COMPILED, PLAIN) if found else (PLAIN,):
+    for name in candidates(nvidia(), bool(found)):
         try:
             mitsuba.set_variant(name)
-            if name == COMPILED:
+            if name != PLAIN:
                 import drjit
 
                 drjit.eval(drjit.arange(mitsuba.Float, 4) + 1.0)
@@ -47,6 +48,21 @@ def choose() -> str:
         mitsuba.set_log_level(mitsuba.LogLevel.Error)
         return name
     raise MissingRendererError("no variant of Mitsuba can be loaded here", "mitsuba", INSTALL)
+
+
+def candidates(gpu: bool, llvm: bool) -> tuple[str, ...]:
+    """The variants to try, the fastest first."""
+    return (GPU,) * gpu + (COMPILED,) * llvm + (PLAIN,)
+
+
+def nvidia() -> bool:
+    """Whether a graphics card of NVIDIA's is there, and its driver answers."""
+    count = ctypes.c_int(0)
+    try:
+        driver = ctypes.CDLL("libcuda.so.1")
+        return driver.cuInit(0) == 0 and driver.cuDeviceGetCount(ctypes.byref(count)) == 0 and count.value > 0
+    except (OSError, AttributeError):
+        return False
 
 
 def library() -> str:

@@ -1,0 +1,153 @@
+"""The shots of a film that nobody has thought about: the whole event in one, close enough to see it, then its heart again."""
+
+from collections import Counter
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import viewpoints
+from .recorded import WORLD, Recorded
+
+if TYPE_CHECKING:
+    from .director import Film
+
+USUAL_AZIMUTH, USUAL_ELEVATION = -57.0, 19.0
+"""From here the lights of all settings fall across what is seen."""
+LEAST = 0.075
+"""A subject takes at least this share of the picture's height; a camera that held its whole way would show a speck."""
+CLOSE = 0.42
+"""The share of the height that a subject, with the corners of its box, takes when the event is shown again."""
+LONGEST_S = 14.0
+"""A longer recording is shown faster, as the picture's corner tells."""
+BEFORE_S, AFTER_S, SLOWLY = 0.3, 0.4, 0.25
+APART, LEAST_S = 10.0, 0.15
+"""Of two that meet, the time is shown again in which they are within so many radii of each other, and at least so long."""
+LENS_MM = 55.0
+REST_S = 0.8
+"""What lies still is shown for so long."""
+CROWD = 8
+"""Of more movers than this the camera follows none."""
+
+
+def shots(film: "Film") -> None:
+    """The whole recording from one side, nearly still; then the event again, close and slowly."""
+    recorded = film.recorded
+    azimuth, elevation = view(recorded)
+    around = (azimuth - 5.0, azimuth + 5.0)
+    heroes, marked = leads(recorded)
+    whole = viewpoints.wide(azimuth_deg=around, elevation_deg=elevation, room=1.06, lens_mm=(40.0, 42.0))
+    end = settled(recorded)
+    speed = max(1.0, end / LONGEST_S)
+    if heroes and len(recorded.movers) <= CROWD and share(recorded, whole, heroes) < LEAST:
+        whole = viewpoints.follow(
+            heroes, azimuth_deg=around, elevation_deg=min(elevation, 14.0), fill=1.6 * LEAST, lens_mm=40.0, lag_s=0.18
+        )
+    film.shot(whole, until=end, speed=min(speed, 50.0))
+    if not heroes or not marked:
+        return
+    event, radius = recorded.event(), recorded.radius(*heroes)
+    times = np.linspace(max(event - BEFORE_S, 0.0), min(event + AFTER_S, recorded.duration), 60)
+    apart = np.linalg.norm(recorded.position(heroes[0], times) - recorded.position(heroes[-1], times), axis=1)
+    near = times[(apart < APART * radius) | (np.abs(times - event) < LEAST_S)]
+    if near[-1] - near[0] < 0.1:
+        return
+    apart = np.linalg.norm(recorded.position(heroes[0], near) - recorded.position(heroes[-1], near), axis=1)
+    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(LENS_MM)) / 2))
+    many = len(recorded.movers) > CROWD
+    away = max(radius / (CLOSE * (0.5 if many else 1.0)), 0.75 * float(apart.max()) / 1.5) / tangent
+    close = viewpoints.follow(
+        heroes, azimuth_deg=(azimuth + 14.0, azimuth + 30.0), elevation_deg=(elevation - 3.0, elevation - 6.0),
+        distance=away, lens_mm=LENS_MM, lag_s=0.1,
+    )  # fmt: skip
+    film.shot(close, start=float(near[0]), until=float(near[-1]), speed=SLOWLY)
+
+
+def settled(recorded: Recorded) -> float:
+    """When the first showing ends, s: a moment after all has come to rest, or where the recording ends."""
+    times = np.linspace(0.0, recorded.duration, 200)
+    if not recorded.movers:
+        return recorded.duration
+    speeds = np.max([recorded.speed(name, times) for name in recorded.movers[:60]], axis=0)
+    moving = np.flatnonzero(speeds > max(0.02 * float(speeds.max()), 1e-3))
+    last = float(times[moving[-1]]) if len(moving) else recorded.duration
+    return min(recorded.duration, max(last + REST_S, recorded.event() + AFTER_S, 1.0))
+
+
+def leads(recorded: Recorded) -> tuple[tuple[str, ...], bool]:
+    """Whom the event happens to, and whether there is one that is worth seeing twice."""
+    if not recorded.movers:
+        return (), False
+    event = recorded.event()
+    near = [touch for touch in recorded.touches() if abs(touch.time_s - event) < 1e-6]
+    met = Counter(body for touch in near for body in touch.bodies if body in recorded.movers and body != WORLD)
+    if met:
+        return tuple(dict(met.most_common(2))), True
+    speeds = {name: float(recorded.speed(name, event)) for name in recorded.movers}
+    fastest = max(speeds, key=lambda name: speeds[name])
+    return (fastest,), abs(event - recorded.duration / 2) > 1e-9
+
+
+def share(recorded: Recorded, camera: viewpoints.Viewpoint, bodies: tuple[str, ...]) -> float:
+    """The share of the picture's height that the largest of some bodies takes through a camera, as a shot begins."""
+    assert camera.eye is not None
+    assert camera.target is not None
+    course = viewpoints.Course(recorded, np.zeros(1), np.zeros(1))
+    away = float(np.linalg.norm(camera.eye(course) - camera.target(course)))
+    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(np.mean(camera.lens_mm))) / 2))
+    return recorded.radius(*bodies) / (away * tangent)
+
+
+def view(recorded: Recorded) -> tuple[float, float]:
+    """Azimuth and elevation, degrees, from which the motion is seen from the side and nothing stands before it."""
+    names = recorded.movers or recorded.bodies
+    if not names:
+        return USUAL_AZIMUTH, USUAL_ELEVATION
+    times = np.linspace(0.0, recorded.duration, 24)
+    ways = np.stack([recorded.position(name, times) for name in names[:40]])
+    steps = np.diff(ways, axis=1).reshape(-1, 3)
+    spread = steps[:, :2].T @ steps[:, :2]
+    strength, axes = np.linalg.eigh(spread)
+    level = strength[1] > 0.02 * float(np.square(steps[:, 2]).sum()) + 1e-12
+    along = axes[:, 1] if level else None
+    boxes = _obstacles(recorded, names)
+    points = ways[:, ::4].reshape(-1, 3)
+    far = 4.0 * max(float(np.ptp(points, axis=0).max()), 2 * recorded.radius(*names))
+    best, found = np.inf, (USUAL_AZIMUTH, USUAL_ELEVATION)
+    for azimuth in np.arange(-177.0, 183.0, 15.0):
+        a = np.radians(azimuth)
+        away = np.array([np.cos(a), np.sin(a)])
+        side = 0.0 if along is None else 0.5 * max(abs(float(away @ along)) - 0.42, 0.0)
+        usual = 0.25 * (1.0 - np.cos(a - np.radians(USUAL_AZIMUTH)))
+        for elevation in (USUAL_ELEVATION, 32.0, 48.0):
+            e = np.radians(elevation)
+            eye = points + far * np.array([np.cos(e) * away[0], np.cos(e) * away[1], np.sin(e)])
+            cost = side + usual + 0.004 * (elevation - USUAL_ELEVATION) + 3.0 * _hidden(points, eye, boxes)
+            if cost < best - 1e-9:
+                best, found = cost, (float(azimuth), float(elevation))
+    return found
+
+
+def _obstacles(recorded: Recorded, movers: tuple[str, ...]) -> np.ndarray:
+    """Corners (N, 2, 3), m, of the boxes around what does not move."""
+    found = []
+    for name in recorded.bodies:
+        if name in movers:
+            continue
+        _, half = recorded.box(name)
+        centre = recorded.position(name, 0.0)
+        reach = np.abs(recorded.orientation(name, 0.0)) @ half
+        found.append((centre - reach, centre + reach))
+    return np.array(found).reshape(-1, 2, 3)
+
+
+def _hidden(points: np.ndarray, eyes: np.ndarray, boxes: np.ndarray) -> float:
+    """The share of some points (P, 3) that a box between them and the eyes (P, 3) hides; boxes around a point do not."""
+    if not len(boxes):
+        return 0.0
+    way = eyes - points
+    safe = np.where(np.abs(way) < 1e-9, 1e-9, way)
+    low = (boxes[:, None, 0] - points) / safe
+    high = (boxes[:, None, 1] - points) / safe
+    enter, leave = np.minimum(low, high).max(axis=-1), np.maximum(low, high).min(axis=-1)
+    inside = ((points >= boxes[:, None, 0] - 0.02) & (points <= boxes[:, None, 1] + 0.02)).all(axis=-1)
+    return float(((enter < leave) & (leave > 0) & (enter < 1) & ~inside).any(axis=0).mean())
