@@ -118,6 +118,7 @@ class Asked:
                 "control_every": self.control_every,
                 "latency": self.latency,
                 "world_sha256": facts["sha256"],
+                "rounded": facts["rounded"],
                 "assets": list(catalog.taken()),
             },
         )

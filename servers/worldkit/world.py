@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from . import sliding
+from . import sliding, within_bounds
 from .errors import ProgramError
 from .motion import START
 
@@ -43,6 +43,7 @@ def make(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjMod
 
 def finish(spec: "mujoco.MjSpec", place: str) -> "mujoco.MjModel":
     """Compile a spec, after giving it the pairs that keep sliding bodies down; `place` is where it was made."""
+    within_bounds.check(spec)
     try:
         model = spec.compile()
         return spec.compile() if sliding.add_pairs(spec, model) else model
