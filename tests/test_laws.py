@@ -157,6 +157,7 @@ POSTER_BYTES = 60_000
 KEPT = {
     "prompt.md", "plan.md", "simulation.py", "journal.jsonl", "motion.json", "poster.webp",
     "stamp.json", "stamp.dsse.json", "stamp.pub", "SHA256SUMS",
+    "world.mjz", "world/program.json", "world/inputs.json", "world/inputs.arrows", "world/edits.arrows",
 }  # fmt: skip
 MEDIA = (
     ".png", ".jpg", ".jpeg", ".webp", ".gif", ".mp4", ".webm", ".npz", ".npy", ".mjz", ".mjb", ".rrd", ".arrow", ".parquet",
@@ -211,7 +212,10 @@ def test_no_file_of_an_example_is_one_that_a_build_makes():
 def test_no_picture_or_recording_lies_elsewhere_than_where_it_is_used():
     media = [name for name in tracked() if name.endswith(MEDIA)]
     allowed = ("catalog/", "skills/layouts/references/")  # textures and layout sketches
-    assert [m for m in media if not m.startswith(allowed) and Path(m).name != "poster.webp"] == []
+    kept = ("poster.webp", "world.mjz")  # of an accepted world
+    assert [
+        m for m in media if not m.startswith(allowed) and not (m.startswith("examples/") and Path(m).name in kept)
+    ] == []
 
 
 def test_the_top_level_is_what_the_customer_fixed():

@@ -1,5 +1,5 @@
-"""The engine's process: `python -m worldengine physics|storyboard|still|video|final|frame|sheet|view --world FILE
---program FILE --out DIR …`.
+"""The engine's process: `python -m worldengine bundle|physics|storyboard|still|video|final|frame|sheet|view
+--world FILE --program FILE --out DIR …`.
 
 `physics --replay RECORDING` drives the world by the inputs that a recording holds: the same motion, and nobody is asked.
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import worldkit  # checks the environment contract before anything else is imported
 
-PASSES = ("physics", "storyboard", "still", "video", "final", "frame", "sheet", "view")
+PASSES = ("bundle", "physics", "storyboard", "still", "video", "final", "frame", "sheet", "view")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -32,6 +32,10 @@ def main(argv: Sequence[str] | None = None) -> int:
             from .clock import physics
 
             physics.run(given, options)
+        elif options.run == "bundle":
+            from . import built_layout
+
+            built_layout.run(given, options)
         elif options.run == "view":
             from .film import window
 

@@ -25,15 +25,23 @@ def decides(field: str) -> bool:
 
 
 def compared(one: "mujoco.MjModel", other: "mujoco.MjModel") -> tuple[float, str]:
-    """(largest relative difference, name) over the fields that decide the motion; infinite where they cannot be compared.
+    """(largest relative difference, name) over the fields that decide the motion; infinite where they cannot be compared."""
+    found = differences(one, other)
+    where = max(found, key=lambda name: found[name], default="")
+    return found.get(where, 0.0), where
 
-    A difference is relative to the largest number of its array, but to one at least.
+
+def differences(one: "mujoco.MjModel", other: "mujoco.MjModel") -> dict[str, float]:
+    """The relative difference of each field that decides the motion, where there is one; infinite for another shape.
+
+    A difference is relative to the largest number of its array, but to one at least. Where things have other names, that is
+    all that is said: nothing else can be compared.
     """
     import numpy as np
 
-    worst, where = 0.0, ""
     if kind_names(one) != kind_names(other):
-        return float("inf"), "the names"
+        return {"the naming": float("inf")}
+    found: dict[str, float] = {}
     for holder, twin, prefix in ((one, other, ""), (one.opt, other.opt, "opt.")):
         for name in filter(decides, sorted(n for n in dir(holder) if not n.startswith("_"))):
             a, b = getattr(holder, name), getattr(twin, name)
@@ -41,11 +49,12 @@ def compared(one: "mujoco.MjModel", other: "mujoco.MjModel") -> tuple[float, str
                 continue
             a, b = np.asarray(a, float), np.asarray(b, float)
             if a.shape != b.shape:
-                return float("inf"), prefix + name
+                found[prefix + name] = float("inf")
+                continue
             apart = float(np.max(np.abs(a - b), initial=0.0)) / max(1.0, float(np.max(np.abs(a), initial=0.0)))
-            if not apart <= worst:
-                worst, where = apart, prefix + name
-    return worst, where
+            if apart != 0:
+                found[prefix + name] = apart if apart > 0 else float("inf")  # not a number equals nothing
+    return found
 
 
 def kind_names(model: "mujoco.MjModel", kinds: tuple[str, ...] = NAMED) -> dict[str, list[str]]:

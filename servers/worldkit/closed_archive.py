@@ -7,6 +7,7 @@ here before the engine sees it, and whatever it names must lie in the archive un
 Entries are read once. An archive that unpacks beyond `MOST_BYTES` is refused before anything is unpacked.
 """
 
+import hashlib
 import zipfile
 import zlib
 from pathlib import Path, PurePosixPath
@@ -25,18 +26,38 @@ def entries(path: Path) -> tuple[str, dict[str, bytes]]:
         ValueError: it is no archive, is too large, has names that two readers could take differently, or names a file
             that is not in it.
     """
+    files = packed(path)
+    try:
+        text = files.pop(XML).decode()
+    except (KeyError, UnicodeDecodeError) as cause:
+        raise ValueError(f"it is no archive of a world: {cause}") from cause
+    closed(text, set(files))
+    return text, files
+
+
+def packed(path: Path) -> dict[str, bytes]:
+    """Every file in an archive by name, whatever its world's text says; raises ValueError as `entries` does."""
     try:
         with zipfile.ZipFile(path) as archive:
             listed = archive.infolist()
             _plain([entry.filename for entry in listed])
             if sum(entry.file_size for entry in listed) > MOST_BYTES:
                 raise ValueError(f"its files are larger than {MOST_BYTES >> 20} MB")
-            files = {entry.filename: archive.read(entry) for entry in listed}
-        text = files.pop(XML).decode()
-    except (OSError, EOFError, KeyError, UnicodeDecodeError, RuntimeError, zipfile.BadZipFile, zlib.error) as cause:
+            return {entry.filename: archive.read(entry) for entry in listed}
+    except (OSError, EOFError, RuntimeError, zipfile.BadZipFile, zlib.error) as cause:
         raise ValueError(f"it is no archive of a world: {cause}") from cause
-    closed(text, set(files))
-    return text, files
+
+
+def content_sha256(path: Path) -> str:
+    """SHA-256 of what an archive holds: name and bytes of each file in it, in the order of the names.
+
+    The bytes of the archive itself also depend on how it was packed. Raises ValueError as `entries` does.
+    """
+    total = hashlib.sha256()
+    for name, content in sorted(packed(path).items()):
+        total.update(f"{len(name.encode())} {name} {len(content)} ".encode())
+        total.update(content)
+    return total.hexdigest()
 
 
 def closed(text: str, names: set[str]) -> None:

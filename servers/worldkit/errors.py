@@ -6,11 +6,13 @@ class WorldkitError(Exception):
 
     code = "error"
 
-    def __init__(self, cause: str, place: str = "", next_move: str = "") -> None:
+    def __init__(self, cause: str, place: str = "", next_move: str = "", line: int | None = None) -> None:
         super().__init__(cause)
         self.cause = cause
         self.place = place
         self.next_move = next_move
+        self.line = line
+        """The line of the program to blame, where no frame of the traceback lies in it."""
 
     def __str__(self) -> str:
         text = f"{self.place}: {self.cause}" if self.place else self.cause

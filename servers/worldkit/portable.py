@@ -4,8 +4,8 @@
     model = mujoco.MjSpec.from_file("world.mjz").compile()
 
 What is simulated, filmed and certified is the model that is compiled from this file, by a process that never sees the
-program. Plain MuJoCo opens it anywhere. Two builds of one world give the same bytes: entries are stored in the order of
-their names, uncompressed and without dates.
+program. Plain MuJoCo opens it anywhere. Two builds of one world give the same content; on one machine they give the same
+bytes, too: entries are packed in the order of their names and without dates.
 
 Source: MuJoCo manual, "MJZ Archives" (the XML is `model.xml` in the archive's root). Painted textures, which live in memory,
 become PNG files; files with absolute paths on this machine are stored under short names, one per content. The
@@ -15,10 +15,11 @@ archive is opened again here and compared with the world it was made of, array b
 import hashlib
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from .alike import compared
+from .alike import differences
 from .closed_archive import XML, entries
 from .errors import ProgramError
 
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 NAME = "world.mjz"
 TOLERANCE = 1e-6
 """Relative difference that writing numbers as text may leave."""
+PACKED = 9
+"""How hard archive and pictures are packed, of 9: small worlds are kept in version control."""
 
 
 def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
@@ -38,8 +41,8 @@ def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
         path: of the archive, ending in `.mjz`.
 
     Returns:
-        `files` in the archive, `bytes` and `sha256` of it, `differs` (largest relative difference of any array that
-        decides the motion between the archive's world and this one, with the array's name in `where`).
+        `files` in the archive, `bytes` and `sha256` of it, and `rounded`: the relative difference, at most `TOLERANCE`, of
+        each array that decides the motion and is not the same bit for bit in the archive's world.
 
     Raises:
         ProgramError: the archive cannot be written, or does not open as the same world.
@@ -61,16 +64,20 @@ def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
         raise ProgramError(
             f"the world cannot be written as one file: {failure}", str(path), "build it from what MJCF can say"
         ) from failure
-    worst, where = compared(before, after)
-    if not worst <= TOLERANCE:
+    rounded = differences(before, after)
+    lost = {where: apart for where, apart in rounded.items() if not apart <= TOLERANCE}
+    if lost:
+        ordered = sorted(lost.items(), key=lambda row: (not row[0].startswith("n"), -row[1]))  # how many, then how far
+        told = [f"{where} differs" + f" by {apart:.2g} of its size" * isfinite(apart) for where, apart in ordered]
+        more = f" (and {len(told) - 1} more)" if len(told) > 1 else ""
         raise ProgramError(
-            f"the world does not survive being written as one file: {where} differs by {worst:.2g} of its size",
+            f"the world does not survive being written as one file: {told[0]}{more}",
             str(path),
-            "set it in the spec, not in the compiled model",
+            "build it from what MJCF can say; what is set in a compiled model is lost",
         )
     content = path.read_bytes()
     sha256 = hashlib.sha256(content).hexdigest()
-    return {"files": 1 + len(used), "bytes": len(content), "sha256": sha256, "differs": worst, "where": where}
+    return {"files": 1 + len(used), "bytes": len(content), "sha256": sha256, "rounded": rounded}
 
 
 def read(path: Path) -> "mujoco.MjModel":
@@ -91,12 +98,12 @@ def spec(path: Path) -> "mujoco.MjSpec":
 
 
 def _store(files: dict[str, bytes], path: Path) -> None:
-    """Write an archive whose bytes depend on the content alone."""
+    """Write an archive whose bytes depend on the content, and on how this machine's zlib packs it."""
     import zipfile
 
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_STORED) as archive:
+    with zipfile.ZipFile(path, "w") as archive:
         for name in sorted(files, key=lambda name: (name != XML, name)):
-            archive.writestr(zipfile.ZipInfo(name), files[name])
+            archive.writestr(zipfile.ZipInfo(name), files[name], zipfile.ZIP_DEFLATED, PACKED)
 
 
 @contextmanager
@@ -174,7 +181,8 @@ def _painted(spec: "mujoco.MjSpec", texture: Any, pixels: bytes) -> None:
 
     image = np.frombuffer(pixels, np.uint8).reshape(texture.height, texture.width, texture.nchannel)
     order = {3: [2, 1, 0], 4: [2, 1, 0, 3]}.get(texture.nchannel)
-    good, coded = cv2.imencode(".png", image if order is None else image[..., order])
+    flat = image if order is None else image[..., order]
+    good, coded = cv2.imencode(".png", flat, (cv2.IMWRITE_PNG_COMPRESSION, PACKED))
     if not good:
         raise ProgramError(
             f"texture {texture.name} cannot be written as PNG", texture.name, "give it 1, 3 or 4 channels"

@@ -51,7 +51,7 @@ def main(
     A program run as a script ends with that status by itself; with `argv` given, it is only returned.
 
     Args:
-        build: `build()` or `build(rng)` returning an MjSpec (a compiled MjModel is fine too).
+        build: `build()` or `build(rng)` returning an MjSpec.
         control: `control(model, data)` or `control(model, data, rng)`, asked when everything that derives from positions
             and velocities is up to date. `model` and `data` are its own copies; of what it writes, the values of the
             declared inputs are sent to the engine, and nothing else has any effect.

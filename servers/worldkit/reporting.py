@@ -48,7 +48,7 @@ def failure(error: BaseException, program: str, caller_line: int | None) -> dict
         caller_line: the line to blame when the traceback does not pass through the program.
     """
     frames = [frame for frame in traceback.extract_tb(error.__traceback__) if _same(frame.filename, program)]
-    line = frames[-1].lineno if frames else caller_line
+    line = frames[-1].lineno if frames else getattr(error, "line", None) or caller_line
     if isinstance(error, SyntaxError) and error.filename and _same(error.filename, program):
         line = error.lineno
     known = isinstance(error, WorldkitError)

@@ -31,7 +31,8 @@ def whole_digits(text: str, spec: "mujoco.MjSpec", model: "mujoco.MjModel") -> s
     worlds = document.getElementsByTagName("worldbody")
     for element, geom in _paired(worlds, "geom", spec.geoms):
         plain = geom.alt.type == mujoco.mjtOrientation.mjORIENTATION_QUAT and geom.frame is None
-        if geom.meshname and plain:
+        # A shape fitted to a mesh stands in the mesh's frame in the spec, in the body's in the text.
+        if geom.meshname and plain and geom.type in (mujoco.mjtGeom.mjGEOM_MESH, mujoco.mjtGeom.mjGEOM_SDF):
             _set(element, "pos", geom.pos)
             _set(element, "quat", geom.quat)
     for element, site in _paired(worlds, "site", spec.sites):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
-from . import sliding
+from . import sliding, within_bounds
 from .errors import ProgramError
 from .motion import START
 
@@ -34,20 +34,16 @@ def seeded(seed: int) -> "tuple[np.random.Generator, np.random.Generator]":
 
 
 def make(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjModel":
-    """Call `build()` or `build(rng)` and compile what it returns: an MjSpec, or an MjModel that is compiled already.
+    """Call `build()` or `build(rng)` and compile the spec that it returns.
 
-    A spec gets explicit pairs where sliding bodies would hop (`worldkit.sliding`).
+    It gets explicit pairs where sliding bodies would hop (`worldkit.sliding`).
     """
-    import mujoco
-
-    made = as_built(build, rng)
-    if isinstance(made, mujoco.MjModel):
-        return made
-    return finish(made, f"{getattr(build, '__name__', 'build')}()")
+    return finish(as_built(build, rng), f"{getattr(build, '__name__', 'build')}()")
 
 
 def finish(spec: "mujoco.MjSpec", place: str) -> "mujoco.MjModel":
     """Compile a spec, after giving it the pairs that keep sliding bodies down; `place` is where it was made."""
+    within_bounds.check(spec)
     try:
         model = spec.compile()
         return spec.compile() if sliding.add_pairs(spec, model) else model
@@ -69,44 +65,35 @@ def callbacks() -> list[str]:
     return [name.removeprefix("get_") for name in asked if getattr(mujoco, name)() is not None]
 
 
-def spec_of(build: Callable[..., Any], rng: "np.random.Generator") -> "tuple[mujoco.MjSpec, mujoco.MjModel | None]":
-    """What `build()` or `build(rng)` returns as a spec; with the model, where it returned one that is compiled already.
+def as_built(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjSpec":
+    """The spec that `build()` or `build(rng)` returns.
 
     Raises:
-        ProgramError: it returned no world, or a compiled model that came from no spec.
+        ProgramError: it returned something else, with the line of its last `return`. A compiled model is refused, too: what
+            is simulated is compiled from a file, which only a spec can be written as.
     """
     import mujoco
 
-    from .compiled_from import watched
-
-    with watched() as compiled:
-        made = as_built(build, rng)
-    if isinstance(made, mujoco.MjSpec):
-        return made, None
-    found = [spec for model, spec in compiled if model is made]
-    if not found:
-        raise ProgramError(
-            "build() returned a compiled model that came from no spec, which no file can hold",
-            "build()",
-            "return the MjSpec",
-        )
-    return found[0], made
-
-
-def as_built(build: Callable[..., Any], rng: "np.random.Generator") -> "mujoco.MjSpec | mujoco.MjModel":
-    """Call `build()` or `build(rng)`; what it returns must be a world."""
-    import mujoco
-
     made = build(rng) if _positional(build) else build()
-    if isinstance(made, mujoco.MjModel):
+    if isinstance(made, mujoco.MjSpec):
         return made
     name = getattr(build, "__name__", "build")
-    if not isinstance(made, mujoco.MjSpec):
-        end = " (end it with `return spec`)" if made is None else ""
-        raise ProgramError(
-            f"{name}() returned {type(made).__name__}, not a world{end}", f"{name}()", "return a mujoco.MjSpec"
-        )
-    return made
+    if isinstance(made, mujoco.MjModel):
+        cause = f"{name}() returned a compiled model, which cannot be written as the world's file"
+        move = "return the mujoco.MjSpec, before `compile()`, and set in it what was set in the model"
+        raise ProgramError(cause, f"{name}()", move, _last_return(build))
+    end = " (end it with `return spec`)" if made is None else ""
+    cause = f"{name}() returned {type(made).__name__}, not a world{end}"
+    raise ProgramError(cause, f"{name}()", "return a mujoco.MjSpec", _last_return(build))
+
+
+def _last_return(function: Callable[..., Any]) -> int | None:
+    """The last line on which a function returns; None for what is not written in Python."""
+    import dis
+
+    code = getattr(inspect.unwrap(function), "__code__", None)
+    found = [i.positions for i in dis.get_instructions(code) if i.opname.startswith("RETURN")] if code else []
+    return max((place.lineno for place in found if place and place.lineno), default=None)
 
 
 def controller(control: Callable[..., Any] | None, rng: "np.random.Generator") -> Callable[..., Any] | None:

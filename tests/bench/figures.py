@@ -26,7 +26,7 @@ class Figure:
         """Of the goal; 1 and less is met."""
         if self.value is None:
             return None
-        return self.goal / max(self.value, 1e-12) if self.at_least else self.value / self.goal
+        return self.goal / max(self.value, 1e-12) if self.at_least else self.value / max(self.goal, 1e-12)
 
     @property
     def missed(self) -> bool:

@@ -72,8 +72,19 @@ def test_a_duration_on_the_command_line_wins(tmp_path):
     assert len(stored.open(tmp_path / "trajectory")) == 51
 
 
-def test_a_compiled_model_is_fine_too(tmp_path):
-    assert run(tmp_path, world=lambda: build().compile()) == 0
+def test_a_compiled_model_is_refused_with_the_line_and_the_next_move(tmp_path):
+    def compiled():
+        spec = build()
+        model = spec.compile()
+        model.opt.timestep = 0.01
+        return model
+
+    assert run(tmp_path, world=compiled) == 1
+    facts = error(tmp_path)
+    assert (facts["code"], facts["type"], facts["source"]) == ("program", "ProgramError", "return model")
+    assert "compiled() returned a compiled model" in facts["message"]
+    assert "return the mujoco.MjSpec" in facts["next_move"]
+    assert not (tmp_path / "world.mjz").exists()
 
 
 def test_the_start_keyframe_is_where_it_begins(tmp_path):

@@ -16,7 +16,7 @@ from ..model.plan.committed import Plan
 from ..model.plan.layout import Scene
 from ..model.plan.plan_edit import edit
 from ..model.plan.plan_text import PlanDocument, read_plan
-from . import checks, engine, explaining, picture_given, settling, start, write_back
+from . import built_world, checks, engine, explaining, picture_given, settling, start, write_back
 from .placement_results import CheckReport, Drawing, Explanation, Layout, Reckoned, SettleReport
 
 PlanPath = Annotated[Path, Field(description="The plan.md, its run folder, or the run's name.")]
@@ -65,7 +65,8 @@ def check(plan: PlanPath) -> CheckReport:
     Changes nothing.
     """
     document = _read(plan)
-    return checks.check(document.plan, _resolve(document), file=document.file, locate=document.line_of)
+    built = built_world.find(Path(document.file))
+    return checks.check(document.plan, _resolve(document), file=document.file, locate=document.line_of, built=built)
 
 
 def settle(

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Any
 
-from ..model.evidence import approval
+from ..model.evidence import approval, rounding
 from ..model.evidence.reports import ExpectationResult
 from .chart import quantity
 from .material import Material, acting
@@ -140,6 +140,8 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("trajectory", str(material.physics.summary.get("trajectory_sha256", ""))),
             ("physics pass", f"{material.physics.wall_s:.1f} s in the {material.physics.sandbox or 'unknown'} sandbox"),
         ]
+    if material.physics and (rounded := rounding.told(material.physics.summary)):
+        tables["World"] = [("its file", rounded)]
     if material.film:
         shots = (
             f"{s['from_s']:g} to {s['to_s']:g} s at {s['speed']:g} × speed" for s in material.film.get("shots", ())

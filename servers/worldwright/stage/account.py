@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..model.errors import WorldwrightError
+from ..model.evidence import rounding
 from ..model.evidence.run import Run
 from ..model.plan.committed import Intervention, Plan
 from ..model.plan.declaration import covering, declaration
@@ -54,6 +55,8 @@ def account(trajectory: Trajectory, plan: Plan | None, summary: dict[str, Any]) 
     simulated, wall = summary.get("duration_s"), summary.get("wall_s")
     if simulated and wall and "reused_from" not in summary:
         yield f"{simulated:g} s simulated in {wall:.3g} s: {simulated / wall:.3g} times real time"
+    if told := rounding.told(summary):
+        yield told
     yield from _warned(trajectory)
     yield from _acted(trajectory, plan)
     if summary.get("not_asked"):

@@ -27,13 +27,20 @@ WORLD, FACTS, INPUTS = "world.mjz", "program.json", "inputs.json"
 """The engine's files: the built world, the program's facts, the plan's declared inputs."""
 DRIVEN = ("inputs.arrows", "edits.arrows")
 """The files of a recording that drove it."""
-PASS = {"physics": "physics", "storyboard": "storyboard", "stills": "still", "video": "video", "final": "final"}
+PASS = {
+    "bundle": "bundle",
+    "physics": "physics",
+    "storyboard": "storyboard",
+    "stills": "still",
+    "video": "video",
+    "final": "final",
+}
 ITS_OWN = ("program", "film", "crashed", "no_result", "timed_out", "file_too_large", "out_of_memory", "killed")
 """How a film fails by its own fault; the house's own is made then."""
 MB = 1 << 20
 FAREWELL_S = 3.0
 """The author's process may take so long to end after the engine has ended, s."""
-MOST_STRAYS = 40
+MOST_STRAYS = MOST_ROUNDED = 40
 
 
 @dataclass(frozen=True)
@@ -128,10 +135,19 @@ class Acting:
         return bool(known) and self.fetch(folder) is None
 
     def bundle(self) -> Ended:
-        """Keep the built world, once it compiles."""
-        self.job.out.mkdir(parents=True, exist_ok=True)
+        """Keep the built world, once a process that never saw its program has compiled and described it."""
+        if failure := self.ended(self.engine()):
+            return Ended(failure)
         kept = tuple(self.job.inputs / name for name in (WORLD, FACTS, INPUTS))
-        return Ended(None, {"world_sha256": sha256_file(kept[0])}, kept)
+        summary = plain.read_json(self.job.out / "result.json")
+        return Ended(None, {**summary, "world_sha256": sha256_file(kept[0]), **self.rounded()}, kept)
+
+    def rounded(self) -> dict[str, Any]:
+        """What of the built world the file holds rounded, as its builder said; empty when it is the same bit for bit."""
+        said = plain.read_json(self.job.inputs / FACTS).get("rounded")
+        rows = list(said.items())[:MOST_ROUNDED] if isinstance(said, dict) else []
+        found = {str(name)[:80]: float(apart) for name, apart in rows if isinstance(apart, int | float)}
+        return {"rounded": found} if found else {}
 
     def fetch(self, folder: Path) -> dict[str, str] | None:
         """Take the world out of a pass's evidence, checked against the hashes in its result."""
@@ -242,6 +258,7 @@ class Acting:
                 failure = self.ended(author) or failure
             if strays := _strays(plain.read_json(author.out / "result.json")):
                 summary["went_nowhere"] = strays
+        summary |= self.rounded()
         if author is None and not silent and not self.spec.given and self.controls():
             summary["not_asked"] = True
         names = (WORLD, FACTS, INPUTS) if not self.spec.variant else ()

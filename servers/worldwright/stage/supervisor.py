@@ -132,12 +132,12 @@ class Supervision:
             summary=ended.summary,
             **(failure or {"code": "ok"}),
         )
-        shutil.rmtree(self.job.scratch, ignore_errors=True)
+        for folder in (self.job.scratch, self.job.author):  # nothing that a program left is of use to anybody
+            shutil.rmtree(folder, ignore_errors=True)
         if failure is None and (source := str(result.summary.get("reused_from", ""))):
             message = f"moves as {source} did, whose recording is taken over: only cameras, lights or looks differ"
             result = result.model_copy(update={"message": message})
         if failure is None:
-            shutil.rmtree(self.job.author, ignore_errors=True)
             for leftover in LEFTOVERS:
                 (out / leftover).unlink(missing_ok=True)
             for path in (self.job.lock, *ended.kept):
@@ -153,7 +153,6 @@ class Supervision:
         else:
             if result.code == "disk_full":  # files that filled the disk must not keep the next run from starting
                 shutil.rmtree(out, ignore_errors=True)
-                shutil.rmtree(self.job.author, ignore_errors=True)
             write_json(self.job.folder / "result.json", result.model_dump(mode="json"))
             self.journal(result)
         name = "succeeded" if result.ok else "cancelled" if result.code == "cancelled" else "failed"

@@ -33,7 +33,7 @@ from . import (
     signing,
     world_facts,
 )
-from .proof import WORLD, Proved, beside, driven_by, prove
+from .proof import FACTS, WORLD, Proved, beside, driven_by, lay_out, prove
 from .state import State
 from .statement import (
     Acceptance,
@@ -124,6 +124,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             timeout_s=timeout_s,
             progress=progress,
             near=beside(state.run.folder),
+            kept=_kept(state, work / "kept"),
         )
         if proved is None:
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
@@ -147,6 +148,14 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         state.run.blocked.unlink(missing_ok=True)
         shutil.rmtree(work, ignore_errors=True)
     return _answer(state, statement, stamp_sha256)
+
+
+def _kept(state: State, folder: Path) -> Path | None:
+    """The world of the run's physics pass, which is what is accepted, laid out for the proof; None in older evidence."""
+    physics = state.folder / "physics"
+    if not all((physics / name).is_file() for name in (WORLD, *FACTS)):
+        return None
+    return lay_out(folder, physics / WORLD, physics)
 
 
 def _as_planned(state: State, proved: Proved) -> None:
@@ -210,6 +219,7 @@ def _proof(state: State, proved: Proved) -> Proof:
         sandbox=proved.physics.sandbox,
         confinement=proved.physics.confinement,
         world_sha256=proved.world_sha256,
+        content_sha256=proved.content_sha256,
         inputs_sha256=proved.inputs_sha256,
         channels=exactness.channels(proved, (name for name, _ in _published(state))),
         marks=exactness.marks(proved),

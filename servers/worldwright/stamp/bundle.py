@@ -23,8 +23,9 @@ UNLISTED = (STAMP, SUMS, signing.ENVELOPE, signing.PUBLIC)
 PREFIX = ".accepting-"
 WORLD = "world"
 """Folder beside `world.mjz` with the facts of the program and the inputs that drove the world."""
-LEFT_OUT = ("evidence/", "stills/", "video/", "world.mjz", f"{WORLD}/", "trajectory.npz")
-"""What the small form of an accepted world leaves out, since a build makes it again."""
+OF_WORLD = ("world.mjz", f"{WORLD}/")
+LEFT_OUT = ("evidence/", "stills/", "video/", *OF_WORLD, "trajectory.npz")
+"""What the small form of an accepted world may leave out, since a build makes it again."""
 BESIDE = ("journal.jsonl", "accepted", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json")
 """What may lie beside the stamp of a small form without being listed in it: the journal, and what a build leaves there."""
 
@@ -84,6 +85,11 @@ def is_small(folder: Path) -> bool:
 def may_be_missing(name: str) -> bool:
     """Whether a file that the stamp lists may be missing from the small form."""
     return name.startswith(LEFT_OUT)
+
+
+def of_world(name: str) -> bool:
+    """Whether a file is the world's, or one of those that say how it was driven."""
+    return name.startswith(OF_WORLD)
 
 
 def draft_folder(run: Run) -> Path:

@@ -4,9 +4,11 @@ Nothing of the original run is there to take results from, so the result is new 
 proves, so that a later call finds it again while its job is still running, or after a crash.
 """
 
+import json
+import shutil
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -35,11 +37,20 @@ class Proved:
     recording: Path
     world: Path | None = None
     """The file of the world that was simulated."""
+    rebuilt: str = ""
+    """How the world that the program builds now compares with the one that was kept; empty when none was."""
 
     @property
     def world_sha256(self) -> str:
         """Hash of the world's file."""
         return str(self.physics.files.get(WORLD, ""))
+
+    @property
+    def content_sha256(self) -> str:
+        """Hash of what the world's file holds, however it is packed; empty when there is no file."""
+        from worldkit import closed_archive
+
+        return closed_archive.content_sha256(self.world) if self.world else ""
 
     @property
     def inputs_sha256(self) -> str:
@@ -90,11 +101,11 @@ def replay(
     return _followed(run, job, LintReport(), deadline, progress, "the world, driven by its recorded inputs,")
 
 
-def lay_out(given: Path, world: Path, facts: Path, recording: Path) -> Path:
+def lay_out(given: Path, world: Path, facts: Path, recording: Path | None = None) -> Path:
     """Fill a folder for `replay`: the world, its facts, and the inputs that drove the recording, where there are any."""
     for path in (world, *(facts / name for name in FACTS)):
         write_atomic(given / path.name, path.read_bytes())
-    for path in (recording / name for name in DRIVEN):
+    for path in (recording / name for name in DRIVEN if recording):
         if path.is_file():
             write_atomic(given / path.name, path.read_bytes())
     return given
@@ -120,10 +131,25 @@ def prove(
     timeout_s: float,
     progress: Progress = silent,
     near: Mapping[str, bytes] | None = None,
+    kept: Path | None = None,
+    elsewhere: bool = False,
 ) -> Proved | None:
-    """Lint and simulate `program` against `plan` in `folder`; None when a job needs more than `timeout_s`.
+    """Build, lint and simulate `program` against `plan` in `folder`; None when a job needs more than `timeout_s`.
 
-    `near` are the files that belong to them, by relative path. A lint error or a failed pass is a `GateError`.
+    With `kept`, a folder that `lay_out` filled, the program must build the world that lies there (`rebuilt.compare`). That
+    file is then what is simulated, unless the program has a `control`, which is asked again.
+
+    Args:
+        folder: where, a new one.
+        program, plan: what is proved.
+        reason: why the plan counts as approved here.
+        timeout_s, progress: how long a call may take, and whom to tell how far it is.
+        near: the files that belong to them, by relative path.
+        kept: the world that was accepted, or is to be.
+        elsewhere: it was built in another environment or on another processor.
+
+    Raises:
+        GateError: a lint error, a failed pass, or another world than the kept one.
     """
     from ..lint import tools as lint
     from ..stage import tools as stage
@@ -151,7 +177,36 @@ def prove(
             next_move=errors[0].fix or "correct it and run it again",
         )
     linted = LintReport(findings=tuple(report.findings), rules=report.rules)
-    return _followed(run, stage.start(str(folder), stage="physics"), linted, deadline, progress)
+    told = _rebuilt(run, kept, elsewhere=elsewhere) if kept else ""
+    given = kept if kept and not _controlled(kept) else None
+    job = stage.simulate_given(run, given) if given else stage.start(str(folder), stage="physics")
+    proved = _followed(run, job, linted, deadline, progress)
+    return proved and replace(proved, rebuilt=told)
+
+
+def _rebuilt(run: Run, kept: Path, *, elsewhere: bool) -> str:
+    """Compare the world that the program has built in the proof's folder with the kept one (`GateError` if it is another)."""
+    from . import rebuilt
+
+    built = run.evidence(run.evidence_key(_environment_sha256())) / "bundle"
+    try:
+        rebuilt.same_facts(*(tuple(folder / name for name in FACTS) for folder in (kept, built)))
+        return rebuilt.compare(kept / WORLD, built / WORLD, elsewhere=elsewhere)
+    except rebuilt.OtherWorldError as cause:
+        shutil.rmtree(run.folder, ignore_errors=True)  # or the next call would take its result from it
+        raise GateError(
+            f"the program builds another world than {WORLD} that was kept of it: {cause}",
+            place=run.program.name,
+            next_move="seed every random draw and read no clock; instrumentation must only watch; then run it again",
+        ) from cause
+
+
+def _controlled(kept: Path) -> bool:
+    """Whether a world's program has a control, by the facts beside its file."""
+    try:
+        return bool(json.loads((kept / FACTS[0]).read_bytes()).get("control"))
+    except (OSError, ValueError, AttributeError):
+        return True  # what cannot be read is asked again
 
 
 def measure(proved: Proved, progress: Progress = silent) -> ExpectReport:

@@ -3,7 +3,8 @@
 It is one folder: prompt, plan, the accepted program, the files that they name, the journal, the sampled motion, one
 poster, and the stamp with its signature and its checksums. The stamp is the same, byte for byte, as in `accepted/`: it
 vouches for the films, the recording and the reports too, which are left out and built again when somebody wants to see
-them (`worldwright gallery build`). `stamp verify` needs no more than the small form.
+them (`worldwright gallery build`). A world's file that is small is kept with what drove it, so that `stamp verify` runs no
+program; without it, the program builds it again.
 """
 
 import shutil
@@ -18,6 +19,9 @@ from ..model.storage import writing
 from . import bundle, signing
 from .kept import Kept
 from .statement import Statement
+
+WORLD_BYTES = 1_000_000
+"""So large may a kept world be, with its facts and the inputs that drove it: most are, and version control never forgets."""
 
 
 def write(run: Run, target: Path) -> tuple[str, ...]:
@@ -44,6 +48,9 @@ def write(run: Run, target: Path) -> tuple[str, ...]:
             next_move=f"worldwright stamp accept {run.folder}",
         )
     names = [s.name for s in kept.value.subject if not bundle.may_be_missing(s.name)]
+    world = [s.name for s in kept.value.subject if bundle.of_world(s.name) and (source / s.name).is_file()]
+    if sum((source / name).stat().st_size for name in world) <= WORLD_BYTES:
+        names += world
     names += [name for name in (bundle.STAMP, signing.ENVELOPE, signing.PUBLIC) if (source / name).is_file()]
     with writing("the small form", target.parent):
         target.parent.mkdir(parents=True, exist_ok=True)

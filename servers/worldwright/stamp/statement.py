@@ -54,6 +54,8 @@ class Proof(Frozen):
     """What enforced the confinement, by name."""
     world_sha256: str = ""
     """SHA-256 of `world.mjz`, the world that was simulated."""
+    content_sha256: str = ""
+    """SHA-256 of what `world.mjz` holds, however it is packed (`worldkit.closed_archive`); empty in older stamps."""
     inputs_sha256: str = ""
     """SHA-256 of the inputs that were sent to the world while it ran; empty when there were none."""
     channels: dict[str, Literal["exact", "law re-run", "tolerance"]] = {}

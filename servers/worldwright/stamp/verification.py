@@ -24,7 +24,7 @@ from .as_stamped import Check, static
 from .kept import Kept
 from .proof import FACTS, WORLD, Proved, beside, lay_out, measure, prove, replay
 from .state import State
-from .statement import Statement
+from .statement import Proof, Statement
 
 
 class Verification(Frozen):
@@ -116,7 +116,7 @@ def _prove_again(
                 checks += _facts(folder)
                 if not checks[-1].ok:
                     return _refuted(run, checks, differences)
-            proved = _again(folder, scratch, statement, rebuild, timeout_s, progress)
+            proved = _again(folder, scratch, statement, rebuild, bool(differences), timeout_s, progress)
         except GateError as error:
             shutil.rmtree(proof, ignore_errors=True)
             checks.append(Check(name="run", ok=False, detail=str(error)))
@@ -146,12 +146,19 @@ def _prove_again(
 
 
 def _again(
-    folder: Path, scratch: Path, statement: Statement, rebuild: bool, timeout_s: float, progress: Progress
+    folder: Path,
+    scratch: Path,
+    statement: Statement,
+    rebuild: bool,
+    elsewhere: bool,
+    timeout_s: float,
+    progress: Progress,
 ) -> Proved | None:
     """Simulate the world again: by its file and its recorded inputs where they are kept, else by its program."""
     program, plan = (folder / "simulation.py").read_bytes(), (folder / "plan.md").read_bytes()
-    if _kept(folder) and not rebuild:
-        given = lay_out(scratch / "given", folder / WORLD, folder / bundle.WORLD, folder / bundle.WORLD)
+    kept, facts = _kept(folder), folder / bundle.WORLD
+    if kept and not rebuild:
+        given = lay_out(scratch / "given", folder / WORLD, facts, facts)
         near = beside(folder)
         return replay(scratch / "proof", program, plan, given, timeout_s=timeout_s, progress=progress, near=near)
     return prove(
@@ -162,6 +169,8 @@ def _again(
         timeout_s=timeout_s,
         progress=progress,
         near=beside(folder),
+        kept=lay_out(scratch / "kept", folder / WORLD, facts) if kept else None,
+        elsewhere=elsewhere,
     )
 
 
@@ -190,14 +199,25 @@ def _world(
     if not stamped.world_sha256:  # an older stamp, of a world that was simulated by its own program
         yield Check(name="world", ok=True, detail="built again by the stamped program")
         return
-    same = proved.world_sha256 == stamped.world_sha256
-    detail = f"built again by the stamped program: {'the same file' if same else 'another file'}, sha256 "
-    detail += proved.world_sha256[:16] + ("" if same else f" (stamped {stamped.world_sha256[:16]})")
-    yield Check(name="world", ok=same or bool(differences), detail=detail)
+    if proved.rebuilt:  # compared before it was simulated
+        yield Check(name="world", ok=True, detail=f"built again by the stamped program: {proved.rebuilt}")
+    else:
+        yield _same_hash(stamped, proved, bool(differences))
     if stamped.inputs_sha256:
         same = proved.inputs_sha256 == stamped.inputs_sha256
         detail = f"asked again, the program answers {'the same' if same else 'otherwise'}"
         yield Check(name="inputs", ok=same or bool(differences), detail=detail)
+
+
+def _same_hash(stamped: Proof, proved: Proved, elsewhere: bool) -> Check:
+    """Check a world that its program built against the stamp alone, where its file was not kept."""
+    if stamped.content_sha256:
+        wanted, got = stamped.content_sha256, proved.content_sha256
+    else:
+        wanted, got = stamped.world_sha256, proved.world_sha256
+    same = wanted == got
+    detail = f"built again by the stamped program: {'the same' if same else 'another'}, sha256 {got[:16]}"
+    return Check(name="world", ok=same or elsewhere, detail=detail + ("" if same else f" (stamped {wanted[:16]})"))
 
 
 def _acts(folder: Path, proved: Proved, older: bool) -> Iterator[Check]:

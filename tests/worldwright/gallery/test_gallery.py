@@ -12,7 +12,7 @@ from worldwright.cli import main
 from worldwright.gallery import making, pages, worlds
 from worldwright.model.errors import GateError, NotFoundError
 from worldwright.model.evidence.run import Run, sha256_file
-from worldwright.stamp import bundle, poster, small_form
+from worldwright.stamp import bundle, poster, small_form, verification
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.verification import static
 
@@ -36,8 +36,10 @@ def test_the_small_form_is_what_a_person_reads(small: Path, accepted: Path) -> N
     names = {path.name for path in small.iterdir()}
     assert names - {"stamp.dsse.json", "stamp.pub"} == {
         "prompt.md", "plan.md", "simulation.py", "journal.jsonl", "motion.json", "poster.webp", "stamp.json", "SHA256SUMS",
+        "world.mjz", "world",
     }  # fmt: skip
-    assert sum(path.stat().st_size for path in small.iterdir()) < 120_000
+    assert {path.name for path in (small / "world").iterdir()} == {"program.json", "inputs.json"}
+    assert sum(path.stat().st_size for path in small.iterdir() if path.name != "world.mjz") < 120_000
     assert (small / "stamp.json").read_bytes() == (accepted / "accepted" / "stamp.json").read_bytes()
     sums = ["sha256sum", "--check", "--quiet", "SHA256SUMS"]
     assert subprocess.run(sums, cwd=small, capture_output=True, check=False).returncode == 0
@@ -53,14 +55,41 @@ def test_the_poster_is_small_and_shows_something(small: Path) -> None:
     assert image.std() > 3
 
 
-def test_a_world_is_proved_again_from_its_small_form(small: Path) -> None:
-    before = {path.name: sha256_file(path) for path in small.iterdir()}
+def never_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a verification fail that would run the program."""
+    monkeypatch.setattr(verification, "prove", lambda *_, **__: pytest.fail("the program was run"))
+
+
+def test_a_world_is_proved_again_from_its_small_form_and_no_program_runs(
+    small: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    never_runs(monkeypatch)
+    before = {name: sha256_file(small / name) for name in bundle.files_in(small)}
     result = stamp.verify(str(small), timeout_s=60)
     assert (result.state, result.mode) == ("proved", "bitwise"), result.text()
-    assert "left out of the small form" in result.text()
-    assert {path.name: sha256_file(path) for path in small.iterdir()} == before
+    assert "left out of the small form" in result.text() and "the program was not run" in result.text()
+    assert {name: sha256_file(small / name) for name in bundle.files_in(small)} == before
     assert stamp.status(str(small)).state == "accepted"
     assert stamp.accept(str(small)).already
+
+
+def test_a_large_world_is_left_out_and_built_again(
+    accepted: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in the small forms of before, in which no world is kept."""
+    monkeypatch.setattr(small_form, "WORLD_BYTES", 1000)
+    folder = tmp_path / "examples" / "ball"
+    small_form.write(Run(accepted), folder)
+    assert not (folder / "world.mjz").exists() and not (folder / "world").exists()
+    result = stamp.verify(str(folder), timeout_s=60)
+    assert (result.state, result.mode) == ("proved", "bitwise"), result.text()
+    assert "built again by the stamped program: the same, sha256" in result.text()
+
+
+def test_rebuilt_from_the_small_form_it_is_the_same_content(small: Path) -> None:
+    result = stamp.verify(str(small), timeout_s=60, rebuild=True)
+    assert result.state == "proved", result.text()
+    assert "built again by the stamped program: the same content" in result.text()
 
 
 @pytest.mark.parametrize("name", ["plan.md", "prompt.md", "simulation.py", "motion.json", "poster.webp", "SHA256SUMS"])
@@ -75,12 +104,12 @@ def test_a_small_form_that_was_changed_or_lost_a_file_is_not_as_stamped(small: P
 
 def test_what_was_left_out_must_be_as_stamped_where_it_is_there(small: Path, accepted: Path, copy: Copy) -> None:
     folder = copy(small)
-    (folder / "world.mjz").write_bytes((accepted / "accepted" / "world.mjz").read_bytes())
-    present = [s for s in Run(folder).folder.iterdir() if s.name == "world.mjz"]
-    assert present
-    assert "world.mjz was changed" not in str(checks(folder))
-    (folder / "world.mjz").write_bytes(b"another world")
-    assert "world.mjz was changed" in checks(folder)["checksums"]
+    assert checks(folder) == {}
+    (folder / "trajectory.npz").write_bytes((accepted / "accepted" / "trajectory.npz").read_bytes())
+    assert "trajectory.npz was changed" not in str(checks(folder))
+    for name in ("trajectory.npz", "world.mjz"):
+        (folder / name).write_bytes(b"another")
+        assert f"{name} was changed" in checks(folder)["checksums"]
 
 
 def test_a_file_that_nobody_stamped_is_named_and_a_build_beside_is_not(small: Path, copy: Copy) -> None:

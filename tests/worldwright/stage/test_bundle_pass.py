@@ -8,8 +8,9 @@ import pytest
 
 from worldwright.lint import tools as lint
 from worldwright.model.errors import GateError
-from worldwright.model.evidence import environment
+from worldwright.model.evidence import environment, rounding
 from worldwright.model.evidence.run import Run, sha256_file
+from worldwright.place import tools as place
 from worldwright.stage import tools as stage
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.going import Going
@@ -139,3 +140,47 @@ def test_a_build_that_fails_is_told_by_lint_with_its_line(counting: Path) -> Non
     assert job.state == "failed" and "no such thing" in job.text()
     gone = Going(Run(counting), until="lint").go()
     assert gone.state == "stopped" and any("no such thing" in wrong.what for wrong in gone.wrong)
+
+
+def test_place_check_looks_at_the_world_that_is_built(planned: Path, copy: Copy) -> None:
+    """Before there is one, and for another program, it knows the plan alone."""
+    folder = copy(planned)
+    program = folder / "simulation.py"
+    sunk = program.read_text().replace("pos=(0.0, 0.0, 0.5)", "pos=(0.0, 0.0, 0.02)")
+    assert sunk != program.read_text()
+    program.write_text(sunk)
+    stamp.approve(str(folder), by="tester")
+    assert place.check(folder / "plan.md").ok
+    assert ended(folder, "bundle").state == "succeeded"
+    report = place.check(folder / "plan.md")
+    assert [f.code for f in report.findings if f.severity == "error"] == ["WP326"]
+    assert "in the built world, `ball` and `world` start" in report.text()
+    layout = here(folder) / "bundle" / "layout.json"
+    whole = layout.read_bytes()
+    layout.write_bytes(whole.replace(b"contacts", b"contents"))
+    assert place.check(folder / "plan.md").ok  # nobody vouches for it any more
+    layout.write_bytes(whole)
+    program.write_text(sunk + "\n# another\n")
+    assert place.check(folder / "plan.md").ok
+
+
+def test_what_the_file_holds_rounded_is_told_in_one_line(counting: Path) -> None:
+    program = counting / "simulation.py"
+    frame = """    spec = _build()
+    far = spec.worldbody.add_body(name="far", pos=(0.3, 7, 0.1))
+    far.set_frame(spec.worldbody.add_frame(quat=(0.9, 0.1, 0.2, 0.3), pos=(0.1, 0.2, 0.3)))
+    return spec"""
+    program.write_text(program.read_text().replace("    return _build()", frame))
+    stamp.approve(str(counting), by="tester")
+    job = ended(counting, "bundle")
+    assert job.state == "succeeded", job.text()
+    summary = json.loads((here(counting) / "bundle" / "result.json").read_text())["summary"]
+    told = rounding.told(summary)
+    assert "body_pos by" in told and "rounded in the world's file" in told and "\n" not in told
+    assert 0 < max(summary["rounded"].values()) < 1e-12
+
+
+def test_the_largest_roundings_are_told_first_and_nonsense_is_not() -> None:
+    assert rounding.told({}) == rounding.told({"rounded": {}}) == rounding.told({"rounded": 3}) == ""
+    told = rounding.told({"rounded": {f"field_{n}": n * 1e-9 for n in range(1, 8)}})
+    assert told.index("field_7 by 7e-09") < told.index("field_3 by 3e-09") and told.endswith("and 2 more of its size")

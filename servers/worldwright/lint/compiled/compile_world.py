@@ -116,7 +116,7 @@ def failure(error: BaseException, path: Path) -> dict[str, Any]:
     return {
         "failure": type(error).__name__,
         "message": str(error)[:2000],
-        "line": frames[-1].lineno if frames else None,
+        "line": frames[-1].lineno if frames else getattr(error, "line", None),
     }
 
 

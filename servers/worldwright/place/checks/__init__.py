@@ -3,11 +3,13 @@
 from collections.abc import Callable, Sequence
 
 from ...model.plan.committed import Plan
+from ..built_world import BuiltWorld
 from ..engine import uncollected
 from ..placement_results import CheckReport
 from ..resolution import Resolution
 from ..statements import Locate, Problems
 from . import (
+    built_start,
     clearance,
     completeness,
     containment,
@@ -28,6 +30,7 @@ CHECKS: tuple[Callable[[CheckedLayout], None], ...] = (
     sunk_in_ground.check,
     penetration.check,
     start_pose.check,
+    built_start.check,
     supports.check,
     containment.check,
     clearance.check,
@@ -49,6 +52,7 @@ def check(
     locate: Locate,
     exact: bool = True,
     only: Sequence[Callable[[CheckedLayout], None]] = CHECKS,
+    built: BuiltWorld | None = None,
 ) -> CheckReport:
     """Check a resolved layout.
 
@@ -59,8 +63,9 @@ def check(
         exact: measure with the real collision shapes, in a process of its own, what boxes are too coarse for: pairs whose
             boxes overlap, clearances, and what cameras see.
         only: the checks to make.
+        built: what its program has built of it already.
     """
-    layout = CheckedLayout(plan, resolution, Problems(file, locate), exact)
+    layout = CheckedLayout(plan, resolution, Problems(file, locate), exact, built=built)
     with uncollected():
         for one in only:
             one(layout)

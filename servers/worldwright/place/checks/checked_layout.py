@@ -8,6 +8,7 @@ from ...model.plan.committed import AssetRow, Plan, SceneObject
 from ...model.plan.layout import PlacedObject, Scene
 from .. import categories
 from ..asking import drawn_only, jointed
+from ..built_world import BuiltWorld
 from ..overlaps import overlapping
 from ..placement_results import RowMargin, Seen
 from ..resolution import Resolution
@@ -32,6 +33,8 @@ class CheckedLayout:
     views: list[Seen] = field(default_factory=list)
     pairs_tested: int = 0
     at_start: list[str] = field(default_factory=list)
+    built: BuiltWorld | None = None
+    """The world as its program has built it, where there is one."""
 
     @property
     def scene(self) -> Scene:
