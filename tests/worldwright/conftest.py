@@ -19,6 +19,12 @@ def small_plan() -> str:
 
 
 @pytest.fixture(scope="session")
+def sculpted_plan() -> str:
+    """The text of a plan in which a pea falls into what `sculpt/bowl.py` makes."""
+    return (Path(__file__).parent / "world" / "sculpted_plan.md").read_text(encoding="utf-8")
+
+
+@pytest.fixture(scope="session")
 def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run with a resolved plan and a drafted program, not yet approved."""
     from worldwright.draft import draft

@@ -13,6 +13,7 @@ from . import brushes, crisp
 from .copied import linear, radial, repeat
 from .deformed import bend, noise, rough, twist
 from .figure import Part, add, assemble, dress
+from .from_files import from_file
 from .minting import Made, made
 from .primitives import box, capsule, cylinder, ellipsoid, half_space, round_cone, sphere, torus
 from .profiles import extruded, revolved
@@ -21,6 +22,6 @@ from .tubing import strap, tube
 
 __all__ = [
     "Made", "Part", "Shape", "add", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference", "dress",
-    "ellipsoid", "extruded", "half_space", "intersection", "linear", "made", "noise", "radial", "repeat", "revolved", "rough",
+    "ellipsoid", "extruded", "from_file", "half_space", "intersection", "linear", "made", "noise", "radial", "repeat", "revolved", "rough",
     "round_cone", "sphere", "strap", "torus", "tube", "twist", "union",
 ]  # fmt: skip

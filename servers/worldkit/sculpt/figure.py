@@ -155,12 +155,14 @@ def assemble(
     fixed: bool = False,
     density: float | None = None,
     surface: dict[str, Any] | None = None,
+    placed_joints: "dict[str, Joint | Sequence[Joint]] | None" = None,
 ) -> "dict[str, mujoco.MjsBody]":
     """Add a figure of several parts, each a body of its own name; returns them by name.
 
     The figure's point `origin` (the centre of the box around all parts, if not given) comes to lie at `pos`, m, the figure
     turned by `yaw_deg` about it. Parts without a parent are loose unless `fixed`; a part with a parent and no joint is
-    fastened to it. `density` and `surface` are those of parts without their own.
+    fastened to it. `density` and `surface` are those of parts without their own; `placed_joints`, by part, are joints in
+    coordinates of the world.
 
     Raises:
         ValueError: two parts of one name, a parent that does not stand before its part, or what `add` refuses.
@@ -169,11 +171,10 @@ def assemble(
     for number, part in enumerate(parts):
         if part.name in names[:number]:
             raise ValueError(f"assemble: two parts are called {part.name!r}")
-        if part.parent is not None and part.parent not in names[:number]:
+        if part.parent in names[number:]:
             raise ValueError(f"assemble: {part.name} hangs on {part.parent!r}, which must stand before it")
     solids = {part.name: made(part.shape, paint=part.paint, **part.make) for part in parts}
-    low = np.min([solid.low for solid in solids.values()], axis=0)
-    high = np.max([solid.high for solid in solids.values()], axis=0)
+    low, high = box_around(parts)
     pivot = (low + high) / 2 if origin is None else np.asarray(origin, dtype=float)
     turn, there = rotation_about(yaw_deg, "z"), np.asarray(pos, dtype=float)
 
@@ -190,9 +191,15 @@ def assemble(
             spec, part.shape, name=part.name, pos=world((solid.low + solid.high) / 2), yaw_deg=yaw_deg, mass=part.mass,
             density=part.density or density, paint=part.paint, look=part.look, roughness=part.roughness,
             metallic=part.metallic, surface=part.surface or surface, fixed=fixed, parent=part.parent,
-            joint=[_turned(one, world, turn) for one in listed] or None, **part.make,
+            joint=(placed_joints or {}).get(part.name) or [_turned(one, world, turn) for one in listed] or None, **part.make,
         )  # fmt: skip
     return bodies
+
+
+def box_around(parts: Sequence[Part]) -> tuple[Array, Array]:
+    """Lowest and highest corner (3,) of the box around parts, in the figure's coordinates, m."""
+    solids = [made(part.shape, paint=part.paint, **part.make) for part in parts]
+    return np.min([solid.low for solid in solids], axis=0), np.max([solid.high for solid in solids], axis=0)
 
 
 def _turned(joint: Joint, world: Any, turn: Array) -> Joint:

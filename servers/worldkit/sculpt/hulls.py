@@ -20,6 +20,8 @@ MOST, CORNERS = 16, 40
 TRIANGLES = 1_500
 SHARES = (0.3, 0.5, 0.7)
 """Where a piece may be cut, as shares of its extent."""
+THIN = 0.04
+"""No slice is thinner than this share of the whole: a thin ring would be cut across before it opens."""
 FULL = 0.97
 """Nothing is cut further when all pieces together fill this share of their hulls."""
 
@@ -59,23 +61,28 @@ def cut(solid: "manifold3d.Manifold", most: int) -> "list[manifold3d.Manifold]":
     """At most so many pieces of a solid, each as full of it as its hull allows."""
     pieces = [(piece, _empty(piece)) for piece in _bits(solid)]
     total = sum(piece.volume() for piece, _ in pieces)
-    while len(pieces) < most:
+    least = THIN * float(np.ptp(np.array(solid.bounding_box()).reshape(2, 3), axis=0).max())
+    whole = []  # pieces that no cut makes better
+    while pieces and len(pieces) + len(whole) < most:
         number = max(range(len(pieces)), key=lambda n: pieces[n][1])
-        if sum(empty for _, empty in pieces) < (1 / FULL - 1) * total:
+        if sum(empty for _, empty in (*pieces, *whole)) < (1 / FULL - 1) * total:
             break
         best: list[tuple[manifold3d.Manifold, float]] | None = None
-        worst = pieces[number][0]
-        low, high = np.array(worst.bounding_box()).reshape(2, 3)
+        worst = pieces.pop(number)
+        low, high = np.array(worst[0].bounding_box()).reshape(2, 3)
         for axis in range(3):
             for share in SHARES:
-                halves = worst.split_by_plane(tuple(np.eye(3)[axis]), float(low[axis] + share * (high - low)[axis]))
+                if min(share, 1 - share) * (high - low)[axis] < least:
+                    continue
+                halves = worst[0].split_by_plane(tuple(np.eye(3)[axis]), float(low[axis] + share * (high - low)[axis]))
                 both = [(bit, _empty(bit)) for half in halves for bit in _bits(half)]
                 if len(both) > 1 and (best is None or _cost(both, total) < _cost(best, total)):
                     best = both
-        if best is None or len(pieces) - 1 + len(best) > most:
-            break
-        pieces[number : number + 1] = best
-    return [piece for piece, _ in pieces]
+        if best is None or len(pieces) + len(whole) + len(best) > most:
+            whole.append(worst)
+        else:
+            pieces += best
+    return [piece for piece, _ in (*pieces, *whole)]
 
 
 def corners_of(points: Array) -> Array:
@@ -103,14 +110,16 @@ def _bits(solid: "manifold3d.Manifold") -> "list[manifold3d.Manifold]":
 
 
 def _empty(solid: "manifold3d.Manifold") -> float:
-    """How much of its hull a solid does not fill, m^3."""
-    return max(float(solid.hull().volume() - solid.volume()), 0.0)
+    """How much of its hull a solid does not fill, m^3, times that share of what it fills: a thin ring's hull closes an opening."""
+    full = float(solid.volume())
+    return max(float(solid.hull().volume()) - full, 0.0) ** 2 / max(full, 1e-300)
 
 
 def _solid(skin: Skin) -> "manifold3d.Manifold | None":
     import manifold3d
 
-    mesh = manifold3d.Mesh64(vert_properties=skin.vertices, tri_verts=skin.faces.astype(np.uint64))
+    corners, faces = np.array(skin.vertices, float), np.array(skin.faces, np.uint64)  # it refuses read-only ones
+    mesh = manifold3d.Mesh64(vert_properties=corners, tri_verts=faces)
     solid = manifold3d.Manifold(mesh)
     return None if solid.is_empty() or not solid.volume() > 0 else solid
 

@@ -1,8 +1,5 @@
 """A shape made: what is drawn, its picture, what collides, and what it weighs like. Made once, and kept by its content."""
 
-import contextlib
-import os
-import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from functools import cache
@@ -12,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..forms.bulk import Form
+from . import keeping
 from .marching import CELLS, TRIANGLES, Skin, decimated, surface
 from .signatures import signature
 from .signed import Array, Shape
@@ -21,11 +19,8 @@ if TYPE_CHECKING:
     from .crisp import Solid
 
 TEXELS = 512
-FOLDER = "WORLDKIT_SCULPT_CACHE"
-"""Environment variable with the folder in which made shapes are kept; else one in the user's cache."""
 LEVELS = 0.1
 """Painted roughness is drawn in steps of this."""
-MOST_KEPT = 200
 _memory: dict[str, "Made"] = {}
 
 
@@ -179,35 +174,19 @@ def code() -> str:
     return signature(texts, [metadata.version(name) for name in libraries])
 
 
-def folder() -> Path:
-    """Where made shapes are kept: `WORLDKIT_SCULPT_CACHE`, else in the user's cache, which a sandbox replaces."""
-    named = os.environ.get(FOLDER)
-    if named:
-        return Path(named)
-    return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "worldwright" / "sculpt"
-
-
 def _kept(key: str) -> Made | None:
+    held = keeping.kept(key)
     try:
-        with np.load(folder() / f"{key}.npz", allow_pickle=False) as stored:
-            held = {name: stored[name] for name in stored.files}
-    except (OSError, ValueError, KeyError, EOFError):
+        if held is None or str(held.pop("signature")) != key:
+            return None
+        hulls = tuple(held.pop(f"hull{n}") for n in range(int(held.pop("count"))))
+        volume, bits = float(held.pop("volume")), int(held.pop("bits"))
+        return Made(hulls=hulls, volume=volume, bits=bits, signature=key, **held)
+    except (KeyError, TypeError, ValueError):  # of another layout
         return None
-    hulls = tuple(held.pop(f"hull{n}") for n in range(int(held.pop("count"))))
-    held |= {"volume": float(held["volume"]), "bits": int(held["bits"]), "signature": str(held["signature"])}
-    return Made(hulls=hulls, **held) if held["signature"] == key else None
 
 
 def _keep(found: Made) -> None:
-    """Store it whole or not at all; a folder that cannot be written costs time, not correctness."""
-    arrays = {f.name: getattr(found, f.name) for f in fields(found) if f.name != "hulls"}
-    arrays |= {f"hull{n}": points for n, points in enumerate(found.hulls)} | {"count": len(found.hulls)}
-    with contextlib.suppress(OSError):
-        place = folder()
-        place.mkdir(parents=True, exist_ok=True)
-        old = sorted(place.glob("*.npz"), key=lambda path: path.stat().st_mtime)
-        for path in old[: max(0, len(old) - MOST_KEPT + 1)]:
-            path.unlink(missing_ok=True)
-        with tempfile.NamedTemporaryFile(dir=place, suffix=".part", delete=False) as file:
-            np.savez_compressed(file, **arrays)
-        Path(file.name).replace(place / f"{found.signature}.npz")
+    arrays = {f.name: np.asarray(getattr(found, f.name)) for f in fields(found) if f.name != "hulls"}
+    arrays |= {f"hull{n}": points for n, points in enumerate(found.hulls)} | {"count": np.asarray(len(found.hulls))}
+    keeping.keep(found.signature, arrays)

@@ -15,8 +15,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..errors import ProgramError
-from .crisp import Solid
-from .figure import Part, assemble
+from . import from_files
+from .figure import assemble, box_around
 from .marching import CELLS
 from .minting import made
 from .signed import Array, Shape
@@ -33,7 +33,6 @@ SIDES = {
     "back_minus_x": (-1.0, 0.12, 0.25),
 }
 """Where the cameras stand, seen from the middle; +x is the front."""
-KINDS = "a Shape, a crisp.Solid, a Part, a row of Parts, or a function without arguments that gives one of them or an MjSpec"
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -44,15 +43,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description="Lay out a sculpted thing to be drawn from four sides.")
     parser.add_argument("program", type=Path)
     parser.add_argument("--name", default="")
+    parser.add_argument("--root", type=Path, help="the run folder, where the file lies deeper in it")
     parser.add_argument("--out", type=Path, required=True)
     options = parser.parse_args(argv)
     program = str(options.program)
     try:
-        sys.path.insert(0, str(options.program.parent))
+        sys.path[:0] = dict.fromkeys(str(path) for path in (options.program.parent, options.root) if path)
         held = runpy.run_path(program)
         name = options.name or chosen(held)
         if name not in held:
-            known = ", ".join(names(held)) or "nothing that can be drawn"
+            known = ", ".join(from_files.names(held)) or "nothing that can be drawn"
             raise ProgramError(f"there is no {name!r} in it", options.program.name, f"it has: {known}")
         began = time.perf_counter()
         spec, facts = shown(name, held[name], held.get("paint"))
@@ -66,28 +66,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-def names(held: dict[str, Any]) -> list[str]:
-    """What a file's sheet may show, in the order of the file."""
-    return [name for name, value in held.items() if not name.startswith("_") and _drawable(value)]
-
-
 def chosen(held: dict[str, Any]) -> str:
-    """The last thing in the file that can be drawn: rows of parts first, then parts, then shapes; else its `build`."""
-    for kind in (_is_row, lambda value: isinstance(value, Part), lambda value: isinstance(value, Shape | Solid)):
-        found = [name for name in names(held) if kind(held[name])]
-        if found:
-            return found[-1]
-    if callable(held.get("build")):
+    """What is drawn of a file when nobody says: the last thing in it that is sculpted, else its `build`."""
+    if not from_files.names(held) and callable(held.get("build")):
         return "build"
-    raise ProgramError("there is nothing to draw in it", "", f"name {KINDS}: FILE.py:NAME")
-
-
-def _is_row(value: Any) -> bool:
-    return isinstance(value, list | tuple) and len(value) > 0 and all(isinstance(one, Part) for one in value)
-
-
-def _drawable(value: Any) -> bool:
-    return isinstance(value, Shape | Solid | Part) or _is_row(value)
+    return from_files.last(held)
 
 
 def shown(name: str, value: Any, paint: Any = None) -> "tuple[mujoco.MjSpec, dict[str, Any]]":
@@ -95,7 +78,7 @@ def shown(name: str, value: Any, paint: Any = None) -> "tuple[mujoco.MjSpec, dic
 
     Args:
         name: what it is called.
-        value: `KINDS`.
+        value: one of `from_files.KINDS`, or a function that gives a whole world.
         paint: of a bare shape.
 
     Raises:
@@ -112,15 +95,9 @@ def shown(name: str, value: Any, paint: Any = None) -> "tuple[mujoco.MjSpec, dic
         low, high = _bounds(model)
         _cameras(value, low, high)
         return value, {"name": name, "extent_m": _round(high - low), **_weight(model)}
-    if isinstance(value, Shape | Solid):
-        value = Part(name, value, paint=paint)
-    if isinstance(value, Part):
-        value = (value,)
-    if not _is_row(value):
-        raise ProgramError(f"{name} is {type(value).__name__}, which cannot be drawn", name, f"name {KINDS}")
+    value = from_files.parts_of(name, value, paint)
     solids = {part.name: made(part.shape, paint=part.paint, **part.make) for part in value}
-    low = np.min([solid.low for solid in solids.values()], axis=0)
-    high = np.max([solid.high for solid in solids.values()], axis=0)
+    low, high = box_around(value)
     spec = scene.new("sheet", time_step=0.01, setting="studio", floor="#8f8a84")
     middle = (low + high) / 2
     assemble(spec, value, pos=(0.0, 0.0, float(high[2] - low[2]) / 2), origin=tuple(middle), fixed=True)

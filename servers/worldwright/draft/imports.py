@@ -1,8 +1,8 @@
-"""Write what a world imports: catalog meshes, and models (URDF, MJCF) whose text becomes part of the program."""
+"""Write what a world imports: catalog meshes, models (URDF, MJCF) whose text becomes part of the program, and what files sculpt."""
 
 from ..model.errors import PlanError
 from ..model.plan.committed import AssetRow
-from ..model.plan.imported import is_model, load
+from ..model.plan.imported import is_model, is_sculpt, load, sculpture
 from .python_text import Raw, call, comment, constant_name, literal
 from .stances import Stances
 
@@ -13,8 +13,14 @@ def written(objects: Stances, row: AssetRow) -> str:
         objects.needs.leave(f"{row.name} is a wrapper asset", "build it and attach it to the world")
         return comment(f"AUTHOR: add {row.name} ({row.filename}): a wrapper asset is not drafted.")
     own_of = _models(objects, row) if is_model(row) else {}
-    keywords = {} if is_model(row) else _mesh(objects, row)
-    function, what = ("models.attach", Raw(_constant(row))) if is_model(row) else ("assets.add", row.filename)
+    keywords = {} if is_model(row) else _sculpt(objects, row) if is_sculpt(row) else _mesh(objects, row)
+    function, what = (
+        ("models.attach", Raw(_constant(row)))
+        if is_model(row)
+        else ("sculpt.from_file", row.sculpted[0])
+        if is_sculpt(row)
+        else ("assets.add", row.filename)
+    )
     if row.material:
         keywords["surface"] = Raw(constant_name(row.material))
     if row.look:
@@ -58,6 +64,18 @@ def _mesh(objects: Stances, row: AssetRow) -> dict:
     """Keywords of a catalog mesh, scaled to its height."""
     objects.needs.use("assets")
     return {"height": objects.plan.asset_dimensions[row.name]}
+
+
+def _sculpt(objects: Stances, row: AssetRow) -> dict:
+    """Keywords of what a file beside the plan sculpts.
+
+    Raises:
+        PlanError: the file is not there.
+    """
+    objects.needs.use("sculpt")
+    sculpture(row, objects.plan.folder)
+    of = row.sculpted[1]
+    return {"of": of} if of else {}
 
 
 def _models(objects: Stances, row: AssetRow) -> dict[str, dict]:

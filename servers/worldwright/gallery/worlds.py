@@ -57,7 +57,8 @@ def restarted(slug: str, redraft: bool = False) -> Run:
     that was accepted in another environment (an older suite, engine or catalog) begins again from nothing.
     """
     from ..go import started_from
-    from ..model.evidence import companions, environment, pictures_of
+    from ..model import companions
+    from ..model.evidence import environment, pictures_of
     from ..stamp.state import State
 
     source, before = Run(EXAMPLES / slug), State(Run(ANEW / slug)).stamp.value

@@ -12,7 +12,7 @@ from typing import Any
 from ..model.errors import JobError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
 from ..model.plan.formed import arguments
-from ..model.plan.imported import is_model, load
+from ..model.plan.imported import is_model, is_sculpt, load
 from ..model.plan.layout import Scene
 from .start import Motion
 
@@ -144,9 +144,11 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
         objects.append(
             {
                 "name": placed.name,
-                "asset": row.filename if isinstance(row, AssetRow) and not is_model(row) else None,
+                "asset": row.filename
+                if isinstance(row, AssetRow) and not is_model(row) and not is_sculpt(row)
+                else None,
                 "model": _model(plan, row),
-                "primitive": row.primitive if isinstance(row, SceneObject) else None,
+                "primitive": row.primitive if isinstance(row, SceneObject) else "box" if is_sculpt(row) else None,
                 "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
                 "size": row.size if isinstance(row, SceneObject) else placed.size,
                 "parts": _parts(plan, row),

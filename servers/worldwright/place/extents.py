@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from ..model.errors import PlanError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
-from ..model.plan.imported import is_model, load
+from ..model.plan.imported import is_model, is_sculpt, load, sculpture
 from . import compounds, formed_boxes
 from .anchors import Box, Surface, no_surface
 
@@ -91,6 +91,8 @@ def _tilted(row: SceneObject) -> Box:
 def _asset(plan: Plan, row: AssetRow) -> Box:
     if is_model(row):
         return _model(plan, row)
+    if is_sculpt(row):
+        return _sculpt(plan, row)
     from worldkit import assets
 
     if row.name not in plan.asset_dimensions:
@@ -133,6 +135,20 @@ def _model(plan: Plan, row: AssetRow) -> Box:
             f"{row.filename} is {size[2]:g} m high as it stands there, not {height:g} m",
             f"remove `{row.name}` from asset_dimensions: the file owns its size, and is not scaled",
         )
+    top = Surface("top", size[2], size[:2])
+    return Box(
+        row.name, size, surface=lambda name: top if name in (None, "top") else no_surface(name), surfaces=lambda: [top]
+    )
+
+
+def _sculpt(plan: Plan, row: AssetRow) -> Box:
+    """The box that the plan claims of what a file makes; lint holds the built world against it."""
+    try:
+        sculpture(row, plan.folder)
+    except PlanError as error:
+        raise _UnknownSizeError(error.cause, error.next_move, "filename") from error
+    size = row.size
+    assert size is not None  # a row of this type has one
     top = Surface("top", size[2], size[:2])
     return Box(
         row.name, size, surface=lambda name: top if name in (None, "top") else no_surface(name), surfaces=lambda: [top]

@@ -12,10 +12,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 from . import family, plain, sandbox
 from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
+
+if TYPE_CHECKING:
+    from .kept_sculpts import Given
 
 TICK_S = 0.02
 LOOK_S = 0.2
@@ -39,6 +43,8 @@ class Confined:
     """The end of what it printed."""
     wall_s: float = 0.0
     level: str = ""
+    sculpted: tuple[str, ...] = ()
+    """Names of the shapes that it made anew and that are kept; see `kept_sculpts`."""
 
 
 def run(
@@ -49,6 +55,7 @@ def run(
     wall_s: float = 20.0,
     memory_mb: int = 2048,
     file_mb: int = 64,
+    sculpts: "Given | None" = None,
 ) -> Confined:
     """Run a command to its end in the sandbox; `{out}` in it stands for the one folder it may write.
 
@@ -60,6 +67,7 @@ def run(
             computes only what it gets of a processor, so that other work beside it does not end it.
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
+        sculpts: shapes that were made earlier by the same sources, and the place for those that it makes.
     """
     name = sandbox.level()
     if name not in sandbox.CONFINING and os.environ.get("WORLDWRIGHT_SANDBOX") != name:
@@ -70,7 +78,7 @@ def run(
         scratch.mkdir()
         confinement = Confinement(
             out=out,
-            reads=tuple(path.absolute() for path in reads),
+            reads=tuple(path.absolute() for path in (*reads, *(_places(sculpts)))),
             scratch=scratch,
             cpu_s=int(wall_s) + 1,
             file_bytes=file_mb * MB,
@@ -78,7 +86,7 @@ def run(
             token=family.new_token(),
             processes=16,
             threads=128,
-            environment=environment(str(scratch)),
+            environment=environment(str(scratch)) | (sculpts.variables(scratch) if sculpts else {}),
         )
         words = [word.replace("{out}", str(out)) for word in call]
         # Its output goes to a file, so that the limit on files holds for it, too.
@@ -90,7 +98,12 @@ def run(
             tail = log.read().decode(errors="replace")
         names = [name for word in wanted for name in (_matching(out, word) if "*" in word else [word])]
         files = {file: data for file in names if (data := plain.read(out / file, file_mb * MB)) is not None}
-    return Confined(status, code, files, tail, round(wall, 3), name)
+        sculpted = sculpts.keep(scratch) if sculpts else ()
+    return Confined(status, code, files, tail, round(wall, 3), name, sculpted)
+
+
+def _places(sculpts: "Given | None") -> tuple[Path, ...]:
+    return tuple(path for path in sculpts.places if path.is_dir()) if sculpts else ()
 
 
 class OwnTime:

@@ -17,6 +17,7 @@ from typing import Any
 
 from . import family, sandbox
 from .job import Job
+from .kept_sculpts import Given
 from .limits import Guard
 from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
@@ -53,27 +54,34 @@ class Crew:
         """The means that enforce the limits, for the evidence."""
         self.printed = 0
         self.members: list[Member] = []
+        self._sculpts: list[tuple[Given, Path]] = []
         self._log = job.log.open("wb")
         self._lock = threading.Lock()
         self._guard: Guard | None = None
         self._started = time.monotonic()
 
     def start(
-        self, name: str, call: Sequence[str], out: Path, reads: Sequence[Path], descriptors: Sequence[int] = ()
+        self,
+        name: str,
+        call: Sequence[str],
+        out: Path,
+        reads: Sequence[Path],
+        descriptors: Sequence[int] = (),
+        sculpts: Given | None = None,
     ) -> Member:
-        """Start a process that may read `reads`, write `out`, and inherits `descriptors`."""
+        """Start a process that may read `reads`, write `out`, inherits `descriptors`, and is given kept shapes."""
         scratch = self.job.scratch / name
         for folder in (out, scratch):
             folder.mkdir(parents=True, exist_ok=True)
         confinement = Confinement(
             out=out,
-            reads=tuple(reads),
+            reads=(*reads, *(path for path in (sculpts.places if sculpts else ()) if path.is_dir())),
             scratch=scratch,
             cpu_s=math.ceil(self.spec.cpu_s or UNLIMITED_CPU_S),
             file_bytes=self.spec.file_mb * MB,
             memory_bytes=self.spec.memory_mb * MB + ADDRESS_SPACE_SLACK,
             token=self.spec.token,
-            environment=environment(str(scratch), str(self.job.lock)),
+            environment=environment(str(scratch), str(self.job.lock)) | (sculpts.variables(scratch) if sculpts else {}),
         )
         rung = sandbox.LADDER[self.level]
         pipes: dict[str, Any] = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT}
@@ -83,6 +91,8 @@ class Crew:
         reader.start()
         member = Member(entered.process, out, reader)
         self.members.append(member)
+        if sculpts is not None:
+            self._sculpts.append((sculpts, scratch))
         if self._guard is None:
             self._guard = Guard(self.spec, self.job, confinement)
         if entered.births is not None:
@@ -126,6 +136,9 @@ class Crew:
             member.process.wait()
             member.reader.join(timeout=5)
         self.members = []
+        for sculpts, scratch in self._sculpts:
+            sculpts.keep(scratch)
+        self._sculpts = []
 
     def _keep_log(self, stream: Any) -> None:
         """Copy output into the log up to a cap; beyond it, count and discard."""

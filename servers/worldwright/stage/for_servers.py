@@ -11,6 +11,7 @@ from ..model.progress import Progress, silent
 from .job import Job, JobStatus
 
 if TYPE_CHECKING:
+    from ..model.plan.committed import Plan
     from .confined import Confined
 
 
@@ -80,11 +81,22 @@ def variant_folder(run: Run, variant: str) -> Path | None:
     return variants.folder(run, variant)
 
 
-def run_confined(call: Sequence[str], **limits: Any) -> "Confined":
-    """For other servers (no tool): a short confined run that leaves nothing behind; see `stage.confined.run`."""
-    from . import confined
+def run_confined(call: Sequence[str], *, program: Path | None = None, **limits: Any) -> "Confined":
+    """For other servers (no tool): a short confined run that leaves nothing behind but what it sculpted; see `confined.run`.
 
-    return confined.run(call, **limits)
+    `program` is the author's file that runs in it, with the files beside it that it may read.
+    """
+    from . import confined, kept_sculpts
+
+    sculpts = None if program is None else kept_sculpts.of_files(program, limits.get("reads", ()))
+    return confined.run(call, sculpts=sculpts, **limits)
+
+
+def sculpt_of(plan: "Plan") -> int:
+    """For other servers (no tool): have what a plan's files sculpt made, once; see `stage.sculpting_step.prepare`."""
+    from .sculpting_step import prepare
+
+    return prepare(plan)
 
 
 def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]) -> bytes:

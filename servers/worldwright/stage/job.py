@@ -15,8 +15,9 @@ from pydantic import ValidationError
 from worldkit import lock
 from worldkit.files import write_atomic, write_json
 
+from ..model import companions
 from ..model.errors import NotFoundError
-from ..model.evidence import companions, pictures_of
+from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen

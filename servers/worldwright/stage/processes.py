@@ -5,6 +5,7 @@ import os
 import sys
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,15 +14,17 @@ from worldkit import channel
 from worldkit.files import write_json
 from worldkit.filming.telling import ARRAYS, DESCRIPTION
 
+from ..model import companions
 from ..model.errors import WorldwrightError
 from ..model.evidence import assets_used, environment, pictures_of
 from ..model.evidence.run import Run, sha256_file
 from ..model.plan.plan_text import read_plan
-from . import authoring, family, plain, refined
+from . import authoring, family, kept_sculpts, plain, refined
 from .crew import Crew, Member
 from .gates import folder_name
 from .job import Job, Spec
 from .limits import failed
+from .sculpting_step import prepare
 
 WORLD, FACTS, INPUTS = "world.mjz", "program.json", "inputs.json"
 """The engine's files: the built world, the program's facts, the plan's declared inputs."""
@@ -89,10 +92,15 @@ class Acting:
         program, out = self.job.inputs / "simulation.py", self.job.author / folder
         call = [sys.executable, "-s", str(program), "--pass", what, "--out", str(out), *more]
         reads = (self.job.inputs, *map(Path, self.spec.reads))
-        return self.crew.start("author", call, out, reads, descriptors)
+        sculpts = kept_sculpts.given(companions.of(program) | {program.name: program.read_bytes()})
+        return self.crew.start("author", call, out, reads, descriptors, sculpts)
 
     def build(self) -> dict[str, str] | None:
         """Have the program build its world, and take the file out of its folder."""
+        with suppress(
+            WorldwrightError
+        ):  # no plan, or one that is not read here; lint has had it made, where it went first
+            prepare(read_plan(self.job.inputs / "plan.md").plan)
         member = self.author("build", "build")
         if failure := self.ended(member):
             return failure

@@ -9,11 +9,11 @@ from typing import Any
 from worldkit.files import write_atomic
 
 from ..model.errors import JobError, NotFoundError
-from ..model.evidence import companions
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
 from . import confined, plain
 from .confined import Confined
+from .kept_sculpts import Given, given, needed
 from .limits import failed
 
 WORLD, PROGRAM, FACTS, SHEET = "world.mjz", "program.json", "sheet.json", "sheet.jpg"
@@ -86,10 +86,13 @@ def drawn(thing: str) -> Illustrated:
         raise NotFoundError(f"there is no file {file}", next_move=AGAIN)
     with tempfile.TemporaryDirectory(prefix="worldwright-sheet-") as folder:
         source, laid = Path(folder) / "source", Path(folder) / "laid"
-        for path, content in {file.name: file.read_bytes(), **companions.of(file)}.items():
+        root = _root(file)
+        inside = file.absolute().relative_to(root).as_posix()
+        files = needed(root, inside)
+        for path, content in files.items():
             write_atomic(source / path, content)
-        call = ["-m", "worldkit.sculpt.showing", str(source / file.name), "--name", name, "--out", "{out}"]
-        made = _run(call, (source,), (WORLD, PROGRAM, FACTS), file)
+        call = ["-m", "worldkit.sculpt.showing", str(source / inside), "--name", name, "--out", "{out}"]
+        made = _run([*call, "--root", str(source)], (source,), (WORLD, PROGRAM, FACTS), file, given(files))
         for path in (WORLD, PROGRAM):
             write_atomic(laid / path, made[path])
         words = [f"--{word}={laid / path}" for word, path in (("world", WORLD), ("program", PROGRAM))]
@@ -103,7 +106,16 @@ def drawn(thing: str) -> Illustrated:
     return Illustrated(found, (Picture(sheet, f"{found.name}: front, three quarters, side, back", "jpeg"),))
 
 
-def _run(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], file: Path) -> dict[str, bytes]:
+def _root(file: Path) -> Path:
+    """The run folder that a file lies in, which its own imports may be seen from; else the file's own."""
+    here = file.absolute().parent
+    marks = ("plan.md", "simulation.py")
+    return next((one for one in (here, *here.parents[:2]) if any((one / m).is_file() for m in marks)), here)
+
+
+def _run(
+    call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], file: Path, sculpts: Given | None = None
+) -> dict[str, bytes]:
     ended = confined.run(
         [sys.executable, "-s", *call],
         reads=reads,
@@ -111,6 +123,7 @@ def _run(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], file
         wall_s=120.0,
         memory_mb=4096,
         file_mb=512,
+        sculpts=sculpts,
     )
     failure = _failure(ended, wanted)
     if failure is None:

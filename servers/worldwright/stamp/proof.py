@@ -14,8 +14,9 @@ from typing import Any
 
 from worldkit.files import write_atomic
 
+from ..model import companions
 from ..model.errors import GateError
-from ..model.evidence import approval, companions
+from ..model.evidence import approval
 from ..model.evidence.reports import ExpectReport, LintReport, PassResult
 from ..model.evidence.run import Run
 from ..model.plan import imported

@@ -7,8 +7,9 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
+from ..model import companions
 from ..model.errors import NotFoundError, PlanError, WorldwrightError
-from ..model.evidence import approval, assets_used, came, companions, pictures_of
+from ..model.evidence import approval, assets_used, came, pictures_of
 from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport
 from ..model.evidence.reports import (
     Environment,

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from worldkit import bodies, contacts, joints, portable, scene, sculpt
-from worldkit.sculpt import brushes, minting
+from worldkit.sculpt import brushes, crisp, minting
 
 BALL = sculpt.sphere(0.1)
 SMALL = {"cells": 24, "texels": 64}
@@ -204,3 +204,17 @@ def test_one_box_holds_what_is_drawn_and_what_collides():
     made = sculpt.made(sculpt.torus(0.2, 0.04), cells=32, triangles=1000)
     corners = np.concatenate(made.hulls)
     assert np.allclose(corners.min(axis=0), made.low) and np.allclose(corners.max(axis=0), made.high)
+
+
+def test_a_ball_falls_through_the_neck_of_a_turned_vase():
+    """The hulls of an exact solid leave a neck open that is twice as wide as what falls in."""
+    outside = [(0, 0), (0.055, 0), (0.1, 0.13), (0.062, 0.25), (0.08, 0.30)]
+    inside = [(0.072, 0.301), (0.054, 0.25), (0.092, 0.13), (0.047, 0.012), (0, 0.012)]
+    spec = world()
+    sculpt.add(spec, crisp.lathe(outside + inside), name="vase", pos=(0, 0, 0.1505), fixed=True, hulls=40)
+    spec.worldbody.add_body(name="pea", pos=(0.003, 0, 0.34)).add_freejoint()
+    spec.body("pea").add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(0.02, 0, 0))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, 1000)
+    assert data.body("pea").xpos[2] < 0.06 and abs(data.body("pea").xpos[0]) < 0.05

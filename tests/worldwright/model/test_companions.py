@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.model.evidence import companions
+from worldwright.model import companions
 from worldwright.model.evidence.run import Run
 
 

@@ -16,7 +16,7 @@ from worldkit.contacts import STEP_SHARE, restitution_of
 from worldkit.turning import matrices
 
 from ...model.plan.committed import Plan
-from ...model.plan.imported import is_model
+from ...model.plan.imported import inner
 from .view import ModelView
 
 NAME = re.compile(r"[A-Za-z0-9_-]+")
@@ -58,8 +58,7 @@ def rows(view: ModelView, plan: Plan) -> Rows:
 
     made = Rows()
     names, known = view.texts["names"]["body"], {*plan.object_names(), *view.planned_bodies}
-    models = tuple(f"{name}_" for row in plan.assets if is_model(row) for name in row.instances)
-    known |= {name for name in names if models and name.startswith(models)}  # of a model file, with names of its own
+    known |= {name for name in names if name.startswith(inner(plan))}  # of a model or sculpture, with names of its own
     flexed = {int(body) for body in view.flex_vertbodyid}
     for body in range(1, len(names)):
         if body in flexed or names[body] in known or not _own(view, body):

@@ -81,7 +81,8 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S, lasting_
     call = [sys.executable, "-s", str(here / "compile_world.py"), "mjcf" if is_mjcf else "program", str(path), "{out}"]
     call += [] if lasting_s is None else [str(lasting_s)]
     wanted = ("outcome.json", "facts.npz", "compiling")
-    done = run_confined(call, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
+    own = None if is_mjcf else path
+    done = run_confined(call, program=own, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
     common: dict[str, Any] = {"wall_s": done.wall_s, "level": done.level}
     if done.status != "ended" and "outcome.json" not in done.files:  # the world was compiled, and its first step failed
         status = "too_large" if done.status == "timed_out" and "compiling" in done.files else done.status

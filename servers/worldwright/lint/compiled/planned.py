@@ -6,10 +6,15 @@ program's world is held against it (`rules/model/acting`), however the program i
 
 import hashlib
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 
+from worldkit.files import write_atomic
+
 from ...model.errors import WorldwrightError
+from ...model.plan import imported
 from ...model.plan.committed import Plan
+from ...stage.tools import sculpt_of
 from . import fetch
 
 
@@ -31,10 +36,12 @@ def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
         text = source(plan)
     except (WorldwrightError, ValueError, KeyError) as error:
         return fetch.Outcome("failed", failure=type(error).__name__, message=str(error))
-    key = hashlib.sha256(text.encode()).hexdigest()
+    near = imported.contents(plan)
+    key = hashlib.sha256(repr((text, near)).encode()).hexdigest()
     kept = _KEPT.get(key)
     if kept is None:
-        kept = _compiled(text, wall_s)
+        sculpt_of(plan)
+        kept = _compiled(text, near, wall_s)
         if kept.status == "compiled":
             _KEPT.clear()  # people work on one run at a time
             _KEPT[key] = kept
@@ -45,8 +52,11 @@ _KEPT: dict[str, fetch.Outcome] = {}
 """The last plan's world: a program is linted many times against one plan."""
 
 
-def _compiled(text: str, wall_s: float) -> fetch.Outcome:
+def _compiled(text: str, near: Mapping[str, bytes], wall_s: float) -> fetch.Outcome:
+    """The draft compiled, with the files beside it that the plan names."""
     with tempfile.TemporaryDirectory(prefix="worldwright-plan-") as folder:
         path = Path(folder) / "simulation.py"
+        for name, content in near.items():
+            write_atomic(path.parent / name, content)
         path.write_text(text, encoding="utf-8")
         return fetch.world(path, wall_s=wall_s)

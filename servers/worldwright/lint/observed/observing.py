@@ -77,7 +77,8 @@ def _run(path: Path, wall_s: float, how: str) -> Observation:
     path = path.absolute()
     call = [sys.executable, "-s", str(inside / "watching.py"), str(path), "{out}", how]
     wanted = ("events.jsonl", "end.json", "death.txt")
-    done = run_confined(call, reads=[inside, path, *beside(path)], wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
+    reads = [inside, path, *beside(path)]
+    done = run_confined(call, program=path, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
     common: dict[str, Any] = {"wall_s": done.wall_s, "level": done.level}
     common["events"] = tuple(_events(done.files.get("events.jsonl", b"")))
     if done.status != "ended":
@@ -103,7 +104,7 @@ def _run(path: Path, wall_s: float, how: str) -> Observation:
 
 def beside(path: Path) -> list[Path]:
     """What a program may read besides itself: the modules that it imports, the data that it names, the models around it."""
-    from ...model.evidence import companions
+    from ...model import companions
 
     found = [p for p in sorted(path.parent.glob("*")) if p.suffix.lower() in MODELS and p.is_file()][:MOST_MODELS]
     with contextlib.suppress(companions.CompanionError, OSError):

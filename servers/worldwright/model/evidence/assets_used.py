@@ -12,7 +12,7 @@ from pathlib import Path
 
 from worldkit import assets
 
-from . import companions
+from .. import companions
 from .file_hashes import below, sha256_of
 
 OURS = ("make", "meshes", "__pycache__")

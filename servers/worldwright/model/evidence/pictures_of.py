@@ -8,7 +8,8 @@ import hashlib
 
 from worldengine.film.renderers import FINAL
 
-from . import companions, environment
+from .. import companions
+from . import environment
 from .reports import PassName
 from .run import Run, sha256_file
 

@@ -8,9 +8,10 @@ from typing import Any
 
 from worldkit.files import write_atomic, write_json
 
+from .. import companions
 from ..errors import NotFoundError
 from ..storage import writing
-from . import assets_used, companions
+from . import assets_used
 from .journal import Journal
 from .reports import EvidenceKey
 

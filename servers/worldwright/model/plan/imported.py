@@ -1,8 +1,10 @@
-"""Models that a plan brings in as they are: asset rows of type `mjcf` and `urdf`, read from beside the plan or the catalog.
+"""What a plan brings in from files: asset rows of type `mjcf`, `urdf` and `sculpt`, read from beside the plan or the catalog.
 
 A model is metric: it owns its size, its masses and its joints. The text goes into the program, so that evidence covers it.
+What a file sculpts has the size that the plan says; the file runs in the sandbox alone, so here nothing is known of it but its text.
 """
 
+import ast
 import json
 import re
 import subprocess
@@ -14,6 +16,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from .. import companions
 from ..errors import PlanError, WorldwrightError
 from .committed import Plan
 from .scene_objects import AssetRow, Vec3
@@ -48,6 +51,42 @@ class Imported:
 def is_model(row: Any) -> bool:
     """Whether a row brings in a model with bodies and joints of its own."""
     return isinstance(row, AssetRow) and row.type in SUFFIXES
+
+
+def is_sculpt(row: Any) -> bool:
+    """Whether a row is made by a file of Python beside the plan."""
+    return isinstance(row, AssetRow) and row.type == "sculpt"
+
+
+def inner(plan: Plan) -> tuple[str, ...]:
+    """What the names of parts and joints begin with that models and sculptures bring in."""
+    return tuple(f"{name}_" for row in plan.assets if is_model(row) or is_sculpt(row) for name in row.instances)
+
+
+def sculpture(row: AssetRow, folder: Path | None) -> Path:
+    """The file that sculpts a row.
+
+    Raises:
+        PlanError: it is not there, or is no Python.
+    """
+    file, _ = row.sculpted
+    path = None if folder is None else folder / file
+    good = file.endswith(".py") and not Path(file).is_absolute() and ".." not in Path(file).parts
+    if path is None or not good or not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
+        raise PlanError(
+            f"asset `{row.name}` of type sculpt: there is no file {file} beside the plan that could make it",
+            next_move="write it there (skill sculpting), and name it `sculpt/NAME.py`; paths stay inside the folder",
+        )
+    try:
+        ast.parse(path.read_bytes())
+    except (SyntaxError, ValueError, RecursionError) as cause:
+        line = getattr(cause, "lineno", None)
+        raise PlanError(
+            f"asset `{row.name}`: {file} is not Python: {cause}",
+            place=f"{path}:{line}" if line else str(path),
+            next_move=f"correct it, then `worldwright sculpt sheet {file}`",
+        ) from cause
+    return path
 
 
 def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imported:
@@ -96,12 +135,16 @@ def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imp
 
 
 def files(plan: Plan) -> Iterator[Path]:
-    """The files beside a plan, relative to it, that its rows name; a copy of the plan needs them too."""
+    """The files beside a plan, relative to it, that its rows name, and what those read; a copy of the plan needs them too."""
     for row in plan.assets:
         if is_model(row) and plan.folder is not None:
             path = (plan.folder / row.filename).resolve()
             if path.is_file() and path.is_relative_to(plan.folder.resolve()):
                 yield Path(row.filename)
+        elif is_sculpt(row) and plan.folder is not None:
+            with suppress(PlanError):
+                path = sculpture(row, plan.folder)
+                yield from map(Path, (row.sculpted[0], *companions.of(path, plan.folder)))
 
 
 def beside(folder: Path) -> dict[str, bytes]:
@@ -109,8 +152,13 @@ def beside(folder: Path) -> dict[str, bytes]:
     from .plan_text import read_plan
 
     with suppress(WorldwrightError, OSError):
-        return {path.as_posix(): (folder / path).read_bytes() for path in files(read_plan(folder / "plan.md").plan)}
+        return contents(read_plan(folder / "plan.md").plan)
     return {}
+
+
+def contents(plan: Plan) -> dict[str, bytes]:
+    """The files that a plan names, by path relative to its folder."""
+    return {path.as_posix(): (plan.folder / path).read_bytes() for path in files(plan) if plan.folder is not None}
 
 
 def all_of(plan: Plan) -> Iterator[tuple[str, AssetRow, Imported]]:

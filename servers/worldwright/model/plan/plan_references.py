@@ -133,7 +133,7 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
     inner = tuple(
         f"{name}_"
         for row, _ in _rows(data, "assets")
-        if row.get("type") in ("mjcf", "urdf") and isinstance(name := row.get("name"), str)
+        if row.get("type") in ("mjcf", "urdf", "sculpt") and isinstance(name := row.get("name"), str)
     )
     sets = {kind: frozenset(known) for kind, (known, _) in kinds.items()}
     for kind, name, path in _uses(data):

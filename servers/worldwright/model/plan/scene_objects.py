@@ -201,18 +201,39 @@ def _vector(values: Any) -> Vec3:
 
 
 class AssetRow(Frozen):
-    """A catalog mesh or a simulator-native wrapper, `count` times."""
+    """A catalog mesh, a model, something sculpted or a simulator-native wrapper, `count` times."""
 
     name: str
-    type: Literal["mesh", "mjcf", "urdf", "wrapper"] = "mesh"
+    type: Literal["mesh", "mjcf", "urdf", "sculpt", "wrapper"] = "mesh"
     filename: str
-    """The exact catalog key; of an mjcf or urdf the file, relative to the plan's folder or the catalog."""
+    """The exact catalog key; of an mjcf or urdf the file, relative to the plan's folder or the catalog; of a sculpt the file
+    beside the plan that makes it, `sculpt/vase.py` or `sculpt/vase.py:NAME`."""
+    size: Vec3 | None = None
+    """Full extents in metres of a sculpt: what the plan claims, and the file is held to. Of nothing else."""
     count: int = Field(1, ge=1, le=10_000)
     fixed: bool = False
     is_dynamic: bool = True
     material: str | None = None
     """Key into `simulation_parameters.materials`; None: the catalog's own constants."""
     look: str | None = None
+
+    @model_validator(mode="after")
+    def _sized(self) -> "AssetRow":
+        if (self.type == "sculpt") != (self.size is not None):
+            raise ValueError(
+                "a sculpt needs `size: [x, y, z]`, its full extents in metres: `worldwright sculpt sheet FILE` tells them"
+                if self.size is None
+                else f"`size` is of a sculpt; a {self.type} has its own, or a height in asset_dimensions: remove it"
+            )
+        if self.size is not None and not all(0 < extent < float("inf") for extent in self.size):
+            raise ValueError(f"every extent must be a positive, finite number of metres, got {self.size}")
+        return self
+
+    @property
+    def sculpted(self) -> tuple[str, str]:
+        """Of a sculpt: the file that makes it, and the name of it in there, if one is given."""
+        file, _, of = self.filename.partition(":")
+        return file, of
 
     @property
     def instances(self) -> tuple[str, ...]:

@@ -27,6 +27,7 @@ def check(layout: CheckedLayout) -> None:
         for asset in plan.assets
         if asset.name in plan.asset_dimensions
     ]
+    heights += [(a, a.size[2], ("assets", index, "size")) for index, a in enumerate(plan.assets) if a.size is not None]
     for row, height, path in heights:
         category = categories.of(row, row.name)
         if category is not None and not category.low_m <= height <= category.high_m:

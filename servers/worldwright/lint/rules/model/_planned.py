@@ -3,7 +3,7 @@
 import numpy as np
 
 from ....model.plan.committed import Plan, Position
-from ....model.plan.imported import is_model
+from ....model.plan.imported import inner
 from ...compiled.view import ModelView
 
 HEAD = "<mujoco><option timestep='0.002' integrator='implicitfast'/><worldbody><geom name='ground' type='plane' size='9 9 1'/>"
@@ -99,8 +99,8 @@ def starts_away(view: ModelView, plan: Plan, body: int) -> bool:
 
 
 def opened(plan: Plan, name: str) -> bool:
-    """Whether the plan lets a joint inside a model start away from its rest pose: the box around it is then another one."""
-    if not any(is_model(row) and name in row.instances for row in plan.assets):
+    """Whether the plan lets a joint inside a model or sculpture start away from its rest pose: the box around it is then another one."""
+    if f"{name}_" not in inner(plan):
         return False
     motions = plan.simulation_parameters.initial_motion.items()
     return any(joint.startswith(f"{name}_") and start.joint_position for joint, start in motions)

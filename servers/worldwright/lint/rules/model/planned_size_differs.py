@@ -32,7 +32,7 @@ SHARE, LEAST_M = 0.03, 1e-3
 
 
 def check(view: ModelView) -> Iterator[Problem]:
-    """Check scene objects by their three extents (upright or not is the layout's matter), assets by their height."""
+    """Check scene objects by their three extents (upright or not is the layout's matter), assets by their height, sculptures by all three."""
     assert view.plan is not None
     for row in view.plan.scene_objects:
         body = view.root_named(row.name)
@@ -45,6 +45,8 @@ def check(view: ModelView) -> Iterator[Problem]:
             body = view.root_named(name)
             if body is not None and height is not None:
                 yield from _compared(view, body, np.array([height]), extent(view, body)[2:])
+            if body is not None and asset.size is not None:
+                yield from _compared(view, body, np.array(asset.size), extent(view, body))
 
 
 def _compared(view: ModelView, body: int, planned: np.ndarray, built: np.ndarray) -> Iterator[Problem]:

@@ -1,6 +1,6 @@
 """A model that the plan brings in cannot be used as the plan does.
 
-What it does: opens the file of every asset of type `mjcf` or `urdf`, and compares the names that the plan uses of it
+What it does: opens the file of every asset of type `mjcf`, `urdf` or `sculpt`, and compares the names that the plan uses of it
 (`initial_motion`, `actuators[].joint`, `motion_expectations`) and the mass that it gives it with what is inside.
 
 Why is this bad: building the world fails there, or moves something else. URDF elements that do not exist are passed over by
@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....model.errors import PlanError
-from ....model.plan.imported import all_of, is_model, load
+from ....model.plan.imported import all_of, is_model, is_sculpt, load, sculpture
 from ...case import Changes
 from ...harm import Argued
 from ...plan_view import Place, PlanView
@@ -22,7 +22,9 @@ from ...problem import Problem
 CODE = "WP126"
 SEVERITY = "error"
 GOOD: Changes = ({},)
+SCULPTED = {"name": "mug", "filename": "sculpt/mug.py", "type": "sculpt", "size": [0.08, 0.08, 0.1]}
 BAD: Changes = (
+    {"assets": [SCULPTED], "asset_dimensions": None},
     {"assets": [{"name": "mug", "filename": "no-such-arm.urdf", "type": "urdf"}], "asset_dimensions": None},
     {"assets": [{"name": "mug", "filename": "../../etc/hosts.xml", "type": "mjcf"}], "asset_dimensions": None},
     {"assets": [{"name": "mug", "filename": "mug", "type": "mjcf"}], "asset_dimensions": None},
@@ -35,9 +37,9 @@ def check(view: PlanView) -> Iterator[Problem]:
     """Check each file, then the names and masses that the plan uses of it."""
     plan = view.plan
     for index, row in enumerate(plan.assets):
-        if is_model(row):
+        if is_model(row) or is_sculpt(row):
             try:
-                load(row, plan.folder)
+                (load if is_model(row) else sculpture)(row, plan.folder)
             except PlanError as error:
                 yield view.at(("assets", index, "filename"), error.cause, error.next_move)
     parameters = plan.simulation_parameters

@@ -31,7 +31,9 @@ GOOD: Changes = (
     {"topology": {"scene_predicates": [{**ON, "params": {"gap": 0.01}}, *REST]}},
     {"topology": {"scene_predicates": [LEADS, *REST], "body_positions": {"crate": {"x": 0, "y": 0, "z": 1}}}},
 )
+SCULPTED = {"name": "mug", "type": "sculpt", "filename": "sculpt/mug.py", "size": [0.08, 0.08, 0.1]}
 BAD: Changes = (
+    {"assets": [SCULPTED]},
     {"asset_dimensions": {"crate": 0.2}},
     {"topology": {"scene_predicates": [{**ON, "params": {"size": [0.4, 0.3, 0.2]}}, *REST]}},
     {"topology": {"body_positions": {"crate": {"x": 0, "y": 0, "z": 1}}}},
@@ -62,6 +64,9 @@ def check(view: PlanView) -> Iterator[Problem]:
         if any(row.name == name for row in plan.scene_objects):
             place: Place = ("asset_dimensions", name)
             yield view.at(place, f"the size of scene object `{name}` is given twice", "keep `size` in scene_objects")
+        if any(row.name == name and row.size is not None for row in plan.assets):
+            place = ("asset_dimensions", name)
+            yield view.at(place, f"the size of `{name}` is given twice", "keep its `size` in assets")
     for index, row in enumerate(plan.topology.scene_predicates):
         for key in SIZES & set(row.params):
             place = ("topology", "scene_predicates", index, "params", key)

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....model.plan.committed import Plan
-from ....model.plan.imported import all_of
+from ....model.plan.imported import all_of, is_sculpt
 from ...case import Changes
 from ...harm import Argued
 from ...plan_view import PlanView
@@ -61,6 +61,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     known = {*WORLD, *plan.object_names(), *(a.name for a in plan.assets), *(j.name for j in plan.topology.joints)}
     known |= {row.name for row in plan.topology.tendons} | {row.name for row in plan.topology.actuators}
     known |= {name for _, _, model in all_of(plan) for name in model.names()}
+    sculpted = tuple(f"{name}_" for row in plan.assets if is_sculpt(row) for name in row.instances)
     for item in plan.simulation_parameters.interventions:
         known |= {f"{item.kind}:{target}" for target in item.bodies} | {item.kind, *item.bodies}
     for index, objective in enumerate(plan.objectives):
@@ -73,7 +74,12 @@ def check(view: PlanView) -> Iterator[Problem]:
                     what = f"the cause `{part}` can take nothing away: {whole} starts at rest"
                     yield view.at(("objectives", index, "cause"), what, fix)
                     continue
-                if part in known or (":" in part and kind in BUILT) or (whole in bodies and aspect in ASPECTS):
+                if (
+                    part in known
+                    or part.startswith(sculpted)
+                    or (":" in part and kind in BUILT)
+                    or (whole in bodies and aspect in ASPECTS)
+                ):
                     continue
                 near = get_close_matches(part, sorted(known), n=3, cutoff=0.5)
                 fix = (

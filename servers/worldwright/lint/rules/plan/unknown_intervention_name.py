@@ -63,7 +63,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     joints = [row.name for row in plan.topology.joints]
     tendons = [row.name for row in plan.topology.tendons]
     actuators = [row.name for row in plan.topology.actuators]
-    inner = tuple(f"{row.name}_" for row in plan.assets if row.type in ("mjcf", "urdf"))
+    inner = tuple(f"{row.name}_" for row in plan.assets if row.type in ("mjcf", "urdf", "sculpt"))
     soft = {row.name for row in plan.scene_objects if row.dynamic and not row.fixed and not row.parts}
     known = [*objects, *joints, *tendons, *actuators]
     paths = {

@@ -1,6 +1,6 @@
 """A moving object has no mass the plan would answer for.
 
-What it does: looks for a mass or a material density for every scene object that moves, and for every part of a compound
+What it does: looks for a mass or a material density for every scene object and sculpture that moves, and for every part of a compound
 without a mass as a whole; and for the mass of every `hollow` one, since a shell's density is not its substance's.
 
 Why is this bad: MuJoCo then assumes 1000 kg/m^3, the density of water, for cardboard and steel alike: momentum, impact
@@ -11,6 +11,7 @@ Use instead: an entry in `simulation_parameters.masses`, or a `material` with a 
 
 from collections.abc import Iterator
 
+from ....model.plan.imported import is_sculpt
 from ...case import Changes
 from ...harm import Argued
 from ...plan_view import PlanView
@@ -36,7 +37,9 @@ GOOD: Changes = (
     {"scene_objects": [RAMP, {**BOX, "visual_only": "a marker"}]},
     {"scene_objects": [RAMP, {**BOX, "hollow": True}], "simulation_parameters": {"masses": {"crate": 3.0}}},
 )
+HARE = {"name": "hare", "type": "sculpt", "filename": "sculpt/hare.py", "size": [0.4, 0.2, 0.5]}
 BAD: Changes = (
+    {"assets": [HARE], "asset_dimensions": None},
     {"scene_objects": [RAMP, BARBELL]},
     {"scene_objects": [RAMP, BOX]},
     {"scene_objects": [RAMP, {**BOX, "material": "wood", "hollow": True}]},
@@ -50,13 +53,18 @@ EVIDENCE = Argued("the engine would use the density of water without a word; tha
 
 
 def check(view: PlanView) -> Iterator[Problem]:
-    """Check moving scene objects (assets bring the catalog's mass), then masses that are none."""
+    """Check moving scene objects (catalog and model files bring their mass), then masses that are none."""
     parameters = view.plan.simulation_parameters
     for name, mass in parameters.masses.items():
         if not 0 < mass < float("inf"):
             yield view.at(
                 ("simulation_parameters", "masses", name), f"`{name}` has a mass of {mass:g} kg", "give its mass"
             )
+    for index, asset in enumerate(view.plan.assets):
+        loose = is_sculpt(asset) and asset.is_dynamic and not asset.fixed
+        if loose and not parameters.masses.keys() & {asset.name, *asset.instances} and not _dense(view, asset.material):
+            fix = f"add `{asset.name}: <kg>` to simulation_parameters.masses, or give its material a density"
+            yield view.at(("assets", index), f"moving sculpture `{asset.name}` has neither mass nor density", fix)
     for index, row in enumerate(view.plan.scene_objects):
         if not view.moves(row) or row.name in parameters.masses:
             continue

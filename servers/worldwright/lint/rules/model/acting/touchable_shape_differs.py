@@ -1,7 +1,7 @@
 """What can be touched of a body is not the shape that the plan gives it.
 
 What it does: compares the colliding geoms of each thing of the plan with those of its draft: the box around them (3 % and
-1 mm), the volume inside them (10 %), where in the box that volume lies, and for models and catalog meshes the collision meshes themselves, by hash.
+1 mm), the volume inside them (10 %), where in the box that volume lies, and for models, sculptures and catalog meshes the collision meshes themselves, by hash.
 
 Why is this bad: the size that is checked may be that of what is drawn; what collides may be smaller, elsewhere, or round: a
 crate on a hidden ball rolls. A ramp that rises towards the other side has the same box and the same volume.
@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .....model.plan.imported import is_model
+from .....model.plan.imported import is_model, is_sculpt
 from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
@@ -66,7 +66,12 @@ def check(view: ModelView) -> Iterator[Problem]:
     """Check things of both worlds."""
     planned = view.planned
     assert planned is not None and view.plan is not None
-    meshed = {name for row in view.plan.assets for name in row.instances if row.type == "mesh" or is_model(row)}
+    meshed = {
+        name
+        for row in view.plan.assets
+        for name in row.instances
+        if row.type == "mesh" or is_model(row) or is_sculpt(row)
+    }
     here, there = _volumes(view), _volumes(planned)
     for body, twin in twins(view, "body"):
         name = view.texts["names"]["body"][body]
@@ -92,9 +97,8 @@ def check(view: ModelView) -> Iterator[Problem]:
             message = f"what can be touched of {name} fills its box otherwise than the plan's {name}"
             yield view.at("body", body, message, FIX)
         elif name in meshed and _meshes(view, name) != _meshes(planned, name):
-            yield view.at(
-                "body", body, f"the collision meshes of {name} are not those of its model", "use the catalog's hulls"
-            )
+            fix = "use the catalog's hulls, or make it by `sculpt.from_file` of the file that the plan names"
+            yield view.at("body", body, f"the collision meshes of {name} are not those of its model", fix)
 
 
 def _volumes(view: ModelView) -> dict[str, float]:

@@ -10,7 +10,7 @@ import hashlib
 from collections.abc import Iterator
 from pathlib import Path
 
-from ..errors import WorldwrightError
+from .errors import WorldwrightError
 
 OURS = (
     "plan.md", "prompt.md", "model.json", "simulation.py", "film.py", "journal.jsonl", "blocked.json", "report.html", "stamp.json",
@@ -27,19 +27,23 @@ class CompanionError(WorldwrightError):
     code = "companions"
 
 
-def of(program: Path) -> dict[str, bytes]:
+def of(program: Path, folder: Path | None = None) -> dict[str, bytes]:
     """Content by path relative to the program's folder, in the order of the names.
+
+    Args:
+        program: a file of Python.
+        folder: of the run, where the file lies deeper in it.
 
     Raises:
         CompanionError: there are more than 2000 files, or more than 256 MB.
     """
-    folder = program.parent
+    folder = folder or program.parent
     found: dict[str, bytes] = {}
     queue, size = [program], 0
     while queue:
         for path in _named(queue.pop(), folder):
             name = path.relative_to(folder).as_posix()
-            if name in found:
+            if name in found or path == program:
                 continue
             found[name] = path.read_bytes()
             size += len(found[name])
@@ -74,11 +78,11 @@ def _named(source: Path, folder: Path) -> Iterator[Path]:
             for alias in node.names:
                 yield from _module(alias.name, source.parent, folder)
         elif isinstance(node, ast.ImportFrom):
-            base = source.parent if node.level else folder
             for name in (node.module or "", *(f"{node.module or ''}.{alias.name}".strip(".") for alias in node.names)):
-                yield from _module(name, base, folder)
+                yield from _module(name, source.parent, folder)
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            yield from _data(node.value, folder)
+            for base in dict.fromkeys((folder, source.parent)):
+                yield from _data(node.value, base, folder)
 
 
 def _module(name: str, base: Path, folder: Path) -> Iterator[Path]:
@@ -94,12 +98,12 @@ def _module(name: str, base: Path, folder: Path) -> Iterator[Path]:
                     yield candidate
 
 
-def _data(text: str, folder: Path) -> Iterator[Path]:
-    """The file that a text names, or all below the folder that it names."""
+def _data(text: str, base: Path, folder: Path) -> Iterator[Path]:
+    """The file that a text names, seen from one folder of the run, or all below the folder that it names."""
     if not text or len(text) > 200 or "\n" in text or "\0" in text or text.startswith(("/", ".", "~")):
         return
-    path = folder / text
-    if Path(text).parts[0] in OURS or ".." in Path(text).parts:
+    path = base / text
+    if (base == folder and Path(text).parts[0] in OURS) or ".." in Path(text).parts:
         return
     if _plain(path, folder):
         yield path
