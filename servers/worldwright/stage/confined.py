@@ -8,7 +8,7 @@ import os
 import subprocess
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
@@ -17,7 +17,7 @@ from . import family, plain, sandbox
 from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
 
-TICK_S = 0.02
+TICK_S = 0.2
 MB = 1 << 20
 LOG_BYTES = 20_000
 MOST_MATCHING = 64
@@ -46,6 +46,7 @@ def run(
     wall_s: float = 20.0,
     memory_mb: int = 2048,
     file_mb: int = 64,
+    home: Callable[[Path], object] | None = None,
 ) -> Confined:
     """Run a command to its end in the sandbox; `{out}` in it stands for the one folder it may write.
 
@@ -56,6 +57,7 @@ def run(
         wall_s: the run is killed after so many seconds.
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
+        home: lays something into its throw-away home, whose folder it is given, before it starts.
     """
     name = sandbox.level()
     if name not in sandbox.CONFINING and os.environ.get("WORLDWRIGHT_SANDBOX") != name:
@@ -64,6 +66,8 @@ def run(
         out, scratch = Path(folder) / "out", Path(folder) / "tmp"
         out.mkdir()
         scratch.mkdir()
+        if home is not None:
+            home(scratch)
         confinement = Confinement(
             out=out,
             reads=tuple(path.absolute() for path in reads),
@@ -99,19 +103,15 @@ def _watched(
 ) -> tuple[str, int]:
     entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
     process, status = entered.process, "ended"
-    deadline, look = time.monotonic() + wall_s, 0.0
+    deadline = time.monotonic() + wall_s
     try:
-        while process.poll() is None:
-            now = time.monotonic()
-            if now > deadline:
+        while not family.ends_within(process, TICK_S):
+            if time.monotonic() > deadline:
                 status = "timed_out"
                 break
-            if now > look:
-                look = now + 0.2
-                if family.census(process.pid).resident_bytes > memory:
-                    status = "out_of_memory"
-                    break
-            time.sleep(TICK_S)
+            if family.census(process.pid).resident_bytes > memory:
+                status = "out_of_memory"
+                break
     finally:
         family.end(process.pid, confinement.token)
     return status, process.wait()

@@ -3,7 +3,6 @@
 import json
 import os
 import sys
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,7 +16,7 @@ from ..model.errors import WorldwrightError
 from ..model.evidence import assets_used, environment, pictures_of
 from ..model.evidence.run import Run, sha256_file
 from ..model.plan.plan_text import read_plan
-from . import authoring, plain, refined
+from . import authoring, family, plain, refined
 from .crew import Crew, Member
 from .gates import folder_name
 from .job import Job, Spec
@@ -241,9 +240,7 @@ class Acting:
 
     def farewell(self, author: Member) -> None:
         """Let the author's process end by itself, as it does when the engine hangs up."""
-        deadline = time.monotonic() + FAREWELL_S
-        while author.process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+        family.ends_within(author.process, FAREWELL_S)
 
     def ended(self, member: Member) -> dict[str, str] | None:
         """How a process failed or was stopped; None when neither happened."""

@@ -12,7 +12,7 @@ from ..model.errors import JobError, NotFoundError
 from ..model.evidence import companions
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
-from . import confined, plain
+from . import compiled_shaders, confined, plain
 from .confined import Confined
 from .limits import failed
 
@@ -111,6 +111,7 @@ def _run(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], file
         wall_s=120.0,
         memory_mb=4096,
         file_mb=512,
+        home=compiled_shaders.lay if "sheet" in call else None,
     )
     failure = _failure(ended, wanted)
     if failure is None:
