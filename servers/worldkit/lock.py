@@ -41,7 +41,7 @@ def observe(gl: str | None = None) -> dict[str, str]:
             continue
         record = found.read_text("RECORD") or ""
         facts[f"wheel {name}"] = f"{found.version} {hashlib.sha256(record.encode()).hexdigest()}"
-        for library in _engine(found):
+        for library in _engine(found) if name.startswith("mujoco") else ():
             with library.open("rb") as stream:
                 facts["engine"] = f"{library.name} {hashlib.file_digest(stream, 'sha256').hexdigest()}"
     for module in ("mujoco", "numpy"):

@@ -8,7 +8,7 @@ import os
 import subprocess
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import ModuleType
@@ -21,8 +21,7 @@ from .sandbox.enter import enter
 if TYPE_CHECKING:
     from .kept_sculpts import Given
 
-TICK_S = 0.02
-LOOK_S = 0.2
+TICK_S = 0.2
 STARVED = 20.0
 """A run that gets less than this part of its time is ended all the same."""
 MB = 1 << 20
@@ -56,6 +55,7 @@ def run(
     memory_mb: int = 2048,
     file_mb: int = 64,
     sculpts: "Given | None" = None,
+    home: Callable[[Path], object] | None = None,
 ) -> Confined:
     """Run a command to its end in the sandbox; `{out}` in it stands for the one folder it may write.
 
@@ -68,6 +68,7 @@ def run(
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
         sculpts: shapes that were made earlier by the same sources, and the place for those that it makes.
+        home: lays something into its throw-away home, whose folder it is given, before it starts.
     """
     name = sandbox.level()
     if name not in sandbox.CONFINING and os.environ.get("WORLDWRIGHT_SANDBOX") != name:
@@ -76,6 +77,8 @@ def run(
         out, scratch = Path(folder) / "out", Path(folder) / "tmp"
         out.mkdir()
         scratch.mkdir()
+        if home is not None:
+            home(scratch)
         confinement = Confinement(
             out=out,
             reads=tuple(path.absolute() for path in (*reads, *(_places(sculpts)))),
@@ -136,20 +139,16 @@ def _watched(
 ) -> tuple[str, int]:
     entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
     process, status = entered.process, "ended"
-    own, look = OwnTime(time.monotonic()), 0.0
+    own = OwnTime(time.monotonic())
     try:
-        while process.poll() is None:
-            now = time.monotonic()
-            if now > look:
-                look = now + LOOK_S
-                seen = family.census(process.pid)
-                if own.after(now, seen.cpu_s, seen.wanting) > wall_s:
-                    status = "timed_out"
-                    break
-                if seen.resident_bytes > memory:
-                    status = "out_of_memory"
-                    break
-            time.sleep(TICK_S)
+        while not family.ends_within(process, TICK_S):
+            seen = family.census(process.pid)
+            if own.after(time.monotonic(), seen.cpu_s, seen.wanting) > wall_s:
+                status = "timed_out"
+                break
+            if seen.resident_bytes > memory:
+                status = "out_of_memory"
+                break
     finally:
         family.end(process.pid, confinement.token)
     return status, process.wait()

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from . import family, sandbox
+from . import compiled_shaders, family, sandbox
 from .job import Job
 from .kept_sculpts import Given
 from .limits import Guard
@@ -24,13 +24,12 @@ from .sandbox.enter import enter
 
 LOG_BYTES = 1_000_000
 TICK_S = 0.1
-FAST_TICK_S = 0.01
-"""Seconds between looks at a young process: most worlds are built in less than a second."""
-YOUNG_S = 2.0
 ADDRESS_SPACE_SLACK = 12 << 30
 """Software OpenGL and its compiler reserve far more address space than they use; resident memory is the real limit."""
 UNLIMITED_CPU_S = 30 * 86_400
 """The kernel wants a number here; a job that no longer advances is ended by the clock."""
+UNDRAWN = ("bundle", "physics")
+"""Passes that draw nothing."""
 MB = 1 << 20
 
 
@@ -73,6 +72,8 @@ class Crew:
         scratch = self.job.scratch / name
         for folder in (out, scratch):
             folder.mkdir(parents=True, exist_ok=True)
+        if name == "engine" and self.spec.stage not in UNDRAWN:
+            compiled_shaders.lay(scratch)
         confinement = Confinement(
             out=out,
             reads=(*reads, *(path for path in (sculpts.places if sculpts else ()) if path.is_dir())),
@@ -104,9 +105,8 @@ class Crew:
 
         `tick` takes the job's time so far, s, and returns whether the job has advanced since the last call.
         """
-        began = advanced = time.monotonic()
-        while member.process.poll() is None:
-            time.sleep(FAST_TICK_S if time.monotonic() - began < YOUNG_S else TICK_S)
+        advanced = time.monotonic()
+        while not family.ends_within(member.process, TICK_S):
             reap_orphans([one.process for one in self.members])
             now = time.monotonic()
             if (self.job.folder / "cancel").exists():

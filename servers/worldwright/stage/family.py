@@ -7,7 +7,9 @@ resource limit: one that was orphaned on purpose, or whose supervisor was killed
 import contextlib
 import os
 import secrets
+import select
 import signal
+import subprocess
 import time
 from dataclasses import dataclass
 from pathlib import Path
@@ -82,6 +84,26 @@ def available_bytes() -> int | None:
     except (OSError, ValueError):
         pass
     return None
+
+
+def ends_within(process: "subprocess.Popen[bytes]", seconds: float) -> bool:
+    """Whether a child ends within so many seconds, told at the moment that it does; a kernel that does not tell is asked."""
+    if process.poll() is not None:
+        return True
+    try:
+        told = os.pidfd_open(process.pid)
+    except (OSError, AttributeError):
+        until = time.monotonic() + seconds
+        while process.poll() is None and time.monotonic() < until:
+            time.sleep(0.01)
+        return process.poll() is not None
+    try:
+        ended = select.poll()
+        ended.register(told, select.POLLIN)
+        ended.poll(1000 * seconds)
+    finally:
+        os.close(told)
+    return process.poll() is not None
 
 
 def new_token() -> int:

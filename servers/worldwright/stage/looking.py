@@ -14,7 +14,7 @@ from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
-from . import plain, storyboards
+from . import compiled_shaders, plain, storyboards
 from .one_frame import FILM, describe, given_words, recorded, run_process
 from .pictures import jpeg
 
@@ -148,7 +148,7 @@ def place(text: str) -> str:
 
 
 def _engine(words: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here: Path) -> dict[str, Any]:
-    return run_process([sys.executable, "-s", "-m", "worldengine", *words], reads, wanted, here)
+    return run_process([sys.executable, "-s", "-m", "worldengine", *words], reads, wanted, here, compiled_shaders.lay)
 
 
 def _small(picture: bytes) -> bytes:

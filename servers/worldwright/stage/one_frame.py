@@ -2,7 +2,7 @@
 
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
 from ..model.picture import Illustrated, Picture
-from . import authoring, confined, gates, plain
+from . import authoring, compiled_shaders, confined, gates, plain
 from .limits import failed
 from .pictures import Shown
 
@@ -52,6 +52,7 @@ def draw(
             (physics, *([told] if told else ())),
             ("frame.png",),
             here,
+            compiled_shaders.lay,
         )
     said = found["result.json"]
     shown = f"{said['recorded_s']:.3f} s of the recording"
@@ -105,10 +106,22 @@ def given_words(physics: Path) -> list[str]:
     return [word for name, file in files.items() for word in (f"--{name}", str(physics / file))]
 
 
-def run_process(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here: Path) -> dict[str, Any]:
+def run_process(
+    call: Sequence[str],
+    reads: Sequence[Path],
+    wanted: Sequence[str],
+    here: Path,
+    home: Callable[[Path], object] | None = None,
+) -> dict[str, Any]:
     """Run a process of the author or the engine, confined; returns what it left, by name, with its `result.json` read."""
     ended = confined.run(
-        call, reads=reads, wanted=(*wanted, "result.json", "error.json"), wall_s=120.0, memory_mb=8192, file_mb=512
+        call,
+        reads=reads,
+        wanted=(*wanted, "result.json", "error.json"),
+        wall_s=120.0,
+        memory_mb=8192,
+        file_mb=512,
+        home=home,
     )
     said = {}
     for name in ("result.json", "error.json"):

@@ -3,7 +3,6 @@
 import json
 import os
 import sys
-import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -283,9 +282,7 @@ class Acting:
 
     def farewell(self, author: Member) -> None:
         """Let the author's process end by itself, as it does when the engine hangs up."""
-        deadline = time.monotonic() + FAREWELL_S
-        while author.process.poll() is None and time.monotonic() < deadline:
-            time.sleep(0.01)
+        family.ends_within(author.process, FAREWELL_S)
 
     def ended(self, member: Member) -> dict[str, str] | None:
         """How a process failed or was stopped; None when neither happened."""

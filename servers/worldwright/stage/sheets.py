@@ -11,7 +11,7 @@ from worldkit.files import write_atomic
 from ..model.errors import JobError, NotFoundError
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
-from . import confined, plain
+from . import compiled_shaders, confined, plain
 from .confined import Confined
 from .kept_sculpts import Given, given, needed
 from .limits import failed
@@ -124,6 +124,7 @@ def _run(
         memory_mb=4096,
         file_mb=512,
         sculpts=sculpts,
+        home=compiled_shaders.lay if "sheet" in call else None,
     )
     failure = _failure(ended, wanted)
     if failure is None:

@@ -1,5 +1,7 @@
 """A short confined run: limits hold, nothing is left behind, and only plain files come back."""
 
+import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -7,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.stage import sandbox
+from worldwright.stage import family, sandbox
 from worldwright.stage.confined import STARVED, OwnTime, run
 
 pytestmark = pytest.mark.skipif(sandbox.level() not in sandbox.CONFINING, reason="no level confines here")
@@ -64,3 +66,15 @@ def test_only_what_was_named_can_be_read(tmp_path):
     code = "import pathlib, sys; print(pathlib.Path({!r}).read_text())"
     assert "yes" in python(code.format(str(named)), reads=[named]).log
     assert python(code.format(str(other)), reads=[named]).exit_code != 0
+
+
+@pytest.mark.parametrize("told", [True, False])
+def test_an_end_is_noticed_whether_or_not_the_kernel_tells_of_it(told, monkeypatch):
+    if not told:
+        monkeypatch.delattr(os, "pidfd_open")
+    process = subprocess.Popen(["cat"], stdin=subprocess.PIPE)
+    assert not family.ends_within(process, 0.05)
+    process.communicate(b"")
+    assert family.ends_within(process, 0.05)
+    waited = subprocess.Popen(["true"])
+    assert family.ends_within(waited, 60) and waited.returncode == 0

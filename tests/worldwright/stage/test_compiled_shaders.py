@@ -1,0 +1,51 @@
+"""Shaders compiled once: a job that draws finds them, draws the same with them, and can change nobody else's."""
+
+import sys
+import zipfile
+from io import BytesIO
+from pathlib import Path
+
+import pytest
+
+from worldwright.stage import compiled_shaders, sandbox, shader_sampler
+from worldwright.stage.confined import run
+from worldwright.stage.one_frame import given_words
+
+pytestmark = [
+    pytest.mark.gl,
+    pytest.mark.skipif(sandbox.level() not in sandbox.CONFINING, reason="no level confines here"),
+]
+
+
+def laid(home: Path) -> dict[str, bytes]:
+    """What a job finds in its home, by name."""
+    compiled_shaders.lay(home)
+    return {path.relative_to(home).as_posix(): path.read_bytes() for path in home.rglob("*") if path.is_file()}
+
+
+def test_what_is_laid_there_is_all_that_a_driver_needs_for_the_same_things(tmp_path):
+    found = laid(tmp_path)
+    script = Path(shader_sampler.__file__)
+    call = [sys.executable, "-s", str(script), "{out}"]
+    done = run(call, reads=[script], wanted=[shader_sampler.PACKED], wall_s=300.0, home=compiled_shaders.lay)
+    again = zipfile.ZipFile(BytesIO(done.files[shader_sampler.PACKED])).namelist()
+    assert set(again) == set(found), done.log
+    if not any(Path("/dev/dri").glob("render*")):  # a driver for the processor keeps what it compiles
+        assert len(found) > 10
+
+
+def test_a_picture_is_the_same_with_them_and_without(reviewed):
+    (physics,) = reviewed.glob("evidence/*/physics")
+    call = [sys.executable, "-s", "-m", "worldengine", "still", *given_words(physics), "--out", "{out}"]
+    bare = run(call, reads=[physics], wanted=["*.png"], wall_s=300.0, memory_mb=4096)
+    kept = {path.name: path.read_bytes() for path in physics.parent.glob("stills/*.png")}
+    assert kept and bare.files == kept, bare.log
+
+
+def test_what_a_job_writes_in_its_home_goes_with_it(tmp_path):
+    before = laid(tmp_path / "before")
+    spoil = (
+        "import os, pathlib; [p.write_bytes(b'x') for p in pathlib.Path(os.environ['HOME']).rglob('*') if p.is_file()]"
+    )
+    assert run([sys.executable, "-c", spoil], home=compiled_shaders.lay).exit_code == 0
+    assert laid(tmp_path / "after") == before
