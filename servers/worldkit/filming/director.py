@@ -95,7 +95,8 @@ class Film(Dressing):
 
     def usual(self) -> None:
         """The shots of a film that nobody has thought about: the whole event, then its heart again, close and slowly."""
-        hero.shots(self)
+        for camera, how in hero.shots(self.recorded):
+            self.shot(camera, **how)
 
     # -- words ---------------------------------------------------------------------------------------------------------
 

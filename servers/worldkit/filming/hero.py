@@ -1,15 +1,14 @@
 """The shots of a film that nobody has thought about: the whole event in one, close enough to see it, then its heart again."""
 
 from collections import Counter
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from . import viewpoints
 from .recorded import WORLD, Recorded
 
-if TYPE_CHECKING:
-    from .director import Film
+Told = tuple[viewpoints.Viewpoint, dict[str, float]]
+"""A camera, and what `Film.shot` takes besides."""
 
 USUAL_AZIMUTH, USUAL_ELEVATION = -57.0, 19.0
 """From here the lights of all settings fall across what is seen."""
@@ -29,9 +28,8 @@ CROWD = 8
 """Of more movers than this the camera follows none."""
 
 
-def shots(film: "Film") -> None:
+def shots(recorded: Recorded) -> list[Told]:
     """The whole recording from one side, nearly still; then the event again, close and slowly."""
-    recorded = film.recorded
     azimuth, elevation = view(recorded)
     around = (azimuth - 5.0, azimuth + 5.0)
     heroes, marked = leads(recorded)
@@ -42,15 +40,15 @@ def shots(film: "Film") -> None:
         whole = viewpoints.follow(
             heroes, azimuth_deg=around, elevation_deg=min(elevation, 14.0), fill=1.6 * LEAST, lens_mm=40.0, lag_s=0.18
         )
-    film.shot(whole, until=end, speed=min(speed, 50.0))
+    found: list[Told] = [(whole, {"until": end, "speed": min(speed, 50.0)})]
     if not heroes or not marked:
-        return
+        return found
     event, radius = recorded.event(), recorded.radius(*heroes)
     times = np.linspace(max(event - BEFORE_S, 0.0), min(event + AFTER_S, recorded.duration), 60)
     apart = np.linalg.norm(recorded.position(heroes[0], times) - recorded.position(heroes[-1], times), axis=1)
     near = times[(apart < APART * radius) | (np.abs(times - event) < LEAST_S)]
     if near[-1] - near[0] < 0.1:
-        return
+        return found
     apart = np.linalg.norm(recorded.position(heroes[0], near) - recorded.position(heroes[-1], near), axis=1)
     tangent = float(np.tan(np.radians(viewpoints.fovy_deg(LENS_MM)) / 2))
     many = len(recorded.movers) > CROWD
@@ -59,7 +57,7 @@ def shots(film: "Film") -> None:
         heroes, azimuth_deg=(azimuth + 14.0, azimuth + 30.0), elevation_deg=(elevation - 3.0, elevation - 6.0),
         distance=away, lens_mm=LENS_MM, lag_s=0.1,
     )  # fmt: skip
-    film.shot(close, start=float(near[0]), until=float(near[-1]), speed=SLOWLY)
+    return [*found, (close, {"start": float(near[0]), "until": float(near[-1]), "speed": SLOWLY})]
 
 
 def settled(recorded: Recorded) -> float:
