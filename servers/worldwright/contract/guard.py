@@ -23,6 +23,7 @@ theirs. Only the standard library is imported, so that it starts in a few hundre
 
 from __future__ import annotations
 
+import fnmatch
 import json
 import os
 import re
@@ -149,11 +150,18 @@ def _judge_write(path: str, base: Path, project: Path, role: Role | None) -> Non
             )
         return
     scope = " or ".join(f"{RUNS}/<slug>/{name}" for name in role.writes) or "nothing"
-    if inside is None or len(inside.parts) != 2 or inside.parts[1] not in role.writes:
+    if inside is None or not any(_names(name, inside.parts[1:]) for name in role.writes):
         raise DeniedError(f"{path} is outside the write scope of the {role.name} role, which is {scope}")
     link = Path(os.path.normpath(base / path))
     if link.is_symlink() or (link.exists() and link.stat().st_nlink > 1):
         raise DeniedError(f"{path} is a link; the {role.name} role writes plain files")
+
+
+def _names(scope: str, parts: tuple[str, ...]) -> bool:
+    """Whether a name of a role's scope is a file of a run: `film.py`, any one such as `*.py`, or any below `sculpt/`."""
+    if scope.endswith("/"):
+        return len(parts) > 1 and parts[0] == scope[:-1] and not any(part.startswith(".") for part in parts)
+    return len(parts) == 1 and not parts[0].startswith(".") and fnmatch.fnmatchcase(parts[0], scope)
 
 
 def _real(path: str, base: Path) -> Path:

@@ -65,7 +65,7 @@ PLAN = Role(
         "place.reckon",
         "stamp.go",
     ),
-    writes=("plan.md", "prompt.md"),
+    writes=("plan.md", "prompt.md", "sculpt/"),
     reads_files=True,
     instructions="""
 First call `retrieve.begin` with the person's words and `run`: it writes `prompt.md` and a whole `plan.md`, adapted from the
@@ -115,7 +115,7 @@ CODE = Role(
         "scan.query",
         "stamp.go",
     ),
-    writes=("simulation.py", "film.py"),
+    writes=("simulation.py", "film.py", "*.py", "sculpt/", "laws/", "data/"),
     reads_files=True,
     instructions="""
 First call `stamp.go`: it drafts what the plan's fields say. Yours is what it marks `AUTHOR:`, and what the plan says in words
@@ -125,7 +125,9 @@ alone: read the descriptions of steps and objects, the laws of interventions, an
 your memory. Never edit the plan; if it cannot be built as it stands, say which line and why. A coordinate that it rounds by less
 than 0.2 mm you may write exactly, with a comment. Then `stamp.go` until it waits for the description: it lints, simulates, measures and films, and tells all that is wrong
 together. Mend what it names first, where the program and not the plan is wrong; after three patches that did not help,
-leave it. How it is filmed, if anybody asks, is `film.py` (skill `film`). When a repair was ordered, make that one change and nothing else: patch, never
+leave it. How it is filmed, if anybody asks, is `film.py` (skill `film`). Modules and data may lie beside the program (`*.py`,
+`sculpt/`, `laws/`, `data/`): what it imports or names by its path belongs to it. A file that the plan names was approved with
+it: change it only if told to. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
 Answer with: what you wrote or changed, and what `stamp.go` says last.""",
     refuses=(

@@ -3,10 +3,13 @@
 import ast
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
 from typing import Any
 
+from ..model import companions
+from ..model.companions import CompanionError
 from ..model.plan.committed import Plan
 from ..simulator import symbols as installed_symbols
 from ..simulator.symbols import Symbols
@@ -19,6 +22,8 @@ from .source import Source
 
 __all__ = ["UNKNOWN", "Program"]
 
+MOST_BESIDE = 1 << 20
+"""Bytes of a file beside a program in which names are looked for."""
 Caller = ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda
 
 
@@ -160,6 +165,26 @@ class Program:
     def build(self) -> Caller | None:
         """The function handed to `program.main` as `build`, else the module's own `build`."""
         return self._passed("build", 0) or self.scopes.functions.get("build")
+
+    @property
+    def built_elsewhere(self) -> bool:
+        """Whether the world is built by a function that comes from a module of its own."""
+        given = self.argument(self.entry, "build", 0) if self.entry is not None else None
+        return self.dotted(given) is not None
+
+    @cached_property
+    def words_beside(self) -> frozenset[str]:
+        """Words of the files beside it that belong to it: what they build and hold is named there."""
+        path = Path(self.path).absolute()
+        with suppress(OSError, CompanionError):
+            texts = companions.of(path).values() if path.is_file() else ()
+            return frozenset(w.decode() for text in texts for w in re.findall(rb"[A-Za-z_][\w-]*", text[:MOST_BESIDE]))
+        return frozenset()
+
+    def beside(self, name: str) -> bool:
+        """Whether files beside it name a thing, or the family that it is a numbered one of."""
+        stem = re.sub(r"\d+$", "", name)
+        return name in self.words_beside or (stem != name and stem in self.words_beside)
 
     def _passed(self, name: str, position: int) -> Caller | None:
         node = self.argument(self.entry, name, position) if self.entry is not None else None

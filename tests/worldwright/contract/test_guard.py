@@ -89,6 +89,29 @@ def test_no_role_writes_the_file_of_another(project, agent, path):
     assert verdict(project, "Edit", write(path), agent)
 
 
+@pytest.mark.parametrize(
+    ("agent", "path", "may"),
+    [
+        ("world-code", "runs/ball/sculpt/boy.py", True),
+        ("world-code", "runs/ball/sculpt/skins/face.svg", True),
+        ("world-code", "runs/ball/laws/sand.py", True),
+        ("world-code", "runs/ball/data/track.csv", True),
+        ("world-code", "runs/ball/helper.py", True),
+        ("world-plan", "runs/ball/sculpt/boy.py", True),
+        ("world-plan", "runs/ball/helper.py", False),
+        ("world-code", "runs/ball/helper.sh", False),
+        ("world-code", "runs/ball/sculpt", False),
+        ("world-code", "runs/ball/sculpt/../journal.jsonl", False),
+        ("world-code", "runs/ball/sculpt/.hidden/x.py", False),
+        ("world-code", "runs/ball/evidence/k/source/simulation.py", False),
+        ("world-code", "runs/ball/accepted/sculpt/boy.py", False),
+        ("world-review", "runs/ball/sculpt/boy.py", False),
+    ],
+)
+def test_what_belongs_to_a_program_may_lie_beside_it(project, agent, path, may):
+    assert (verdict(project, "Write", write(path), agent) is None) == may
+
+
 def test_links_do_not_help(project):
     (project / "runs/ball/simulation.py").symlink_to(project / "src/secret.py")
     (project / "runs/link").symlink_to(project / "src")

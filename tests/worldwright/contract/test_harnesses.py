@@ -53,8 +53,8 @@ def test_who_reports_and_who_decides_are_apart():
     assert decisive <= set(MAIN_TOOLS) and not any(decisive & own for own in tools.values())
     assert {"stamp.describe", "stamp.review"} <= set(RESERVED) <= TOOLS and not set(RESERVED) & set(MAIN_TOOLS)
     assert [role.writes for role in ROLES] == [
-        ("plan.md", "prompt.md"),
-        ("simulation.py", "film.py"),
+        ("plan.md", "prompt.md", "sculpt/"),
+        ("simulation.py", "film.py", "*.py", "sculpt/", "laws/", "data/"),
         (),
         (),
     ]

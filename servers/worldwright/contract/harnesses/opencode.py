@@ -37,7 +37,7 @@ def files() -> dict[str, str]:
 
 def agent(role: Role) -> tuple[str, str]:
     """The agent's file: every tool is denied but those it is given."""
-    edit = {"*": "deny", **{f"{RUNS}/*/{name}": "allow" for name in role.writes}}
+    edit = {"*": "deny", **{f"{RUNS}/*/{name}{'*' * name.endswith('/')}": "allow" for name in role.writes}}
     reading = "allow" if role.reads_files else "deny"
     permission: dict[str, object] = {
         "*": "deny",

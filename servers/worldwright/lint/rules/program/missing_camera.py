@@ -1,6 +1,6 @@
 """A camera of the plan is not in the program.
 
-What it does: compares the cameras of the plan's steps with those the program adds (`cameras.add`, `add_camera`, MJCF).
+What it does: compares the cameras of the plan's steps with those the program, or a file beside it, adds (`cameras.add`, `add_camera`, MJCF).
 
 Why is this bad: stills and videos are made per camera; without it the step it belongs to is never seen, and the review
 lacks a witness.
@@ -43,7 +43,7 @@ def check(program: Program) -> Iterator[Problem]:
     if added is None:  # names are made in a loop, so any string may be one
         added = program.strings
     for camera in program.plan.cameras():
-        if camera.name not in added:
+        if camera.name not in added and not program.beside(camera.name):
             place = getattr(program.build, "lineno", 1)
             fix = f'add cameras.add(spec, "{camera.name}", …)'
             yield Problem(f"the plan's camera `{camera.name}` is not in the program", fix, place)

@@ -1,6 +1,6 @@
 """The program does not hand its world to worldkit.
 
-What it does: looks for a `build()` that makes the model and a call of `worldkit.program.main(build, …)`.
+What it does: looks for a `build()` that makes the model, here or in a module beside it, and a call of `worldkit.program.main(build, …)`.
 
 Why is this bad: without them there is no command line, no recording, no stills and no video, so no pass can run and
 nothing can be proven.
@@ -27,8 +27,10 @@ GOOD = (
         "from worldkit import program as p\nfrom worldkit.scene import new\ndef world():\n return new('a', time_step=1)\n"
         "p.main(build=world, duration=2.0)\n"
     ),
+    "from worldkit import program\nfrom laws.world import build\nprogram.main(build, duration=2.0)\n",
 )
 BAD = (
+    "from worldkit import program, scene\nprogram.main(duration=1.0)\n",
     "from worldkit import scene\nspec = scene.new('a', time_step=0.001)\n",
     "from worldkit import program, scene\nprogram.main(lambda: None)\n",
     "from worldkit import program, scene\ndef build():\n    pass\nprogram.main(build, duration=1.0)\n",
@@ -50,7 +52,7 @@ def check(program: Program) -> Iterator[Problem]:
     if program.argument(entry, "duration") is None:
         yield at(entry, "program.main is called without a duration", "pass duration=DURATION, the plan's seconds")
     build = program.build
-    if build is None:
+    if build is None and not program.built_elsewhere:
         yield at(
             entry, "program.main is called without a build function", "define build() -> mujoco.MjSpec and pass it"
         )

@@ -1,7 +1,7 @@
 """An object of the plan does not appear in the program.
 
 What it does: looks for the name of every scene object and asset instance among the program's strings, f-strings and
-MJCF names; a name may be split between a `prefix` or `suffix` of `attach` and the name in the part attached.
+MJCF names, or in the files beside it that belong to it; a name may be split between a `prefix` or `suffix` of `attach` and the name in the part attached.
 
 Why is this bad: the world lacks something the user approved, and every expectation, camera subject and placement that
 names it has nothing to hold on to.
@@ -60,7 +60,8 @@ def check(program: Program) -> Iterator[Problem]:
             for p in before
             for s in after
         )
-        if name not in strings and not split and not any(p.fullmatch(name) for p in patterns if p is not None):
+        made = any(p.fullmatch(name) for p in patterns if p is not None)
+        if name not in strings and not split and not made and not program.beside(name):
             fix = f'add a body named "{name}", or take the object out of the plan'
             place = getattr(program.build, "lineno", 1)
             yield Problem(f"the plan's object `{name}` is nowhere in the program", fix, place)
