@@ -213,7 +213,7 @@ class Tracing:
         if self.figures.place(data) | self._strands.place(data):
             self._stale.update(self._scenes)
         scene = self._scene(faces, data)
-        depth = CLEAR_DEPTH if self.figures.clear else DEPTH
+        depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
         path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": 16})
         light = mi.render(scene, sensor=self._sensor(view, "rgb", coarser), integrator=path, spp=samples, seed=seed)
         # A second walk for the guides: around the path tracer itself they would double its time.
