@@ -110,6 +110,28 @@ def test_a_card_of_nvidias_comes_first_then_llvm_then_plain_computing(monkeypatc
     assert not variant.nvidia()
 
 
+@pytest.mark.gl
+def test_what_moves_is_seen_where_it_is_and_nowhere_else() -> None:
+    spec = scene.new("ball", time_step=0.002, setting="studio")
+    bodies.sphere(spec, "ball", diameter=0.6, pos=(0, 0, 1), look="phenolic_red")
+    spec.worldbody.add_camera(name="eye", pos=(0, -4, 1), xyaxes=(1, 0, 0, 0, 0, 1))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    middles = []
+    with Frames(model, 96, 54, "traced") as frames:
+        for x in (-0.8, 0.0, 0.9):
+            data.qpos[0] = x
+            mujoco.mj_forward(model, data)
+            image = frames.image(data, "eye", 2).astype(int)
+            red = np.nonzero(image[..., 0] - image[..., 1] > 60)
+            middles.append(float(np.median(red[1])))
+            assert len(red[1]) > 40 and (np.abs(red[1] - middles[-1]) < 8).mean() > 0.95
+        assert frames.renderer == "traced", frames.reason
+    assert middles[1] == pytest.approx(47.5, abs=1.5)
+    assert middles[0] < 36 and middles[2] > 60
+
+
 def test_the_denoiser_computes_on_the_processor_where_there_is_no_card() -> None:
     denoiser = denoised.Denoiser(32, 32, card=True)
     light = np.random.default_rng(2).random((32, 32, 3)).astype(np.float32)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from ..recording.stored import Recording
 
 PLACE = "film.py"
-MOST_FRAMES, MOST_THINGS, MOST_CAPTIONS = 20_000, 500, 500
+MOST_FRAMES, MOST_THINGS, MOST_CAPTIONS, MOST_SURFACES = 20_000, 500, 500, 20
 MOST_VERTICES, MOST_COPIES = 3_000_000, 2_000
 FAR_M = 1e5
 CAMERA: dict[str, tuple[int, ...]] = {
@@ -48,6 +48,8 @@ class Described:
     captions: tuple[dict[str, Any], ...]
     treatments: Treatments
     things: tuple[dict[str, Any], ...]
+    surfaces: tuple[dict[str, Any], ...]
+    """One substance each: its `name`, the bodies and particles that it is `of`, and its `look`."""
     looks: dict[str, Any]
     shutter: float
     samples: int
@@ -84,6 +86,7 @@ class Described:
                 said.append(f"{thing['name']} (skin over {thing['to']}{off})")
             else:
                 said.append(f"{thing['name']} (on {thing['to']})" if thing["to"] else thing["name"])
+        said += [f"{one['name']} (one surface in place of {len(one['of'])} shapes)" for one in self.surfaces]
         treated = self.treatments.at(0.0)
         said += ["sky"] if treated.sky_zenith is not None else []
         return said + (["fog"] if treated.fog_rgb is not None else [])
@@ -163,8 +166,15 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
     bodies = set(recording.names)
     things = tuple(_thing(one, arrays, bodies, n) for one in told["things"])
     things = tuple(thing | ground_skins.off(thing, arrays, recording) for thing in things)
-    if len({thing["name"] for thing in things}) < len(things):
-        raise _refuse("two of the things that are drawn have the same name")
+    particles = {thing["name"] for thing in things if thing.get("ways")}
+    surfaces = tuple(_surface(one, arrays, bodies | particles) for one in told.get("surfaces", ()))
+    if (
+        len({one["name"] for one in (*things, *surfaces)}) < len(things) + len(surfaces)
+        or len(surfaces) > MOST_SURFACES
+    ):
+        raise _refuse(
+            f"two of the things that are drawn have the same name, or there are over {MOST_SURFACES} surfaces"
+        )
     geoms = {str(geom["name"]) for geom in recording.meta["geoms"] if geom["name"]}
     looks = {str(name): _look(look, arrays) for name, look in told["looks"].items()}
     for name in looks:
@@ -178,7 +188,14 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
     if not (0 <= share <= 1 and 1 <= samples <= 32):
         raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")
     air = [_air(one) for one in told["air"]]
-    return Described(tuple(shots), captions, Treatments(air), things, looks, share, samples, arrays)
+    return Described(tuple(shots), captions, Treatments(air), things, surfaces, looks, share, samples, arrays)
+
+
+def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[str]) -> dict[str, Any]:
+    name, of = str(told["name"]), [str(one) for one in told["of"]]
+    if not 0 < len(name) <= 60 or not of or not set(of) <= known:
+        raise _refuse(f"the surface {name!r} is of what is no body and no particles", "name some that there are")
+    return {"name": name, "of": of, "look": _look(told["look"], arrays)}
 
 
 def _caption(told: dict[str, Any]) -> dict[str, Any]:

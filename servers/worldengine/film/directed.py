@@ -7,7 +7,7 @@ from worldkit import cameras
 from ..recording.replay import Replay
 from .described import Described
 from .drawn_frames import Frames
-from .dressed import CAMERA, DressedReplay, dress
+from .dressed import CAMERA, DressedReplay, dress, surfaces
 from .lettering import letter
 
 if TYPE_CHECKING:
@@ -58,6 +58,7 @@ class Screening:
             for thing in film.things
             if thing.get("ways")
         ]
+        self._surfaces = surfaces(self.model, film)
         self._planned: Replay | None = None
         if any(shot["planned"] for shot in film.shots):
             self._planned = Replay(plain, recording)
@@ -114,6 +115,8 @@ class Screening:
             count = ways.shape[1]
             data.geom_xpos[first : first + count] = (1 - part) * ways[low] + part * ways[high]
             self.model.geom_size[first : first + count, 0] = np.maximum(sizes[low] / 2, 1e-9)
+        for surface in self._surfaces:
+            surface.place(data)
         self._look(data, shot, row, told)
         treatment = film.treatments.at(at / self.fps, float(told("focus_m")), float(told("aperture")))
         self.frames.treat(treatment)

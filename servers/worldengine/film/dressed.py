@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit import materials, portable
 
 from ..recording.replay import Replay
+from . import one_surface
 from .described import Described, FilmError
 
 if TYPE_CHECKING:
@@ -39,6 +40,8 @@ def dress(world: Path, film: Described) -> "mujoco.MjModel":
         _relook(spec, name, _material(spec, film, look, f"drawn.look {name}"))
     for thing in film.things:
         _add(spec, film, thing)
+    for one in film.surfaces:
+        _cover(spec, film, one)
     eyes = film.arrays["eye"]
     spec.worldbody.add_camera(name=CAMERA, pos=eyes[0])
     for name, corner in (("low", eyes.min(axis=0)), ("high", eyes.max(axis=0))):  # a room surrounds all cameras
@@ -123,6 +126,53 @@ def _add(spec: "mujoco.MjSpec", film: Described, thing: dict[str, Any]) -> None:
         "ellipsoid": (kinds.mjGEOM_ELLIPSOID, half),
     }[thing["shape"]]
     body.add_geom(type=kind, size=size, **common)
+
+
+def _cover(spec: "mujoco.MjSpec", film: Described, one: dict[str, Any]) -> None:
+    """Leave out the shapes that a surface stands for, and make room for it: a skin that each picture fills anew."""
+    import numpy as np
+
+    count = 0
+    for geom in members(spec, one):
+        geom.group = HIDDEN_GROUP
+        count += 1
+    name, faces = f"drawn.{one['name']}", one_surface.room(count * one_surface.SAMPLES)
+    vertices = faces // 2 + 2
+    skin = spec.add_skin(name=name, material=_material(spec, film, one["look"], name))
+    skin.vert, skin.face = [0.0] * (3 * vertices), [0, 1, 2] * faces
+    skin.bodyname, skin.bindpos, skin.bindquat = ["world"], [0.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0]
+    skin.vertid, skin.vertweight = [np.arange(vertices).tolist()], [[1.0] * vertices]
+
+
+def members(spec: "mujoco.MjSpec", one: dict[str, Any]) -> list[Any]:
+    """The shapes that a surface stands for: those of its bodies that can be seen, and its particles."""
+    own = [geom for name in one["of"] if (body := spec.body(name)) is not None for geom in body.geoms]
+    particles = tuple(f"drawn.{name}/" for name in one["of"])
+    grown = [geom for geom in spec.worldbody.geoms if geom.name.startswith(particles)]
+    return [geom for geom in own if geom.group <= 2 and not geom.name.startswith("drawn.")] + grown
+
+
+def surfaces(model: "mujoco.MjModel", film: Described) -> list[one_surface.Surface]:
+    """The surfaces of a dressed world, to be laid around their shapes for each picture."""
+    import numpy as np
+
+    found = []
+    names = [model.geom(geom).name for geom in range(model.ngeom)]
+    for one in film.surfaces:
+        bodies = {model.body(name).id for name in one["of"] if name in _bodies(model)}
+        particles = tuple(f"drawn.{name}/" for name in one["of"])
+        mine = [
+            geom
+            for geom, name in enumerate(names)
+            if model.geom_group[geom] == HIDDEN_GROUP
+            and (name.startswith(particles) or (model.geom_bodyid[geom] in bodies and not name.startswith("drawn.")))
+        ]
+        found.append(one_surface.Surface(model, model.skin(f"drawn.{one['name']}").id, np.array(mine, dtype=int)))
+    return found
+
+
+def _bodies(model: "mujoco.MjModel") -> set[str]:
+    return {model.body(body).name for body in range(model.nbody)}
 
 
 def _skin(spec: "mujoco.MjSpec", thing: dict[str, Any], points: "np.ndarray") -> None:

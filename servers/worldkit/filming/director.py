@@ -153,6 +153,9 @@ class Film(Dressing):
         facts = {
             "schema": 1, "shots": shots, "captions": self._captions, "air": self._air,
             "things": [thing.facts(arrays, number) for number, thing in enumerate(things)],
+            "surfaces": [
+                one | {"look": look_facts(one["look"], arrays, f"look_surface{n}")} for n, one in enumerate(self._surfaces)
+            ],
             "looks": {name: look_facts(look, arrays, f"look_{n}") for n, (name, look) in enumerate(self._looks.items())},
             "ground": None if self._ground_look is None else look_facts(self._ground_look, arrays, "look_ground"),
             "shutter": self._shutter, "samples": self._samples,

@@ -1,6 +1,7 @@
 """`Dressing`: what a film draws and nobody simulated, and the looks it gives."""
 
 from collections.abc import Callable, Sequence
+from fnmatch import fnmatchcase
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ class Dressing(Weather):
         self.recorded = recorded
         self._things: list[Thing] = []
         self._grown: list[tuple[Thing, Callable[[np.ndarray], Any]]] = []
+        self._surfaces: list[dict[str, Any]] = []
         self._looks: dict[str, str | Surface] = {}
         self._ground_look: str | Surface | None = None
 
@@ -172,6 +174,29 @@ class Dressing(Weather):
         self._add(Thing(name, "sphere", (diameter,) * 3, look, (0, 0, 0), (1, 0, 0, 0)))
         self._grown.append((self._things.pop(), at))
 
+    def surface(self, name: str, *, of: str | Sequence[str], look: str | Surface = "wax") -> None:
+        """Bodies or particles of one substance as one smooth surface, made for each picture from where they are then.
+
+        `of` names bodies, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
+        of="drop_*", look="honey")`. Their own shapes are left out.
+
+        Raises:
+            ProgramError: it names nothing, or what is another surface's already.
+        """
+        known(look)
+        wanted = [of] if isinstance(of, str) else list(of)
+        names = [*self.recorded.bodies, *(thing.name for thing, _ in self._grown)]
+        found = [each for each in names if any(fnmatchcase(each, pattern) for pattern in wanted)]
+        taken = {each for one in self._surfaces for each in one["of"]}
+        if not found or taken & set(found):
+            raise ProgramError(
+                f"the surface {name!r} is of {', '.join(wanted) or 'nothing'}, which names no body and no particles, or another's",
+                "film.py",
+                f"name some of: {', '.join(names[:6]) or '(none)'}",
+            )
+        self._named(name)
+        self._surfaces.append({"name": name, "of": found, "look": look})
+
     def look(self, name: str, look: str | Surface) -> None:
         """Another look for a body, or for one geom, through the whole film; it is listed in the report."""
         known(look)
@@ -184,12 +209,17 @@ class Dressing(Weather):
 
     def _add(self, thing: Thing) -> None:
         known(thing.look)
-        taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
-        if not thing.name or len(thing.name) > 60 or thing.name in taken:
-            raise ProgramError(f"what is drawn needs a name of its own, not {thing.name!r}", "film.py", "name it anew")
+        self._named(thing.name)
         if thing.to:
             self.recorded.index(thing.to)
         self._things.append(thing)
+
+    def _named(self, name: str) -> None:
+        """Refuse a name that something else has, or none."""
+        taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
+        taken |= {one["name"] for one in self._surfaces}
+        if not name or len(name) > 60 or name in taken:
+            raise ProgramError(f"what is drawn needs a name of its own, not {name!r}", "film.py", "name it anew")
 
 
 def _yaw(yaw_deg: float) -> tuple[float, float, float, float]:

@@ -91,7 +91,7 @@ def share(recorded: Recorded, camera: viewpoints.Viewpoint, bodies: tuple[str, .
     assert camera.target is not None
     course = viewpoints.Course(recorded, np.zeros(1), np.zeros(1))
     away = float(np.linalg.norm(camera.eye(course) - camera.target(course)))
-    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(np.mean(camera.lens_mm))) / 2))
+    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(float(np.mean(camera.lens_mm)))) / 2))
     return recorded.radius(*bodies) / (away * tangent)
 
 

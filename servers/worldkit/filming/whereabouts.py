@@ -2,6 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterable
+from functools import partial
 
 import numpy as np
 
@@ -113,7 +114,7 @@ def countryside(film: Dressing, facing_deg: float, seed: int = 1) -> None:
         if any(stem in recorded.looks.get(name, "") for stem in GREEN):
             film.grass(
                 f"grass on {name}", area=(x0, y0, x1, y1), height=0.13, count=60_000, look="#6f9440",
-                clear_of=place.clear(0.05), z=lambda x, y, name=name: ground(x, y, name), seed=seed,
+                clear_of=place.clear(0.05), z=partial(ground, only=name), seed=seed,
             )  # fmt: skip
     for kind, count, near, far, height, free in (
         ("broadleaf", 14, 1.6 * place.radius + 6.0, 2.2 * place.radius + 34.0, 8.0, 150.0),

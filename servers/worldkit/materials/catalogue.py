@@ -160,6 +160,7 @@ LIBRARY: dict[str, Look] = {
     "cardboard": Look("Corrugated cardboard", paint="fibre.cardboard", arguments=("cardboard", (0.69, 0.52, 0.345)), tile_m=0.3, roughness=0.88, relief_m=0.0005),
     "cork": Look("Pressed cork", paint="stone.granite", arguments=("cork", (0.72, 0.53, 0.34), (0.60, 0.41, 0.25), (0.38, 0.23, 0.13)), tile_m=0.22, roughness=0.88, relief_m=0.0005),
     "foam": Look("Soft grey foam", paint="fibre.worn", arguments=("foam", (0.36, 0.37, 0.40), 2.5), tile_m=0.1, roughness=0.98, relief_m=0.001),
+    "honey": Look("Clear honey, amber", rgba=(0.93, 0.58, 0.10, 0.5), roughness=0.05, coat=1.0, clear=0.8),
     "wax": Look("Cream wax", rgba=(0.94, 0.89, 0.76, 1.0), roughness=0.42, coat=0.1, sheen=0.15),
     "apple_red": Look("Red apple with streaks and pale dots", paint="around.apple", arguments=((0.62, 0.035, 0.05), (0.80, 0.20, 0.09), (0.74, 0.68, 0.22)), around=True, roughness=0.26, coat=0.4),
     "apple_green": Look("Green apple", paint="around.apple", arguments=((0.48, 0.62, 0.13), (0.62, 0.72, 0.25), (0.78, 0.80, 0.38)), around=True, roughness=0.26, coat=0.4),

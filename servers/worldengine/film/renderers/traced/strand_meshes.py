@@ -25,6 +25,8 @@ class Strands:
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, coatings: Coatings) -> None:
         self.model, self._coatings = model, coatings
         self.shapes: list[Any] = []
+        self.clear = False
+        """One of them is glass or water."""
         self._params: dict[tuple[str, int], tuple[Any, int]] = {}
         if not (model.ntendon or model.nflex or model.nskin):
             return
@@ -45,6 +47,7 @@ class Strands:
         tint = linear(np.asarray(finish.look.rgba)[:3]) if material >= 0 else linear(np.asarray(rgba)[:3])
         if finish.look.paint or finish.texture >= 0:  # these bring no coordinates for a picture
             finish, tint = plain((*(np.asarray(finish.mean) ** (1 / 2.2)), 1.0)), np.asarray(finish.mean)
+        self.clear |= finish.look.clear > 0
         coating = self._coatings.of(finish, tint, 1.0)
         if key[0] == "tendon":
             one = len(self._unit.points)

@@ -90,6 +90,8 @@ class Tracing:
         self._walls = Walls(self._own, low, high, eyes, self._floor_z) if inside else None
         self._panels: dict[Face, list[Any]] = {}
         self._scenes: dict[Any, Any] = {}
+        self._stale: set[Any] = set()
+        """Scenes that do not know yet that something has moved."""
         self._denoisers: dict[int, Denoiser] = {}
         self._plain: Drawing | None = None
         self._sensors: dict[bool, Any] = {}
@@ -143,6 +145,9 @@ class Tracing:
             for number, shape in enumerate(shapes):
                 parts[f"shape{number}"] = shape
             self._scenes[walls] = mi.load_dict(parts, optimize=False)
+        elif walls in self._stale:  # it searches its meshes by where they were, until it is told
+            self._scenes[walls].parameters_changed()
+        self._stale.discard(walls)
         return self._scenes[walls]
 
     def _wall(self, face: Face) -> list[Any]:
@@ -205,10 +210,10 @@ class Tracing:
         """Trace the picture of `data`, with these walls; its light `coarser` times smaller each way."""
         import mitsuba as mi
 
-        self.figures.place(data)
-        self._strands.place(data)
+        if self.figures.place(data) | self._strands.place(data):
+            self._stale.update(self._scenes)
         scene = self._scene(faces, data)
-        depth = CLEAR_DEPTH if self.figures.clear else DEPTH
+        depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
         path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": 16})
         light = mi.render(scene, sensor=self._sensor(view, "rgb", coarser), integrator=path, spp=samples, seed=seed)
         # A second walk for the guides: around the path tracer itself they would double its time.

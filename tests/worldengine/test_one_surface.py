@@ -1,0 +1,133 @@
+"""Many bodies of one substance are one smooth closed surface, in both renderers, from where they are in each picture."""
+
+import json
+
+import mujoco
+import numpy as np
+import pytest
+
+from small_worlds import ball, empty, floor, record
+from worldengine.film import described, dressed, motion_facts, one_surface, renderers
+from worldengine.film.described import FilmError
+from worldengine.film.directed import Screening
+from worldkit import portable
+from worldkit.errors import ProgramError
+from worldkit.filming import Film, Recorded, still
+
+SIZE = (96, 54)
+
+
+def volume(vertices, faces) -> float:
+    corners = vertices[faces]
+    return float(np.einsum("fk,fk->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6)
+
+
+def grid(side: int, apart: float) -> np.ndarray:
+    return np.stack(np.meshgrid(*[np.arange(side)] * 3), -1).reshape(-1, 3) * apart
+
+
+def test_a_block_of_beads_becomes_one_closed_piece_of_about_its_size():
+    points = grid(6, 0.019) + np.random.default_rng(1).normal(size=(216, 3)) * 5e-4
+    vertices, faces = one_surface.around(points, np.full(216, 0.01), 60_000, 60_000)
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    _, shared = np.unique(edges, axis=0, return_counts=True)
+    assert (shared == 2).all(), "closed"
+    assert len(vertices) - len(edges) // 2 + len(faces) == 2, "one piece without holes"
+    assert volume(vertices, faces) == pytest.approx((6 * 0.019) ** 3, rel=0.15)
+
+
+def test_drops_far_apart_stay_drops_of_their_size():
+    points = np.array([[0, 0, 0], [0.2, 0, 0], [0, 0.3, 0.1]])
+    vertices, faces = one_surface.around(points, np.full(3, 0.01), 60_000, 60_000)
+    assert volume(vertices, faces) == pytest.approx(3 * 4 / 3 * np.pi * 1e-6, rel=0.3)
+    away = np.linalg.norm(vertices[:, None] - points, axis=-1).min(axis=1)
+    assert away.mean() == pytest.approx(0.01, rel=0.1) and np.ptp(away) < 0.002
+
+
+def test_it_keeps_to_the_room_that_it_has_and_none_is_none():
+    vertices, faces = one_surface.around(grid(8, 0.03), np.full(512, 0.01), 3000, 2000)
+    assert 100 < len(faces) <= 3000 and len(vertices) < 2000
+    assert [len(part) for part in one_surface.around(np.zeros((0, 3)), np.zeros(0), 9, 9)] == [0, 0]
+
+
+class Poured:
+    """Nine balls that fall onto a floor, seen by a film."""
+
+    def __init__(self, folder):
+        spec = empty()
+        floor(spec)
+        for number in range(9):
+            ball(spec, f"drop_{number}", (0.19 * (number % 3), 0.19 * (number // 3), 0.3), rgba=(0.1, 0.1, 0.8, 1))
+        ball(spec, "other", (-0.8, 0, 0.3))
+        spec.worldbody.add_camera(name="side", pos=(0, -3, 0.5), xyaxes=(1, 0, 0, 0, 0, 1))
+        self.folder = folder
+        portable.write(spec, folder / "world.mjz")
+        self.recording = record(spec, folder / "trajectory", 300)
+        self.plain = portable.read(folder / "world.mjz")
+        motion_facts.write(self.recording, folder / "motion.npz", {"fps": 24, "size": list(SIZE), "movers": []})
+        with np.load(folder / "motion.npz") as arrays:
+            self.seen = Recorded(dict(arrays))
+
+    def film(self, change=None):
+        film = Film(self.seen)
+        film.surface("honey", of="drop_*", look="plastic_red")
+        film.shot(still((0.2, -1.6, 0.5), (0.2, 0.2, 0.2), lens_mm=35), until=0.25)
+        facts, arrays = film.description()
+        if change:
+            change(facts)
+        (self.folder / "film.json").write_text(json.dumps(facts))
+        np.savez(self.folder / "film.npz", **arrays)
+        return described.read(self.folder, self.recording)
+
+
+@pytest.fixture(scope="module")
+def poured(tmp_path_factory):
+    return Poured(tmp_path_factory.mktemp("poured"))
+
+
+def test_the_statement_lists_it_and_names_are_checked(poured):
+    assert poured.film().drawn_only() == ["honey (one surface in place of 9 shapes)"]
+    film = Film(poured.seen)
+    with pytest.raises(ProgramError, match="names no body"):
+        film.surface("honey", of="bead_*")
+    film.surface("honey", of=["drop_1", "drop_2"])
+    with pytest.raises(ProgramError, match="or another's"):
+        film.surface("jam", of="drop_*")
+    with pytest.raises(FilmError, match="no body and no particles"):
+        poured.film(lambda facts: facts["surfaces"][0]["of"].append("nobody"))
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("renderer", ["preview", "traced"])
+def test_both_renderers_show_it_where_the_bodies_are(poured, renderer):
+    film = poured.film()
+    with Screening(poured.folder / "world.mjz", poured.plain, poured.recording, film, SIZE, 24, renderer) as screening:
+        first, last = (screening.picture(number, 2).astype(int) for number in (0, film.frames - 1))
+        assert screening.frames.renderer == renderer, screening.frames.reason
+        (surface,) = dressed.surfaces(screening.model, film)
+        surface.place(screening._replay.data)
+        used = surface._vertices[surface._vertices[:, 2] > -100]
+        middles = [screening._replay.data.body(f"drop_{k}").xpos for k in range(9)]
+        assert np.linalg.norm(used[:, None] - np.array(middles), axis=-1).min(axis=1).max() < 0.2
+    red = [(image[..., 0] - image[..., 2:].max(axis=-1) > 40) for image in (first, last)]
+    assert min(mask.sum() for mask in red) > 60, "it is seen, in its own look"
+    rows = [np.nonzero(mask)[0].mean() for mask in red]
+    assert rows[1] > rows[0] + 1, "it has fallen"
+
+
+def test_particles_can_be_a_surface_too(poured):
+    film = Film(poured.seen)
+    places = grid(3, 0.03)
+    film.particles("foam", lambda times: np.tile(places, (len(times), 1, 1)), diameter=0.04)
+    film.surface("lather", of="foam", look="#ffffff")
+    facts, arrays = film.description()
+    (poured.folder / "film.json").write_text(json.dumps(facts))
+    np.savez(poured.folder / "film.npz", **arrays)
+    told = described.read(poured.folder, poured.recording)
+    model = dressed.dress(poured.folder / "world.mjz", told)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    (surface,) = dressed.surfaces(model, told)
+    surface.place(data)
+    assert (surface._vertices[:, 2] > -100).sum() > 100
+    assert renderers.USUAL == "preview"
