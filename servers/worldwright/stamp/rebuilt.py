@@ -11,8 +11,10 @@ from pathlib import Path
 from worldkit import closed_archive
 from worldkit.portable import TOLERANCE
 
+from ..model.errors import JobError
+
 SAME = "the same content"
-WALL_S, MEMORY_MB = 120.0, 2048
+WALL_S, MEMORY_MB = 600.0, 2048
 OF_MACHINE = {"world_sha256", "rounded"}
 """Facts that depend on how a machine packs and rounds."""
 
@@ -30,6 +32,7 @@ def compare(kept: Path, built: Path, *, elsewhere: bool) -> str:
 
     Raises:
         OtherWorldError: they differ, in the field of the compiled model, or the place in the file, that it names.
+        JobError: the comparison itself came to no end.
     """
     try:
         if closed_archive.content_sha256(kept) == closed_archive.content_sha256(built):
@@ -72,13 +75,20 @@ def _apart(kept: Path, built: Path) -> tuple[float, str]:
 
     call = [sys.executable, "-s", "-m", "worldkit.two_worlds", str(kept), str(built), "{out}/apart.json"]
     done = stage.run_confined(call, reads=(kept, built), wanted=("apart.json",), wall_s=WALL_S, memory_mb=MEMORY_MB)
+    if done.status != "ended":
+        raise JobError(
+            f"the world that was built again could not be compared with the kept one: {done.status}",
+            code=done.status,
+            place=str(kept),
+            next_move="call it again when the machine has less to do, or let the world be smaller",
+        )
     try:
         told = json.loads(done.files["apart.json"])
         if "failure" in told:
             raise OtherWorldError(f"one of them does not compile: {told['failure'][:200]}")
         return (float("inf") if told["apart"] is None else float(told["apart"])), str(told["where"])[:80]
     except (KeyError, TypeError, json.JSONDecodeError) as cause:
-        raise OtherWorldError(f"it cannot be compared: the comparison {done.status}") from cause
+        raise OtherWorldError(f"it cannot be compared: {done.log[-300:].strip() or cause}") from cause
 
 
 def _first_difference(kept: dict[str, bytes], built: dict[str, bytes]) -> str:
