@@ -50,8 +50,8 @@ def compare(kept: Path, built: Path, *, elsewhere: bool) -> str:
     return f"the same within {TOLERANCE:g}: {told}"
 
 
-def same_facts(kept: Sequence[Path], built: Sequence[Path]) -> None:
-    """Compare the files beside a kept world with those beside the one that is built now.
+def same_facts(kept: Sequence[Path], built: Sequence[Path], *, elsewhere: bool) -> None:
+    """Compare the files beside a kept world with those beside the one that is built now; elsewhere, what both know.
 
     Raises:
         OtherWorldError: they differ, in the fact that it names.
@@ -63,7 +63,8 @@ def same_facts(kept: Sequence[Path], built: Sequence[Path]) -> None:
             raise OtherWorldError(f"{one.name} cannot be read: {cause}") from cause
         if not (isinstance(before, dict) and isinstance(now, dict)):
             before, now = {one.stem: before}, {one.stem: now}
-        for name in sorted((before.keys() | now.keys()) - OF_MACHINE):
+        named = before.keys() & now.keys() if elsewhere else before.keys() | now.keys()
+        for name in sorted(named - OF_MACHINE):
             if before.get(name) != now.get(name):
                 told = [json.dumps(facts.get(name))[:80] for facts in (before, now)]
                 raise OtherWorldError("{} differs: {}, now {}".format(f"`{name}` of {one.name}", *told))
