@@ -191,7 +191,8 @@ def _rebuilt(run: Run, kept: Path, *, elsewhere: bool) -> str:
 
     built = run.evidence(run.evidence_key(_environment_sha256())) / "bundle"
     try:
-        rebuilt.same_facts(*(tuple(folder / name for name in FACTS) for folder in (kept, built)))
+        files = [tuple(folder / name for name in FACTS) for folder in (kept, built)]
+        rebuilt.same_facts(*files, elsewhere=elsewhere)
         return rebuilt.compare(kept / WORLD, built / WORLD, elsewhere=elsewhere)
     except rebuilt.OtherWorldError as cause:
         shutil.rmtree(run.folder, ignore_errors=True)  # or the next call would take its result from it

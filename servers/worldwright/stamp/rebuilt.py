@@ -11,8 +11,10 @@ from pathlib import Path
 from worldkit import closed_archive
 from worldkit.portable import TOLERANCE
 
+from ..model.errors import JobError
+
 SAME = "the same content"
-WALL_S, MEMORY_MB = 120.0, 2048
+WALL_S, MEMORY_MB = 600.0, 2048
 OF_MACHINE = {"world_sha256", "rounded"}
 """Facts that depend on how a machine packs and rounds."""
 
@@ -30,6 +32,7 @@ def compare(kept: Path, built: Path, *, elsewhere: bool) -> str:
 
     Raises:
         OtherWorldError: they differ, in the field of the compiled model, or the place in the file, that it names.
+        JobError: the comparison itself came to no end.
     """
     try:
         if closed_archive.content_sha256(kept) == closed_archive.content_sha256(built):
@@ -47,8 +50,8 @@ def compare(kept: Path, built: Path, *, elsewhere: bool) -> str:
     return f"the same within {TOLERANCE:g}: {told}"
 
 
-def same_facts(kept: Sequence[Path], built: Sequence[Path]) -> None:
-    """Compare the files beside a kept world with those beside the one that is built now.
+def same_facts(kept: Sequence[Path], built: Sequence[Path], *, elsewhere: bool) -> None:
+    """Compare the files beside a kept world with those beside the one that is built now; elsewhere, what both know.
 
     Raises:
         OtherWorldError: they differ, in the fact that it names.
@@ -60,7 +63,8 @@ def same_facts(kept: Sequence[Path], built: Sequence[Path]) -> None:
             raise OtherWorldError(f"{one.name} cannot be read: {cause}") from cause
         if not (isinstance(before, dict) and isinstance(now, dict)):
             before, now = {one.stem: before}, {one.stem: now}
-        for name in sorted((before.keys() | now.keys()) - OF_MACHINE):
+        named = before.keys() & now.keys() if elsewhere else before.keys() | now.keys()
+        for name in sorted(named - OF_MACHINE):
             if before.get(name) != now.get(name):
                 told = [json.dumps(facts.get(name))[:80] for facts in (before, now)]
                 raise OtherWorldError("{} differs: {}, now {}".format(f"`{name}` of {one.name}", *told))
@@ -72,13 +76,20 @@ def _apart(kept: Path, built: Path) -> tuple[float, str]:
 
     call = [sys.executable, "-s", "-m", "worldkit.two_worlds", str(kept), str(built), "{out}/apart.json"]
     done = stage.run_confined(call, reads=(kept, built), wanted=("apart.json",), wall_s=WALL_S, memory_mb=MEMORY_MB)
+    if done.status != "ended":
+        raise JobError(
+            f"the world that was built again could not be compared with the kept one: {done.status}",
+            code=done.status,
+            place=str(kept),
+            next_move="call it again when the machine has less to do, or let the world be smaller",
+        )
     try:
         told = json.loads(done.files["apart.json"])
         if "failure" in told:
             raise OtherWorldError(f"one of them does not compile: {told['failure'][:200]}")
         return (float("inf") if told["apart"] is None else float(told["apart"])), str(told["where"])[:80]
     except (KeyError, TypeError, json.JSONDecodeError) as cause:
-        raise OtherWorldError(f"it cannot be compared: the comparison {done.status}") from cause
+        raise OtherWorldError(f"it cannot be compared: {done.log[-300:].strip() or cause}") from cause
 
 
 def _first_difference(kept: dict[str, bytes], built: dict[str, bytes]) -> str:

@@ -13,6 +13,19 @@ WHEN = "if {}:\n        " + SLIP.replace(
 HIDDEN = "LOUD = __import__('importlib').import_module"
 """A way to modules that no reader of the source follows."""
 
+SWAP = """
+def _swap(path):
+    import zipfile
+
+    with zipfile.ZipFile(path) as archive:
+        files = {name: archive.read(name) for name in archive.namelist()}
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in files.items():
+            archive.writestr(name, content.replace(b"0.40000000000000002", b"0.19"))
+
+
+"""
+
 ARCHIVE = """
 import hashlib
 import zipfile
@@ -200,12 +213,14 @@ TRICKS = (
     top(
         "world_changed_at_the_end",
         "At its end the program writes another world over its own.",
-        "import atexit\natexit.register(lambda: [p.write_bytes(p.read_bytes().replace(b'0.40000000000000002', b'0.19000000000000000')) for p in __import__('pathlib').Path('/').glob('**/build/world.mjz')])",
+        SWAP
+        + "import atexit\natexit.register(lambda: [_swap(p) for p in __import__('pathlib').Path('/').glob('**/build/world.mjz')])",
     ),
     top(
         "world_changed_by_a_child",
         "A child that outlives the program writes another world over it.",
-        "import os as _os\nif _os.fork() == 0:\n    __import__('time').sleep(.4)\n    [p.write_bytes(p.read_bytes().replace(b'0.40000000000000002', b'0.19000000000000000')) for a in __import__('sys').argv for p in __import__('pathlib').Path(a).glob('world.mjz')]\n    _os._exit(0)",
+        SWAP
+        + "import os as _os\nif _os.fork() == 0:\n    __import__('time').sleep(.4)\n    [_swap(p) for a in __import__('sys').argv for p in __import__('pathlib').Path(a).glob('world.mjz')]\n    _os._exit(0)",
     ),
     top(
         "world_behind_a_link",

@@ -50,15 +50,14 @@ REPLACED = """
 text = {text!r}
 with zipfile.ZipFile(OUT / "world.mjz", "w", zipfile.ZIP_DEFLATED) as archive:
     archive.writestr("model.xml", text)
-    for n in range({zeros}):
-        archive.writestr(f"zeros_{{n}}", bytes(1 << 28))
+    archive.filelist[0].file_size = max(len(text), {claims})
 """
 BALL = "<mujoco>{}<worldbody><body name='ball'><geom size='.1'/></body></worldbody></mujoco>"
 
 
-def rewritten(text: str, zeros: int = 0) -> str:
-    """Lines that put another archive in the place of the one that was built."""
-    return REPLACED.format(text=text, zeros=zeros)
+def rewritten(text: str, claims: int = 0) -> str:
+    """Lines that put another archive, whose text claims to unpack to so many bytes, in the place of the one that was built."""
+    return REPLACED.format(text=text, claims=claims)
 
 
 TRUNCATED = "data = (OUT / 'world.mjz').read_bytes()\n(OUT / 'world.mjz').write_bytes(data[: len(data) // 2])"
@@ -80,7 +79,7 @@ HOSTILE = {
     "holds nan": ("spec.option.gravity = (0, 0, float('nan'))", "", "program", r"opt\.gravity|written as one file", {}),
     "has 2 GB of meshes": (HUGE, "", "program", r"take 2200 MB, .* at most 1024 MB", {}),
     "leaves a truncated archive": ("", TRUNCATED, "program", "no archive of a world", {}),
-    "leaves a bomb": ("", rewritten(BALL.format(""), 5), "program", "larger than 1024 MB", {}),
+    "leaves a bomb": ("", rewritten(BALL.format(""), 2 << 30), "program", "larger than 1024 MB", {}),
     "leaves one that reaches outside": (
         "",
         rewritten(BALL.format("<include file='/etc/hostname'/>")),

@@ -68,10 +68,14 @@ def test_facts_must_be_the_same(tmp_path: Path) -> None:
     facts = {"duration": 1.0, "world_sha256": "one"}
     for path, more in zip(files, ({}, {"world_sha256": "other"}), strict=True):
         path.write_text(json.dumps(facts | more))
-    rebuilt.same_facts(files[:1], files[1:])
+    rebuilt.same_facts(files[:1], files[1:], elsewhere=False)
     files[1].write_text(json.dumps(facts | {"duration": 2.0}))
     with pytest.raises(rebuilt.OtherWorldError, match=r"`duration` of a\.json differs: 1\.0, now 2\.0"):
-        rebuilt.same_facts(files[:1], files[1:])
+        rebuilt.same_facts(files[:1], files[1:], elsewhere=True)
+    files[1].write_text(json.dumps(facts | {"of_later": 1}))
+    rebuilt.same_facts(files[:1], files[1:], elsewhere=True)  # an older stamp does not know it
+    with pytest.raises(rebuilt.OtherWorldError, match="`of_later`"):
+        rebuilt.same_facts(files[:1], files[1:], elsewhere=False)
 
 
 def test_instrumentation_that_changes_a_look_is_refused_by_its_place(planned: Path, copy, prepare) -> None:
