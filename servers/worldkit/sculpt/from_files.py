@@ -71,7 +71,7 @@ def from_file(
         parts = [replace(part, mass=mass * share / sum(own)) for part, share in zip(parts, own, strict=True)]
     elif surface is not None and "density" in surface:
         parts = [replace(part, mass=None, density=surface["density"]) for part in parts]
-    given = {key: value for key, value in (("surface", surface), ("look", look)) if value is not None}
+    given: dict[str, Any] = {key: value for key, value in (("surface", surface), ("look", look)) if value is not None}
     root = next(number for number, part in enumerate(parts) if part.parent is None)
     parts = [replace(part, **given) for part in parts]
     parts[root] = replace(parts[root], parent=parent)

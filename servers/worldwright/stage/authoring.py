@@ -39,8 +39,8 @@ def place(source: Path) -> dict[str, Any]:
     title, _, intro = head.partition("\n")
     names = " ".join(plan.object_names()) if hasattr(plan, "object_names") else ""
     words = re.findall(r"[a-z]+", f"{f'{title} ' * TITLE_COUNTS} {intro} {names}".lower().replace("_", " "))
-    rows = [*plan.scene_objects, *plan.assets]
-    looks = [[row.name, row.look] for row in rows if row.look]
+    looks = [[row.name, row.look] for row in plan.scene_objects if row.look]
+    looks += [[row.name, row.look] for row in plan.assets if row.look]
     shown = plan.visualization
     return {
         "setting": shown.setting,
