@@ -62,7 +62,7 @@ def cut(solid: "manifold3d.Manifold", most: int) -> "list[manifold3d.Manifold]":
     pieces = [(piece, _empty(piece)) for piece in _bits(solid)]
     total = sum(piece.volume() for piece, _ in pieces)
     least = THIN * float(np.ptp(np.array(solid.bounding_box()).reshape(2, 3), axis=0).max())
-    whole = []  # pieces that no cut makes better
+    whole: list[tuple[manifold3d.Manifold, float]] = []  # pieces that no cut makes better
     while pieces and len(pieces) + len(whole) < most:
         number = max(range(len(pieces)), key=lambda n: pieces[n][1])
         if sum(empty for _, empty in (*pieces, *whole)) < (1 / FULL - 1) * total:
