@@ -34,7 +34,7 @@ def folder() -> Path:
 
 def kept(key: str) -> dict[str, np.ndarray] | None:
     """The arrays kept under a key; None where there are none, or what is there is broken."""
-    given = [word for word in os.environ.get(GIVEN, "").split(os.pathsep) if word]
+    given: list[str | Path] = [word for word in os.environ.get(GIVEN, "").split(os.pathsep) if word]
     for place in (*given, folder()):
         for path in _entries(Path(place), key):
             with contextlib.suppress(OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile, zlib.error):

@@ -42,7 +42,9 @@ def instructions(role: Role) -> str:
         "You give: " + "; ".join(role.outputs) + ".",
         role.instructions.strip("\n") if role.instructions else "",
         "",
-        "You write " + (", ".join(f"`{RUNS}/<slug>/{name}`" for name in role.writes) or "no file") + ", nothing else.",
+        f"In `{RUNS}/<slug>` you write "
+        + (", ".join(f"`{name}`" for name in role.writes) or "no file")
+        + ", nothing else.",
         "You refuse: " + "; ".join(role.refuses) + ".",
     ]
     return "\n".join(lines) + "\n"
