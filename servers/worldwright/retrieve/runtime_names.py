@@ -65,6 +65,8 @@ def _below(module: str, path: list[str]) -> Named | None:
     if isinstance(thing, dict | tuple | list | str | int | float | frozenset) and inspect.ismodule(owner):
         said = ", ".join(map(str, thing)) if isinstance(thing, dict | tuple | list | frozenset) else repr(thing)
         return Named(f"{module}.{'.'.join(path)}", "value", "", said, (), _file(owner), _title(owner))
+    if isinstance(thing, property):
+        thing = thing.fget  # which knows its module
     home = thing.__name__ if inspect.ismodule(thing) else getattr(thing, "__module__", "")
     if not str(home).startswith(f"{worldkit.__name__}."):
         return None
@@ -72,8 +74,6 @@ def _below(module: str, path: list[str]) -> Named | None:
 
 
 def _named(dotted: str, thing: Any, of_class: bool) -> Named:
-    if isinstance(thing, property):
-        thing = thing.fget
     home = importlib.import_module(thing.__name__ if inspect.ismodule(thing) else thing.__module__)
     members: tuple[str, ...] = ()
     kind = "method" if of_class else "function"
