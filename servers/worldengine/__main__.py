@@ -1,4 +1,4 @@
-"""The engine's process: `python -m worldengine bundle|physics|storyboard|still|video|final|frame|sheet|view
+"""The engine's process: `python -m worldengine bundle|physics|storyboard|still|video|final|frame|scene|sheet|view
 --world FILE --program FILE --out DIR …`.
 
 `physics --replay RECORDING` drives the world by the inputs that a recording holds: the same motion, and nobody is asked.
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import worldkit  # checks the environment contract before anything else is imported
 
-PASSES = ("bundle", "physics", "storyboard", "still", "video", "final", "frame", "sheet", "view")
+PASSES = ("bundle", "physics", "storyboard", "still", "video", "final", "frame", "scene", "sheet", "view")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -48,6 +48,10 @@ def main(argv: Sequence[str] | None = None) -> int:
             from . import from_all_sides
 
             from_all_sides.run(given, options)
+        elif options.run == "scene":
+            from .film import carried_scene
+
+            carried_scene.run(given, options)
         elif options.run == "final":
             from .film import refining
 
@@ -96,6 +100,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--eye", type=_point, help="where an unplanned camera stands: X,Y,Z in m (frame)")
     parser.add_argument("--target", type=_point, default=(0.0, 0.0, 0.0), help="what it looks at: X,Y,Z in m")
     parser.add_argument("--fovy", type=float, default=45.0, help="height of what it sees, degrees")
+    parser.add_argument("--format", choices=("gltf", "usd"), default="gltf", help="how the scene is written (scene)")
     parser.add_argument("--camera", dest="cameras", action="append", default=[])
     parser.add_argument("--moment", dest="moments", action="append", default=[], help="of the storyboard: SECONDS:WORD")
     parser.add_argument("--time-step-factor", type=float)

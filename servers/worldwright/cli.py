@@ -32,6 +32,7 @@ COMMANDS = {
     "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
     "sculpt": ("worldwright.sculpting", "See something sculpted from four sides: `sculpt sheet FILE.py[:NAME]`."),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
+    "export": ("worldwright.exported", "Write the drawn world with its recorded motion as glTF or USD."),
     "gallery": (
         "worldwright.gallery.command",
         "The accepted worlds under examples/: keep one, prove, build or accept all.",

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 PLACE = "film.py"
 MOST_FRAMES, MOST_THINGS, MOST_CAPTIONS, MOST_SURFACES = 20_000, 500, 500, 20
-MOST_VERTICES, MOST_COPIES = 3_000_000, 2_000
+MOST_VERTICES, MOST_COPIES, MOST_LAMPS = 3_000_000, 2_000, 64
 FAR_M = 1e5
 CAMERA: dict[str, tuple[int, ...]] = {
     "eye": (3,), "target": (3,), "roll_deg": (), "fovy_deg": (), "focus_m": (), "aperture": (), "time": (),
@@ -50,6 +50,7 @@ class Described:
     things: tuple[dict[str, Any], ...]
     surfaces: tuple[dict[str, Any], ...]
     """One substance each: its `name`, the bodies and particles that it is `of`, and its `look`."""
+    lamps: tuple[dict[str, Any], ...]
     looks: dict[str, Any]
     shutter: float
     samples: int
@@ -87,6 +88,8 @@ class Described:
             else:
                 said.append(f"{thing['name']} (on {thing['to']})" if thing["to"] else thing["name"])
         said += [f"{one['name']} (one surface in place of {len(one['of'])} shapes)" for one in self.surfaces]
+        lit = {thing["name"] for thing in self.things}
+        said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         treated = self.treatments.at(0.0)
         said += ["sky"] if treated.sky_zenith is not None else []
         return said + (["fog"] if treated.fog_rgb is not None else [])
@@ -175,6 +178,9 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
         raise _refuse(
             f"two of the things that are drawn have the same name, or there are over {MOST_SURFACES} surfaces"
         )
+    lamps = tuple(_lamp(one, bodies) for one in told.get("lamps", ()))
+    if len(lamps) > MOST_LAMPS:
+        raise _refuse(f"a film has at most {MOST_LAMPS} lamps, not {len(lamps)}", "let one stand for many")
     geoms = {str(geom["name"]) for geom in recording.meta["geoms"] if geom["name"]}
     looks = {str(name): _look(look, arrays) for name, look in told["looks"].items()}
     for name in looks:
@@ -188,7 +194,7 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
     if not (0 <= share <= 1 and 1 <= samples <= 32):
         raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")
     air = [_air(one) for one in told["air"]]
-    return Described(tuple(shots), captions, Treatments(air), things, surfaces, looks, share, samples, arrays)
+    return Described(tuple(shots), captions, Treatments(air), things, surfaces, lamps, looks, share, samples, arrays)
 
 
 def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[str]) -> dict[str, Any]:
@@ -196,6 +202,24 @@ def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[s
     if not 0 < len(name) <= 60 or not of or not set(of) <= known:
         raise _refuse(f"the surface {name!r} is of what is no body and no particles", "name some that there are")
     return {"name": name, "of": of, "look": _look(told["look"], arrays)}
+
+
+def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
+    import numpy as np
+
+    found = {"name": str(told["name"]), "to": str(told["to"])}
+    for key, length in (("pos", 3), ("aim", 3), ("rgb", 3), ("strength", 0), ("cone_deg", 0)):
+        value = None if told[key] is None else np.asarray(told[key], dtype=float)
+        if value is None and key == "aim":
+            found["aim"] = None  # type: ignore[assignment]
+            continue
+        if value is None or value.shape != ((length,) if length else ()) or not np.isfinite(value).all():
+            raise _refuse(f"the lamp {found['name']!r} has no {key}")
+        found[key] = value.tolist()
+    good = 0 < found["strength"] <= 1000 and 1 <= found["cone_deg"] <= 89  # type: ignore[operator]
+    if not good or np.abs(found["pos"]).max() > FAR_M or (found["to"] and found["to"] not in bodies):  # type: ignore[arg-type]
+        raise _refuse(f"the lamp {found['name']!r} is none that can be lit, or is fixed to no body")
+    return found
 
 
 def _caption(told: dict[str, Any]) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from worldkit import materials, portable
 from ..recording.replay import Replay
 from . import one_surface
 from .described import Described, FilmError
+from .renderers.preview.scenery import LIGHT_GAIN
 
 if TYPE_CHECKING:
     import mujoco
@@ -42,6 +43,8 @@ def dress(world: Path, film: Described) -> "mujoco.MjModel":
         _add(spec, film, thing)
     for one in film.surfaces:
         _cover(spec, film, one)
+    for lamp in film.lamps:
+        _light(spec, lamp)
     eyes = film.arrays["eye"]
     spec.worldbody.add_camera(name=CAMERA, pos=eyes[0])
     for name, corner in (("low", eyes.min(axis=0)), ("high", eyes.max(axis=0))):  # a room surrounds all cameras
@@ -126,6 +129,21 @@ def _add(spec: "mujoco.MjSpec", film: Described, thing: dict[str, Any]) -> None:
         "ellipsoid": (kinds.mjGEOM_ELLIPSOID, half),
     }[thing["shape"]]
     body.add_geom(type=kind, size=size, **common)
+
+
+def _light(spec: "mujoco.MjSpec", lamp: dict[str, Any]) -> None:
+    """Hang up a lamp; the renderers make of MuJoCo's numbers what the film means."""
+    import mujoco
+    import numpy as np
+
+    kinds = mujoco.mjtLightType
+    body = spec.body(lamp["to"]) if lamp["to"] else spec.worldbody
+    way = np.array([0.0, 0.0, -1.0]) if lamp["aim"] is None else np.array(lamp["aim"]) - np.array(lamp["pos"])
+    body.add_light(
+        name=f"drawn.{lamp['name']}", pos=lamp["pos"], dir=way / max(float(np.linalg.norm(way)), 1e-9),
+        type=kinds.mjLIGHT_POINT if lamp["aim"] is None else kinds.mjLIGHT_SPOT, cutoff=lamp["cone_deg"],
+        diffuse=lamp["strength"] * np.array(lamp["rgb"]) ** 2.2 / LIGHT_GAIN, castshadow=False,
+    )  # fmt: skip
 
 
 def _cover(spec: "mujoco.MjSpec", film: Described, one: dict[str, Any]) -> None:

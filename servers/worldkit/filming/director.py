@@ -153,6 +153,7 @@ class Film(Dressing):
         facts = {
             "schema": 1, "shots": shots, "captions": self._captions, "air": self._air,
             "things": [thing.facts(arrays, number) for number, thing in enumerate(things)],
+            "lamps": self._lamps,
             "surfaces": [
                 one | {"look": look_facts(one["look"], arrays, f"look_surface{n}")} for n, one in enumerate(self._surfaces)
             ],

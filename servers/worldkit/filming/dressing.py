@@ -8,10 +8,12 @@ import numpy as np
 
 from ..errors import ProgramError
 from . import trees
-from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known
+from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
 from .ground import Height
 from .recorded import Recorded
 from .weather import Weather
+
+MOST_LAMPS = 64
 
 
 class Dressing(Weather):
@@ -23,6 +25,7 @@ class Dressing(Weather):
         self._things: list[Thing] = []
         self._grown: list[tuple[Thing, Callable[[np.ndarray], Any]]] = []
         self._surfaces: list[dict[str, Any]] = []
+        self._lamps: list[dict[str, Any]] = []
         self._looks: dict[str, str | Surface] = {}
         self._ground_look: str | Surface | None = None
 
@@ -197,6 +200,51 @@ class Dressing(Weather):
         self._named(name)
         self._surfaces.append({"name": name, "of": found, "look": look})
 
+    def lamp(
+        self,
+        name: str,
+        pos: Vec3,
+        *,
+        strength: float = 1.0,
+        colour: str = "#ffd9a8",
+        aim: Vec3 | None = None,
+        cone_deg: float = 40.0,
+        radius: float = 0.0,
+        to: str = "",
+    ) -> None:
+        """A lamp at `pos` (m), in the world or fixed `to` a body: it shines around, or with `aim` in a cone towards a point.
+
+        A white surface that faces it at one metre has radiance `strength` (the key light gives about 2). With a `radius`, m,
+        a glowing ball is drawn around it. At most 64; the preview draws the eight strongest, and no shadows of theirs.
+
+        Raises:
+            ProgramError: there are too many, or a number is none that a lamp may have.
+        """
+        numbers = [*pos, strength, cone_deg, radius, *(aim or ())]
+        if len(self._lamps) >= MOST_LAMPS:
+            raise ProgramError(f"a film has at most {MOST_LAMPS} lamps", "film.py", "let one stand for many")
+        good = np.isfinite(numbers).all() and 0 < strength <= 1000 and 1 <= cone_deg <= 89 and 0 <= radius <= 10
+        if not good or len(pos) != 3 or (aim is not None and len(aim) != 3):
+            raise ProgramError(
+                f"the lamp {name!r} needs a place, a strength up to 1000, a cone of 1 to 89 degrees",
+                "film.py",
+                "check its numbers",
+            )
+        if to:
+            self.recorded.index(to)
+        if radius > 0:
+            self.draw(
+                name, "sphere", 2 * radius, pos=pos, look=Surface(colour=colour, glow=min(6.0, 2 + strength)), to=to
+            )
+        else:
+            self._named(name)
+        self._lamps.append(
+            {
+                "name": name, "pos": list(map(float, pos)), "aim": None if aim is None else list(map(float, aim)),
+                "strength": float(strength), "rgb": list(rgb(colour)), "cone_deg": float(cone_deg), "to": to,
+            }
+        )  # fmt: skip
+
     def look(self, name: str, look: str | Surface) -> None:
         """Another look for a body, or for one geom, through the whole film; it is listed in the report."""
         known(look)
@@ -217,7 +265,7 @@ class Dressing(Weather):
     def _named(self, name: str) -> None:
         """Refuse a name that something else has, or none."""
         taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
-        taken |= {one["name"] for one in self._surfaces}
+        taken |= {one["name"] for one in (*self._surfaces, *self._lamps)}
         if not name or len(name) > 60 or name in taken:
             raise ProgramError(f"what is drawn needs a name of its own, not {name!r}", "film.py", "name it anew")
 

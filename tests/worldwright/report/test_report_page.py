@@ -1,5 +1,6 @@
 """The page comes out whatever is there, holds what is there, and never asks anybody for anything."""
 
+import base64
 import json
 import random
 import re
@@ -196,3 +197,26 @@ def test_a_section_that_fails_is_named_and_the_others_are_shown(reviewed: Path, 
     assert "The section movement_section (RS020) itself failed (RuntimeError: &lt;ink&gt;)" in page
     assert 'id="claims"' in page
     assert Page(page).problems == []
+
+
+def test_a_scene_of_the_present_recording_is_turned_by_hand_and_one_of_another_is_not(
+    reviewed: Path, copy: Copy
+) -> None:
+    run = Run(copy(reviewed))
+    assert 'id="replay"' not in report.write(run).read_text()
+    usd = run.folder / "elsewhere.usda"
+    done = CliRunner().invoke(main, ["export", str(run.folder), "--format", "usd", "--out", str(usd)])
+    assert done.exit_code == 0, done.output
+    assert usd.read_text().startswith("#usda 1.0")
+    done = CliRunner().invoke(main, ["report", str(run.folder)])
+    assert done.exit_code == 0, done.output
+    html = run.report.read_text()
+    page = Page(html)
+    assert not page.problems and "replay" in page.ids and "replay-scene" in page.ids
+    scene = run.folder / "scene.glb"
+    data = scene.read_bytes()
+    assert base64.b64encode(data).decode() in html
+    digest = re.search(rb'"recording_sha256":"([0-9a-f]{64})"', data)
+    assert digest
+    scene.write_bytes(data.replace(digest[1], b"0" * 64))
+    assert 'id="replay"' not in report.write(run).read_text()

@@ -151,7 +151,12 @@ PIXELS = """\
     from worldkit.filming import Surface
     film.draw('x', 'box', 1, look=Surface(picture=np.zeros((8, 40000, 3), np.uint8)))
 """
+LAMPS = """\
+    for number in range(10_000):
+        film.lamp(f"lamp {number}", (0, 0, 1))
+"""
 HOSTILE = {
+    "10,000 lights": (LAMPS, "at most 64 lamps", ":7"),
     "NaN cameras": ("    film.shot(still((float('nan'), 0, 1), 'ball'), until=0.2)\n", "shot", ":6"),
     "forged NaN cameras": (FORGED, "eye must be", ""),
     "40,000 pixels": (PIXELS, "4096", ":8"),

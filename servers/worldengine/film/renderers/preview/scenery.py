@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 SETTING_TEXT = "worldkit.setting"
 SPACE_NUMERIC = "worldkit.space"
 LIGHT_PREFIX = "worldkit."
+MOST = 8
+"""Lights besides the key that the shader takes; `surface.frag` has room for as many."""
 LIGHT_GAIN = 1.5
 """MuJoCo's lights are sized for displays that clip at 1; ours for a film curve."""
 
@@ -34,26 +36,27 @@ def space_of(model: mujoco.MjModel) -> tuple[np.ndarray, np.ndarray] | None:
 
 
 def own_lights(model: mujoco.MjModel) -> list[int]:
-    """Lights of the model other than those that `worldkit.scene` added for MuJoCo's own viewers, at most four."""
+    """Lights of the model other than those that `worldkit.scene` added for MuJoCo's own viewers, the strongest first."""
     import mujoco
 
     names = [mujoco.mj_id2name(model, mujoco.mjtObj.mjOBJ_LIGHT, i) or "" for i in range(model.nlight)]
-    return [i for i, name in enumerate(names) if not name.startswith(LIGHT_PREFIX) and model.light_active[i]]
+    found = [i for i, name in enumerate(names) if not name.startswith(LIGHT_PREFIX) and model.light_active[i]]
+    return sorted(found, key=lambda i: -float(model.light_diffuse[i].sum()))
 
 
 def light_rows(
     model: mujoco.MjModel, data: mujoco.MjData, setting: Setting, chosen: list[int]
 ) -> tuple[np.ndarray, np.ndarray, int]:
-    """Fill lights and the model's own for the shader: pairs of rows (8, 4), aims (4, 3), and their number, at most four."""
+    """Fill lights and the model's own for the shader: pairs of rows (2 N, 4), aims (N, 3), and their number, at most `MOST`."""
     import mujoco
 
-    rows, aims, count = np.zeros((8, 4)), np.tile([0.0, 0.0, -1.0], (4, 1)), 0
+    rows, aims, count = np.zeros((2 * MOST, 4)), np.tile([0.0, 0.0, -1.0], (MOST, 1)), 0
     for fill in setting.fills[:4]:
         rows[2 * count] = *fill.direction, 0.0
         rows[2 * count + 1] = *fill.colour, -1.0
         count += 1
     for light in chosen:
-        if count == 4:
+        if count == MOST:
             break
         colour = model.light_diffuse[light] * LIGHT_GAIN
         if model.light_type[light] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL:

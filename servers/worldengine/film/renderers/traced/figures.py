@@ -86,6 +86,40 @@ def fill(params: Any, points: np.ndarray, normals: np.ndarray) -> None:
     params.update()
 
 
+def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int) -> Mesh:
+    """The mesh of a geom in its own frame, with texture coordinates."""
+    kind, finish = batch.shape[0], batch.finish
+    entry, size, half = finish.look, numbers[12:15].astype(float), float(numbers[15])
+    many = len(batch.rows) > MANY
+    mesh: Mesh
+    if kind == "sphere":
+        mesh = displaced(size, entry, geom, many) or rounded.sphere(size, 20 if many else 64)
+    elif kind == "capsule":
+        mesh = rounded.capsule(size[0], half, 16 if many else 32)
+    elif kind == "cylinder":
+        mesh = rounded.cylinder(size[0], size[2], 24 if many else 72)
+    elif kind == "box":
+        mesh = rounded.box(size)
+    elif kind == "plane":
+        mesh = rounded.sheet(size[0], size[1])
+    else:
+        made = unit_shapes.mesh if kind == "mesh" else unit_shapes.height_field
+        rows, faces = made(model, batch.shape[1])
+        v = np.column_stack([rows[:, 7], 1.0 - rows[:, 8]])
+        mesh = Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v)
+    if finish.texture < 0 and entry.paint is None:
+        return mesh
+    per_metre, other, mode, seed = (float(x) for x in numbers[24:28])
+    if entry.around:
+        return around_centre(mesh) if kind != "sphere" or mesh.uv is None else mesh
+    if mode == EXACT_UV and mesh.uv is not None:
+        return mesh._replace(uv=mesh.uv * per_metre)
+    if mode == FLAT_UV:
+        flat = mesh.points[:, :2] * (per_metre, other) + 0.5
+        return mesh._replace(uv=np.column_stack([flat[:, 0], 1.0 - flat[:, 1]]))
+    return along_sides(mesh, int(mode + 0.5), per_metre, seed)
+
+
 class Figures:
     """The figures of one model."""
 
@@ -125,40 +159,7 @@ class Figures:
         key = (-1 if fixed else body, id(coating), tuple(glow), geom if see_through else -1)
         figure = groups.setdefault(key, Figure(coating, glow))
         figure.geoms.append(geom)
-        figure.meshes.append(self._shape(batch, numbers, geom))
-
-    def _shape(self, batch: Any, numbers: np.ndarray, geom: int) -> Mesh:
-        """The mesh of a geom in its own frame, with texture coordinates."""
-        kind, finish = batch.shape[0], batch.finish
-        entry, size, half = finish.look, numbers[12:15].astype(float), float(numbers[15])
-        many = len(batch.rows) > MANY
-        mesh: Mesh
-        if kind == "sphere":
-            mesh = displaced(size, entry, geom, many) or rounded.sphere(size, 20 if many else 64)
-        elif kind == "capsule":
-            mesh = rounded.capsule(size[0], half, 16 if many else 32)
-        elif kind == "cylinder":
-            mesh = rounded.cylinder(size[0], size[2], 24 if many else 72)
-        elif kind == "box":
-            mesh = rounded.box(size)
-        elif kind == "plane":
-            mesh = rounded.sheet(size[0], size[1])
-        else:
-            made = unit_shapes.mesh if kind == "mesh" else unit_shapes.height_field
-            rows, faces = made(self.model, batch.shape[1])
-            v = np.column_stack([rows[:, 7], 1.0 - rows[:, 8]])
-            mesh = Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v)
-        if finish.texture < 0 and entry.paint is None:
-            return mesh
-        per_metre, other, mode, seed = (float(x) for x in numbers[24:28])
-        if entry.around:
-            return around_centre(mesh) if kind != "sphere" or mesh.uv is None else mesh
-        if mode == EXACT_UV and mesh.uv is not None:
-            return mesh._replace(uv=mesh.uv * per_metre)
-        if mode == FLAT_UV:
-            flat = mesh.points[:, :2] * (per_metre, other) + 0.5
-            return mesh._replace(uv=np.column_stack([flat[:, 0], 1.0 - flat[:, 1]]))
-        return along_sides(mesh, int(mode + 0.5), per_metre, seed)
+        figure.meshes.append(shape_of(self.model, batch, numbers, geom))
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
         """Meshes of the endless planes, none of which moves."""

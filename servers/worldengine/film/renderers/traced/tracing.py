@@ -90,6 +90,7 @@ class Tracing:
         self._walls = Walls(self._own, low, high, eyes, self._floor_z) if inside else None
         self._panels: dict[Face, list[Any]] = {}
         self._scenes: dict[Any, Any] = {}
+        self._lamps = b""
         self._stale: set[Any] = set()
         """Scenes that do not know yet that something has moved."""
         self._denoisers: dict[int, Denoiser] = {}
@@ -212,6 +213,10 @@ class Tracing:
 
         if self.figures.place(data) | self._strands.place(data):
             self._stale.update(self._scenes)
+        lamps = np.concatenate([data.light_xpos[self._lights], data.light_xdir[self._lights]]).tobytes()
+        if lamps != self._lamps:  # a lamp that is carried along
+            self._lamps = lamps
+            self._scenes.clear()
         scene = self._scene(faces, data)
         depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
         path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": 16})

@@ -37,8 +37,8 @@ uniform vec3 ground_mean;        // mean colour of the ground
 uniform vec3 ground_light;       // light that falls on level ground, over pi
 uniform float key_sharp;         // 0 where the surroundings show the key light themselves
 uniform float key_spread;
-uniform vec4 lights[8];          // pairs: direction or place with kind (0 distant, 1 near), then colour and cutoff cosine
-uniform vec3 light_aims[4];
+uniform vec4 lights[16];         // pairs: direction or place with kind (0 distant, 1 near), then colour and cutoff cosine
+uniform vec3 light_aims[8];
 uniform int light_count;
 uniform vec4 fade;               // centre x and y, start and end radius of the ground's melting into the surroundings
 uniform float haze_m;
@@ -234,7 +234,7 @@ void main() {
         float d2 = dot(toward, toward);
         toward *= inversesqrt(d2);
         float cone = smoothstep(tint.w, mix(tint.w, 1.0, 0.35), -dot(toward, light_aims[i]));
-        float reach = mix(1.0, cone / (0.3 + d2), where.w);
+        float reach = mix(1.0, cone / (0.08 + d2), where.w);
         float facing = dot(n, toward);
         light += diffuse * tint.rgb * reach * max(0.25 + 0.75 * facing, 0.0) * mix(ao, 1.0, 0.3);
 #if !SIMPLE

@@ -1,0 +1,18 @@
+"""The recorded motion as a scene that a person turns by hand; where `worldwright export` or `report` has made one."""
+
+import base64
+from typing import Any
+
+from ... import exported
+from ..material import Material
+
+CODE = "RS025"
+TEMPLATE = "replay.html"
+MOST_BYTES = 12 * 2**20
+"""A larger scene is not put into the page."""
+
+
+def context(material: Material) -> dict[str, Any]:
+    """The scene, base64; None where there is none of the present recording, or it is too large."""
+    data = exported.scene(material.run)
+    return {"replay": base64.b64encode(data).decode() if data and len(data) <= MOST_BYTES else None}

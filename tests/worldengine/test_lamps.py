@@ -1,0 +1,123 @@
+"""Lamps of a film light what is near them, in both renderers, go along with what carries them, and are bounded."""
+
+import json
+
+import mujoco
+import numpy as np
+import pytest
+
+from small_worlds import ball, empty, floor, record
+from worldengine.film import described, dressed, motion_facts
+from worldengine.film.described import FilmError
+from worldengine.film.directed import Screening
+from worldengine.film.renderers.preview import scenery
+from worldkit import portable
+from worldkit.errors import ProgramError
+from worldkit.filming import Film, Recorded, still
+
+SIZE = (96, 54)
+
+
+class Lit:
+    """A falling ball over a floor, and films of it in the dark."""
+
+    def __init__(self, folder):
+        spec = empty()
+        floor(spec)
+        ball(spec, "ball", (0.6, 0, 0.9))
+        self.folder = folder
+        portable.write(spec, folder / "world.mjz")
+        self.recording = record(spec, folder / "trajectory", 200)
+        self.plain = portable.read(folder / "world.mjz")
+        motion_facts.write(self.recording, folder / "motion.npz", {"fps": 24, "size": list(SIZE), "movers": ["ball"]})
+        with np.load(folder / "motion.npz") as arrays:
+            self.seen = Recorded(dict(arrays))
+
+    def film(self, tell, change=None):
+        film = Film(self.seen)
+        film.light(strength=0.02)
+        film.sky(zenith="#050505", horizon="#050505", ground="#050505", strength=0.1)
+        tell(film)
+        film.shot(still((0, -4, 2.5), (0, 0, 0.2), lens_mm=30), until=0.2)
+        facts, arrays = film.description()
+        if change:
+            change(facts)
+        (self.folder / "film.json").write_text(json.dumps(facts))
+        np.savez(self.folder / "film.npz", **arrays)
+        return described.read(self.folder, self.recording)
+
+    def picture(self, tell, renderer, frame=0):
+        film = self.film(tell)
+        with Screening(self.folder / "world.mjz", self.plain, self.recording, film, SIZE, 24, renderer) as screening:
+            image = screening.picture(frame, 4).astype(float).mean(axis=-1)
+            assert screening.frames.renderer == renderer, screening.frames.reason
+            return image
+
+
+@pytest.fixture(scope="module")
+def lit(tmp_path_factory):
+    return Lit(tmp_path_factory.mktemp("lit"))
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("renderer", ["preview", "traced"])
+def test_a_lamp_lights_what_is_near_it(lit, renderer):
+    dark = lit.picture(lambda film: None, renderer)
+    left = lit.picture(lambda film: film.lamp("left", (-1, 0, 0.6), strength=2), renderer) - dark
+    right = lit.picture(lambda film: film.lamp("right", (1, 0, 0.6), strength=2), renderer) - dark
+    assert left[30:, :48].mean() > 2 * left[30:, 48:].mean() > 0
+    assert right[30:, 48:].mean() > 2 * right[30:, :48].mean() > 0
+    spot = lit.picture(lambda film: film.lamp("s", (0, 0, 2), aim=(-1, 0, 0), cone_deg=12, strength=6), renderer) - dark
+    assert spot[30:, 10:44].mean() > 4 * max(spot[30:, 60:].mean(), 0.1)
+
+
+@pytest.mark.gl
+def test_a_carried_lamp_goes_along(lit):
+    film = lit.film(lambda film: film.lamp("torch", (0, 0, 0.3), to="ball", strength=2))
+    with Screening(lit.folder / "world.mjz", lit.plain, lit.recording, film, SIZE, 24, "traced") as screening:
+        drawing, seen = screening.frames._drawing, []
+        for frame in (0, film.frames - 1):
+            screening.picture(frame, 1)
+            (scene,) = drawing._scenes.values()
+            (lamp,) = [e for e in scene.emitters() if "PointLight" in str(e)]
+            seen.append(float(np.array(lamp.bbox().min).ravel()[2]))
+        falls = lit.recording.pos[0, 0, 2] - screening._replay.data.body("ball").xpos[2]
+    assert (
+        seen[0] == pytest.approx(1.2, abs=0.01) and seen[0] - seen[1] == pytest.approx(falls, abs=0.01) and falls > 0.05
+    )
+
+
+def test_of_many_lamps_the_preview_takes_the_strongest(lit):
+    def many(film):
+        for number in range(12):
+            film.lamp(f"lamp {number}", (number, 0, 1), strength=1 + number)
+
+    film = lit.film(many)
+    model = dressed.dress(lit.folder / "world.mjz", film)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    chosen = scenery.own_lights(model)
+    assert model.light(chosen[0]).name == "drawn.lamp 11"
+    rows, aims, count = scenery.light_rows(model, data, scenery.STUDIO, chosen)
+    assert count == scenery.MOST == len(aims) == len(rows) // 2
+    assert film.drawn_only()[:2] == ["lamp 0 (a lamp)", "lamp 1 (a lamp)"]
+
+
+def test_lamps_are_bounded_by_the_author_and_by_us(lit):
+    film = Film(lit.seen)
+
+    def flood() -> None:
+        for number in range(10_000):
+            film.lamp(f"lamp {number}", (0, 0, 1))
+
+    with pytest.raises(ProgramError, match="at most 64 lamps"):
+        flood()
+    for wrong in ({"pos": (0, 0, np.nan)}, {"pos": (0, 0, 1), "strength": 0}, {"pos": (0, 0, 1), "cone_deg": 120}):
+        with pytest.raises(ProgramError, match="needs a place"):
+            Film(lit.seen).lamp("lamp", **wrong)
+    one = {"name": "x", "pos": [0, 0, 1], "aim": None, "strength": 1, "rgb": [1, 1, 1], "cone_deg": 40, "to": ""}
+    with pytest.raises(FilmError, match="at most 64 lamps"):
+        lit.film(lambda film: None, lambda facts: facts["lamps"].extend([one] * 10_000))
+    for wrong in ({"pos": [0, 0, float("nan")]}, {"to": "nobody"}, {"strength": -1}):
+        with pytest.raises(FilmError, match="the lamp"):
+            lit.film(lambda film: None, lambda facts, wrong=wrong: facts["lamps"].append(one | wrong))
