@@ -55,8 +55,8 @@ def account(trajectory: Trajectory, plan: Plan | None, summary: dict[str, Any]) 
     simulated, wall = summary.get("duration_s"), summary.get("wall_s")
     if simulated and wall and "reused_from" not in summary:
         yield f"{simulated:g} s simulated in {wall:.3g} s: {simulated / wall:.3g} times real time"
-    if told := rounding.told(summary):
-        yield told
+    if rounded := rounding.told(summary):
+        yield rounded
     yield from _warned(trajectory)
     yield from _acted(trajectory, plan)
     if summary.get("not_asked"):
