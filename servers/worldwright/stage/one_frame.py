@@ -15,6 +15,7 @@ from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
 from ..model.picture import Illustrated, Picture
 from . import authoring, confined, gates, plain
+from .kept_sculpts import Given
 from .limits import failed
 from .pictures import Shown
 
@@ -103,11 +104,14 @@ def given_words(physics: Path) -> list[str]:
     return [word for name, file in files.items() for word in (f"--{name}", str(physics / file))]
 
 
-def run_process(call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here: Path) -> dict[str, Any]:
+def run_process(
+    call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here: Path, sculpts: Given | None = None
+) -> dict[str, Any]:
     """Run a process of the author or the engine, confined; returns what it left, by name, with its `result.json` read."""
     ended = confined.run(
-        call, reads=reads, wanted=(*wanted, "result.json", "error.json"), wall_s=120.0, memory_mb=8192, file_mb=512
-    )
+        call, reads=reads, wanted=(*wanted, "result.json", "error.json"), wall_s=120.0, memory_mb=8192, file_mb=512,
+        sculpts=sculpts,
+    )  # fmt: skip
     said = {}
     for name in ("result.json", "error.json"):
         if name in ended.files:
