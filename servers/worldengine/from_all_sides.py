@@ -1,4 +1,4 @@
-"""Draw a world as it starts through every camera it has, small, on one sheet: `sheet.jpg`."""
+"""Draw a world as it starts through every camera it has, or one that stands anywhere, small, on one sheet: `sheet.jpg`."""
 
 import argparse
 import sys
@@ -30,7 +30,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     from worldkit import cameras
 
     from .film.drawn_frames import Frames
-    from .film.passes import choose_cameras, headless_gl
+    from .film.passes import choose_cameras, free, headless_gl
 
     headless_gl()
     started = time.perf_counter()
@@ -41,6 +41,9 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     cameras.aim(model, aspect=width / height)
     pictures: list[np.ndarray] = []
     names = choose_cameras(model, options.cameras)
+    if options.eye is not None:
+        free(model, data, names[0], options)
+        names = names[:1]
     with Frames(model, width, height) as frames:
         for name in names:
             pictures.append(labelled(frames.image(data, name, quality="video"), name))

@@ -31,6 +31,7 @@ COMMANDS = {
     ),
     "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
     "sculpt": ("worldwright.sculpting", "See something sculpted from four sides: `sculpt sheet FILE.py[:NAME]`."),
+    "watch": ("worldwright.kept_open", "Look at a run and leave it open: redrawn when a file of it is saved."),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
     "export": ("worldwright.exported", "Write the drawn world with its recorded motion as glTF or USD."),
     "gallery": (

@@ -106,7 +106,7 @@ def add(
 
 def dress(
     spec: "mujoco.MjSpec",
-    name: str,
+    name: str | Sequence[str],
     shape: "Shape | Solid",
     *,
     pos: Vec3 = (0.0, 0.0, 0.0),
@@ -114,35 +114,55 @@ def dress(
     look: str | None = None,
     roughness: float = 0.6,
     metallic: float = 0.0,
+    blend: float | None = None,
     **make: Any,
 ) -> None:
-    """Draw a sculpted skin in place of a body's own geoms, which go on to collide and weigh, unseen.
+    """Draw a sculpted skin in place of bodies' own geoms, which go on to collide and weigh, unseen.
 
-    So a plan owns a body of primitives (`worldkit.bodies.compound`), and the program what it looks like.
+    So a plan owns bodies of primitives (`worldkit.bodies`), and the program what they look like. One skin over several bodies
+    bends where they do: a hand opens, an arm bends, without a seam.
 
     Args:
-        spec: the world under construction.
-        name: of the body, which is there already.
+        spec: the world under construction; bodies stand as the shape is drawn, joints at zero.
+        name: of the body, or of the bodies, which are there already.
         shape: from `worldkit.sculpt`.
-        pos: where the centre of the box around the shape lies in the body's frame, m.
-        paint: as of `add`, with `look`, `roughness`, `metallic` and `make`.
+        pos: where the centre of the box around the shape lies in the (first) body's frame, m.
+        paint: as of `add`, with `look`, `roughness`, `metallic` and `make`; over several bodies its mean colour is drawn.
         look: see `paint`.
         roughness: see `paint`.
         metallic: see `paint`.
+        blend: length, m, over which a skin flows from one body into the next; None: by its size.
         make: see `paint`.
 
     Raises:
         ValueError: there is no such body, or what `made` refuses.
     """
-    body = spec.body(name)
-    if body is None:
-        known = ", ".join(b.name for b in spec.bodies if b.name != "world")
-        raise ValueError(f"there is no body {name!r} to dress; known: {known or 'none'}")
+    names = [name] if isinstance(name, str) else list(name)
+    known = [body.name for body in spec.bodies if body.name != "world"]
+    if unknown := [one for one in names if one not in known] or ([] if names else [""]):
+        raise ValueError(f"there is no body {unknown[0]!r} to dress; known: {', '.join(known) or 'none'}")
     solid = made(shape, paint=paint, hulls="convex", **make)
-    for geom in body.geoms:
-        geom.group = COLLIDES["group"]
+    for one in names:
+        for geom in spec.body(one).geoms:
+            geom.group = COLLIDES["group"]
+    if len(names) > 1:
+        from .. import materials
+        from .blended import bind
+
+        drawn = materials.add(spec, look or _mean(solid) or "plastic_white")
+        bind(spec, names, solid, np.asarray(pos, dtype=float), blend, drawn)
+        return
     centre = (solid.low + solid.high) / 2 - np.asarray(pos, dtype=float)
-    _draw(spec, body, name, solid, centre, look, roughness, metallic)
+    _draw(spec, spec.body(names[0]), names[0], solid, centre, look, roughness, metallic)
+
+
+def _mean(solid: Made) -> str:
+    """The mean colour of a painted solid's corners, as `#rrggbb`; empty without paint."""
+    if not len(solid.picture):
+        return ""
+    side = len(solid.picture)
+    column, row = np.clip((solid.uv * side).astype(int), 0, side - 1).T
+    return "#" + "".join(f"{round(float(v)):02x}" for v in solid.picture[row, column].mean(axis=0))
 
 
 def assemble(

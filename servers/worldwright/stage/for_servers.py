@@ -11,6 +11,7 @@ from ..model.progress import Progress, silent
 from .job import Job, JobStatus
 
 if TYPE_CHECKING:
+    from ..model.picture import Illustrated
     from ..model.plan.committed import Plan
     from .confined import Confined
 
@@ -105,6 +106,13 @@ def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]
     from .one_frame import draw
 
     return draw(run, run.evidence_key(environment.current().sha256()), at_s, camera, size).pictures[0].data
+
+
+def look_at_start(run: Run, camera: str | None, eye: str | None, target: str | None, fov_deg: float) -> "Illustrated":
+    """For another command (no tool): the world as it would start, unrecorded; see `stage.first_look.at_start`."""
+    from .first_look import at_start
+
+    return at_start(run, camera, eye, target, fov_deg)
 
 
 def try_film(folder: Path) -> dict[str, str] | None:

@@ -15,6 +15,7 @@ from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
 from ..model.picture import Illustrated, Picture
 from . import authoring, compiled_shaders, confined, gates, plain
+from .kept_sculpts import Given
 from .limits import failed
 from .pictures import Shown
 
@@ -112,6 +113,7 @@ def run_process(
     wanted: Sequence[str],
     here: Path,
     home: Callable[[Path], object] | None = None,
+    sculpts: Given | None = None,
 ) -> dict[str, Any]:
     """Run a process of the author or the engine, confined; returns what it left, by name, with its `result.json` read."""
     ended = confined.run(
@@ -122,6 +124,7 @@ def run_process(
         memory_mb=8192,
         file_mb=512,
         home=home,
+        sculpts=sculpts,
     )
     said = {}
     for name in ("result.json", "error.json"):
