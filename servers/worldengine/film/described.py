@@ -217,7 +217,7 @@ def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
             raise _refuse(f"the lamp {found['name']!r} has no {key}")
         found[key] = value.tolist()
     good = 0 < found["strength"] <= 1000 and 1 <= found["cone_deg"] <= 89  # type: ignore[operator]
-    if not good or np.abs(found["pos"]).max() > FAR_M or (found["to"] and found["to"] not in bodies):  # type: ignore[arg-type]
+    if not good or np.abs(found["pos"]).max() > FAR_M or (found["to"] and found["to"] not in bodies):
         raise _refuse(f"the lamp {found['name']!r} is none that can be lit, or is fixed to no body")
     return found
 

@@ -108,7 +108,8 @@ def _distances(model: "mujoco.MjModel", data: "mujoco.MjData", body: int, points
             shape = sphere(2 * x)
         elif kind in (kinds.mjGEOM_BOX, kinds.mjGEOM_MESH):
             local = local - model.geom_aabb[geom, :3]
-            shape = box(tuple(2 * float(v) for v in model.geom_aabb[geom, 3:]))
+            wide, deep, high = (2 * float(v) for v in model.geom_aabb[geom, 3:])
+            shape = box((wide, deep, high))
         if shape is not None:
             found.append(shape(local))
     if not found:

@@ -43,7 +43,7 @@ def at_start(run: Run, camera: str | None, eye: str | None, target: str | None, 
         for name, content in files.items():
             write_atomic(source / name, content)
         words = [sys.executable, "-s", str(source / "simulation.py"), "--pass", "build", "--out", "{out}"]
-        made = run_process(words, (source,), (WORLD, FACTS), here, kept_sculpts.given(files))
+        made = run_process(words, (source,), (WORLD, FACTS), here, sculpts=kept_sculpts.given(files))
         for name in (WORLD, FACTS):
             write_atomic(here / name, made[name])
         words = ["sheet", f"--world={here / WORLD}", f"--program={here / FACTS}", "--out={out}", "--size", SIZE]
