@@ -156,7 +156,9 @@ def glb(
         accessors.append(told)
         return len(accessors) - 1
 
-    materials, meshes, of_body = [], [], {}
+    materials: list[dict[str, Any]] = []
+    meshes: list[dict[str, Any]] = []
+    of_body: dict[int, int] = {}
     for part in found:
         clear = part.rgba[3] < 1
         materials.append(
