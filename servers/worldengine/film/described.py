@@ -207,16 +207,16 @@ def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[s
 def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
     import numpy as np
 
-    found = {"name": str(told["name"]), "to": str(told["to"])}
+    found: dict[str, Any] = {"name": str(told["name"]), "to": str(told["to"])}
     for key, length in (("pos", 3), ("aim", 3), ("rgb", 3), ("strength", 0), ("cone_deg", 0)):
         value = None if told[key] is None else np.asarray(told[key], dtype=float)
         if value is None and key == "aim":
-            found["aim"] = None  # type: ignore[assignment]
+            found["aim"] = None
             continue
         if value is None or value.shape != ((length,) if length else ()) or not np.isfinite(value).all():
             raise _refuse(f"the lamp {found['name']!r} has no {key}")
         found[key] = value.tolist()
-    good = 0 < found["strength"] <= 1000 and 1 <= found["cone_deg"] <= 89  # type: ignore[operator]
+    good = 0 < found["strength"] <= 1000 and 1 <= found["cone_deg"] <= 89
     if not good or np.abs(found["pos"]).max() > FAR_M or (found["to"] and found["to"] not in bodies):
         raise _refuse(f"the lamp {found['name']!r} is none that can be lit, or is fixed to no body")
     return found

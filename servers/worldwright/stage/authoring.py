@@ -37,10 +37,10 @@ def place(source: Path) -> dict[str, Any]:
     plan, text = document.plan, source.read_text(encoding="utf-8")
     head = text.partition("\n## ")[0].strip()
     title, _, intro = head.partition("\n")
-    names = " ".join(plan.object_names()) if hasattr(plan, "object_names") else ""
+    names = " ".join(plan.object_names())
     words = re.findall(r"[a-z]+", f"{f'{title} ' * TITLE_COUNTS} {intro} {names}".lower().replace("_", " "))
-    looks = [[row.name, row.look] for row in plan.scene_objects if row.look]
-    looks += [[row.name, row.look] for row in plan.assets if row.look]
+    rows: list[Any] = [*plan.scene_objects, *plan.assets]
+    looks = [[row.name, row.look] for row in rows if row.look]
     shown = plan.visualization
     return {
         "setting": shown.setting,
