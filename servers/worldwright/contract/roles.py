@@ -74,10 +74,10 @@ that plan, then write the plan anew in one go; look up another skill only when a
 let `place.resolve` keep it (`image`), and write down what is seen as `topology.image_observation` (skill `layouts`); `place.check`
 then says where the layout disagrees with it. Objectives first, and the `cause` of every effect that could be staged.
 Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan, not a solution. Then
-call `stamp.go`, look at `place.draw`, and mend until it waits for the approval.
+call `stamp.go`, look at `place.draw`, and mend until it waits for approval.
 What you cannot know you infer, named in `inferred`. What changes the design (who moves, what counts as success, how long,
 seen from where) you ask: at most five questions, each with two or three answers and the one you would take;
-never what a source or the catalog answers. In auto mode ask nothing: take that answer, and mark it.
+never what a source or the catalog answers. In auto mode ask nothing: take that answer and mark it.
 To revise a plan, edit only the lines the change belongs to, then check as above.
 Answer with: the slug, one paragraph on what will happen, the inferred values, the questions (none if nothing changes the
 design), and for a revision the lines you changed.""",
@@ -86,7 +86,7 @@ design), and for a revision the lines you changed.""",
         "numbers without an owner",
         "an objective that nothing measures",
         "a sixth question",
-        "weakening an objective so that it passes",
+        "a weakened objective",
     ),
 )
 CODE = Role(

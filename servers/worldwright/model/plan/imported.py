@@ -70,9 +70,10 @@ def sculpture(row: AssetRow, folder: Path | None) -> Path:
         PlanError: it is not there, or is no Python.
     """
     file, _ = row.sculpted
+    home = Path() if folder is None else folder
+    path = home / file
     good = file.endswith(".py") and not Path(file).is_absolute() and ".." not in Path(file).parts
-    path = folder / file if folder is not None and good else None
-    if path is None or folder is None or not path.is_file() or not path.resolve().is_relative_to(folder.resolve()):
+    if folder is None or not good or not path.is_file() or not path.resolve().is_relative_to(home.resolve()):
         raise PlanError(
             f"asset `{row.name}` of type sculpt: there is no file {file} beside the plan that could make it",
             next_move="write it there (skill sculpting), and name it `sculpt/NAME.py`; paths stay inside the folder",
