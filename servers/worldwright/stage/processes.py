@@ -10,12 +10,10 @@ from typing import Any
 
 from worldkit import channel
 from worldkit.files import write_json
-from worldkit.filming.telling import ARRAYS, DESCRIPTION
 
 from ..model.errors import WorldwrightError
 from ..model.evidence import assets_used, environment, pictures_of
 from ..model.evidence.run import Run, sha256_file
-from ..model.plan.plan_text import read_plan
 from . import authoring, family, plain, refined
 from .crew import Crew, Member
 from .gates import folder_name
@@ -176,6 +174,8 @@ class Acting:
 
     def describe(self, recording: Path) -> dict[str, str] | None:
         """Let `film.py` describe what is shown, in the author's sandbox, and take the description out."""
+        from worldkit.filming.telling import ARRAYS, DESCRIPTION
+
         inputs, out = self.job.inputs, self.job.author / authoring.FOLDER
         authoring.lay_out(recording, inputs / FACTS, inputs / authoring.MOTION)
         call = authoring.call(inputs / authoring.PROGRAM, inputs / authoring.MOTION, out)
@@ -254,6 +254,8 @@ class Acting:
 
 def declared(source: Path) -> list[dict[str, Any]]:
     """Kind and names of every input that a plan declares; none without a plan."""
+    from ..model.plan.plan_text import read_plan
+
     try:
         plan = read_plan(source).plan
     except (WorldwrightError, OSError):
