@@ -13,13 +13,19 @@ from collections.abc import Generator
 from pathlib import Path
 
 os.environ.setdefault("MUJOCO_GL", "egl")
-# No test signs with the key of the person who runs it, nor trusts a key in their name.
-os.environ["WORLDWRIGHT_DATA"] = tempfile.mkdtemp(prefix="worldwright-tests-")
+# No test signs with the key of the person who runs it, nor trusts a key in their name. Workers have one key together, so
+# that each knows what another has signed.
+os.environ["WORLDWRIGHT_DATA"] = (
+    os.environ["WORLDWRIGHT_DATA"]
+    if "PYTEST_XDIST_WORKER" in os.environ
+    else tempfile.mkdtemp(prefix="worldwright-tests-")
+)
 
 import pytest
 from hypothesis import HealthCheck, settings
 
-atexit.register(shutil.rmtree, os.environ["WORLDWRIGHT_DATA"], ignore_errors=True)
+if "PYTEST_XDIST_WORKER" not in os.environ:
+    atexit.register(shutil.rmtree, os.environ["WORLDWRIGHT_DATA"], ignore_errors=True)
 
 # How fast a machine draws examples is no property of what is tested. CI judges a commit by the same examples each time;
 # people's runs keep looking for new ones.

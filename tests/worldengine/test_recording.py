@@ -224,3 +224,13 @@ def test_a_contact_without_force_is_recorded_under_pyramidal_cones(tmp_path):
     assert (recording.contacts.depth_m < 0).any()
     far = recording.contacts.depth_m < -0.01
     np.testing.assert_array_equal(recording.contacts.force[far], 0)
+
+
+def test_a_recording_is_read_without_the_import_that_takes_longer(tmp_path):
+    record(heap(), tmp_path, 20)
+    code = "import sys; from worldengine.recording import stored; r = stored.open(sys.argv[1]); r.qpos[:], r.contacts"
+    code += "; print(stored.digest(r), 'pyarrow.compute' in sys.modules)"
+    path = os.pathsep.join(path for path in sys.path if path)
+    call = [sys.executable, "-c", code, str(tmp_path)]
+    done = subprocess.run(call, capture_output=True, text=True, env={**os.environ, "PYTHONPATH": path})
+    assert done.stdout.split() == [stored.digest(stored.open(tmp_path)), "False"], done.stderr

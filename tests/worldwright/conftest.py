@@ -1,5 +1,6 @@
-"""A tiny world that really goes through every gate, made once a session and copied for each test that changes it."""
+"""A tiny world that really goes through every gate, made once for all workers and copied for each test that changes it."""
 
+import fcntl
 import os
 import shutil
 from collections.abc import Callable, Iterator
@@ -10,12 +11,30 @@ import pytest
 os.environ.setdefault("MUJOCO_GL", "egl")
 
 PLAN = (Path(__file__).parent / "world" / "dropped-ball.md").read_text(encoding="utf-8")
+RUN = "dropped-ball"
 
 
 @pytest.fixture(scope="session")
 def small_plan() -> str:
     """The text of a plan that runs in seconds."""
     return PLAN
+
+
+def _once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], object]) -> Path:
+    """This worker's copy of the run that the first worker who asked for `name` made for all of them."""
+    common = factory.getbasetemp()
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        common = common.parent
+    kept = common / f"once-{name}"
+    with (common / f"once-{name}.lock").open("w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if not kept.exists():
+            draft = common / f"once-{name}-draft"
+            shutil.rmtree(draft, ignore_errors=True)
+            draft.mkdir()
+            make(draft / RUN)
+            draft.rename(kept)
+    return Path(shutil.copytree(kept / RUN, factory.mktemp(name) / RUN))
 
 
 @pytest.fixture(scope="session")
@@ -31,7 +50,7 @@ def planned(tmp_path_factory: pytest.TempPathFactory) -> Path:
     from worldwright.model.plan.plan_text import read_plan
     from worldwright.place.tools import resolve
 
-    folder = tmp_path_factory.mktemp("worlds") / "dropped-ball"
+    folder = tmp_path_factory.mktemp("worlds") / RUN
     folder.mkdir()
     (folder / "plan.md").write_text(PLAN, encoding="utf-8")
     (folder / "prompt.md").write_text("Drop a ball.\n", encoding="utf-8")
@@ -81,10 +100,12 @@ def _prepare(folder: Path) -> None:
 @pytest.fixture(scope="session")
 def reviewed(planned: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A run that passed its measured review."""
-    folder = tmp_path_factory.mktemp("reviewed") / planned.name
-    shutil.copytree(planned, folder)
-    _prepare(folder)
-    return folder
+
+    def make(folder: Path) -> None:
+        shutil.copytree(planned, folder)
+        _prepare(folder)
+
+    return _once(tmp_path_factory, "reviewed", make)
 
 
 @pytest.fixture(scope="session")
@@ -92,10 +113,11 @@ def accepted(reviewed: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """An accepted run."""
     from worldwright.stamp import tools as stamp
 
-    folder = tmp_path_factory.mktemp("accepted") / reviewed.name
-    shutil.copytree(reviewed, folder)
-    assert stamp.accept(str(folder), timeout_s=60).ok
-    return folder
+    def make(folder: Path) -> None:
+        shutil.copytree(reviewed, folder)
+        assert stamp.accept(str(folder), timeout_s=60).ok
+
+    return _once(tmp_path_factory, "accepted", make)
 
 
 @pytest.fixture

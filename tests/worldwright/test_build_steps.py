@@ -34,11 +34,12 @@ def test_a_build_parses_a_plan_once_for_each_content(tmp_path: Path, small_plan:
 
     monkeypatch.setattr(plan_text, "_Reader", Reader)
     plan_text._parsed.cache_clear()
-    (tmp_path / "plan.md").write_text(small_plan, encoding="utf-8")
+    unfilmed = small_plan.replace("mode: cameras", "mode: none")
+    (tmp_path / "plan.md").write_text(unfilmed, encoding="utf-8")
     words = ["go", str(tmp_path / "plan.md"), "--run", str(tmp_path / "run"), "--approve", "--accept"]
     done = CliRunner().invoke(cli.main, words)
     assert done.exit_code == 0, done.output
-    assert parsed == [small_plan, (tmp_path / "run" / "plan.md").read_text(encoding="utf-8")]
+    assert parsed == [unfilmed, (tmp_path / "run" / "plan.md").read_text(encoding="utf-8")]
     copies = sorted((tmp_path / "run").rglob("plan.md"))
     assert len(copies) > 5 and len({plan_text.read_plan(path).file for path in copies}) == len(copies)
     assert len(parsed) == 2

@@ -8,24 +8,17 @@ from pathlib import Path
 import anyio
 import mcp
 import pytest
-from click.testing import CliRunner
 from mcp import StdioServerParameters
 
 from worldwright import expose
-from worldwright.cli import main
 from worldwright.report import write as write_report
 from worldwright.stamp import by_measurement
 
-WORLD = Path(__file__).parent / "world"
-
 
 @pytest.fixture(scope="module")
-def world(tmp_path_factory) -> Path:
-    """A small world, built and accepted by the command line."""
-    folder = tmp_path_factory.mktemp("servers") / "world"
-    built = CliRunner().invoke(main, ["go", str(WORLD / "plan.md"), "--run", str(folder), "--approve", "--accept"])
-    assert built.exit_code == 0, built.output
-    return folder
+def world(accepted, tmp_path_factory) -> Path:
+    """An accepted world that these tests may add to."""
+    return Path(shutil.copytree(accepted, tmp_path_factory.mktemp("servers") / accepted.name))
 
 
 def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
@@ -158,4 +151,4 @@ def test_the_report_is_one_file_and_asks_the_network_for_nothing(world):
     assert "data:video/mp4;base64," in page
     assert 'src="http' not in page
     assert "url(http" not in page
-    assert "A ball falls beside a block" in page
+    assert "A dropped ball" in page

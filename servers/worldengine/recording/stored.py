@@ -261,7 +261,13 @@ def digest(recording: Recording) -> str:
 
 def _numbers(array: "pa.Array", column: Column) -> "np.ndarray":
     """One batch of one column as a view into the mapped file."""
-    flat = array.flatten() if column.shape else array
+    if not column.shape:
+        flat = array
+    elif array.null_count:
+        flat = array.flatten()
+    else:  # the same without pyarrow.compute, whose import takes longer than most recordings take to read
+        width = array.type.list_size
+        flat = array.values.slice(array.offset * width, len(array) * width)
     return flat.to_numpy(zero_copy_only=True).reshape(-1, *column.shape)
 
 

@@ -43,13 +43,18 @@ def names(module: str) -> list[str] | None:
     if path is None:
         return None
     try:
-        found = top_names(path)
+        found = _top_names(path, path.stat().st_mtime_ns)
     except (OSError, SyntaxError, ValueError):
         return None
     if found is not None and path.name == "__init__.py":
         inside = {p.stem for p in path.parent.glob("*.py")} | {p.parent.name for p in path.parent.glob("*/__init__.py")}
         found = sorted({*found, *(name for name in inside if not name.startswith("_"))})
     return found
+
+
+@cache
+def _top_names(path: Path, _changed: int) -> list[str] | None:
+    return top_names(path)
 
 
 def callee(module: str, name: str) -> Callee | None:

@@ -8,6 +8,7 @@ import os
 import sys
 import zipfile
 from pathlib import Path
+from typing import Any
 
 PACKED = "shaders.zip"
 CACHES = ("mesa_shader_cache", "mesa_shader_cache_db", ".drjit", ".nv")
@@ -23,7 +24,7 @@ def draw() -> None:
     from worldkit import bodies, cameras, scene
 
     spec = scene.new("shaders", time_step=0.002, setting="studio")
-    made = {"mass": 1.0, "look": "#b3261e"}
+    made: dict[str, Any] = {"mass": 1.0, "look": "#b3261e"}
     bodies.sphere(spec, "ball", diameter=0.1, pos=(0.0, 0.0, 0.5), **made)
     bodies.box(spec, "box", size=(0.2, 0.1, 0.1), pos=(0.3, 0.0, 0.3), **made)
     bodies.cylinder(spec, "can", diameter=0.1, height=0.2, pos=(-0.3, 0.0, 0.3), **made)

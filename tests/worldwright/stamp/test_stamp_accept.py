@@ -19,7 +19,7 @@ from worldwright.model.evidence.journal import Journal
 from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.model.plan.committed import Plan
 from worldwright.model.plan.plan_text import read_plan
-from worldwright.stamp import bundle, departures, digest, repeats, signing, verification
+from worldwright.stamp import bundle, departures, digest, private, repeats, signing, verification
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 from worldwright.stamp.statement import Statement
@@ -255,51 +255,81 @@ def test_an_undeclared_intervention_is_refused(planned: Path, copy: Copy, prepar
 
 CRASHING = """
 import os, sys
-from worldwright.stamp import bundle, tools
-at, run, seen, assemble = int(sys.argv[1]), sys.argv[2], 0, bundle.draft_folder
+from worldengine.recording import stored
+from worldwright.stamp import acceptance, bundle, tools
+run, assemble = sys.argv[1], bundle.draft_folder
 
-def crash(event, _):
-    global seen
-    if event in ("open", "os.rename", "os.mkdir", "os.remove", "os.rmdir"):
-        seen += 1
-        if seen == at:
-            os._exit(9)
+def accept(at):
+    seen = 0
 
-def armed(folder):
-    sys.addaudithook(crash)
-    return assemble(folder)
+    def crash(event, _):
+        nonlocal seen
+        if event in ("open", "os.rename", "os.mkdir", "os.remove", "os.rmdir"):
+            seen += 1
+            if seen == at:
+                os._exit(9)
 
-bundle.draft_folder = armed
-tools.accept(run, timeout_s=60)
-print(seen)
+    def armed(folder):
+        sys.addaudithook(crash)
+        return assemble(folder)
+
+    bundle.draft_folder = armed
+    try:
+        tools.accept(run, timeout_s=60)
+        done = str(seen)
+    except Exception as error:
+        done = repr(error)
+    os.write(1, done.encode() + b"\\n")
+    os._exit(0)
+
+for line in sys.stdin:
+    child = os.fork()
+    if child == 0:
+        accept(int(line))
+    if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 9:
+        os.write(1, b"died\\n")
 """
-
-
-def crash_at(step: int, folder: Path) -> subprocess.CompletedProcess[str]:
-    """Accept in a process that dies at its `step`-th file operation after the proof run."""
-    call = [sys.executable, "-c", CRASHING, str(step), str(folder)]
-    return subprocess.run(call, capture_output=True, text=True, check=False)
+"""For each number N that it is told, a process of its own accepts, and dies at its N-th file operation after the proof run."""
 
 
 def test_a_crash_at_any_file_operation_leaves_nothing_or_everything(reviewed: Path, copy: Copy, tmp_path: Path) -> None:
-    proved = copy(reviewed)
-    assert crash_at(1, proved).returncode == 9
-    whole = tmp_path / "whole" / proved.name
-    shutil.copytree(proved, whole)
-    total = int(crash_at(0, whole).stdout)
-    assert total > 40
-    endings = set()
-    for step in sorted({*range(2, total, total // 5), *range(total - 8, total + 1)}):
-        folder = tmp_path / f"crash-{step}" / proved.name
-        shutil.copytree(proved, folder)
-        assert crash_at(step, folder).returncode == 9
-        status = stamp.status(str(folder))
-        assert status.state == ("accepted" if (folder / "accepted").exists() else "open"), status.text()
-        endings.add(status.state)
-        assert stamp.accept(str(folder), timeout_s=60).ok
-        assert not list(folder.glob(f"{bundle.PREFIX}*"))
-        checks = {c.name: c.ok for c in verification.static(Run(folder), folder / "accepted")}
-        assert checks == {"checksums": True, "journal": True, "signature": True}
+    folder = copy(reviewed)
+    call = [sys.executable, "-c", CRASHING, str(folder)]
+    # A proof belongs to a folder's path: at the same path, each crash finds the one that was made first.
+    state = State.find(str(folder))
+    assert state.key is not None
+    proof, before = private.proofs(Run(folder), state.key.key), tmp_path / "before"
+
+    def again() -> None:
+        for kept, path in ((before / "run", folder), (before / "proof", proof)):
+            shutil.rmtree(path, ignore_errors=True)
+            shutil.copytree(kept, path)
+
+    with subprocess.Popen(call, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdin and process.stdout
+
+        def crash_at(step: int) -> str:
+            process.stdin.write(f"{step}\n")
+            process.stdin.flush()
+            return process.stdout.readline().strip()
+
+        assert crash_at(1) == "died"
+        shutil.copytree(folder, before / "run")
+        shutil.copytree(proof, before / "proof")
+        total = int(crash_at(0))
+        assert total > 40
+        endings = set()
+        for step in sorted({*range(2, total, total // 5), *range(total - 8, total + 1)}):
+            again()
+            assert crash_at(step) == "died"
+            status = stamp.status(str(folder))
+            assert status.state == ("accepted" if (folder / "accepted").exists() else "open"), status.text()
+            endings.add(status.state)
+            assert stamp.accept(str(folder), timeout_s=60).ok
+            assert not list(folder.glob(f"{bundle.PREFIX}*"))
+            checks = {c.name: c.ok for c in verification.static(Run(folder), folder / "accepted")}
+            assert checks == {"checksums": True, "journal": True, "signature": True}
+        process.stdin.close()
     assert endings == {"open", "accepted"}
 
 

@@ -10,7 +10,6 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from ..errors import GateError
-from ..plan import imported
 from .run import Run, sha256_file
 
 MODELS = "models"
@@ -25,6 +24,8 @@ def who(by: str, *, auto: bool) -> str:
 
 def model_hashes(run: Run) -> dict[str, str]:
     """SHA-256 of each model file beside the plan that the plan names, by path relative to it."""
+    from ..plan import imported
+
     return {name: hashlib.sha256(content).hexdigest() for name, content in imported.beside(run.folder).items()}
 
 

@@ -10,6 +10,7 @@ server can name an evidence key without loading the simulator.
 """
 
 import platform
+import re
 from functools import lru_cache
 from importlib.metadata import PackageNotFoundError, distribution, version
 from pathlib import Path
@@ -24,6 +25,7 @@ PACKAGES = ("mujoco", "mujoco-core", "numpy", "pyarrow", "opencv-python-headless
 """Everything installed that can change a trajectory."""
 SOURCES = ("*.py", "*.vert", "*.frag", "*.glsl")
 SERVERS = Path(__file__).parents[3]
+VERSION = re.compile(r"^Version: *(\S+)", re.MULTILINE)
 FILM = ("worldengine/film/", "worldkit/filming/")
 """What only pictures depend on."""
 
@@ -63,8 +65,10 @@ def film(renderer: str = "") -> Film:
 
 
 def _version(name: str) -> str:
+    """The installed version, read without parsing the package's whole description, which takes eight times as long."""
     try:
-        return version(name)
+        found = VERSION.search(distribution(name).read_text("METADATA") or "")
+        return found[1] if found else version(name)
     except PackageNotFoundError:
         return ""
 

@@ -1,6 +1,7 @@
 """One hash over many files, remembered as long as no file's size or time changes, so that asking costs milliseconds."""
 
 import contextlib
+import fnmatch
 import hashlib
 import json
 import os
@@ -24,9 +25,16 @@ def cache_folder() -> Path:
 
 def below(root: Path, patterns: Iterable[str] = ("*",)) -> Named:
     """Matching files below a folder with their relative names, in a fixed order; thumbnails decide nothing."""
-    found = {path for pattern in patterns for path in root.rglob(pattern) if path.name != "thumbnail.png"}
-    plain = sorted(path for path in found if path.is_file() and "__pycache__" not in path.parts)
-    return tuple((path, path.relative_to(root).as_posix()) for path in plain)
+    # Plain texts, and one walk whatever the patterns: nearly every call of a tool asks this of some hundred files.
+    wanted, start = tuple(patterns), str(root)
+    found: list[str] = []
+    for folder, folders, names in os.walk(start):
+        if "__pycache__" in folders:
+            folders.remove("__pycache__")
+        fitting = {name for pattern in wanted for name in fnmatch.filter(names, pattern)} - {"thumbnail.png"}
+        found += [f"{folder}{os.sep}{name}" for name in fitting]
+    plain = sorted(filter(os.path.isfile, found), key=lambda path: path.replace(os.sep, "\0"))
+    return tuple((Path(path), path[len(start) + 1 :].replace(os.sep, "/")) for path in plain)
 
 
 def sha256_of(name: str, files: Named) -> str:
