@@ -147,7 +147,8 @@ def failed(status: int, summary: dict[str, Any], error: dict[str, Any], log: str
 def _authors_error(error: dict[str, Any], log: str) -> dict[str, str]:
     """The program's own account of its end, which names the limits that it ran into."""
     kind, line, message = str(error.get("type", "error")), error.get("line"), str(error.get("message", ""))
-    file = Path(str(error.get("file") or "simulation.py")).name
+    named = str(error.get("place") or "")  # the engine never saw the program, but may know which file told it so
+    file = Path(str(error.get("file") or (named if named.endswith(".py") else "simulation.py"))).name
     place = f"{file}:{line}" if line else file
     if "[Errno 27]" in message:
         return {**_file_too_large(message[:2000]), "place": place}
