@@ -1,4 +1,8 @@
-"""Choose how Mitsuba computes: compiled by LLVM where a library that works is found, else plainly and 3 to 5 times slower."""
+"""Choose how Mitsuba computes: on NVIDIA's card, else compiled by LLVM, else plainly and 3 to 5 times slower.
+
+Measured, 1280x720 with twenty things, noise taken out: on an H100 0.2 s a picture at 3 samples, 0.4 to 0.6 s at 64, 1 to 2 s
+at 256; the preview's pictures take 13 to 16 ms there (OpenGL through EGL).
+"""
 
 import ctypes
 import os
