@@ -23,10 +23,11 @@ PARTS = (
     ("Shapes", "sphere ellipsoid box cylinder torus capsule round_cone half_space revolved extruded tube strap"),
     ("Of one shape", "bend twist rough"),
     ("Of several", "union difference intersection linear radial repeat"),
+    ("Where things go", "along skin share_along"),
     ("Into the world", "Part add assemble from_file dress made"),
 )
 SOLIDS = "box lathe slab loft sweep ring curve"
-MASKS = "gradient over plain step within stripes spots mottled noise label"
+MASKS = "gradient over plain step within stripes spots net mottled noise label"
 
 
 def page() -> str:

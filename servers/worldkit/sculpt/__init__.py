@@ -13,6 +13,7 @@ from . import brushes, crisp
 from .copied import linear, radial, repeat
 from .deformed import bend, noise, rough, twist
 from .figure import Part, add, assemble, dress
+from .following import along, share_along, skin
 from .from_files import from_file
 from .minting import Made, made
 from .primitives import box, capsule, cylinder, ellipsoid, half_space, round_cone, sphere, torus
@@ -21,7 +22,7 @@ from .signed import Shape, difference, intersection, union
 from .tubing import strap, tube
 
 __all__ = [
-    "Made", "Part", "Shape", "add", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference", "dress",
-    "ellipsoid", "extruded", "from_file", "half_space", "intersection", "linear", "made", "noise", "radial", "repeat", "revolved", "rough",
-    "round_cone", "sphere", "strap", "torus", "tube", "twist", "union",
+    "Made", "Part", "Shape", "add", "along", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference", "dress",
+    "ellipsoid", "extruded", "from_file", "half_space", "intersection", "linear", "made", "noise", "radial", "repeat", "revolved",
+    "rough", "round_cone", "share_along", "skin", "sphere", "strap", "torus", "tube", "twist", "union",
 ]  # fmt: skip

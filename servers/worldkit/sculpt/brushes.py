@@ -80,6 +80,22 @@ def spots(points: Array, spacing: float, diameter: float, seed: int = 0, soft: f
     return 1.0 - step(found * spacing, diameter / 2, soft * diameter)
 
 
+def net(points: Array, size: float, width: float, seed: int = 0) -> Array:
+    """A mask of the seams, `width` m wide, between cells about `size` m across: a giraffe, a tortoise, cracked mud."""
+    if not 0 < width < size:
+        raise ValueError(f"net: seams of {width} m leave nothing of cells of {size} m")
+    q = points / size
+    cell = np.floor(q)
+    near, next_ = np.full(len(points), np.inf), np.full(len(points), np.inf)
+    for n in range(27):
+        there = cell + np.array([n % 3 - 1, n // 3 % 3 - 1, n // 9 - 1])
+        middle = there + 0.15 + 0.7 * np.stack([_chance(there, seed + k) for k in range(3)], axis=1)
+        d = np.linalg.norm(q - middle, axis=1)
+        next_ = np.minimum(next_, np.maximum(near, d))
+        near = np.minimum(near, d)
+    return 1.0 - step((next_ - near) * size / 2, width / 2, width / 4)
+
+
 def mottled(points: Array, grain: float, seed: int = 0) -> Array:
     """Smooth noise (N,), 0 to 1, with patches about `grain` m across: fur, skin, rust, dirt."""
     return 0.5 + 0.5 * noise(points, grain, seed)

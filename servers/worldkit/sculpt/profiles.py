@@ -97,7 +97,7 @@ def inset(points: Array, by: float) -> Array:
     """An outline (N, 2) moved inwards by so many metres; raises ValueError if nothing is left."""
     import manifold3d
 
-    section = manifold3d.CrossSection([points]).offset(-by, manifold3d.JoinType.Miter)
+    section = manifold3d.CrossSection([points], manifold3d.FillRule.NonZero).offset(-by, manifold3d.JoinType.Miter)
     if section.is_empty() or section.num_contour() > 1:
         raise ValueError(f"edges cannot be rounded by {by} m: the outline is thinner than twice that somewhere")
     return np.asarray(section.to_polygons()[0], dtype=float)

@@ -19,6 +19,8 @@ from .limits import failed
 WORLD, PROGRAM, FACTS, SHEET = "world.mjz", "program.json", "sheet.json", "sheet.jpg"
 RESULT, ERROR = "result.json", "error.json"
 AGAIN = "worldwright sculpt sheet FILE.py[:NAME]"
+MOST_S = 300.0
+LESS = "take fewer `cells` and `texels` (64, 512), rows by `linear` or `radial`, no `within` of a large union; a first sheet without paint"
 
 
 class SculptedPart(Frozen):
@@ -120,7 +122,7 @@ def _run(
         [sys.executable, "-s", *call],
         reads=reads,
         wanted=(*wanted, RESULT, ERROR),
-        wall_s=120.0,
+        wall_s=MOST_S,
         memory_mb=4096,
         file_mb=512,
         sculpts=sculpts,
@@ -140,7 +142,15 @@ def _run(
 
 def _failure(ended: Confined, wanted: Sequence[str]) -> dict[str, Any] | None:
     if ended.status != "ended":
-        return {"code": ended.status, "message": f"it was stopped: {ended.status}"}
+        why = {
+            "timed_out": f"making and drawing it took more than {MOST_S:g} s of processor time",
+            "out_of_memory": "making it took more than 4 GB of memory",
+        }
+        return {
+            "code": ended.status,
+            "message": why.get(ended.status, f"it was stopped: {ended.status}"),
+            "next_move": LESS,
+        }
     said: dict[str, Any] = {}
     with tempfile.TemporaryDirectory() as folder:
         for path in (RESULT, ERROR):
