@@ -59,7 +59,7 @@ def _line(name: str, thing: Any) -> str:
             continue
         if one.kind is one.KEYWORD_ONLY and "*" not in given and not any(word.startswith("*") for word in given):
             given.append("*")
-        stars = {one.VAR_POSITIONAL: "*", one.VAR_KEYWORD: "**"}.get(one.kind, "")
+        stars = "*" if one.kind is one.VAR_POSITIONAL else "**" if one.kind is one.VAR_KEYWORD else ""
         given.append(f"{stars}{one.name}" + ("" if one.default is one.empty else f"={_shown(one.default)}"))
     said = (inspect.getdoc(thing) or "").partition("\n")[0]
     return f"- `{name}({', '.join(given)})` {said}\n"
