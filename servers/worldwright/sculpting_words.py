@@ -16,8 +16,8 @@ PAGE = Path(__file__).parents[2] / "skills/sculpting/references/words.md"
 HEAD = """# The words of worldkit.sculpt
 
 Written by `python -m worldwright.sculpting_words` from `servers/worldkit/sculpt`; change that. Metres, degrees, full extents and
-diameters (never half sizes or radii, but for a `radius` of blending); z up, +x the front. What an argument means beyond
-that: `worldwright retrieve symbol worldkit.sculpt.NAME`.
+diameters; radii are only those of blending and rounding, and of a profile's (radius, height); z up, +x the front. What an
+argument means beyond that: `worldwright retrieve symbol worldkit.sculpt.NAME`.
 """
 PARTS = (
     ("Shapes", "sphere ellipsoid box cylinder torus capsule round_cone half_space revolved extruded tube strap"),
@@ -53,11 +53,11 @@ def _methods(cls: type) -> Iterator[tuple[str, Any]]:
 
 
 def _line(name: str, thing: Any) -> str:
-    given = []
+    given: list[str] = []
     for one in inspect.signature(thing).parameters.values():
         if one.name == "self":
             continue
-        if one.kind is one.KEYWORD_ONLY and "*" not in given and not any(word.startswith("*") for word in given):
+        if one.kind is one.KEYWORD_ONLY and not any(word.startswith("*") for word in given):
             given.append("*")
         stars = "*" if one.kind is one.VAR_POSITIONAL else "**" if one.kind is one.VAR_KEYWORD else ""
         given.append(f"{stars}{one.name}" + ("" if one.default is one.empty else f"={_shown(one.default)}"))
