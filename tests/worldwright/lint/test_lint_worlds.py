@@ -148,11 +148,13 @@ def test_a_plain_script_is_not_at_fault_for_a_package_that_is_not_here(tmp_path)
 
 
 def test_a_program_may_have_modules_and_data_beside_it(tmp_path):
-    """Its world is built with both; what links out of the folder is not there."""
+    """Its world is built with both; what links out of the folder, or is a job's that may end at any moment, is not there."""
     written(tmp_path, "HEIGHTS = [1.0, 2.0]\n", "shapes.py")
     (tmp_path / "data").mkdir()
     written(tmp_path / "data", "0.25\n", "size.txt")
     (tmp_path / "secret.txt").symlink_to("/etc/passwd")
+    (tmp_path / "jobs" / "stills-1").mkdir(parents=True)
+    written(tmp_path / "jobs" / "stills-1", "", "shaders")
     text = """
         import os
         from pathlib import Path
@@ -161,6 +163,7 @@ def test_a_program_may_have_modules_and_data_beside_it(tmp_path):
         import shapes
         here = Path(__file__).parent
         assert not (here / "secret.txt").exists()
+        assert not (here / "jobs").exists()
         def build():
             spec = mujoco.MjSpec()
             for height in shapes.HEIGHTS:

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 MOST_BYTES = 128 << 20
 WALL_S = 20.0
 PROGRAM = "simulation.py"
-OURS = ("evidence", "accepted", "__pycache__", "journal.jsonl", "blocked.json")
-MOST_BESIDE = 500
-"""So many files beside a program are copied into the sandbox."""
 MEMORY_MB = 2048
 BUNDLE, FACTS = "world.mjz", "program.json"
 
@@ -67,6 +64,7 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S, lasting_
         wall_s: the attempt ends after so many seconds.
         lasting_s: how long the world of a file is simulated, s, where that is known.
     """
+    from ...model import companions
     from ...model.errors import WorldwrightError
     from ...stage.tools import model_files, run_confined
 
@@ -74,7 +72,8 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S, lasting_
     path = path.absolute()
     reads = [here / "compile_world.py", here / "measure.py", here / "rehearse.py", path]
     if not is_mjcf and path.name == PROGRAM:
-        reads += beside(path)
+        with contextlib.suppress(companions.CompanionError, OSError):  # refused in words where evidence is kept
+            reads += [path.parent / name for name in companions.of(path)]
     if is_mjcf:
         with contextlib.suppress(WorldwrightError):  # not well-formed: the compiler says it better
             reads += model_files(path)
@@ -120,24 +119,6 @@ def bundled(run: "Run", key: "EvidenceKey") -> tuple[Path, float] | None:
         return folder / BUNDLE, float(_object((folder / FACTS).read_bytes())["duration"])
     except (OSError, KeyError, TypeError, ValueError, AttributeError):
         return None
-
-
-def beside(program: Path) -> list[Path]:
-    """The helper modules and data files that lie beside a run's program, in folders too; never through links.
-
-    What the suite itself keeps there (evidence, an accepted copy, hidden folders) is no part of the program.
-    """
-    found: list[Path] = []
-    waiting = [program.parent]
-    while waiting and len(found) < MOST_BESIDE:
-        for entry in sorted(waiting.pop().iterdir()):
-            if entry.is_symlink() or entry.name.startswith(".") or entry.name in OURS:
-                continue
-            if entry.is_dir():
-                waiting.append(entry)
-            elif entry.is_file() and entry != program:
-                found.append(entry)
-    return found[:MOST_BESIDE]
 
 
 def _object(data: bytes) -> dict[str, Any]:
