@@ -56,8 +56,10 @@ def slowest(folder: Path) -> list[str]:
 def main(folder: Path) -> int:
     """Print the table; the exit code."""
     told, bad = [], False
-    print(f"\n{'part':<14}{'ok':>8}{'failed':>8}{'skipped':>9}{'seconds':>9}")
-    for name, code, seconds in (line.split() for line in (folder / "parts").read_text().splitlines()):
+    parts = [line.split() for line in (folder / "parts").read_text().splitlines()]
+    wide = max([14, *(len(name) + 2 for name, _, _ in parts)])
+    print(f"\n{'part':<{wide}}{'ok':>8}{'failed':>8}{'skipped':>9}{'seconds':>9}")
+    for name, code, seconds in parts:
         suite, name = not name.startswith("-"), name.lstrip("-")
         found = cases(folder / f"{name}.xml")
         wrong = failures(found)
@@ -69,7 +71,7 @@ def main(folder: Path) -> int:
             for case in found
         )
         counts = (good, len(wrong), skipped) if suite else ("", "yes" if wrong else "no", "")
-        print(f"{name:<14}{counts[0]:>8}{counts[1]:>8}{counts[2]:>9}{seconds:>9}")
+        print(f"{name:<{wide}}{counts[0]:>8}{counts[1]:>8}{counts[2]:>9}{seconds:>9}")
         told += [f"{name}: {line}"[:WIDE] for line in wrong[:MOST]]
         told += [f"{name}: and {len(wrong) - MOST} more"] if len(wrong) > MOST else []
         bad = bad or bool(wrong)
