@@ -109,7 +109,10 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--reuse", action="append", default=[], type=Path, help="an earlier pass that may hold the same"
     )
-    return parser.parse_args(argv)
+    options = parser.parse_args(argv)
+    if options.run == "final" and options.film is None:
+        parser.error("the final pass draws a film: name the folder of its description with --film")
+    return options
 
 
 if __name__ == "__main__":

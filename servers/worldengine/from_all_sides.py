@@ -27,26 +27,29 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     """
     import mujoco
 
-    from worldkit import cameras
+    from worldkit import cameras, world
 
     from .film.drawn_frames import Frames
-    from .film.passes import choose_cameras, free, headless_gl
+    from .film.passes import FREE, choose_cameras, free, headless_gl
 
     headless_gl()
     started = time.perf_counter()
-    model = given.model()
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
+    model = given.model(FREE if options.eye else "")
     width, height = options.size or SIZE
     cameras.aim(model, aspect=width / height)
+    data = world.start(model)
+    mujoco.mj_forward(
+        model, data
+    )  # once the model's cameras stand where they are aimed: pictures are drawn by the data's
+    cameras.track(model, data)
     pictures: list[np.ndarray] = []
-    names = choose_cameras(model, options.cameras)
+    names = chosen = choose_cameras(model, options.cameras)
     if options.eye is not None:
-        free(model, data, names[0], options)
-        names = names[:1]
+        free(model, data, chosen[0], options)
+        chosen, names = chosen[:1], [FREE]
     with Frames(model, width, height) as frames:
-        for name in names:
-            pictures.append(labelled(frames.image(data, name, quality="video"), name))
+        for camera, name in zip(chosen, names, strict=True):
+            pictures.append(labelled(frames.image(data, camera, quality="video"), name))
         renderer = frames.told()
     write_atomic(options.out / SHEET, laid_out(pictures, COLUMNS))
     wall = round(time.perf_counter() - started, 3)

@@ -73,12 +73,15 @@ class Given:
             raise ProgramError("the facts of the program make no sense", str(program), REMEDY)
         return found
 
-    def model(self) -> "mujoco.MjModel":
-        """The world, compiled."""
+    def model(self, camera: str = "") -> "mujoco.MjModel":
+        """The world, compiled; one without any camera gets a `camera` of this name, to be stood anywhere."""
         from worldkit import portable
 
         try:
-            return portable.read(self.world)
+            spec = portable.spec(self.world)
+            if camera and not spec.cameras:
+                spec.worldbody.add_camera(name=camera)
+            return spec.compile()
         except (ValueError, RuntimeError) as failure:
             raise ProgramError(f"the world does not compile: {failure}", self.world.name, "build it again") from failure
 

@@ -1,5 +1,6 @@
 """What the things of a compiled model are called."""
 
+from collections.abc import Container
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -12,3 +13,8 @@ def names(model: "mujoco.MjModel", kind: str, count: int) -> list[str]:
 
     code = getattr(mujoco.mjtObj, f"mjOBJ_{kind.upper()}")
     return [mujoco.mj_id2name(model, code, i) or f"{kind}_{i}" for i in range(count)]
+
+
+def free(stem: str, taken: Container[str]) -> str:
+    """The first of `stem`, `stem2`, `stem3` … that is not taken."""
+    return next(name for name in (f"{stem}{n or ''}" for n in (0, *range(2, 10**6))) if name not in taken)

@@ -29,8 +29,10 @@ if TYPE_CHECKING:
 NAME = "world.mjz"
 TOLERANCE = 1e-6
 """Relative difference that writing numbers as text may leave."""
-PACKED = 9
-"""How hard archive and pictures are packed, of 9: small worlds are kept in version control."""
+SMALL = 2 << 20
+"""Unpacked bytes up to which an archive, or a picture in it, is packed as hard as it can be: small worlds are kept in version
+control. Beyond it time counts: of a picture of 2 MB with four values at random, level 9 took 0.9 s and level 1 0.07 s, for 13 %
+less room."""
 
 
 def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
@@ -97,13 +99,19 @@ def spec(path: Path) -> "mujoco.MjSpec":
     return mujoco.MjSpec.from_string(text, assets=files)
 
 
+def _level(size: int) -> int:
+    """How hard to pack so many bytes, of 9."""
+    return 9 if size <= SMALL else 1
+
+
 def _store(files: dict[str, bytes], path: Path) -> None:
     """Write an archive whose bytes depend on the content, and on how this machine's zlib packs it."""
     import zipfile
 
+    level = _level(sum(map(len, files.values())))
     with zipfile.ZipFile(path, "w") as archive:
         for name in sorted(files, key=lambda name: (name != XML, name)):
-            archive.writestr(zipfile.ZipInfo(name), files[name], zipfile.ZIP_DEFLATED, PACKED)
+            archive.writestr(zipfile.ZipInfo(name), files[name], zipfile.ZIP_DEFLATED, level)
 
 
 @contextmanager
@@ -182,7 +190,7 @@ def _painted(spec: "mujoco.MjSpec", texture: Any, pixels: bytes) -> None:
     image = np.frombuffer(pixels, np.uint8).reshape(texture.height, texture.width, texture.nchannel)
     order = {3: [2, 1, 0], 4: [2, 1, 0, 3]}.get(texture.nchannel)
     flat = image if order is None else image[..., order]
-    good, coded = cv2.imencode(".png", flat, (cv2.IMWRITE_PNG_COMPRESSION, PACKED))
+    good, coded = cv2.imencode(".png", flat, (cv2.IMWRITE_PNG_COMPRESSION, _level(len(pixels))))
     if not good:
         raise ProgramError(
             f"texture {texture.name} cannot be written as PNG", texture.name, "give it 1, 3 or 4 channels"

@@ -172,6 +172,17 @@ def test_a_description_that_says_what_it_may_not_is_refused(made, words):
         made.film(lambda f: (looking(f), f.draw("box", "box", 0.1, to="first")), REFUSED[words])
 
 
+@pytest.mark.parametrize("size", [np.nan, np.inf, -1.0, 1e9])
+def test_particles_have_sizes_that_can_be_drawn(made, size):
+    def grown(film):
+        looking(film)
+        film.particles("sparks", lambda t: np.zeros((len(t), 2, 3)))
+
+    made.film(grown)
+    with pytest.raises(FilmError, match="'sparks' has not a size"):
+        made.film(grown, lambda f, a: a["sizes0"].__setitem__((3, 1), size))
+
+
 def test_a_pickle_is_no_description(made):
     made.film(looking)
     np.savez(made.folder / "film.npz", time=np.array([{}], dtype=object), allow_pickle=True)
@@ -278,6 +289,46 @@ def test_an_open_shutter_smears_what_moves(made):
         return np.abs(np.diff(column[:40])).max()
 
     assert edge(1.0) < 0.7 * edge()
+
+
+def counted(monkeypatch, place, name, calls):
+    there = getattr(place, name)
+
+    def call(*given, **named):
+        calls.append((name, given, named))
+        return there(*given, **named)
+
+    monkeypatch.setattr(place, name, call)
+
+
+@pytest.mark.gl
+def test_light_of_an_open_shutter_is_added_up_and_developed_once(made, monkeypatch):
+    pytest.importorskip("mitsuba")
+    from worldengine.film.renderers.traced import tracing
+
+    calls = []
+    for place, name in ((tracing.Tracing, "trace"), (tracing.Tracing, "_cleaned"), (tracing, "develop")):
+        counted(monkeypatch, place, name, calls)
+
+    def edge(quality, shutter):
+        def tell(film):
+            film.shot(still((0.0, -1.2, 0.3), (0, 0, 0.3)), until=0.4)
+            film.shutter(shutter, samples=4)
+
+        calls.clear()
+        film = made.film(tell)
+        with Screening(made.folder / "world.mjz", made.plain, made.recording, film, SIZE, 24, "traced") as screening:
+            picture = screening.picture(6, quality).astype(float)
+            assert screening.frames.renderer == "traced", screening.frames.reason
+        column = (picture[..., 0] - picture[..., 2])[:, 44:52].mean(axis=1)
+        return np.abs(np.diff(column[:40])).max()
+
+    assert edge(8, 1.0) < 0.7 * edge(8, 0.0)
+    for quality, moments, each in ((8, 4, 2), (2, 2, 1), (0.5, 1, 2)):
+        edge(quality, 1.0)
+        assert [name for name, _, _ in calls] == ["trace"] * moments + ["_cleaned", "develop"]
+        assert {given[4] for _, given, _ in calls[:moments]} == {each}, "the samples are shared out"
+        assert len({given[5] for _, given, _ in calls[:moments]}) == moments, "each moment has chances of its own"
 
 
 def test_how_fast_it_runs_stands_in_the_corner(made):

@@ -11,6 +11,7 @@ from worldengine.film import described, dressed, motion_facts
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
 from worldengine.film.renderers.preview import scenery
+from worldengine.film.renderers.traced import variant
 from worldkit import portable
 from worldkit.errors import ProgramError
 from worldkit.filming import Film, Recorded, still
@@ -72,16 +73,36 @@ def test_a_lamp_lights_what_is_near_it(lit, renderer):
 
 
 @pytest.mark.gl
-def test_a_carried_lamp_goes_along(lit):
-    film = lit.film(lambda film: film.lamp("torch", (0, 0, 0.3), to="ball", strength=2))
+def test_a_carried_lamp_goes_along_in_the_scene_that_there_is(lit, monkeypatch):
+    pytest.importorskip("mitsuba")
+    variant.choose()
+    import mitsuba
+
+    built, load = [], mitsuba.load_dict
+
+    def counted(told, *more, **options):
+        built.extend([told] if told["type"] == "scene" else [])
+        return load(told, *more, **options)
+
+    monkeypatch.setattr(mitsuba, "load_dict", counted)
+
+    def tell(film):
+        film.lamp("torch", (0, 0, 0.3), to="ball", strength=2)
+        film.lamp("beam", (0.6, 0.6, 0.9), aim=(0.6, 0, 0.3), to="ball", strength=2)
+
+    film = lit.film(tell)
     with Screening(lit.folder / "world.mjz", lit.plain, lit.recording, film, SIZE, 24, "traced") as screening:
         drawing, seen = screening.frames._drawing, []
         for frame in (0, film.frames - 1):
-            screening.picture(frame, 1)
+            picture = screening.picture(frame, 1)
             (scene,) = drawing._scenes.values()
             (lamp,) = [e for e in scene.emitters() if "PointLight" in str(e)]
             seen.append(float(np.array(lamp.bbox().min).ravel()[2]))
+        drawing._scenes.clear()
+        apart = np.abs(screening.picture(film.frames - 1, 1).astype(int) - picture)
+        assert apart.max() < 8 and apart.mean() < 0.2, "as in a scene that is built there"
         falls = lit.recording.pos[0, 0, 2] - screening._replay.data.body("ball").xpos[2]
+    assert len(built) == 2, "once, and once more for the comparison"
     assert (
         seen[0] == pytest.approx(1.2, abs=0.01) and seen[0] - seen[1] == pytest.approx(falls, abs=0.01) and falls > 0.05
     )
@@ -99,7 +120,10 @@ def test_of_many_lamps_the_preview_takes_the_strongest(lit):
     chosen = scenery.own_lights(model)
     assert model.light(chosen[0]).name == "drawn.lamp 11"
     rows, aims, count = scenery.light_rows(model, data, scenery.STUDIO, chosen)
-    assert count == scenery.MOST == len(aims) == len(rows) // 2
+    fills = len(scenery.STUDIO.fills)
+    assert fills > 0 and count == fills + 8 <= len(aims) == len(rows) // 2, "the setting's own do not count"
+    shown = rows[2 * fills : 2 * count : 2, 0]
+    assert shown.tolist() == [11, 10, 9, 8, 7, 6, 5, 4]
     assert film.drawn_only()[:2] == ["lamp 0 (a lamp)", "lamp 1 (a lamp)"]
 
 
@@ -118,6 +142,12 @@ def test_lamps_are_bounded_by_the_author_and_by_us(lit):
     one = {"name": "x", "pos": [0, 0, 1], "aim": None, "strength": 1, "rgb": [1, 1, 1], "cone_deg": 40, "to": ""}
     with pytest.raises(FilmError, match="at most 64 lamps"):
         lit.film(lambda film: None, lambda facts: facts["lamps"].extend([one] * 10_000))
-    for wrong in ({"pos": [0, 0, float("nan")]}, {"to": "nobody"}, {"strength": -1}):
+    for wrong in (
+        {"pos": [0, 0, float("nan")]},
+        {"to": "nobody"},
+        {"strength": -1},
+        {"rgb": [1, 1, 1e30]},
+        {"rgb": [1, -1, 1]},
+    ):
         with pytest.raises(FilmError, match="the lamp"):
             lit.film(lambda film: None, lambda facts, wrong=wrong: facts["lamps"].append(one | wrong))

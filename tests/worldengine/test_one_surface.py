@@ -68,9 +68,9 @@ class Poured:
         with np.load(folder / "motion.npz") as arrays:
             self.seen = Recorded(dict(arrays))
 
-    def film(self, change=None):
+    def film(self, change=None, look="plastic_red"):
         film = Film(self.seen)
-        film.surface("honey", of="drop_*", look="plastic_red")
+        film.surface("honey", of="drop_*", look=look)
         film.shot(still((0.2, -1.6, 0.5), (0.2, 0.2, 0.2), lens_mm=35), until=0.25)
         facts, arrays = film.description()
         if change:
@@ -113,6 +113,20 @@ def test_both_renderers_show_it_where_the_bodies_are(poured, renderer):
     assert min(mask.sum() for mask in red) > 60, "it is seen, in its own look"
     rows = [np.nonzero(mask)[0].mean() for mask in red]
     assert rows[1] > rows[0] + 1, "it has fallen"
+
+
+@pytest.mark.gl
+def test_the_preview_shows_through_it_what_lies_behind_a_clear_one(poured):
+    pictures = {}
+    for look in ("plastic_red", "glass_clear"):
+        film = poured.film(look=look)
+        with Screening(
+            poured.folder / "world.mjz", poured.plain, poured.recording, film, SIZE, 24, "preview"
+        ) as screening:
+            pictures[look] = screening.picture(film.frames - 1, 2).astype(int)
+    red = pictures["plastic_red"][..., 0] - pictures["plastic_red"][..., 2] > 40
+    through, floor_beside = pictures["glass_clear"][red], pictures["glass_clear"][-6:, :12].reshape(-1, 3)
+    assert np.abs(np.median(through, axis=0) - np.median(floor_beside, axis=0)).max() < 40
 
 
 def test_particles_can_be_a_surface_too(poured):

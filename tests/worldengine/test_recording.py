@@ -50,6 +50,15 @@ def test_columns_of_one_batch_are_views_into_the_file(tmp_path):
     assert not record(heap(), tmp_path / "u", 20, batch_rows=5).pos.flags.writeable
 
 
+def test_contacts_are_mapped_and_not_unpacked_into_memory(tmp_path):
+    """Of what many bodies do to each other the table is as large as the state."""
+    record(heap(), tmp_path / "t", 50, batch_rows=1000)
+    before = pa.total_allocated_bytes()
+    contacts = stored.open(tmp_path / "t").contacts
+    assert len(contacts) and contacts.force.any()
+    assert pa.total_allocated_bytes() == before
+
+
 def test_an_empty_world_records(tmp_path):
     recording = record(empty(), tmp_path / "t", 10)
     assert recording.pos.shape == (11, 0, 3)

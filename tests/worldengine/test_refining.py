@@ -1,15 +1,23 @@
 """A final film stands whole whenever its time ends, becomes better in place, and goes on where it was cut."""
 
+import itertools
+import json
 import time
+from contextlib import ExitStack
+from types import SimpleNamespace
 
 import av
 import numpy as np
 import pytest
 
-from worldengine.film import refining
-from worldengine.film.refining import LEVELS, Refined, encode, refine, rounds
+from small_worlds import ball, empty, floor, record
+from worldengine.film import described, motion_facts, refining
+from worldengine.film.refining import Refined, encode, refine, rounds, traced_levels
+from worldkit import portable
+from worldkit.filming import Film, Recorded
 
 SIZE = (64, 36)
+LEVELS = (0.5, 2, 6)
 
 
 class Drawn:
@@ -17,6 +25,9 @@ class Drawn:
 
     def __init__(self, count: int) -> None:
         self.count, self.asked = count, []
+
+    def levels(self) -> tuple[float, ...]:
+        return LEVELS
 
     def picture(self, number: int, samples: int) -> np.ndarray:
         self.asked.append((number, samples))
@@ -32,40 +43,72 @@ def shown(path) -> list[float]:
 
 
 def test_each_round_draws_every_frame_once_the_far_apart_ones_first():
-    order = list(rounds(20))
+    order = list(rounds(20, LEVELS))
     assert [n for n, s in order if s == LEVELS[0]][:5] == [0, 8, 16, 4, 12]
     for samples in LEVELS:
         assert sorted(n for n, s in order if s == samples) == list(range(20))
     assert [s for _, s in order] == sorted(s for _, s in order)
 
 
+def test_what_is_traced_becomes_better_without_end():
+    assert list(itertools.islice(traced_levels(), 7)) == [0.5, 2, 6, 18, 54, 162, 486]
+
+
+@pytest.mark.parametrize("count", [24, 5000])
+def test_at_least_half_of_the_minutes_is_for_drawing(count):
+    assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.06 * count)
+    assert refining.drawing_s(60.0, 100, (640, 360)) == 60.0 - 1.5
+
+
+def test_where_the_renderer_gives_up_the_plainer_one_has_frames_of_its_own(tmp_path):
+    class GivesUp(Drawn):
+        renderer = "traced"
+
+        def told(self) -> dict:
+            return {"renderer": {"name": self.renderer}}
+
+        def picture(self, number: int, samples: int) -> np.ndarray:
+            if len(self.asked) == 3 and self.renderer == "traced":
+                self.renderer = "preview"
+                raise refining.FellBackError
+            return super().picture(number, samples)
+
+    film = GivesUp(4)
+    complete, state = refining.refined(film, tmp_path / "film", [SIZE], float("inf"), lambda: None)
+    assert complete and state.samples == [LEVELS[-1]] * 4
+    assert len(list((tmp_path / "film").glob("*.png"))) == 3, "what was traced stands"
+    assert len(list((tmp_path / "film-preview").glob("*.png"))) == 4
+
+
 def test_with_no_time_at_all_there_is_still_a_whole_film(tmp_path):
     film, state = Drawn(12), Refined(tmp_path / "frames", 12, "it")
-    refine(film, state, time.perf_counter() - 1.0, lambda: None)
+    assert not refine(film, state, time.perf_counter() - 1.0, lambda: None)
     assert film.asked == [(0, LEVELS[0])]
-    encode(state, tmp_path / "final.mp4", SIZE, 24)
+    written = []
+    encode(state, tmp_path / "final.mp4", SIZE, 24, written.append)
     assert len(shown(tmp_path / "final.mp4")) == 12
-    assert state.told() == {"samples": {"least": 0, "most": LEVELS[0]}, "drawn": 1, "complete": False}
+    assert written == list(range(1, 13)), "who watches is told that it goes on"
+    assert state.told() == {"samples": {"least": 0, "most": LEVELS[0]}, "drawn": 1, "taken_over": 0}
 
 
 def test_what_is_missing_is_shown_by_the_frame_before_it(tmp_path):
     film, state = Drawn(12), Refined(tmp_path / "frames", 12, "it")
     for number in (0, 4, 8):
         state.keep(number, film.picture(number, 2), 2)
-    encode(state, tmp_path / "final.mp4", SIZE, 24)
+    encode(state, tmp_path / "final.mp4", SIZE, 24, lambda number: None)
     assert np.allclose(shown(tmp_path / "final.mp4"), [0] * 4 + [4] * 4 + [8] * 4, atol=0.3)
 
 
 def test_it_goes_on_where_it_was_cut_and_ends_when_all_is_drawn(tmp_path):
     first, state = Drawn(10), Refined(tmp_path / "frames", 10, "it")
-    for number, samples in list(rounds(10))[:13]:
+    for number, samples in list(rounds(10, LEVELS))[:13]:
         state.keep(number, first.picture(number, samples), samples)
     again = Refined(tmp_path / "frames", 10, "it")
-    assert again.samples == state.samples
+    assert again.samples == state.samples and again.told()["taken_over"] == 10
     second = Drawn(10)
-    refine(second, again, float("inf"), lambda: None)
-    assert first.asked + second.asked == list(rounds(10))
-    assert again.told()["complete"] and again.samples == [LEVELS[-1]] * 10
+    assert refine(second, again, float("inf"), lambda: None)
+    assert first.asked + second.asked == list(rounds(10, LEVELS))
+    assert again.samples == [LEVELS[-1]] * 10
 
 
 @pytest.mark.parametrize("change", ["about", "count", "damaged"])
@@ -84,3 +127,32 @@ def test_a_lost_frame_is_drawn_again(tmp_path):
         state.keep(number, Drawn(3).picture(number, 2), 2)
     state.path(1).unlink()
     assert Refined(tmp_path / "frames", 3, "it").samples == [2, 0, 2]
+
+
+@pytest.mark.gl
+def test_where_paths_cannot_be_traced_the_two_kinds_of_the_preview_are_all(tmp_path, monkeypatch):
+    from worldengine.film.renderers.traced import variant
+
+    def missing() -> str:
+        raise variant.MissingRendererError("not here", "mitsuba", "")
+
+    monkeypatch.setattr(variant, "choose", missing)
+    world = empty()
+    floor(world)
+    ball(world, "ball", (0, 0, 0.6))
+    portable.write(world, tmp_path / "world.mjz")
+    recording = record(world, tmp_path / "trajectory", 40)
+    motion_facts.write(recording, tmp_path / "motion.npz", {"fps": 24, "size": list(SIZE), "movers": ["ball"]})
+    with np.load(tmp_path / "motion.npz") as arrays:
+        film = Film(Recorded(dict(arrays)))
+    facts, numbers = film.description()
+    (tmp_path / "film.json").write_text(json.dumps(facts))
+    np.savez(tmp_path / "film.npz", **numbers)
+    given = SimpleNamespace(world=tmp_path / "world.mjz", fps=24, size=SIZE)
+    told = described.read(tmp_path, recording)
+    with ExitStack() as stack:
+        shown = refining.OfTheAuthor(given, portable.read(given.world), recording, told, stack)
+        assert shown.told()["renderer"]["name"] == "preview"
+        shown.count, state = 2, Refined(tmp_path / "frames", 2, "it")
+        assert refine(shown, state, float("inf"), lambda: None)
+    assert state.samples == [4, 4]

@@ -6,7 +6,7 @@ import pytest
 
 from worldengine.film import renderers
 from worldengine.film.drawn_frames import Frames
-from worldengine.film.renderers.traced import coatings, denoised, rounded, unwrapped, variant
+from worldengine.film.renderers.traced import coatings, denoised, rounded, tracing, unwrapped, variant
 from worldengine.film.renderers.traced.half_room import Walls
 from worldkit import bodies, cameras, materials, scene
 from worldkit.settings import ROOM
@@ -110,6 +110,53 @@ def test_a_card_of_nvidias_comes_first_then_llvm_then_plain_computing(monkeypatc
     assert not variant.nvidia()
 
 
+def test_moments_are_joined_by_what_is_seen_in_each() -> None:
+    ones = np.ones((1, 2, 3), np.float32)
+    first = tracing.Rays(2 * ones, ones, ones, 4 * ones, np.array([[1.0, 0.0]]))
+    second = tracing.Rays(4 * ones, ones, -ones, 8 * ones, np.array([[1.0, 1.0]]))
+    both = first.joined(second, 1)
+    assert both.light.ravel() == pytest.approx(3.0) and both.normals.ravel() == pytest.approx(0.0)
+    assert both.places[0, 0] == pytest.approx(6.0) and both.places[0, 1] == pytest.approx(8.0)
+    assert both.seen.tolist() == [[1.0, 0.5]]
+    again = both.joined(first, 2)
+    assert again.light.ravel() == pytest.approx(8 / 3)
+
+
+@pytest.mark.gl
+def test_more_samples_are_denoised_better_and_lose_no_light(monkeypatch) -> None:
+    model = mujoco.MjModel.from_xml_string(
+        "<mujoco><worldbody><geom type='plane' size='1 1 .1'/><camera name='eye' pos='0 -2 1' xyaxes='1 0 0 0 0.4 1'/></worldbody></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    seen = []
+
+    class Watched(denoised.Denoiser):
+        def __init__(self, width: int, height: int, card: bool, fine: bool) -> None:
+            self.fine = fine
+            super().__init__(width, height, card, fine)
+
+        def clean(self, light, albedo, normal):
+            seen.append((self.fine, float(light.max())))
+            return super().clean(light, albedo, normal)
+
+    def bright(self, *given, **named):
+        guides.append(given[6])
+        rays = there(self, *given, **named)
+        rays.light[0, 0] = 100.0
+        return rays
+
+    guides, there = [], tracing.Tracing.trace
+    monkeypatch.setattr(tracing, "Denoiser", Watched)
+    monkeypatch.setattr(tracing.Tracing, "trace", bright)
+    with Frames(model, 32, 18, "traced") as frames:
+        for samples in (6, 18, 54, 162):
+            frames.image(data, "eye", samples)
+        assert frames.renderer == "traced", frames.reason
+    assert seen == [(False, 12.0), (True, 12.0), (True, 100.0), (True, 100.0)]
+    assert guides == [4, 16, 16, 16]
+
+
 @pytest.mark.gl
 def test_what_moves_is_seen_where_it_is_and_nowhere_else() -> None:
     spec = scene.new("ball", time_step=0.002, setting="studio")
@@ -208,3 +255,12 @@ def test_looks_become_materials_of_their_kind() -> None:
     assert "Principled" in str(made.of(Finish(materials.look("chrome")), grey, 1.0))
     assert "Dielectric" in str(made.of(Finish(materials.look("glass_clear")), grey, 0.2))
     assert made.of(Finish(materials.look("chrome")), grey, 1.0) is made.of(Finish(materials.look("chrome")), grey, 1.0)
+
+
+def test_the_moments_of_a_moving_camera_fit_into_memory():
+    from worldengine.film.renderers.traced import tracing
+
+    assert tracing.glimpses_apart(8, 1280 * 720) == 1
+    for pixels in (1920 * 1080, 3840 * 2160, 1 << 26):
+        kept = -(-32 // tracing.glimpses_apart(32, pixels))
+        assert kept == 1 or kept * 44 * pixels <= tracing.GLIMPSES_BYTES

@@ -43,13 +43,14 @@ def test_a_quiet_onset_leaves_rebounds_as_stated(restitution, speed):
     assert rebound(restitution, 0.001, speed, ground=ground, **quiet) == pytest.approx(restitution, abs=0.06)
 
 
-def hops_on_a_slope(restitution, **more):
-    """The largest speed along the normal (m/s) of a box that has lain a second on a slope of 20 degrees."""
+def on_a_slope(restitution, impratio=1.0, **more):
+    """(largest speed along the normal, speed downhill), m/s, of a box that has lain a second on a slope of 20 degrees."""
     spec = empty(0.001)
+    spec.option.impratio = impratio
     surface = contacts.surface(friction=0.8, restitution=restitution, **more)
     lean = np.radians(20)
     tilt = (np.cos(lean / 2), 0.0, np.sin(lean / 2), 0.0)
-    normal = np.array([np.sin(lean), 0.0, np.cos(lean)])
+    normal, downhill = np.array([np.sin(lean), 0.0, np.cos(lean)]), np.array([np.cos(lean), 0.0, -np.sin(lean)])
     box = mujoco.mjtGeom.mjGEOM_BOX
     spec.worldbody.add_geom(type=box, size=(2, 1, 0.1), quat=tilt, **surface)
     body = spec.worldbody.add_body(pos=0.2 * normal, quat=tilt)
@@ -57,22 +58,33 @@ def hops_on_a_slope(restitution, **more):
     body.add_geom(type=box, size=(0.1, 0.1, 0.1), mass=1.0, **surface)
     model = spec.compile()
     data = mujoco.MjData(model)
-    fastest = 0.0
+    while data.time < 1:
+        mujoco.mj_step(model, data)
+    fastest, start, began = 0.0, data.qpos[:3].copy(), data.time
     while data.time < 2:
         mujoco.mj_step(model, data)
-        if data.time > 1:
-            fastest = max(fastest, abs(data.qvel[:3] @ normal))
-    return fastest
+        fastest = max(fastest, abs(data.qvel[:3] @ normal))
+    return fastest, (data.qpos[:3] - start) @ downhill / (data.time - began)
 
 
 @pytest.mark.parametrize("restitution", [0.1, 0.3, 0.5, 0.7])
 def test_a_box_lies_still_on_a_slope_whatever_its_rebound(restitution):
-    assert hops_on_a_slope(restitution, onset=contacts.QUIET_ONSET) < 1e-6
+    assert on_a_slope(restitution, onset=contacts.QUIET_ONSET)[0] < 1e-6
+
+
+@pytest.mark.parametrize(("restitution", "creep_m_s"), [(0.3, 1.6e-3), (0.6, 4.1e-3)])
+def test_what_a_quiet_onset_costs_is_creep_and_impratio_takes_it_away(restitution, creep_m_s):
+    """The numbers that `contacts.QUIET_ONSET` and the skill on time steps state."""
+    quiet = {"onset": contacts.QUIET_ONSET}
+    assert on_a_slope(restitution, **quiet)[1] == pytest.approx(creep_m_s, rel=0.05)
+    assert on_a_slope(restitution, impratio=10, **quiet)[1] == pytest.approx(creep_m_s / 10, rel=0.05)
 
 
 def test_without_the_onset_it_hops():
     """What the default does, as said in its docs: if this ends, the argument may go."""
-    assert hops_on_a_slope(0.3) > 1e-3
+    hops, creep = on_a_slope(0.3)
+    assert hops > 1e-3
+    assert on_a_slope(0.3, impratio=10)[1] == pytest.approx(creep, rel=0.1)  # which `impratio` does not take away
 
 
 @pytest.mark.parametrize(("arguments", "said"), [

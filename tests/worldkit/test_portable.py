@@ -48,6 +48,16 @@ def test_plain_mujoco_opens_it_elsewhere_and_it_moves_alike(tmp_path: Path, monk
     assert len(set(names)) == len(names) == facts["files"]
 
 
+def test_small_content_is_packed_hard_and_large_content_fast(tmp_path: Path) -> None:
+    text = b"<body/>" * (portable.SMALL // 7)
+    for content, most in ((text, 0.01), (text + text, 0.02)):
+        portable._store({"model.xml": content}, tmp_path / "world.mjz")
+        with zipfile.ZipFile(tmp_path / "world.mjz") as archive:
+            assert archive.read("model.xml") == content
+            assert archive.infolist()[0].compress_size < most * len(content)
+    assert portable._level(portable.SMALL) > portable._level(portable.SMALL + 1)
+
+
 def test_a_file_that_is_gone_is_named(tmp_path: Path) -> None:
     spec = mujoco.MjSpec()
     wedge = tmp_path / "wedge.obj"

@@ -70,18 +70,20 @@ def run(given: "Given", options: argparse.Namespace) -> None:
 
 
 def parts(model: "mujoco.MjModel") -> list[Part]:
-    """Everything of a model that is drawn and rigid, grouped by body and look."""
+    """Everything of a model that is drawn and rigid, grouped by body and look; skins as rigid pieces (`carried_skins`)."""
     import mujoco
     import numpy as np
 
+    from . import carried_skins
     from .renderers.preview.things import Things
     from .renderers.traced import figures, rounded
+    from .renderers.traced.rounded import Mesh
 
     rest = mujoco.MjData(model)
     mujoco.mj_kinematics(model, rest)
     things = Things(model)
     things.update(rest)
-    groups: dict[Any, list[tuple[Any, Any]]] = {}
+    groups: dict[Any, list[Mesh]] = {}
     looks: dict[Any, tuple[str, tuple[float, float, float, float], float, float]] = {}
     for batch in things.batches:
         for row in batch.rows:
@@ -100,18 +102,22 @@ def parts(model: "mujoco.MjModel") -> list[Part]:
             turn = rest.geom_xmat[geom].reshape(3, 3)
             whole = rest.xmat[body].reshape(3, 3)
             points = (mesh.points @ turn.T + rest.geom_xpos[geom] - rest.xpos[body]) @ whole
-            groups.setdefault(key, []).append(
-                (mesh._replace(points=points, normals=mesh.normals @ turn.T @ whole), None)
-            )
+            groups.setdefault(key, []).append(mesh._replace(points=points, normals=mesh.normals @ turn.T @ whole))
+    for body, finish, points, normals, faces in carried_skins.pieces(model):
+        entry = finish.look
+        tint = (*(float(v) for v in np.round(finish.mean, 4)), round(float(entry.rgba[3]), 3))
+        key = (body, tint, round(entry.roughness, 3), round(entry.metallic, 3))
+        looks[key] = (entry.description or "look", tint, *key[2:])  # type: ignore[assignment]
+        groups.setdefault(key, []).append(Mesh(points, normals, faces, None))
     found, budget = [], MOST_TRIANGLES
-    for key, meshes in sorted(groups.items(), key=lambda item: sum(len(mesh.faces) for mesh, _ in item[1])):
-        starts = np.cumsum([0, *(len(mesh.points) for mesh, _ in meshes)])
-        faces = np.concatenate([mesh.faces + start for (mesh, _), start in zip(meshes, starts, strict=False)])
+    for key, meshes in sorted(groups.items(), key=lambda item: sum(len(mesh.faces) for mesh in item[1])):
+        starts = np.cumsum([0, *(len(mesh.points) for mesh in meshes)])
+        faces = np.concatenate([mesh.faces + start for mesh, start in zip(meshes, starts, strict=False)])
         budget -= len(faces)
         if budget < 0:  # the heaviest are left out before anything else
             break
-        points = np.concatenate([mesh.points for mesh, _ in meshes])
-        normals = np.concatenate([mesh.normals for mesh, _ in meshes])
+        points = np.concatenate([mesh.points for mesh in meshes])
+        normals = np.concatenate([mesh.normals for mesh in meshes])
         found.append(Part(key[0], *looks[key], points, normals, faces))
     return found
 

@@ -6,8 +6,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import ProgramError
+from worldkit.film_files import ARRAYS, DESCRIPTION
 from worldkit.filming.drawn_only import SHAPES
-from worldkit.filming.telling import ARRAYS, DESCRIPTION
+from worldkit.filming.film_bounds import MOST_COPIES, MOST_FRAMES, MOST_LAMPS, PLACES
 from worldkit.scene import GROUND
 
 from . import ground_skins
@@ -19,14 +20,13 @@ if TYPE_CHECKING:
     from ..recording.stored import Recording
 
 PLACE = "film.py"
-MOST_FRAMES, MOST_THINGS, MOST_CAPTIONS, MOST_SURFACES = 20_000, 500, 500, 20
-MOST_VERTICES, MOST_COPIES, MOST_LAMPS = 3_000_000, 2_000, 64
+MOST_THINGS, MOST_CAPTIONS, MOST_SURFACES = 500, 500, 20
+MOST_VERTICES = 3_000_000
 FAR_M = 1e5
 CAMERA: dict[str, tuple[int, ...]] = {
     "eye": (3,), "target": (3,), "roll_deg": (), "fovy_deg": (), "focus_m": (), "aperture": (), "time": (),
 }  # fmt: skip
 """Arrays with one row per frame, and the shape of a row."""
-PLACES = ("bottom", "top", "title", "left")
 
 
 class FilmError(ProgramError):
@@ -217,6 +217,8 @@ def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
             raise _refuse(f"the lamp {found['name']!r} has no {key}")
         found[key] = value.tolist()
     good = 0 < found["strength"] <= 1000 and 1 <= found["cone_deg"] <= 89
+    if not (min(found["rgb"]) >= 0 and max(found["rgb"]) <= 1):
+        raise _refuse(f"the lamp {found['name']!r} has a colour of {found['rgb']}", "give it three numbers from 0 to 1")
     if not good or np.abs(found["pos"]).max() > FAR_M or (found["to"] and found["to"] not in bodies):
         raise _refuse(f"the lamp {found['name']!r} is none that can be lit, or is fixed to no body")
     return found
@@ -310,7 +312,9 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
     if "ways" in told:
         ways, sizes = arrays[str(told["ways"])], arrays[str(told["sizes"])]
         good = ways.ndim == 3 and ways.shape[0] == frames and ways.shape[2] == 3 and 1 <= ways.shape[1] <= MOST_COPIES
-        if not good or shape != "sphere" or sizes.shape != ways.shape[:2] or not np.isfinite(ways).all():
+        if not good or shape != "sphere" or not np.isfinite(ways).all():
             raise _refuse(f"{name!r} has no place in each of the {frames} frames")
+        if sizes.shape != ways.shape[:2] or not ((sizes >= 0) & (sizes <= FAR_M)).all():
+            raise _refuse(f"{name!r} has not a size of 0 to {FAR_M:g} m for each of its particles in each frame")
         found |= {"ways": str(told["ways"]), "sizes": str(told["sizes"])}
     return found

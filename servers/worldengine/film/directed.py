@@ -1,5 +1,6 @@
 """Draw a film as its author described it: each frame from recorded rows, through the film's own camera."""
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from worldkit import cameras
@@ -72,26 +73,19 @@ class Screening:
 
     def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame, words and all: uint8 (height, width, 3)."""
-        import numpy as np
-
-        film, samples = self.film, self.film.samples if self.film.shutter > 0 else 1
-        if not isinstance(quality, str) and quality < 1:
-            samples = 1  # a draft is sharp
-        if samples == 1:
-            image = self._moment(float(frame), quality)
+        film, moments = self.film, self.film.samples if self.film.shutter > 0 else 1
+        if not isinstance(quality, str):
+            moments = min(moments, max(1, int(quality)))  # each takes one sample at least; a draft is sharp
+        if moments == 1:
+            image = self.frames.image(self._moment(float(frame)), self._camera, quality)
         else:
-            total: Any = 0.0
-            if not isinstance(quality, str):
-                quality = max(1, round(quality / samples))
-            for sample in range(samples):
-                drawn = self._moment(frame + film.shutter * sample / samples, quality)
-                total = total + (drawn.astype(np.float32) / 255) ** 2.2
-            image = (255 * (total / samples) ** (1 / 2.2) + 0.5).astype(np.uint8)
+            parts = [partial(self._moment, frame + film.shutter * part / moments) for part in range(moments)]
+            image = self.frames.blurred(parts, self._camera, quality)
         speed = film.speed(frame, self.fps)
         return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)])
 
-    def _moment(self, at: float, quality: "Quality") -> "np.ndarray":
-        """The picture between two frames of one shot, without words."""
+    def _moment(self, at: float) -> "mujoco.MjData":
+        """Set up what is shown between two frames of one shot."""
         import numpy as np
 
         film = self.film
@@ -120,7 +114,7 @@ class Screening:
         self._look(data, shot, row, told)
         treatment = film.treatments.at(at / self.fps, float(told("focus_m")), float(told("aperture")))
         self.frames.treat(treatment)
-        return self.frames.image(data, self._camera, quality)
+        return data
 
     def _look(self, data: "mujoco.MjData", shot: dict[str, Any], row: int, told: "Callable[[str], Any]") -> None:
         """Put the film's camera where the shot has it."""

@@ -1,5 +1,6 @@
 """Draw pictures of one model with the wanted renderer, or with a plainer one where that cannot."""
 
+from collections.abc import Callable, Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING
 
@@ -84,6 +85,27 @@ class Frames:
             self._fall_back(error)
             self.treat(self._treatment)
             return self.image(data, index, quality)
+
+    def blurred(
+        self, moments: "Sequence[Callable[[], mujoco.MjData]]", camera: int, quality: renderers.Quality = "video"
+    ) -> "np.ndarray":
+        """The picture of a shutter that is open for these moments, each of which is set up when it is called for.
+
+        A renderer adds up their light where it can; of any other, the pictures are averaged by the light of the screen.
+        """
+        import numpy as np
+
+        blurred = getattr(self._open, "blurred", None)
+        if blurred is None:
+            pictures = (self.image(moment(), camera, quality) for moment in moments)
+            total = sum((picture.astype(np.float32) / 255) ** 2.2 for picture in pictures)
+            return np.asarray(255 * (total / len(moments)) ** (1 / 2.2) + 0.5).astype(np.uint8)
+        try:
+            return np.asarray(blurred((moment() for moment in moments), len(moments), camera, quality))
+        except RuntimeError as error:
+            self._fall_back(error)
+            self.treat(self._treatment)
+            return self.blurred(moments, camera, quality)
 
     def treat(self, treatment: Treatment) -> None:
         """Apply this light, haze, focus and grading from now on, as far as the renderer can."""

@@ -47,7 +47,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     from ..recording.describing import fingerprint
     from . import described
 
-    recording, model, out = stored.open(options.recording), given.model(), options.out
+    recording, model, out = stored.open(options.recording), given.model(FREE if options.eye else ""), options.out
     same = fingerprint(model) == recording.meta["model"]["fingerprint"]
     started = time.perf_counter()
     film = None if options.film is None else described.read(options.film, recording)

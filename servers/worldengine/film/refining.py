@@ -1,16 +1,18 @@
 """The final pass: a film that is whole after its first minute and becomes better until its minutes are over.
 
-All frames are drafted first, at half the size with their surfaces' colours at the whole, every eighth, then those between, so that a film stands whenever it is cut: a frame that
-is missing is shown by the one before it. Then they are drawn again in place, with more samples. What is drawn lies in
-`frames/` and is gone on with later.
+All frames are drafted first, at half the size with their surfaces' colours at the whole, every eighth, then those between, so
+that a film stands whenever it is cut: a frame that is missing is shown by the one before it. Then they are drawn again in
+place, with three times the samples each round, as long as the minutes last. What is drawn lies in `frames/`, a folder for each
+film, and is gone on with later.
 """
 
 import argparse
 import hashlib
+import itertools
 import json
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -29,11 +31,13 @@ if TYPE_CHECKING:
     from .described import Described
 
 NAME, FRAMES, STATE = "final", "frames", "state.json"
-LEVELS = (0.5, 2, 6, 18, 54)
-"""Samples a pixel, round by round; less than one is a draft, which costs about a quarter of the next."""
+DRAFT, FIRST, FACTOR = 0.5, 2, 3
+"""Samples a pixel of the draft, of the first round after it, and how many times more each further round takes."""
+PLAIN_LEVELS = (1, 4)
+"""The same of the preview: its still is drawn twice as large each way."""
 STRIDES = (8, 4, 2, 1)
 ENCODE_S = 0.06
-"""Kept back for each frame of the film, s: reading it again and encoding it."""
+"""Kept back for each frame of the film, s: reading it again and encoding it took 54 ms of a processor's time at 1280x720."""
 
 
 class Shown(Protocol):
@@ -42,6 +46,9 @@ class Shown(Protocol):
     count: int
     """The number of its frames."""
 
+    def levels(self) -> Iterable[float]:
+        """Samples a pixel, round by round; without end where more always make it better."""
+
     def picture(self, number: int, samples: float) -> "np.ndarray":
         """One frame with so many samples a pixel: uint8 (height, width, 3)."""
 
@@ -49,36 +56,8 @@ class Shown(Protocol):
         """What the result says of it: cameras, renderer, …"""
 
 
-class OfThePlan:
-    """The recording through one camera of the plan."""
-
-    def __init__(
-        self, model: "mujoco.MjModel", recording: "Recording", size: tuple[int, int], fps: int, stack: ExitStack
-    ) -> None:
-        from worldkit import cameras
-
-        from ..recording.replay import Replay, frame_rows
-        from .drawn_frames import Frames
-        from .passes import choose_cameras
-
-        self._name = choose_cameras(model, [])[0]
-        self._model, self._replay = model, Replay(model, recording)
-        cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
-        self._rows = frame_rows(recording.time, fps)
-        self.count = len(self._rows)
-        self._frames = stack.enter_context(Frames(model, *size, renderers.FINAL))
-
-    def picture(self, number: int, samples: float) -> "np.ndarray":
-        """One frame."""
-        from worldkit import cameras
-
-        data = self._replay.show(int(self._rows[number]))
-        cameras.track(self._model, data)
-        return self._frames.image(data, self._name, samples)
-
-    def told(self) -> dict[str, Any]:
-        """The camera and the renderer."""
-        return {"cameras": [self._name], "renderer": self._frames.told()}
+class FellBackError(Exception):
+    """A plainer renderer draws from now on: its pictures belong to no set that the other one began."""
 
 
 class OfTheAuthor:
@@ -92,10 +71,28 @@ class OfTheAuthor:
         self._film, self._fps, self.count = film, given.fps, film.frames
         screening = Screening(given.world, model, recording, film, given.size, given.fps, renderers.FINAL)
         self._screening = stack.enter_context(screening)
+        self.renderer = screening.frames.renderer
+
+    @property
+    def _traced(self) -> bool:
+        return self.renderer == renderers.FINAL
+
+    def levels(self) -> Iterable[float]:
+        """Ever more samples where paths are traced; the two kinds of picture that any other renderer has."""
+        return traced_levels() if self._traced else PLAIN_LEVELS
 
     def picture(self, number: int, samples: float) -> "np.ndarray":
-        """One frame, words and all."""
-        return self._screening.picture(number, samples)
+        """One frame, words and all.
+
+        Raises:
+            FellBackError: the renderer gave up meanwhile.
+        """
+        plain: renderers.Quality = "still" if samples >= PLAIN_LEVELS[-1] else "video"
+        image = self._screening.picture(number, samples if self._traced else plain)
+        if self._screening.frames.renderer != self.renderer:
+            self.renderer = self._screening.frames.renderer
+            raise FellBackError
+        return image
 
     def told(self) -> dict[str, Any]:
         """The renderer, and what the film tells of itself."""
@@ -117,28 +114,48 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     headless_gl()
     started = time.perf_counter()
     recording, model, out = stored.open(options.recording), given.model(), options.out
-    film = None if options.film is None else described.read(options.film, recording)
-    about = [recording.sha256, renderers.FINAL, given.size, given.fps]
-    if film is not None:
-        about += [_sha256(path) for path in sorted(options.film.iterdir())]
+    film, name = described.read(options.film, recording), named(options.film, recording.sha256)
     seconds = options.minutes * 60.0
     tick = Progress(out, round(seconds), "s")
     with ExitStack() as stack:
-        shown: Shown
-        if film is not None:
-            shown = OfTheAuthor(given, model, recording, film, stack)
-        else:
-            shown = OfThePlan(model, recording, given.size, given.fps, stack)
+        shown = OfTheAuthor(given, model, recording, film, stack)
+        end = started + drawing_s(seconds, shown.count, given.size)
+        complete, state = refined(
+            shown, out / FRAMES / name, [given.size, given.fps], end,
+            lambda: tick(min(round(time.perf_counter() - started), round(seconds))),
+        )  # fmt: skip
         told = shown.told()
-        state = Refined(out / FRAMES, shown.count, json.dumps([*about, told["renderer"]]))
-        end = started + seconds - ENCODE_S * shown.count
-        refine(shown, state, end, lambda: tick(min(round(time.perf_counter() - started), round(seconds))))
-        told = shown.told()
-    encode(state, out / f"{NAME}.mp4", given.size, given.fps)
+    encode(state, out / f"{NAME}.mp4", given.size, given.fps, Progress(out, shown.count, "frames in the file"))
     result = {"ok": True, "pass": NAME, **told, "frames": shown.count, "fps": given.fps, "size": list(given.size)}
-    result |= {"seconds": shown.count / given.fps, **state.told(), "trajectory_sha256": recording.sha256}
+    result |= {
+        "seconds": shown.count / given.fps,
+        **state.told(),
+        "complete": complete,
+        "trajectory_sha256": recording.sha256,
+    }
     write_json(out / "result.json", {**result, "wall_s": round(time.perf_counter() - started, 3)})
     sys.stdout.write(f"{NAME}: {state.text()}, in {out}\n")
+
+
+def drawing_s(seconds: float, count: int, size: Sequence[int]) -> float:
+    """Seconds of those given in which frames are drawn; the rest is for the file, but never more than half."""
+    return max(seconds / 2, seconds - ENCODE_S * count * size[0] * size[1] / (1280 * 720))
+
+
+def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick: Any) -> "tuple[bool, Refined]":
+    """`refine` on the frames in a folder; where the renderer gives up, on those of the plainer one, in a folder beside it."""
+    while True:
+        state = Refined(folder, shown.count, json.dumps([folder.name, *about, shown.told()["renderer"]]))
+        try:
+            return refine(shown, state, end, tick), state
+        except FellBackError:
+            folder = folder.with_name(f"{folder.name}-{shown.renderer}")
+
+
+def named(described: Path, recording_sha256: str) -> str:
+    """The name of the set of frames of a film: a hash of its description, in this folder, and of what it shows."""
+    said = [recording_sha256, *(hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(described.iterdir()))]
+    return hashlib.sha256("\n".join(said).encode()).hexdigest()[:16]
 
 
 class Refined:
@@ -160,6 +177,8 @@ class Refined:
             samples = []
         self.samples = samples if len(samples) == count else [0.0] * count
         self.samples = [n if self.path(k).is_file() else 0.0 for k, n in enumerate(self.samples)]
+        self.taken_over = sum(n > 0 for n in self.samples)
+        """So many frames stood already."""
 
     def path(self, number: int) -> Path:
         """The file of a frame."""
@@ -177,10 +196,10 @@ class Refined:
         return max((k for k in drawn if k <= number), default=drawn[0])
 
     def told(self) -> dict[str, Any]:
-        """How far it has come: `samples` a pixel, least and most; the number `drawn`; whether it is `complete`."""
+        """How far it has come: `samples` a pixel, least and most; the number `drawn`; of these, those `taken_over`."""
         least, most = min(self.samples), max(self.samples)
         drawn = sum(n > 0 for n in self.samples)
-        return {"samples": {"least": least, "most": most}, "drawn": drawn, "complete": least >= LEVELS[-1]}
+        return {"samples": {"least": least, "most": most}, "drawn": drawn, "taken_over": self.taken_over}
 
     def text(self) -> str:
         """The same in words."""
@@ -189,9 +208,16 @@ class Refined:
         return f"{head}, {said['samples']['least']:g} to {said['samples']['most']:g} samples a pixel"
 
 
-def rounds(count: int) -> Iterator[tuple[int, float]]:
+def traced_levels() -> Iterator[float]:
+    """Samples a pixel, round by round, without end."""
+    yield DRAFT
+    for number in itertools.count():
+        yield FIRST * FACTOR**number
+
+
+def rounds(count: int, levels: Iterable[float]) -> Iterator[tuple[int, float]]:
     """(frame, samples) in the order of drawing: each level over every eighth frame first, then those between."""
-    for samples in LEVELS:
+    for samples in levels:
         done: set[int] = set()
         for stride in STRIDES:
             for number in range(0, count, stride):
@@ -200,25 +226,26 @@ def rounds(count: int) -> Iterator[tuple[int, float]]:
                     yield number, samples
 
 
-def refine(shown: Shown, state: Refined, end: float, tick: Any) -> None:
+def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     """Draw frames until the clock (`time.perf_counter`) reaches `end`, s; at least one that can be shown.
 
-    A frame is begun only if it is likely to be done in time, by what the last one took for each sample.
+    Returns whether nothing is left that would make it better. A frame is begun only if it is likely to be done in time, by what the last one took for each sample.
     """
     per_sample = 0.0
-    for number, samples in rounds(shown.count):
+    for number, samples in rounds(shown.count, shown.levels()):
         if state.samples[number] >= samples:
             continue
         now = time.perf_counter()
         if any(state.samples) and now + per_sample * samples > end:
-            return
+            return False
         state.keep(number, shown.picture(number, samples), samples)
         per_sample = (time.perf_counter() - now) / samples
         tick()
+    return True
 
 
-def encode(state: Refined, path: Path, size: tuple[int, int], fps: int) -> None:
-    """Write the film out of the frames that there are."""
+def encode(state: Refined, path: Path, size: tuple[int, int], fps: int, tick: Callable[[int], object]) -> None:
+    """Write the film out of the frames that there are; `tick` is called with the number written."""
     import cv2
     import numpy as np
 
@@ -232,7 +259,4 @@ def encode(state: Refined, path: Path, size: tuple[int, int], fps: int) -> None:
                 assert read is not None  # it was written by us
                 last, image = nearest, cv2.cvtColor(read, cv2.COLOR_BGR2RGB)
             film.add(image)
-
-
-def _sha256(path: Path) -> str:
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+            tick(number + 1)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.naming import names
 
 from . import ties
-from .seen import visible
+from .seen import visible, visible_skins
 
 if TYPE_CHECKING:
     import mujoco
@@ -103,6 +103,10 @@ def describe(model: "mujoco.MjModel", visual_only: tuple[str, ...] = ()) -> dict
             for s, name in enumerate(names(model, "sensor", model.nsensor))
         ],
         "flexes": [_flex(model, f, name, bodies) for f, name in enumerate(names(model, "flex", model.nflex))],
+        "skins": [
+            {"name": name, "bodies": _followed(model, s, bodies), "visible": bool(drawn)}
+            for s, (name, drawn) in enumerate(zip(names(model, "skin", model.nskin), visible_skins(model), strict=True))
+        ],
         "excludes": [[bodies[int(s) >> 16], bodies[int(s) & 0xFFFF]] for s in model.exclude_signature],
         "cameras": names(model, "camera", model.ncam),
         "equalities": [
@@ -160,6 +164,12 @@ def _geom(model: "mujoco.MjModel", g: int, name: str, bodies: list[str]) -> dict
         "surfacevel": bool(model.geom_surfacevel[g].any()),
         "adhesion": bool(model.geom_adhesion[g].any()),
     }
+
+
+def _followed(model: "mujoco.MjModel", s: int, bodies: list[str]) -> list[str]:
+    """The bodies that a skin follows."""
+    first = int(model.skin_boneadr[s])
+    return [bodies[b] for b in model.skin_bonebodyid[first : first + int(model.skin_bonenum[s])]]
 
 
 def _flex(model: "mujoco.MjModel", f: int, name: str, bodies: list[str]) -> dict[str, Any]:

@@ -36,6 +36,8 @@ BATCH_BYTES = 3 << 20
 """The raw size of a batch, bytes, which sets its number of rows."""
 FLUSH_S = 0.5
 """A batch is flushed at the latest so long after its first row, s of wall-clock time."""
+PACKED = ("interventions", "inputs", "edits")
+"""Tables whose rows repeat each other; the state, contacts and warnings are read from the disk as they lie there."""
 HASHED = ("time", "qpos", "qvel", "pos", "quat")
 """Columns that identify a trajectory."""
 
@@ -99,7 +101,7 @@ class Recorder:
             {"schema": SCHEMA_VERSION, **meta, "columns": {"state": as_meta(self.columns), **tables}},
         )
         self._streams = {
-            name: _Stream(self._folder / f"{name}.arrows", columns, packed=name != "state")
+            name: _Stream(self._folder / f"{name}.arrows", columns, packed=name in PACKED)
             for name, columns in {"state": self.columns, **TABLES}.items()
         }
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
@@ -300,11 +302,7 @@ class Recorder:
 
 
 class _Stream:
-    """One Arrow IPC stream file: each batch reaches the operating system in one go.
-
-    Tables are packed, as their rows repeat each other: what pushes hundreds of bodies takes a third of the room, in no more
-    time. The state is not: it is read from the disk as it lies there.
-    """
+    """One Arrow IPC stream file: each batch reaches the operating system in one go."""
 
     def __init__(self, path: Path, columns: tuple[Column, ...], packed: bool) -> None:
         import pyarrow as pa

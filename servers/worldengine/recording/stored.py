@@ -1,10 +1,11 @@
-"""Read a recording, memory-mapped, as numpy arrays; a torn one up to its last flushed batch.
+"""Read a recording as numpy arrays; a torn one up to its last flushed batch.
 
 >>> recording = open("out/trajectory")  # doctest: +SKIP
 >>> recording.pos[-1, recording.body("cue_ball")]  # doctest: +SKIP
 
 The folder holds `meta.json`, `state.arrows` and the tables `contacts`, `interventions`, `warnings`, `edits`, `inputs`
-(Arrow IPC streams; `columns` says what is in them), and `complete.json` once the run ended well.
+(Arrow IPC streams; `columns` says what is in them), and `complete.json` once the run ended well. The streams are mapped into
+memory; of those that are packed (`record.PACKED`) the rows are unpacked when the table is opened.
 """
 
 import hashlib
@@ -29,7 +30,8 @@ __all__ = ["Recording", "RecordingError", "Replayable", "Table", "digest", "inpu
 class Table:
     """One stream file with its columns as attributes: (rows, …) arrays, made when first asked for.
 
-    A column that lies in one batch is a view into the mapped file; one of several batches is joined, once.
+    A column that lies in one batch is a view of it, in the mapped file where that is not packed; one of several batches is
+    joined, once.
     """
 
     def __init__(self, path: Path, columns: tuple[Column, ...], limit: int | None = None) -> None:
@@ -260,12 +262,12 @@ def digest(recording: Recording) -> str:
 
 
 def _numbers(array: "pa.Array", column: Column) -> "np.ndarray":
-    """One batch of one column as a view into the mapped file."""
+    """One batch of one column as a view."""
     if not column.shape:
         flat = array
     elif array.null_count:
         flat = array.flatten()
-    else:  # the same without pyarrow.compute, whose import takes longer than most recordings take to read
+    else:  # the same without importing pyarrow.compute
         width = array.type.list_size
         flat = array.values.slice(array.offset * width, len(array) * width)
     return flat.to_numpy(zero_copy_only=True).reshape(-1, *column.shape)

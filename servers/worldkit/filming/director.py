@@ -9,13 +9,12 @@ from ..errors import ProgramError
 from . import hero, sets
 from .drawn_only import look_facts
 from .dressing import Dressing
+from .film_bounds import MOST_FRAMES, PLACES
 from .frame_by_frame import grown, sampled
 from .recorded import Recorded
 from .viewpoints import Viewpoint
 
-MOST_FRAMES = 20_000
 SLOWEST, FASTEST = 1 / 200, 50.0
-PLACES = ("bottom", "top", "title", "left")
 Speed = float | tuple[float, float]
 
 

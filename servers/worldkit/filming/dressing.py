@@ -9,11 +9,10 @@ import numpy as np
 from ..errors import ProgramError
 from . import trees
 from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
+from .film_bounds import MOST_LAMPS
 from .ground import Height
 from .recorded import Recorded
 from .weather import Weather
-
-MOST_LAMPS = 64
 
 
 class Dressing(Weather):

@@ -9,6 +9,7 @@ import numpy as np
 from ..errors import ProgramError
 from . import viewpoints
 from .drawn_only import Thing
+from .film_bounds import MOST_COPIES
 from .recorded import Recorded
 from .viewpoints import Viewpoint
 
@@ -55,9 +56,9 @@ def grown(thing: Thing, at: Callable[[np.ndarray], Any], times: np.ndarray) -> T
     places, sizes = told if isinstance(told, tuple) else (told, None)
     places = np.asarray(places, dtype=float)
     good = places.ndim == 3 and places.shape[0] == len(times) and places.shape[2] == 3 and np.isfinite(places).all()
-    if not good or not 1 <= places.shape[1] <= 2000:
+    if not good or not 1 <= places.shape[1] <= MOST_COPIES:
         raise ProgramError(
-            f"the particles {thing.name!r} must be ({len(times)}, P, 3) numbers, P at most 2000; got {places.shape}",
+            f"the particles {thing.name!r} must be ({len(times)}, P, 3) numbers, P at most {MOST_COPIES}; got {places.shape}",
             "film.py",
             "",
         )

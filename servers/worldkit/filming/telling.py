@@ -11,7 +11,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-DESCRIPTION, ARRAYS = "film.json", "film.npz"
+from ..film_files import ARRAYS, DESCRIPTION
+
 MOST_CPU_S = 90
 """A description takes a second or two; one that takes so much processor time never ends."""
 

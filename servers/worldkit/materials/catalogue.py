@@ -10,9 +10,9 @@ CHERRY = ((0.66, 0.38, 0.24), (0.56, 0.29, 0.17), (0.40, 0.18, 0.10))
 EBONY = ((0.19, 0.16, 0.14), (0.13, 0.105, 0.095), (0.07, 0.055, 0.05))
 
 
-def _wood(description: str, name: str, tones: tuple, rings: float = 7.0, pore: float = 0.5) -> Look:
+def _wood(description: str, name: str, tones: tuple, rings: float = 26.0, pore: float = 0.5) -> Look:
     return Look(
-        description, paint="wood.solid", arguments=(name, *tones, rings, pore), tile_m=0.9, grain=True,
+        description, paint="wood.solid", arguments=(name, *tones, rings, pore), tile_m=0.5, grain=True,
         roughness=0.38, coat=0.25, relief_m=0.0006,
     )  # fmt: skip
 
@@ -57,10 +57,10 @@ POOL_TONES = {
 LIBRARY: dict[str, Look] = {
     "wood_oak": _wood("Oiled oak, golden brown, straight grain", "oak", OAK),
     "wood_walnut": _wood("Dark walnut, satin", "walnut", WALNUT),
-    "wood_pine": _wood("Pale pine with amber rings", "pine", PINE, 5.0, 0.15),
-    "wood_maple": _wood("Light maple, fine grain", "maple", MAPLE, 6.0, 0.12),
-    "wood_cherry": _wood("Reddish cherry", "cherry", CHERRY, 7.0, 0.25),
-    "wood_ebony": _wood("Nearly black ebony", "ebony", EBONY, 9.0, 0.3),
+    "wood_pine": _wood("Pale pine with amber rings", "pine", PINE, 16.0, 0.15),
+    "wood_maple": _wood("Light maple, fine grain", "maple", MAPLE, 20.0, 0.12),
+    "wood_cherry": _wood("Reddish cherry", "cherry", CHERRY, 24.0, 0.25),
+    "wood_ebony": _wood("Nearly black ebony", "ebony", EBONY, 34.0, 0.3),
     "wood_planks": Look(
         "Varnished oak floor boards", paint="wood.planks", arguments=("planks", *OAK, 16), tile_m=2.0,
         roughness=0.30, coat=0.35, relief_m=0.0016, vary=0.10,

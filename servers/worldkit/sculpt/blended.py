@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..naming import free
 from .minting import Made
 from .primitives import box, capsule, cylinder, ellipsoid, sphere
 from .signed import Array
@@ -48,7 +49,7 @@ def bind(spec: "mujoco.MjSpec", names: Sequence[str], solid: Made, pos: Array, b
     if not 0 < length < np.inf:
         raise ValueError(f"dress: blend must be a positive length in metres, not {blend}")
     weights = shares(model, data, ids, points, length)
-    name = f"{names[0]}/skin"
+    name = free(f"{names[0]}/skin", {skin.name for skin in spec.skins})
     skin = spec.add_skin(name=name, material=look)
     skin.vert, skin.face = points.ravel(), solid.faces.ravel().astype(np.int32)
     if len(solid.uv):

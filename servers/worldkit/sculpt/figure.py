@@ -9,6 +9,7 @@ import numpy as np
 
 from ..bodies import COLLIDES, DRAWN, placed
 from ..joints import Ball, Hinge, Joint, Slide, attach
+from ..naming import free
 from ..parts import WATER
 from .minting import Made, made
 from .signed import Array, Shape, Vec3, rotation_about
@@ -41,6 +42,10 @@ class Part:
     surface: dict[str, Any] | None = None
     make: dict[str, Any] = field(default_factory=dict)
 
+    def made(self) -> Made:
+        """What comes of it, in the figure's coordinates."""
+        return made(self.shape, paint=self.paint, **self.make)
+
 
 def add(
     spec: "mujoco.MjSpec",
@@ -64,8 +69,8 @@ def add(
 ) -> "mujoco.MjsBody":
     """Add a sculpted body, whose frame is the centre of the box around it; returns it.
 
-    What is drawn is called `name/look` and touches nothing; what collides is called `name`, or `name/1` … where there are
-    several pieces. Mass, centre of mass and inertia are those of the watertight solid.
+    What is drawn is called `name/look`, `name/look2` … and touches nothing; what collides is called `name`, or `name/1` …
+    where there are several pieces. Mass, centre of mass and inertia are those of the watertight solid.
 
     Args:
         spec: the world under construction.
@@ -120,16 +125,17 @@ def dress(
     """Draw a sculpted skin in place of bodies' own geoms, which go on to collide and weigh, unseen.
 
     So a plan owns bodies of primitives (`worldkit.bodies`), and the program what they look like. One skin over several bodies
-    bends where they do: a hand opens, an arm bends, without a seam.
+    bends where they do: a hand opens, an arm bends, without a seam. What is sculpted already is not replaced: a glove, then
+    a ring over it.
 
     Args:
         spec: the world under construction; bodies stand as the shape is drawn, joints at zero.
         name: of the body, or of the bodies, which are there already.
         shape: from `worldkit.sculpt`.
         pos: where the centre of the box around the shape lies in the (first) body's frame, m.
-        paint: as of `add`, with `look`, `roughness`, `metallic` and `make`; over several bodies its mean colour is drawn.
+        paint: as of `add`, with `look`, `roughness`, `metallic` and `make`.
         look: see `paint`.
-        roughness: see `paint`.
+        roughness: see `paint`; a skin over several bodies has this one all over, or the mean of what the paint tells.
         metallic: see `paint`.
         blend: length, m, over which a skin flows from one body into the next; None: by its size.
         make: see `paint`.
@@ -143,26 +149,21 @@ def dress(
         raise ValueError(f"there is no body {unknown[0]!r} to dress; known: {', '.join(known) or 'none'}")
     solid = made(shape, paint=paint, hulls="convex", **make)
     for one in names:
-        for geom in spec.body(one).geoms:
-            geom.group = COLLIDES["group"]
+        own = list(spec.body(one).geoms)
+        if not any(geom.meshname.startswith("sculpt_") and geom.group == DRAWN["group"] for geom in own):
+            for geom in own:
+                geom.group = COLLIDES["group"]
     if len(names) > 1:
         from .. import materials
         from .blended import bind
 
-        drawn = materials.add(spec, look or _mean(solid) or "plastic_white")
+        level = float(solid.roughness.mean()) if len(solid.roughness) else roughness
+        painted = len(solid.picture)
+        drawn = _material(spec, solid, level, metallic) if painted else materials.add(spec, look or "plastic_white")
         bind(spec, names, solid, np.asarray(pos, dtype=float), blend, drawn)
         return
     centre = (solid.low + solid.high) / 2 - np.asarray(pos, dtype=float)
     _draw(spec, spec.body(names[0]), names[0], solid, centre, look, roughness, metallic)
-
-
-def _mean(solid: Made) -> str:
-    """The mean colour of a painted solid's corners, as `#rrggbb`; empty without paint."""
-    if not len(solid.picture):
-        return ""
-    side = len(solid.picture)
-    column, row = np.clip((solid.uv * side).astype(int), 0, side - 1).T
-    return "#" + "".join(f"{round(float(v)):02x}" for v in solid.picture[row, column].mean(axis=0))
 
 
 def assemble(
@@ -193,7 +194,7 @@ def assemble(
             raise ValueError(f"assemble: two parts are called {part.name!r}")
         if part.parent in names[number:]:
             raise ValueError(f"assemble: {part.name} hangs on {part.parent!r}, which must stand before it")
-    solids = {part.name: made(part.shape, paint=part.paint, **part.make) for part in parts}
+    solids = {part.name: part.made() for part in parts}
     low, high = box_around(parts)
     pivot = (low + high) / 2 if origin is None else np.asarray(origin, dtype=float)
     turn, there = rotation_about(yaw_deg, "z"), np.asarray(pos, dtype=float)
@@ -218,7 +219,7 @@ def assemble(
 
 def box_around(parts: Sequence[Part]) -> tuple[Array, Array]:
     """Lowest and highest corner (3,) of the box around parts, in the figure's coordinates, m."""
-    solids = [made(part.shape, paint=part.paint, **part.make) for part in parts]
+    solids = [part.made() for part in parts]
     return np.min([solid.low for solid in solids], axis=0), np.max([solid.high for solid in solids], axis=0)
 
 
@@ -250,7 +251,7 @@ def _draw(
     levels = np.unique(solid.roughness) if len(solid.roughness) else np.array([roughness])
     for number, level in enumerate(levels):
         faces = solid.faces[solid.roughness == level] if len(solid.roughness) else solid.faces
-        label = f"{name}/look" if number == 0 else f"{name}/look{number + 1}"
+        label = free(f"{name}/look", {geom.name for geom in body.geoms})
         mesh = _mesh_file(spec, f"sculpt_{solid.signature[:16]}_{number}" + _away(moved), solid, faces, centre)
         if len(solid.picture):
             material = _material(spec, solid, float(level), metallic)

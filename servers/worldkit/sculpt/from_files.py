@@ -1,12 +1,13 @@
 """What a file sculpts, as one thing of a world: `sculpt.from_file(spec, "sculpt/vase.py", name="vase", pos=…)`.
 
 The file lies beside the program and is part of what a plan's approval and a world's evidence are about. It is run once a
-process, however many bodies are made of it.
+process, and so is a function in it, however many bodies are made of it.
 """
 
 import runpy
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -17,7 +18,6 @@ from ..joints import Joint
 from ..parts import WATER
 from .crisp import Solid
 from .figure import Part, assemble, box_around
-from .minting import made
 from .signed import Shape, Vec3
 
 if TYPE_CHECKING:
@@ -65,22 +65,25 @@ def from_file(
         ProgramError: there is no such file, or nothing of that name in it.
         ValueError: not exactly one part has no parent, or what `add` refuses.
     """
-    parts = named_parts(name, sculpted(file, of))
-    if mass is not None:
-        own = [_weight(part, surface) for part in parts]
-        parts = [replace(part, mass=mass * share / sum(own)) for part, share in zip(parts, own, strict=True)]
-    elif surface is not None and "density" in surface:
-        parts = [replace(part, mass=None, density=surface["density"]) for part in parts]
-    given: dict[str, Any] = {key: value for key, value in (("surface", surface), ("look", look)) if value is not None}
-    root = next(number for number, part in enumerate(parts) if part.parent is None)
-    parts = [replace(part, **given) for part in parts]
-    parts[root] = replace(parts[root], parent=parent)
-    low, high = box_around(parts)
-    middle = (low + high) / 2
-    return assemble(
-        spec, parts, pos=pos, yaw_deg=yaw_deg, origin=(float(middle[0]), float(middle[1]), float(middle[2])), fixed=fixed,
-        placed_joints={name: joint} if joint is not None else {},
-    )[name]  # fmt: skip
+    with sculpted(file, of) as held:
+        parts = named_parts(name, held)
+        if mass is not None:
+            own = [_weight(part, surface) for part in parts]
+            parts = [replace(part, mass=mass * share / sum(own)) for part, share in zip(parts, own, strict=True)]
+        elif surface is not None and "density" in surface:
+            parts = [replace(part, mass=None, density=surface["density"]) for part in parts]
+        given: dict[str, Any] = {
+            key: value for key, value in (("surface", surface), ("look", look)) if value is not None
+        }
+        root = next(number for number, part in enumerate(parts) if part.parent is None)
+        parts = [replace(part, **given) for part in parts]
+        parts[root] = replace(parts[root], parent=parent)
+        low, high = box_around(parts)
+        middle = (low + high) / 2
+        return assemble(
+            spec, parts, pos=pos, yaw_deg=yaw_deg, origin=(float(middle[0]), float(middle[1]), float(middle[2])), fixed=fixed,
+            placed_joints={name: joint} if joint is not None else {},
+        )[name]  # fmt: skip
 
 
 def named_parts(name: str, parts: Sequence[Part]) -> list[Part]:
@@ -111,14 +114,27 @@ def named_parts(name: str, parts: Sequence[Part]) -> list[Part]:
     ]
 
 
-def sculpted(file: str, of: str = "") -> tuple[Part, ...]:
-    """The parts of a thing in a file beside the program; of a bare shape one, painted by the file's `paint`."""
-    held = _held(str(found(file)))
-    chosen = of or last(held)
-    if chosen not in held:
-        known = ", ".join(names(held)) or "nothing that is sculpted"
-        raise ProgramError(f"there is no {chosen!r} in it", file, f"it has: {known}")
-    return parts_of(chosen, held[chosen], held.get("paint"))
+@contextmanager
+def sculpted(file: str, of: str = "") -> Iterator[tuple[Part, ...]]:
+    """The parts of a thing in a file beside the program; of a bare shape one, painted by the file's `paint`.
+
+    While they are made, what their functions import is found beside the file, too.
+    """
+    path = found(file)
+    with beside(path):
+        yield _parts(str(path), file, of)
+
+
+@contextmanager
+def beside(path: Path) -> Iterator[None]:
+    """Let modules in the folder of a file be imported."""
+    folder = str(path.absolute().parent)
+    sys.path.insert(0, folder)
+    try:
+        yield
+    finally:
+        with suppress(ValueError):  # an author may have changed the path, too
+            sys.path.remove(folder)
 
 
 def found(file: str) -> Path:
@@ -133,12 +149,17 @@ def found(file: str) -> Path:
 
 @cache
 def _held(path: str) -> dict[str, Any]:
-    folder = str(Path(path).parent)
-    sys.path.insert(0, folder)
-    try:
-        return runpy.run_path(path)
-    finally:
-        sys.path.remove(folder)
+    return runpy.run_path(path)
+
+
+@cache
+def _parts(path: str, file: str, of: str) -> tuple[Part, ...]:
+    held = _held(path)
+    chosen = of or last(held)
+    if chosen not in held:
+        known = ", ".join(names(held)) or "nothing that is sculpted"
+        raise ProgramError(f"there is no {chosen!r} in it", file, f"it has: {known}")
+    return parts_of(chosen, held[chosen], held.get("paint"))
 
 
 def parts_of(name: str, value: Any, paint: Any = None) -> tuple[Part, ...]:
@@ -183,4 +204,4 @@ def _weight(part: Part, surface: dict[str, Any] | None) -> float:
     if part.mass is not None:
         return part.mass
     density = part.density or (part.surface or surface or {}).get("density", WATER)
-    return float(density) * made(part.shape, paint=part.paint, **part.make).volume
+    return float(density) * part.made().volume

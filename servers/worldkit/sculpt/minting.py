@@ -1,15 +1,17 @@
 """A shape made: what is drawn, its picture, what collides, and what it weighs like. Made once, and kept by its content."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, fields
+import random
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import kept_shapes
 from ..forms.bulk import Form
-from . import keeping
 from .marching import CELLS, TRIANGLES, Skin, decimated, surface
 from .signatures import signature
 from .signed import Array, Shape
@@ -74,6 +76,8 @@ def made(
 ) -> Made:
     """Make a shape, or take it from what is kept of an earlier call with the same shape, paint and settings.
 
+    Where nobody can tell what a paint is made of (it holds a generator, a file), it is made anew at each call.
+
     Args:
         shape: distance function, or exact solid (for which `cells` has no meaning).
         cells: along its longest side.
@@ -90,13 +94,32 @@ def made(
     if not 100 <= triangles <= 400_000:
         raise ValueError(f"triangles: give 100 to 400000, not {triangles}")
     key = signature(code(), shape, cells, triangles, paint, texels, hulls)
+    if not key:
+        return _named(_made("", shape, cells, triangles, paint, texels, hulls))
     if key not in _memory:
         found = _kept(key)
         if found is None:
-            found = _made(key, shape, cells, triangles, paint, texels, hulls)
+            with _draws_of_its_own(key):
+                found = _made(key, shape, cells, triangles, paint, texels, hulls)
             _keep(found)
         _memory[key] = found
     return _memory[key]
+
+
+@contextmanager
+def _draws_of_its_own(key: str) -> Iterator[None]:
+    """Within the block, global random draws depend on what is made alone; behind it they go on as if it had not been made.
+
+    Otherwise whether a shape is kept of an earlier run would decide what is drawn after it.
+    """
+    held = np.random.get_state(), random.getstate()  # noqa: NPY002 - programs may draw from it all the same
+    np.random.seed(int(key[:8], 16))  # noqa: NPY002
+    random.seed(key)
+    try:
+        yield
+    finally:
+        np.random.set_state(held[0])  # noqa: NPY002
+        random.setstate(held[1])
 
 
 def _made(key: str, shape: Any, cells: int, triangles: int, paint: Any, texels: int, hulls: Any) -> Made:
@@ -175,7 +198,7 @@ def code() -> str:
 
 
 def _kept(key: str) -> Made | None:
-    held = keeping.kept(key)
+    held = kept_shapes.kept(key)
     try:
         if held is None or str(held.pop("signature")) != key:
             return None
@@ -186,7 +209,17 @@ def _kept(key: str) -> Made | None:
         return None
 
 
-def _keep(found: Made) -> None:
+def _named(found: Made) -> Made:
+    """Signed by what it came out as, so that all builds call it alike."""
+    return replace(found, signature=signature(*_arrays(found).values()))
+
+
+def _arrays(found: Made) -> dict[str, Array]:
     arrays = {f.name: np.asarray(getattr(found, f.name)) for f in fields(found) if f.name != "hulls"}
-    arrays |= {f"hull{n}": points for n, points in enumerate(found.hulls)} | {"count": np.asarray(len(found.hulls))}
-    keeping.keep(found.signature, arrays)
+    return (
+        arrays | {f"hull{n}": points for n, points in enumerate(found.hulls)} | {"count": np.asarray(len(found.hulls))}
+    )
+
+
+def _keep(found: Made) -> None:
+    kept_shapes.keep(found.signature, _arrays(found))

@@ -18,7 +18,6 @@ from ..errors import ProgramError
 from . import from_files
 from .figure import assemble, box_around
 from .marching import CELLS
-from .minting import made
 from .signed import Array, Shape
 
 if TYPE_CHECKING:
@@ -48,14 +47,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     options = parser.parse_args(argv)
     program = str(options.program)
     try:
-        sys.path[:0] = dict.fromkeys(str(path) for path in (options.program.parent, options.root) if path)
-        held = runpy.run_path(program)
-        name = options.name or chosen(held)
-        if name not in held:
-            known = ", ".join(from_files.names(held)) or "nothing that can be drawn"
-            raise ProgramError(f"there is no {name!r} in it", options.program.name, f"it has: {known}")
-        began = time.perf_counter()
-        spec, facts = shown(name, held[name], held.get("paint"))
+        if options.root:
+            sys.path.insert(0, str(options.root))
+        with from_files.beside(options.program):
+            held = runpy.run_path(program)
+            name = options.name or chosen(held)
+            if name not in held:
+                known = ", ".join(from_files.names(held)) or "nothing that can be drawn"
+                raise ProgramError(f"there is no {name!r} in it", options.program.name, f"it has: {known}")
+            began = time.perf_counter()
+            spec, facts = shown(name, held[name], held.get("paint"))
         facts["made_s"] = round(time.perf_counter() - began, 2)
         _write(spec, options.out)
         write_json(options.out / FACTS, facts)
@@ -96,7 +97,7 @@ def shown(name: str, value: Any, paint: Any = None) -> "tuple[mujoco.MjSpec, dic
         _cameras(value, low, high)
         return value, {"name": name, "extent_m": _round(high - low), **_weight(model)}
     value = from_files.parts_of(name, value, paint)
-    solids = {part.name: made(part.shape, paint=part.paint, **part.make) for part in value}
+    solids = {part.name: part.made() for part in value}
     low, high = box_around(value)
     spec = scene.new("sheet", time_step=0.01, setting="studio", floor="#8f8a84")
     middle = (low + high) / 2

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from worldkit import bodies, joints, portable, scene, sculpt
+from worldkit import bodies, forms, joints, portable, scene, sculpt
 from worldkit.sculpt import blended, brushes
 
 
@@ -67,13 +67,40 @@ def test_fingers_side_by_side_do_not_hold_each_other():
     assert found[1, 0] > 0 and found[1, 1] > 0 and found[2].tolist() == [1, 0, 0]
 
 
-def test_it_goes_with_the_world_and_wears_the_mean_of_its_paint(tmp_path):
-    spec = arm(paint=lambda points, normals: brushes.plain(points, "#804020"), texels=64)
+def test_it_goes_with_the_world_and_wears_its_paint(tmp_path):
+    spec = arm(paint=lambda points, normals: (brushes.plain(points, "#804020"), 0.3), texels=64, metallic=1.0)
     portable.write(spec, tmp_path / "world.mjz")
     model, again = spec.compile(), portable.read(tmp_path / "world.mjz")
-    red, green, blue = model.mat_rgba[model.skin_matid[0], :3]
-    assert red > 1.5 * green > 1.5 * blue
+    material = int(model.skin_matid[0])
+    assert model.mat_texid[material].max() >= 0 and model.skin_texcoordadr[0] >= 0
+    assert model.mat_roughness[material] == pytest.approx(0.3) and model.mat_metallic[material] == 1.0
     assert again.nskin == 1 and np.allclose(skin_at(again, -1.0), skin_at(model, -1.0), atol=1e-5)
+
+
+def test_a_ring_goes_over_a_glove_and_both_stay():
+    spec = arm(look="#c99774")
+    glove, ring = sculpt.capsule((0, 0, -0.135), (0, 0, 0.135), 0.1), sculpt.torus(0.12, 0.02)
+    for shape, look in ((glove, "#222222"), (ring, "gold")):
+        sculpt.dress(spec, "lower", shape, look=look, cells=32)
+    sculpt.dress(
+        spec, ("upper", "lower"), sculpt.capsule((0, 0, 0.06), (0, 0, 0.64), 0.12), pos=(0, 0, -0.15), cells=32
+    )
+    model = spec.compile()
+    shown = {model.geom(g).name for g in range(model.ngeom) if model.geom_group[g] < 3}
+    assert {"lower/look", "lower/look2"} <= shown and not {"upper", "lower"} & shown
+    assert [model.skin(k).name for k in range(model.nskin)] == ["upper/skin", "upper/skin2"]
+
+
+def test_what_is_sculpted_or_lathed_is_dressed_too():
+    spec = scene.new("bench", time_step=0.002)
+    sculpt.add(spec, sculpt.sphere(0.1), name="ball", pos=(0, 0, 1), cells=24)
+    post = forms.lathe(profile=[(0, -0.1), (0.05, -0.1), (0.05, 0.1), (0, 0.1)])
+    bodies.formed(spec, "post", form=post, pos=(1, 0, 1))
+    for name in ("ball", "post"):
+        sculpt.dress(spec, name, sculpt.sphere(0.12), look="gold", cells=24)
+    model = spec.compile()
+    shown = [model.geom(g).name for g in range(model.ngeom) if model.geom_group[g] < 3 and model.geom_bodyid[g]]
+    assert shown == ["ball/look", "ball/look2", "post/look2"]  # what a form draws is the body's own
 
 
 def test_a_body_that_is_not_there_is_told():

@@ -1,12 +1,14 @@
 """What a file beside the program sculpts becomes one thing of a world, with the planned mass, under planned names."""
 
+import sys
+
 import mujoco
 import numpy as np
 import pytest
 
-from worldkit import joints, scene, sculpt
+from worldkit import joints, kept_shapes, scene, sculpt
 from worldkit.errors import ProgramError
-from worldkit.sculpt import from_files, keeping, minting
+from worldkit.sculpt import from_files, made_ahead, minting, showing
 
 FILE = """\
 from tints import RED
@@ -31,6 +33,7 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     minting._memory.clear()
     from_files._held.cache_clear()
+    from_files._parts.cache_clear()
     (tmp_path / "sculpt").mkdir()
     (tmp_path / "sculpt/tints.py").write_text('RED = "#cc2222"\n')
     (tmp_path / "sculpt/toy.py").write_text(FILE)
@@ -75,13 +78,61 @@ def test_two_of_one_file_have_names_and_surfaces_of_their_own_and_its_joints_mov
     ],
 )
 def test_what_is_not_there_is_told_by_its_name(file, of, said):
-    with pytest.raises(ProgramError, match=said):
-        from_files.sculpted(file, of)
+    with pytest.raises(ProgramError, match=said), from_files.sculpted(file, of):
+        pass
 
 
 def test_one_part_stands_by_itself():
     with pytest.raises(ValueError, match="a, b"):
         sculpt.from_file(scene.new("bench", time_step=0.002), "sculpt/toy.py", of="LOOSE", name="two", pos=(0, 0, 1))
+
+
+LAZY = """\
+from worldkit import sculpt
+
+CALLS = []
+
+
+def figure():
+    import late_shapes
+
+    CALLS.append(1)
+    return sculpt.Part("one", late_shapes.BALL, paint=paint, make={"cells": 16, "texels": 64})
+
+
+def paint(points, normals):
+    import late_tints
+
+    return points * 0 + late_tints.GREY
+"""
+
+
+def test_what_a_function_or_a_paint_imports_lies_beside_the_file_in_every_process(folder, monkeypatch):
+    (folder / "sculpt/lazy.py").write_text(LAZY)
+    (folder / "sculpt/late_shapes.py").write_text("from worldkit import sculpt\nBALL = sculpt.sphere(0.1)\n")
+    (folder / "sculpt/late_tints.py").write_text("GREY = 0.5\n")
+
+    def forget():
+        minting._memory.clear()
+        for name in ("late_shapes", "late_tints"):
+            sys.modules.pop(name, None)
+
+    before = list(sys.path)
+    spec = scene.new("bench", time_step=0.002)
+    for name in ("first", "second"):
+        forget()
+        sculpt.from_file(spec, "sculpt/lazy.py", of="figure", name=name, pos=(0, 0, 1))
+    assert sys.path == before
+    calls = from_files._held(str(folder / "sculpt/lazy.py"))["CALLS"]
+    assert len(calls) == 1  # once a process, however many bodies
+    for begin, words in (
+        (made_ahead.main, [str(folder), "sculpt/lazy.py", str(folder / "out"), "figure"]),
+        (showing.main, [str(folder / "sculpt/lazy.py"), "--name", "figure", "--out", str(folder / "out")]),
+    ):
+        monkeypatch.setenv("WORLDKIT_SCULPT_CACHE", str(folder / begin.__module__))
+        forget()
+        assert begin(words) == 0
+        monkeypatch.setattr(sys, "path", list(before))
 
 
 @pytest.mark.parametrize("damage", ["cut", "changed", "doubled"])
@@ -91,7 +142,7 @@ def test_a_kept_shape_that_is_broken_is_made_anew(folder, monkeypatch, damage):
     good = entry.read_bytes()
     bad = good[:-40] if damage == "cut" else good[:300] + b"?" + good[301:]
     if damage == "doubled":  # each has the hash of its name, and they cannot both be right
-        entry.with_name(keeping.name_of(first.signature, bad)).write_bytes(bad)
+        entry.with_name(kept_shapes.name_of(first.signature, bad)).write_bytes(bad)
     else:
         entry.write_bytes(bad)
     builds = []

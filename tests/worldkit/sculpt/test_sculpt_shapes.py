@@ -7,7 +7,7 @@ import pytest
 import trimesh
 
 from worldkit import sculpt
-from worldkit.sculpt import marching
+from worldkit.sculpt import marching, minting
 from worldkit.sculpt.signed import Shape
 
 BALL = math.pi / 6 * 0.2**3
@@ -112,3 +112,23 @@ def test_noise_has_one_shape_for_one_seed():
 def test_what_cannot_be_made_is_refused_with_words(wrong):
     with pytest.raises(ValueError, match=r".{15}"):
         wrong()
+
+
+def test_what_is_drawn_behind_a_shape_does_not_depend_on_whether_it_was_kept(monkeypatch, tmp_path):
+    """Nor does what its paint draws depend on what was drawn before."""
+    monkeypatch.setenv("WORLDKIT_SCULPT_CACHE", str(tmp_path))
+
+    def after(seed):
+        monkeypatch.setattr(minting, "_memory", {})
+        np.random.seed(seed)  # noqa: NPY002 - the global generator is meant
+        draws = np.random.rand
+        made = minting.made(sculpt.sphere(0.1), cells=16, texels=64, paint=lambda points, _: draws(*points.shape))
+        return np.random.rand(), made.picture  # noqa: NPY002
+
+    new, painted = after(1)
+    assert list(tmp_path.glob("*.npz"))
+    assert after(1)[0] == new
+    for path in tmp_path.glob("*.npz"):
+        path.unlink()
+    other, again = after(2)
+    assert other != new and (again == painted).all()

@@ -3,7 +3,9 @@
 The folder is the list: a module that defines what `Renderer` names is a renderer of the still and the video pass, chosen by
 its name in `WORLDKIT_RENDERER`. The result of a pass tells which one drew, in which version; pictures of one renderer never
 answer for another. A drawing may also have `shared() -> bytes`: what all cameras together add to each picture (how far the
-room reaches). Where it lacks that, a change of any camera makes the pictures of all others anew.
+room reaches). Where it lacks that, a change of any camera makes the pictures of all others anew. And it may have
+`blurred(moments, count, camera, quality)`: one picture of the light of `count` moments, each set up as it is taken from
+`moments`. Where it lacks that, the pictures of the moments are averaged.
 """
 
 import os

@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from . import Drawing, Quality
+from .preview.soft_shapes import geom_of
 
 if TYPE_CHECKING:
     import mujoco
@@ -27,7 +28,9 @@ class Classic:
         model.vis.global_.offwidth = max(int(model.vis.global_.offwidth), width)
         model.vis.global_.offheight = max(int(model.vis.global_.offheight), height)
         self._renderer = mujoco.Renderer(model, height, width)
-        self._kind = int(mujoco.mjtObj.mjOBJ_GEOM)
+        self._kinds = int(mujoco.mjtObj.mjOBJ_GEOM), int(mujoco.mjtObj.mjOBJ_SKIN)
+        first = model.skin_bonebodyid[model.skin_boneadr] if model.nskin else ()
+        self._skinned = [geom_of(model, int(body)) for body in first]
 
     def image(self, data: "mujoco.MjData", camera: int, quality: Quality) -> "np.ndarray":
         """The picture: uint8 (height, width, 3)."""
@@ -36,13 +39,17 @@ class Classic:
         return self._renderer.render().copy()
 
     def segmentation(self, data: "mujoco.MjData", camera: int) -> "np.ndarray":
-        """Geom number of each pixel, or -1: int32 (height, width)."""
+        """Geom number of each pixel, or -1: int32 (height, width); of a skin one of the first body that it follows."""
         import numpy as np
 
         self._renderer.enable_segmentation_rendering()
         self._renderer.update_scene(data, camera)
         pairs = self._renderer.render()
-        return np.where(pairs[..., 1] == self._kind, pairs[..., 0], -1).astype(np.int32)
+        number, kind = pairs[..., 0], pairs[..., 1]
+        found = np.where(kind == self._kinds[0], number, -1)
+        for skin, geom in enumerate(self._skinned):
+            found[(kind == self._kinds[1]) & (number == skin)] = geom
+        return found.astype(np.int32)
 
     def treat(self, treatment: "Treatment") -> bool:
         """Refuse the treatment: the model's own lights are all that it knows."""

@@ -73,12 +73,17 @@ class Painter:
         if walls and clear is not True:
             yield from self._walls
 
-    def _soft(self) -> Iterator[tuple[gl.Shape | None, Batch, int]]:
-        """Soft things: shape (None: strands), a batch with their place and finish, and their number."""
+    def _soft(self, clear: bool | None = False) -> Iterator[tuple[gl.Shape | None, Batch, int]]:
+        """Soft things: shape (None: strands), a batch with their place and finish, and their number; `clear` as of `batches`."""
         start = len(self.things.rows) + len(self._wall_rows)
         for shape, first, count, finish in self.soft.draws():
-            kind = ("capsule", -1) if shape is None else ("mesh", -1)
-            yield shape, Batch(kind, finish, False, first=start + first), count
+            kind, through = ("capsule", -1) if shape is None else ("mesh", -1), finish.look.clear > 0
+            if clear is None or through == clear:
+                yield shape, Batch(kind, finish, through, first=start + first), count
+
+    def clear(self) -> bool:
+        """Whether anything is see-through."""
+        return any(batch.clear for batch in self.things.batches) or any(True for _ in self._soft(clear=True))
 
     def _shape(self, batch: Batch, view: View | None, height: int, count: int = -1) -> gl.Shape:
         """The shape of a batch, as fine as a picture of `height` pixels needs it."""
@@ -109,10 +114,9 @@ class Painter:
                 program.set(first=batch.first)
                 self._shape(batch, view, height).draw(len(batch.rows))
             far_sides.hide(False)
-            if clear is not True:
-                for shape, batch, count in self._soft():
-                    program.set(first=batch.first)
-                    (shape or self._shape(batch, view, height, count)).draw(count)
+            for shape, batch, count in self._soft(clear):
+                program.set(first=batch.first)
+                (shape or self._shape(batch, view, height, count)).draw(count)
 
     def prepare(self, uniforms: dict[str, object], textures: dict[str, tuple[int, int]], shadow: ShadowMap) -> None:
         """Set what materials are drawn with from now on: uniforms, textures (unit, handle) by name, and the shadow map."""
@@ -173,6 +177,8 @@ class Painter:
         owners.sort(key=lambda pair: -float((places[pair[0]] - view.eye) @ view.forward))
         with gl.FarSides(False) as far_sides:
             far_sides.hide(True)
+            for shape, batch, count in self._soft(clear=True):
+                self._shade(batch, shape or self._shape(batch, view, height, count), count)
             for row, batch in owners:
                 single = replace(batch, first=row)
                 self._shade(single, self._shape(single, view, height, 1), 1)

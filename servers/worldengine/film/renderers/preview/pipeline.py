@@ -267,7 +267,7 @@ class Pipeline:
         reflecting = self._polished(view)
         if reflecting:
             self._reflect(stage, view, data)
-        mirrors, clear = painter.mirrors(), any(batch.clear for batch in self.things.batches)
+        mirrors, clear = painter.mirrors(), painter.clear()
         if (mirrors or clear) and stage.behind is None:
             stage.behind = gl.Target(stage.width, stage.height, GL.GL_RGBA16F, depth=True)
         stage.picture.bind()

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 SETTING_TEXT = "worldkit.setting"
 SPACE_NUMERIC = "worldkit.space"
 LIGHT_PREFIX = "worldkit."
-MOST = 8
-"""Lights besides the key that the shader takes; `surface.frag` has room for as many."""
+MOST, MOST_FILLS = 8, 4
+"""Lights of the model, and fill lights of its setting, that the shader takes; `surface.frag` has room for as many together."""
 LIGHT_GAIN = 1.5
 """MuJoCo's lights are sized for displays that clip at 1; ours for a film curve."""
 
@@ -47,17 +47,16 @@ def own_lights(model: mujoco.MjModel) -> list[int]:
 def light_rows(
     model: mujoco.MjModel, data: mujoco.MjData, setting: Setting, chosen: list[int]
 ) -> tuple[np.ndarray, np.ndarray, int]:
-    """Fill lights and the model's own for the shader: pairs of rows (2 N, 4), aims (N, 3), and their number, at most `MOST`."""
+    """Fill lights and the model's own for the shader: pairs of rows (2 N, 4), aims (N, 3), and their number."""
     import mujoco
 
-    rows, aims, count = np.zeros((2 * MOST, 4)), np.tile([0.0, 0.0, -1.0], (MOST, 1)), 0
-    for fill in setting.fills[:4]:
+    room = MOST_FILLS + MOST
+    rows, aims, count = np.zeros((2 * room, 4)), np.tile([0.0, 0.0, -1.0], (room, 1)), 0
+    for fill in setting.fills[:MOST_FILLS]:
         rows[2 * count] = *fill.direction, 0.0
         rows[2 * count + 1] = *fill.colour, -1.0
         count += 1
-    for light in chosen:
-        if count == MOST:
-            break
+    for light in chosen[:MOST]:
         colour = model.light_diffuse[light] * LIGHT_GAIN
         if model.light_type[light] == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL:
             rows[2 * count] = *(-data.light_xdir[light]), 0.0

@@ -12,6 +12,7 @@ import numpy as np
 
 from worldkit.materials.look import Look
 
+from ....recording.seen import skinned
 from .finish import DEFAULT_RGBA, Finish, linear, of_material, plain
 
 if TYPE_CHECKING:
@@ -57,6 +58,7 @@ class Things:
         import mujoco
 
         self.model = model
+        self._skinned = skinned(model)
         kinds = mujoco.mjtGeom
         self._finishes = {-1: plain(DEFAULT_RGBA)} | {i: of_material(model, i) for i in range(model.nmat)}
         alpha = np.array([self._rgba(g)[3] for g in range(model.ngeom)])
@@ -209,8 +211,12 @@ class Things:
         self._supports_of_fixed = True
 
     def bounds(self, data: mujoco.MjData) -> tuple[np.ndarray, np.ndarray]:
-        """Corners (3,), m, of the box around all but endless planes; a metre cube at the origin if there is nothing."""
-        finite = [g for g in self.geoms if self.model.geom_rbound[g] > 0]
+        """Corners (3,), m, of the box around all but endless planes; a metre cube at the origin if there is nothing.
+
+        What a skin is drawn over counts by its geoms, which lie below it.
+        """
+        below = np.flatnonzero(self._skinned[self.model.geom_bodyid])
+        finite = [g for g in np.union1d(self.geoms, below) if self.model.geom_rbound[g] > 0]
         if not finite:
             return np.array([-0.5, -0.5, 0.0]), np.array([0.5, 0.5, 1.0])
         rotation = np.abs(data.geom_xmat[finite].reshape(-1, 3, 3))

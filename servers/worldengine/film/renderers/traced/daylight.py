@@ -85,22 +85,41 @@ def key_light(setting: Setting, centre: np.ndarray, radius: float) -> dict[str, 
 
 
 def lamps(model: mujoco.MjModel, data: mujoco.MjData, chosen: list[int]) -> dict[str, dict[str, Any]]:
-    """The world's own lights, as far as they stand somewhere, by name."""
-    import mitsuba as mi
+    """The world's own lights where they stand now, by name."""
     import mujoco
 
     found: dict[str, dict[str, Any]] = {}
     for light in chosen:
         colour = np.asarray(model.light_diffuse[light], dtype=float) * LIGHT_GAIN * np.pi
-        value = {"type": "rgb", "value": colour.tolist()}
-        kind, place, way = model.light_type[light], data.light_xpos[light], data.light_xdir[light]
+        value, kind = {"type": "rgb", "value": colour.tolist()}, model.light_type[light]
+        told: dict[str, Any] = {"type": "point", "intensity": value}
         if kind == mujoco.mjtLightType.mjLIGHT_DIRECTIONAL:
-            found[f"lamp{light}"] = {"type": "directional", "direction": way.tolist(), "irradiance": value}
+            told = {"type": "directional", "irradiance": value}
         elif kind == mujoco.mjtLightType.mjLIGHT_SPOT:
-            up = [0, 0, 1] if abs(way[2]) < 0.99 else [0, 1, 0]
-            move = mi.ScalarTransform4f().look_at(origin=place.tolist(), target=(place + way).tolist(), up=up)
             cutoff = float(np.clip(model.light_cutoff[light], 1.0, 89.0))
-            found[f"lamp{light}"] = {"type": "spot", "to_world": move, "intensity": value, "cutoff_angle": cutoff}
-        else:
-            found[f"lamp{light}"] = {"type": "point", "position": place.tolist(), "intensity": value}
+            told = {"type": "spot", "intensity": value, "cutoff_angle": cutoff}
+        found[f"lamp{light}"] = told | _stands(model, data, light)
     return found
+
+
+def _stands(model: mujoco.MjModel, data: mujoco.MjData, light: int) -> dict[str, Any]:
+    """Where a light stands: its `position`, or `to_world` where it has a direction."""
+    import mitsuba as mi
+    import mujoco
+
+    kinds, place, way = mujoco.mjtLightType, data.light_xpos[light], data.light_xdir[light]
+    if not any(model.light_type[light] == kind for kind in (kinds.mjLIGHT_DIRECTIONAL, kinds.mjLIGHT_SPOT)):
+        return {"position": place.tolist()}
+    up = [0, 0, 1] if abs(way[2]) < 0.99 else [0, 1, 0]
+    return {"to_world": mi.ScalarTransform4f().look_at(origin=place.tolist(), target=(place + way).tolist(), up=up)}
+
+
+def move(scene: Any, model: mujoco.MjModel, data: mujoco.MjData, chosen: list[int]) -> None:
+    """Put the world's own lights of a scene where they stand now."""
+    import mitsuba as mi
+
+    knobs = mi.traverse(scene)
+    for light in chosen:
+        for name, value in _stands(model, data, light).items():
+            knobs[f"lamp{light}.{name}"] = mi.Point3f(value) if name == "position" else mi.Transform4f(value)
+    knobs.update()

@@ -26,6 +26,8 @@ from .strand_meshes import Strands
 from .unwrapped import along_sides
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable
+
     import mujoco
 
     from .. import Drawing, Quality
@@ -33,13 +35,19 @@ if TYPE_CHECKING:
 SAMPLES: dict[str, float] = {"still": 32, "video": 3}
 DEPTH, CLEAR_DEPTH = 4, 8
 """The longest paths, and those where light goes through glass."""
-GUIDE_SAMPLES = 4
+GUIDE_SAMPLES, FINE_GUIDE_SAMPLES = 4, 16
+FINE, FINEST = 18, 54
+"""From so many samples a pixel on the denoiser is guided better and takes its time; and from so many, no light is cut off."""
+AT_ONCE, SEEDS_APART = 64, 1 << 16
+"""Samples a pixel that are traced in one go, since the memory they take grows with them; and moments have chances of their own."""
+GLIMPSES_BYTES = 1 << 30
+"""Of the room that the moments of one picture may take: places, directions, what is seen and what lies behind, 44 bytes a pixel."""
 DRAFT_SIDE = 2
 """Of a draft, light is traced for every second pixel of every second row."""
 LEAST_ALBEDO = 0.2
 """Darker surfaces show light as it comes: of what they hardly reflect no draft can tell what fell on them."""
 BRIGHTEST = 12.0
-"""A pixel of more scene light would be a speck that the denoiser cannot take out."""
+"""Of few samples, a pixel of more scene light would be a speck that the denoiser cannot take out; of many, it is a caustic."""
 
 
 class Rays(NamedTuple):
@@ -51,12 +59,33 @@ class Rays(NamedTuple):
     places: np.ndarray
     seen: np.ndarray
 
+    def joined(self, other: Rays, before: int) -> Rays:
+        """The mean of these, which are that of so many moments, and those of one more; a place counts as far as it is seen."""
+        light, albedo, normals, seen = (
+            (before * getattr(self, name) + getattr(other, name)) / np.float32(before + 1)
+            for name in ("light", "albedo", "normals", "seen")
+        )
+        mine, theirs = before * self.seen[..., None], other.seen[..., None]
+        places = (mine * self.places + theirs * other.places) / np.maximum(mine + theirs, 1e-6)
+        return Rays(light, albedo, normals, places, seen)
+
 
 class Outlook(NamedTuple):
     """Unit viewing directions (H, W, 3), and by how much the surroundings look otherwise than they light things."""
 
     ways: np.ndarray
     behind: np.ndarray | None
+
+
+class Glimpse(NamedTuple):
+    """What is seen from one place besides the light on things: where they are, as in `Rays`, and what is around them."""
+
+    view: View
+    outlook: Outlook
+    painted: frozenset[Face]
+    """Walls that are painted in, since they stand between the eye and the room."""
+    places: np.ndarray
+    seen: np.ndarray
 
 
 class Tracing:
@@ -90,12 +119,12 @@ class Tracing:
         self._walls = Walls(self._own, low, high, eyes, self._floor_z) if inside else None
         self._panels: dict[Face, list[Any]] = {}
         self._scenes: dict[Any, Any] = {}
-        self._lamps = b""
+        self._lamps: dict[Any, bytes] = {}
+        """Where the lamps of a scene stand."""
         self._stale: set[Any] = set()
         """Scenes that do not know yet that something has moved."""
-        self._denoisers: dict[int, Denoiser] = {}
+        self._denoiser: tuple[Any, Denoiser] | None = None
         self._plain: Drawing | None = None
-        self._sensors: dict[bool, Any] = {}
         self.figures.place(rest)
         self._strands.place(rest)
         self._relight()
@@ -131,6 +160,7 @@ class Tracing:
 
     def _scene(self, walls: frozenset[Face], data: mujoco.MjData) -> Any:
         """The scene with these walls; its meshes are those of all others."""
+        lamps = np.concatenate([data.light_xpos[self._lights], data.light_xdir[self._lights]]).tobytes()
         if walls not in self._scenes:
             import mitsuba as mi
 
@@ -146,8 +176,12 @@ class Tracing:
             for number, shape in enumerate(shapes):
                 parts[f"shape{number}"] = shape
             self._scenes[walls] = mi.load_dict(parts, optimize=False)
-        elif walls in self._stale:  # it searches its meshes by where they were, until it is told
-            self._scenes[walls].parameters_changed()
+        else:
+            if lamps != self._lamps[walls]:
+                daylight.move(self._scenes[walls], self.model, data, self._lights)
+            if walls in self._stale:  # it searches its meshes by where they were, until it is told
+                self._scenes[walls].parameters_changed()
+        self._lamps[walls] = lamps
         self._stale.discard(walls)
         return self._scenes[walls]
 
@@ -206,62 +240,92 @@ class Tracing:
         return self._last
 
     def trace(
-        self, data: mujoco.MjData, view: View, faces: frozenset[Face], samples: int, seed: int, coarser: int = 1
+        self,
+        data: mujoco.MjData,
+        view: View,
+        faces: frozenset[Face],
+        samples: int,
+        seed: int,
+        coarser: int = 1,
+        guides: int = GUIDE_SAMPLES,
     ) -> Rays:
         """Trace the picture of `data`, with these walls; its light `coarser` times smaller each way."""
         import mitsuba as mi
 
         if self.figures.place(data) | self._strands.place(data):
             self._stale.update(self._scenes)
-        lamps = np.concatenate([data.light_xpos[self._lights], data.light_xdir[self._lights]]).tobytes()
-        if lamps != self._lamps:  # a lamp that is carried along
-            self._lamps = lamps
-            self._scenes.clear()
-        scene = self._scene(faces, data)
+        scene, sensor = self._scene(faces, data), self._sensor(view, "rgb", coarser)
         depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
         path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": 16})
-        light = mi.render(scene, sensor=self._sensor(view, "rgb", coarser), integrator=path, spp=samples, seed=seed)
+        light: Any = np.float32(0)
+        for first in range(0, samples, AT_ONCE):
+            some = min(AT_ONCE, samples - first)
+            drawn = mi.render(scene, sensor=sensor, integrator=path, spp=some, seed=seed + first)
+            light = light + np.array(drawn) * np.float32(some / samples)
         # A second walk for the guides: around the path tracer itself they would double its time.
         guide = mi.load_dict({"type": "aov", "aovs": "a:albedo,n:sh_normal,p:position", "any": {"type": "depth"}})
-        said = mi.render(scene, sensor=self._sensor(view, "rgba"), integrator=guide, spp=GUIDE_SAMPLES, seed=0)
+        said = mi.render(scene, sensor=self._sensor(view, "rgba"), integrator=guide, spp=guides, seed=0)
         return _rays(np.array(light), np.array(said))
 
     def image(self, data: mujoco.MjData, camera: int, quality: Quality) -> np.ndarray:
         """The picture: uint8 (height, width, 3)."""
-        return self.picture(data, camera, SAMPLES[quality] if isinstance(quality, str) else quality)
+        return self.blurred([data], 1, camera, quality)
 
-    def picture(self, data: mujoco.MjData, camera: int, samples: float, seed: int = 0) -> np.ndarray:
-        """The picture by so many samples a pixel, less than one for a draft: uint8 (height, width, 3)."""
-        view = of_camera(self.model, data, camera, self.width, self.height)
-        outlook = self._outlook(view)
-        ways = outlook.ways
-        drawn: frozenset[Face] = frozenset()
-        painted: frozenset[Face] = frozenset()
-        if self._walls is not None:
-            some = ways[:: max(self.height // 24, 1), :: max(self.width // 40, 1)].reshape(-1, 3)
-            drawn, painted = self._walls.seen(view.eye, some)
+    def blurred(self, moments: Iterable[mujoco.MjData], count: int, camera: int, quality: Quality) -> np.ndarray:
+        """The picture of a shutter that is open for `count` moments, their light added up and then developed once.
+
+        `quality` is that of the whole: its samples a pixel, less than one for a draft, are shared out among the moments.
+        """
+        samples = SAMPLES[quality] if isinstance(quality, str) else quality
         coarser = DRAFT_SIDE if samples < 1 else 1
-        rays = self.trace(data, view, drawn, max(1, round(samples * coarser**2)), seed, coarser)
-        light = self._cleaned(rays, coarser)
-        if outlook.behind is not None and rays.seen.min() < 1:
-            light += (1.0 - rays.seen)[..., None] * outlook.behind
-        if painted:
+        each = max(1, round(samples * coarser**2 / count))
+        guides = -(-(FINE_GUIDE_SAMPLES if samples >= FINE else GUIDE_SAMPLES) // count)
+        mean: Rays | None = None
+        apart = glimpses_apart(count, self.width * self.height)
+        glimpses: list[Glimpse] = []
+        for number, data in enumerate(moments):
+            view = of_camera(self.model, data, camera, self.width, self.height)
+            outlook = self._outlook(view)
+            drawn: frozenset[Face] = frozenset()
+            painted: frozenset[Face] = frozenset()
+            if self._walls is not None:
+                some = outlook.ways[:: max(self.height // 24, 1), :: max(self.width // 40, 1)].reshape(-1, 3)
+                drawn, painted = self._walls.seen(view.eye, some)
+            rays = self.trace(data, view, drawn, each, number * SEEDS_APART, coarser, guides)
+            if samples < FINEST:
+                np.minimum(rays.light, BRIGHTEST, out=rays.light)
+            mean = rays if mean is None else mean.joined(rays, number)
+            if number % apart == 0:
+                glimpses.append(Glimpse(view, outlook, painted, rays.places, rays.seen))
+        assert mean is not None
+        if all(one.outlook is glimpses[0].outlook for one in glimpses):  # the camera stood still
+            glimpses = [glimpses[-1]._replace(places=mean.places, seen=mean.seen)]
+        clean = self._cleaned(mean, coarser, samples >= FINE)
+        light = sum((self._around_it(clean, one) for one in glimpses), np.float32(0)) / np.float32(len(glimpses))
+        return develop(light, self.setting, self._treatment)
+
+    def _around_it(self, light: np.ndarray, one: Glimpse) -> np.ndarray:
+        """Light (H, W, 3) with the surroundings, the painted walls and the air of one glimpse."""
+        view, outlook = one.view, one.outlook
+        if outlook.behind is not None and one.seen.min() < 1:
+            light = light + (1.0 - one.seen)[..., None] * outlook.behind
+        if one.painted:
             assert self._walls is not None
-            away = np.linalg.norm(rays.places - view.eye, axis=-1)
-            reach = np.where(rays.seen > 0.5, away, np.inf)
-            light = self._walls.paint_in(light, painted, view.eye, ways, reach, self._around)
+            away = np.linalg.norm(one.places - view.eye, axis=-1)
+            reach = np.where(one.seen > 0.5, away, np.inf)
+            light = self._walls.paint_in(light, one.painted, view.eye, outlook.ways, reach, self._around)
         span = max(self._radius, 0.55 * float(np.linalg.norm(view.eye - self._centre)))
         horizon = self._shown[self._shown.shape[0] // 2 - 2]
         scene = Scene(self.setting, self._centre, self._radius, self._floor_z, span, horizon)
-        light = air(np.maximum(light, 0.0), rays.places, rays.seen, view.eye, ways, scene, self._treatment)
-        return develop(light, self.setting, self._treatment)
+        return air(np.maximum(light, 0.0), one.places, one.seen, view.eye, outlook.ways, scene, self._treatment)
 
-    def _cleaned(self, rays: Rays, coarser: int) -> np.ndarray:
+    def _cleaned(self, rays: Rays, coarser: int, fine: bool) -> np.ndarray:
         """Light without noise (H, W, 3); that of a draft is spread over the colours of the surfaces, which are as fine as ever."""
         height, width = rays.light.shape[:2]
-        if coarser not in self._denoisers:
-            self._denoisers[coarser] = Denoiser(width, height, variant.choose() == variant.GPU)
-        denoiser = self._denoisers[coarser]
+        if self._denoiser is None or self._denoiser[0] != (coarser, fine):
+            self._put_away()
+            self._denoiser = (coarser, fine), Denoiser(width, height, variant.choose() == variant.GPU, fine)
+        denoiser = self._denoiser[1]
         if coarser == 1:
             return denoiser.clean(rays.light, rays.albedo, rays.normals)
         import cv2
@@ -285,12 +349,21 @@ class Tracing:
     def close(self) -> None:
         """Free what it holds."""
         self._scenes.clear()
-        for denoiser in self._denoisers.values():
-            denoiser.close()
-        self._denoisers.clear()
+        self._put_away()
         if self._plain is not None:
             self._plain.close()
             self._plain = None
+
+    def _put_away(self) -> None:
+        """Close the denoiser."""
+        if self._denoiser is not None:
+            self._denoiser[1].close()
+            self._denoiser = None
+
+
+def glimpses_apart(count: int, pixels: int) -> int:
+    """Of so many moments of a moving camera every how many-th is kept for what lies around things, so that they fit into memory."""
+    return -(-count // max(1, GLIMPSES_BYTES // (44 * pixels)))
 
 
 def _rays(light: np.ndarray, said: np.ndarray) -> Rays:
@@ -300,4 +373,4 @@ def _rays(light: np.ndarray, said: np.ndarray) -> Rays:
             np.nan_to_num(traced, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
     seen = np.clip(said[..., 3], 0.0, 1.0)
     places = said[..., 10:13] / np.maximum(seen, 1e-6)[..., None]
-    return Rays(np.clip(light, 0.0, BRIGHTEST), np.clip(said[..., 4:7], 0, 1), said[..., 7:10], places, seen)
+    return Rays(np.maximum(light, 0.0), np.clip(said[..., 4:7], 0, 1), said[..., 7:10], places, seen)

@@ -37,8 +37,8 @@ uniform vec3 ground_mean;        // mean colour of the ground
 uniform vec3 ground_light;       // light that falls on level ground, over pi
 uniform float key_sharp;         // 0 where the surroundings show the key light themselves
 uniform float key_spread;
-uniform vec4 lights[16];         // pairs: direction or place with kind (0 distant, 1 near), then colour and cutoff cosine
-uniform vec3 light_aims[8];
+uniform vec4 lights[24];         // pairs: direction or place with kind (0 distant, 1 near), then colour and cutoff cosine
+uniform vec3 light_aims[12];
 uniform int light_count;
 uniform vec4 fade;               // centre x and y, start and end radius of the ground's melting into the surroundings
 uniform float haze_m;
@@ -150,6 +150,9 @@ void main() {
     vec3 slope = vec3(0.0);
     float height = 1.0;
     float extent = max(size.x, max(size.y, abs(size.z)));
+#if CLEAR
+    if (misc.w > 0.0) extent = misc.w;  // of a soft thing, which has no size of its own
+#endif
 #if PAINT == 1
     Paint coat_of_paint = paint_sides(local, nl, int(weave.z + 0.5), weave.x, weave.y, weave.w);
 #elif PAINT == 2

@@ -14,8 +14,10 @@ import zipfile
 import zlib
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import numpy as np
+if TYPE_CHECKING:
+    import numpy as np
 
 FOLDER = "WORLDKIT_SCULPT_CACHE"
 """Environment variable with the folder in which made shapes are kept; else one in the user's cache."""
@@ -32,8 +34,10 @@ def folder() -> Path:
     return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "worldwright" / "sculpt"
 
 
-def kept(key: str) -> dict[str, np.ndarray] | None:
+def kept(key: str) -> "dict[str, np.ndarray] | None":
     """The arrays kept under a key; None where there are none, or what is there is broken."""
+    import numpy as np
+
     given: list[str | Path] = [word for word in os.environ.get(GIVEN, "").split(os.pathsep) if word]
     for place in (*given, folder()):
         for path in _entries(Path(place), key):
@@ -46,8 +50,10 @@ def kept(key: str) -> dict[str, np.ndarray] | None:
     return None
 
 
-def keep(key: str, arrays: dict[str, np.ndarray]) -> None:
+def keep(key: str, arrays: "dict[str, np.ndarray]") -> None:
     """Store arrays whole or not at all; a folder that cannot be written costs time, not correctness."""
+    import numpy as np
+
     stream = io.BytesIO()
     np.savez_compressed(stream, allow_pickle=False, **arrays)
     content = stream.getvalue()

@@ -1,0 +1,167 @@
+"""Read what MuJoCo's own scene alone knows the shape of: tendons as strands, flexes and skins as triangles, in the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import mujoco
+
+SMOOTH = 0.8
+"""Cosine between the normals of two corners in one place up to which they are one, parted by the edge of a picture only."""
+
+
+class Strand(NamedTuple):
+    """A straight piece of a tendon, a capsule."""
+
+    material: int
+    rgba: np.ndarray
+    place: np.ndarray
+    """(3,) m, of its middle."""
+    turn: np.ndarray
+    """(3, 3)."""
+    radius: float
+    half: float
+    """Half its length without the caps, m."""
+
+
+class Patch(NamedTuple):
+    """Triangles of one look and one owner, each with three corners of its own."""
+
+    key: tuple[str, int, int]
+    """Kind (`flex`, `skin`), its number, and which piece of it this is."""
+    points: np.ndarray
+    """(3 N, 3) m."""
+    normals: np.ndarray
+    """(3 N, 3)."""
+    uv: np.ndarray | None
+    """(3 N, 2) places in its picture, along and down the rows."""
+    material: int
+    rgba: np.ndarray
+    geom: int
+    """A geom of the body that it belongs to, or -1."""
+
+
+@dataclass(frozen=True)
+class _Skin:
+    uv: np.ndarray | None
+    seams: np.ndarray | None
+    """(V,) which place each corner lies in, where a picture parts corners of one place."""
+    pieces: tuple[tuple[int, np.ndarray], ...]
+    """Of each owner a geom, and which (N,) triangles are its; a film fills some skins anew, so what they are is read then."""
+
+
+class SoftShapes:
+    """Reads the tendons, flexes and skins of one model; `any` tells whether there are some."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self.model = model
+        self.any = bool(model.ntendon or model.nflex or model.nskin)
+        if not self.any:
+            return
+        import mujoco
+
+        self._scene = mujoco.MjvScene(model, maxgeom=20000)
+        self._options = mujoco.MjvOption()
+        self._options.geomgroup[:] = 0
+        self._options.sitegroup[:] = 0
+        self._skins = [_skin(model, skin) for skin in range(model.nskin)]
+
+    def read(self, data: mujoco.MjData) -> tuple[list[Strand], list[Patch]]:
+        """All of them in the state `data`."""
+        if not self.any:
+            return [], []
+        import mujoco
+
+        model, scene, kinds = self.model, self._scene, mujoco.mjtGeom
+        mujoco.mjv_updateScene(
+            model, data, self._options, mujoco.MjvPerturb(), mujoco.MjvCamera(), mujoco.mjtCatBit.mjCAT_ALL, scene
+        )
+        strands: list[Strand] = []
+        patches: list[Patch] = []
+        for geom in (scene.geoms[number] for number in range(scene.ngeom)):
+            number, material, rgba = int(geom.objid), int(geom.matid), np.array(geom.rgba)
+            if geom.objtype == mujoco.mjtObj.mjOBJ_TENDON and geom.type in (
+                kinds.mjGEOM_CAPSULE,
+                kinds.mjGEOM_CYLINDER,
+            ):
+                turn = np.array(geom.mat, dtype=float).reshape(3, 3)
+                size = float(geom.size[0]), float(geom.size[2])
+                strands.append(Strand(material, rgba, np.array(geom.pos, dtype=float), turn, *size))
+            elif geom.type == kinds.mjGEOM_FLEX and scene.flexfaceused[number]:
+                first, count = int(scene.flexfaceadr[number]), int(scene.flexfaceused[number])
+                points, normals = (
+                    np.array(values).reshape(-1, 9)[first : first + count].reshape(-1, 3)
+                    for values in (scene.flexface, scene.flexnormal)
+                )
+                if material < 0:  # MuJoCo 4 keeps one for each element, and its scene names none; the first one counts
+                    material = int(model.flex_matid[model.flex_elemadr[number]])
+                patches.append(Patch(("flex", number, 0), points, normals, None, material, rgba, -1))
+            elif geom.type == kinds.mjGEOM_SKIN:
+                first, count = int(scene.skinvertadr[number]), int(scene.skinvertnum[number])
+                points, normals = (
+                    np.array(values).reshape(-1, 3)[first : first + count]
+                    for values in (scene.skinvert, scene.skinnormal)
+                )
+                skin = self._skins[number]
+                normals = normals if skin.seams is None else _without_seams(normals, skin.seams)
+                faces = triangles_of(model, number)
+                for piece, (owner, which) in enumerate(skin.pieces):
+                    at = faces[which].ravel()
+                    uv = None if skin.uv is None else skin.uv[at]
+                    key = ("skin", number, piece)
+                    patches.append(Patch(key, points[at], normals[at], uv, material, rgba, owner))
+        return strands, patches
+
+
+def geom_of(model: mujoco.MjModel, body: int) -> int:
+    """A geom of a body, which stands for the body in a segmentation; -1 for the world, whose skins are a film's surfaces."""
+    return int(model.body_geomadr[body]) if body > 0 and model.body_geomnum[body] else -1
+
+
+def held_by(model: mujoco.MjModel, skin: int) -> np.ndarray:
+    """How much each of its bodies (B) holds each corner (V) of a skin: (V, B)."""
+    held = np.zeros((int(model.skin_vertnum[skin]), int(model.skin_bonenum[skin])), dtype=np.float32)
+    for column, bone in enumerate(range(model.skin_boneadr[skin], model.skin_boneadr[skin] + model.skin_bonenum[skin])):
+        rows = slice(model.skin_bonevertadr[bone], model.skin_bonevertadr[bone] + model.skin_bonevertnum[bone])
+        held[model.skin_bonevertid[rows], column] = model.skin_bonevertweight[rows]
+    return held
+
+
+def bodies_of(model: mujoco.MjModel, skin: int) -> np.ndarray:
+    """Numbers (B,) of the bodies that a skin follows."""
+    first = int(model.skin_boneadr[skin])
+    return np.asarray(model.skin_bonebodyid[first : first + int(model.skin_bonenum[skin])])
+
+
+def triangles_of(model: mujoco.MjModel, skin: int) -> np.ndarray:
+    """(F, 3) corners of a skin's triangles."""
+    first = int(model.skin_faceadr[skin])
+    return np.asarray(model.skin_face[first : first + int(model.skin_facenum[skin])]).reshape(-1, 3)
+
+
+def _skin(model: mujoco.MjModel, skin: int) -> _Skin:
+    faces = triangles_of(model, skin)
+    owner = held_by(model, skin)[faces].sum(axis=1).argmax(axis=1)
+    pieces = tuple(
+        (geom_of(model, int(body)), np.flatnonzero(owner == k))
+        for k, body in enumerate(bodies_of(model, skin))
+        if (owner == k).any()
+    )
+    first, count, start = (int(a[skin]) for a in (model.skin_vertadr, model.skin_vertnum, model.skin_texcoordadr))
+    if start < 0:
+        return _Skin(None, None, pieces)
+    seams = np.unique(model.skin_vert[first : first + count], axis=0, return_inverse=True)[1].reshape(-1)
+    return _Skin(np.array(model.skin_texcoord[start : start + count]).reshape(-1, 2), seams, pieces)
+
+
+def _without_seams(normals: np.ndarray, seams: np.ndarray) -> np.ndarray:
+    """Normals (V, 3) that go on across the edges of a picture, and not across edges of the thing."""
+    whole = np.zeros((seams.max() + 1, 3))
+    np.add.at(whole, seams, normals)
+    whole /= np.maximum(np.linalg.norm(whole, axis=1, keepdims=True), 1e-12)
+    smooth = (whole[seams] * normals).sum(axis=1, keepdims=True) > SMOOTH
+    return np.where(smooth, whole[seams], normals)
