@@ -366,11 +366,12 @@ def check_program_file(
         outcome = world()
     else:
         from concurrent.futures import ThreadPoolExecutor
+        from contextvars import copy_context
 
         from .compiled import planned as plans
 
         with ThreadPoolExecutor(1) as beside:  # each runs in a process that cannot see the other
-            waiting = beside.submit(plans.world, plan, wall_s)
+            waiting = beside.submit(copy_context().run, plans.world, plan, wall_s)
             outcome = world()
             planned = waiting.result()
     if outcome.status == "refused":

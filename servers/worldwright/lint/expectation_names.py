@@ -10,6 +10,8 @@ from importlib.metadata import entry_points
 from importlib.util import find_spec
 from pathlib import Path
 
+from ..model import syntax
+
 GROUP = "worldwright.scan.objectives.expectations"
 FOLDER = Path(__file__).parents[1] / "scan" / "objectives" / "expectations"
 
@@ -40,7 +42,7 @@ def _files() -> dict[str, Path | None]:
 
 def _sets(path: Path, mark: str, value: bool) -> bool:
     try:
-        tree = ast.parse(path.read_text(encoding="utf-8"))
+        tree = syntax.module(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError):
         return False
     return any(

@@ -11,8 +11,8 @@ from .program_view import UNKNOWN, Program
 MAIN = "worldkit.program.main"
 
 
-def facts(path: Path) -> dict[str, Any]:
-    """Arguments of the one call of `program.main`, by name, with the defaults of those that are left out.
+def facts(path: Path, defaults: bool = True) -> dict[str, Any]:
+    """Arguments of the one call of `program.main`, by name; with `defaults`, those of today for what is left out.
 
     An argument that only a run would tell is missing; `control` is the function's name, or None. A program with no such call,
     with several, or with arguments in a mapping tells nothing.
@@ -27,7 +27,7 @@ def facts(path: Path) -> dict[str, Any]:
     parameters = inspect.signature(runtime.main).parameters
     given: dict[str, ast.expr] = dict(zip(parameters, call.args, strict=False))
     given |= {str(keyword.arg): keyword.value for keyword in call.keywords}
-    found = {n: p.default for n, p in parameters.items() if n not in given and p.default is not p.empty}
+    found = {n: p.default for n, p in parameters.items() if defaults and n not in given and p.default is not p.empty}
     for name, node in given.items():
         value = _called(view, node) if name == "control" else view.value(node)
         if value is not UNKNOWN:

@@ -5,6 +5,7 @@ import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from ..model import syntax
 from ..model.errors import NotFoundError
 from .problem import Problem
 
@@ -73,7 +74,7 @@ def parse(text: str, path: str = "simulation.py") -> Source:
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # e.g. invalid escapes: not about the simulation
-            tree = ast.parse(text, filename=path)
+            tree = syntax.module(text, path)
     except SyntaxError as cause:
         problem = Problem(f"not valid Python: {cause.msg}", "correct the syntax", cause.lineno or 1, cause.offset)
         return Source(path, text, None, problem, lines)

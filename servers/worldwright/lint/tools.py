@@ -15,7 +15,7 @@ from .completing import Completed
 from .report import RuleDoc, RuleList, RuleSummary, ShownReport, capped
 
 WORLD_S, WORLDS_S = 20.0, 35.0
-"""Seconds to build one world, and all those of a call: a call returns within 45 s."""
+"""Seconds of its own to build one world, and all those of a call; by the clock `model.call_time` ends a client's call."""
 
 
 @reads
@@ -148,12 +148,13 @@ def acts_as_planned(bundle: Path, plan: Plan) -> list[Finding]:
     `error` means that it is not the planned world.
     """
     from concurrent.futures import ThreadPoolExecutor
+    from contextvars import copy_context
 
     from . import engine
     from .compiled import fetch, planned
 
     with ThreadPoolExecutor(1) as beside:
-        waiting = beside.submit(planned.world, plan)
+        waiting = beside.submit(copy_context().run, planned.world, plan)
         outcome = fetch.world(bundle, is_mjcf=True)
     if outcome.status == "compiled":
         return engine.check_acting(outcome, waiting.result(), plan, bundle.name)
@@ -169,11 +170,11 @@ def acts_as_planned(bundle: Path, plan: Plan) -> list[Finding]:
     ]
 
 
-def stated_facts(program: Path) -> dict[str, Any]:
+def stated_facts(program: Path, defaults: bool = True) -> dict[str, Any]:
     """What a program says of itself in its call of `program.main`; for other servers, no tool: see `lint.main_call`."""
     from . import main_call
 
-    return main_call.facts(program)
+    return main_call.facts(program, defaults)
 
 
 def _read_plan(path: Path):

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from ..simulator.inventory import top_names
+from ..model import syntax
+from ..simulator.inventory import bound
 
 
 @dataclass(frozen=True)
@@ -54,7 +55,7 @@ def names(module: str) -> list[str] | None:
 
 @cache
 def _top_names(path: Path, _changed: int) -> list[str] | None:
-    return top_names(path)
+    return bound(syntax.module(path.read_text(encoding="utf-8")), path.name == "__init__.py")
 
 
 def callee(module: str, name: str) -> Callee | None:
@@ -98,6 +99,6 @@ def _file(module: str) -> Path | None:
 @cache
 def _parse(path: Path, _modified_ns: int) -> ast.Module:
     try:
-        return ast.parse(path.read_text(encoding="utf-8"))
+        return syntax.module(path.read_text(encoding="utf-8"))
     except (OSError, SyntaxError, ValueError):
         return ast.Module([], [])

@@ -7,9 +7,10 @@ program reaches by a name put together while it runs is not found, and then is n
 
 import ast
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 
+from . import syntax
 from .errors import WorldwrightError
 
 OURS = (
@@ -27,6 +28,41 @@ class CompanionError(WorldwrightError):
     code = "companions"
 
 
+class _Disk:
+    """The files of a folder that are reached through no link."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def has(self, path: Path) -> bool:
+        try:
+            return path.is_file() and path.resolve() == self.folder.resolve() / path.relative_to(self.folder)
+        except (OSError, ValueError):
+            return False
+
+    def read(self, path: Path) -> bytes:
+        return path.read_bytes()
+
+    def below(self, path: Path) -> list[Path]:
+        return sorted(filter(self.has, path.rglob("*"))) if path.is_dir() and not path.is_symlink() else []
+
+
+class _Memory:
+    """Files by their relative paths, below the folder `.`."""
+
+    def __init__(self, files: Mapping[str, bytes]) -> None:
+        self.folder, self._files = Path(), files
+
+    def has(self, path: Path) -> bool:
+        return path.as_posix() in self._files
+
+    def read(self, path: Path) -> bytes:
+        return self._files[path.as_posix()]
+
+    def below(self, path: Path) -> list[Path]:
+        return sorted(Path(name) for name in self._files if name.startswith(f"{path.as_posix()}/"))
+
+
 def of(program: Path, folder: Path | None = None) -> dict[str, bytes]:
     """Content by path relative to the program's folder, in the order of the names.
 
@@ -37,22 +73,30 @@ def of(program: Path, folder: Path | None = None) -> dict[str, bytes]:
     Raises:
         CompanionError: there are more than 2000 files, or more than 256 MB.
     """
-    folder = folder or program.parent
+    return _found(program, _Disk(folder or program.parent))
+
+
+def among(files: Mapping[str, bytes], name: str) -> dict[str, bytes]:
+    """`of` for one of some files that are read already, by path relative to the run folder."""
+    return _found(Path(name), _Memory(files))
+
+
+def _found(program: Path, tree: _Disk | _Memory) -> dict[str, bytes]:
     found: dict[str, bytes] = {}
     queue, size = [program], 0
     while queue:
-        for path in _named(queue.pop(), folder):
-            name = path.relative_to(folder).as_posix()
+        for path in _named(queue.pop(), tree):
+            name = path.relative_to(tree.folder).as_posix()
             if name in found or path == program:
                 continue
-            found[name] = path.read_bytes()
+            found[name] = tree.read(path)
             size += len(found[name])
             if path.suffix == ".py":
                 queue.append(path)
             if len(found) > MOST_FILES or size > MOST_BYTES:
                 raise CompanionError(
                     f"the files beside the program are more than {MOST_FILES}, or {MOST_BYTES >> 20} MB",
-                    place=str(folder),
+                    place=str(tree.folder),
                     next_move="keep beside it what the world is made of, and nothing else",
                 )
     return dict(sorted(found.items()))
@@ -67,53 +111,45 @@ def sha256(program: Path) -> str:
     return digest.hexdigest() if found else ""
 
 
-def _named(source: Path, folder: Path) -> Iterator[Path]:
+def _named(source: Path, tree: _Disk | _Memory) -> Iterator[Path]:
     """Files that one module imports or names."""
     try:
-        tree = ast.parse(source.read_bytes())
+        parsed = syntax.module(tree.read(source))
     except (OSError, ValueError, SyntaxError, RecursionError):
         return
-    for node in ast.walk(tree):
+    for node in ast.walk(parsed):
         if isinstance(node, ast.Import):
             for alias in node.names:
-                yield from _module(alias.name, source.parent, folder)
+                yield from _module(alias.name, source.parent, tree)
         elif isinstance(node, ast.ImportFrom):
             for name in (node.module or "", *(f"{node.module or ''}.{alias.name}".strip(".") for alias in node.names)):
-                yield from _module(name, source.parent, folder)
+                yield from _module(name, source.parent, tree)
         elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-            for base in dict.fromkeys((folder, source.parent)):
-                yield from _data(node.value, base, folder)
+            for base in dict.fromkeys((tree.folder, source.parent)):
+                yield from _data(node.value, base, tree)
 
 
-def _module(name: str, base: Path, folder: Path) -> Iterator[Path]:
+def _module(name: str, base: Path, tree: _Disk | _Memory) -> Iterator[Path]:
     """The files of a module that lies in the folder: its own, and its packages' on the way."""
     if not name:
         return
-    for root in dict.fromkeys((base, folder)):
+    for root in dict.fromkeys((base, tree.folder)):
         path = root
         for part in name.split("."):
             path = path / part
             for candidate in (path.with_suffix(".py"), path / "__init__.py"):
-                if _plain(candidate, folder) and candidate.name not in OURS:
+                if tree.has(candidate) and candidate.name not in OURS:
                     yield candidate
 
 
-def _data(text: str, base: Path, folder: Path) -> Iterator[Path]:
+def _data(text: str, base: Path, tree: _Disk | _Memory) -> Iterator[Path]:
     """The file that a text names, seen from one folder of the run, or all below the folder that it names."""
     if not text or len(text) > 200 or "\n" in text or "\0" in text or text.startswith(("/", ".", "~")):
         return
     path = base / text
-    if (base == folder and Path(text).parts[0] in OURS) or ".." in Path(text).parts:
+    if (base == tree.folder and Path(text).parts[0] in OURS) or ".." in Path(text).parts:
         return
-    if _plain(path, folder):
+    if tree.has(path):
         yield path
-    elif path.is_dir() and not path.is_symlink():
-        yield from (p for p in sorted(path.rglob("*")) if _plain(p, folder) and "__pycache__" not in p.parts)
-
-
-def _plain(path: Path, folder: Path) -> bool:
-    """A file of the folder, reached through no link."""
-    try:
-        return path.is_file() and path.resolve() == folder.resolve() / path.relative_to(folder)
-    except (OSError, ValueError):
-        return False
+    else:
+        yield from (p for p in tree.below(path) if "__pycache__" not in p.parts)

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from worldkit.filming import unasked
+import worldkit
 
 from ..model.errors import WorldwrightError
 from ..model.evidence import pictures_of
@@ -14,7 +14,7 @@ from . import plain
 
 PROGRAM = pictures_of.FILM
 MOTION, FOLDER = "motion.npz", "film"
-UNASKED = Path(unasked.__file__)
+UNASKED = Path(worldkit.__file__).parent / "filming" / "unasked.py"
 """The film of a run whose author wrote none."""
 TITLE_COUNTS = 3
 MOST_WORDS = 2000
@@ -25,6 +25,7 @@ def lay_out(recording: Path, facts: Path, motion: Path, source: Path | None = No
     from worldengine.film import motion_facts
     from worldengine.recording import stored
 
+    motion.parent.mkdir(parents=True, exist_ok=True)
     motion_facts.write(stored.open(recording), motion, plain.read_json(facts), place(source) if source else None)
 
 

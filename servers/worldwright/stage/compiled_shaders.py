@@ -6,11 +6,13 @@ draws in milliseconds. What is laid there comes from a confined process of our o
 goes with it, so no world reaches another's pictures.
 """
 
+import contextlib
 import hashlib
 import io
 import json
 import sys
 import zipfile
+import zlib
 from pathlib import Path
 
 from worldkit import lock
@@ -27,28 +29,29 @@ DRIVERS = ("dri/*_dri.so", "libgallium*.so", "libEGL_*.so*", "libOSMesa.so*", "l
 
 def lay(home: Path) -> None:
     """Lay the compiled shaders into a job's home; where there are none the driver compiles them there."""
-    content = _kept()
-    if content:
-        with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            archive.extractall(home)
-
-
-def _kept() -> bytes:
-    """The packed files, made on first use; empty where nothing can be drawn here."""
     path = cache_folder() / f"shaders-{_state()}.zip"
-    try:
-        return path.read_bytes()
-    except OSError:
-        pass
+    content = _kept(path)
+    if content:
+        try:
+            with zipfile.ZipFile(io.BytesIO(content)) as archive:
+                archive.extractall(home)
+        except (zipfile.BadZipFile, EOFError, ValueError, NotImplementedError, zlib.error):  # made anew by the next job
+            with contextlib.suppress(OSError):
+                path.unlink(missing_ok=True)
+
+
+def _kept(path: Path) -> bytes:
+    """The packed files, made on first use; empty where nothing can be drawn here."""
+    with contextlib.suppress(OSError):
+        if content := path.read_bytes():
+            return content
     script = Path(shader_sampler.__file__)
     call = [sys.executable, "-s", str(script), "{out}"]
     done = confined.run(call, reads=[script], wanted=[shader_sampler.PACKED], wall_s=120.0, memory_mb=4096)
     content = done.files.get(shader_sampler.PACKED, b"")
-    try:
-        if done.status == "ended":  # else another try may go better
+    if done.status == "ended" and done.exit_code == 0 and content:  # else another try may go better
+        with contextlib.suppress(OSError):  # a read-only home costs time, not pictures
             write_atomic(path, content)
-    except OSError:  # a read-only home costs time, not pictures
-        pass
     return content
 
 

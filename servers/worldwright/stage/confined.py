@@ -14,6 +14,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from ..model import call_time
 from . import family, plain, sandbox
 from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
@@ -34,7 +35,7 @@ class Confined:
     """How a confined run ended."""
 
     status: str
-    """`ended`, `timed_out`, `out_of_memory`, or `refused` when no level of the sandbox confines here."""
+    """`ended`, `timed_out`, `out_of_memory`, `cancelled`, or `refused` when no level of the sandbox confines here."""
     exit_code: int = 0
     files: dict[str, bytes] = field(default_factory=dict)
     """The wanted files, as far as they were left as plain files of acceptable size."""
@@ -56,6 +57,7 @@ def run(
     file_mb: int = 64,
     sculpts: "Given | None" = None,
     home: Callable[[Path], object] | None = None,
+    cancelled: Callable[[], bool] = lambda: False,
 ) -> Confined:
     """Run a command to its end in the sandbox; `{out}` in it stands for the one folder it may write.
 
@@ -64,11 +66,13 @@ def run(
         reads: files and folders it may read besides what every program may.
         wanted: names of the files in that folder that the caller wants to see, or patterns such as `*.jpg`.
         wall_s: the run is killed after so many seconds of its own: while it sleeps the clock on the wall counts, while it
-            computes only what it gets of a processor, so that other work beside it does not end it.
+            computes only what it gets of a processor, so that other work beside it does not end it. The end of a client's call
+            (`model.call_time`) ends it by the clock.
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
         sculpts: shapes that were made earlier by the same sources, and the place for those that it makes.
         home: lays something into its throw-away home, whose folder it is given, before it starts.
+        cancelled: asked several times a second; the run is ended when it says so.
     """
     name = sandbox.level()
     if name not in sandbox.CONFINING and os.environ.get("WORLDWRIGHT_SANDBOX") != name:
@@ -95,7 +99,7 @@ def run(
         # Its output goes to a file, so that the limit on files holds for it, too.
         with (Path(folder) / "log.txt").open("w+b") as log:
             began = time.monotonic()
-            status, code = _watched(sandbox.LADDER[name], words, confinement, log, wall_s, memory_mb * MB)
+            status, code = _watched(sandbox.LADDER[name], words, confinement, log, wall_s, memory_mb * MB, cancelled)
             wall = time.monotonic() - began
             log.seek(max(0, log.seek(0, os.SEEK_END) - LOG_BYTES))
             tail = log.read().decode(errors="replace")
@@ -135,7 +139,13 @@ def _matching(out: Path, pattern: str) -> list[str]:
 
 
 def _watched(
-    level: ModuleType, call: list[str], confinement: Confinement, log: object, wall_s: float, memory: int
+    level: ModuleType,
+    call: list[str],
+    confinement: Confinement,
+    log: object,
+    wall_s: float,
+    memory: int,
+    cancelled: Callable[[], bool],
 ) -> tuple[str, int]:
     entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
     process, status = entered.process, "ended"
@@ -143,11 +153,14 @@ def _watched(
     try:
         while not family.ends_within(process, TICK_S):
             seen = family.census(process.pid)
-            if own.after(time.monotonic(), seen.cpu_s, seen.wanting) > wall_s:
+            if own.after(time.monotonic(), seen.cpu_s, seen.wanting) > wall_s or call_time.left_s() < 0:
                 status = "timed_out"
                 break
             if seen.resident_bytes > memory:
                 status = "out_of_memory"
+                break
+            if cancelled():
+                status = "cancelled"
                 break
     finally:
         family.end(process.pid, confinement.token)

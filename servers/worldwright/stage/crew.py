@@ -109,11 +109,11 @@ class Crew:
         while not family.ends_within(member.process, TICK_S):
             reap_orphans([one.process for one in self.members])
             now = time.monotonic()
-            if (self.job.folder / "cancel").exists():
+            if self.cancelled():
                 return {"code": "cancelled", "message": "cancelled on request"}
             if stopped := self.look():
                 return stopped
-            if tick(now - self._started):
+            if tick(self.elapsed()):
                 advanced = now
             if now - advanced > self.spec.still_s:
                 return {
@@ -122,6 +122,14 @@ class Crew:
                     "next_move": "look for a loop that never ends, or let it stand still for longer with --still-s",
                 }
         return None
+
+    def cancelled(self) -> bool:
+        """Whether a person has asked for the job's end."""
+        return (self.job.folder / "cancel").exists()
+
+    def elapsed(self) -> float:
+        """The job's time so far, s."""
+        return time.monotonic() - self._started
 
     def look(self) -> dict[str, str] | None:
         """The limit that is exceeded now; None while there is none."""

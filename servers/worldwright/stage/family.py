@@ -11,6 +11,7 @@ import select
 import signal
 import subprocess
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -34,25 +35,19 @@ class Census:
 
 def census(root: int, *, itself: bool = True) -> Census:
     """The process and all its living descendants, found through /proc."""
-    children: dict[int, list[int]] = {}
+    started = _children if os.path.exists(f"/proc/{root}/task/{root}/children") else _by_parent()  # noqa: PTH110 - many a second
     facts: dict[int, tuple[int, float, int, bool]] = {}
-    for entry in Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                # The command's name stands in parentheses and may hold anything; the state comes after it.
-                words = (entry / "stat").read_text().rpartition(")")[2].split()
-            except (OSError, ValueError):
-                continue
-            pid, parent, zombie = int(entry.name), int(words[1]), words[0] == "Z"
-            children.setdefault(parent, []).append(pid)
-            spent = sum(int(word) for word in words[11:15]) / TICKS
-            facts[pid] = (0 if zombie else int(words[17]), spent, int(words[21]) * PAGE, words[0] in "RD")
-    found, queue = [], [root]
+    queue = [root]
     while queue:
-        process = queue.pop()
-        found.append(process)
-        queue += children.get(process, [])
-    living = [p for p in found if facts.get(p, (0,))[0] and (itself or p != root)]
+        pid = queue.pop()
+        if pid in facts:
+            continue
+        if words := _stat(pid):
+            spent = sum(int(word) for word in words[11:15]) / TICKS
+            zombie = words[0] == b"Z"
+            facts[pid] = (0 if zombie else int(words[17]), spent, int(words[21]) * PAGE, words[0] in (b"R", b"D"))
+        queue += started(pid)
+    living = [p for p in facts if facts[p][0] and (itself or p != root)]
     return Census(
         processes=tuple(living),
         threads=sum(facts[p][0] for p in living),
@@ -60,6 +55,40 @@ def census(root: int, *, itself: bool = True) -> Census:
         resident_bytes=sum(facts[p][2] for p in living),
         wanting=any(facts[p][3] for p in living),
     )
+
+
+def _stat(pid: int) -> list[bytes]:
+    """What the kernel tells of a process, from its state on; nothing when it is gone.
+
+    The command's name stands in parentheses and may hold anything; the state comes after it.
+    """
+    return _read(f"/proc/{pid}/stat").rpartition(b")")[2].split()
+
+
+def _read(path: str) -> bytes:
+    try:
+        with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - it is asked many times a second
+            return file.read()
+    except OSError:
+        return b""
+
+
+def _children(pid: int) -> list[int]:
+    """The processes that one has started, by each of its threads, as the kernel lists them."""
+    try:
+        threads = os.listdir(f"/proc/{pid}/task")  # noqa: PTH208
+    except OSError:
+        return []
+    return [int(word) for thread in threads for word in _read(f"/proc/{pid}/task/{thread}/children").split()]
+
+
+def _by_parent() -> Callable[[int], list[int]]:
+    """The same from what all processes tell of their parents, on a kernel that lists no children."""
+    children: dict[int, list[int]] = {}
+    for name in os.listdir("/proc"):  # noqa: PTH208
+        if name.isdigit() and (words := _stat(int(name))):
+            children.setdefault(int(words[1]), []).append(int(name))
+    return lambda pid: children.get(pid, [])
 
 
 def proportional_bytes(processes: tuple[int, ...]) -> int:
@@ -119,17 +148,12 @@ def mark(token: int) -> tuple[int, int]:
 def bearing(token: int) -> list[int]:
     """Every living process that carries a job's token."""
     found = []
-    wanted = [str(part) for part in mark(token)]
-    for entry in Path("/proc").iterdir():
-        if entry.name.isdigit():
-            try:
-                limits = (entry / "limits").read_text()
-                dead = (entry / "stat").read_text().rpartition(")")[2].split()[0] in "ZX"
-            except (OSError, IndexError):
-                continue
-            line = next((line for line in limits.splitlines() if line.startswith("Max msgqueue size")), "")
-            if line.split()[3:5] == wanted and not dead:
-                found.append(int(entry.name))
+    wanted = [str(part).encode() for part in mark(token)]
+    for name in os.listdir("/proc"):  # noqa: PTH208
+        if name.isdigit():
+            line = _read(f"/proc/{name}/limits").partition(b"Max msgqueue size")[2].split(b"\n", 1)[0]
+            if line.split()[:2] == wanted and _stat(int(name))[:1] not in ([], [b"Z"], [b"X"]):
+                found.append(int(name))
     return found
 
 

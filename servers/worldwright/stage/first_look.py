@@ -1,23 +1,23 @@
 """How a world starts, before anything of it is approved, recorded or kept: the program as it stands, built and drawn."""
 
-import ast
 import sys
 import tempfile
 from pathlib import Path
 
 from worldkit.files import write_atomic
 
-from ..model import companions
+from ..model import companions, syntax
 from ..model.errors import JobError
 from ..model.evidence.run import Run, sha256_file
 from ..model.picture import Illustrated, Picture
 from ..model.plan import imported
 from . import kept_sculpts, sculpting_step
-from .looking import Looked, place
-from .one_frame import run_process
+from .looking import Looked, standpoint
+from .short_runs import engine, run_process
 
 WORLD, FACTS, SHEET = "world.mjz", "program.json", "sheet.jpg"
 SIZE = "960x540"
+AGAIN = "worldwright watch RUN"
 
 
 def at_start(run: Run, camera: str | None, eye: str | None, target: str | None, fov_deg: float) -> Illustrated:
@@ -26,11 +26,12 @@ def at_start(run: Run, camera: str | None, eye: str | None, target: str | None, 
     A program that is as it was drafted is drafted anew from the plan as it stands.
 
     Raises:
-        NotFoundError, PlanError: there is no program, and no plan that makes one.
+        NotFoundError, PlanError: there is no program, and no plan that makes one; or `eye` and `target` are no standpoint.
         JobError: the program does not run; the error has its line.
     """
     from ..model.plan.plan_text import read_plan
 
+    through = standpoint(camera, eye, target, fov_deg)
     plan = read_plan(run.plan).plan if run.plan.is_file() else None
     if plan is not None:
         sculpting_step.prepare(plan)
@@ -43,15 +44,11 @@ def at_start(run: Run, camera: str | None, eye: str | None, target: str | None, 
         for name, content in files.items():
             write_atomic(source / name, content)
         words = [sys.executable, "-s", str(source / "simulation.py"), "--pass", "build", "--out", "{out}"]
-        made = run_process(words, (source,), (WORLD, FACTS), here, sculpts=kept_sculpts.given(files))
+        made = run_process(words, (source,), (WORLD, FACTS), sculpts=kept_sculpts.given(files), again=AGAIN)
         for name in (WORLD, FACTS):
             write_atomic(here / name, made[name])
-        words = ["sheet", f"--world={here / WORLD}", f"--program={here / FACTS}", "--out={out}", "--size", SIZE]
-        words += [f"--camera={camera}"] if camera else []
-        if eye is not None and target is not None:
-            words += [f"--eye={place(eye)}", f"--target={place(target)}", "--fovy", str(fov_deg)]
-        call = [sys.executable, "-s", "-m", "worldengine", *words]
-        found = run_process(call, (here / WORLD, here / FACTS), (SHEET,), here)
+        words = ["sheet", f"--world={here / WORLD}", f"--program={here / FACTS}", "--size", SIZE, *through]
+        found = engine(words, (here / WORLD, here / FACTS), (SHEET,), again=AGAIN)
     said = found["result.json"]
     caption = f"{', '.join(said['cameras'])} at the start; nothing is recorded of this program and plan"
     shown = Looked(size=said["size"], renderer=said["renderer"]["name"], glances=())
@@ -62,7 +59,7 @@ def _readable(path: Path, content: bytes) -> None:
     """Tell what is half written by its line, before it is run."""
     try:
         if path.suffix == ".py":
-            ast.parse(content)
+            syntax.module(content)
     except (SyntaxError, ValueError) as cause:
         where = f"{path}:{cause.lineno}" if isinstance(cause, SyntaxError) else str(path)
         raise JobError(f"it is not Python: {cause}", code="unreadable", place=where, next_move="correct it") from cause

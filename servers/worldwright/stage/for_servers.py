@@ -49,6 +49,14 @@ def latest(run: Run, stage: PassName) -> JobStatus | None:
     return next((job.read() for job in jobs), None)
 
 
+def start_fresh(run: Run, stage: PassName) -> JobStatus:
+    """For proofs of other servers (no tool): start a pass whose program makes everything anew, kept shapes included."""
+    from ..model.evidence import environment
+    from .launch import launch
+
+    return launch(run, run.evidence_key(environment.current().sha256()), stage, fresh=True)
+
+
 def simulate_given(run: Run, given: Path) -> JobStatus:
     """For proofs of other servers (no tool): simulate a world that exists as a file, with its recorded inputs.
 

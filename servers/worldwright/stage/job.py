@@ -1,8 +1,9 @@
 """A job on disk: its specification, its state, and how to tell a live one from one that was killed.
 
 `jobs/<id>/` holds `spec.json` (what to do, written once), `state.json` (written by the supervisor alone),
-`inputs/` (the snapshot that is run), `author/` (what the program's process writes), `out/` (what the engine writes, which
-becomes evidence), `log.txt`, `lock` (held by the live supervisor) and, once asked for, `cancel`.
+`inputs/` (the snapshot that is run), `filming/` (all that the author of its film sees), `author/` (what the program's process
+writes), `out/` (what the engine writes, which becomes evidence), `log.txt`, `lock` (held by the live supervisor) and, once asked
+for, `cancel`.
 """
 
 import fcntl
@@ -60,6 +61,8 @@ class Spec(Frozen):
     token: int = 0
     """A number that each of its processes carries as a resource limit."""
     force: bool = False
+    fresh: bool = False
+    """It proves what the program makes, so it is given no shape that was kept of an earlier run."""
     created: float
     """Seconds since the epoch."""
 
@@ -125,6 +128,7 @@ class Job:
         self.folder = folder
         self.out = folder / "out"
         self.author = folder / "author"
+        self.filming = folder / "filming"
         self.inputs = folder / "inputs"
         self.scratch = folder / "tmp"
         self.lock = self.inputs / "environment.json"
@@ -138,9 +142,10 @@ class Job:
             folder.mkdir(parents=True)
         for path in (run.program, run.source):
             write_atomic(job.inputs / path.name, path.read_bytes())
-        beside = companions.of(run.program) | (pictures_of.files(run) if spec.stage in pictures_of.AUTHORED else {})
-        for name, content in beside.items():
+        for name, content in companions.of(run.program).items():
             write_atomic(job.inputs / name, content)
+        for name, content in pictures_of.files(run).items() if spec.stage in pictures_of.AUTHORED else ():
+            write_atomic(job.filming / name, content)
         write_json(job.lock, lock.observe(gl_backend()))
         write_json(job.folder / "spec.json", spec.model_dump(mode="json"))
         return job

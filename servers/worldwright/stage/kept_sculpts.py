@@ -11,13 +11,12 @@ import json
 import os
 import re
 import shutil
-import tempfile
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from worldkit import kept_shapes
 from worldkit.files import write_atomic
-from worldkit.sculpt import keeping
 
 from ..model import companions
 from ..model.evidence.file_hashes import cache_folder
@@ -25,37 +24,48 @@ from . import plain
 
 NAME = re.compile(r"([0-9a-f]{24})-[0-9a-f]{64}\.npz")
 MOST_PLACES, MOST_ENTRIES = 100, 64
-MOST_BYTES = 128 << 20
+MOST_BYTES, MOST_IN_PLACE, MOST_IN_ALL = 128 << 20, 256 << 20, 2 << 30
 
 
 @dataclass(frozen=True)
 class Given:
     """The kept shapes of one author's process: the places it may read, and the one that it fills."""
 
-    places: tuple[Path, ...]
-    own: Path
+    places: tuple[Path, ...] = ()
+    own: Path | None = None
 
     def variables(self, scratch: Path) -> dict[str, str]:
-        """Environment variables of the process, whose new shapes go below its scratch folder."""
-        there = [str(path) for path in self.places if path.is_dir()]
-        return {keeping.FOLDER: str(scratch / "sculpt"), keeping.GIVEN: os.pathsep.join(there)}
+        """Environment variables of the process, whose new shapes go below its scratch folder; its places count as just used."""
+        there = [path for path in self.places if path.is_dir()]
+        for path in there:
+            with contextlib.suppress(OSError):
+                os.utime(path)
+        return {kept_shapes.FOLDER: str(scratch / "sculpt"), kept_shapes.GIVEN: os.pathsep.join(map(str, there))}
 
     def keep(self, scratch: Path) -> tuple[str, ...]:
         """Keep what the process made anew, once it has ended; returns the names of the entries."""
-        kept = []
+        kept: list[str] = []
+        if self.own is None:
+            return ()
         with contextlib.suppress(OSError):
             for path in sorted((scratch / "sculpt").glob("*.npz"))[:MOST_ENTRIES]:
                 match = NAME.fullmatch(path.name)
                 content = plain.read(path, MOST_BYTES) if match else None
-                if match is None or content is None or path.name != keeping.name_of(match[1], content):
+                if match is None or content is None or path.name != kept_shapes.name_of(match[1], content):
                     continue
+                if plain.read(self.own / path.name, MOST_BYTES) != content:  # others may be reading it
+                    write_atomic(self.own / path.name, content)
                 for old in self.own.glob(f"{match[1]}-*.npz"):
-                    old.unlink(missing_ok=True)
-                write_atomic(self.own / path.name, content)
+                    if old.name != path.name:
+                        old.unlink(missing_ok=True)
                 kept.append(path.name)
         if kept:
             _tidy()
         return tuple(kept)
+
+
+NOTHING = Given()
+"""For a process that makes every shape anew, and whose shapes nobody else is given."""
 
 
 def given(files: Mapping[str, bytes]) -> Given:
@@ -63,15 +73,18 @@ def given(files: Mapping[str, bytes]) -> Given:
 
     Besides those of the whole, it may read those of each file alone with what that reads.
     """
-    helpers = [name for name in files if name.endswith(".py") and Path(name).name not in companions.OURS]
-    own = place_of(files)
-    alone = []
-    if helpers:
-        with tempfile.TemporaryDirectory(prefix="worldwright-sculpt-") as folder:
-            for name, content in files.items():
-                write_atomic(Path(folder) / name, content)
-            alone = [place_of(needed(Path(folder), name)) for name in helpers]
+    own, alone = place_of(files), []
+    if _sculpts(files):
+        for name in files:
+            if name.endswith(".py") and Path(name).name not in companions.OURS:
+                needs = {name: files[name], **companions.among(files, name)}
+                alone += [place_of(needs)] if _sculpts(needs) else []
     return Given(tuple(dict.fromkeys((own, *alone))), own)
+
+
+def _sculpts(files: Mapping[str, bytes]) -> bool:
+    """Whether one of these may import `worldkit.sculpt`: none that does lacks the word."""
+    return any(b"sculpt" in content for name, content in files.items() if name.endswith(".py"))
 
 
 def of_files(program: Path, paths: Iterable[Path]) -> Given:
@@ -95,8 +108,19 @@ def place_of(files: Mapping[str, bytes]) -> Path:
 
 
 def _tidy() -> None:
-    """Drop the places that were filled longest ago."""
+    """Drop the places that were used longest ago, and of all that is kept the oldest entries that are too much."""
     with contextlib.suppress(OSError):
         places = sorted((cache_folder() / "sculpts").iterdir(), key=lambda path: path.stat().st_mtime)
         for path in places[: max(0, len(places) - MOST_PLACES)]:
             shutil.rmtree(path, ignore_errors=True)
+        for path in places[-MOST_PLACES:]:
+            _trim(path.glob("*.npz"), MOST_IN_PLACE)
+        _trim((cache_folder() / "sculpts").glob("*/*.npz"), MOST_IN_ALL)
+
+
+def _trim(entries: Iterable[Path], most: int) -> None:
+    """Leave the newest of some files, as many as have so many bytes."""
+    for path, state in sorted(((path, path.stat()) for path in entries), key=lambda one: -one[1].st_mtime_ns):
+        most -= state.st_size
+        if most < 0:
+            path.unlink(missing_ok=True)

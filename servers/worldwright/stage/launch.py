@@ -41,6 +41,7 @@ def launch(
     file_mb: int = FILE_MB,
     disk_mb: int = DISK_MB,
     given: Path | None = None,
+    fresh: bool = False,
 ) -> JobStatus:
     """Start one pass, or answer with its result if it exists already.
 
@@ -58,6 +59,7 @@ def launch(
         disk_mb: size of all it writes, MiB.
         given: a world with its recorded inputs, simulated in place of the program's; nothing has to be approved or linted
             for it.
+        fresh: give the program no shape that was kept of an earlier run.
 
     Raises:
         GateError: something the pass needs has not been proven yet.
@@ -127,6 +129,7 @@ def launch(
             token=family.new_token(),
             given=str(given.absolute()) if given else "",
             force=force,
+            fresh=fresh,
             created=time.time(),
         )
         _tidy(run)

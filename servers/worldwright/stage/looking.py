@@ -1,22 +1,19 @@
 """Look at a recording at once: one moment from anywhere, or five through every camera, each read by an instrument."""
 
-import sys
-import tempfile
 from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from pydantic import ValidationError
 
 from ..model.errors import JobError, NotFoundError
-from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
-from . import compiled_shaders, plain, storyboards
-from .one_frame import FILM, describe, given_words, recorded, run_process
+from . import plain, storyboards
+from .one_frame import FILM, FRAME, draw_frame, given_words, recorded
 from .pictures import jpeg
+from .short_runs import engine
 
 WIDTH, MOST_BYTES = 960, 100_000
 """Pixels across one moment, and the most bytes of one picture or one sheet."""
@@ -76,7 +73,8 @@ class Looked(Frozen):
 def moment(
     run: Run, key: EvidenceKey, at_s: float, camera: str | None, eye: str | None, target: str | None, fov_deg: float
 ) -> Illustrated:
-    """One moment, through a camera of the plan, the film's own, or one that stands at `eye` and looks at `target` ("x,y,z", m).
+    """One moment, through a camera of the plan, the film's own (the house's where there is no `film.py`), or one that stands at
+    `eye` and looks at `target` ("x,y,z", m).
 
     Raises:
         GateError: nothing is recorded of this program and plan.
@@ -84,28 +82,13 @@ def moment(
         JobError: there is no such camera, or `film.py` does not run.
     """
     physics = recorded(run, key)
-    if (eye is None) != (target is None) or (eye is not None and camera is not None):
-        raise NotFoundError(
-            "an unplanned camera needs the place where it stands and the one that it looks at, and no name",
-            next_move="--from 3,-2,1.5 --to 0,0,0.5 [--fov 40], or --camera NAME",
-        )
+    through = standpoint(camera, eye, target, fov_deg)
     width, height = plain.read_json(physics / "program.json")["size"]
-    size = f"{min(WIDTH, width)}x{max(16, round(min(WIDTH, width) * height / width / 2) * 2)}"
-    with tempfile.TemporaryDirectory(prefix="worldwright-look-") as folder:
-        here = Path(folder)
-        told = None
-        words = ["frame", *given_words(physics), "--out", "{out}", "--at", str(at_s), "--size", size]
-        if eye is not None and target is not None:
-            words += [f"--eye={place(eye)}", f"--target={place(target)}", "--fovy", str(fov_deg)]
-        elif camera == FILM and (run.folder / pictures_of.FILM).is_file():
-            told = describe(run, physics, here)
-            words += ["--film", str(told)]
-        elif camera is not None:
-            words += ["--camera", camera]
-        found = _engine(words, (physics, *([told] if told else ())), ("frame.png",), here)
+    size = min(WIDTH, width), max(16, round(min(WIDTH, width) * height / width / 2) * 2)
+    found = draw_frame(run, physics, at_s, size, camera == FILM, through)
     said = found["result.json"]
     glance = _glance(str(said["cameras"][0]), said["recorded_s"], "", said["reading"])
-    picture = Picture(_small(found["frame.png"]), glance.text(), "jpeg")
+    picture = Picture(_small(found[FRAME]), glance.text(), "jpeg")
     return Illustrated(_looked(said, (glance,)), (picture,))
 
 
@@ -116,9 +99,8 @@ def storyboard(run: Run, key: EvidenceKey) -> Illustrated:
         GateError: nothing is recorded of this program and plan.
     """
     physics = recorded(run, key)
-    words = ["storyboard", *given_words(physics), "--out", "{out}", *storyboards.arguments(run, key)]
-    with tempfile.TemporaryDirectory(prefix="worldwright-look-") as folder:
-        found = _engine(words, (physics,), ("*.jpg",), Path(folder))
+    words = ["storyboard", *given_words(physics), *storyboards.arguments(run, key)]
+    found = engine(words, (physics,), ("*.jpg",))
     said = found["result.json"]
     glances = [
         _glance(camera, at, word, read)
@@ -130,6 +112,22 @@ def storyboard(run: Run, key: EvidenceKey) -> Illustrated:
         for camera in said["cameras"]
     )
     return Illustrated(_looked(said, tuple(glances)), pictures)
+
+
+def standpoint(camera: str | None, eye: str | None, target: str | None, fov_deg: float) -> list[str]:
+    """The engine's words for a camera of the plan, or for one that stands at `eye` and looks at `target`; none for the first.
+
+    Raises:
+        NotFoundError: a place is no three numbers, or there is one without the other, or with a name.
+    """
+    if (eye is None) != (target is None) or (eye is not None and camera is not None):
+        raise NotFoundError(
+            "an unplanned camera needs the place where it stands and the one that it looks at, and no name",
+            next_move="--from 3,-2,1.5 --to 0,0,0.5 [--fov 40], or --camera NAME",
+        )
+    if eye is not None and target is not None:
+        return [f"--eye={place(eye)}", f"--target={place(target)}", "--fovy", str(fov_deg)]
+    return [] if camera is None else ["--camera", camera]
 
 
 def place(text: str) -> str:
@@ -145,10 +143,6 @@ def place(text: str) -> str:
     except ValueError as cause:
         raise NotFoundError(f"{text!r} is no place", next_move="give x,y,z in metres: --from 3,-2,1.5") from cause
     return ",".join(f"{number:.9g}" for number in numbers)
-
-
-def _engine(words: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], here: Path) -> dict[str, Any]:
-    return run_process([sys.executable, "-s", "-m", "worldengine", *words], reads, wanted, here, compiled_shaders.lay)
 
 
 def _small(picture: bytes) -> bytes:

@@ -34,8 +34,13 @@ def read(path: Path, limit: int) -> bytes | None:
 
 def read_json(path: Path) -> dict[str, Any]:
     """A JSON object, or an empty one: what a confined program writes is never trusted."""
+    return as_object(read(path, 4 * MB) or b"")
+
+
+def as_object(content: bytes) -> dict[str, Any]:
+    """The JSON object that a content is, or an empty one."""
     try:
-        value = json.loads(read(path, 4 * MB) or b"")
+        value = json.loads(content)
     except (ValueError, RecursionError):
         return {}
     return value if isinstance(value, dict) else {}

@@ -11,11 +11,11 @@ from typing import Any
 
 from worldkit import channel
 from worldkit.files import write_json
-from worldkit.filming.telling import ARRAYS, DESCRIPTION
+from worldkit.film_files import ARRAYS, DESCRIPTION
 
 from ..model import companions
 from ..model.errors import WorldwrightError
-from ..model.evidence import assets_used, environment, pictures_of
+from ..model.evidence import assets_used, environment
 from ..model.evidence.run import Run, sha256_file
 from ..model.plan.plan_text import read_plan
 from . import authoring, family, kept_sculpts, plain, refined
@@ -37,8 +37,10 @@ PASS = {
     "video": "video",
     "final": "final",
 }
-ITS_OWN = ("program", "film", "crashed", "no_result", "timed_out", "file_too_large", "out_of_memory", "killed")
-"""How a film fails by its own fault; the house's own is made then."""
+REFUSED = ("program", "film")
+"""How a film is refused that was described, before anything is drawn; the house's own is made then."""
+UNTOLD = (*REFUSED, "crashed", "no_result", "timed_out", "file_too_large", "out_of_memory", "killed")
+"""How a film fails to be described by its own fault; the house's own is made then, too."""
 MB = 1 << 20
 FAREWELL_S = 3.0
 """The author's process may take so long to end after the engine has ended, s."""
@@ -91,15 +93,17 @@ class Acting:
         program, out = self.job.inputs / "simulation.py", self.job.author / folder
         call = [sys.executable, "-s", str(program), "--pass", what, "--out", str(out), *more]
         reads = (self.job.inputs, *map(Path, self.spec.reads))
-        sculpts = kept_sculpts.given(companions.of(program) | {program.name: program.read_bytes()})
+        sculpts = kept_sculpts.NOTHING if self.spec.fresh else sculpted(program)
         return self.crew.start("author", call, out, reads, descriptors, sculpts)
 
     def build(self) -> dict[str, str] | None:
         """Have the program build its world, and take the file out of its folder."""
-        with suppress(
-            WorldwrightError
-        ):  # no plan, or one that is not read here; lint has had it made, where it went first
-            prepare(read_plan(self.job.inputs / "plan.md").plan)
+        if not self.spec.fresh:
+            # No plan, or one that is not read here; what a file does not make the program's own process tells, if it needs it.
+            with suppress(WorldwrightError):
+                prepare(read_plan(self.job.inputs / "plan.md").plan, self.cancelled)
+            if self.crew.cancelled():
+                return {"code": "cancelled", "message": "cancelled on request"}
         member = self.author("build", "build")
         if failure := self.ended(member):
             return failure
@@ -113,6 +117,11 @@ class Acting:
                 }
         write_json(self.job.inputs / INPUTS, declared(self.job.inputs / self.run.source.name))
         return self.unnamed()
+
+    def cancelled(self) -> bool:
+        """Whether the job is to end; says on the way that it is still at work."""
+        self.tick(self.crew.elapsed())
+        return self.crew.cancelled()
 
     def unnamed(self) -> dict[str, str] | None:
         """Refuse a world with assets that no text names, since its evidence would not depend on them."""
@@ -179,19 +188,20 @@ class Acting:
         return self.crew.start("engine", call, self.job.out, (*given, self.job.lock, *reads), descriptors)
 
     def film(self) -> Ended:
-        """Draw the recording, and the run's film; where its author's cannot be told or drawn, the house's own, and say why."""
+        """Draw the recording, and the run's film; where its author's is refused, the house's own, and say why."""
         final = self.spec.stage == "final"
-        authored = self.spec.stage in pictures_of.AUTHORED and (self.job.inputs / authoring.PROGRAM).is_file()
-        if final:
-            refined.carry_over(self.run, self.spec, self.job)
-        if not (final or authored):
+        program = self.job.filming / authoring.PROGRAM
+        if not (final or program.is_file()):
             return Ended(*self.drawn([]))
-        if not authored:
+        if not program.is_file():
             return Ended(*self.told(authoring.UNASKED))
-        failure, said = self.told(self.job.inputs / authoring.PROGRAM)
+        failure = self.describe(program)
+        faults = UNTOLD if failure else REFUSED
         if failure is None:
-            return Ended(None, said if final else {**said, "drawn_by": environment.film().sha256})
-        if failure.get("code") in ITS_OWN and not (self.job.folder / "cancel").exists():
+            failure, said = self.shown()
+            if failure is None:
+                return Ended(None, said if final else {**said, "drawn_by": environment.film().sha256})
+        if failure.get("code") in faults and not self.crew.cancelled():
             (self.job.out / "error.json").unlink(missing_ok=True)
             instead, _ = self.told(authoring.UNASKED)
             if instead is None:
@@ -202,8 +212,15 @@ class Acting:
 
     def told(self, program: Path) -> tuple[dict[str, str] | None, dict[str, Any]]:
         """Have a film described by its program, and draw it."""
-        failure = self.describe(self.physics / "trajectory", program)
-        return (failure, {}) if failure else self.drawn([self.job.inputs / authoring.FOLDER])
+        failure = self.describe(program)
+        return (failure, {}) if failure else self.shown()
+
+    def shown(self) -> tuple[dict[str, str] | None, dict[str, Any]]:
+        """Draw the film that was described last; a final pass goes on with the frames that an earlier one drew of it."""
+        described = self.job.inputs / authoring.FOLDER
+        if self.spec.stage == "final":
+            refined.carry_over(self.run, self.job, described, self.physics / "trajectory")
+        return self.drawn([described])
 
     def drawn(self, film: list[Path]) -> tuple[dict[str, str] | None, dict[str, Any]]:
         """Draw the recording, and the films described in these folders; returns the failure and what the engine says."""
@@ -214,14 +231,16 @@ class Acting:
         failure = self.ended(member)
         return failure, plain.read_json(self.job.out / "result.json")
 
-    def describe(self, recording: Path, program: Path) -> dict[str, str] | None:
+    def describe(self, program: Path) -> dict[str, str] | None:
         """Let a film's program describe what is shown, in the author's sandbox, and take the description out."""
-        inputs, out = self.job.inputs, self.job.author / f"{authoring.FOLDER}-{program.stem}"
-        authoring.lay_out(recording, inputs / FACTS, inputs / authoring.MOTION, inputs / self.run.source.name)
-        member = self.crew.start("author", authoring.call(program, inputs / authoring.MOTION, out), out, (inputs,))
+        inputs, given, out = self.job.inputs, self.job.filming, self.job.author / f"{authoring.FOLDER}-{program.stem}"
+        motion = given / authoring.MOTION
+        authoring.lay_out(self.physics / "trajectory", inputs / FACTS, motion, inputs / self.run.source.name)
+        call = authoring.call(program, motion, out)
+        sculpts = sculpted(program) if program.parent == given else None  # the house's own film sculpts nothing
+        member = self.crew.start("author", call, out, (given, self.job.lock), sculpts=sculpts)
         if failure := self.ended(member):
-            if failure["code"] == "timed_out":
-                family.end(member.process.pid, 0)
+            self.crew.end()  # where a limit stopped it, it still runs, and another film may be made now
             return failure
         for name in (DESCRIPTION, ARRAYS):
             if not plain.take(member.out / name, inputs / authoring.FOLDER / name, self.spec.file_mb * MB):
@@ -292,6 +311,11 @@ class Acting:
             return stopped or {"code": "killed", "message": "it did not end"}
         summary, error = (plain.read_json(member.out / name) for name in ("result.json", "error.json"))
         return failed(status, summary, error, self.log) or self.crew.look()
+
+
+def sculpted(program: Path) -> kept_sculpts.Given:
+    """What was sculpted earlier by a program with the files that belong to it."""
+    return kept_sculpts.given(companions.of(program) | {program.name: program.read_bytes()})
 
 
 def declared(source: Path) -> list[dict[str, Any]]:

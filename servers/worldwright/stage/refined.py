@@ -1,14 +1,22 @@
-"""Frames of a final pass outlive their job, so that the next one goes on where it ended, or was cut."""
+"""Frames of a final pass outlive their job, so that the next one goes on where it ended, or was cut.
+
+Each film has a set of its own, by the hash of its description: a slip in `film.py`, and the house's film that is drawn
+meanwhile, cost none of the author's frames.
+"""
 
 import shutil
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
 
 from ..model.evidence.run import Run
-from .job import Job, Spec
+from .job import Job
 
 FOLDER = "frames"
-MINUTES = 5.0
 MEMORY_MB = 6144
 """Tracing paths takes more memory than other passes."""
+KEPT = 3
+"""So many films have their frames kept besides the one that is drawn: a variant may be taken back."""
 
 
 def arguments(minutes: float) -> tuple[str, ...]:
@@ -24,18 +32,40 @@ def put_aside(job: Job) -> None:
         drawn.rename(job.folder / FOLDER)
 
 
-def carry_over(run: Run, spec: Spec, job: Job) -> None:
-    """Move the frames of the last final pass of this recording and film to where the new one goes on with them.
+def carry_over(run: Run, job: Job, described: Path, recording: Path) -> None:
+    """Move the frames that the last final pass drew of this film to where the new one goes on with them.
 
-    Those of other recordings and films are removed.
+    Those of the last `KEPT` other films stay where they lie; older ones are removed.
     """
-    for other in Job.all(run):
-        theirs, drawn = other.spec, other.folder / FOLDER
-        if theirs.stage != "final" or theirs.job == spec.job or not drawn.is_dir() or not other.read().ended:
-            continue
-        goes_on = (theirs.key, theirs.film_sha256) == (spec.key, spec.film_sha256) and not spec.force
-        if goes_on and not (job.out / FOLDER).exists():
-            job.out.mkdir(parents=True, exist_ok=True)
-            drawn.rename(job.out / FOLDER)
+    from worldengine.film import refining
+    from worldengine.recording import stored
+
+    name = refining.named(described, stored.open(recording).sha256)
+    there = job.out / FOLDER / name
+    past = [other for other in Job.all(run) if other.spec.stage == "final" and other.folder != job.folder]
+    sets = [path for other in past if other.read().ended for path in (other.folder / FOLDER).glob("*") if path.is_dir()]
+    others = 0
+    for path in sorted(sets, key=_drawn_at, reverse=True):
+        if path.name != name and others < KEPT:
+            others += 1
+        elif path.name == name and not there.exists() and not job.spec.force:
+            there.parent.mkdir(parents=True, exist_ok=True)
+            with suppress(OSError):  # another pass, which runs beside it, tidied them away
+                path.rename(there)
         else:
-            shutil.rmtree(drawn, ignore_errors=True)
+            shutil.rmtree(path, ignore_errors=True)
+
+
+def _drawn_at(path: Path) -> float:
+    """When a set was last drawn into; before all others where another pass has just tidied it away."""
+    try:
+        return path.stat().st_mtime
+    except OSError:
+        return 0.0
+
+
+def said(summary: dict[str, Any]) -> str:
+    """What a final pass says of the frames that it went on with; empty of any other pass."""
+    if "taken_over" not in summary:
+        return ""
+    return f"{summary['taken_over'] or 'none'} of its {summary['frames']} frames stood already, from an earlier pass of this very film"

@@ -2,7 +2,6 @@
 
 import sys
 import tempfile
-from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,16 +10,13 @@ from worldkit.files import write_atomic
 from ..model.errors import JobError, NotFoundError
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
-from . import compiled_shaders, confined, plain
-from .confined import Confined
-from .kept_sculpts import Given, given, needed
-from .limits import failed
+from .kept_sculpts import given, needed
+from .sculpting_step import LESS, forget
+from .short_runs import engine, run_process
 
 WORLD, PROGRAM, FACTS, SHEET = "world.mjz", "program.json", "sheet.json", "sheet.jpg"
-RESULT, ERROR = "result.json", "error.json"
 AGAIN = "worldwright sculpt sheet FILE.py[:NAME]"
-MOST_S = 300.0
-LESS = "take fewer `cells` and `texels` (64, 512), rows by `linear` or `radial`, no `within` of a large union; a first sheet without paint"
+LIMITS: dict[str, Any] = {"wall_s": 300.0, "memory_mb": 4096, "again": AGAIN, "less": LESS}
 
 
 class SculptedPart(Frozen):
@@ -93,12 +89,19 @@ def drawn(thing: str) -> Illustrated:
         files = needed(root, inside)
         for path, content in files.items():
             write_atomic(source / path, content)
-        call = ["-m", "worldkit.sculpt.showing", str(source / inside), "--name", name, "--out", "{out}"]
-        made = _run([*call, "--root", str(source)], (source,), (WORLD, PROGRAM, FACTS), file, given(files))
-        for path in (WORLD, PROGRAM):
-            write_atomic(laid / path, made[path])
-        words = [f"--{word}={laid / path}" for word, path in (("world", WORLD), ("program", PROGRAM))]
-        sheet = _run(["-m", "worldengine", "sheet", *words, "--out", "{out}"], (laid,), (SHEET,), file)[SHEET]
+        call = [sys.executable, "-s", "-m", "worldkit.sculpt.showing", str(source / inside), "--name", name]
+        call += ["--root", str(source), "--out", "{out}"]
+        try:
+            made = run_process(call, (source,), (WORLD, PROGRAM, FACTS), sculpts=given(files), **LIMITS)
+            forget(root, inside)
+            for path in (WORLD, PROGRAM):
+                write_atomic(laid / path, made[path])
+            words = [f"--{word}={laid / path}" for word, path in (("world", WORLD), ("program", PROGRAM))]
+            sheet = engine(["sheet", *words], (laid,), (SHEET,), **LIMITS)[SHEET]
+        except JobError as failure:
+            line = failure.place.rpartition(":")[2]
+            failure.place = f"{file}:{line}" if line.isdecimal() else str(file)
+            raise
     try:
         found = SculptSheet.model_validate_json(made[FACTS])
     except ValueError as cause:  # it comes out of the sandbox, where the file could have written anything
@@ -113,50 +116,3 @@ def _root(file: Path) -> Path:
     here = file.absolute().parent
     marks = ("plan.md", "simulation.py")
     return next((one for one in (here, *here.parents[:2]) if any((one / m).is_file() for m in marks)), here)
-
-
-def _run(
-    call: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], file: Path, sculpts: Given | None = None
-) -> dict[str, bytes]:
-    ended = confined.run(
-        [sys.executable, "-s", *call],
-        reads=reads,
-        wanted=(*wanted, RESULT, ERROR),
-        wall_s=MOST_S,
-        memory_mb=4096,
-        file_mb=512,
-        sculpts=sculpts,
-        home=compiled_shaders.lay if "sheet" in call else None,
-    )
-    failure = _failure(ended, wanted)
-    if failure is None:
-        return {path: ended.files[path] for path in wanted}
-    line = failure.get("place", "").rpartition(":")[2]
-    raise JobError(
-        failure["message"],
-        code=failure["code"],
-        place=f"{file}:{line}" if line.isdecimal() else str(file),
-        next_move=failure.get("next_move") or AGAIN,
-    )
-
-
-def _failure(ended: Confined, wanted: Sequence[str]) -> dict[str, Any] | None:
-    if ended.status != "ended":
-        why = {
-            "timed_out": f"making and drawing it took more than {MOST_S:g} s of processor time",
-            "out_of_memory": "making it took more than 4 GB of memory",
-        }
-        return {
-            "code": ended.status,
-            "message": why.get(ended.status, f"it was stopped: {ended.status}"),
-            "next_move": LESS,
-        }
-    said: dict[str, Any] = {}
-    with tempfile.TemporaryDirectory() as folder:
-        for path in (RESULT, ERROR):
-            write_atomic(Path(folder) / path, ended.files.get(path, b"{}"))
-            said[path] = plain.read_json(Path(folder) / path)
-    failure = failed(ended.exit_code, said[RESULT], said[ERROR], AGAIN)
-    if failure is None and any(path not in ended.files for path in wanted):
-        failure = {"code": "no_result", "message": ended.log[-500:] or "it left nothing"}
-    return failure

@@ -134,8 +134,10 @@ class Supervision:
         )
         for folder in (self.job.scratch, self.job.author):  # nothing that a program left is of use to anybody
             shutil.rmtree(folder, ignore_errors=True)
-        if failure is None and (source := str(result.summary.get("reused_from", ""))):
+        message = refined.said(result.summary)
+        if source := str(result.summary.get("reused_from", "")):
             message = f"moves as {source} did, whose recording is taken over: only cameras, lights or looks differ"
+        if failure is None and message:
             result = result.model_copy(update={"message": message})
         if failure is None:
             for leftover in LEFTOVERS:

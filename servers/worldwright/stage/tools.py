@@ -24,6 +24,7 @@ from .for_servers import (
     run_variant,
     sculpt_of,
     simulate_given,
+    start_fresh,
     start_storyboard,
     try_film,
     variant_folder,
@@ -42,6 +43,7 @@ __all__ = [
     "run_variant",
     "sculpt_of",
     "simulate_given",
+    "start_fresh",
     "start_storyboard",
     "try_film",
     "variant_folder",
@@ -167,6 +169,7 @@ def start(
         limits["arguments"] = storyboards.arguments(folder, key)
     elif stage == "final":
         limits |= {"arguments": refined.arguments(minutes), "memory_mb": max(memory_mb, refined.MEMORY_MB)}
+        limits["still_s"] = max(still_s, 60 * minutes)  # one frame of many samples may take all the minutes given
     job = launch(folder, key, stage, force=force, **limits, file_mb=file_mb, disk_mb=disk_mb)
     return with_account(folder, job) if job.cached else job
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from worldwright.stage import compiled_shaders, sandbox, shader_sampler
-from worldwright.stage.confined import run
+from worldwright.stage.confined import Confined, run
 from worldwright.stage.one_frame import given_words
 
 pytestmark = [
@@ -49,3 +49,48 @@ def test_what_a_job_writes_in_its_home_goes_with_it(tmp_path):
     )
     assert run([sys.executable, "-c", spoil], home=compiled_shaders.lay).exit_code == 0
     assert laid(tmp_path / "after") == before
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """An empty cache, and how often a sampler ran; each leaves what `leaves` says."""
+    runs = Runs()
+    runs.leaves = Confined("ended", 0, {shader_sampler.PACKED: packed()})
+    monkeypatch.setattr(compiled_shaders, "cache_folder", lambda: tmp_path / "cache")
+    monkeypatch.setattr(compiled_shaders.confined, "run", lambda *_, **__: runs.append(1) or runs.leaves)
+    return runs
+
+
+class Runs(list[int]):
+    leaves: Confined
+
+
+def packed() -> bytes:
+    stream = BytesIO()
+    with zipfile.ZipFile(stream, "w") as archive:
+        archive.writestr("mesa_shader_cache/one", "compiled")
+    return stream.getvalue()
+
+
+@pytest.mark.parametrize(
+    "left", [Confined("ended", 1), Confined("ended", 1, {"shaders.zip": packed()}), Confined("ended")]
+)
+def test_what_a_sampler_that_crashed_leaves_is_not_kept(tmp_path, cache, left):
+    good, cache.leaves = cache.leaves, left
+    compiled_shaders.lay(tmp_path / "first")
+    cache.leaves = good
+    assert list(laid(tmp_path / "second")) == ["mesa_shader_cache/one"] and len(cache) == 2
+    assert laid(tmp_path / "third") and len(cache) == 2
+
+
+@pytest.mark.parametrize(
+    "damaged",
+    [b"", b"no archive", packed()[:40], packed().replace(b"compiled", b"modified")],
+    ids=["empty", "no archive", "cut off", "changed"],
+)
+def test_a_damaged_file_is_made_anew_by_the_next_job_and_fails_none(tmp_path, cache, damaged):
+    laid(tmp_path / "first")
+    (kept,) = (tmp_path / "cache").iterdir()
+    kept.write_bytes(damaged)
+    compiled_shaders.lay(tmp_path / "second")
+    assert list(laid(tmp_path / "third")) == ["mesa_shader_cache/one"] and len(cache) == 2

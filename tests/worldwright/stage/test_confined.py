@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from worldwright.model import call_time
 from worldwright.stage import family, sandbox
 from worldwright.stage.confined import STARVED, OwnTime, run
 
@@ -49,6 +50,12 @@ def test_other_work_on_the_machine_does_not_end_a_run():
 
 def test_who_sleeps_is_ended_too():
     assert python("import time; time.sleep(60)", wall_s=1.0).status == "timed_out"
+
+
+def test_the_end_of_a_call_ends_it_by_the_clock():
+    with call_time.limited(1.0):
+        assert python("import time; time.sleep(60)", wall_s=60.0).status == "timed_out"
+    assert call_time.left_s() > 1e9
 
 
 def test_time_memory_and_output_are_limited():

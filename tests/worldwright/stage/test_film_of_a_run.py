@@ -1,6 +1,7 @@
 """film.py decides what film.mp4 shows and nothing else: no physics, no still, no film of the plan's cameras depends on it."""
 
 import json
+import uuid
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,7 +12,7 @@ from worldwright.model.errors import JobError
 from worldwright.model.evidence import environment, pictures_of
 from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.report import facts, material
-from worldwright.stage import gates
+from worldwright.stage import gates, kept_sculpts
 from worldwright.stage import tools as stage
 from worldwright.stamp import by_measurement
 from worldwright.stamp import tools as stamp
@@ -160,6 +161,7 @@ HOSTILE = {
     "NaN cameras": ("    film.shot(still((float('nan'), 0, 1), 'ball'), until=0.2)\n", "shot", ":6"),
     "forged NaN cameras": (FORGED, "eye must be", ""),
     "40,000 pixels": (PIXELS, "4096", ":8"),
+    "reads the plan": ("    open(__file__.replace('film.py', 'plan.md')).read()\n", "plan.md", ":6"),
     "raises": ("    raise ValueError('no')\n", "ValueError: no", ":6"),
 }
 
@@ -172,6 +174,8 @@ def test_a_hostile_film_is_refused_with_its_line_and_the_house_makes_one(reviewe
         run,
         "from worldkit.filming import Film, still\n\n\ndef film(film: Film) -> None:\n    film.mood('noon')\n" + line,
     )
+    with pytest.raises(JobError, match=words):
+        stage.frames(str(run.folder), at=0.0)
     job = video(run)
     assert job.state == "failed" and words in job.message, job.text()
     assert job.place == f"film.py{where}"
@@ -183,3 +187,20 @@ def test_a_run_without_a_film_has_the_houses_own(reviewed: Path) -> None:
     shown = stage.frames(str(reviewed), at=0.1, camera="film")
     assert "film at 0.12 s" in shown.data.text() or "film at 0.08 s" in shown.data.text()
     assert "frames like this one take" in shown.data.text()
+
+
+def test_what_a_film_sculpts_is_made_once_for_its_frames_and_the_video(reviewed: Path, copy: Copy) -> None:
+    run = Run(copy(reviewed))
+    ball = f"from worldkit import sculpt\n\nBALL = sculpt.made(sculpt.sphere(0.1), cells=24)  # {uuid.uuid4()}\n"
+    write(run, ball + FILM)
+    place = kept_sculpts.given(pictures_of.files(run)).own
+    assert not place.exists()
+    stage.frames(str(run.folder), at=0.1)
+    (made,) = place.glob("*.npz")
+    before = made.stat().st_mtime_ns
+    assert video(run).state == "succeeded"
+    assert [path.stat().st_mtime_ns for path in place.glob("*.npz")] == [before]
+    made.unlink()
+    write(run, ball + FILM.replace("until=0.4", "until=0.35"))
+    assert video(run).state == "succeeded"
+    assert len(list(kept_sculpts.given(pictures_of.files(run)).own.glob("*.npz"))) == 1

@@ -32,6 +32,11 @@ def test_a_moment_is_seen_from_where_no_camera_was_planned(reviewed):
     assert decoded(near.pictures[0]).shape[1] <= 1000 and near.pictures[0].format == "jpeg"
 
 
+def test_without_a_film_of_its_own_the_houses_film_is_seen(reviewed):
+    (glance,) = look(str(reviewed), at=0.1, camera="film").data.glances
+    assert glance.camera == "film" and 0.05 < glance.reading.luma < 0.95
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

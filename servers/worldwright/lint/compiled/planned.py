@@ -40,7 +40,10 @@ def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
     key = hashlib.sha256(repr((text, near)).encode()).hexdigest()
     kept = _KEPT.get(key)
     if kept is None:
-        sculpt_of(plan)
+        try:
+            sculpt_of(plan)
+        except WorldwrightError as error:
+            return fetch.Outcome("failed", failure=type(error).__name__, message=str(error))
         kept = _compiled(text, near, wall_s)
         if kept.status == "compiled":
             _KEPT.clear()  # people work on one run at a time

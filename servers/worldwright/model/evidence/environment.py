@@ -65,7 +65,7 @@ def film(renderer: str = "") -> Film:
 
 
 def _version(name: str) -> str:
-    """The installed version, read without parsing the package's whole description, which takes eight times as long."""
+    """The installed version, read without parsing the package's whole description."""
     try:
         found = VERSION.search(distribution(name).read_text("METADATA") or "")
         return found[1] if found else version(name)

@@ -4,7 +4,6 @@ A model is metric: it owns its size, its masses and its joints. The text goes in
 What a file sculpts has the size that the plan says; the file runs in the sandbox alone, so here nothing is known of it but its text.
 """
 
-import ast
 import json
 import re
 import subprocess
@@ -16,7 +15,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from .. import companions
+from .. import companions, syntax
 from ..errors import PlanError, WorldwrightError
 from .committed import Plan
 from .scene_objects import AssetRow, Vec3
@@ -79,7 +78,7 @@ def sculpture(row: AssetRow, folder: Path | None) -> Path:
             next_move="write it there (skill sculpting), and name it `sculpt/NAME.py`; paths stay inside the folder",
         )
     try:
-        ast.parse(path.read_bytes())
+        syntax.module(path.read_bytes())
     except (SyntaxError, ValueError, RecursionError) as cause:
         line = getattr(cause, "lineno", None)
         raise PlanError(

@@ -89,92 +89,124 @@ def predict(trajectory: Trajectory, found: Fit, rows: Array) -> Left:
 
 
 def _predict(trajectory: Trajectory, model: "mujoco.MjModel", found: Fit, rows: Array) -> Left:
-    import mujoco
-
-    data = mujoco.MjData(model)
-    count = len(trajectory.names)
     bodies = np.flatnonzero(found.columns >= 0)
     columns = found.columns[bodies]
-    shape = (len(rows), count)
-    kept = Left(
-        rows, np.zeros((*shape, 3)), np.zeros((*shape, 3)), np.zeros(shape), np.zeros(shape),
-        np.zeros(shape, dtype=bool), np.zeros(shape, dtype=bool),
-    )  # fmt: skip
-    unknown = _unknown_trees(model, found)
-    switches = _switches(model)
-    tree = model.body_treeid
-    tied = _tied_trees(model)
-    dt = np.diff(trajectory.t)
-    state = np.zeros(shape, dtype=int)
-    for k, n in enumerate(rows):
-        best: Array | None = None
-        for which, active in enumerate((None, *switches)):
-            touched = _advance(trajectory, model, data, found, int(n), active)
-            one = _compare(trajectory, model, data, bodies, columns, int(n))
-            size = np.sqrt((one[0] ** 2).sum(axis=1)) + np.sqrt((one[1] ** 2).sum(axis=1)) * trajectory.size_m[columns]
-            better = np.ones(len(bodies), dtype=bool) if best is None else size < best
-            best = size if best is None else np.minimum(size, best)
-            at = columns[better]
-            kept.speed[k, at], kept.spin[k, at] = one[0][better], one[1][better]
-            kept.way[k, at], kept.turn[k, at] = one[2][better], one[3][better]
-            state[k, at] = which
-            if active is None:
-                group = _spread(unknown, [*touched, *tied], tree)
-                kept.judged[k, columns] = (tree[bodies] >= 0) & ~group[np.maximum(tree[bodies], 0)]
-                near = {b for pair in touched for b in pair}
-                kept.touching[k, columns] = [int(b) in near for b in bodies]
-            if not (size[kept.judged[k, columns]] > LOOSE_ENOUGH * dt[n]).any():
-                break
+    ahead = _Ahead(trajectory, model, found, bodies, columns)
+    left, touched = ahead.of(rows, None)
+    judged, touching = _taking_part(model, found, bodies, touched)
+    size = best = _size(left, trajectory.size_m[columns])
+    state = np.zeros(size.shape, dtype=int)
+    enough = LOOSE_ENOUGH * np.diff(trajectory.t)[rows, None]
+    again = np.arange(len(rows))
+    for which, active in enumerate(_switches(model), start=1):
+        again = again[(judged[again] & (size > enough[again])).any(axis=1)]
+        if not len(again):
+            break
+        other, _ = ahead.of(rows[again], active)
+        size = _size(other, trajectory.size_m[columns])
+        better = size < best[again]
+        for kept, one in zip(left, other, strict=True):
+            kept[again] = np.where(better.reshape(better.shape + (1,) * (one.ndim - 2)), one, kept[again])
+        best[again] = np.minimum(size, best[again])
+        state[again] = np.where(better, which, state[again])
     # Within the step that switches an equality, neither state of it holds.
     changed = np.diff(state, axis=0) != 0
-    kept.judged[1:] &= ~changed
-    kept.judged[:-1] &= ~changed
-    return kept
+    judged[1:] &= ~changed
+    judged[:-1] &= ~changed
+    return Left(rows, *(_by_name(part, columns, len(trajectory.names)) for part in (*left, touching, judged)))
 
 
-def _advance(
-    trajectory: Trajectory, model: "mujoco.MjModel", data: "mujoco.MjData", found: Fit, n: int, active: Any
-) -> set[tuple[int, int]]:
-    """Take the steps from row n to the next; returns the pairs of bodies that touched on the way."""
-    import mujoco
-
-    mujoco.mj_resetData(model, data)
-    data.time = trajectory.t[n]
-    data.qpos[:], data.qvel[:] = found.qpos[n], found.qvel[n]
-    if active is not None:
-        data.eq_active[:] = active
-    span = float(trajectory.t[n + 1] - trajectory.t[n])
-    steps = min(200, max(1, round(span / model.opt.timestep)))
-    posed = [(b, c) for b in np.flatnonzero(model.body_mocapid >= 0) if (c := found.columns[b]) >= 0]
-    touched: set[tuple[int, int]] = set()
-    for s in range(steps):
-        for b, c in posed:
-            m, share = model.body_mocapid[b], s / steps
-            data.mocap_pos[m] = (1 - share) * trajectory.pos[n, c] + share * trajectory.pos[n + 1, c]
-            data.mocap_quat[m] = trajectory.quat[n, c]
-        mujoco.mj_step(model, data)
-        if data.ncon:
-            pairs = model.geom_bodyid[np.maximum(data.contact.geom, 0)]
-            touched.update((int(a), int(b)) for a, b in pairs)
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_comPos(model, data)
-    mujoco.mj_comVel(model, data)
-    return touched
+def _by_name(part: Array, columns: Array, count: int) -> Array:
+    """What was found of the model's bodies (N, b, …), in the columns of the recording (N, B, …)."""
+    whole = np.zeros((len(part), count, *part.shape[2:]), dtype=part.dtype)
+    whole[:, columns] = part
+    return whole
 
 
-def _compare(
-    trajectory: Trajectory, model: "mujoco.MjModel", data: "mujoco.MjData", bodies: Array, columns: Array, n: int
-) -> tuple[Array, Array, Array, Array]:
-    spin = data.cvel[bodies, :3]
-    arm = data.xpos[bodies] - data.subtree_com[model.body_rootid[bodies]]
-    speed = data.cvel[bodies, 3:] + np.cross(spin, arm)
-    way = trajectory.pos[n + 1, columns] - data.xpos[bodies]
-    return (
-        trajectory.linvel[n + 1, columns] - speed,
-        trajectory.angvel[n + 1, columns] - spin,
-        np.sqrt((way**2).sum(axis=1)),
-        angles_between(data.xquat[bodies], trajectory.quat[n + 1, columns]),
-    )
+def _size(left: tuple[Array, Array, Array, Array], size_m: Array) -> Array:
+    """(N, b) m/s: how much is left over in velocity and spin together."""
+    return np.asarray(np.sqrt((left[0] ** 2).sum(axis=2)) + np.sqrt((left[1] ** 2).sum(axis=2)) * size_m)
+
+
+class _Ahead:
+    """Takes a model from rows of its recording to the next ones."""
+
+    def __init__(
+        self, trajectory: Trajectory, model: "mujoco.MjModel", found: Fit, bodies: Array, columns: Array
+    ) -> None:
+        import mujoco
+
+        self.trajectory, self.model, self.found, self.bodies, self.columns = trajectory, model, found, bodies, columns
+        self._data = mujoco.MjData(model)
+        posed = [int(b) for b in np.flatnonzero(model.body_mocapid >= 0) if found.columns[b] >= 0]
+        self._mocaps = [(int(model.body_mocapid[b]), int(found.columns[b])) for b in posed]
+
+    def of(
+        self, rows: Array, active: Any
+    ) -> tuple[tuple[Array, Array, Array, Array], list[frozenset[tuple[int, int]]]]:
+        """What is left over of speed, spin (N, b, 3), way and turn (N, b), and by row the pairs of bodies that touched."""
+        data, bodies, shape = self._data, self.bodies, (len(rows), len(self.bodies))
+        roots = self.model.body_rootid[bodies]
+        whirl, place = np.empty((*shape, 6)), np.empty((*shape, 3))
+        facing, middle = np.empty((*shape, 4)), np.empty((*shape, 3))
+        touched = []
+        for k, n in enumerate(rows):
+            touched.append(self._advance(int(n), active))
+            whirl[k], place[k], facing[k], middle[k] = (
+                data.cvel[bodies], data.xpos[bodies], data.xquat[bodies], data.subtree_com[roots]
+            )  # fmt: skip
+        then = np.ix_(rows + 1, self.columns)
+        trajectory, spin = self.trajectory, whirl[..., :3]
+        way = trajectory.pos[then] - place
+        return (
+            trajectory.linvel[then] - (whirl[..., 3:] + np.cross(spin, place - middle)),
+            trajectory.angvel[then] - spin,
+            np.sqrt((way**2).sum(axis=2)),
+            angles_between(facing, trajectory.quat[then]),
+        ), touched
+
+    def _advance(self, n: int, active: Any) -> frozenset[tuple[int, int]]:
+        """Take the steps from row n to the next; returns the pairs of bodies that touched on the way."""
+        import mujoco
+
+        trajectory, model, data = self.trajectory, self.model, self._data
+        mujoco.mj_resetData(model, data)
+        data.time = trajectory.t[n]
+        data.qpos[:], data.qvel[:] = self.found.qpos[n], self.found.qvel[n]
+        if active is not None:
+            data.eq_active[:] = active
+        span = float(trajectory.t[n + 1] - trajectory.t[n])
+        steps = min(200, max(1, round(span / model.opt.timestep)))
+        geoms = set()
+        for s in range(steps):
+            for m, c in self._mocaps:
+                share = s / steps
+                data.mocap_pos[m] = (1 - share) * trajectory.pos[n, c] + share * trajectory.pos[n + 1, c]
+                data.mocap_quat[m] = trajectory.quat[n, c]
+            mujoco.mj_step(model, data)
+            if data.ncon:
+                geoms.update(map(tuple, data.contact.geom.tolist()))
+        mujoco.mj_kinematics(model, data)
+        mujoco.mj_comPos(model, data)
+        mujoco.mj_comVel(model, data)
+        owner = model.geom_bodyid
+        return frozenset((int(owner[max(a, 0)]), int(owner[max(b, 0)])) for a, b in geoms)
+
+
+def _taking_part(
+    model: "mujoco.MjModel", found: Fit, bodies: Array, touched: list[frozenset[tuple[int, int]]]
+) -> tuple[Array, Array]:
+    """(N, b) bool each: which bodies can be judged, and which touch something on the way."""
+    unknown, tied, tree = _unknown_trees(model, found), _tied_trees(model), model.body_treeid
+    known: dict[frozenset[tuple[int, int]], tuple[Array, Array]] = {}
+    for pairs in touched:
+        if pairs not in known:
+            group = _spread(unknown, [*pairs, *tied], tree)
+            near = np.isin(bodies, [b for pair in pairs for b in pair])
+            known[pairs] = (tree[bodies] >= 0) & ~group[np.maximum(tree[bodies], 0)], near
+    rows = [known[pairs] for pairs in touched]
+    empty = np.zeros((0, len(bodies)), dtype=bool)
+    return (np.array([r[0] for r in rows]), np.array([r[1] for r in rows])) if rows else (empty, empty.copy())
 
 
 def _unknown_trees(model: "mujoco.MjModel", found: Fit) -> Array:

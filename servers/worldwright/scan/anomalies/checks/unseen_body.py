@@ -4,7 +4,7 @@ What it means: what the picture shows in its place is something else (a static t
 evidence of the state, nor the state of the picture.
 
 Formula: a moving body named by the plan that has geoms, none of them visible (drawn group, not transparent), nor any of a
-body below it.
+body below it; and no visible skin follows one of these.
 Threshold: none. Blocking.
 Source: the facts on staging (bodies simulated but drawn frozen).
 """
@@ -12,6 +12,7 @@ Source: the facts on staging (bodies simulated but drawn frozen).
 from collections.abc import Iterator
 from dataclasses import replace
 
+from ....model.finding import AnomalySeverity
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ..declared import cast, weighs
@@ -29,24 +30,35 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         return
     parent = {str(b["name"]): str(b.get("parent") or "") for b in trajectory.meta.get("bodies") or ()}
     has, shown = {str(g["body"]) for g in geoms}, set()
-    for geom in geoms:
-        body = str(geom["body"]) if geom["visible"] else ""
+    skinned = [str(b) for skin in trajectory.meta.get("skins") or () if skin["visible"] for b in skin["bodies"]]
+    for body in (*(str(geom["body"]) for geom in geoms if geom["visible"]), *skinned):
         while body and body not in shown:
             shown.add(body)
             body = parent.get(body, "")
     for row in trajectory.meta.get("bodies") or ():
         name = str(row["name"])
         if row.get("dynamic") and name in names and name in has and name not in shown:
-            message = f"{name} is simulated, but none of its geoms is drawn"
+            message = f"{name} is simulated, but none of its geoms is drawn, nor any skin over it"
             window = (trajectory.t[0], trajectory.t[-1])
             yield Sign(name, window, 0.0, 1.0, "visible geoms", weighs(context, False), message)
 
 
-def _seen(visible: bool) -> Trajectory:
+def _seen(visible: bool, skinned: bool | None = None) -> Trajectory:
     body = {"name": "body", "parent": "world", "dynamic": True, "joints": ["free"]}
     geom = {"name": "skin", "body": "body", "visible": visible, "collides": True}
-    return replace(analytic.falling(), meta={"bodies": [body], "geoms": [geom]})
+    skins = [] if skinned is None else [{"name": "suit", "bodies": ["body"], "visible": skinned}]
+    return replace(analytic.falling(), meta={"bodies": [body], "geoms": [geom], "skins": skins})
 
 
-GOOD = (lambda: Case("a body that is drawn", _seen(True), Context(planned=True, movers=("body",))),)
-BAD = (lambda: Case("a hidden body", _seen(False), Context(planned=True, movers=("body",)), severity="blocking"),)
+def _case(title: str, trajectory: Trajectory, severity: AnomalySeverity | None = None) -> Case:
+    return Case(title, trajectory, Context(planned=True, movers=("body",)), severity)
+
+
+GOOD = (
+    lambda: _case("a body that is drawn", _seen(True)),
+    lambda: _case("a body under a skin", _seen(False, skinned=True)),
+)
+BAD = (
+    lambda: _case("a hidden body", _seen(False), "blocking"),
+    lambda: _case("a hidden body under a hidden skin", _seen(False, skinned=False), "blocking"),
+)

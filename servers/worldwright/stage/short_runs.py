@@ -1,0 +1,85 @@
+"""One short process of the author or the engine, run confined to its end: what it left, or how it failed, in its own words."""
+
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from ..model import call_time
+from ..model.errors import JobError
+from . import compiled_shaders, confined, plain
+from .kept_sculpts import Given
+from .limits import failed
+
+RESULT, ERROR = "result.json", "error.json"
+WALL_S, MEMORY_MB = 120.0, 8192
+AGAIN = "worldwright stage look RUN --at S"
+LESS = "let it do less: a smaller picture, a plainer film or world"
+
+
+def run_process(
+    call: Sequence[str],
+    reads: Sequence[Path],
+    wanted: Sequence[str],
+    *,
+    wall_s: float = WALL_S,
+    memory_mb: int = MEMORY_MB,
+    sculpts: Given | None = None,
+    home: Callable[[Path], object] | None = None,
+    again: str = AGAIN,
+    less: str = LESS,
+) -> dict[str, Any]:
+    """Run a process in the sandbox; returns what it left, by name, with its `result.json` read.
+
+    Args:
+        call: its command line; `{out}` stands for the folder that it may write.
+        reads: what it may read.
+        wanted: names of what it must leave, or patterns of what it may.
+        wall_s: seconds of its own.
+        memory_mb: resident memory, MiB.
+        sculpts: shapes that were made earlier, and the place for those that it makes.
+        home: lays something into its throw-away home.
+        again: the command that shows the failure once more.
+        less: what to do when it takes too much.
+
+    Raises:
+        JobError: it failed, was stopped, or left too little; a line of the author's is in its place.
+    """
+    ended = confined.run(
+        call,
+        reads=reads,
+        wanted=(*wanted, RESULT, ERROR),
+        wall_s=wall_s,
+        memory_mb=memory_mb,
+        file_mb=512,
+        home=home,
+        sculpts=sculpts,
+    )
+    said = {name: plain.as_object(ended.files.get(name, b"")) for name in (RESULT, ERROR)}
+    if ended.status != "ended":
+        why = {
+            "timed_out": f"it took more than {wall_s:g} s of processor time",
+            "out_of_memory": f"it took more than {memory_mb / 1024:g} GB of memory",
+        }
+        cause = why.get(ended.status, f"it was stopped: {ended.status}")
+        if ended.status == "timed_out" and call_time.left_s() < 0:
+            cause = f"it was not done within the {call_time.CALL_S:g} s that a call may take"
+            less = f"call it again when the machine has less to do, or on the shell, which waits longer: `{again}`"
+        raise JobError(cause, code=ended.status, next_move=less if ended.status in why else "worldwright doctor")
+    failure = failed(ended.exit_code, said[RESULT], said[ERROR], again)
+    if failure is None and any(name not in ended.files for name in wanted if "*" not in name):
+        failure = {"code": "no_result", "message": ended.log[-500:] or "it left nothing"}
+    if failure:
+        raise JobError(
+            failure["message"],
+            code=failure["code"],
+            place=failure.get("place", ""),
+            next_move=failure.get("next_move") or again,
+        )
+    return {**ended.files, RESULT: said[RESULT]}
+
+
+def engine(words: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], **limits: Any) -> dict[str, Any]:
+    """`run_process` for the engine, which draws with the shaders that are compiled already; `{out}` is told to it here."""
+    call = [sys.executable, "-s", "-m", "worldengine", *words, "--out", "{out}"]
+    return run_process(call, reads, wanted, home=compiled_shaders.lay, **limits)
