@@ -2,8 +2,6 @@
 
 import json
 import struct
-import sys
-import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -26,14 +24,13 @@ def write(run: Run, kind: str = "gltf", path: Path | None = None) -> Path:
         JobError: the engine could not write it.
     """
     from .model.evidence import environment
-    from .stage.one_frame import given_words, recorded, run_process
+    from .stage.one_frame import given_words, recorded
+    from .stage.short_runs import engine
 
     physics = recorded(run, run.evidence_key(environment.current().sha256()))
     name = FORMATS[kind]
-    words = ["scene", *given_words(physics), "--out", "{out}", "--format", kind]
-    with tempfile.TemporaryDirectory(prefix="worldwright-export-") as folder:
-        call = [sys.executable, "-s", "-m", "worldengine", *words]
-        found = run_process(call, (physics,), (name,), Path(folder))
+    words = ["scene", *given_words(physics), "--format", kind]
+    found = engine(words, (physics,), (name,), again=f"worldwright export RUN --format {kind}")
     target = path or run.folder / name
     write_atomic(target, found[name])
     return target
@@ -62,5 +59,8 @@ def scene(run: Run) -> bytes | None:
 @click.option("--format", "kind", type=click.Choice(tuple(FORMATS)), default="gltf", show_default=True)
 @click.option("--out", type=click.Path(path_type=Path), help="The file; beside the report without it.")
 def command(run: str, kind: str, out: Path | None) -> None:
-    """Write the drawn world with its recorded motion: glTF for viewers and browsers, USD for tools of film and robots."""
+    """Write the drawn world with its recorded motion: glTF for viewers and browsers, USD for tools of film and robots.
+
+    A skin over several bodies is carried out as one rigid piece for each of them.
+    """
     report_errors(lambda: click.echo(str(write(Run.find(run), kind, out))))

@@ -9,10 +9,12 @@ Pictures are sent as a list of text and images without structured content, the o
 on to its model.
 """
 
+import contextlib
 import functools
 import importlib
 import inspect
 import logging
+import time
 import typing
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Annotated, Any
@@ -21,6 +23,7 @@ from pydantic import BaseModel, Field, ValidationError, create_model
 from pydantic_core import to_json as to_json_bytes
 
 from . import arguments as arguments_of
+from .model import call_time
 from .model.errors import WorldwrightError
 from .model.evidence import came
 from .model.picture import Illustrated
@@ -41,6 +44,10 @@ SERVERS = {
     "scan": "Is the motion plausible, and does it do what the plan claims?",
     "stamp": "What has been proven so far, and is it enough?",
 }
+
+
+BEAT_S = 10.0
+"""A call is silent for at most twice so long, s: a client that counts its patience anew at each word waits 30 s."""
 
 
 def tools(server: str) -> tuple[Callable[..., Any], ...]:
@@ -158,7 +165,7 @@ def description(function: Callable[..., Any]) -> str:
 
 def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
     """Wrap a plain function for MCP: progress in, pictures, pages and errors out."""
-    from anyio import from_thread
+    from anyio import create_task_group, from_thread, to_thread
     from mcp.server.mcpserver import Context, Image
 
     listener = progress_parameter(function)
@@ -167,12 +174,21 @@ def _as_tool(function: Callable[..., Any]) -> Callable[..., Any]:
     fields = lists(model) if model else ()
 
     @functools.wraps(function)
-    def tool(*args: Any, ctx: Context, page: int = 1, **kwargs: Any) -> Any:
+    async def tool(*args: Any, ctx: Context, page: int = 1, **kwargs: Any) -> Any:
+        heard = _Heard(ctx)
+        async with create_task_group() as beside:
+            beside.start_soon(heard.beat, function.__name__)
+            try:
+                return await to_thread.run_sync(functools.partial(answer, heard, ctx, page, *args, **kwargs))
+            finally:
+                beside.cancel_scope.cancel()
+
+    def answer(heard: _Heard, ctx: Context, page: int, *args: Any, **kwargs: Any) -> Any:
         spoken = came.by_client(_client(ctx), function.__name__, kwargs)
         if listener:
-            kwargs[listener] = functools.partial(_report, from_thread, ctx)
+            kwargs[listener] = functools.partial(_report, from_thread, heard)
         try:
-            with came.entered(spoken):
+            with came.entered(spoken), call_time.limited(call_time.CALL_S):
                 return _answer(function(*args, **kwargs), fields, page)
         except WorldwrightError as error:
             return _refusal(error)
@@ -225,11 +241,33 @@ def _line(data: Any) -> str:
     return to_json_bytes(data, inf_nan_mode="null").decode()
 
 
-def _report(from_thread: Any, ctx: Any, done: float, total: float, message: str = "") -> None:
-    try:
-        from_thread.run(ctx.report_progress, done, total or None, message or None)
-    except Exception:  # a client that stopped listening must not stop the work
-        return
+class _Heard:
+    """What the client of one call has heard: progress that only grows, and a word now and then."""
+
+    def __init__(self, ctx: Any) -> None:
+        self.ctx, self.done, self.total, self.at = ctx, 0.0, 0.0, time.monotonic()
+
+    async def tell(self, done: float, total: float, message: str) -> None:
+        """Report to the client."""
+        self.done = max(done, self.done) if total == self.total else done  # another total is another piece of work
+        self.total, self.at = total, time.monotonic()
+        with contextlib.suppress(Exception):  # a client that stopped listening must not stop the work
+            await self.ctx.report_progress(self.done, total or None, message or None)
+
+    async def beat(self, name: str) -> None:
+        """Say of a silent call that it is at work, until it is cancelled; what is done hardly grows by it."""
+        from anyio import sleep
+
+        began = time.monotonic()
+        while True:
+            await sleep(BEAT_S)
+            if (now := time.monotonic()) - self.at >= BEAT_S:
+                await self.tell(self.done + 1e-6, self.total, f"{name}: at work for {now - began:.0f} s")
+
+
+def _report(from_thread: Any, heard: _Heard, done: float, total: float, message: str = "") -> None:
+    with contextlib.suppress(Exception):  # the call has ended
+        from_thread.run(heard.tell, done, total, message)
 
 
 def _client(ctx: Any) -> str:

@@ -1,6 +1,7 @@
 import json
 import subprocess
 import sys
+import time
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -11,6 +12,7 @@ from pydantic import Field
 
 from worldwright import expose
 from worldwright.cli import main, verb
+from worldwright.model import call_time
 from worldwright.model.errors import NotFoundError
 from worldwright.model.frozen import Frozen
 from worldwright.model.picture import Illustrated, Picture
@@ -64,9 +66,17 @@ def crash() -> Answer:
     raise ZeroDivisionError("ours")
 
 
+def doze(progress: Progress = silent) -> Answer:
+    """Say little for a while."""
+    time.sleep(0.3)
+    progress(1, 2, "half")
+    time.sleep(0.3)
+    return Answer(words=[f"{call_time.left_s():.0f}"])
+
+
 @pytest.fixture
 def server(monkeypatch):
-    monkeypatch.setattr(expose, "tools", lambda name: (echo, show, fail, crash))
+    monkeypatch.setattr(expose, "tools", lambda name: (echo, show, fail, crash, doze))
     return expose.build_server("lint")
 
 
@@ -100,6 +110,21 @@ def test_data_comes_back_structured_and_progress_is_reported(server):
     result = talk(server, lambda c: c.call_tool("echo", arguments, progress_callback=listener))
     assert result.structured_content == {"words": ["hi", "hi"], "ok": True}
     assert heard == [(1, 2, "first")]
+
+
+def test_a_silent_call_is_heard_of_and_has_an_end(server, monkeypatch):
+    monkeypatch.setattr(expose, "BEAT_S", 0.05)
+    heard = []
+
+    async def listener(done, total, message):
+        heard.append((done, total, message))
+
+    result = talk(server, lambda c: c.call_tool("doze", {}, progress_callback=listener))
+    assert float(result.structured_content["words"][0]) <= call_time.CALL_S and call_time.left_s() > 1e9
+    told = [done for done, _, _ in heard]
+    half = heard.index((1, 2, "half"))
+    assert 0 < half < len(heard) - 1 and told == sorted(set(told))
+    assert "doze: at work for" in heard[0][2] and heard[-1][1] == 2
 
 
 def test_pictures_come_back_as_text_and_image_without_structured_content(server):

@@ -14,8 +14,9 @@ import numpy as np
 import pytest
 
 from worldwright import kept_open
-from worldwright.model.errors import JobError
+from worldwright.model.errors import JobError, NotFoundError
 from worldwright.model.evidence.run import Run
+from worldwright.stage import compiled_shaders
 
 
 @pytest.fixture
@@ -54,15 +55,23 @@ def test_each_change_is_drawn_once_and_several_in_a_row_are_one(run):
 
 
 @pytest.mark.gl
-def test_the_start_of_what_nobody_approved_is_seen_and_leaves_no_evidence(run):
+def test_the_start_of_what_nobody_approved_is_seen_and_leaves_no_evidence(run, monkeypatch):
+    homes, lay = [], compiled_shaders.lay
+    monkeypatch.setattr(compiled_shaders, "lay", lambda home: homes.append(lay(home)))
     shown = kept_open.frame(run, 0.0, "overview", None, None, 45.0)
     image = cv2.imdecode(np.frombuffer(shown.pictures[0].data, np.uint8), cv2.IMREAD_COLOR)
     assert image is not None and image.std() > 5 and "overview" in shown.pictures[0].caption
+    assert len(homes) == 1  # the engine's; the author's process draws nothing
     assert not (run.folder / "evidence").exists() and not (run.folder / "jobs").exists()
     (run.folder / "shades.py").write_text("x = (\n")
     with pytest.raises(JobError) as half:
         kept_open.frame(run, 0.0, None, "3,-2,1.5", "0,0,0.5", 45.0)
     assert half.value.place == f"{run.folder / 'shades.py'}:1"
+
+
+def test_a_place_to_stand_without_one_to_look_at_is_refused(run):
+    with pytest.raises(NotFoundError, match="needs the place where it stands and the one that it looks at"):
+        kept_open.frame(run, 0.0, None, "3,-2,1.5", None, 45.0)
 
 
 @pytest.mark.gl

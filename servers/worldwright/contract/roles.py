@@ -201,7 +201,7 @@ ROLES = (PLAN, CODE, VISUAL, REVIEW)
 BY_AGENT = {role.agent: role for role in ROLES}
 MAIN_TOOLS = (
     "stamp.status", "stamp.go", "stamp.approve", "stamp.accept", "stamp.block", "stamp.verify",
-    "stage.start", "stage.wait", "stage.status", "stage.cancel", "stage.frames",
+    "stage.start", "stage.wait", "stage.status", "stage.cancel", "stage.look", "stage.frames",
     "scan.query", "scan.plot", "scan.compare",
     "retrieve.search", "retrieve.read",
 )  # fmt: skip

@@ -15,6 +15,7 @@ from difflib import get_close_matches
 from itertools import pairwise
 from typing import Any
 
+from ..model import syntax
 from ..model.errors import PlanError
 from ..model.plan.committed import Plan
 from ..model.recording.closed_forms import FORMS, GRAVITY, signature
@@ -109,7 +110,7 @@ def _plan_names(plan: Plan | None) -> dict[str, float]:
 
 def _parsed(text: str) -> ast.expr:
     try:
-        return ast.parse(text, mode="eval").body
+        return syntax.expression(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as cause:
         said = getattr(cause, "msg", None) or cause
         raise _RefusalError(f"it cannot be read: {said}", "write e.g. `v = sqrt(2*g*h)`; powers are `**`") from None

@@ -1,20 +1,16 @@
 """A shelf module (a lint rule, a check, a predicate …) as one piece: its docstring is its page."""
 
 import ast
-import threading
 from collections.abc import Iterator
 
+from ..model import syntax
 from .chunk import Chunk
-
-_ONE_AT_A_TIME = threading.Lock()
-"""The parser of some Python versions loses count of its depth when threads parse side by side."""
 
 
 def parse(text: str) -> ast.Module | None:
     """The module's syntax tree, or None when it is not Python."""
     try:
-        with _ONE_AT_A_TIME:
-            return ast.parse(text)
+        return syntax.module(text)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
 

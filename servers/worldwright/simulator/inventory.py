@@ -183,11 +183,15 @@ def submodules(folder: Path) -> dict[str, list[str] | None]:
 
 def top_names(path: Path) -> list[str] | None:
     """What a module binds at its top level, or None when it hides that behind a star import or `__getattr__`."""
+    return bound(ast.parse(path.read_text(encoding="utf-8")), path.name == "__init__.py")
+
+
+def bound(tree: ast.Module, of_package: bool) -> list[str] | None:
+    """`top_names` of a module that is parsed already."""
     names: set[str] = set()
-    tree = ast.parse(path.read_text(encoding="utf-8"))
     stack: list[ast.AST] = list(tree.body)
     called = {n.func.id for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)}
-    if called & {"globals", "setattr"} and path.name == "__init__.py":
+    if called & {"globals", "setattr"} and of_package:
         return None  # it binds names while it is imported
     while stack:
         node = stack.pop()

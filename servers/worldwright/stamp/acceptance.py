@@ -2,6 +2,7 @@
 
 import hashlib
 import shutil
+import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterator
@@ -116,6 +117,9 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
         program, plan = stripped.source.encode(), state.plan_bytes or b""
         work = private.proofs(state.run, state.key.key if state.key else "")
+        kept = _kept(state, work / "kept")
+        if kept:
+            _factual(state, stripped, kept)
         proved = prove(
             work / "proof",
             program,
@@ -124,10 +128,12 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             timeout_s=timeout_s,
             progress=progress,
             near=beside(state.run.folder),
-            kept=_kept(state, work / "kept"),
+            kept=kept,
         )
         if proved is None:
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
+        if proved.world:
+            _factual(state, stripped, proved.world.parent)
         repeats.same(state, stripped, proved)
         repeats.whole(state, proved)
         _as_planned(state, proved)
@@ -185,7 +191,6 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
         write_atomic(folder / proved.world.name, proved.world.read_bytes())
         for path in driven_by(proved):
             write_atomic(folder / bundle.WORLD / path.name, path.read_bytes())
-        _factual(state, folder)
     evidence = {}
     for name, path in _published(state):
         content = _plain(state, path)
@@ -198,15 +203,17 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
     return Statement(subject=bundle.subjects(folder), predicate=_predicate(state, stripped, proved, evidence))
 
 
-def _factual(state: State, folder: Path) -> None:
-    """Refuse facts of the world that are not those of plan and program (`GateError`): verification would, too."""
-    world, facts = folder / WORLD, folder / bundle.WORLD
-    for found in world_facts.differ(world, facts, folder / "simulation.py", folder / "plan.md"):
-        raise GateError(
-            f"the program calls `program.main` otherwise than its text says: {found}",
-            place=f"{state.place}/simulation.py",
-            next_move="write plain values there, or names that are bound once",
-        )
+def _factual(state: State, stripped: Stripped, facts: Path) -> None:
+    """Refuse facts of a world, in its folder, that are not those of plan and program (`GateError`): verification would, too."""
+    with tempfile.TemporaryDirectory(prefix="worldwright-") as folder:
+        program = Path(folder) / "simulation.py"
+        write_atomic(program, stripped.source.encode())
+        for found in world_facts.differ(facts / WORLD, facts, program, state.run.plan):
+            raise GateError(
+                f"the program calls `program.main` otherwise than its text says: {found}",
+                place=f"{state.place}/simulation.py",
+                next_move="write plain values there, or names that are bound once",
+            )
 
 
 def _proof(state: State, proved: Proved) -> Proof:

@@ -26,7 +26,10 @@ WORLD = "world"
 OF_WORLD = ("world.mjz", f"{WORLD}/")
 LEFT_OUT = ("evidence/", "stills/", "video/", *OF_WORLD, "trajectory.npz")
 """What the small form of an accepted world may leave out, since a build makes it again."""
-BESIDE = ("journal.jsonl", "accepted", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json")
+BESIDE = (
+    "journal.jsonl", "accepted", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json", "scene.glb", "scene.usda",
+    "out",
+)  # fmt: skip
 """What may lie beside the stamp of a small form without being listed in it: the journal, and what a build leaves there."""
 
 

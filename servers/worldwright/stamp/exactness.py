@@ -12,13 +12,14 @@ from .proof import Proved
 Kind = Literal["exact", "law re-run", "tolerance"]
 MOTION, INPUTS, PICTURES = "motion", "inputs", "pictures"
 DRAWN = ("stills/", "video/")
-FLAGS = {
+LIMITS = {
     "sleep": "bodies may sleep: who sleeps is stored nowhere, so the motion repeats from its start only",
     "ipc": "barrier contact (ipc): its search may end elsewhere on another build or number of threads",
+    "plugin": "engine plugins: their state is stored nowhere, so the motion repeats from its start only",
 }
-"""Options of the engine under which a motion cannot be taken up from a stored state, or depends on more than the bundle."""
-PLUGIN = "engine plugins: their state is stored nowhere, so the motion repeats from its start only"
-GPU = "computed on a GPU: sums in no fixed order, so the motion repeats within a tolerance only"
+"""Under what a motion cannot be taken up from a stored state, or depends on more than the bundle; a stamp holds the words in front."""
+WRITTEN = {"bodies may sleep": "sleep", "barrier contact": "ipc", "engine plugins": "plugin"}
+"""How the sentences begin that earlier stamps hold instead."""
 
 
 def channels(proved: Proved, names: Iterable[str]) -> dict[str, Kind]:
@@ -31,6 +32,25 @@ def channels(proved: Proved, names: Iterable[str]) -> dict[str, Kind]:
     return found | ({PICTURES: "tolerance"} if any(name.startswith(DRAWN) for name in names) else {})
 
 
+def told(found: Mapping[str, str], limits: Iterable[str], *, exact: bool, asked: bool) -> str:
+    """What a verification has proved of each channel, and what limits it, in words.
+
+    Args:
+        found: the kinds of the channels (`channels`).
+        limits: the `marks`.
+        exact: the motion came out the same bit for bit.
+        asked: the program was run, and asked again for its inputs.
+    """
+    here = {MOTION: found[MOTION] if exact else "tolerance", INPUTS: found.get(INPUTS) if asked else "as recorded"}
+    kinds = ", ".join(f"{channel} {here.get(channel, kind)}" for channel, kind in found.items())
+    return "; ".join((kinds, *(LIMITS[mark] for mark in limits)))
+
+
+def coded(marks: Iterable[str]) -> tuple[str, ...]:
+    """The marks of a stamp as they are written now."""
+    return tuple(next((code for begun, code in WRITTEN.items() if mark.startswith(begun)), mark) for mark in marks)
+
+
 def marks(proved: Proved) -> tuple[str, ...]:
     """What limits the exactness of a proof run's motion; empty when it follows from its world and inputs alone."""
     return tuple(_marks(_meta(proved)))
@@ -38,11 +58,7 @@ def marks(proved: Proved) -> tuple[str, ...]:
 
 def _marks(meta: Mapping[str, Any]) -> Iterator[str]:
     enabled = (meta.get("flags") or {}).get("enabled") or ()
-    yield from (text for flag, text in FLAGS.items() if flag in enabled)
-    if meta.get("has_plugin"):
-        yield PLUGIN
-    if meta.get("device", "cpu") != "cpu":
-        yield GPU
+    yield from (name for name in LIMITS if name in enabled or (name == "plugin" and meta.get("has_plugin")))
 
 
 def _meta(proved: Proved) -> Mapping[str, Any]:

@@ -15,7 +15,7 @@ from typing import Any
 from worldkit.files import write_atomic
 
 from ..model import companions
-from ..model.errors import GateError
+from ..model.errors import GateError, JobError, WorldwrightError
 from ..model.evidence import approval
 from ..model.evidence.reports import ExpectReport, LintReport, PassResult
 from ..model.evidence.run import Run
@@ -24,6 +24,8 @@ from ..model.progress import Progress, silent
 from .kept import Kept
 
 POLL_S = 20.0
+OF_THE_MACHINE = ("disk_full", "not_writable", "out_of_memory", "internal")
+"""Codes of jobs that a machine with more room would have brought to their end."""
 WORLD = "world.mjz"
 """Name of the world's file, as `worldkit.portable` writes it."""
 
@@ -151,6 +153,7 @@ def prove(
 
     Raises:
         GateError: a lint error, a failed pass, or another world than the kept one.
+        JobError: a pass ended for want of room, or because a person ended it.
     """
     from ..lint import tools as lint
     from ..stage import tools as stage
@@ -167,20 +170,22 @@ def prove(
     if approval.standing(run.entries(), key.plan_sha256, models) is None:
         run.log("stamp", "approve", plan_sha256=key.plan_sha256, by=reason, models=models)
     # Lint looks at the world that is then simulated; where it cannot be built, lint says why.
-    if _ended(run, stage.start(str(folder), stage="bundle"), deadline, progress) is None:
+    built = _ended(run, stage.start_fresh(run, "bundle"), deadline, progress)
+    if built is None:
         return None
     report = lint.check_program([run.program], plan=run.plan)
-    errors = [f for f in report.findings if f.severity == "error"]
-    if errors:
+    if errors := [f for f in report.findings if f.severity == "error"]:
         raise GateError(
             f"the program does not lint clean: {errors[0].code} {errors[0].message} ({len(errors)} error(s))",
             place=f"{run.program.name}:{errors[0].line or 1}",
             next_move=errors[0].fix or "correct it and run it again",
         )
+    if built.state != "succeeded":
+        raise _failed(built, "the program does not build its world again")
     linted = LintReport(findings=tuple(report.findings), rules=report.rules)
     told = _rebuilt(run, kept, elsewhere=elsewhere) if kept else ""
     given = kept if kept and not _controlled(kept) else None
-    job = stage.simulate_given(run, given) if given else stage.start(str(folder), stage="physics")
+    job = stage.simulate_given(run, given) if given else stage.start_fresh(run, "physics")
     proved = _followed(run, job, linted, deadline, progress)
     return proved and replace(proved, rebuilt=told)
 
@@ -236,11 +241,7 @@ def _followed(
         return None
     result = Kept.read(run.evidence(key) / "physics" / "result.json", PassResult)
     if job.state != "succeeded" or result.value is None or not result.value.ok:
-        raise GateError(
-            f"{what} does not run again: {job.code}: {job.message or result.problem or job.state}",
-            place=job.place,
-            next_move=job.next_move or "run it again; a program that runs once must run twice",
-        )
+        raise _failed(job, f"{what} does not run again", result.problem)
     recording = run.evidence(key) / "physics" / "trajectory"
     world = recording.parent / WORLD
     proved = Proved(
@@ -258,6 +259,18 @@ def _followed(
             next_move="let worldkit record the run and write its result; change neither",
         )
     return proved
+
+
+def _failed(job: Any, what: str, problem: str = "") -> WorldwrightError:
+    """A job that did not succeed: of the machine's or a person's doing it says nothing about the world, else it refuses."""
+    told: dict[str, str] = {
+        "cause": f"{what}: {job.code}: {job.message or problem or job.state}",
+        "place": job.place,
+        "next_move": job.next_move or "call it again; a program that runs once must run twice",
+    }
+    if job.state in ("cancelled", "lost") or job.code in OF_THE_MACHINE:
+        return JobError(code=job.code, **told)
+    return GateError(**told)
 
 
 def _ended(run: Run, job: Any, deadline: float, progress: Progress) -> Any:

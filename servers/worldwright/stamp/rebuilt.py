@@ -14,7 +14,13 @@ from worldkit.portable import TOLERANCE
 from ..model.errors import JobError
 
 SAME = "the same content"
-WALL_S, MEMORY_MB = 600.0, 2048
+WALL_S, MEMORY_MB = 600.0, 8192
+"""Of the comparison, which holds two worlds; a pass, which holds one, may take half the memory (`stage.launch`)."""
+INSTEAD = {
+    "timed_out": "call it again when the machine has less to do",
+    "out_of_memory": f"let the world be smaller: comparing two of it takes more than {MEMORY_MB} MB",
+    "refused": "see why no sandbox confines here: worldwright doctor",
+}
 OF_MACHINE = {"world_sha256", "rounded"}
 """Facts that depend on how a machine packs and rounds."""
 
@@ -35,11 +41,13 @@ def compare(kept: Path, built: Path, *, elsewhere: bool) -> str:
         JobError: the comparison itself came to no end.
     """
     try:
-        if closed_archive.content_sha256(kept) == closed_archive.content_sha256(built):
-            return SAME
-        unlike = _first_difference(closed_archive.packed(kept), closed_archive.packed(built))
+        before, now = closed_archive.packed(kept), closed_archive.packed(built)
     except ValueError as cause:
         raise OtherWorldError(f"it cannot be compared: {cause}") from cause
+    if before == now:
+        return SAME
+    unlike = _first_difference(before, now)
+    del before, now  # each may be as large as an archive may be
     apart, where = _apart(kept, built)
     said = f"{where} differs" + (f" by {apart:.2g} of its size" if apart < float("inf") else "")
     if apart > TOLERANCE:
@@ -81,7 +89,7 @@ def _apart(kept: Path, built: Path) -> tuple[float, str]:
             f"the world that was built again could not be compared with the kept one: {done.status}",
             code=done.status,
             place=str(kept),
-            next_move="call it again when the machine has less to do, or let the world be smaller",
+            next_move=INSTEAD.get(done.status, "call it again"),
         )
     try:
         told = json.loads(done.files["apart.json"])

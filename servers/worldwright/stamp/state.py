@@ -7,7 +7,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from ..model import companions
+from ..model import companions, syntax
 from ..model.errors import NotFoundError, PlanError, WorldwrightError
 from ..model.evidence import approval, assets_used, came, pictures_of
 from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport
@@ -125,12 +125,11 @@ class State:
     @cached_property
     def program_problem(self) -> str:
         """Why the program cannot run at all; empty when it parses."""
-        import ast
 
         if self.program_bytes is None:
             return "there is no readable simulation.py"
         try:
-            ast.parse(self.program_bytes)
+            syntax.module(self.program_bytes)
         except (SyntaxError, ValueError, RecursionError, MemoryError) as cause:
             return f"simulation.py is not valid Python: {cause}"
         return ""

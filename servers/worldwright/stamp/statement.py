@@ -61,7 +61,7 @@ class Proof(Frozen):
     channels: dict[str, Literal["exact", "law re-run", "tolerance"]] = {}
     """The kind of proof by channel (`motion`, `inputs`, a solver's, `pictures`), from version 2 on; see `exactness`."""
     marks: tuple[str, ...] = ()
-    """What limits that exactness, from version 2 on: worlds that sleep, barrier contact (`ipc`), plugins, a GPU."""
+    """What limits that exactness, from version 2 on: names of `exactness.LIMITS` (sentences in older stamps)."""
     no_world: str = ""
     """Why there is no `world.mjz`, in stamps of worlds that were simulated by their own program."""
 

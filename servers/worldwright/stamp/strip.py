@@ -21,6 +21,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
+from ..model import syntax
 from ..model.errors import WorldwrightError
 
 BEGIN = "# worldwright: begin instrumentation"
@@ -60,7 +61,7 @@ def strip(source: str, file: str = "simulation.py") -> Stripped:
             kept.append(text)
     result = "".join(kept)
     try:
-        left = ast.parse(result)
+        left = syntax.module(result)
     except (SyntaxError, ValueError) as cause:
         raise InstrumentationError(
             f"without its instrumentation the program is not valid Python: {cause}",
@@ -78,7 +79,7 @@ def strip(source: str, file: str = "simulation.py") -> Stripped:
 
 def _parse(source: str, file: str) -> ast.Module:
     try:
-        return ast.parse(source)
+        return syntax.module(source)
     except (SyntaxError, ValueError, RecursionError, MemoryError) as cause:
         raise InstrumentationError(
             f"the program does not parse: {cause}",

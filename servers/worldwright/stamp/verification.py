@@ -107,18 +107,19 @@ def _prove_again(
         return _refuted(run, checks)
     here = _here(folder)
     differences = tuple(environment_differences(statement.predicate.environment, statement.predicate.cpu, here))
+    vouched = signing.check(folder, bundle.STAMP, signer).vouched
+    older = bool(differences) and vouched
     with writing("the copy to be run", Path(tempfile.gettempdir())):
         scratch = _scratch(folder, here, rebuild)
     with writing("the copy to be run", scratch), bundle.only_one(Run(scratch)):
-        proof = scratch / "proof"
         try:
             if _kept(folder) and not rebuild:
-                checks += _facts(folder)
+                checks += _facts(folder, older)
                 if not checks[-1].ok:
                     return _refuted(run, checks, differences)
             proved = _again(folder, scratch, statement, rebuild, bool(differences), timeout_s, progress)
         except GateError as error:
-            shutil.rmtree(proof, ignore_errors=True)
+            shutil.rmtree(scratch / "proof", ignore_errors=True)
             checks.append(Check(name="run", ok=False, detail=str(error)))
             return _refuted(run, checks, differences)
         if proved is None:
@@ -130,12 +131,12 @@ def _prove_again(
                 next_move=f"worldwright stamp verify {name}",
             )
         checks += _world(folder, statement, proved, differences, rebuild)
-        checks += _acts(folder, proved, bool(differences) and signing.check(folder, bundle.STAMP, signer).vouched)
+        checks += _acts(folder, proved, older)
         mode, found = _motion(folder, statement, proved, differences)
         checks += found
-        checks += _kinds(statement, proved)
+        checks += _kinds(statement, proved, asked=rebuild or not _kept(folder))
         checks += _objectives(folder, statement, proved, mode == "bitwise")
-        if not signing.check(folder, bundle.STAMP, signer).vouched:
+        if not vouched:
             checks += _pictures(folder, statement, proved)
     shutil.rmtree(scratch, ignore_errors=True)
     if not all(c.ok for c in checks):
@@ -174,12 +175,13 @@ def _again(
     )
 
 
-def _facts(folder: Path) -> Iterator[Check]:
-    """Check the facts beside the kept world against plan and program."""
+def _facts(folder: Path, older: bool) -> Iterator[Check]:
+    """Check the facts beside the kept world against plan and program. `older`: as for `_acts`."""
     kept = folder / bundle.WORLD
-    found = list(world_facts.differ(folder / WORLD, kept, folder / "simulation.py", folder / "plan.md"))
+    program, plan = folder / "simulation.py", folder / "plan.md"
+    found = list(world_facts.differ(folder / WORLD, kept, program, plan, older=older))
     detail = "; ".join(found[:3]) or "of the kept world: as plan and program say"
-    yield Check(name="facts", ok=not found, detail=detail)
+    yield Check(name="facts", ok=older or not found, detail=detail)
 
 
 def _kept(folder: Path) -> bool:
@@ -276,17 +278,17 @@ def _motion(
     return "tolerance", [Check(name="trajectory", ok=within, detail=detail)]
 
 
-def _kinds(statement: Statement, proved: Proved) -> Iterator[Check]:
-    """Check what the stamp says about the kind of each proof, and tell it."""
+def _kinds(statement: Statement, proved: Proved, *, asked: bool) -> Iterator[Check]:
+    """Check what the stamp says about the kind of each proof, and tell of which kind it was here (`asked`: the program)."""
     stamped = statement.predicate.proof
     if statement.first:
         yield Check(name="kinds", ok=True, detail="an older stamp, which does not tell how each channel was proved")
         return
     found, marks = exactness.channels(proved, (s.name for s in statement.subject)), exactness.marks(proved)
-    same = stamped.channels == found and stamped.marks == marks
-    told = ", ".join(f"{channel} {kind}" for channel, kind in found.items())
-    limits = "".join(f"; {mark}" for mark in marks)
-    detail = f"{told}{limits}" if same else f"the stamp says another kind of proof than there is: {told}{limits}"
+    same = stamped.channels == found and {*exactness.coded(stamped.marks)} == {*marks}
+    exact = proved.trajectory_sha256 == stamped.trajectory_sha256
+    told = exactness.told(found, marks, exact=exact, asked=asked)
+    detail = told if same else f"the stamp says another kind of proof than there is: {told}"
     yield Check(name="kinds", ok=same, detail=detail)
 
 

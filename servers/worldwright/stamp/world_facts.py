@@ -18,13 +18,15 @@ LARGEST = 1 << 20
 SAID = ("duration", "fps", "size", "movers", "visual_only", "seed", "control", "control_every", "latency")
 
 
-def differ(world: Path, facts: Path, program: Path, plan: Path) -> Iterator[str]:
+def differ(world: Path, facts: Path, program: Path, plan: Path, *, older: bool = False) -> Iterator[str]:
     """How the facts differ from what program and plan say, one line each; a damaged file is one line.
 
     Args:
         world: the world's file.
         facts: the folder of `program.json` and `inputs.json`.
         program, plan: the accepted ones.
+        older: the facts were written by another build, whose defaults may have been others: only what the program's text
+            writes is compared with it.
     """
     from ..lint import tools as lint
     from ..stage import tools as stage
@@ -39,7 +41,7 @@ def differ(world: Path, facts: Path, program: Path, plan: Path) -> Iterator[str]
     found = read[PROGRAM]
     if found.get("world_sha256") != sha256_file(world):
         yield f"{PROGRAM} is about another world"
-    stated = lint.stated_facts(program)
+    stated = lint.stated_facts(program, defaults=not older)
     for name in SAID:
         if name in stated and _plain(found.get(name)) != _plain(stated[name]):
             yield f"{PROGRAM} says {name} {_short(found.get(name))}, the program {_short(stated[name])}"

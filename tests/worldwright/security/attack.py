@@ -32,7 +32,7 @@ Moment = Literal["approved", "linted", "simulated", "scanned", "expected", "draw
 Touch = Callable[[Path], object]
 Change = tuple[str, str]
 """A text and what stands in its place; it must be there."""
-JOB_S = 60.0
+JOB_S = 600.0
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,8 @@ class Trick:
     """What must stand in the stamp for it to be won; nothing: it is won with any stamp."""
     anybody: bool = False
     """The verification after `accepted` is asked whether the world does what it claims, whoever accepted it."""
+    refused_by: str = ""
+    """The check of that verification that must refuse it, whatever else does."""
 
     def __str__(self) -> str:
         return self.name
@@ -79,6 +81,8 @@ class Ending:
     at: str
     """The step that said no; `accepted` when none did, `verified` when the stamp was spoiled and is proved all the same."""
     said: str
+    refused: tuple[str, ...] = ()
+    """The checks that said no, where it ended at `verify`."""
     words: tuple[str, ...] = ()
     """What the scan, the ledger and the stamp say about it, where it was accepted."""
 
@@ -91,13 +95,14 @@ class Ending:
 def attempt(trick: Trick, folder: Path) -> Ending:
     """Take a trick as far as it comes, in a new folder."""
     try:
-        at, said = _way(trick, folder)
+        at, said, *refused = _way(trick, folder)
     except WorldwrightError as error:
         return Ending(type(error).__name__, str(error))
-    return Ending(at, said, _words(folder, trick) if at in ("accepted", "verified") else ())
+    return Ending(at, said, tuple(refused), _words(folder, trick) if at in ("accepted", "verified") else ())
 
 
-def _way(trick: Trick, folder: Path) -> tuple[str, str]:
+def _way(trick: Trick, folder: Path) -> tuple[str, ...]:
+    """Where it ended, what was said, and the checks that refused."""
     prepare(trick, folder)
     stamp.approve(str(folder), by="a tester")
     _touch(trick, "approved", folder)
@@ -139,7 +144,8 @@ def _way(trick: Trick, folder: Path) -> tuple[str, str]:
         return "accepted", done.text()
     _touch(trick, "accepted", folder)
     again = stamp.verify(str(folder), timeout_s=JOB_S, anybody=trick.anybody)
-    return ("verified", again.text()) if again.ok else ("verify", again.text())
+    refused = (check.name for check in again.checks if not check.ok)
+    return ("verified" if again.ok else "verify", again.text(), *refused)
 
 
 def _unmet(measured: ExpectReport) -> list[ObjectiveResult]:

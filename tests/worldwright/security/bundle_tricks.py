@@ -22,15 +22,19 @@ FORCE_X = 3
 """Entry of the force along x in an answer of the breeze: three of the joint come first."""
 
 
-def told(value: Any) -> Any:
-    """A stamp in which the crate came 0.61 m far."""
-    for expectation in value["predicate"]["expectations"]:
-        expectation |= FAR
-    return value
+def boasting(touch: Touch) -> Touch:
+    """The same, and the stamp says that the crate came 0.61 m far."""
 
+    def told(value: Any) -> Any:
+        for expectation in value["predicate"]["expectations"]:
+            expectation |= FAR
+        return value
 
-def sealed(run: Path) -> None:
-    forging.resealed(run, told)
+    def boast(run: Path) -> None:
+        touch(run)
+        forging.resealed(run, told)
+
+    return boast
 
 
 def changed_text(old: bytes, new: bytes) -> Touch:
@@ -64,7 +68,7 @@ def facts(**changes: Any) -> Touch:
 
     def touch(run: Path) -> None:
         forging.edited(run / "accepted" / "world" / "program.json", lambda value: {**value, **changes})
-        sealed(run)
+        forging.resealed(run)
 
     return touch
 
@@ -74,7 +78,7 @@ def damaged(name: str, content: bytes) -> Touch:
 
     def touch(run: Path) -> None:
         (run / "accepted" / "world" / name).write_bytes(content)
-        sealed(run)
+        forging.resealed(run)
 
     return touch
 
@@ -93,7 +97,7 @@ def edited_rows(name: str, **columns: list[Any]) -> Touch:
 
     def touch(run: Path) -> None:
         forging.table(run / "accepted" / "world" / f"{name}.arrows", name, **columns)
-        sealed(run)
+        forging.resealed(run)
 
     return touch
 
@@ -102,7 +106,7 @@ def without_inputs(run: Path) -> None:
     """The recorded inputs are taken away, so that nothing drives the world."""
     for path in (run / "accepted" / "world").glob("*.arrows"):
         path.unlink()
-    sealed(run)
+    forging.resealed(run)
 
 
 def another_kind(run: Path) -> None:
@@ -115,61 +119,81 @@ def another_kind(run: Path) -> None:
     forging.resealed(run, told)
 
 
-def bundle(name: str, does: str, touch: Touch) -> Trick:
-    return Trick(name, "bundle", does, plan=TRUE, touch={"accepted": touch}, anybody=True)
+def bundle(name: str, does: str, touch: Touch, refused_by: str, **more: Any) -> Trick:
+    more = {"plan": TRUE, **more}
+    return Trick(name, "bundle", does, touch={"accepted": touch}, anybody=True, refused_by=refused_by, **more)
 
 
-def driven(name: str, does: str, touch: Touch) -> Trick:
-    return Trick(name, "bundle", does, plan=BREEZE, control=BLOWS, touch={"accepted": touch}, anybody=True)
+def driven(name: str, does: str, touch: Touch, refused_by: str) -> Trick:
+    return bundle(name, does, touch, refused_by, plan=BREEZE, control=BLOWS)
 
 
 TRICKS = (
     bundle(
-        "world_includes_a_file_outside", "The world's file includes a steep floor that lies beside the run.", outside
+        "world_includes_a_file_outside",
+        "The world's file includes a steep floor that lies beside the run.",
+        boasting(outside),
+        "run",
     ),
     bundle(
         "world_with_another_gravity",
         "The world's file has half the gravity, and everything that knew its hash is told.",
-        changed_text(b"<option ", b'<option gravity="0 0 -4.71" '),
+        boasting(changed_text(b"<option ", b'<option gravity="0 0 -4.71" ')),
+        "acts",
     ),
-    bundle("facts_drawn_only", "The facts say that the crate is only drawn.", facts(visual_only=["crate"])),
-    bundle("facts_longer", "The facts say that the world runs for ten seconds.", facts(duration=10.0)),
-    bundle("facts_nobody_moves", "The facts say that nothing should move.", facts(movers=[])),
-    bundle("facts_no_number", "The facts say that the world runs for no number.", facts(duration=float("nan"))),
-    bundle("facts_cut_off", "The facts are cut off.", damaged("program.json", b'{"duration": 1.0, "fps"')),
-    bundle("inputs_opened", "The inputs that may be written are more than the plan's, and a gale is recorded.", opened),
-    bundle("inputs_no_list", "The list of inputs is no list.", damaged("inputs.json", b"NaN")),
+    bundle("facts_drawn_only", "The facts say that the crate is only drawn.", facts(visual_only=["crate"]), "facts"),
+    bundle("facts_longer", "The facts say that the world runs for ten seconds.", facts(duration=10.0), "facts"),
+    bundle("facts_nobody_moves", "The facts say that nothing should move.", facts(movers=[]), "facts"),
+    bundle(
+        "facts_no_number", "The facts say that the world runs for no number.", facts(duration=float("nan")), "facts"
+    ),
+    bundle("facts_cut_off", "The facts are cut off.", damaged("program.json", b'{"duration": 1.0, "fps"'), "facts"),
+    bundle(
+        "inputs_opened",
+        "The inputs that may be written are more than the plan's, and a gale is recorded.",
+        opened,
+        "facts",
+    ),
+    bundle("inputs_no_list", "The list of inputs is no list.", damaged("inputs.json", b"NaN"), "facts"),
     bundle(
         "gravity_edited_by_row",
         "An edit of gravity is recorded in a world that takes no input.",
         edited_rows("edits", step=[0], array=["opt.gravity"], index=[2], value=[-4.7]),
+        "run",
     ),
     bundle(
         "entry_from_the_end",
         "A recorded input has an entry that counts from the end.",
         edited_rows("inputs", step=[0], entry=[-1], value=[10.1]),
+        "run",
     ),
     driven(
         "breeze_becomes_a_gale",
         "The recorded breeze is ten times as strong.",
         edited_rows("inputs", step=[0], entry=[FORCE_X], value=[10.1]),
+        "trajectory",
     ),
     driven(
         "breeze_edits_gravity",
         "Beside the breeze, an edit of gravity is recorded.",
         edited_rows("edits", step=[0], array=["opt.gravity"], index=[2], value=[-4.7]),
+        "run",
     ),
     driven(
         "breeze_is_never_due",
         "The breeze is recorded for steps that never come, before those that do.",
         edited_rows("inputs", step=[1 << 20, 0], entry=[FORCE_X, FORCE_X], value=[1.0, 10.1]),
+        "run",
     ),
     driven(
         "breeze_of_no_number",
         "The recorded breeze is no number.",
         edited_rows("inputs", step=[0], entry=[FORCE_X], value=[float("nan")]),
+        "run",
     ),
-    driven("breeze_taken_away", "The recorded breeze is taken away.", without_inputs),
-    driven("breeze_cut_off", "The recorded breeze is cut off.", damaged("inputs.arrows", b"\xff\xff\xff\xff\x10")),
-    bundle("kinds_of_proof", "The stamp says that a medium was proved exactly, too.", another_kind),
+    driven("breeze_taken_away", "The recorded breeze is taken away.", without_inputs, "trajectory"),
+    driven(
+        "breeze_cut_off", "The recorded breeze is cut off.", damaged("inputs.arrows", b"\xff\xff\xff\xff\x10"), "run"
+    ),
+    bundle("kinds_of_proof", "The stamp says that a medium was proved exactly, too.", another_kind, "kinds"),
 )

@@ -197,8 +197,8 @@ def planted_stamp(run: Path) -> None:
     shutil.copy(honest / "journal.jsonl", run / "journal.jsonl")
 
 
-def planted_verification(run: Path) -> None:
-    """The folder in which the verification would run, if it were beside the world, holds a recording that was stretched."""
+def stretched_motion(run: Path) -> None:
+    """The stamp vouches for a recording that was stretched, its motion and its numbers."""
     from worldengine.recording import stored
     from worldwright.stamp import digest
 
@@ -215,12 +215,6 @@ def planted_verification(run: Path) -> None:
         return value
 
     forging.resealed(run, told)
-    for proof in (run / "proof", run / "proof" / evidence.name, run.parent / "proof", run.parent / "proofs" / run.name):
-        shutil.rmtree(proof, ignore_errors=True)
-        proof.mkdir(parents=True)
-        for name in ("simulation.py", "plan.md"):
-            shutil.copy(run / name, proof / name)
-        shutil.copytree(evidence, proof / "evidence" / evidence.name)
 
 
 WALL = (
@@ -465,12 +459,13 @@ TRICKS = (
         anybody=True,
     ),
     Trick(
-        "anybody_plants_the_verification",
+        "anybody_stretches_the_motion",
         "evidence",
-        "For whoever: folders of a verification are planted with a stretched recording, which the stamp tells of.",
+        "For whoever: the stamp tells of a stretched recording, by its hash, its motion and its numbers.",
         plan=TRUE,
-        touch={"accepted": planted_verification},
+        touch={"accepted": stretched_motion},
         anybody=True,
+        refused_by="trajectory",
     ),
     trick("folder_in_a_folder", "The accepted folder holds itself.", "accepted", nested, plan=TRUE),
 )

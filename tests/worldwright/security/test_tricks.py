@@ -44,6 +44,7 @@ TELLING = frozenset(
         "recording_stretched_with_hashes",
         "stamp_boasts_by_a_key_made_known",
         "key_twice",
+        "facts_drawn_only",
     ]
 )
 """What `make test` tries: one of each way to be refused."""
@@ -60,6 +61,9 @@ def _param(trick: Trick) -> object:
 def test_the_liar_does_not_win(trick: Trick, tmp_path: Path) -> None:
     ending = attack.attempt(trick, tmp_path / "run")
     assert not ending.won, f"{trick.does} Nothing said a word: {ending.said}"
+    if "accepted" in trick.touch:  # refused earlier, it would be refused for another reason than its lie
+        assert ending.at == "verify", ending
+    assert not trick.refused_by or trick.refused_by in ending.refused, ending
 
 
 def test_every_trick_has_a_name_of_its_own_and_the_lists_know_only_those() -> None:

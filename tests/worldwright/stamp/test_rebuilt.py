@@ -8,7 +8,10 @@ import mujoco
 import pytest
 
 from worldkit import closed_archive, portable
-from worldwright.model.errors import GateError
+from worldwright.model.errors import GateError, JobError
+from worldwright.stage import launch
+from worldwright.stage import tools as stage
+from worldwright.stage.confined import Confined
 from worldwright.stamp import rebuilt
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.strip import BEGIN, END
@@ -61,6 +64,20 @@ def test_what_is_no_archive_is_told(tmp_path: Path) -> None:
     (tmp_path / "none.mjz").write_bytes(b"nothing")
     with pytest.raises(rebuilt.OtherWorldError, match="no archive"):
         rebuilt.compare(world(tmp_path / "one.mjz"), tmp_path / "none.mjz", elsewhere=True)
+
+
+@pytest.mark.parametrize(("status", "advice"), [("timed_out", "less to do"), ("out_of_memory", "smaller")])
+def test_a_comparison_without_an_end_says_what_would_end_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, status: str, advice: str
+) -> None:
+    monkeypatch.setattr(stage, "run_confined", lambda *_, **__: Confined(status))
+    with pytest.raises(JobError) as caught:
+        rebuilt.compare(world(tmp_path / "one.mjz"), world(tmp_path / "other.mjz", more=1), elsewhere=False)
+    assert caught.value.code == status and advice in caught.value.next_move
+
+
+def test_two_worlds_may_take_what_two_passes_may() -> None:
+    assert rebuilt.MEMORY_MB == 2 * launch.MEMORY_MB
 
 
 def test_facts_must_be_the_same(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import json
 import os
 import shutil
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -19,7 +20,7 @@ from worldwright.model.evidence.journal import Journal
 from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.model.plan.committed import Plan
 from worldwright.model.plan.plan_text import read_plan
-from worldwright.stamp import bundle, departures, digest, private, repeats, signing, verification
+from worldwright.stamp import acceptance, bundle, departures, digest, private, repeats, signing, verification
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 from worldwright.stamp.statement import Statement
@@ -67,6 +68,14 @@ def test_verify_proves_it_again_and_touches_nothing(accepted: Path) -> None:
     assert result.ok, result.text()
     assert (result.state, result.mode) == ("proved", "bitwise")
     assert tree(accepted) == before
+
+
+def test_a_verification_works_outside_of_the_run_where_nobody_else_may_look(accepted: Path) -> None:
+    """So nobody can plant there what it would find."""
+    folder = accepted / "accepted"
+    scratch = verification._scratch(folder, verification._here(folder), False)
+    assert not scratch.resolve().is_relative_to(accepted.resolve())
+    assert stat.S_IMODE(scratch.stat().st_mode) == 0o700
 
 
 def test_verify_works_in_a_fresh_clone(accepted: Path, tmp_path: Path) -> None:
@@ -213,6 +222,15 @@ def test_a_report_written_by_hand_is_measured_again(reviewed: Path, copy: Copy, 
     with pytest.raises(GateError, match="in the proof run"):
         stamp.accept(str(folder), timeout_s=60)
     assert not (folder / "accepted").exists()
+
+
+def test_facts_that_the_text_does_not_tell_are_refused_before_the_proof_run(
+    reviewed: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(acceptance.world_facts, "differ", lambda *_: iter(["program.json says fps 5"]))
+    monkeypatch.setattr(acceptance, "prove", lambda *_, **__: pytest.fail("it was run all the same"))
+    with pytest.raises(GateError, match=r"otherwise than its text says: program\.json says fps"):
+        stamp.accept(str(copy(reviewed)))
 
 
 def test_a_world_simulated_for_another_time_is_refused(reviewed: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,7 @@
 
 import base64
 import json
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -9,14 +10,16 @@ from pathlib import Path
 
 import pytest
 
+from worldwright import exported, kept_open
 from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.scan import tools as scan
-from worldwright.stamp import signing
+from worldwright.stamp import bundle, signing
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.statement import Statement
 from worldwright.stamp.verification import static
 
 Copy = Callable[[Path], Path]
+EXAMPLES = Path(__file__).parents[3] / "examples"
 PLAIN = """
 import sys, mujoco, numpy as np
 model = mujoco.MjSpec.from_file(sys.argv[1] + "/world.mjz").compile()
@@ -154,3 +157,17 @@ def test_a_locked_key_needs_its_password(
         stamp.accept(str(folder), signing_key=folder / "nothing")
     with pytest.raises(signing.SigningError):
         stamp.accept(str(folder), signing_key=folder / "plan.md")
+
+
+def test_what_report_export_and_watch_leave_beside_a_small_form_does_not_break_it(tmp_path: Path) -> None:
+    folder = tmp_path / "kept"
+    shutil.copytree(
+        EXAMPLES / "bouncing-basketball", folder, ignore=shutil.ignore_patterns("accepted", "evidence", "jobs")
+    )
+    (folder / "out").mkdir()
+    for name in (*exported.FORMATS.values(), f"out/{kept_open.PICTURE}", "report.html"):
+        (folder / name).write_bytes(b"made again")
+    statement = Statement.model_validate_json((folder / bundle.STAMP).read_bytes())
+    assert bundle.damage(folder, statement) == []
+    (folder / "out.txt").write_bytes(b"left by somebody")
+    assert bundle.damage(folder, statement) == ["out.txt is not in the stamp"]

@@ -1,5 +1,6 @@
 """What an accepted folder says of its proof: forged inputs or kinds of proof, sealed anew, are refused by name."""
 
+import dataclasses
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -68,13 +69,17 @@ def test_the_stamp_says_of_which_kind_each_proof_is(accepted: Path) -> None:
     assert stamped.predicate.proof.channels == {"motion": "exact", "pictures": "tolerance"}
     assert stamped.predicate.proof.marks == ()
     (recording,) = (accepted / "evidence").glob("*/physics/trajectory")
-    proved = Proved(Run(accepted), PassResult(stage="physics", ok=True), LintReport(), recording)
-    (said,) = verification._kinds(stamped, proved)
+    again = {"trajectory_sha256": stamped.predicate.proof.trajectory_sha256}
+    proved = Proved(Run(accepted), PassResult(stage="physics", ok=True, summary=again), LintReport(), recording)
+    (said,) = verification._kinds(stamped, proved, asked=False)
     assert said.ok and said.detail == "motion exact, pictures tolerance"
+    elsewhere = dataclasses.replace(proved, physics=PassResult(stage="physics", ok=True))
+    (said,) = verification._kinds(stamped, elsewhere, asked=False)
+    assert said.ok and said.detail == "motion tolerance, pictures tolerance"
     for lie in ({"channels": {"motion": "exact", "pictures": "exact"}}, {"marks": ("it was signed twice",)}):
         proof = stamped.predicate.proof.model_copy(update=lie)
         forged = stamped.model_copy(update={"predicate": stamped.predicate.model_copy(update={"proof": proof})})
-        (said,) = verification._kinds(forged, proved)
+        (said,) = verification._kinds(forged, proved, asked=False)
         assert not said.ok and "another kind of proof than there is: motion exact" in said.detail
 
 
@@ -90,10 +95,22 @@ def test_worlds_that_sleep_or_search_their_contacts_are_marked(tmp_path: Path) -
 
     sleep, ipc = int(mujoco.mjtEnableBit.mjENBL_SLEEP), int(mujoco.mjtEnableBit.mjENBL_IPC)
     assert exactness.marks(proved("plain", 0)) == ()
-    assert exactness.marks(proved("sleeps", sleep)) == (exactness.FLAGS["sleep"],)
-    assert exactness.marks(proved("ipc", ipc)) == (exactness.FLAGS["ipc"],)
+    assert exactness.marks(proved("sleeps", sleep)) == ("sleep",)
+    assert exactness.marks(proved("ipc", ipc)) == ("ipc",)
     assert exactness.channels(proved("quiet", 0), ()) == {"motion": "exact"}
-    assert exactness.channels(proved("pushed", 0, push), ()) == {"motion": "exact", "inputs": "law re-run"}
+    pushed = exactness.channels(proved("pushed", 0, push), ())
+    assert pushed == {"motion": "exact", "inputs": "law re-run"}
+    assert exactness.told(pushed, (), exact=True, asked=True) == "motion exact, inputs law re-run"
+    assert exactness.told(pushed, (), exact=True, asked=False) == "motion exact, inputs as recorded"
+    assert exactness.told(pushed, ("sleep",), exact=False, asked=True).startswith(
+        "motion tolerance, inputs law re-run; bodies"
+    )
+
+
+def test_sentences_of_earlier_stamps_mean_the_same_however_they_are_worded_now() -> None:
+    earlier = ("bodies may sleep: in other words", "barrier contact (ipc): so", "engine plugins: so", "signed twice")
+    assert exactness.coded(earlier) == ("sleep", "ipc", "plugin", "signed twice")
+    assert exactness.coded(exactness.LIMITS) == tuple(exactness.LIMITS)
 
 
 def test_an_older_stamp_is_read_and_a_newer_one_is_refused_by_its_version(copy: Copy) -> None:

@@ -10,7 +10,7 @@ import pytest
 from worldengine.given import Given
 from worldkit.errors import ProgramError
 from worldwright.lint import tools as lint
-from worldwright.stamp import bundle, world_facts
+from worldwright.stamp import bundle, verification, world_facts
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.proof import WORLD
 from worldwright.stamp.statement import Statement
@@ -96,6 +96,25 @@ def test_verification_refuses_them_without_running_anything(accepted: Path, copy
     found = stamp.verify(str(run), anybody=True)
     assert found.state == "refuted" and not [c for c in found.checks if c.name in ("trajectory", "run")]
     assert [c.name for c in found.checks if not c.ok] == ["facts"]
+
+
+def test_facts_of_another_build_are_told_where_a_known_signer_vouches_for_them(
+    accepted: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Later defaults and a later form of what a plan declares say nothing about an honest world."""
+    from worldkit import program
+    from worldwright.stage import tools as stage
+
+    def main(build: Any, control: Any = None, *, latency: int = 3, **_: Any) -> None: ...
+
+    monkeypatch.setattr(program, "main", main)
+    (said,) = verification._facts(accepted / "accepted", older=True)
+    assert said.ok and "as plan and program say" in said.detail
+    monkeypatch.setattr(stage, "declared_inputs", lambda _: [{"of": "later"}])
+    (said,) = verification._facts(accepted / "accepted", older=True)
+    assert said.ok and "not what the plan declares" in said.detail
+    (said,) = verification._facts(accepted / "accepted", older=False)
+    assert not said.ok and "latency 0, the program 3" in said.detail
 
 
 @pytest.mark.parametrize("value", [float("nan"), float("inf"), -1.0, 0.0])

@@ -7,6 +7,7 @@ patch, so the guard starts every shell so that it cannot write there (`shell.py`
 from __future__ import annotations
 
 import json
+import math
 import shutil
 import subprocess
 import threading
@@ -71,8 +72,16 @@ def diagnose(root: Path) -> Diagnosis | None:
 def _config() -> str:
     import tomli_w
 
-    # Without `required`, the first call may come before its server is up.
-    common = {"startup_timeout_sec": 90, "required": True, "default_tools_approval_mode": "approve"}
+    from ...model.call_time import CALL_S  # the guard runs these modules with nothing but the contract beside them
+
+    # Without `required`, the first call may come before its server is up. What a call reports does not prolong its time here, which
+    # differs by release.
+    common = {
+        "startup_timeout_sec": 90,
+        "tool_timeout_sec": math.ceil(CALL_S) + 20,
+        "required": True,
+        "default_tools_approval_mode": "approve",
+    }
     servers: dict[str, dict[str, Any]] = {name: server(name) | common for name in SERVERS}
     for tool in PERSONAL:
         owner, name = tool.split(".")
