@@ -202,7 +202,7 @@ BY_AGENT = {role.agent: role for role in ROLES}
 MAIN_TOOLS = (
     "stamp.status", "stamp.go", "stamp.approve", "stamp.accept", "stamp.block", "stamp.verify",
     "stage.start", "stage.wait", "stage.status", "stage.cancel", "stage.look", "stage.frames",
-    "scan.query", "scan.plot", "scan.compare",
+    "scan.query", "scan.compare",
     "retrieve.search", "retrieve.read",
 )  # fmt: skip
 """The tools of the main thread: it orchestrates, looks, answers, approves in the person's name, stamps."""

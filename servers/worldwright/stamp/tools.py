@@ -211,8 +211,8 @@ def verify(
     """Prove an accepted world again: every checksum, then the world simulated anew, in the sandbox.
 
     A world kept as a file is driven by its recorded inputs; where none is kept (a small form, over 1 MB), or with `rebuild`,
-    its program builds it again. The first line says who signed; it is no yes while nobody known here did. The same build and processor repeat
-    the trajectory bit for bit, others stay within a tolerance. `running`: call again.
+    its program builds it again. Who signed is said first; it is no yes while nobody known here did. Exact on the same build
+    and processor, elsewhere within a tolerance. `running`: call again.
     """
     from .verification import verify as prove_again
 
