@@ -26,7 +26,6 @@ from ..wholes import head_names
 
 CODE = "WS304"
 STAGING = True
-RELATIVE = True
 NEEDS = ("pos",)
 THRESHOLD_M = 2e-3
 
