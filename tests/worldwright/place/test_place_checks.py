@@ -58,6 +58,22 @@ def test_a_sound_layout_has_no_findings():
     assert found.ok
 
 
+LID = [box("jar", 0.1, 0.1, 0.2, fixed=True), box("lid", 0.1, 0.1, 0.02, fixed=True)]
+SUNK = [("jar", "PLACE-ON-BASE", None, {"x": 0, "y": 0})]
+
+
+@pytest.mark.parametrize("exact", [False, True])
+@pytest.mark.parametrize(("up_to_m", "code"), [(None, "WP302"), (0.004, None), (0.002, "WP302"), (0.02, "WP327")])
+def test_what_belongs_together_may_overlap_as_far_as_the_plan_says(up_to_m, code, exact):
+    rows = [] if up_to_m is None else [{"between": ["lid", "jar"], "up_to_m": up_to_m, "why": "the rim of the lid"}]
+    topology = {"body_positions": {"lid": {"x": 0, "y": 0, "z": 0.207}}, "overlaps": rows}
+    found = codes(report(LID, SUNK, exact=exact, topology=topology))
+    told = {c: messages for c, messages in found.items() if c in ("WP302", "WP327")}
+    assert set(told) == ({code} if code else set()), found
+    if up_to_m == 0.002:
+        assert "0.003 m, 0.001 m more than `topology.overlaps`" in told["WP302"][0]
+
+
 # --- hills ----------------------------------------------------------------------------------------------------------
 
 SLOPE = 0.25

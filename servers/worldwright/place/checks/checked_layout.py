@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from ...model.plan.belonging import Belonging
 from ...model.plan.committed import AssetRow, Plan, SceneObject
 from ...model.plan.layout import PlacedObject, Scene
 from .. import categories
@@ -45,6 +46,11 @@ class CheckedLayout:
     def hidden(self) -> set[str]:
         """Objects that are not simulated."""
         return drawn_only(self.plan)
+
+    @cached_property
+    def belonging(self) -> Belonging:
+        """What the plan lets overlap."""
+        return Belonging(self.plan)
 
     @cached_property
     def held(self) -> set[str]:

@@ -15,9 +15,9 @@ import numpy as np
 
 from ...model.finding import Anomaly
 from ...model.plan.committed import Plan
+from ...model.plan.in_view import mentioned
 from ...model.recording.trajectory import Trajectory
 from ..objectives.claims import EXPECTATIONS
-from .declared import mentioned
 from .in_picture import seen
 from .wholes import head_names
 
