@@ -42,6 +42,10 @@ COMMANDS = {
         "worldwright.gallery.command",
         "The accepted worlds under examples/: keep one, prove, build or accept all.",
     ),
+    "versions": (
+        "worldwright.accepted_versions",
+        "What was accepted of a run: list it, compare two versions, bring an earlier one back.",
+    ),
     "keys": ("worldwright.stamp.keys", "The key that signs what is accepted here, and the keys that are known."),
     "contract": ("worldwright.contract.command", "The roles of a run in each harness's own files: sync, check, show."),
     "lessons": (
