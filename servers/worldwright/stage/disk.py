@@ -89,8 +89,8 @@ def free(run: Run, key: EvidenceKey, *, dry: bool) -> Freed:
                 shutil.rmtree(path)
             else:
                 path.unlink()
-    names = tuple(path.relative_to(run.folder).as_posix() for path in found)
-    return Freed(run=run.name, removed=names, freed_mb=freed / MB, dry=dry)
+    removed = tuple(path.relative_to(run.folder).as_posix() for path in found)
+    return Freed(run=run.name, removed=removed, freed_mb=freed / MB, dry=dry)
 
 
 def freeable_of(run: Run, key: EvidenceKey) -> Iterator[Path]:

@@ -140,10 +140,8 @@ def _differences(first: Version, second: Version) -> Iterator[str]:
     else:
         was, now = (digest.stamped_motion(version.folder, version.statement) for version in (first, second))
         yield f"the motion differs: {digest.compare(was, now).message}" if was and now else "the motion differs"
-    pictures = [
-        {s.name: s.digest.sha256 for s in x.subject if s.name.startswith(("stills/", "video/"))} for x in (a, b)
-    ]
-    yield from _changed(*pictures, same="is drawn otherwise")
+    drawn = [{s.name: s.digest.sha256 for s in x.subject if s.name.startswith(("stills/", "video/"))} for x in (a, b)]
+    yield from _changed(drawn[0], drawn[1], same="is drawn otherwise")
 
 
 def _changed(before: Mapping[str, str], after: Mapping[str, str], same: str = "") -> Iterator[str]:

@@ -41,7 +41,12 @@ def accepted_anew(run: Run) -> str:
         row.model_copy(update={"measured": 2 * (row.measured or 0) + 1}) if n == 0 else row
         for n, row in enumerate(said.predicate.expectations)
     ]
-    told = {"source": source, "objectives": worse, "expectations": measured, "accepted_at": "2126-01-01T00:00:00+00:00"}
+    told = {
+        "source": source,
+        "objectives": tuple(worse),
+        "expectations": tuple(measured),
+        "accepted_at": "2126-01-01T00:00:00+00:00",
+    }
     for name in bundle.UNLISTED:
         (draft / name).unlink()
     predicate = said.predicate.model_copy(update=told)
