@@ -440,3 +440,24 @@ def test_what_cameras_see():
     assert "away" in told["WP312"].message
     assert told["WP312"].severity == "error"
     assert "far" in told["WP314"].message
+
+
+def test_what_a_claim_is_about_is_large_enough_in_some_picture_or_a_camera_is_told_where_to_go():
+    pea = box("pea", 0.02, 0.02, 0.02, fixed=True)
+    claim = {"claim": "It stays.", "expect": [{"stays": {"body": "pea"}}]}
+    far = {"name": "side", "position": [-3, 0, 0.4], "target": [0, 0, 0.01], "fovy": 45, "subjects": ["pea"]}
+
+    def looked(camera):
+        step = {"description": "look", "cameras": [camera]}
+        row = ("pea", "PLACE-ON-BASE", None, {"x": 0, "y": 0})
+        return report([pea], [row], exact=True, implementation_steps=[step], objectives=[claim])
+
+    found = looked(far)
+    (small,) = [f for f in found.findings if f.code in ("WP328", "WP314")]
+    # 2 cm at 3.03 m: 720 px of 2 * 3.03 tan(22.5 deg) = 2.51 m, its sides a little aslant
+    assert found.views[0].length_px == pytest.approx(0.02 / 2.51 * 720, abs=1.5)
+    assert small.code == "WP328" and "camera side" in small.message and found.smallest.startswith("`pea` is ")
+    place = small.fix.split("position: [")[1].split("]")[0]
+    near = looked({**far, "position": [float(value) for value in place.split(", ")]})
+    assert not [f for f in near.findings if f.code in ("WP328", "WP314")], near.findings
+    assert near.views[0].length_px == pytest.approx(1.1 * 1280 / 40, abs=3.5)

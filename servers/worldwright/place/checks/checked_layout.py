@@ -32,6 +32,7 @@ class CheckedLayout:
     exact: bool
     margins: list[RowMargin] = field(default_factory=list)
     views: list[Seen] = field(default_factory=list)
+    smallest: str = ""
     pairs_tested: int = 0
     at_start: list[str] = field(default_factory=list)
     built: BuiltWorld | None = None

@@ -5,6 +5,7 @@ fault is, in metres, the fault too has so many pixels at the body's distance. Wh
 Source: pinhole projection (R. Hartley, A. Zisserman, Multiple View Geometry, chapter 6).
 """
 
+from collections.abc import Iterator
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -15,11 +16,14 @@ from worldkit.turning import matrices
 
 from ...model.finding import Anomaly
 from ...model.plan.committed import Plan
+from ...model.plan.in_view import spoken_of
+from ...model.plan.scene_objects import Vec3
 from ...model.recording.stills import NEAR_M, Lens
 from ...model.recording.trajectory import Trajectory
 
 Array = np.ndarray
 PIXELS, FRAMES = 2.0, 2
+LOOKED_AT = 60
 _SIGNS = np.array([(i, j, k) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)], dtype=float)
 
 
@@ -66,12 +70,50 @@ def seen(anomaly: Anomaly, bodies: tuple[int, ...], trajectory: Trajectory, plan
     return best
 
 
+class Largest(NamedTuple):
+    """Where a thing that the plan speaks of is seen largest."""
+
+    name: str
+    pixels: float
+    """Length of the longer side of its box in the picture."""
+    camera: str
+    time_s: float
+    eye: Vec3
+    """Where the camera stands then, m."""
+    place: Vec3
+    """Where the thing is then, m."""
+
+
+def largest(trajectory: Trajectory, plan: Plan) -> Iterator[Largest]:
+    """Each thing that the plan speaks of, where it is seen largest in two frames of a planned camera; at most some 60 are looked at."""
+    rows = frame_rows(trajectory.t, plan.recording_mode.fps)
+    rows = rows[:: max(1, len(rows) // LOOKED_AT)]
+    found = {row.name: lens for row in plan.cameras() if (lens := (trajectory.cameras or {}).get(row.name))}
+    lenses = {name: replace(lens, size=plan.recording_mode.size) for name, lens in found.items()}
+    if not lenses or len(rows) < FRAMES:
+        return
+    for name in (n for n in spoken_of(plan) if n in trajectory.names):
+        body = trajectory.names.index(name)
+        each = {camera: _pixels(trajectory, body, rows, lens, None) for camera, lens in lenses.items()}
+        camera = max(each, key=lambda camera: float(np.sort(each[camera])[-FRAMES]))
+        at = int(np.argsort(each[camera])[-FRAMES])
+        if each[camera][at] > 0:
+            eye = _eyes(trajectory, lenses[camera], rows[[at]])[0].tolist()
+            place, time_s = trajectory.pos[rows[at], body].tolist(), float(trajectory.t[rows[at]])
+            yield Largest(name, float(each[camera][at]), camera, time_s, tuple(eye), tuple(place))
+
+
+def _eyes(trajectory: Trajectory, lens: Lens, rows: Array) -> Array:
+    """(F, 3) m: where a camera stands at these rows."""
+    follows = [trajectory.names.index(n) for n in lens.follows if n in trajectory.names]
+    eye = lens.eye_at(trajectory.pos[np.ix_(rows, follows)].mean(axis=1)) if follows else lens.eye
+    return np.broadcast_to(eye, (len(rows), 3))
+
+
 def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: float | None) -> Array:
     """(F,) length of a body in the picture at these rows, or of a fault of so many metres on it, the smaller."""
     corners = _corners(trajectory, body, rows)
-    follows = [trajectory.names.index(n) for n in lens.follows if n in trajectory.names]
-    eye = lens.eye_at(trajectory.pos[np.ix_(rows, follows)].mean(axis=1)) if follows else lens.eye
-    eyes = np.broadcast_to(np.atleast_2d(eye)[:, None], corners.shape)
+    eyes = np.broadcast_to(_eyes(trajectory, lens, rows)[:, None], corners.shape)
     depth = -((corners - eyes) @ lens.axes)[..., 2]
     flat = lens.pixels(corners.reshape(-1, 3), eyes.reshape(-1, 3)).reshape(*corners.shape[:2], 2)
     size = np.array(lens.size, dtype=float)
