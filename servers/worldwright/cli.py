@@ -34,9 +34,17 @@ COMMANDS = {
     "watch": ("worldwright.kept_open", "Look at a run and leave it open: redrawn when a file of it is saved."),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
     "export": ("worldwright.exported", "Write the drawn world with its recorded motion as glTF or USD."),
+    "gc": (
+        "worldwright.freeing",
+        "Free what can be made again of runs: pictures, recordings and jobs of earlier programs.",
+    ),
     "gallery": (
         "worldwright.gallery.command",
         "The accepted worlds under examples/: keep one, prove, build or accept all.",
+    ),
+    "versions": (
+        "worldwright.accepted_versions",
+        "What was accepted of a run: list it, compare two versions, bring an earlier one back.",
     ),
     "keys": ("worldwright.stamp.keys", "The key that signs what is accepted here, and the keys that are known."),
     "contract": ("worldwright.contract.command", "The roles of a run in each harness's own files: sync, check, show."),

@@ -31,9 +31,9 @@ def run(given: Given, options: argparse.Namespace) -> None:
     from worldkit.reporting import Progress
 
     from ..inputs.soft_start import wound
-    from ..recording import drawn_overlaps, still_surfaces, stored
+    from ..recording import stored
     from ..recording.record import Recorder
-    from ..recording.reuse import reuse
+    from ..recording.reuse import describe_seen, reuse
     from ..variants import altered
     from .beside import Beside
     from .simulate import prepare, simulate
@@ -51,7 +51,7 @@ def run(given: Given, options: argparse.Namespace) -> None:
     meta["motion_key"] = _motion_key(model, given, options, variant, steps, every, asked)
     as_built = copy.copy(model)  # the simulation may write parameters
     began = time.perf_counter()
-    kept = reuse(options.reuse, meta["motion_key"], meta, as_built, out / TRAJECTORY, overlap=not variant)
+    kept = reuse(options.reuse, meta["motion_key"], meta, as_built, out / TRAJECTORY, None if variant else given.size)
     common = {"duration_s": given.duration, "time_step": meta["time_step"], "bodies": model.nbody - 1}
     common |= {"motion_key": meta["motion_key"], "world_sha256": _sha256(given.world)}
     if kept is not None:
@@ -78,8 +78,7 @@ def run(given: Given, options: argparse.Namespace) -> None:
             inputs.close()
     wall = time.perf_counter() - started
     if not variant:
-        drawn_overlaps.write(as_built, stored.open(out / TRAJECTORY), out / TRAJECTORY)
-        still_surfaces.write(as_built, out / TRAJECTORY)
+        describe_seen(as_built, stored.open(out / TRAJECTORY), given.size, out / TRAJECTORY)
     result = {
         "ok": True,
         "pass": "physics",

@@ -7,6 +7,8 @@ from typing import Any
 SCHEMA_VERSION = 1
 OVERLAPS_FILE = "overlaps.json"
 """What `drawn_overlaps` found, beside the streams."""
+CAMERAS_FILE = "cameras.json"
+"""Where each camera stands (`standing_cameras`), beside the streams."""
 VALUES = 6
 """An intervention has so many numbers: a wrench, a displacement (m, rad), a change of velocity, or new parameter values."""
 

@@ -16,6 +16,8 @@ from worldkit.files import write_json
 if TYPE_CHECKING:
     import mujoco
 
+    from .stored import Recording
+
 RECORDING = "trajectory"
 KEPT = (
     "steps",
@@ -32,7 +34,12 @@ KEPT = (
 
 
 def reuse(
-    passes: Sequence[Path], key: str, meta: dict[str, Any], model: "mujoco.MjModel", out: Path, overlap: bool
+    passes: Sequence[Path],
+    key: str,
+    meta: dict[str, Any],
+    model: "mujoco.MjModel",
+    out: Path,
+    size: tuple[int, int] | None,
 ) -> dict[str, Any] | None:
     """Take over the first recording of this motion key; None when none of them fits.
 
@@ -42,12 +49,12 @@ def reuse(
         meta: the description of the world now.
         model: the world now, before anything has run.
         out: the new recording.
-        overlap: whether to look for drawn overlaps.
+        size: of its pictures, pixels, to look for drawn overlaps and cameras; None: nobody looks.
 
     Returns:
         The facts of the earlier pass that still hold, with `reused_from`, its folder's name under `evidence/`.
     """
-    from . import drawn_overlaps, still_surfaces, stored
+    from . import stored
 
     for folder in passes if key else ():
         result, earlier = _json(folder / "result.json"), _json(folder / RECORDING / "meta.json")
@@ -65,12 +72,20 @@ def reuse(
             continue
         # The recording's description of its columns stays; the world is described as it is now.
         write_json(out / "meta.json", {**earlier, **meta})
-        if overlap:
-            drawn_overlaps.write(model, stored.open(out), out)
-            still_surfaces.write(model, out)
+        if size is not None:
+            describe_seen(model, stored.open(out), size, out)
         found = {name: summary[name] for name in KEPT if name in summary}
         return {**found, "reused_from": str(summary.get("reused_from") or folder.parent.name)}
     return None
+
+
+def describe_seen(model: "mujoco.MjModel", recording: "Recording", size: tuple[int, int], out: Path) -> None:
+    """Write what there is to see of a finished recording beside it: overlaps, surfaces that stand still, cameras."""
+    from . import drawn_overlaps, standing_cameras, still_surfaces
+
+    drawn_overlaps.write(model, recording, out)
+    still_surfaces.write(model, out)
+    standing_cameras.write(model, recording, size, out)  # last, as it moves the model's cameras
 
 
 def _copy(folder: Path, out: Path, files: dict[str, str]) -> bool:

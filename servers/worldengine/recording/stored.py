@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import RecordingError
 
-from .columns import OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
+from .columns import CAMERAS_FILE, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
 from .record import HASHED, combine
 
 if TYPE_CHECKING:
@@ -170,6 +170,12 @@ class Recording:
         """Visible geoms that overlap because they cannot collide (see `drawn_overlaps`); None when nobody looked."""
         path = self.folder / OVERLAPS_FILE
         return list(_json(path, "the list of overlaps is damaged")["pairs"]) if path.exists() else None
+
+    @cached_property
+    def cameras(self) -> dict[str, Any] | None:
+        """Where each camera stands, and the pictures' size (see `standing_cameras`); None when nobody looked."""
+        path = self.folder / CAMERAS_FILE
+        return _json(path, "the list of cameras is damaged") if path.exists() else None
 
     @cached_property
     def com(self) -> "np.ndarray":

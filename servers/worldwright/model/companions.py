@@ -15,7 +15,7 @@ from .errors import WorldwrightError
 
 OURS = (
     "plan.md", "prompt.md", "model.json", "simulation.py", "film.py", "journal.jsonl", "blocked.json", "report.html", "stamp.json",
-    "environment.lock", "accepted", "evidence", "jobs", "proof", "source", "out", "runs", "examples",
+    "environment.lock", "accepted", "earlier", "evidence", "jobs", "proof", "source", "out", "runs", "examples",
 )  # fmt: skip
 """Files of a run folder that belong to no program."""
 MOST_FILES = 2_000

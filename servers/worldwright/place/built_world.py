@@ -8,6 +8,7 @@ from typing import Any
 from ..model.errors import WorldwrightError
 from ..model.evidence import environment
 from ..model.evidence.run import Run, sha256_file
+from ..model.plan import belonging
 
 LAYOUT = "layout.json"
 LARGEST = 64 << 20
@@ -23,11 +24,8 @@ class BuiltWorld:
     """Bodies that are inside each other at the start, the depth, m, and the radius of the smaller geom, m; deepest first."""
 
     def owner(self, body: str, objects: set[str]) -> str:
-        """The object that a body belongs to: the nearest one that carries it; the outermost body where none does."""
-        seen = body
-        while body not in objects and body in self.parents and self.parents[body] != "world":
-            body = self.parents[body]
-        return body if body in objects else seen
+        """The object that a body belongs to (`model.plan.belonging`)."""
+        return belonging.owner(body, self.parents, objects)
 
 
 def find(plan: Path) -> BuiltWorld | None:

@@ -56,6 +56,8 @@ class Seen(Frozen):
     """The share of its outline inside the picture, 0 to 1."""
     hidden: float
     """The share of its part inside the picture that something else hides, 0 to 1."""
+    length_px: int = 0
+    """The longer side of the box around it in the picture, pixels."""
 
 
 class CheckReport(Frozen):
@@ -72,6 +74,8 @@ class CheckReport(Frozen):
     """Ropes and springs against their ends' distance, and joints that do not start at rest as laid out."""
     views: tuple[Seen, ...] = ()
     """How each camera sees its subjects."""
+    smallest: str = ""
+    """What the plan speaks of and is smallest where it is seen largest, at the start."""
 
     @property
     def ok(self) -> bool:
@@ -90,6 +94,7 @@ class CheckReport(Frozen):
             f"{v.camera}: {v.object} {v.pixels} pixels ({v.share:.1%}), {v.in_frame:.0%} in frame, {v.hidden:.0%} hidden"
             for v in self.views[:VIEWS]
         ]
+        lines += [f"smallest: {self.smallest}"] if self.smallest else []
         if self.views:
             lines.append("views are of the start; the run frames the whole way, and what moves far comes out smaller")
         if len(self.views) > VIEWS:

@@ -38,7 +38,9 @@ def add_cameras(spec: Any, cameras: list[dict[str, Any]]) -> None:
 
 
 def seen(model: Any, data: Any, cameras: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Measure `camera`, `object`, `share`, `in_frame` and `hidden` of each subject of each camera."""
+    """Measure `camera`, `object`, `share`, `in_frame`, `hidden`, `length` (of the longer side of its box, over the picture's width)
+    of what each camera shows (`measured`), and tell where the camera (`eye`) and the thing (`place`) are, m.
+    """
     import numpy as np
 
     model.geom_matid[:], model.geom_rgba[:, 3] = -1, 1.0  # rays pass through geoms that are not drawn
@@ -48,11 +50,13 @@ def seen(model: Any, data: Any, cameras: list[dict[str, Any]]) -> list[dict[str,
         eye, axes = data.cam_xpos[camera].copy(), data.cam_xmat[camera].reshape(3, 3)
         up = np.tan(np.radians(model.cam_fovy[camera]) / 2)
         scale = np.array([up * row["aspect"], up])
-        for name in row["subjects"]:
+        for name in row["measured"]:
             body = model.body(name).id
             window = _window(model, data, body, eye, axes, scale)
-            told = {"camera": row["name"], "object": name, "share": 0.0, "in_frame": 0.0, "hidden": 0.0}
+            told = {"camera": row["name"], "object": name, "share": 0.0, "in_frame": 0.0, "hidden": 0.0, "length": 0.0}
+            told |= {"eye": eye.tolist(), "place": data.xipos[body].tolist()}
             if window is not None:
+                told["length"] = float(max((window[1] - window[0]) / (2.0, 2.0 * row["aspect"])))
                 told |= _measured(model, data, body, eye, axes, scale, window)
             found.append(told)
     return found

@@ -309,6 +309,19 @@ def moments(run: Run) -> tuple[tuple[float, str], ...]:
     return tuple(sorted(found.items()))
 
 
+def smallest(run: Run) -> str:
+    """What the plan speaks of and is smallest where it is seen largest, over the motion; empty where that is not known.
+
+    For other servers, no tool.
+    """
+    from ..model.plan.in_view import told
+    from .anomalies.in_picture import largest
+
+    _, _, plan, trajectory = _subject(str(run.folder))
+    least = min(largest(trajectory, plan), key=lambda seen: seen.pixels, default=None) if plan else None
+    return told(least.name, least.pixels, least.camera, plan.recording_mode.size[0]) if plan and least else ""
+
+
 def repair_target(code: str) -> str:
     """What a repair changes where the anomaly check of this code finds something; for other servers, no tool."""
     from .anomalies.engine import CHECKS

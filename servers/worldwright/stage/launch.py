@@ -65,7 +65,7 @@ def launch(
         GateError: something the pass needs has not been proven yet.
         JobError: a variant of this name exists already, made with other arguments.
     """
-    with _writable(run), _one_at_a_time(run):
+    with _writable(run), one_at_a_time(run):
         earlier = gates.passed(run, key, stage, variant)
         if earlier is not None and stage == "final" and not (earlier.get("summary") or {}).get("complete"):
             earlier = None  # more minutes make it better
@@ -192,7 +192,7 @@ def _writable(run: Run) -> Iterator[None]:
 
 
 @contextmanager
-def _one_at_a_time(run: Run) -> Iterator[None]:
+def one_at_a_time(run: Run) -> Iterator[None]:
     """Let callers in one after the other, so that two who ask at once get one job."""
     run.jobs.mkdir(parents=True, exist_ok=True)
     folder = os.open(run.jobs, os.O_RDONLY | os.O_DIRECTORY)

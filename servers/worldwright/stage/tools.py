@@ -13,6 +13,7 @@ from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
+from .disk import Disk, used
 from .for_servers import (
     declared_inputs,
     draw_moment,
@@ -63,11 +64,14 @@ class RunStages(Frozen):
     """The jobs of the passes, newest first, at most ten."""
     audits: tuple[JobStatus, ...] = ()
     """Repetitions for an audit that are under way, too."""
+    disk: Disk | None = None
+    """What the run takes, and what `worldwright gc` would free."""
 
     def text(self) -> str:
         """The jobs, one per line."""
         head = f"key {self.key}: {', '.join(self.passed) or 'no pass'} succeeded"
-        return "\n".join([head, *(job.text() for job in (*self.jobs, *self.audits))])
+        tail = [self.disk.text()] if self.disk else []
+        return "\n".join([head, *(job.text() for job in (*self.jobs, *self.audits)), *tail])
 
 
 class LogPage(Frozen):
@@ -195,7 +199,7 @@ def wait(
 
 @reads
 def status(run: RunName) -> RunStages:
-    """Which passes have succeeded for the current program and plan, and how the latest jobs stand."""
+    """Which passes have succeeded for the current program and plan, how the latest jobs stand, what disk the run takes."""
     from ..model.evidence import environment
     from . import gates
     from .account import with_account
@@ -209,7 +213,7 @@ def status(run: RunName) -> RunStages:
     if newest is not None:
         jobs[newest] = with_account(folder, jobs[newest])
     audits = tuple(job for job in (job.read() for job in known if job.spec.variant) if not job.ended)
-    return RunStages(key=key.key, passed=passed, jobs=tuple(jobs), audits=audits)
+    return RunStages(key=key.key, passed=passed, jobs=tuple(jobs), audits=audits, disk=used(folder, key))
 
 
 def cancel(run: RunName, job: JobName = None) -> JobStatus:

@@ -32,6 +32,7 @@ from . import (
     repeats,
     sampled,
     signing,
+    versions,
     world_facts,
 )
 from .proof import FACTS, WORLD, Proved, beside, driven_by, lay_out, prove
@@ -147,7 +148,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             statement = _assemble(state, stripped, proved, folder)
             stamp_sha256 = bundle.seal(folder, statement)
             signing.sign(folder, bundle.STAMP, signer)
-            bundle.publish(folder, state.run.accepted)
+            bundle.publish(folder, state.run.accepted, versions.aside(state.run))
         finally:
             shutil.rmtree(folder, ignore_errors=True)
         _log(state, stamp_sha256)

@@ -27,7 +27,7 @@ OF_WORLD = ("world.mjz", f"{WORLD}/")
 LEFT_OUT = ("evidence/", "stills/", "video/", *OF_WORLD, "trajectory.npz")
 """What the small form of an accepted world may leave out, since a build makes it again."""
 BESIDE = (
-    "journal.jsonl", "accepted", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json", "scene.glb", "scene.usda",
+    "journal.jsonl", "accepted", "earlier", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json", "scene.glb", "scene.usda",
     "out",
 )  # fmt: skip
 """What may lie beside the stamp of a small form without being listed in it: the journal, and what a build leaves there."""
@@ -104,11 +104,11 @@ def draft_folder(run: Run) -> Path:
     return folder
 
 
-def publish(folder: Path, target: Path) -> None:
-    """Make a finished folder beside `target` the folder `target`: one rename, after everything is on disk.
+def publish(folder: Path, target: Path, aside: Path | None = None) -> None:
+    """Make a finished folder the folder `target` of the same disk: one rename, after everything is on disk.
 
     An older folder there changes places with it in the same instant where the system can do that (Linux), so that a kill
-    at any moment leaves one whole folder.
+    at any moment leaves one whole folder. It is then kept as `aside`, or removed without one.
     """
     for name in files_in(folder):
         _sync(folder / name)
@@ -116,7 +116,7 @@ def publish(folder: Path, target: Path) -> None:
         _sync(path)
     if target.exists() and _exchanged(folder, target):
         _sync(target.parent)
-        shutil.rmtree(folder, ignore_errors=True)
+        _put_aside(folder, aside)
         return
     if target.exists():
         # the older folder is moved aside first: a rename cannot replace a folder that has files in it
@@ -124,6 +124,14 @@ def publish(folder: Path, target: Path) -> None:
     folder.rename(target)
     _sync(target.parent)
     for older in target.parent.glob(f"{PREFIX}older-*"):
+        _put_aside(older, aside)
+
+
+def _put_aside(older: Path, aside: Path | None) -> None:
+    if aside is not None and not aside.exists():
+        aside.parent.mkdir(exist_ok=True)
+        older.rename(aside)
+    else:
         shutil.rmtree(older, ignore_errors=True)
 
 

@@ -171,11 +171,14 @@ class Going:
         from ..place.tools import check, resolve
 
         placed = resolve(self.run.plan, write=not self.wrong and not self.approved())
-        checked = check(self.run.plan) if placed.ok else placed
-        if not checked.ok:
-            errors = [f for f in checked.findings if f.severity == "error"] or checked.findings
+        checked = check(self.run.plan) if placed.ok else None
+        found = (checked or placed).findings
+        if checked is None or not checked.ok:
+            errors = [f for f in found if f.severity == "error"] or found
             raise WrongError(*((str(f), f"edit {self.run.plan}") for f in errors))
-        return f"{len(placed.objects)} objects"
+        smallest = f"; smallest in the pictures: {checked.smallest}" if checked.smallest else ""
+        small = [f"{f.message}; {f.fix}" for f in found if f.code == "WP328"]
+        return "\n".join([f"{len(placed.objects)} objects{smallest}", *small])
 
     def approved(self) -> bool:
         """Whether the plan was approved as it stands, with the models that it names."""
@@ -261,7 +264,7 @@ class Going:
 
     def scan(self) -> str:
         """Nothing in the motion is impossible."""
-        from ..scan.tools import scan
+        from ..scan.tools import scan, smallest
 
         if not self.step("scan").done:
             scan(self.name)
@@ -270,7 +273,10 @@ class Going:
         if blocking := [str(a) for a in anomalies if a.severity == "blocking"]:
             raise WrongError(*((said, self.patch()) for said in blocking))
         remarks = [str(a) for a in anomalies if a.severity == "warn"]
-        return "\n".join([self.step("scan").detail, *remarks[:MOST_REMARKS]])
+        said = [self.step("scan").detail]
+        with suppress(WorldwrightError):  # without the recording there is nothing to add
+            said += [f"smallest in the pictures: {small}"] if (small := smallest(self.run)) else []
+        return "\n".join([*said, *remarks[:MOST_REMARKS]])
 
     def expect(self) -> str:
         """The world does what the plan claims."""

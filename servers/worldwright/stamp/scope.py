@@ -5,7 +5,7 @@ step left a line with the hashes of the program and the plan as they stood, and 
 chained. A file that was changed in any other way is found by its hash, named, and refused at acceptance.
 
 Legal for the program: it was drafted, linted by the one who wrote it, or rolled back. Legal for the plan: it was started
-from another one, resolved, or approved.
+from another one, resolved, or approved. Legal for both: an accepted version was brought back (`versions`).
 """
 
 from collections.abc import Iterator
@@ -17,7 +17,10 @@ from ..model.evidence.run import SOURCE, sha256_file
 from .refusal import Refusal
 from .state import State
 
-LEGAL = {"simulation.py": ("draft", "lint", "roll_back"), "plan.md": ("plan", "resolve", "approve")}
+LEGAL = {
+    "simulation.py": ("draft", "lint", "roll_back", "restore"),
+    "plan.md": ("plan", "resolve", "approve", "restore"),
+}
 HASHES = {"simulation.py": "program_sha256", "plan.md": "plan_sha256"}
 AGAIN = {
     "lint": "worldwright lint check-program {place}/simulation.py",

@@ -1,5 +1,6 @@
 """A plan begun from an accepted world is a whole plan that names, in one finding, what is still as it was copied."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -64,3 +65,15 @@ def test_a_mark_in_a_comment_counts_and_a_plan_without_marks_has_none():
     marked = text.replace("gravity: -9.81", "gravity: -9.81  # TO_CHANGE")
     (line,) = parse_plan(marked).plan.copied
     assert "TO_CHANGE" in marked.splitlines()[line - 1]
+
+
+COMMON = ("bouncing-basketball", "bowling-pin-tips", "box-slides-to-rest", "breakfast-table", "pendulum-dies-out",
+          "rolling-marble", "slack-rope-pulls-box", "two-billiard-balls")  # fmt: skip
+PIECES = re.compile(r"[A-Za-z]{1,7}|\d{1,3}|[^\w\s]+|_|\n")
+"""About what a language model counts: words in parts of seven letters, numbers in threes, signs that stand together."""
+
+
+@pytest.mark.parametrize("world", COMMON)
+def test_what_a_role_writes_for_a_common_world_is_at_most_2500_tokens(world):
+    pieces = len(PIECES.findall(made(REPO / "examples" / world / "plan.md")))
+    assert pieces <= 2500, f"{pieces}: what the resolver or `plan complete` writes is no text of a role"

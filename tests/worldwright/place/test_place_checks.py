@@ -58,6 +58,22 @@ def test_a_sound_layout_has_no_findings():
     assert found.ok
 
 
+LID = [box("jar", 0.1, 0.1, 0.2, fixed=True), box("lid", 0.1, 0.1, 0.02, fixed=True)]
+SUNK = [("jar", "PLACE-ON-BASE", None, {"x": 0, "y": 0})]
+
+
+@pytest.mark.parametrize("exact", [False, True])
+@pytest.mark.parametrize(("up_to_m", "code"), [(None, "WP302"), (0.004, None), (0.002, "WP302"), (0.02, "WP327")])
+def test_what_belongs_together_may_overlap_as_far_as_the_plan_says(up_to_m, code, exact):
+    rows = [] if up_to_m is None else [{"between": ["lid", "jar"], "up_to_m": up_to_m, "why": "the rim of the lid"}]
+    topology = {"body_positions": {"lid": {"x": 0, "y": 0, "z": 0.207}}, "overlaps": rows}
+    found = codes(report(LID, SUNK, exact=exact, topology=topology))
+    told = {c: messages for c, messages in found.items() if c in ("WP302", "WP327")}
+    assert set(told) == ({code} if code else set()), found
+    if up_to_m == 0.002:
+        assert "0.003 m, 0.001 m more than `topology.overlaps`" in told["WP302"][0]
+
+
 # --- hills ----------------------------------------------------------------------------------------------------------
 
 SLOPE = 0.25
@@ -424,3 +440,24 @@ def test_what_cameras_see():
     assert "away" in told["WP312"].message
     assert told["WP312"].severity == "error"
     assert "far" in told["WP314"].message
+
+
+def test_what_a_claim_is_about_is_large_enough_in_some_picture_or_a_camera_is_told_where_to_go():
+    pea = box("pea", 0.02, 0.02, 0.02, fixed=True)
+    claim = {"claim": "It stays.", "expect": [{"stays": {"body": "pea"}}]}
+    far = {"name": "side", "position": [-3, 0, 0.4], "target": [0, 0, 0.01], "fovy": 45, "subjects": ["pea"]}
+
+    def looked(camera):
+        step = {"description": "look", "cameras": [camera]}
+        row = ("pea", "PLACE-ON-BASE", None, {"x": 0, "y": 0})
+        return report([pea], [row], exact=True, implementation_steps=[step], objectives=[claim])
+
+    found = looked(far)
+    (small,) = [f for f in found.findings if f.code in ("WP328", "WP314")]
+    # 2 cm at 3.03 m: 720 px of 2 * 3.03 tan(22.5 deg) = 2.51 m, its sides a little aslant
+    assert found.views[0].length_px == pytest.approx(0.02 / 2.51 * 720, abs=1.5)
+    assert small.code == "WP328" and "camera side" in small.message and found.smallest.startswith("`pea` is ")
+    place = small.fix.split("position: [")[1].split("]")[0]
+    near = looked({**far, "position": [float(value) for value in place.split(", ")]})
+    assert not [f for f in near.findings if f.code in ("WP328", "WP314")], near.findings
+    assert near.views[0].length_px == pytest.approx(1.1 * 1280 / 40, abs=3.5)

@@ -9,7 +9,9 @@ from worldwright.model.finding import Anomaly
 from worldwright.model.plan.committed import Objective, Plan, RecordingMode
 from worldwright.model.plan.implementation_steps import CameraRow, Step
 from worldwright.model.recording.records import Contacts
+from worldwright.model.recording.stills import Lens
 from worldwright.model.recording.trajectory import Trajectory
+from worldwright.scan.anomalies import engine
 from worldwright.scan.anomalies.relevance import weighed
 from worldwright.scan.known import analytic
 
@@ -24,8 +26,10 @@ def scene(touching_row: int | None = None) -> Trajectory:
     touch = Contacts(
         row=rows, body1=np.zeros(len(rows), int), body2=np.ones(len(rows), int), depth_m=none, normal_force=none
     )
+    aside = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])  # x to the right, z up, it looks along +y
+    lens = Lens(np.array([1.0, -9.0, 3.0]), aside, 40.0, (16, 16))
     return replace(
-        fall, names=("body", "leaf"), pos=np.concatenate((fall.pos, beside), axis=1), contacts=touch,
+        fall, names=("body", "leaf"), cameras={"side": lens}, pos=np.concatenate((fall.pos, beside), axis=1), contacts=touch,
         contact_force_sum=None, mechanics=type(fall.mechanics)(), **pair,
     )  # fmt: skip
 
@@ -59,6 +63,9 @@ def found(body: str, metres: float, start: float = 0.1, end: float = 0.7) -> Ano
         (found("leaf", 0.5), FALLS, None, "blocking", "pixels in camera side"),
         (found("leaf", 0.5, 0.3, 0.31), FALLS, None, "info", "no planned picture"),
         (found("leaf", 0.001), FALLS, 100, "blocking", "objective 0 rests on it"),
+        (found("leaf", 0.5, 0.3, 0.3), FALLS, None, "info", "no planned picture"),
+        (found("leaf", 0.5, 0.1, 0.3), FALLS, None, "blocking", "camera side, frame 3 (0.1"),
+        (found("body and leaf", 0.001), STAYS, None, "blocking", "objective 0 rests on it"),
         (found("leaf", 0.001), FALLS, 390, "info", "no claim rests on it"),
         (found("body", 0.001, 0.6, 0.7), FALLS, None, "info", "no claim rests on it"),
         (found("body", 0.001, 0.6, 0.7), STAYS, None, "blocking", "objective 0 rests on it"),
@@ -73,3 +80,33 @@ def test_what_blocks_says_why_it_matters(anomaly, expect, row, severity, why):
 def test_what_does_not_block_is_left_alone():
     quiet = found("leaf", 0.001).model_copy(update={"severity": "warn"})
     assert list(weighed([quiet], scene(), plan(FALLS))) == [quiet]
+
+
+def test_what_is_outside_of_every_picture_is_a_remark_and_a_joint_passes_a_claim_on():
+    away = scene()
+    away = replace(away, pos=away.pos + np.array([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]]))
+    (said,) = weighed([found("leaf", 0.5)], away, plan(FALLS))
+    assert said.severity == "info"
+    behind = replace(away, pos=scene().pos + np.array([[0.0, 0.0, 0.0], [0.0, -20.0, 0.0]]))
+    (said,) = weighed([found("leaf", 0.5)], behind, plan(FALLS))
+    assert said.severity == "info"
+    hung = replace(away, mechanics=replace(away.mechanics, parent=np.array([-1, 0])))
+    (said,) = weighed([found("leaf", 0.5)], hung, plan(FALLS))
+    assert said.severity == "blocking" and "objective 0" in said.message
+
+
+def test_without_the_place_of_a_camera_everything_may_be_seen():
+    (said,) = weighed([found("leaf", 0.001)], replace(scene(), cameras=None), plan(FALLS))
+    assert said.severity == "blocking" and "may be seen" in said.message
+
+
+def test_a_camera_that_follows_is_taken_along():
+    lens = scene().cameras["side"]
+    follows = replace(lens, follows=("leaf",), along=np.array([True, True, True]), away=np.array([0.0, -1.0, 0.0]))
+    far = replace(scene(), pos=scene().pos + np.array([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]]), cameras={"side": follows})
+    (said,) = weighed([found("leaf", 0.5)], far, plan(FALLS))
+    assert said.severity == "blocking" and "in camera side" in said.message
+
+
+def test_staging_is_never_a_remark():
+    assert not [entry.name for entry in engine.CHECKS.values() if entry.RELATIVE and entry.STAGING]

@@ -15,7 +15,7 @@ FOLDER, CAMERAS = "stills", "cameras.json"
 
 def read(run: Run, evidence: Path, trajectory_sha256: str) -> "Stills | None":
     """The stills of this recording; None where there are none by the present renderer, or a file is not the one drawn."""
-    from ..recording.stills import OnDisk, Stills, lens
+    from ..recording.stills import OnDisk, Stills, lenses
 
     folder = evidence / FOLDER
     try:
@@ -29,8 +29,7 @@ def read(run: Run, evidence: Path, trajectory_sha256: str) -> "Stills | None":
         files = (CAMERAS, *(f"{name}.png" for name in names))
         if any(sha256_file(folder / name) != result["files"][name] for name in files):
             return None
-        width, height = said["size"]
-        lenses = {name: lens(row, (int(width), int(height))) for name, row in said["cameras"].items()}
+        known = lenses(said)
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    return Stills(lenses, OnDisk(folder, names))
+    return Stills(known, OnDisk(folder, names))

@@ -22,7 +22,7 @@ from .drives import Actuator, Tendon
 from .implementation_steps import CameraRow, Step, seen_as_in_image
 from .joint_rows import Joint
 from .observation import ImageObservation
-from .pairings import Medium, PairSurface, SurfaceConstants
+from .pairings import Medium, Overlap, PairSurface, SurfaceConstants
 from .scene_objects import AssetRow, SceneObject, Vec3
 from .spread import Spread
 
@@ -196,6 +196,8 @@ class Topology(Frozen):
     tendons: tuple[Tendon, ...] = ()
     actuators: tuple[Actuator, ...] = ()
     scene_predicates: tuple[PredicateRow, ...] = ()
+    overlaps: tuple[Overlap, ...] = ()
+    """What belongs together and may be inside each other, how far, and why (`belonging`); contacts act as elsewhere."""
     image_observation: ImageObservation | None = None
     """What the reference image shows, when there is one."""
     settled: dict[str, SettledOffset] = {}

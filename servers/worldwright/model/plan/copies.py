@@ -40,7 +40,9 @@ def changes(plan: Written, copied: Families) -> dict[str, Any]:
         if row.child in copied
     }
     tendons = [made for row in plan.topology.tendons for made in _tendon(row, copied)]
-    topology = plan.topology.model_copy(update={"joints": tuple(joints), "tendons": tuple(tendons)})
+    overlaps = _between(plan.topology.overlaps, copied)
+    changed = {"joints": tuple(joints), "tendons": tuple(tendons), "overlaps": overlaps}
+    topology = plan.topology.model_copy(update=changed)
     return {
         "scene_objects": tuple(objects),
         "topology": topology,
@@ -64,15 +66,20 @@ def _spelled(values: Mapping[str, Any], copied: Families) -> dict[str, Any]:
 def _parameters(row: Written, copied: Families) -> Written:
     acting = tuple(i.model_copy(update={"bodies": named(i.bodies, copied)}) for i in row.interventions)
     masses, starts = _spelled(row.masses, copied), _spelled(row.initial_motion, copied)
-    pairs = tuple(
-        pair.model_copy(update={"between": (one, other)})
-        for pair in row.pairs
-        for one in copied.get(pair.between[0], pair.between[:1])
-        for other in copied.get(pair.between[1], pair.between[1:])
-        if one != other
-    )
+    pairs = _between(row.pairs, copied)
     changed = {"masses": masses, "initial_motion": starts, "interventions": acting, "pairs": pairs}
     return row.model_copy(update=changed)
+
+
+def _between(rows: Iterable[Written], copied: Families) -> tuple[Written, ...]:
+    """The rows about two things each, said of every copy of the one and of the other."""
+    return tuple(
+        row.model_copy(update={"between": (one, other)})
+        for row in rows
+        for one in copied.get(row.between[0], row.between[:1])
+        for other in copied.get(row.between[1], row.between[1:])
+        if one != other
+    )
 
 
 def _step(row: Step, copied: Families) -> Step:

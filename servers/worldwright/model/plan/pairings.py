@@ -1,4 +1,4 @@
-"""Constants of what meets: two things that rub otherwise than their materials say, the ends of a joint's range, the air."""
+"""What holds of what meets: two things that rub otherwise than their materials say, or overlap; a joint's stops; the air."""
 
 from pydantic import Field
 
@@ -36,6 +36,16 @@ class PairSurface(Touch):
 
     between: tuple[str, str]
     """Two objects, or one and `ground`."""
+
+
+class Overlap(Frozen):
+    """Two things that belong together may be inside each other by so much: a pin in its hole, a lid on its rim."""
+
+    between: tuple[str, str]
+    """Two objects."""
+    up_to_m: float = Field(gt=0, le=0.1)
+    """Metres, of their solid shapes, at any time; at most half of the smallest extent of the thinner one."""
+    why: str = Field(min_length=3)
 
 
 class Stop(Frozen):

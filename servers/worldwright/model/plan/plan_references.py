@@ -199,6 +199,8 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
         for end, place in _list(row, path, "ends"):
             if isinstance(end, dict):
                 yield from _one("parent", end, place, "body")
+    for row, path in _rows(data, "topology", "overlaps"):
+        yield from _each("object", row, path, "between")
     for row, path in _rows(data, "topology", "actuators"):
         yield from _one("joint", row, path, "joint")
         if isinstance(row.get("control"), str):

@@ -80,6 +80,12 @@ class OnDisk(Mapping[str, Array]):
         return len(self.names)
 
 
+def lenses(said: Mapping[str, Any]) -> dict[str, Lens]:
+    """The cameras of a `cameras.json`, by name; raises KeyError, TypeError or ValueError where it is none."""
+    width, height = said["size"]
+    return {name: lens(row, (int(width), int(height))) for name, row in said["cameras"].items()}
+
+
 def lens(row: Mapping[str, Any], size: tuple[int, int]) -> Lens:
     """A camera from its row of `cameras.json`."""
     follow = row.get("follow") or {}

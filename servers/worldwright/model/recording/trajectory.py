@@ -28,7 +28,7 @@ from .coordinates import Coordinates
 from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
-from .stills import Stills
+from .stills import Lens, Stills
 
 Array = np.ndarray
 STANDARD_GRAVITY = 9.80665
@@ -86,6 +86,8 @@ class Trajectory:
     """The compiled `MjModel` that lies beside foreign data; None for our own recordings, whose ledger says more."""
     stills: "Stills | None" = None
     """What was drawn of it, where it was."""
+    cameras: Mapping[str, Lens] | None = None
+    """Where each camera stands over the motion; None when nobody looked."""
     time_step: float = 0.0
     """s, of the simulation; 0 when unknown."""
     out_of_order: tuple[float, ...] = ()

@@ -13,6 +13,7 @@ from .coordinates import Coordinates
 from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
+from .stills import Lens, lenses
 from .trajectory import OPTIONAL_SHAPES, SHAPES, Trajectory
 
 Array = np.ndarray
@@ -175,9 +176,21 @@ def _from_recording(recording: Any) -> Trajectory:
         time_step=float(recording.time_step),
         complete=bool(recording.complete),
         recorded_sha256=recording.sha256 or "",
+        cameras=_cameras(recording),
     )
     found.verify(str(recording.folder))
     return found
+
+
+def _cameras(recording: Any) -> dict[str, Lens] | None:
+    try:
+        return None if recording.cameras is None else lenses(recording.cameras)
+    except (KeyError, TypeError, ValueError) as cause:
+        raise RecordingError(
+            f"the recording's list of cameras is damaged: {cause!r}",
+            place=str(recording.folder),
+            next_move="run the physics pass again",
+        ) from cause
 
 
 def _loads(recording: Any) -> Loads:

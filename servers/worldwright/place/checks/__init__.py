@@ -77,6 +77,7 @@ def check(
         margins=tuple(sorted((*resolution.margins, *layout.margins), key=lambda m: m.margin)),
         at_start=tuple(layout.at_start),
         views=tuple(layout.views),
+        smallest=layout.smallest,
     )
 
 

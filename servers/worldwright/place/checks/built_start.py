@@ -16,7 +16,7 @@ def check(layout: CheckedLayout) -> None:
     for one, other, depth, radius in layout.built.contacts:
         first, second = sorted(layout.built.owner(name, names) for name in (one, other))
         inside = first != second and {first, second} & names and not {first, second} <= held
-        if inside and depth > max(OVERLAP_M, SHARE * radius):
+        if inside and depth > max(OVERLAP_M, SHARE * radius, layout.belonging.allowed_m(first, second)):
             found[first, second] = max(found.get((first, second), 0.0), depth)
     layout.at_start.append(f"the built world was looked at too (bundle): {len(layout.built.parents)} bodies")
     for (first, second), depth in found.items():

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from ...model.plan.belonging import Belonging
 from ...model.plan.committed import AssetRow, Plan, SceneObject
 from ...model.plan.layout import PlacedObject, Scene
 from .. import categories
@@ -31,6 +32,7 @@ class CheckedLayout:
     exact: bool
     margins: list[RowMargin] = field(default_factory=list)
     views: list[Seen] = field(default_factory=list)
+    smallest: str = ""
     pairs_tested: int = 0
     at_start: list[str] = field(default_factory=list)
     built: BuiltWorld | None = None
@@ -45,6 +47,11 @@ class CheckedLayout:
     def hidden(self) -> set[str]:
         """Objects that are not simulated."""
         return drawn_only(self.plan)
+
+    @cached_property
+    def belonging(self) -> Belonging:
+        """What the plan lets overlap."""
+        return Belonging(self.plan)
 
     @cached_property
     def held(self) -> set[str]:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from ...model.errors import JobError
+from ...model.plan import in_view
 from ...model.plan.implementation_steps import CameraRow
 from ..asking import simulate
 from ..placement_results import Seen
@@ -19,7 +20,10 @@ MOST_OBJECTS = 1500
 
 
 def check(layout: CheckedLayout) -> None:
-    """Report WP312 for a subject outside the picture, WP313 for a hidden one, WP314 for a speck; note all in `views`."""
+    """Report WP312 for a subject outside the picture, WP313 for a hidden one, WP314 for a speck; note all in `views`.
+
+    WP328: what the plan speaks of is less than a fortieth of the width long in every picture.
+    """
     cameras = [camera for row in layout.plan.cameras() if (camera := _camera(layout, row))["subjects"]]
     if not layout.exact or not cameras or not layout.scene.objects or len(layout.scene.objects) > MOST_OBJECTS:
         return
@@ -35,7 +39,12 @@ def check(layout: CheckedLayout) -> None:
         )
         return
     width, height = layout.plan.recording_mode.size
-    for row in result["views"]:
+    rows: dict[tuple[str, str], dict[str, Any]] = {(row["camera"], row["object"]): row for row in result["views"]}
+    subjects = {(camera["name"], name) for camera in cameras for name in camera["subjects"]}
+    told = _smallest(layout, list(rows.values()))
+    for pair, row in rows.items():
+        if pair not in subjects:
+            continue
         seen = Seen(
             camera=row["camera"],
             object=row["object"],
@@ -43,9 +52,10 @@ def check(layout: CheckedLayout) -> None:
             share=round(row["share"], 6),
             in_frame=round(row["in_frame"], 4),
             hidden=round(row["hidden"], 4),
+            length_px=round(row["length"] * width),
         )
         layout.views.append(seen)
-        _judge(layout, seen)
+        _judge(layout, seen, told)
 
 
 def _camera(layout: CheckedLayout, row: CameraRow) -> dict[str, Any]:
@@ -56,10 +66,43 @@ def _camera(layout: CheckedLayout, row: CameraRow) -> dict[str, Any]:
     if placed is not None:
         pose = {"position": placed.position, "target": placed.target, "view": None}
     width, height = layout.plan.recording_mode.size
-    return {"name": row.name, "subjects": subjects, "fovy": row.fovy, "aspect": width / height, **pose}
+    measured = [*subjects, *(n for n in in_view.spoken_of(layout.plan) if n in layout.placed and n not in subjects)]
+    return {
+        "name": row.name,
+        "subjects": subjects,
+        "measured": measured,
+        "fovy": row.fovy,
+        "aspect": width / height,
+        **pose,
+    }
 
 
-def _judge(layout: CheckedLayout, seen: Seen) -> None:
+def _smallest(layout: CheckedLayout, rows: list[dict[str, Any]]) -> set[str]:
+    """Note what is smallest where it is seen largest; report, and return, each thing that is too small to be watched."""
+    width = layout.plan.recording_mode.size[0]
+    largest: dict[str, dict[str, Any]] = {}
+    for row in rows:
+        clear = row["in_frame"] >= CUT_OFF and row["hidden"] <= HIDDEN
+        if clear and row["length"] > largest.get(row["object"], {"length": 0.0})["length"]:
+            largest[row["object"]] = row
+    spoken = [largest[name] for name in in_view.spoken_of(layout.plan) if name in largest]
+    for n, row in enumerate(sorted(spoken, key=lambda row: row["length"])):
+        pixels = row["length"] * width
+        said = in_view.told(row["object"], pixels, row["camera"], width)
+        layout.smallest = layout.smallest if n else said
+        if row["length"] < in_view.SHARE:
+            layout.problems.add(
+                "WP328",
+                "too_small",
+                f"at the start {said}; it is watched from {in_view.SHARE:.1%} on",
+                in_view.remedy(row["object"], row["camera"], tuple(row["eye"]), tuple(row["place"]), pixels, width),
+                ("implementation_steps",),
+                severity="warning",
+            )
+    return {row["object"] for row in spoken if row["length"] < in_view.SHARE}
+
+
+def _judge(layout: CheckedLayout, seen: Seen, told: set[str]) -> None:
     index = next((i for i, s in enumerate(layout.plan.implementation_steps) if seen.camera in _names(s.cameras)), None)
     path = ("implementation_steps",) if index is None else ("implementation_steps", index)
     if seen.in_frame < CUT_OFF:
@@ -83,7 +126,7 @@ def _judge(layout: CheckedLayout, seen: Seen) -> None:
             path,
             severity="warning",
         )
-    elif seen.pixels < SMALL_PX:
+    elif seen.pixels < SMALL_PX and seen.object not in told:
         layout.problems.add(
             "WP314",
             "speck",

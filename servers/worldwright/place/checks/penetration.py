@@ -7,9 +7,17 @@ from .checked_layout import OVERLAP_M, CheckedLayout
 
 
 def check(layout: CheckedLayout) -> None:
-    """Report WP302 for each pair that penetrates by more than a millimetre; parts on joints may overlap each other."""
+    """Report WP302 for each pair that penetrates by more than a millimetre, or than the plan lets it; WP327 for what it may not let.
+
+    Parts on joints may overlap each other.
+    """
     held = layout.held
-    pairs = [p for p in layout.close if p[2] > OVERLAP_M and not (p[0] in held and p[1] in held)]
+    _too_much(layout)
+
+    def deep(pair: tuple[str, str, float]) -> bool:
+        return pair[2] > max(OVERLAP_M, layout.belonging.allowed_m(*pair[:2]))
+
+    pairs = [p for p in layout.close if deep(p) and not (p[0] in held and p[1] in held)]
     layout.pairs_tested = len(pairs)
     if not pairs:
         return
@@ -23,16 +31,36 @@ def check(layout: CheckedLayout) -> None:
                 "WP302", "overlap", f"overlaps could not be tested exactly: {error.cause}", error.next_move
             )
         else:
-            pairs = [(a, b, depth) for a, b, depth in touching if (a, b) in close and depth > OVERLAP_M]
+            pairs = [(a, b, depth) for a, b, depth in touching if (a, b) in close and deep((a, b, depth))]
     rows_of: dict[str, list[str]] = {}
     for row in layout.resolution.statements:
         rows_of.setdefault(row.subject, []).append(str(row))
     for first, second, depth in pairs:
         rows = [*rows_of.get(first, []), *rows_of.get(second, [])]
+        allowed = layout.belonging.allowed_m(first, second)
+        more = round(depth - allowed, 6)
         layout.problems.add(
             "WP302",
             "overlap",
-            f"`{first}` and `{second}` penetrate each other by {shown(depth)} m",
-            f"move one of them by {shown(depth)} m or more: {'; '.join(rows[:4]) or 'see body_positions'}",
+            f"`{first}` and `{second}` penetrate each other by {shown(depth)} m"
+            + (f", {shown(more)} m more than `topology.overlaps` lets them" if allowed else ""),
+            f"move one of them by {shown(more)} m or more: {'; '.join(rows[:4]) or 'see body_positions'}"
+            + ("" if allowed else "; where they belong together, say so in `topology.overlaps`"),
             layout.path(second),
         )
+
+
+def _too_much(layout: CheckedLayout) -> None:
+    """Report each row of `topology.overlaps` that would hide that one thing is half inside the other."""
+    for index, row in enumerate(layout.plan.topology.overlaps):
+        sizes = {name: min(layout.placed[name].size) for name in row.between if name in layout.placed}
+        thinner = min(sizes, key=lambda name: sizes[name], default="")
+        if len(sizes) == 2 and row.up_to_m > sizes[thinner] / 2:
+            layout.problems.add(
+                "WP327",
+                "overlap_too_large",
+                f"`topology.overlaps` lets {' and '.join(row.between)} overlap by {shown(row.up_to_m)} m, more than half of "
+                f"`{thinner}` ({shown(sizes[thinner])} m)",
+                f"let it be {shown(sizes[thinner] / 2)} m at most, weld them (`type: weld`), or make room for one in the other",
+                ("topology", "overlaps", index),
+            )

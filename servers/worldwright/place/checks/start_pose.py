@@ -47,7 +47,9 @@ def _collisions(layout: CheckedLayout) -> None:
         touching = [
             (a, b, depth)
             for a, b, depth in found
-            if depth > OVERLAP_M and {a, b} & moved and (GROUND in (a, b) or not free(a, b))
+            if depth > max(OVERLAP_M, layout.belonging.allowed_m(a, b))
+            and {a, b} & moved
+            and (GROUND in (a, b) or not free(a, b))
         ]
         if not touching:
             return

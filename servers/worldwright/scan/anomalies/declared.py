@@ -3,9 +3,14 @@
 import re
 from typing import Any
 
+import numpy as np
+
 from ...model.evidence.audits import Trigger
 from ...model.finding import AnomalySeverity
+from ...model.plan.belonging import Belonging
 from ...model.plan.committed import Plan
+from ...model.plan.in_view import mentioned
+from ...model.recording.trajectory import Trajectory
 from .sign import Context
 
 TIME = re.compile(
@@ -42,19 +47,20 @@ def weighs(context: Context, declared: bool, *, claimed: bool = True) -> Anomaly
     return "blocking" if context.planned and claimed else "warn"
 
 
+def overlap_m(context: Context, trajectory: Trajectory, one: str, other: str) -> float:
+    """How far the plan lets two bodies be inside each other, m: at most half the thickness of the thinner one."""
+    if context.plan is None or not context.plan.topology.overlaps:
+        return 0.0
+    names, above = trajectory.names, trajectory.mechanics.parent
+    parents = {} if above is None else {n: names[p] if p >= 0 else "world" for n, p in zip(names, above, strict=True)}
+    thin = trajectory.mechanics.half_thickness()
+    known = [float(thin[names.index(n)]) for n in (one, other) if thin is not None and n in names]
+    allowed = Belonging(context.plan, parents).allowed_m(one, other)
+    return min([allowed, *(half for half in known if np.isfinite(half))])
+
+
 def drawn_only(context: Context, meta: Any, name: str) -> bool:
     """Whether the program or the plan declares a body or geom to be drawn without being simulated."""
     plan: Plan | None = context.plan
     listed = meta.get("visual_only") or ()
     return name in listed or (plan is not None and any(o.name == name and o.visual_only for o in plan.scene_objects))
-
-
-def mentioned(value: Any) -> set[str]:
-    """Every text anywhere in the arguments of expectations, as these are the names they speak of."""
-    if isinstance(value, str):
-        return {value}
-    if isinstance(value, dict):
-        return {name for inner in value.values() for name in mentioned(inner)}
-    if isinstance(value, (list, tuple)):
-        return {name for inner in value for name in mentioned(inner)}
-    return set()

@@ -1,29 +1,25 @@
 """A finding matters when a claim rests on it or a viewer can see it; otherwise it becomes a remark.
 
 A claim rests on what its expectations and its cause name, and on whatever these touch, through however many others, before
-the last of its effects is over: the rest of the world may do as it likes. A viewer sees what measures two pixels in one of
-the planned pictures, for two frames. How many pixels a metre has is reckoned from what each camera frames, or from where it
-stands; where that cannot be reckoned, everything is visible.
+the last of its effects is over: the rest of the world may do as it likes. Joints, ties and tendons join as a touch does. A
+viewer sees what measures two pixels in one of the planned pictures, for two frames (`in_picture`).
 
 Checks that want this set `RELATIVE`. Staging, and faults of the recording itself, always matter.
 """
 
 from collections.abc import Iterable, Iterator
+from fnmatch import fnmatchcase
 from typing import NamedTuple
 
 import numpy as np
 
 from ...model.finding import Anomaly
 from ...model.plan.committed import Plan
-from ...model.plan.implementation_steps import CameraRow
+from ...model.plan.in_view import mentioned
 from ...model.recording.trajectory import Trajectory
 from ..objectives.claims import EXPECTATIONS
-from .declared import mentioned
+from .in_picture import seen
 from .wholes import head_names
-
-PIXELS, FRAMES = 2.0, 2
-FILLED = 0.7
-"""Share of a picture's height that a camera fills with what it frames."""
 
 
 class Rests(NamedTuple):
@@ -39,8 +35,7 @@ def weighed(anomalies: Iterable[Anomaly], trajectory: Trajectory, plan: Plan) ->
     if not any(a.severity == "blocking" for a in listed):
         yield from listed
         return
-    resting, cameras = claimed(trajectory, plan), dict(pixels_per_metre(trajectory, plan))
-    frame_s = 1.0 / plan.recording_mode.fps
+    resting = claimed(trajectory, plan)
     for anomaly in listed:
         if anomaly.severity != "blocking":
             yield anomaly
@@ -49,14 +44,14 @@ def weighed(anomalies: Iterable[Anomaly], trajectory: Trajectory, plan: Plan) ->
         claim = next(
             (resting[n] for n in sorted(names) if n in resting and anomaly.window_s[0] <= resting[n].until_s), None
         )
-        shown = _where_seen(anomaly, cameras, frame_s)
+        bodies = tuple(trajectory.names.index(name) for name in sorted(names) if name in trajectory.names)
         if claim is not None:
             why = f"objective {claim.objective} rests on it"
-        elif shown:
-            why = shown
-        elif names.isdisjoint(trajectory.names):
+        elif not bodies:
             yield anomaly  # it is about the world as a whole
             continue
+        elif shown := seen(anomaly, bodies, trajectory, plan):
+            why = str(shown)
         else:
             why = "no claim rests on it and no planned picture shows it"
             yield anomaly.model_copy(update={"severity": "info", "message": f"{anomaly.message}; {why}"})
@@ -69,7 +64,7 @@ def claimed(trajectory: Trajectory, plan: Plan) -> dict[str, Rests]:
     from ..audits.moment import event_s
     from ..objectives.expecting import named
 
-    head, found = head_names(trajectory), dict[str, Rests]()
+    found = dict[str, Rests]()
     end = float(trajectory.t[-1])
     for index, objective in enumerate(plan.objectives):
         until, names = 0.0, mentioned(objective.cause)
@@ -79,59 +74,55 @@ def claimed(trajectory: Trajectory, plan: Plan) -> dict[str, Rests]:
                 event = name in EXPECTATIONS and EXPECTATIONS[name].EVENT
                 moment = event_s(trajectory, name, named(given)) if event else None
                 until = max(until, end if moment is None else moment)
-        start = {b for b, name in enumerate(trajectory.names) if not names.isdisjoint({name, head[name]})}
-        for b in _touched_bodies(trajectory, start, until):
+        for b in _touched_bodies(trajectory, _named_bodies(trajectory, names), until):
             name = trajectory.names[b]
             if name not in found or found[name].until_s < until:
                 found[name] = Rests(index, until)
     return found
 
 
+def _named_bodies(trajectory: Trajectory, names: set[str]) -> set[int]:
+    """Bodies that a claim means by these names: their own or their whole's, a pattern, a flex, what a part of theirs is called."""
+    said = names | {b for flex, points in trajectory.flex_points.items() if flex in names for b in points}
+    for kind in ("geoms", "joints", "tendons", "actuators", "equalities"):
+        for row in trajectory.meta.get(kind) or ():
+            if row.get("name") in names:
+                said |= {str(row.get("body", "")), *row.get("bodies", ())}
+    head, patterns = head_names(trajectory), [name for name in names if "*" in name or "?" in name]
+    return {
+        b
+        for b, name in enumerate(trajectory.names)
+        if not said.isdisjoint({name, head[name]}) or any(fnmatchcase(name, pattern) for pattern in patterns)
+    }
+
+
 def _touched_bodies(trajectory: Trajectory, start: set[int], until_s: float) -> set[int]:
     """Bodies that by then touch one of these, or one that does, and so on; what stands still passes nothing on."""
-    contacts = trajectory.contacts
-    if contacts is None:
-        return start
-    early = trajectory.t[contacts.row] <= until_s
-    pairs = np.unique(np.stack([contacts.body1[early], contacts.body2[early]], axis=1), axis=0)
+    pairs = _joined(trajectory)
+    if (contacts := trajectory.contacts) is not None:
+        early = trajectory.t[contacts.row] <= until_s
+        touches = np.unique(np.stack([contacts.body1[early], contacts.body2[early]], axis=1), axis=0)
+        pairs |= {(one, other) for one, other in touches.tolist()}
+    beside: dict[int, set[int]] = {}
+    for one, other in pairs:
+        beside.setdefault(one, set()).add(other)
+        beside.setdefault(other, set()).add(one)
     moves = np.ptp(trajectory.pos, axis=0).max(axis=1) > 1e-6
-    found, new = set(start), set(start)
+    found, new = set(start), {b for b in start if moves[b] or trajectory.moves_freely[b]}
     while new:
-        reached = {int(b) for a, b in pairs if a in new} | {int(a) for a, b in pairs if b in new}
-        found |= (fresh := {b for b in reached if b >= 0} - found)
+        reached = {b for a in new for b in beside.get(a, ()) if b >= 0}
+        found |= (fresh := reached - found)
         new = {b for b in fresh if moves[b]}
     return found
 
 
-def pixels_per_metre(trajectory: Trajectory, plan: Plan) -> Iterator[tuple[str, float]]:
-    """Each planned camera with the most pixels that it gives a metre of its subjects."""
-    height = plan.recording_mode.size[1]
-    for camera in plan.cameras():
-        yield camera.name, _scale(trajectory, camera, height)
-
-
-def _scale(trajectory: Trajectory, camera: CameraRow, height: int) -> float:
-    wanted = camera.subjects or trajectory.names
-    mine = [b for b, name in enumerate(trajectory.names) if name in wanted]
-    if not mine:
-        return float("inf")
-    path, size = trajectory.pos[:, mine], trajectory.size_m[mine]
-    if camera.position is not None:
-        away = float(np.sqrt(((path - np.asarray(camera.position)) ** 2).sum(axis=2)).min())
-        return height / (2 * max(away, 1e-3) * np.tan(np.radians(camera.fovy) / 2))
-    extent = path.max(axis=(0, 1)) - path.min(axis=(0, 1)) if not camera.follow else np.ptp(path, axis=1).max(axis=0)
-    return FILLED * height / float(max(np.sqrt((extent**2).sum()), 2 * size.max()))
-
-
-def _where_seen(anomaly: Anomaly, cameras: dict[str, float], frame_s: float) -> str:
-    """Say where a viewer sees an anomaly; empty where nobody does."""
-    start, end = anomaly.window_s
-    lasts = end - start
-    metres = {"m": anomaly.measured, "m/s": anomaly.measured * lasts}.get(anomaly.unit, anomaly.extent_m)
-    if metres is None or not cameras:
-        return "how large it is in a picture cannot be reckoned"
-    camera = max(cameras, key=lambda name: cameras[name])
-    pixels = metres * cameras[camera]
-    if pixels < PIXELS or 0 < lasts < FRAMES * frame_s:
-        return ""
-    return f"it measures {pixels:.0f} pixels in camera {camera}"
+def _joined(trajectory: Trajectory) -> set[tuple[int, int]]:
+    """Pairs of bodies that a joint, a tie or a tendon joins."""
+    parent = trajectory.mechanics.parent
+    found = set() if parent is None else {(b, int(above)) for b, above in enumerate(parent)}
+    number = {name: b for b, name in enumerate(trajectory.names)}
+    for kind in ("equalities", "tendons"):
+        for row in trajectory.meta.get(kind) or ():
+            ends = [number[name] for name in row.get("bodies") or () if name in number]
+            found |= {(ends[0], other) for other in ends[1:]}
+    return found

@@ -9,9 +9,9 @@ from pydantic import ValidationError
 from ...model.errors import NotFoundError
 from ...model.evidence.reports import ExpectationResult, ExpectReport, ObjectiveResult
 from ...model.plan.committed import Objective, Plan
+from ...model.plan.in_view import mentioned
 from ...model.recording.trajectory import Trajectory
 from ...shelf import failed
-from ..anomalies.declared import mentioned
 from ..anomalies.wholes import as_named
 from ..measuring.measured import UnknowableError
 from .claims import EXPECTATIONS

@@ -1,7 +1,7 @@
 """Bodies overlap before anything moves.
 
 What it does: looks at the contacts of the start (keyframe "start" if there is one): deeper than 1 mm and than 5 % of the
-smaller of the two.
+smaller of the two, and than the plan lets two things that belong together (`topology.overlaps`).
 
 Why is this bad: the solver drives them apart within a few steps. Things jump up, fly off, or settle elsewhere than they
 were put; the energy comes from nowhere.
@@ -11,6 +11,7 @@ Use instead: resolve the layout again (`worldwright place resolve`), or leave a 
 
 from collections.abc import Iterator
 
+from ....model.plan.belonging import Belonging
 from ...compiled.view import ModelView
 from ...harm import Measured, fastest
 from ...problem import Problem
@@ -39,6 +40,12 @@ def check(view: ModelView) -> Iterator[Problem]:
             bodies = sorted((int(view.geom_bodyid[one]), int(view.geom_bodyid[other])))
             pair = (bodies[0], bodies[1])
             worst[pair] = max(worst.get(pair, 0.0), float(depth))
+    names = [view.name("body", body) for body in range(len(view.body_parentid))]
+    belonging = Belonging(
+        view.plan, {name: names[above] for name, above in zip(names, view.body_parentid, strict=True)}
+    )
     for (low, high), depth in worst.items():
+        if depth <= belonging.allowed_m(names[low], names[high]):
+            continue
         message = f"{view.name('body', high)} starts {depth * 1e3:.1f} mm deep in {view.name('body', low)}"
         yield view.at("body", high, message, "place it clear of the other; a gap of 1 mm closes by itself")

@@ -6,7 +6,7 @@ is too long for how fast they meet. It looks like clipping, and overlaps at the 
 Formula: depth / t, with t the half-thickness of the thinner geom that moves (half the smallest extent): of that part
 alone, whatever it is welded to, since it is the part that is seen inside the other.
 Threshold: a tenth for 0.1 s or 0.3 at any moment warns; 0.3 for 0.1 s, or 1 at any moment (half of the body is
-inside), blocks.
+inside), blocks. What the plan lets overlap (`topology.overlaps`) is looked at only where it is deeper.
 Source: the manual on soft contacts and `solref`, `solimp`; the reference paper's checks on clipping.
 """
 
@@ -19,6 +19,7 @@ from ....model.finding import AnomalySeverity
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ...predicting.shown import Shown
+from ..declared import overlap_m
 from ..sign import Case, Context, Sign, SkipError, sliding_sum
 
 CODE = "WS110"
@@ -46,7 +47,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     suspicious = ratio > 0.1
     pairs = np.unique(np.stack([contacts.body1, contacts.body2], axis=1)[suspicious], axis=0)
     for one, other in pairs:
-        rows = contacts.of_pair(one, other) & suspicious
+        ends = [trajectory.names[i] if i >= 0 else "world" for i in (one, other)]
+        rows = contacts.of_pair(one, other) & suspicious & (contacts.depth_m > overlap_m(context, trajectory, *ends))
         worst = np.zeros(len(trajectory.t))
         np.maximum.at(worst, contacts.row[rows], ratio[rows])
         lasting = _lasting_level(worst, held)
@@ -56,7 +58,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         threshold = 0.3 if worst.max() >= 0.3 else 0.1
         n = int(np.argmax(worst))
         depth = float(contacts.depth_m[rows & (contacts.row == n)].max())
-        names = " and ".join(trajectory.names[i] if i >= 0 else "world" for i in sorted((one, other), reverse=True))
+        names = " and ".join(ends if one > other else reversed(ends))
         inside = np.flatnonzero(worst > 0.1)
         window = (trajectory.t[inside[0]], trajectory.t[inside[-1]])
         message = f"{names} overlap by up to {depth:.3g} m, {worst.max():.0%} of the thinner one's half-thickness"

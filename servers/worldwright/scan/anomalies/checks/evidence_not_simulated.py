@@ -13,9 +13,10 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from ....model.plan.committed import Plan
+from ....model.plan.in_view import mentioned
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
-from ..declared import drawn_only, mentioned
+from ..declared import drawn_only
 from ..sign import Case, Context, Sign
 
 CODE = "WS313"

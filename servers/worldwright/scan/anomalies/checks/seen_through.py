@@ -5,8 +5,8 @@ inside the other. No contact is recorded, so penetration checks see nothing.
 
 Formula: the recording's list of overlaps: the signed distance of visible geoms that cannot collide, at 24 instants; of a
 foreign recording with its model beside it, at 96, less what overlaps equally all along.
-Threshold: 2 mm, and 5 % of the smaller geom's radius (see `worldengine.recording.drawn_overlaps`). Blocking for a body of
-the plan, its parts included.
+Threshold: 2 mm, and 5 % of the smaller geom's radius (see `worldengine.recording.drawn_overlaps`), and what the plan lets
+overlap (`topology.overlaps`). Blocking for a body of the plan, its parts included.
 Source: the facts on staging (visible geoms that never collide).
 """
 
@@ -20,13 +20,12 @@ from ....model.recording.loads import Loads
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ...predicting.shown import overlaps
-from ..declared import cast, drawn_only, weighs
+from ..declared import cast, drawn_only, overlap_m, weighs
 from ..sign import Case, Context, Sign, SkipError
 from ..wholes import head_names
 
 CODE = "WS304"
 STAGING = True
-RELATIVE = True
 NEEDS = ("pos",)
 THRESHOLD_M = 2e-3
 
@@ -37,6 +36,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     for seen in _overlaps(trajectory):
         pair = frozenset(seen["bodies"])
         if pair in told or any(drawn_only(context, trajectory.meta, n) for n in (*seen["bodies"], *seen["geoms"])):
+            continue
+        if seen["depth_m"] <= overlap_m(context, trajectory, *seen["bodies"]):
             continue
         told.add(pair)
         mine = next((n for n in seen["bodies"] if n in names or head.get(n, n) in names), "")

@@ -1,0 +1,25 @@
+"""`worldwright gc RUN…` frees what can be made again of runs: recordings, pictures and trials of earlier programs, old jobs."""
+
+import sys
+
+import click
+
+from .cli import report_errors
+from .model.evidence.run import Run
+
+
+@click.command("gc")
+@click.argument("runs", nargs=-1, required=True)
+@click.option("--dry-run", is_flag=True, help="Only say what would go.")
+def command(runs: tuple[str, ...], dry_run: bool) -> None:
+    """Free what can be made again of runs; never evidence of an accepted world, of the present program, or of a running job."""
+    from .model.evidence import environment
+    from .stage import disk
+
+    def work() -> None:
+        for name in runs:
+            run = Run.find(name)
+            click.echo(disk.free(run, run.evidence_key(environment.current().sha256()), dry=dry_run).text())
+
+    report_errors(work)
+    sys.exit(0)

@@ -1,0 +1,48 @@
+"""How large what a plan speaks of should be in its pictures, and where a camera has to stand for that."""
+
+from typing import Any
+
+from .committed import Plan
+from .scene_objects import Vec3
+
+SHARE = 1 / 40
+"""Of a picture's width: what is shorter than this in every planned picture cannot be watched."""
+
+
+def mentioned(value: Any) -> set[str]:
+    """Every text anywhere in the arguments of expectations, as these are the names they speak of."""
+    if isinstance(value, str):
+        return {value}
+    if isinstance(value, dict):
+        return {name for inner in value.values() for name in mentioned(inner)}
+    if isinstance(value, (list, tuple)):
+        return {name for inner in value for name in mentioned(inner)}
+    return set()
+
+
+def spoken_of(plan: Plan) -> tuple[str, ...]:
+    """The objects that should move or that a claim is about, in plan order."""
+    said = {*plan.movers(), *mentioned([objective.expect for objective in plan.objectives])}
+    return tuple(name for name in plan.object_names() if name in said)
+
+
+def nearer(eye: Vec3, thing: Vec3, pixels: float, width: int) -> Vec3:
+    """Where a camera at `eye`, m, would see a thing a tenth larger than it has to be, on the line between them."""
+    share = min(1.0, pixels / (1.1 * width * SHARE))
+    x, y, z = (round(t + (e - t) * share, 3) for e, t in zip(eye, thing, strict=True))
+    return (x, y, z)
+
+
+def told(name: str, pixels: float, camera: str, width: int) -> str:
+    """How large a thing is where it is largest."""
+    return f"`{name}` is {pixels:.0f} pixels long in camera {camera}, {pixels / width:.1%} of the picture's width"
+
+
+def remedy(name: str, camera: str, eye: Vec3, thing: Vec3, pixels: float, width: int) -> str:
+    """Which camera to move, and to where."""
+    place = ", ".join(f"{value:g}" for value in nearer(eye, thing, pixels, width))
+    aim = ", ".join(f"{value:.3g}" for value in thing)
+    return (
+        f"move camera {camera} to `position: [{place}]`, `target: [{aim}]`, or add "
+        f"`{{name: close_{name}, view: close_up, subjects: [{name}]}}`"
+    )

@@ -1,0 +1,108 @@
+"""What can be made again of a run is freed; evidence of what stands, of what was accepted, and running jobs never are."""
+
+import fcntl
+import time
+
+import pytest
+from click.testing import CliRunner
+
+from worldwright import freeing
+from worldwright.model.errors import GateError
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.reports import LintReport
+from worldwright.stage import disk
+from worldwright.stage.job import Job, JobStatus, Spec
+from worldwright.stage.tools import status
+
+
+def key_of(run):
+    return run.evidence_key(environment.current().sha256())
+
+
+def recorded(run, size=300_000, started="2026-01-01"):
+    """Evidence of the program as it stands: a recording, a trial, a picture and a report; returns its folder."""
+    folder = run.evidence(key_of(run))
+    for name in ("physics/trajectory/state.arrows", "physics@half-step/trajectory/state.arrows", "stills/side.png"):
+        path = folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(b"0" * size)
+    (folder / "physics" / "result.json").write_text(f'{{"ok": true, "started": "{started}"}}')
+    run.keep(key_of(run), "lint", LintReport(rules=1))
+    return folder
+
+
+def job(run, number, state="failed"):
+    spec = Spec(
+        job=f"physics-{number}-0000000{number}", run=str(run.folder), stage="physics", key=key_of(run), still_s=1,
+        memory_mb=1, output_mb=1, file_mb=1, disk_mb=1, created=time.time(),
+    )  # fmt: skip
+    made = Job.create(run, spec)
+    (made.out / "state.arrows").write_bytes(b"0" * 100_000)
+    made.log.write_text("said")
+    made.write(JobStatus(job=spec.job, stage="physics", key=spec.key.key, state=state))
+    return made
+
+
+def test_what_is_earlier_goes_and_what_stands_or_was_accepted_stays(make):
+    run = make("one = 1")
+    accepted = recorded(run)
+    run.log("stamp", "accept", key=key_of(run).key, stamp_sha256="0")
+    run.program.write_text("two = 2")
+    earlier = recorded(run)
+    run.program.write_text("three = 3")
+    now = recorded(run)
+    first, last = job(run, 1), job(run, 2)
+    told = status(str(run.folder)).disk
+    assert told.total_mb > 2.7 and "`worldwright gc` frees 1.0" in told.text()
+    said = disk.free(run, key_of(run), dry=True)
+    assert (earlier / "physics").is_dir() and said.freed_mb == pytest.approx(1.0, abs=0.01) == told.freeable_mb
+    done = CliRunner().invoke(freeing.command, [str(run.folder)])
+    assert done.exit_code == 0 and "freed 1.0 MB" in done.output
+    assert sorted(path.name for path in earlier.iterdir()) == ["key.json", "lint.json", "source"]
+    assert (earlier / "source" / "simulation.py").read_text() == "two = 2"
+    for folder in (accepted, now):
+        assert {"physics", "physics@half-step", "stills"} <= {path.name for path in folder.iterdir()}
+    assert not first.out.exists() and first.log.read_text() == "said" and first.read().state == "failed"
+    assert (last.out / "state.arrows").is_file()
+    assert not disk.free(run, key_of(run), dry=False).removed
+
+
+def test_the_recording_that_may_be_taken_over_stays_until_there_is_another(make):
+    run = make("one = 1")
+    old = recorded(run, started="2026-01-01")
+    run.program.write_text("two = 2")
+    newer = recorded(run, started="2026-01-02")
+    run.program.write_text("three = 3")
+    disk.free(run, key_of(run), dry=False)
+    assert (newer / "physics").is_dir() and not (old / "physics").exists()
+
+
+def test_nothing_goes_while_a_job_is_under_way(make):
+    run = make("one = 1")
+    old = recorded(run)
+    run.program.write_text("two = 2")
+    recorded(run)
+    running = job(run, 1, state="running")
+    with (running.folder / "lock").open("wb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        with pytest.raises(GateError, match="under way"):
+            disk.free(run, key_of(run), dry=False)
+    assert (old / "physics").is_dir()
+    disk.free(run, key_of(run), dry=False)
+    assert not (old / "physics").exists()
+
+
+def test_a_world_accepted_elsewhere_and_links_are_left_alone(make, tmp_path):
+    run = make("one = 1")
+    old = recorded(run)
+    run.program.write_text("two = 2")
+    recorded(run)
+    (run.accepted / "x").mkdir(parents=True)
+    (run.accepted / "stamp.json").write_text("{}")
+    assert not disk.free(run, key_of(run), dry=False).removed
+    (run.accepted / "stamp.json").unlink()
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    (old / "video").symlink_to(elsewhere)
+    disk.free(run, key_of(run), dry=False)
+    assert elsewhere.is_dir() and (old / "video").is_symlink()

@@ -1,0 +1,101 @@
+"""What was accepted before is kept, compared with what stands, and brought back whole; nothing that it replaces is lost."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from worldkit.files import write_atomic
+from worldwright import accepted_versions
+from worldwright.model.errors import GateError, NotFoundError
+from worldwright.model.evidence.run import Run
+from worldwright.stamp import bundle, keyring, scope, signing, versions
+from worldwright.stamp.state import State
+from worldwright.stamp.statement import Statement
+from worldwright.stamp.steps import steps
+
+Copy = Callable[[Path], Path]
+
+
+def accepted_anew(run: Run) -> str:
+    """Accept another program and plan in place of what stands, as far as files go; returns the name of the version before."""
+    before = versions.known(run)[-1]
+    run.plan.write_text(run.plan.read_text() + "\nRevised.\n")
+    run.program.write_text("# revised\n" + run.program.read_text())
+    run.log("code", "lint", ok=True)
+    run.log("user", "approve")
+    draft = bundle.draft_folder(run)
+    shutil.copytree(run.accepted, draft, dirs_exist_ok=True)
+    for path in (run.plan, run.program):
+        write_atomic(draft / path.name, path.read_bytes())
+    (draft / "stills").rename(draft / "video" / "old")
+    said, state = before.statement, State(run)
+    assert state.key
+    source = said.predicate.source.model_copy(
+        update={"key": state.key.key, "program_sha256": state.program_sha256, "plan_sha256": state.plan_sha256}
+    )
+    worse = [o.model_copy(update={"status": "refuted"} if o.index == 0 else {}) for o in said.predicate.objectives]
+    measured = [
+        row.model_copy(update={"measured": 2 * (row.measured or 0) + 1}) if n == 0 else row
+        for n, row in enumerate(said.predicate.expectations)
+    ]
+    told = {
+        "source": source,
+        "objectives": tuple(worse),
+        "expectations": tuple(measured),
+        "accepted_at": "2126-01-01T00:00:00+00:00",
+    }
+    for name in bundle.UNLISTED:
+        (draft / name).unlink()
+    predicate = said.predicate.model_copy(update=told)
+    statement = Statement(subject=bundle.subjects(draft), predicate=predicate)
+    stamp_sha256 = bundle.seal(draft, statement)
+    signing.sign(draft, bundle.STAMP, keyring.own())
+    bundle.publish(draft, run.accepted, versions.aside(run))
+    run.log("stamp", "accept", key=state.key.key, stamp_sha256=stamp_sha256)
+    return before.name
+
+
+def test_two_versions_are_compared_and_the_older_comes_back(accepted: Path, copy: Copy) -> None:
+    run = Run(copy(accepted))
+    first = (run.plan.read_bytes(), run.program.read_bytes())
+    name = accepted_anew(run)
+    assert steps(State(run))["accept"].holds
+    older, standing = versions.known(run)
+    assert older.name == name and older.folder.parent.name == "earlier" and standing.folder == run.accepted
+    told = CliRunner().invoke(accepted_versions.command, [str(run.folder), name])
+    assert told.exit_code == 0, told.output
+    for word in ("plan.md is another one", "proved, now refuted", "measures", "bit for bit", "stills/"):
+        assert word in told.output, (word, told.output)
+    back = CliRunner().invoke(accepted_versions.command, [str(run.folder), "--restore", name])
+    assert back.exit_code == 0, back.output
+    state = State(run)
+    assert (run.plan.read_bytes(), run.program.read_bytes()) == first
+    assert steps(state)["accept"].holds and steps(state)["approve"].holds and not list(scope.refusals(state))
+    assert [v.name for v in versions.known(run)] == [standing.name, name]
+    assert not list(run.folder.glob("earlier/replaced-*")), "it was accepted as it stood"
+
+
+def test_what_is_not_accepted_yet_is_kept_when_a_version_comes_back(accepted: Path, copy: Copy) -> None:
+    run = Run(copy(accepted))
+    (standing,) = versions.known(run)
+    run.program.write_text("# half done\n")
+    (run.folder / "film.py").write_text("# a film\n")
+    versions.restore(run, standing.name[:6])
+    assert steps(State(run))["accept"].holds and not (run.folder / "film.py").exists()
+    (kept,) = run.folder.glob("earlier/replaced-*")
+    assert (kept / "simulation.py").read_text() == "# half done\n" and (kept / "film.py").is_file()
+
+
+def test_a_version_that_was_changed_does_not_come_back(accepted: Path, copy: Copy) -> None:
+    run = Run(copy(accepted))
+    name = accepted_anew(run)
+    (run.folder / "earlier" / name / "plan.md").write_text("another plan")
+    with pytest.raises(GateError, match="not as it was stamped"):
+        versions.restore(run, name)
+    with pytest.raises(NotFoundError):
+        versions.find(run, "nothing")
+    (run.accepted / "extra").touch()
+    assert versions.aside(run) is None, "only what is whole is kept as a version"
