@@ -1,6 +1,7 @@
 """The library of looks, by family. Colours are sRGB."""
 
 from .look import Look
+from .metals import bare
 
 OAK = ((0.74, 0.605, 0.445), (0.61, 0.465, 0.32), (0.44, 0.31, 0.20))
 WALNUT = ((0.50, 0.34, 0.22), (0.37, 0.235, 0.145), (0.22, 0.13, 0.08))
@@ -8,6 +9,10 @@ PINE = ((0.90, 0.76, 0.55), (0.83, 0.66, 0.43), (0.68, 0.47, 0.26))
 MAPLE = ((0.90, 0.79, 0.62), (0.84, 0.70, 0.51), (0.72, 0.55, 0.36))
 CHERRY = ((0.66, 0.38, 0.24), (0.56, 0.29, 0.17), (0.40, 0.18, 0.10))
 EBONY = ((0.19, 0.16, 0.14), (0.13, 0.105, 0.095), (0.07, 0.055, 0.05))
+
+
+HANDLED = 1.8
+"""Coloured metals look as pale as measured ones only when they are fresh; light meets those in use so many times."""
 
 
 def _wood(description: str, name: str, tones: tuple, rings: float = 26.0, pore: float = 0.5) -> Look:
@@ -33,8 +38,8 @@ def _ceramic(description: str, rgb: tuple[float, float, float]) -> Look:
     )
 
 
-def _metal(description: str, rgb: tuple[float, float, float], roughness: float) -> Look:
-    return Look(description, rgba=(*rgb, 1.0), roughness=roughness, metallic=1.0, mark=False)
+def _metal(description: str, metal: str, roughness: float, met: float = 1.0) -> Look:
+    return Look(description, rgba=(*bare(metal, met), 1.0), roughness=roughness, metallic=1.0)
 
 
 def _felt(description: str, rgb: tuple[float, float, float]) -> Look:
@@ -128,13 +133,17 @@ LIBRARY: dict[str, Look] = {
     "water": Look("Open water with small ripples, as seen from above it", paint="nature.water", arguments=("water", (0.035, 0.115, 0.135), (0.085, 0.215, 0.215)), tile_m=7.0, roughness=0.04, coat=1.0, relief_m=0.035, vary=0.10),
     "leaves": Look("Foliage of a tree or hedge", paint="nature.leaves", arguments=("leaves", (0.46, 0.56, 0.20), (0.22, 0.36, 0.10), (0.045, 0.10, 0.025)), tile_m=0.9, roughness=0.75, sheen=0.3, relief_m=0.06, vary=0.2),
     "rock": Look("Weathered river rock", paint="nature.rock", arguments=("rock", (0.60, 0.58, 0.55), (0.27, 0.265, 0.26), (0.56, 0.58, 0.44)), tile_m=0.7, roughness=0.85, relief_m=0.014, vary=0.1),
-    "steel_brushed": Look("Brushed stainless steel", paint="fibre.brushed", arguments=("steel", (0.77, 0.77, 0.76)), tile_m=0.35, grain=True, roughness=0.36, metallic=1.0, relief_m=0.00012),
+    "steel_brushed": Look("Brushed stainless steel", paint="fibre.brushed", arguments=("steel", bare("steel")), tile_m=0.35, grain=True, roughness=0.36, metallic=1.0, relief_m=0.00012),
     "steel_dark": Look("Blackened steel", paint="fibre.worn", arguments=("dark steel", (0.30, 0.30, 0.315), 1.5), tile_m=0.4, roughness=0.42, metallic=1.0),
-    "aluminium": _metal("Bead-blasted aluminium", (0.86, 0.865, 0.87), 0.42),
-    "chrome": _metal("Mirror chrome", (0.90, 0.905, 0.91), 0.06),
-    "brass": _metal("Polished brass", (0.90, 0.72, 0.36), 0.20),
-    "copper": _metal("Polished copper", (0.90, 0.56, 0.42), 0.22),
-    "gold": _metal("Polished gold", (0.98, 0.79, 0.40), 0.16),
+    "aluminium": _metal("Bead-blasted aluminium", "aluminium", 0.42),
+    "chrome": _metal("Mirror chrome", "chromium", 0.06),
+    "brass": _metal("Polished brass", "brass", 0.20, HANDLED),
+    "bronze": _metal("Polished bronze", "bronze", 0.24, HANDLED),
+    "copper": _metal("Polished copper", "copper", 0.22, HANDLED),
+    "gold": _metal("Polished gold", "gold", 0.16, HANDLED),
+    "silver": _metal("Polished silver", "silver", 0.14),
+    "titanium": _metal("Satin titanium", "titanium", 0.34),
+    "iron_cast": Look("Grey cast iron, rough from the mould", paint="fibre.worn", arguments=("cast iron", bare("iron", 2.4), 2.0), tile_m=0.2, roughness=0.62, metallic=1.0, relief_m=0.0006),
     "iron_rusty": Look("Rusty iron", paint="fibre.rust", arguments=("rust", (0.33, 0.30, 0.28), (0.50, 0.25, 0.12)), tile_m=0.6, roughness=0.85, metallic=0.25, relief_m=0.001),
     "glass_clear": Look("Clear glass", rgba=(0.95, 0.98, 0.97, 0.25), roughness=0.03, clear=1.0),
     "glass_green": Look("Bottle glass", rgba=(0.60, 0.86, 0.67, 0.35), roughness=0.03, clear=1.0),
