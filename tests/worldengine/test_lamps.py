@@ -185,6 +185,8 @@ def test_a_panel_is_seen_unless_it_is_told_not_to_be(lit, renderer):
     rows, columns = np.nonzero(bright)
     assert columns.mean() < 48 and rows.mean() < 30
     assert np.abs(unseen - dark)[:20].mean() < 4
+    behind = lit.picture(lambda film: film.panel("w", (-0.5, 1.0, 0.9), (0.5, 0.5), towards=(-0.5, 4, 0.9)), renderer)
+    assert np.median(behind[bright]) < 12, "from behind it is dark"
 
 
 @pytest.mark.gl

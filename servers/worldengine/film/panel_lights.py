@@ -1,4 +1,4 @@
-"""Panels of light in a dressed world: thin boxes that shine from one side, with a note in the model of what they give."""
+"""Panels of light in a dressed world: thin boxes before a dark back, with a note in the model of what they give."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     import mujoco
 
 TEXT = "film.panels"
-THICK_M = 0.004
-"""A panel that is seen is so thick; it shines from its front, the side of its own z axis."""
+THICK_M, DEEP_M = 0.001, 0.008
+"""What shines of a panel is so thick, from its front, the side of its own z axis, back; and so is the dark back behind it."""
 
 
 class Panel(NamedTuple):
@@ -59,14 +59,17 @@ def hang(spec: mujoco.MjSpec, panels: tuple[dict[str, Any], ...], hidden_group: 
         mujoco.mju_mat2Quat(quat, turn.ravel())
         colour = np.array(panel["rgb"]) ** 2.2
         bright = panel["strength"] * pi / (width * height)
-        material = spec.add_material(
-            name=name, rgba=(*panel["rgb"], 1.0), roughness=1.0, metallic=0.0, emission=bright, specular=0.0
-        )
-        body = spec.body(panel["to"]) if panel["to"] else spec.worldbody
-        body.add_geom(
-            **common | ({} if panel["seen"] else {"group": hidden_group}), name=name, type=mujoco.mjtGeom.mjGEOM_BOX,
-            size=(width / 2, height / 2, THICK_M / 2), pos=place - turn[:, 2] * THICK_M / 2, quat=quat, material=material.name,
-        )  # fmt: skip
+        parts = {"": (bright, THICK_M), "/back": (0.0, DEEP_M)} if panel["seen"] else {"": (bright, THICK_M)}
+        body, front = spec.body(panel["to"]) if panel["to"] else spec.worldbody, 0.0
+        for part, (glow, deep) in parts.items():
+            rgba = (*panel["rgb"], 1.0) if glow else (0.05, 0.05, 0.05, 1.0)
+            spec.add_material(name=name + part, rgba=rgba, roughness=1.0, metallic=0.0, emission=glow, specular=0.0)
+            body.add_geom(
+                **common | ({} if panel["seen"] else {"group": hidden_group}), name=name + part,
+                type=mujoco.mjtGeom.mjGEOM_BOX, size=(width / 2, height / 2, deep / 2), quat=quat,
+                pos=place - turn[:, 2] * (front + deep / 2), material=name + part,
+            )  # fmt: skip
+            front += deep
         notes[name] = {
             "half": [width / 2, height / 2], "radiance": (colour * bright).tolist(), "seen": panel["seen"],
         }  # fmt: skip
