@@ -221,6 +221,19 @@ def test_what_a_drawn_thing_hides_is_told(made):
     assert behind(0.5) == []
 
 
+def test_what_a_panel_of_light_hides_is_told_unless_it_is_not_there_to_be_seen(made):
+    made.recording.meta["movers"] = ["first", "second"]
+    for seen in (True, False):
+
+        def tell(film, seen=seen):
+            looking(film)
+            film.panel("softbox", (0.0, -1.0, 0.5), (0.4, 2.0), towards=(0, 0, 0.5), seen=seen)
+
+        with made.screening(tell) as screening:
+            screening.picture(0)
+            assert ("first behind softbox" in screening.hidden()) is seen
+
+
 def test_a_plan_s_camera_sees_what_it_sees_without_a_film(made):
     from worldengine.film.drawn_frames import Frames
     from worldengine.recording.replay import Replay

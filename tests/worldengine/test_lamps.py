@@ -151,3 +151,100 @@ def test_lamps_are_bounded_by_the_author_and_by_us(lit):
     ):
         with pytest.raises(FilmError, match="the lamp"):
             lit.film(lambda film: None, lambda facts, wrong=wrong: facts["lamps"].append(one | wrong))
+
+
+DOWN = {"size": (0.4, 0.4), "towards": (-0.8, 0, 0)}
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("renderer", ["preview", "traced"])
+def test_a_panel_lights_what_is_before_it_as_a_lamp_of_its_strength_does(lit, renderer):
+    def panel(**more):
+        return lambda film: film.panel("panel", (-0.8, 0, 1.6), **{**DOWN, "strength": 2, **more})
+
+    dark = lit.picture(lambda film: None, renderer)
+    lamp = lit.picture(lambda film: film.lamp("l", (-0.8, 0, 1.6), strength=2, colour="#fff6e8"), renderer) - dark
+    for seen in (True, False):
+        shone = lit.picture(panel(seen=seen), renderer) - dark
+        assert shone[30:, :48].mean() > 1.5 * shone[30:, 48:].mean() > 0
+        assert shone[34:48, 20:40].mean() == pytest.approx(lamp[34:48, 20:40].mean(), rel=0.25)
+    away = lit.picture(panel(towards=(-0.8, 0, 3.0), seen=False), renderer) - dark
+    assert np.abs(away[30:]).mean() < 1.0, "from behind it is dark"
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("renderer", ["preview", "traced"])
+def test_a_panel_is_seen_unless_it_is_told_not_to_be(lit, renderer):
+    def window(**more):
+        return lambda film: film.panel("w", (-0.5, 1.0, 0.9), (0.5, 0.5), towards=(-0.5, -4, 0.9), **more)
+
+    seen, unseen = (lit.picture(window(seen=there), renderer) for there in (True, False))
+    dark = lit.picture(lambda film: None, renderer)
+    bright = seen - unseen > 60
+    assert 20 < bright.sum() < 700
+    rows, columns = np.nonzero(bright)
+    assert columns.mean() < 48 and rows.mean() < 30
+    assert np.abs(unseen - dark)[:20].mean() < 4
+    behind = lit.picture(lambda film: film.panel("w", (-0.5, 1.0, 0.9), (0.5, 0.5), towards=(-0.5, 4, 0.9)), renderer)
+    assert np.median(behind[bright]) < 12, "from behind it is dark"
+
+
+@pytest.mark.gl
+def test_a_carried_panel_goes_along_as_one_rectangle(lit):
+    film = lit.film(lambda film: film.panel("box", (0, 0, 0.4), (0.3, 0.2), towards=(0, 0, 0), to="ball"))
+    with Screening(lit.folder / "world.mjz", lit.plain, lit.recording, film, SIZE, 24, "traced") as screening:
+        high = []
+        for frame in (0, film.frames - 1):
+            screening.picture(frame, 1)
+            (scene,) = screening.frames._drawing._scenes.values()
+            (shape,) = [s for s in scene.shapes() if "Rectangle" in type(s).__name__ or "Rectangle[" in str(s)]
+            low, top = np.array(shape.bbox().min).ravel(), np.array(shape.bbox().max).ravel()
+            assert top - low == pytest.approx([0.3, 0.2, 0.0], abs=1e-3) or top - low == pytest.approx(
+                [0.2, 0.3, 0], abs=1e-3
+            )
+            high.append(low[2])
+        falls = lit.recording.pos[0, 0, 2] - screening._replay.data.body("ball").xpos[2]
+    assert high[0] == pytest.approx(1.3, abs=0.01) and high[0] - high[1] == pytest.approx(falls, abs=0.01)
+
+
+def test_panels_are_bounded_by_the_author_and_by_us(lit):
+    good = {"pos": (0, 0, 1), "size": (1, 1), "towards": (0, 0, 0)}
+    film = Film(lit.seen)
+    for number in range(16):
+        film.panel(f"panel {number}", **good)
+    with pytest.raises(ProgramError, match="at most 16 panels"):
+        film.panel("one more", **good)
+    for wrong, said in (
+        ({"towards": (0, 0, 1)}, "another point"),
+        ({"pos": (0, np.nan, 1)}, "needs a place"),
+        ({"pos": (0, 1)}, "needs a place"),
+        ({"strength": -1}, "a strength"),
+        ({"size": (1, 0)}, "0.005 to 100"),
+        ({"size": (1, 1, 1)}, "needs a place"),
+        ({"colour": "blue"}, "#rrggbb"),
+    ):
+        with pytest.raises(ProgramError, match=said):
+            Film(lit.seen).panel("panel", **{**good, **wrong})
+    told = lit.film(lambda film: film.panel("window", **good))
+    assert "window (a panel of light)" in told.drawn_only()
+    one = {
+        "name": "x",
+        "pos": [0, 0, 1],
+        "towards": [0, 0, 0],
+        "size": [1, 1],
+        "strength": 1,
+        "rgb": [1, 1, 1],
+        "seen": 1,
+        "to": "",
+    }
+    with pytest.raises(FilmError, match="at most 16 panels"):
+        lit.film(lambda film: None, lambda facts: facts["panels"].extend([one] * 17))
+    for wrong in (
+        {"size": [1, -1]},
+        {"towards": [0, 0, 1]},
+        {"to": "nobody"},
+        {"rgb": [2, 0, 0]},
+        {"pos": [0, 0, float("inf")]},
+    ):
+        with pytest.raises(FilmError, match="the panel"):
+            lit.film(lambda film: None, lambda facts, wrong=wrong: facts["panels"].append(one | wrong))

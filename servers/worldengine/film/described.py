@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.errors import ProgramError
 from worldkit.film_files import ARRAYS, DESCRIPTION
 from worldkit.filming.drawn_only import SHAPES
-from worldkit.filming.film_bounds import MOST_COPIES, MOST_FRAMES, MOST_LAMPS, PLACES
+from worldkit.filming.film_bounds import MOST_COPIES, MOST_FRAMES, MOST_LAMPS, MOST_PANELS, PANEL_M, PLACES
 from worldkit.scene import GROUND
 
 from . import ground_skins
@@ -51,6 +51,7 @@ class Described:
     surfaces: tuple[dict[str, Any], ...]
     """One substance each: its `name`, the bodies and particles that it is `of`, and its `look`."""
     lamps: tuple[dict[str, Any], ...]
+    panels: tuple[dict[str, Any], ...]
     looks: dict[str, Any]
     shutter: float
     samples: int
@@ -90,6 +91,7 @@ class Described:
         said += [f"{one['name']} (one surface in place of {len(one['of'])} shapes)" for one in self.surfaces]
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
+        said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
         treated = self.treatments.at(0.0)
         said += ["sky"] if treated.sky_zenith is not None else []
         return said + (["fog"] if treated.fog_rgb is not None else [])
@@ -181,6 +183,9 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
     lamps = tuple(_lamp(one, bodies) for one in told.get("lamps", ()))
     if len(lamps) > MOST_LAMPS:
         raise _refuse(f"a film has at most {MOST_LAMPS} lamps, not {len(lamps)}", "let one stand for many")
+    panels = tuple(_panel(one, bodies) for one in told.get("panels", ()))
+    if len(panels) > MOST_PANELS:
+        raise _refuse(f"a film has at most {MOST_PANELS} panels, not {len(panels)}", "let one stand for many")
     geoms = {str(geom["name"]) for geom in recording.meta["geoms"] if geom["name"]}
     looks = {str(name): _look(look, arrays) for name, look in told["looks"].items()}
     for name in looks:
@@ -194,7 +199,9 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
     if not (0 <= share <= 1 and 1 <= samples <= 32):
         raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")
     air = [_air(one) for one in told["air"]]
-    return Described(tuple(shots), captions, Treatments(air), things, surfaces, lamps, looks, share, samples, arrays)
+    return Described(
+        tuple(shots), captions, Treatments(air), things, surfaces, lamps, panels, looks, share, samples, arrays
+    )
 
 
 def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[str]) -> dict[str, Any]:
@@ -221,6 +228,24 @@ def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
         raise _refuse(f"the lamp {found['name']!r} has a colour of {found['rgb']}", "give it three numbers from 0 to 1")
     if not good or np.abs(found["pos"]).max() > FAR_M or (found["to"] and found["to"] not in bodies):
         raise _refuse(f"the lamp {found['name']!r} is none that can be lit, or is fixed to no body")
+    return found
+
+
+def _panel(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
+    import numpy as np
+
+    name, to = str(told["name"]), str(told["to"])
+    found: dict[str, Any] = {"name": name, "to": to, "seen": bool(told["seen"]), "strength": float(told["strength"])}
+    for key, length in (("pos", 3), ("towards", 3), ("size", 2), ("rgb", 3)):
+        value = np.asarray(told[key], dtype=float)
+        if value.shape != (length,) or not np.isfinite(value).all() or np.abs(value).max() > FAR_M:
+            raise _refuse(f"the panel {name!r} has no {key}")
+        found[key] = value.tolist()
+    good = 0 < found["strength"] <= 1000 and min(found["rgb"]) >= 0 and max(found["rgb"]) <= 1
+    good &= PANEL_M[0] <= min(found["size"]) and max(found["size"]) <= PANEL_M[1] and 0 < len(name) <= 60
+    good &= float(np.linalg.norm(np.subtract(found["towards"], found["pos"]))) > 1e-6
+    if not good or (to and to not in bodies):
+        raise _refuse(f"the panel {name!r} is none that can be lit, or is fixed to no body")
     return found
 
 

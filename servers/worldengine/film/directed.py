@@ -141,7 +141,8 @@ class Screening:
 
         data, found, hit = self._replay.data, [], np.zeros(1, np.int32)
         eye = np.array(data.cam_xpos[self._camera])
-        for name in self._movers if any(thing for thing in self.film.things) else ():
+        stands = self.film.things or any(panel["seen"] for panel in self.film.panels)
+        for name in self._movers if stands else ():
             body = self.model.body(name).id
             way = data.xipos[body] - eye
             away = float(np.linalg.norm(way))

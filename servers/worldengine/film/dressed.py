@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit import materials, portable
 
 from ..recording.replay import Replay
-from . import one_surface
+from . import one_surface, panel_lights
 from .described import Described, FilmError
 from .renderers.preview.scenery import LIGHT_GAIN
 
@@ -45,6 +45,7 @@ def dress(world: Path, film: Described) -> "mujoco.MjModel":
         _cover(spec, film, one)
     for lamp in film.lamps:
         _light(spec, lamp)
+    panel_lights.hang(spec, film.panels, HIDDEN_GROUP, **DRAWN)
     eyes = film.arrays["eye"]
     spec.worldbody.add_camera(name=CAMERA, pos=eyes[0])
     for name, corner in (("low", eyes.min(axis=0)), ("high", eyes.max(axis=0))):  # a room surrounds all cameras

@@ -152,7 +152,7 @@ class Film(Dressing):
         facts = {
             "schema": 1, "shots": shots, "captions": self._captions, "air": self._air,
             "things": [thing.facts(arrays, number) for number, thing in enumerate(things)],
-            "lamps": self._lamps,
+            "lamps": self._lamps, "panels": self._panels,
             "surfaces": [
                 one | {"look": look_facts(one["look"], arrays, f"look_surface{n}")} for n, one in enumerate(self._surfaces)
             ],

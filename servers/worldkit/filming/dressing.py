@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import ProgramError
 from . import trees
 from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
-from .film_bounds import MOST_LAMPS
+from .film_bounds import MOST_LAMPS, MOST_PANELS, PANEL_M
 from .ground import Height
 from .recorded import Recorded
 from .weather import Weather
@@ -25,6 +25,7 @@ class Dressing(Weather):
         self._grown: list[tuple[Thing, Callable[[np.ndarray], Any]]] = []
         self._surfaces: list[dict[str, Any]] = []
         self._lamps: list[dict[str, Any]] = []
+        self._panels: list[dict[str, Any]] = []
         self._looks: dict[str, str | Surface] = {}
         self._ground_look: str | Surface | None = None
 
@@ -244,6 +245,53 @@ class Dressing(Weather):
             }
         )  # fmt: skip
 
+    def panel(
+        self,
+        name: str,
+        pos: Vec3,
+        size: tuple[float, float],
+        *,
+        towards: Vec3,
+        strength: float = 1.0,
+        colour: str = "#fff6e8",
+        seen: bool = True,
+        to: str = "",
+    ) -> None:
+        """A shining rectangle, such as a window or a softbox: its middle at `pos` (m), facing the point `towards`.
+
+        `size` is its width, which lies level, and its height (m). It shines from its front, with soft shadows in the final
+        pass and without in the preview; from afar as a lamp of that `strength`. It is seen itself, and dark from behind,
+        unless `seen` is False. It stands in the world, or is fixed `to` a body in whose frame its points are. At most 16.
+
+        Raises:
+            ProgramError: there are too many, or a number is none that a panel may have.
+        """
+        if len(self._panels) >= MOST_PANELS:
+            raise ProgramError(f"a film has at most {MOST_PANELS} panels", "film.py", "let one stand for many")
+        place, point, extent = (np.asarray(value, dtype=float) for value in (pos, towards, size))
+        good = place.shape == point.shape == (3,) and extent.shape == (2,) and 0 < strength <= 1000
+        if not good or not np.isfinite([*place, *point]).all() or not np.linalg.norm(point - place) > 1e-6:
+            raise ProgramError(
+                f"the panel {name!r} needs a place, another point that it faces, and a strength up to 1000",
+                "film.py",
+                "film.panel('window', (0, 2, 1.5), (1.2, 1.5), towards=(0, 0, 0.5))",
+            )
+        if not (extent.min() >= PANEL_M[0] and extent.max() <= PANEL_M[1]):
+            raise ProgramError(
+                f"the panel {name!r} is {size} m",
+                "film.py",
+                f"give it a width and height of {PANEL_M[0]} to {PANEL_M[1]} m",
+            )
+        if to:
+            self.recorded.index(to)
+        self._named(name)
+        self._panels.append(
+            {
+                "name": name, "pos": place.tolist(), "towards": point.tolist(), "size": extent.tolist(),
+                "strength": float(strength), "rgb": list(rgb(colour)), "seen": bool(seen), "to": to,
+            }
+        )  # fmt: skip
+
     def look(self, name: str, look: str | Surface) -> None:
         """Another look for a body, or for one geom, through the whole film; it is listed in the report."""
         known(look)
@@ -264,7 +312,7 @@ class Dressing(Weather):
     def _named(self, name: str) -> None:
         """Refuse a name that something else has, or none."""
         taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
-        taken |= {one["name"] for one in (*self._surfaces, *self._lamps)}
+        taken |= {one["name"] for one in (*self._surfaces, *self._lamps, *self._panels)}
         if not name or len(name) > 60 or name in taken:
             raise ProgramError(f"what is drawn needs a name of its own, not {name!r}", "film.py", "name it anew")
 

@@ -1,5 +1,7 @@
 """How much a film may hold. Its author is told at once, with the line; the engine checks the description again."""
 
-MOST_FRAMES, MOST_LAMPS, MOST_COPIES = 20_000, 64, 2_000
+MOST_FRAMES, MOST_LAMPS, MOST_PANELS, MOST_COPIES = 20_000, 64, 16, 2_000
 PLACES = ("bottom", "top", "title", "left")
 """Where words stand in the picture."""
+PANEL_M = (0.005, 100.0)
+"""The least and the most that a panel of light measures, m."""

@@ -1,6 +1,7 @@
 """The library of looks, by family. Colours are sRGB."""
 
 from .look import Look
+from .metals import bare
 
 OAK = ((0.74, 0.605, 0.445), (0.61, 0.465, 0.32), (0.44, 0.31, 0.20))
 WALNUT = ((0.50, 0.34, 0.22), (0.37, 0.235, 0.145), (0.22, 0.13, 0.08))
@@ -10,10 +11,14 @@ CHERRY = ((0.66, 0.38, 0.24), (0.56, 0.29, 0.17), (0.40, 0.18, 0.10))
 EBONY = ((0.19, 0.16, 0.14), (0.13, 0.105, 0.095), (0.07, 0.055, 0.05))
 
 
+HANDLED = 1.8
+"""Coloured metals look as pale as measured ones only when they are fresh; light meets those in use so many times."""
+
+
 def _wood(description: str, name: str, tones: tuple, rings: float = 26.0, pore: float = 0.5) -> Look:
     return Look(
         description, paint="wood.solid", arguments=(name, *tones, rings, pore), tile_m=0.5, grain=True,
-        roughness=0.38, coat=0.25, relief_m=0.0006,
+        apart=0.22, roughness=0.38, coat=0.25, relief_m=0.0006,
     )  # fmt: skip
 
 
@@ -33,8 +38,8 @@ def _ceramic(description: str, rgb: tuple[float, float, float]) -> Look:
     )
 
 
-def _metal(description: str, rgb: tuple[float, float, float], roughness: float) -> Look:
-    return Look(description, rgba=(*rgb, 1.0), roughness=roughness, metallic=1.0, mark=False)
+def _metal(description: str, metal: str, roughness: float, met: float = 1.0) -> Look:
+    return Look(description, rgba=(*bare(metal, met), 1.0), roughness=roughness, metallic=1.0)
 
 
 def _felt(description: str, rgb: tuple[float, float, float]) -> Look:
@@ -107,35 +112,39 @@ LIBRARY: dict[str, Look] = {
     "ceramic_white": _ceramic("Glazed white porcelain", (0.93, 0.925, 0.90)),
     "ceramic_blue": _ceramic("Cobalt glazed stoneware", (0.09, 0.25, 0.55)),
     "ceramic_green": _ceramic("Celadon glaze", (0.50, 0.66, 0.55)),
-    "ceramic_terracotta": Look("Unglazed red clay", paint="fibre.worn", arguments=("terracotta", (0.72, 0.36, 0.23), 1.6), tile_m=0.3, roughness=0.85, relief_m=0.0004),
+    "ceramic_terracotta": Look("Unglazed red clay", paint="fibre.worn", arguments=("terracotta", (0.72, 0.36, 0.23), 1.6), tile_m=0.3, roughness=0.85, relief_m=0.0004, apart=0.1),
     "tiles_white": Look("White glazed tiles with grey joints", paint="masonry.tiles", arguments=("tiles", (0.90, 0.90, 0.88), (0.55, 0.54, 0.52)), tile_m=0.8, roughness=0.15, coat=0.6, relief_m=0.0015),
     "tiles_chequer": Look("Black and cream chequered tiles", paint="masonry.tiles", arguments=("chequer", (0.88, 0.85, 0.78), (0.42, 0.40, 0.38), 4, (0.10, 0.10, 0.11)), tile_m=1.2, roughness=0.18, coat=0.5, relief_m=0.001),
-    "marble_white": Look("Polished white marble with grey veins", paint="stone.marble", arguments=("carrara", (0.94, 0.935, 0.925), (0.84, 0.845, 0.85), (0.40, 0.41, 0.44)), tile_m=1.1, roughness=0.12, coat=0.6),
+    "marble_white": Look("Polished white marble with grey veins", paint="stone.marble", arguments=("carrara", (0.94, 0.935, 0.925), (0.84, 0.845, 0.85), (0.40, 0.41, 0.44)), tile_m=1.1, roughness=0.12, coat=0.6, apart=0.04),
     "marble_black": Look("Polished black marble with white veins", paint="stone.marble", arguments=("marquina", (0.055, 0.055, 0.06), (0.10, 0.10, 0.105), (0.80, 0.79, 0.76)), tile_m=1.1, roughness=0.12, coat=0.6),
-    "granite": Look("Polished grey granite", paint="stone.granite", arguments=("granite", (0.56, 0.55, 0.54), (0.36, 0.35, 0.35), (0.16, 0.155, 0.15)), tile_m=0.45, roughness=0.2, coat=0.4),
-    "slate": Look("Dark split slate", paint="stone.concrete", arguments=("slate", (0.21, 0.225, 0.24), 1.0), tile_m=1.2, roughness=0.55, relief_m=0.002, vary=0.06),
-    "concrete": Look("Smooth trowelled concrete", paint="stone.concrete", arguments=("concrete", (0.63, 0.62, 0.60)), tile_m=1.8, roughness=0.60, relief_m=0.0012, vary=0.10),
+    "granite": Look("Polished grey granite", paint="stone.granite", arguments=("granite", (0.56, 0.55, 0.54), (0.36, 0.35, 0.35), (0.16, 0.155, 0.15)), tile_m=0.45, roughness=0.2, coat=0.4, apart=0.1),
+    "slate": Look("Dark split slate", paint="stone.concrete", arguments=("slate", (0.21, 0.225, 0.24), 1.0), tile_m=1.2, roughness=0.55, relief_m=0.002, vary=0.06, apart=0.12),
+    "concrete": Look("Smooth trowelled concrete", paint="stone.concrete", arguments=("concrete", (0.63, 0.62, 0.60)), tile_m=1.8, roughness=0.60, relief_m=0.0012, vary=0.10, apart=0.07),
     "plaster": Look("Warm white wall plaster", paint="stone.concrete", arguments=("plaster", (0.90, 0.885, 0.86), 0.12), tile_m=1.6, roughness=0.9, relief_m=0.0006),
     "backdrop": Look("Seamless warm grey studio floor", paint="stone.concrete", arguments=("backdrop", (0.71, 0.685, 0.655), 0.22), tile_m=2.4, roughness=0.48, coat=0.10, vary=0.04),
-    "stone": Look("Irregular sandstone paving", paint="stone.slabs", arguments=("stone", (0.74, 0.69, 0.60), (0.50, 0.46, 0.40), (0.40, 0.38, 0.34)), tile_m=1.8, roughness=0.8, relief_m=0.010, vary=0.12),
+    "stone": Look("Irregular sandstone paving", paint="stone.slabs", arguments=("stone", (0.74, 0.69, 0.60), (0.50, 0.46, 0.40), (0.40, 0.38, 0.34)), tile_m=1.8, roughness=0.8, relief_m=0.010, vary=0.12, apart=0.1),
     "asphalt": Look("Road asphalt", paint="stone.asphalt", arguments=("asphalt", (0.27, 0.27, 0.275)), tile_m=0.6, roughness=0.85, relief_m=0.003, vary=0.2),
-    "brick": Look("Red brick in running bond", paint="masonry.bricks", arguments=("brick", (0.66, 0.33, 0.23), (0.43, 0.19, 0.135), (0.66, 0.62, 0.56)), tile_m=0.66, roughness=0.85, relief_m=0.006),
+    "brick": Look("Red brick in running bond", paint="masonry.bricks", arguments=("brick", (0.66, 0.33, 0.23), (0.43, 0.19, 0.135), (0.66, 0.62, 0.56)), tile_m=0.66, roughness=0.85, relief_m=0.006, apart=0.2),
     "sand": Look("Pale beach sand", paint="stone.sand", arguments=("sand", (0.90, 0.79, 0.60), (0.70, 0.57, 0.39)), tile_m=1.3, roughness=0.95, relief_m=0.008, vary=0.15),
     "soil": Look("Dark garden soil", paint="stone.asphalt", arguments=("soil", (0.33, 0.235, 0.165)), tile_m=0.5, roughness=0.95, relief_m=0.006, vary=0.25),
     "grass": Look("Mown lawn", paint="stone.grass", arguments=("grass", (0.50, 0.57, 0.27), (0.295, 0.40, 0.15), (0.10, 0.17, 0.05)), tile_m=1.1, roughness=0.92, sheen=0.25, relief_m=0.02, vary=0.16),
     "snow": Look("Fresh snow", paint="stone.sand", arguments=("snow", (0.97, 0.975, 0.99), (0.86, 0.89, 0.95)), tile_m=1.7, roughness=0.85, sheen=0.2, relief_m=0.006, vary=0.04),
     "ice": Look("Frozen lake", paint="stone.ice", arguments=("ice",), tile_m=2.2, roughness=0.10, coat=0.6, relief_m=0.0006, vary=0.05),
     "water": Look("Open water with small ripples, as seen from above it", paint="nature.water", arguments=("water", (0.035, 0.115, 0.135), (0.085, 0.215, 0.215)), tile_m=7.0, roughness=0.04, coat=1.0, relief_m=0.035, vary=0.10),
-    "leaves": Look("Foliage of a tree or hedge", paint="nature.leaves", arguments=("leaves", (0.46, 0.56, 0.20), (0.22, 0.36, 0.10), (0.045, 0.10, 0.025)), tile_m=0.9, roughness=0.75, sheen=0.3, relief_m=0.06, vary=0.2),
-    "rock": Look("Weathered river rock", paint="nature.rock", arguments=("rock", (0.60, 0.58, 0.55), (0.27, 0.265, 0.26), (0.56, 0.58, 0.44)), tile_m=0.7, roughness=0.85, relief_m=0.014, vary=0.1),
-    "steel_brushed": Look("Brushed stainless steel", paint="fibre.brushed", arguments=("steel", (0.77, 0.77, 0.76)), tile_m=0.35, grain=True, roughness=0.36, metallic=1.0, relief_m=0.00012),
+    "leaves": Look("Foliage of a tree or hedge", paint="nature.leaves", arguments=("leaves", (0.46, 0.56, 0.20), (0.22, 0.36, 0.10), (0.045, 0.10, 0.025)), tile_m=0.9, roughness=0.75, sheen=0.3, relief_m=0.06, vary=0.2, apart=0.2),
+    "rock": Look("Weathered river rock", paint="nature.rock", arguments=("rock", (0.60, 0.58, 0.55), (0.27, 0.265, 0.26), (0.56, 0.58, 0.44)), tile_m=0.7, roughness=0.85, relief_m=0.014, vary=0.1, apart=0.2),
+    "steel_brushed": Look("Brushed stainless steel", paint="fibre.brushed", arguments=("steel", bare("steel")), tile_m=0.35, grain=True, roughness=0.36, metallic=1.0, relief_m=0.00012),
     "steel_dark": Look("Blackened steel", paint="fibre.worn", arguments=("dark steel", (0.30, 0.30, 0.315), 1.5), tile_m=0.4, roughness=0.42, metallic=1.0),
-    "aluminium": _metal("Bead-blasted aluminium", (0.86, 0.865, 0.87), 0.42),
-    "chrome": _metal("Mirror chrome", (0.90, 0.905, 0.91), 0.06),
-    "brass": _metal("Polished brass", (0.90, 0.72, 0.36), 0.20),
-    "copper": _metal("Polished copper", (0.90, 0.56, 0.42), 0.22),
-    "gold": _metal("Polished gold", (0.98, 0.79, 0.40), 0.16),
-    "iron_rusty": Look("Rusty iron", paint="fibre.rust", arguments=("rust", (0.33, 0.30, 0.28), (0.50, 0.25, 0.12)), tile_m=0.6, roughness=0.85, metallic=0.25, relief_m=0.001),
+    "aluminium": _metal("Bead-blasted aluminium", "aluminium", 0.42),
+    "chrome": _metal("Mirror chrome", "chromium", 0.06),
+    "brass": _metal("Polished brass", "brass", 0.20, HANDLED),
+    "bronze": _metal("Polished bronze", "bronze", 0.24, HANDLED),
+    "copper": _metal("Polished copper", "copper", 0.22, HANDLED),
+    "gold": _metal("Polished gold", "gold", 0.16, HANDLED),
+    "silver": _metal("Polished silver", "silver", 0.14),
+    "titanium": _metal("Satin titanium", "titanium", 0.34),
+    "iron_cast": Look("Grey cast iron, rough from the mould", paint="fibre.worn", arguments=("cast iron", bare("iron", 2.4), 2.0), tile_m=0.2, roughness=0.62, metallic=1.0, relief_m=0.0006),
+    "iron_rusty": Look("Rusty iron", paint="fibre.rust", arguments=("rust", (0.33, 0.30, 0.28), (0.50, 0.25, 0.12)), tile_m=0.6, roughness=0.85, metallic=0.25, relief_m=0.001, apart=0.1),
     "glass_clear": Look("Clear glass", rgba=(0.95, 0.98, 0.97, 0.25), roughness=0.03, clear=1.0),
     "glass_green": Look("Bottle glass", rgba=(0.60, 0.86, 0.67, 0.35), roughness=0.03, clear=1.0),
     "glass_blue": Look("Blue glass", rgba=(0.60, 0.76, 0.95, 0.35), roughness=0.03, clear=1.0),
@@ -149,23 +158,23 @@ LIBRARY: dict[str, Look] = {
     "plastic_white": _plastic("White moulded plastic", (0.90, 0.90, 0.885)),
     "plastic_grey": _plastic("Grey moulded plastic", (0.46, 0.47, 0.48)),
     "plastic_black": _plastic("Black moulded plastic", (0.055, 0.055, 0.06)),
-    "leather_brown": Look("Brown leather", paint="fibre.leather", arguments=("leather", (0.42, 0.235, 0.135)), tile_m=0.13, roughness=0.48, coat=0.12, relief_m=0.0006),
+    "leather_brown": Look("Brown leather", paint="fibre.leather", arguments=("leather", (0.42, 0.235, 0.135)), tile_m=0.13, roughness=0.48, coat=0.12, relief_m=0.0006, apart=0.08),
     "leather_black": Look("Black leather", paint="fibre.leather", arguments=("leather black", (0.085, 0.08, 0.08)), tile_m=0.13, roughness=0.45, coat=0.12, relief_m=0.0006),
     "fabric_linen": Look("Natural linen", paint="fibre.weave", arguments=("linen", (0.83, 0.775, 0.67), (0.77, 0.71, 0.60), 40), tile_m=0.07, roughness=0.95, sheen=0.25, relief_m=0.0004),
     "fabric_blue": Look("Blue cotton", paint="fibre.weave", arguments=("cotton", (0.17, 0.28, 0.50), (0.22, 0.34, 0.57), 48, 0.6), tile_m=0.06, roughness=0.95, sheen=0.3, relief_m=0.0003),
     "fabric_red": Look("Red wool", paint="fibre.weave", arguments=("wool", (0.58, 0.10, 0.10), (0.50, 0.07, 0.08), 28, 1.4), tile_m=0.07, roughness=0.97, sheen=0.35, relief_m=0.0006),
     "carpet": Look("Short-pile beige carpet", paint="fibre.felt", arguments=("carpet", (0.62, 0.56, 0.48)), tile_m=0.35, roughness=0.97, sheen=0.35, relief_m=0.003, vary=0.10),
     "paper": Look("White paper", paint="fibre.paper", arguments=("paper", (0.94, 0.935, 0.91)), tile_m=0.2, roughness=0.9),
-    "paper_kraft": Look("Brown kraft paper", paint="fibre.paper", arguments=("kraft", (0.68, 0.52, 0.35), 2.5), tile_m=0.2, roughness=0.88),
-    "cardboard": Look("Corrugated cardboard", paint="fibre.cardboard", arguments=("cardboard", (0.69, 0.52, 0.345)), tile_m=0.3, roughness=0.88, relief_m=0.0005),
-    "cork": Look("Pressed cork", paint="stone.granite", arguments=("cork", (0.72, 0.53, 0.34), (0.60, 0.41, 0.25), (0.38, 0.23, 0.13)), tile_m=0.22, roughness=0.88, relief_m=0.0005),
+    "paper_kraft": Look("Brown kraft paper", paint="fibre.paper", arguments=("kraft", (0.68, 0.52, 0.35), 2.5), tile_m=0.2, roughness=0.88, apart=0.1),
+    "cardboard": Look("Corrugated cardboard", paint="fibre.cardboard", arguments=("cardboard", (0.69, 0.52, 0.345)), tile_m=0.3, roughness=0.88, relief_m=0.0005, apart=0.1),
+    "cork": Look("Pressed cork", paint="stone.granite", arguments=("cork", (0.72, 0.53, 0.34), (0.60, 0.41, 0.25), (0.38, 0.23, 0.13)), tile_m=0.22, roughness=0.88, relief_m=0.0005, apart=0.08),
     "foam": Look("Soft grey foam", paint="fibre.worn", arguments=("foam", (0.36, 0.37, 0.40), 2.5), tile_m=0.1, roughness=0.98, relief_m=0.001),
     "honey": Look("Clear honey, amber", rgba=(0.93, 0.58, 0.10, 0.5), roughness=0.05, coat=1.0, clear=0.8),
     "wax": Look("Cream wax", rgba=(0.94, 0.89, 0.76, 1.0), roughness=0.42, coat=0.1, sheen=0.15),
-    "apple_red": Look("Red apple with streaks and pale dots", paint="around.apple", arguments=((0.62, 0.035, 0.05), (0.80, 0.20, 0.09), (0.74, 0.68, 0.22)), around=True, roughness=0.26, coat=0.4),
-    "apple_green": Look("Green apple", paint="around.apple", arguments=((0.48, 0.62, 0.13), (0.62, 0.72, 0.25), (0.78, 0.80, 0.38)), around=True, roughness=0.26, coat=0.4),
-    "orange_peel": Look("Orange fruit with dimpled peel", paint="around.citrus", arguments=((0.95, 0.50, 0.06),), around=True, roughness=0.42, coat=0.2, relief_m=0.0008),
-    "lemon_peel": Look("Lemon with dimpled peel", paint="around.citrus", arguments=((0.95, 0.83, 0.16),), around=True, roughness=0.42, coat=0.2, relief_m=0.0008),
+    "apple_red": Look("Red apple with streaks and pale dots", paint="around.apple", arguments=((0.62, 0.035, 0.05), (0.80, 0.20, 0.09), (0.74, 0.68, 0.22)), around=True, roughness=0.26, coat=0.4, apart=0.08),
+    "apple_green": Look("Green apple", paint="around.apple", arguments=((0.48, 0.62, 0.13), (0.62, 0.72, 0.25), (0.78, 0.80, 0.38)), around=True, roughness=0.26, coat=0.4, apart=0.08),
+    "orange_peel": Look("Orange fruit with dimpled peel", paint="around.citrus", arguments=((0.95, 0.50, 0.06),), around=True, roughness=0.42, coat=0.2, relief_m=0.0008, apart=0.1),
+    "lemon_peel": Look("Lemon with dimpled peel", paint="around.citrus", arguments=((0.95, 0.83, 0.16),), around=True, roughness=0.42, coat=0.2, relief_m=0.0008, apart=0.1),
     "lamp_warm": Look("Glowing warm lamp", rgba=(1.0, 0.80, 0.52, 1.0), roughness=0.6, emission=4.0),
     "screen_blue": Look("Lit display", rgba=(0.20, 0.42, 0.80, 1.0), roughness=0.2, emission=1.1),
 }  # fmt: skip

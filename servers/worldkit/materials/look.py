@@ -28,6 +28,8 @@ class Look:
     """The texture's horizontal axis follows the longest side of the object."""
     vary: float = 0.0
     """Large-scale brightness variation that hides the tiling of wide surfaces, 0..1."""
+    apart: float = 0.0
+    """How much brighter or darker the brightest and darkest pieces are than most: no two boards are of one tree, 0..1."""
     roughness: float = 0.5
     metallic: float = 0.0
     coat: float = 0.0

@@ -126,8 +126,10 @@ class Painter:
     def _shade(self, batch: Batch, shape: gl.Shape, count: int, *, simple: bool = False, mirror: bool = False) -> None:
         """Draw `count` things from the batch's first with its own variant of the surface shader."""
         kind = self.supplies.paint_kind(batch.finish, float(self._rows[batch.first, 26]))
-        reflecting = "reflection" in self._textures
-        wanted = features(batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind)
+        reflecting, panels = "reflection" in self._textures, bool(self._uniforms["panel_count"])
+        wanted = features(
+            batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind, panels=panels
+        )
         program = self._variants.get(wanted).use()
         if wanted not in self._prepared:
             self._prepared.add(wanted)

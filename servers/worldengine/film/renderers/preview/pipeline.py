@@ -16,6 +16,7 @@ from OpenGL import GL
 from worldkit.materials import look
 from worldkit.settings import STUDIO, Light
 
+from ...panel_lights import of_model
 from ...treatment import PLAIN, Treatment
 from . import gl, room
 from .develop import Developer
@@ -25,7 +26,7 @@ from .focus import Focus
 from .lighting import relight, sky_uniforms
 from .occlusion import Occlusion
 from .painter import Painter
-from .scenery import light_rows, own_lights, setting_of, space_of
+from .scenery import light_rows, own_lights, panel_rows, setting_of, space_of
 from .shadows import ShadowMap
 from .surroundings import Surroundings, irradiance, noise_map
 from .things import FLOATS, SIDE_MODE, Batch, Things
@@ -81,7 +82,7 @@ class Pipeline:
         self.model, self.width, self.height = model, width, height
         chosen = setting_of(model)
         self.setting = chosen or STUDIO
-        self.lights = own_lights(model)
+        self.lights, self.panels = own_lights(model), of_model(model)
         rest = mujoco.MjData(model)
         mujoco.mj_forward(model, rest)
         if chosen is None:
@@ -187,6 +188,7 @@ class Pipeline:
             "forward": view.forward, "pixels": (float(size[0]), float(size[1])), "harmonics": self._around.harmonics,
             "ground_light": self._ground_light, "ground_mean": self.ground_mean(), "key_sharp": 0.0 if setting.key_in_sky else 1.0,
             "key_spread": setting.key_spread, "lights": rows, "light_aims": aims, "light_count": count,
+            "panels": panel_rows(self.panels, data), "panel_count": len(self.panels),
             "haze_m": setting.haze_m, "mirror_z": self.floor_z, "rank_step": RANK_STEP, "mirrored": 0, "things": 2,
             "fade": (self.centre[0], self.centre[1], setting.fade[0] * span, setting.fade[1] * span),
             "pool": (self.centre[0], self.centre[1], setting.pool[0] * self.radius, setting.pool[1] * self.radius),

@@ -6,8 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from worldkit.filming.film_bounds import MOST_PANELS
 from worldkit.model_text import numbers, read
 from worldkit.settings import SETTINGS, STUDIO, Setting
+
+from ...panel_lights import Panel
 
 if TYPE_CHECKING:
     import mujoco
@@ -68,3 +71,11 @@ def light_rows(
             aims[count] = data.light_xdir[light]
         count += 1
     return rows, aims, count
+
+
+def panel_rows(panels: list[Panel], data: mujoco.MjData) -> np.ndarray:
+    """The panels of light for the shader, (4 MOST_PANELS, 4): by fours the middle, half the width and the height, the radiance."""
+    rows = np.zeros((MOST_PANELS, 4, 4))
+    for number, panel in enumerate(panels[:MOST_PANELS]):
+        rows[number, :, :3] = [*panel.corner(data)[:3], panel.radiance]
+    return rows.reshape(-1, 4)

@@ -28,13 +28,16 @@ class Features:
     ground: int
     """0: not the ground; 1: ground; 2: ground that mirrors the world."""
     clear: bool
+    panels: bool
     mirror: bool
     """It reflects the picture itself."""
     simple: bool
     """It omits relief, contact shadows and fine glints, as mirror images do."""
 
 
-def features(batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirror: bool, paint: int) -> Features:
+def features(
+    batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirror: bool, paint: int, panels: bool
+) -> Features:
     """The features that a batch needs."""
     look, kind = batch.finish.look, batch.shape[0]
     ground = (2 if reflecting else 1) if kind == "disc" else 0
@@ -51,6 +54,7 @@ def features(batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirr
         ball=kind == "sphere",
         ground=ground,
         clear=batch.clear,
+        panels=panels,
         mirror=mirror,
         simple=simple,
     )

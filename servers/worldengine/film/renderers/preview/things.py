@@ -23,6 +23,10 @@ VISIBLE_GROUPS = (0, 1, 2)
 """Geom groups that are drawn, as in MuJoCo's own viewers; collision hulls lie in group 3."""
 ENDLESS_M = 4096.0
 SIDE_MODE, EXACT_UV, FLAT_UV = 2.0, 6.0, 7.0
+GOLDEN, SHIFTS = 0.6180339887, 512.0
+"""Shares of the golden section never meet again; so many tiles on, the paint of two things has nothing in common."""
+PIECES = (0.0, 0.7, -0.4, 0.3, -1.0, 1.0, -0.7)
+"""How much of what pieces may differ each does, by turns: few, so that few materials are made of one look."""
 
 
 @dataclass
@@ -138,7 +142,8 @@ class Things:
         elif kind in (kinds.mjGEOM_MESH, kinds.mjGEOM_SDF, kinds.mjGEOM_HFIELD):
             full[:] = 1.0
         out[12:16] = *full, half
-        out[16:19] = linear(rgba[:3])
+        piece = 0 if kind in (kinds.mjGEOM_PLANE, kinds.mjGEOM_HFIELD) else int(self.model.geom_bodyid[geom]) or geom
+        out[16:19] = linear(rgba[:3]) * (1.0 + entry.apart * PIECES[piece % len(PIECES)])
         out[19] = rgba[3]
         out[20:24] = entry.roughness, entry.metallic, entry.coat, entry.sheen
         extents = self.model.geom_aabb[geom, 3:]
@@ -163,7 +168,7 @@ class Things:
         import mujoco
 
         entry = finish.look
-        seed = 0.0 if endless else float((geom * 7919) % 97) / 9.7
+        seed = 0.0 if endless else SHIFTS * (geom * GOLDEN % 1.0)
         if finish.texture < 0:
             return (1.0 / entry.tile_m, entry.relief_m, _longest(extents) if entry.grain else SIDE_MODE, seed)
         if entry.around:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ...panel_lights import of_model
 from ..preview import unit_shapes
 from ..preview.things import EXACT_UV, FLAT_UV, Things
 from . import rounded
@@ -133,11 +134,13 @@ class Figures:
         self.clear = any(batch.clear for batch in self.things.batches)
         """Glass or water is in the world, which takes longer paths."""
         groups: dict[Any, Figure] = {}
+        panels = {panel.geom for panel in of_model(model)}  # emitters of their own
         for batch in self.things.batches:
             if batch.shape[0] == "disc":
                 continue
             for row in batch.rows:
-                self._add(groups, batch, row)
+                if int(self.things.geoms[row]) not in panels:
+                    self._add(groups, batch, row)
         for figure in groups.values():
             figure.finish()
         self.all = list(groups.values())

@@ -11,13 +11,14 @@ import numpy as np
 from worldkit.materials import look
 from worldkit.settings import STUDIO, Light
 
+from ...panel_lights import of_model
 from ...treatment import PLAIN, Treatment
 from ..preview.eye import View, of_camera
 from ..preview.finish import Finish, linear
 from ..preview.focus import FRAME_M
 from ..preview.lighting import relight
 from ..preview.scenery import own_lights, setting_of, space_of
-from . import daylight, rounded, variant
+from . import daylight, panel_emitters, rounded, variant
 from .darkroom import Scene, air, develop
 from .denoised import Denoiser
 from .figures import Figures, fill, mesh_of
@@ -100,7 +101,7 @@ class Tracing:
         self._rest = rest
         chosen = setting_of(model)
         self._own = chosen or STUDIO
-        self._lights = own_lights(model)
+        self._lights, self._lit = own_lights(model), of_model(model)
         if chosen is None:
             self._adopt_key(rest)
         self.setting, self._treatment = self._own, PLAIN
@@ -161,6 +162,7 @@ class Tracing:
     def _scene(self, walls: frozenset[Face], data: mujoco.MjData) -> Any:
         """The scene with these walls; its meshes are those of all others."""
         lamps = np.concatenate([data.light_xpos[self._lights], data.light_xdir[self._lights]]).tobytes()
+        lamps += b"".join(panel.corner(data).tobytes() for panel in self._lit)
         if walls not in self._scenes:
             import mitsuba as mi
 
@@ -168,7 +170,7 @@ class Tracing:
             parts: dict[str, Any] = {
                 "type": "scene", "around": daylight.environment(self._around),
                 "key": daylight.key_light(self.setting, self._centre, reach),
-                **daylight.lamps(self.model, data, self._lights),
+                **daylight.lamps(self.model, data, self._lights), **panel_emitters.emitters(self._lit, data),
             }  # fmt: skip
             shapes = [figure.shape for figure in self.figures.all] + self._strands.shapes + self._ground
             for face in sorted(walls):
@@ -179,6 +181,7 @@ class Tracing:
         else:
             if lamps != self._lamps[walls]:
                 daylight.move(self._scenes[walls], self.model, data, self._lights)
+                panel_emitters.move(self._scenes[walls], self._lit, data)
             if walls in self._stale:  # it searches its meshes by where they were, until it is told
                 self._scenes[walls].parameters_changed()
         self._lamps[walls] = lamps

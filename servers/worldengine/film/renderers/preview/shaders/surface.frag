@@ -4,6 +4,9 @@
 #include "fog.glsl"
 #include "texture.glsl"
 #include "shadow.glsl"
+#if PANELS
+#include "panels.glsl"
+#endif
 
 flat in vec4 row0, row1, row2;  // pose
 flat in vec4 size;     // of the shape
@@ -247,6 +250,22 @@ void main() {
             * glint(facing, nv, max(dot(n, hf), 0.0), max(wide, 0.25)) * smoothstep(0.12, 0.4, roughness);
 #endif
     }
+#if PANELS
+    for (int i = 0; i < panel_count; i++) {
+        vec3 u = panels[4 * i + 1].xyz, w = panels[4 * i + 2].xyz, way = normalize(cross(u, w));
+        vec3 middle = panels[4 * i].xyz - world;
+        if (dot(middle, way) >= 0.0) continue;  // behind it is dark
+        vec3 glow = panels[4 * i + 3].rgb * mix(ao, 1.0, 0.3);
+        light += diffuse * glow * panel_form(middle, u, w, n);
+#if !SIMPLE
+        vec3 onward = reflect(-v, n);
+        shine += reflectance(f0, roughness, nv) * glow * panel_image(middle, u, w, way, onward, roughness);
+#if COAT
+        shine += coat * (0.04 + 0.96 * fifth(1.0 - nv)) * glow * panel_image(middle, u, w, way, reflect(-v, flat_normal), 0.12);
+#endif
+#endif
+    }
+#endif
     // Surroundings.
     float down = 0.5 - 0.5 * n.z;
     vec3 ambient = irradiance(n);

@@ -1,0 +1,87 @@
+"""Panels of light in a dressed world: thin boxes before a dark back, with a note in the model of what they give."""
+
+from __future__ import annotations
+
+import json
+from math import pi
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from worldkit.model_text import read
+
+if TYPE_CHECKING:
+    import mujoco
+
+TEXT = "film.panels"
+THICK_M, DEEP_M = 0.001, 0.008
+"""What shines of a panel is so thick, from its front, the side of its own z axis, back; and so is the dark back behind it."""
+
+
+class Panel(NamedTuple):
+    """One panel of a model."""
+
+    geom: int
+    half: tuple[float, float]
+    """Half its width and height, along the geom's x and y axes, m."""
+    radiance: tuple[float, float, float]
+    """Scene-linear light that its front gives off."""
+    seen: bool
+
+    def corner(self, data: mujoco.MjData) -> np.ndarray:
+        """(4, 3): the middle of its front, half its width and half its height as vectors, and the way it faces; world, m."""
+        axes = data.geom_xmat[self.geom].reshape(3, 3).T
+        front = data.geom_xpos[self.geom] + axes[2] * THICK_M / 2
+        return np.stack([front, axes[0] * self.half[0], axes[1] * self.half[1], axes[2]])
+
+
+def of_model(model: mujoco.MjModel) -> list[Panel]:
+    """The panels of a dressed world, none in any other."""
+    return [
+        Panel(model.geom(name).id, tuple(one["half"]), tuple(one["radiance"]), bool(one["seen"]))
+        for name, one in (read(model, TEXT) or {}).items()
+    ]
+
+
+def hang(spec: mujoco.MjSpec, panels: tuple[dict[str, Any], ...], hidden_group: int, **common: Any) -> None:
+    """Add the panels of a film's description to a world.
+
+    From afar each lights as a lamp of its strength: its radiance is strength x pi / area. One that is not seen lies in the
+    hidden group. `common` are properties of all geoms that are drawn only.
+    """
+    import mujoco
+
+    notes = {}
+    for panel in panels:
+        name, place = f"drawn.{panel['name']}", np.array(panel["pos"])
+        width, height = panel["size"]
+        turn, quat = facing(np.array(panel["towards"]) - place), np.zeros(4)
+        mujoco.mju_mat2Quat(quat, turn.ravel())
+        colour = np.array(panel["rgb"]) ** 2.2
+        bright = panel["strength"] * pi / (width * height)
+        parts = {"": (bright, THICK_M), "/back": (0.0, DEEP_M)} if panel["seen"] else {"": (bright, THICK_M)}
+        body, front = spec.body(panel["to"]) if panel["to"] else spec.worldbody, 0.0
+        for part, (glow, deep) in parts.items():
+            rgba = (*panel["rgb"], 1.0) if glow else (0.05, 0.05, 0.05, 1.0)
+            spec.add_material(name=name + part, rgba=rgba, roughness=1.0, metallic=0.0, emission=glow, specular=0.0)
+            body.add_geom(
+                **common | ({} if panel["seen"] else {"group": hidden_group}), name=name + part,
+                type=mujoco.mjtGeom.mjGEOM_BOX, size=(width / 2, height / 2, deep / 2), quat=quat,
+                pos=place - turn[:, 2] * (front + deep / 2), material=name + part,
+            )  # fmt: skip
+            front += deep
+        notes[name] = {
+            "half": [width / 2, height / 2], "radiance": (colour * bright).tolist(), "seen": panel["seen"],
+        }  # fmt: skip
+    if notes:
+        spec.add_text(name=TEXT, data=json.dumps(notes))
+
+
+def facing(way: np.ndarray) -> np.ndarray:
+    """(3, 3): columns are a level width, a height, and the unit direction of `way`, which is not zero."""
+    normal = way / np.linalg.norm(way)
+    across = np.array([-normal[1], normal[0], 0.0])
+    if np.linalg.norm(across) < 1e-6:
+        across = np.array([1.0, 0.0, 0.0])
+    across /= np.linalg.norm(across)
+    return np.stack([across, np.cross(normal, across), normal], axis=-1)
