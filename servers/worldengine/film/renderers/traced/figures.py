@@ -35,7 +35,8 @@ class Figure:
     meshes: list[Mesh] = field(default_factory=list)
     shape: Any = None
     params: Any = None
-    _poses: np.ndarray | None = None
+    poses: np.ndarray | None = None
+    """Of each geom the rotation, place and size that it was given last, (G, 13)."""
 
     def finish(self) -> None:
         """Join its meshes, and hand the mesh over to Mitsuba."""
@@ -50,17 +51,26 @@ class Figure:
 
     def place(self, data: mujoco.MjData, sizes: np.ndarray) -> bool:
         """Move it to the poses in `data`, with the geoms' present sizes over those drawn; returns whether anything changed."""
-        rotation = data.geom_xmat[self.geoms].reshape(-1, 3, 3)
-        places = data.geom_xpos[self.geoms]
-        poses = np.column_stack([rotation.reshape(-1, 9), places, sizes[self.geoms]])
-        if self._poses is not None and np.array_equal(poses, self._poses):
+        poses = np.column_stack([data.geom_xmat[self.geoms], data.geom_xpos[self.geoms], sizes[self.geoms]])
+        if self.poses is not None and np.array_equal(poses, self.poses):
             return False
-        self._poses = poses.copy()
-        scaled = self.points * sizes[self.geoms][self.owner, None]
-        points = np.einsum("vij,vj->vi", rotation[self.owner], scaled) + places[self.owner]
+        self.poses = poses
+        rotation = poses[:, :9].reshape(-1, 3, 3)
         normals = np.einsum("vij,vj->vi", rotation[self.owner], self.normals)
-        fill(self.params, points, normals)
+        fill(self.params, self._stands(poses), normals)
         return True
+
+    def _stands(self, poses: np.ndarray, chosen: Any = slice(None)) -> np.ndarray:
+        """Where its points are, or those chosen, at these poses, (V, 3) m."""
+        owner = self.owner[chosen]
+        scaled = self.points[chosen] * poses[owner, 12:]
+        return np.einsum("vij,vj->vi", poses[:, :9].reshape(-1, 3, 3)[owner], scaled) + poses[owner, 9:12]
+
+    def moved(self, before: np.ndarray, now: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """The points (V, 3), m, of each geom that stands otherwise, at both poses."""
+        for geom in np.flatnonzero((before != now).any(axis=1)):
+            chosen = np.flatnonzero(self.owner == geom)
+            yield self._stands(before, chosen), self._stands(now, chosen)
 
 
 def mesh_of(vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow: np.ndarray) -> tuple[Any, Any]:
@@ -185,3 +195,14 @@ class Figures:
         balls = self.things.geoms[self.things._balls]
         sizes[balls] = self.model.geom_size[balls, 0] / np.maximum(self._sizes[balls], 1e-12)
         return bool(sum([figure.place(data, sizes) for figure in self.all]))
+
+    def poses(self) -> tuple[np.ndarray, ...]:
+        """Where all figures stand."""
+        return tuple(figure.poses for figure in self.all if figure.poses is not None)
+
+    def moved(
+        self, before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]
+    ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """The points (V, 3), m, of each geom that stands otherwise, at both of two sets of poses."""
+        for figure, mine, theirs in zip(self.all, before, now, strict=True):
+            yield from figure.moved(mine, theirs)
