@@ -13,6 +13,7 @@ from ..preview.things import EXACT_UV, FLAT_UV, Things
 from . import rounded
 from .coatings import CLEAR, Coatings
 from .ground_rings import rings
+from .leaning import facing, upright
 from .relief import displaced
 from .rounded import Mesh
 from .unwrapped import along_sides, around_centre
@@ -35,6 +36,10 @@ class Figure:
     meshes: list[Mesh] = field(default_factory=list)
     shape: Any = None
     params: Any = None
+    meshed: bool = False
+    """Meshes of any shape are among it, and light does not go through them."""
+    _meshed: tuple[np.ndarray, np.ndarray] | None = None
+    _faces: bytes = b""
     poses: np.ndarray | None = None
     """Of each geom the rotation, place and size that it was given last, (G, 13)."""
 
@@ -57,8 +62,19 @@ class Figure:
         self.poses = poses
         rotation = poses[:, :9].reshape(-1, 3, 3)
         normals = np.einsum("vij,vj->vi", rotation[self.owner], self.normals)
-        fill(self.params, self._stands(poses), normals)
+        points = self._stands(poses)
+        fill(self.params, points, normals)
+        self._meshed = (points, normals) if self.meshed else None
+        self._faces = b""
         return True
+
+    def face(self, eye: np.ndarray) -> None:
+        """Let all that an eye (3,) sees of its meshes face it."""
+        if self._meshed is not None and self._faces != eye.tobytes():
+            self._faces = eye.tobytes()
+            normals = facing(*self._meshed, eye)
+            self.params["vertex_normals"] = np.ascontiguousarray(normals, dtype=np.float32).ravel()
+            self.params.update()
 
     def _stands(self, poses: np.ndarray, chosen: Any = slice(None)) -> np.ndarray:
         """Where its points are, or those chosen, at these poses, (V, 3) m."""
@@ -116,7 +132,7 @@ def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int) 
         made = unit_shapes.mesh if kind == "mesh" else unit_shapes.height_field
         rows, faces = made(model, batch.shape[1])
         v = np.column_stack([rows[:, 7], 1.0 - rows[:, 8]])
-        mesh = Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v)
+        mesh = upright(Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v))
     if finish.texture < 0 and entry.paint is None:
         return mesh
     per_metre, other, mode, seed = (float(x) for x in numbers[24:28])
@@ -169,6 +185,7 @@ class Figures:
         key = (-1 if fixed else body, id(coating), tuple(glow), geom if see_through else -1)
         figure = groups.setdefault(key, Figure(coating, glow))
         figure.geoms.append(geom)
+        figure.meshed |= kind == "mesh" and not see_through
         figure.meshes.append(shape_of(self.model, batch, numbers, geom))
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:

@@ -200,10 +200,12 @@ class Tracing:
             self._last, self._looked = Outlook(ways, behind), key
         return self._last
 
-    def _placed(self, data: mujoco.MjData, faces: frozenset[Face]) -> Any:
-        """The scene with these walls at the poses of `data`."""
+    def _placed(self, data: mujoco.MjData, view: View, faces: frozenset[Face]) -> Any:
+        """The scene with these walls at the poses of `data`, as it is seen from here."""
         if self.figures.place(data) | self._strands.place(data):
             self._stale.update(self._scenes)
+        for figure in self.figures.all:
+            figure.face(view.eye)
         return self._scene(faces, data)
 
     def trace(
@@ -218,7 +220,7 @@ class Tracing:
         where: np.ndarray | None = None,
     ) -> Rays:
         """Trace the picture of `data`, with these walls, or some of it; its light `coarser` times smaller each way."""
-        scene, eye = self._placed(data, faces), self._sensor(view, "rgb", coarser)
+        scene, eye = self._placed(data, view, faces), self._sensor(view, "rgb", coarser)
         light = walked.light(scene, eye, self._depth, samples, seed, where)
         return walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
 
@@ -312,7 +314,7 @@ class Tracing:
         """What is seen coarsely of each moment."""
         sights = []
         for moment in moments:
-            scene = self._placed(moment(), drawn)
+            scene = self._placed(moment(), view, drawn)
             light = walked.light(scene, self._sensor(view, "rgb", plates.SIDE), self._depth, plates.SAMPLES, 0)
             sights.append(Sight(light, self.figures.poses(), dict(self._strands.points)))
         return tuple(sights)
