@@ -325,7 +325,7 @@ def test_light_of_an_open_shutter_is_added_up_and_developed_once(made, monkeypat
 
     def edge(quality, shutter):
         def tell(film):
-            film.shot(still((0.0, -1.2, 0.3), (0, 0, 0.3)), until=0.4)
+            film.shot(still((0.0, -1.2, 0.3), (0, 0, 0.3), shake=1e-3), until=0.4)  # of a still one, less is traced
             film.shutter(shutter, samples=4)
 
         calls.clear()
@@ -434,3 +434,22 @@ def test_nothing_here_steps_the_physics(made, monkeypatch):
     monkeypatch.setattr(mujoco, "mj_step", lambda *_: pytest.fail("a film stepped"))
     with made.screening(lambda f: f.shot(wide(), until=0.1)) as screening:
         screening.picture(0)
+
+
+@pytest.mark.gl
+def test_the_frames_of_a_still_shot_stand_in_for_what_does_not_change(made):
+    def tell(film):
+        looking(film, until=0.2)
+        film.shot(follow("first"), until=0.3)
+        film.light(azimuth_deg=10, at=0.3)
+        film.shot(still((0.2, -2.5, 0.6), (0.2, 0, 0.4)), until=0.4)
+        film.light(azimuth_deg=60, at=0.4)
+
+    with made.screening(tell) as screening:
+        shots = screening.film.shots
+        first, last = shots[0]["first"], shots[0]["first"] + shots[0]["frames"] - 1
+        assert screening._standing(0, 2) == (last, first)
+        assert screening._standing(0, "video") == ()
+        assert screening._standing(1, 2) == (), "the camera goes along"
+        assert screening._standing(2, 2) == (), "the light wanders"
+        assert np.array_equal(screening.picture(first, 2), screening.picture(first))

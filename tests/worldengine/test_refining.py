@@ -54,6 +54,26 @@ def test_what_is_traced_becomes_better_without_end():
     assert list(itertools.islice(traced_levels(), 7)) == [0.5, 2, 6, 18, 54, 162, 486]
 
 
+def test_a_round_is_begun_only_if_its_dearest_frame_fits(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+
+    class Uneven(Drawn):
+        """The first frame of each round also draws what stands still."""
+
+        def picture(self, number: int, samples: float) -> np.ndarray:
+            clock[0] += samples * (3.0 if number == 0 else 0.1)
+            return super().picture(number, samples)
+
+    film = Uneven(20)
+    once = 0.5 * (3.0 + 19 * 0.1)
+    assert not refine(film, Refined(tmp_path / "a", 20, "it"), once + 5.9, lambda: None)
+    assert len(film.asked) == 20, "the first frame of the next round takes 6 s"
+    film, clock[0] = Uneven(20), 0.0
+    assert not refine(film, Refined(tmp_path / "b", 20, "it"), once + 6.0 + 7.0, lambda: None)
+    assert len(film.asked) == 40, "those after it are believed to be cheaper again"
+
+
 @pytest.mark.parametrize("count", [24, 5000])
 def test_at_least_half_of_the_minutes_is_for_drawing(count):
     assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.06 * count)

@@ -6,7 +6,7 @@ import pytest
 
 from worldengine.film import renderers
 from worldengine.film.drawn_frames import Frames
-from worldengine.film.renderers.traced import coatings, denoised, rounded, tracing, unwrapped, variant
+from worldengine.film.renderers.traced import coatings, denoised, leaning, rounded, tracing, unwrapped, variant
 from worldengine.film.renderers.traced.half_room import Walls
 from worldkit import bodies, cameras, materials, scene
 from worldkit.settings import ROOM
@@ -35,6 +35,30 @@ def test_edges_are_rounded_and_sides_stay_flat() -> None:
     assert np.allclose(np.abs(mesh.points).max(axis=0), half)
     missing = np.linalg.norm(mesh.points - half, axis=1).min()
     assert missing == pytest.approx((np.sqrt(3) - 1) * rounded.edge(0.05), rel=0.02)
+
+
+def test_no_normal_leans_so_far_that_a_seen_triangle_shows_no_light() -> None:
+    crease = np.array([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, -1), (0, 1, -1)], dtype=float)
+    smooth = np.array([(-1, 0, 1), (0, 0, 1), (0, 0, 1), (-1, 0, 1), (-1, 0, 0), (-1, 0, 0)], dtype=float)
+    smooth /= np.linalg.norm(smooth, axis=1, keepdims=True)
+    faces = np.array([(0, 1, 2), (0, 2, 3), (0, 3, 5), (0, 5, 4), (0, 0, 1)])
+    before = rounded.Mesh(crease, smooth, faces, crease[:, :2])
+    after = leaning.upright(before)
+
+    def lean(mesh: rounded.Mesh) -> np.ndarray:
+        corners = mesh.points[mesh.faces[:4]]
+        across = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        return np.degrees(np.arccos(np.clip(np.einsum("fk,fck->fc", across, mesh.normals[mesh.faces[:4]]), -1, 1)))
+
+    assert lean(before).max() == pytest.approx(45) and lean(after).max() == pytest.approx(leaning.MOST_DEG)
+    assert np.array_equal(after.points[after.faces], crease[faces]), "its shape is what it was"
+    assert after.uv is not None and np.array_equal(after.uv[after.faces], crease[faces][..., :2])
+    eye = np.array([5.0, 0.5, 0.05])  # sees the top at a slant, and the side not at all
+    sight = (eye - after.points) / np.linalg.norm(eye - after.points, axis=1, keepdims=True)
+    along = [np.einsum("vk,vk->v", n, sight) for n in (after.normals, leaning.facing(after.points, after.normals, eye))]
+    assert along[0][after.faces[:2]].min() < -0.3 and along[1][after.faces[:2]].min() > 0.04
+    assert np.array_equal(along[0][after.faces[2:4]], along[1][after.faces[2:4]])
+    assert leaning.upright(SHAPES["sphere"][0]) is SHAPES["sphere"][0], "what is finely meshed stays as it is"
 
 
 def test_paint_lies_at_its_true_scale_on_every_side() -> None:

@@ -10,6 +10,7 @@ from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
 from .lettering import letter
+from .renderers import Before
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -20,7 +21,10 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..recording.stored import Recording
-    from .renderers import Quality
+    from .renderers import Moment, Quality
+
+HELD = ("eye", "target", "roll_deg", "fovy_deg", "focus_m", "aperture")
+"""What does not change while a camera stands still."""
 
 
 class Screening:
@@ -69,6 +73,7 @@ class Screening:
             bool(shot["first"] and shown[shot["first"]] < shown[: shot["first"]].max() - 1.5 / fps)
             for shot in film.shots
         ]
+        self._still: dict[int, tuple[int, ...]] = {}
         self.frames = Frames(self.model, *size, renderer)
 
     def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
@@ -76,13 +81,27 @@ class Screening:
         film, moments = self.film, self.film.samples if self.film.shutter > 0 else 1
         if not isinstance(quality, str):
             moments = min(moments, max(1, int(quality)))  # each takes one sample at least; a draft is sharp
-        if moments == 1:
-            image = self.frames.image(self._moment(float(frame)), self._camera, quality)
-        else:
-            parts = [partial(self._moment, frame + film.shutter * part / moments) for part in range(moments)]
-            image = self.frames.blurred(parts, self._camera, quality)
+        before = [Before(number, self._parts(number, moments)) for number in self._standing(film.shot(frame), quality)]
+        image = self.frames.over(before, self._parts(frame, moments), self._camera, quality)
         speed = film.speed(frame, self.fps)
         return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)])
+
+    def _parts(self, frame: int, moments: int) -> "list[Moment]":
+        """The moments while the shutter is open for a frame."""
+        return [partial(self._moment, frame + self.film.shutter * part / moments) for part in range(moments)]
+
+    def _standing(self, shot: int, quality: "Quality") -> tuple[int, ...]:
+        """The frames that stand in for what does not change in a shot, if its camera and light do not: its last, where most
+        has come to rest, and its first, for what is about to move."""
+        if isinstance(quality, str):
+            return ()
+        if shot not in self._still:
+            film, first, count = self.film, self.film.shots[shot]["first"], self.film.shots[shot]["frames"]
+            lit = {film.treatments.at(frame / self.fps).lit for frame in range(first, first + count)}
+            seen = () if film.shots[shot]["planned"] else HELD
+            held = all((film.arrays[name][first : first + count] == film.arrays[name][first]).all() for name in seen)
+            self._still[shot] = (first + count - 1, first) if held and len(lit) == 1 and count > 1 else ()
+        return self._still[shot]
 
     def _moment(self, at: float) -> "mujoco.MjData":
         """Set up what is shown between two frames of one shot."""

@@ -1,6 +1,6 @@
 """Draw pictures of one model with the wanted renderer, or with a plainer one where that cannot."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING
 
@@ -87,7 +87,7 @@ class Frames:
             return self.image(data, index, quality)
 
     def blurred(
-        self, moments: "Sequence[Callable[[], mujoco.MjData]]", camera: int, quality: renderers.Quality = "video"
+        self, moments: Sequence[renderers.Moment], camera: int, quality: renderers.Quality = "video"
     ) -> "np.ndarray":
         """The picture of a shutter that is open for these moments, each of which is set up when it is called for.
 
@@ -106,6 +106,29 @@ class Frames:
             self._fall_back(error)
             self.treat(self._treatment)
             return self.blurred(moments, camera, quality)
+
+    def over(
+        self,
+        before: Sequence[renderers.Before],
+        moments: Sequence[renderers.Moment],
+        camera: int,
+        quality: renderers.Quality = "video",
+    ) -> "np.ndarray":
+        """The picture of these moments, as `image` or `blurred` draws it; a renderer that can takes what has not changed from
+        the pictures `before`, which are of the same shot."""
+        import numpy as np
+
+        over = getattr(self._open, "over", None) if before else None
+        if over is None:
+            if len(moments) == 1:
+                return self.image(moments[0](), camera, quality)
+            return self.blurred(moments, camera, quality)
+        try:
+            return np.asarray(over(before, moments, camera, quality))
+        except RuntimeError as error:
+            self._fall_back(error)
+            self.treat(self._treatment)
+            return self.over(before, moments, camera, quality)
 
     def treat(self, treatment: Treatment) -> None:
         """Apply this light, haze, focus and grading from now on, as far as the renderer can."""

@@ -5,12 +5,14 @@ its name in `WORLDKIT_RENDERER`. The result of a pass tells which one drew, in w
 answer for another. A drawing may also have `shared() -> bytes`: what all cameras together add to each picture (how far the
 room reaches). Where it lacks that, a change of any camera makes the pictures of all others anew. And it may have
 `blurred(moments, count, camera, quality)`: one picture of the light of `count` moments, each set up as it is taken from
-`moments`. Where it lacks that, the pictures of the moments are averaged.
+`moments`. Where it lacks that, the pictures of the moments are averaged. And it may have `over(before, moments, camera,
+quality)`: the same picture, for which it need not draw again what stands in the pictures `before` of the same shot.
 """
 
 import os
+from collections.abc import Callable, Hashable, Sequence
 from importlib import metadata
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
 from worldkit.seams import Seam
 
@@ -28,6 +30,16 @@ FINAL = "traced"
 """The renderer of the final pass."""
 Quality = Literal["still", "video"] | float
 """The effort spent on a picture; a number asks for so many samples a pixel, where a renderer takes any (less than one: a draft)."""
+
+Moment = Callable[[], "mujoco.MjData"]
+"""Sets up what is seen at one time."""
+
+
+class Before(NamedTuple):
+    """Another picture of a shot: the moments while its shutter was open, by a name that is its own."""
+
+    name: Hashable
+    moments: Sequence[Moment]
 
 
 class Drawing(Protocol):

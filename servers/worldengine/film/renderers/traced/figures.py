@@ -14,6 +14,7 @@ from ..preview.things import EXACT_UV, FLAT_UV, Things
 from . import rounded
 from .coatings import CLEAR, Coatings
 from .ground_rings import rings
+from .leaning import facing, upright
 from .relief import displaced
 from .rounded import Mesh
 from .unwrapped import along_sides, around_centre
@@ -36,7 +37,12 @@ class Figure:
     meshes: list[Mesh] = field(default_factory=list)
     shape: Any = None
     params: Any = None
-    _poses: np.ndarray | None = None
+    meshed: bool = False
+    """Meshes of any shape are among it, and light does not go through them."""
+    _meshed: tuple[np.ndarray, np.ndarray] | None = None
+    _faces: bytes = b""
+    poses: np.ndarray | None = None
+    """Of each geom the rotation, place and size that it was given last, (G, 13)."""
 
     def finish(self) -> None:
         """Join its meshes, and hand the mesh over to Mitsuba."""
@@ -51,17 +57,37 @@ class Figure:
 
     def place(self, data: mujoco.MjData, sizes: np.ndarray) -> bool:
         """Move it to the poses in `data`, with the geoms' present sizes over those drawn; returns whether anything changed."""
-        rotation = data.geom_xmat[self.geoms].reshape(-1, 3, 3)
-        places = data.geom_xpos[self.geoms]
-        poses = np.column_stack([rotation.reshape(-1, 9), places, sizes[self.geoms]])
-        if self._poses is not None and np.array_equal(poses, self._poses):
+        poses = np.column_stack([data.geom_xmat[self.geoms], data.geom_xpos[self.geoms], sizes[self.geoms]])
+        if self.poses is not None and np.array_equal(poses, self.poses):
             return False
-        self._poses = poses.copy()
-        scaled = self.points * sizes[self.geoms][self.owner, None]
-        points = np.einsum("vij,vj->vi", rotation[self.owner], scaled) + places[self.owner]
+        self.poses = poses
+        rotation = poses[:, :9].reshape(-1, 3, 3)
         normals = np.einsum("vij,vj->vi", rotation[self.owner], self.normals)
+        points = self._stands(poses)
         fill(self.params, points, normals)
+        self._meshed = (points, normals) if self.meshed else None
+        self._faces = b""
         return True
+
+    def face(self, eye: np.ndarray) -> None:
+        """Let all that an eye (3,) sees of its meshes face it."""
+        if self._meshed is not None and self._faces != eye.tobytes():
+            self._faces = eye.tobytes()
+            normals = facing(*self._meshed, eye)
+            self.params["vertex_normals"] = np.ascontiguousarray(normals, dtype=np.float32).ravel()
+            self.params.update()
+
+    def _stands(self, poses: np.ndarray, chosen: Any = slice(None)) -> np.ndarray:
+        """Where its points are, or those chosen, at these poses, (V, 3) m."""
+        owner = self.owner[chosen]
+        scaled = self.points[chosen] * poses[owner, 12:]
+        return np.einsum("vij,vj->vi", poses[:, :9].reshape(-1, 3, 3)[owner], scaled) + poses[owner, 9:12]
+
+    def moved(self, before: np.ndarray, now: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """The points (V, 3), m, of each geom that stands otherwise, at both poses."""
+        for geom in np.flatnonzero((before != now).any(axis=1)):
+            chosen = np.flatnonzero(self.owner == geom)
+            yield self._stands(before, chosen), self._stands(now, chosen)
 
 
 def mesh_of(vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow: np.ndarray) -> tuple[Any, Any]:
@@ -107,7 +133,7 @@ def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int) 
         made = unit_shapes.mesh if kind == "mesh" else unit_shapes.height_field
         rows, faces = made(model, batch.shape[1])
         v = np.column_stack([rows[:, 7], 1.0 - rows[:, 8]])
-        mesh = Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v)
+        mesh = upright(Mesh(rows[:, :3].astype(float), rows[:, 4:7].astype(float), np.asarray(faces), v))
     if finish.texture < 0 and entry.paint is None:
         return mesh
     per_metre, other, mode, seed = (float(x) for x in numbers[24:28])
@@ -162,6 +188,7 @@ class Figures:
         key = (-1 if fixed else body, id(coating), tuple(glow), geom if see_through else -1)
         figure = groups.setdefault(key, Figure(coating, glow))
         figure.geoms.append(geom)
+        figure.meshed |= kind == "mesh" and not see_through
         figure.meshes.append(shape_of(self.model, batch, numbers, geom))
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
@@ -188,3 +215,14 @@ class Figures:
         balls = self.things.geoms[self.things._balls]
         sizes[balls] = self.model.geom_size[balls, 0] / np.maximum(self._sizes[balls], 1e-12)
         return bool(sum([figure.place(data, sizes) for figure in self.all]))
+
+    def poses(self) -> tuple[np.ndarray, ...]:
+        """Where all figures stand."""
+        return tuple(figure.poses for figure in self.all if figure.poses is not None)
+
+    def moved(
+        self, before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]
+    ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """The points (V, 3), m, of each geom that stands otherwise, at both of two sets of poses."""
+        for figure, mine, theirs in zip(self.all, before, now, strict=True):
+            yield from figure.moved(mine, theirs)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -29,6 +30,8 @@ class Strands:
         self.clear = False
         """One of them is glass or water."""
         self._params: dict[tuple[str, int, int], tuple[Any, int]] = {}
+        self.points: dict[tuple[str, int, int], np.ndarray] = {}
+        """Where the corners of each are, (V, 3) m."""
         self._soft = SoftShapes(model)
         self._unit = rounded.capsule(1.0, 0.0, 12)
         for patch in self._read(data):
@@ -86,4 +89,18 @@ class Strands:
                 points = np.concatenate([points, np.full((spare, 3), NOWHERE)])
                 normals = np.concatenate([normals, np.tile([0.0, 0.0, 1.0], (spare, 1))])
             fill(params, points, normals)
+            self.points[patch.key] = points
         return True
+
+    def moved(
+        self, before: dict[Any, np.ndarray], now: dict[Any, np.ndarray]
+    ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+        """The points (V, 3), m, of each that changed, at both moments; those of a tendon piece by piece."""
+        for key, points in now.items():
+            if np.array_equal(points, before[key]):
+                continue
+            if key[0] == "tendon":
+                piece = len(self._unit.points)
+                yield from zip(before[key].reshape(-1, piece, 3), points.reshape(-1, piece, 3), strict=True)
+            else:
+                yield before[key][before[key][:, 2] > NOWHERE / 2], points[points[:, 2] > NOWHERE / 2]

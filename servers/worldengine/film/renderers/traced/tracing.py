@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import atan, degrees
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -15,60 +14,36 @@ from ...panel_lights import of_model
 from ...treatment import PLAIN, Treatment
 from ..preview.eye import View, of_camera
 from ..preview.finish import Finish, linear
-from ..preview.focus import FRAME_M
 from ..preview.lighting import relight
 from ..preview.scenery import own_lights, setting_of, space_of
-from . import daylight, panel_emitters, rounded, variant
+from . import daylight, panel_emitters, plates, rounded, variant, walked
 from .darkroom import Scene, air, develop
 from .denoised import Denoiser
 from .figures import Figures, fill, mesh_of
 from .half_room import Face, Walls
+from .plates import Plate, Sight
+from .shutter import FINEST, Shutter, sensor
 from .strand_meshes import Strands
 from .unwrapped import along_sides
+from .walked import Rays
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     import mujoco
 
-    from .. import Drawing, Quality
+    from .. import Before, Drawing, Moment, Quality
 
-SAMPLES: dict[str, float] = {"still": 32, "video": 3}
 DEPTH, CLEAR_DEPTH = 4, 8
 """The longest paths, and those where light goes through glass."""
-GUIDE_SAMPLES, FINE_GUIDE_SAMPLES = 4, 16
-FINE, FINEST = 18, 54
-"""From so many samples a pixel on the denoiser is guided better and takes its time; and from so many, no light is cut off."""
-AT_ONCE, SEEDS_APART = 64, 1 << 16
-"""Samples a pixel that are traced in one go, since the memory they take grows with them; and moments have chances of their own."""
+SEEDS_APART = 1 << 16
+"""Moments have chances of their own."""
 GLIMPSES_BYTES = 1 << 30
 """Of the room that the moments of one picture may take: places, directions, what is seen and what lies behind, 44 bytes a pixel."""
-DRAFT_SIDE = 2
-"""Of a draft, light is traced for every second pixel of every second row."""
 LEAST_ALBEDO = 0.2
 """Darker surfaces show light as it comes: of what they hardly reflect no draft can tell what fell on them."""
 BRIGHTEST = 12.0
 """Of few samples, a pixel of more scene light would be a speck that the denoiser cannot take out; of many, it is a caustic."""
-
-
-class Rays(NamedTuple):
-    """One picture as it was traced: scene light, surface colours, normals, places (H, W, 3), and the share of things (H, W)."""
-
-    light: np.ndarray
-    albedo: np.ndarray
-    normals: np.ndarray
-    places: np.ndarray
-    seen: np.ndarray
-
-    def joined(self, other: Rays, before: int) -> Rays:
-        """The mean of these, which are that of so many moments, and those of one more; a place counts as far as it is seen."""
-        light, albedo, normals, seen = (
-            (before * getattr(self, name) + getattr(other, name)) / np.float32(before + 1)
-            for name in ("light", "albedo", "normals", "seen")
-        )
-        mine, theirs = before * self.seen[..., None], other.seen[..., None]
-        places = (mine * self.places + theirs * other.places) / np.maximum(mine + theirs, 1e-6)
-        return Rays(light, albedo, normals, places, seen)
 
 
 class Outlook(NamedTuple):
@@ -125,6 +100,8 @@ class Tracing:
         self._stale: set[Any] = set()
         """Scenes that do not know yet that something has moved."""
         self._denoiser: tuple[Any, Denoiser] | None = None
+        self._depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
+        self._plates = plates.Shelf()
         self._plain: Drawing | None = None
         self.figures.place(rest)
         self._strands.place(rest)
@@ -209,24 +186,8 @@ class Tracing:
         return self._panels[face]
 
     def _sensor(self, view: View, channels: str, coarser: int = 1) -> Any:
-        """The camera; one with a lens where the film focuses."""
-        import mitsuba as mi
-
-        told, tangent = self._treatment, view.tangents[1]
-        place = (view.eye - view.axes[:, 2]).tolist()
-        move = mi.ScalarTransform4f().look_at(origin=view.eye.tolist(), target=place, up=view.axes[:, 1].tolist())
-        film = {
-            "type": "hdrfilm", "width": self.width // coarser, "height": self.height // coarser, "rfilter": {"type": "box"},
-            "pixel_format": channels, "component_format": "float32",
-        }  # fmt: skip
-        lens: dict[str, Any] = {"type": "perspective"}
-        if told.aperture > 0:
-            radius = FRAME_M / (2.0 * tangent) / told.aperture / 2.0
-            lens = {"type": "thinlens", "aperture_radius": radius, "focus_distance": max(told.focus_m, 0.02)}
-        return mi.load_dict(
-            {**lens, "fov": 2 * degrees(atan(tangent)), "fov_axis": "y", "near_clip": 0.01, "far_clip": 1e5,
-             "to_world": move, "film": film}
-        )  # fmt: skip
+        """The camera, with the lens that the film asks for."""
+        return sensor(view, self._treatment, self.width // coarser, self.height // coarser, channels)
 
     def _outlook(self, view: View) -> Outlook:
         """What a view needs of the surroundings; that of the last one is kept, as most cameras stand still."""
@@ -242,6 +203,14 @@ class Tracing:
             self._last, self._looked = Outlook(ways, behind), key
         return self._last
 
+    def _placed(self, data: mujoco.MjData, view: View, faces: frozenset[Face]) -> Any:
+        """The scene with these walls at the poses of `data`, as it is seen from here."""
+        if self.figures.place(data) | self._strands.place(data):
+            self._stale.update(self._scenes)
+        for figure in self.figures.all:
+            figure.face(view.eye)
+        return self._scene(faces, data)
+
     def trace(
         self,
         data: mujoco.MjData,
@@ -250,25 +219,13 @@ class Tracing:
         samples: int,
         seed: int,
         coarser: int = 1,
-        guides: int = GUIDE_SAMPLES,
+        guides: int = 4,
+        where: np.ndarray | None = None,
     ) -> Rays:
-        """Trace the picture of `data`, with these walls; its light `coarser` times smaller each way."""
-        import mitsuba as mi
-
-        if self.figures.place(data) | self._strands.place(data):
-            self._stale.update(self._scenes)
-        scene, sensor = self._scene(faces, data), self._sensor(view, "rgb", coarser)
-        depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
-        path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": 16})
-        light: Any = np.float32(0)
-        for first in range(0, samples, AT_ONCE):
-            some = min(AT_ONCE, samples - first)
-            drawn = mi.render(scene, sensor=sensor, integrator=path, spp=some, seed=seed + first)
-            light = light + np.array(drawn) * np.float32(some / samples)
-        # A second walk for the guides: around the path tracer itself they would double its time.
-        guide = mi.load_dict({"type": "aov", "aovs": "a:albedo,n:sh_normal,p:position", "any": {"type": "depth"}})
-        said = mi.render(scene, sensor=self._sensor(view, "rgba"), integrator=guide, spp=guides, seed=0)
-        return _rays(np.array(light), np.array(said))
+        """Trace the picture of `data`, with these walls, or some of it; its light `coarser` times smaller each way."""
+        scene, eye = self._placed(data, view, faces), self._sensor(view, "rgb", coarser)
+        light = walked.light(scene, eye, self._depth, samples, seed, where)
+        return walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
 
     def image(self, data: mujoco.MjData, camera: int, quality: Quality) -> np.ndarray:
         """The picture: uint8 (height, width, 3)."""
@@ -279,23 +236,22 @@ class Tracing:
 
         `quality` is that of the whole: its samples a pixel, less than one for a draft, are shared out among the moments.
         """
-        samples = SAMPLES[quality] if isinstance(quality, str) else quality
-        coarser = DRAFT_SIDE if samples < 1 else 1
-        each = max(1, round(samples * coarser**2 / count))
-        guides = -(-(FINE_GUIDE_SAMPLES if samples >= FINE else GUIDE_SAMPLES) // count)
+        shutter = Shutter.of(quality, count)
+        rays, glimpses = self._exposed(moments, shutter, camera)
+        return self._developed(self._cleaned(rays, shutter), glimpses)
+
+    def _exposed(
+        self, moments: Iterable[mujoco.MjData], shutter: Shutter, camera: int, where: np.ndarray | None = None
+    ) -> tuple[Rays, list[Glimpse]]:
+        """The mean of what is traced of some moments, in all pixels or in some, and what is around it."""
         mean: Rays | None = None
-        apart = glimpses_apart(count, self.width * self.height)
+        apart = glimpses_apart(shutter.moments, self.width * self.height)
         glimpses: list[Glimpse] = []
         for number, data in enumerate(moments):
-            view = of_camera(self.model, data, camera, self.width, self.height)
-            outlook = self._outlook(view)
-            drawn: frozenset[Face] = frozenset()
-            painted: frozenset[Face] = frozenset()
-            if self._walls is not None:
-                some = outlook.ways[:: max(self.height // 24, 1), :: max(self.width // 40, 1)].reshape(-1, 3)
-                drawn, painted = self._walls.seen(view.eye, some)
-            rays = self.trace(data, view, drawn, each, number * SEEDS_APART, coarser, guides)
-            if samples < FINEST:
+            view, outlook, drawn, painted = self._seen(data, camera)
+            seed = number * SEEDS_APART
+            rays = self.trace(data, view, drawn, shutter.each, seed, shutter.coarser, shutter.guides, where)
+            if shutter.samples < FINEST:
                 np.minimum(rays.light, BRIGHTEST, out=rays.light)
             mean = rays if mean is None else mean.joined(rays, number)
             if number % apart == 0:
@@ -303,9 +259,68 @@ class Tracing:
         assert mean is not None
         if all(one.outlook is glimpses[0].outlook for one in glimpses):  # the camera stood still
             glimpses = [glimpses[-1]._replace(places=mean.places, seen=mean.seen)]
-        clean = self._cleaned(mean, coarser, samples >= FINE)
+        return mean, glimpses
+
+    def _seen(self, data: mujoco.MjData, camera: int) -> tuple[View, Outlook, frozenset[Face], frozenset[Face]]:
+        """What a camera looks at, with the walls that are drawn and those that are painted in."""
+        view = of_camera(self.model, data, camera, self.width, self.height)
+        outlook = self._outlook(view)
+        if self._walls is None:
+            return view, outlook, frozenset(), frozenset()
+        some = outlook.ways[:: max(self.height // 24, 1), :: max(self.width // 40, 1)].reshape(-1, 3)
+        return view, outlook, *self._walls.seen(view.eye, some)
+
+    def _developed(self, clean: np.ndarray, glimpses: list[Glimpse]) -> np.ndarray:
+        """The picture of light without noise, and of what is around it."""
         light = sum((self._around_it(clean, one) for one in glimpses), np.float32(0)) / np.float32(len(glimpses))
         return develop(light, self.setting, self._treatment)
+
+    def over(self, before: Sequence[Before], moments: Sequence[Moment], camera: int, quality: Quality) -> np.ndarray:
+        """As `blurred`, but where nothing differs from the pictures `before` of the same still camera and light, these stand."""
+        shutter = Shutter.of(quality, len(moments))
+        view, outlook, drawn, painted = self._seen(moments[0](), camera)
+        # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
+        still = self._treatment.aperture <= 0 and variant.choose() != variant.PLAIN and shutter.coarser == 1
+        found = [self._plate(one, shutter, camera) for one in before] if still else []
+        key = self._key(moments[0](), camera)
+        known = [plate for plate in found if plate.key == key]
+        sights = self._sights(moments, view, drawn) if known else ()
+        kept = plates.kept(sights, known, self.figures, self._strands, view, self.setting.exposure) if known else None
+        if kept is None:
+            return self.blurred((moment() for moment in moments), len(moments), camera, quality)
+        rays, clean = kept.rays, kept.clean
+        if clean is None:
+            anew, _ = self._exposed((moment() for moment in moments), shutter, camera, kept.left)
+            rays = anew.over(rays, kept.left)
+            clean = self._cleaned(rays, shutter)
+        return self._developed(clean, [Glimpse(view, outlook, painted, rays.places, rays.seen)])
+
+    def _key(self, data: mujoco.MjData, camera: int) -> Any:
+        """What has to be equal in two pictures for the light of the one to be that of the other."""
+        view, _, drawn, _ = self._seen(data, camera)
+        return view.eye.tobytes(), view.axes.tobytes(), view.tangents, drawn, self._treatment.lit
+
+    def _plate(self, one: Before, shutter: Shutter, camera: int) -> Plate:
+        """The picture of these moments, with what it takes to see what differs from it."""
+        name = (one.name, shutter)
+        plate = self._plates.find(name)
+        if plate is None:
+            view, _, drawn, _ = self._seen(one.moments[0](), camera)
+            key = self._key(one.moments[0](), camera)
+            moving = any(self._key(moment(), camera) != key for moment in one.moments)
+            sights = () if moving else self._sights(one.moments, view, drawn)
+            rays, _ = self._exposed((moment() for moment in one.moments), shutter, camera)
+            plate = self._plates.put(name, Plate(None if moving else key, sights, rays, self._cleaned(rays, shutter)))
+        return plate
+
+    def _sights(self, moments: Sequence[Moment], view: View, drawn: frozenset[Face]) -> tuple[Sight, ...]:
+        """What is seen coarsely of each moment."""
+        sights = []
+        for moment in moments:
+            scene = self._placed(moment(), view, drawn)
+            light = walked.light(scene, self._sensor(view, "rgb", plates.SIDE), self._depth, plates.SAMPLES, 0)
+            sights.append(Sight(light, self.figures.poses(), dict(self._strands.points)))
+        return tuple(sights)
 
     def _around_it(self, light: np.ndarray, one: Glimpse) -> np.ndarray:
         """Light (H, W, 3) with the surroundings, the painted walls and the air of one glimpse."""
@@ -322,8 +337,9 @@ class Tracing:
         scene = Scene(self.setting, self._centre, self._radius, self._floor_z, span, horizon)
         return air(np.maximum(light, 0.0), one.places, one.seen, view.eye, outlook.ways, scene, self._treatment)
 
-    def _cleaned(self, rays: Rays, coarser: int, fine: bool) -> np.ndarray:
+    def _cleaned(self, rays: Rays, shutter: Shutter) -> np.ndarray:
         """Light without noise (H, W, 3); that of a draft is spread over the colours of the surfaces, which are as fine as ever."""
+        coarser, fine = shutter.coarser, shutter.fine
         height, width = rays.light.shape[:2]
         if self._denoiser is None or self._denoiser[0] != (coarser, fine):
             self._put_away()
@@ -352,6 +368,7 @@ class Tracing:
     def close(self) -> None:
         """Free what it holds."""
         self._scenes.clear()
+        self._plates.clear()
         self._put_away()
         if self._plain is not None:
             self._plain.close()
@@ -367,13 +384,3 @@ class Tracing:
 def glimpses_apart(count: int, pixels: int) -> int:
     """Of so many moments of a moving camera every how many-th is kept for what lies around things, so that they fit into memory."""
     return -(-count // max(1, GLIMPSES_BYTES // (44 * pixels)))
-
-
-def _rays(light: np.ndarray, said: np.ndarray) -> Rays:
-    """Bring what was traced into order; where there is only sky, nothing has a place."""
-    for traced in (light, said):
-        if not np.isfinite(traced).all():
-            np.nan_to_num(traced, copy=False, nan=0.0, posinf=0.0, neginf=0.0)
-    seen = np.clip(said[..., 3], 0.0, 1.0)
-    places = said[..., 10:13] / np.maximum(seen, 1e-6)[..., None]
-    return Rays(np.maximum(light, 0.0), np.clip(said[..., 4:7], 0, 1), said[..., 7:10], places, seen)

@@ -1,0 +1,165 @@
+"""What a camera that stands still has seen already, so that of the next picture only what differs from it is traced.
+
+With equal chances equal paths bring equal light: where a coarse look at two moments is the same, nothing moved there,
+and no shadow, glow or mirror image of it, and the light traced of the one is that of the other to the last sample. What is
+too small for a coarse look is found by its outline: a thing is drawn anew where it was and where it is, however small.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from ..preview.eye import View
+from .walked import Rays
+
+if TYPE_CHECKING:
+    from .figures import Figures
+    from .strand_meshes import Strands
+
+SIDE, SAMPLES = 4, 4
+"""Of a coarse look one pixel stands for so many each way, and takes so many samples."""
+BLUR, LEAST, GROWN = 1.5, 1.2 / 255.0, 2
+"""Differences are spread over so many coarse pixels; count from this share of white on; and reach so many further."""
+UNSEEN = 0.01
+"""A thing that moved by so many coarse pixels stands where it stood."""
+MOST = 0.6
+"""Where more than this share of a picture differs, it is traced as a whole, which costs no more then."""
+ROOM_BYTES = 1 << 30
+"""Memory for plates; those used longest ago are given up, and traced again where they are asked for."""
+
+
+class Sight(NamedTuple):
+    """One moment, looked at coarsely: its light (h, w, 3), and where everything was."""
+
+    light: np.ndarray
+    poses: tuple[np.ndarray, ...]
+    soft: dict[Any, np.ndarray]
+
+
+class Plate(NamedTuple):
+    """A picture that was traced as a whole, and what it depends on."""
+
+    key: Hashable
+    """Of camera, walls and light; None of a camera that moved while its shutter was open."""
+    sights: tuple[Sight, ...]
+    """Of each moment while its shutter was open."""
+    rays: Rays
+    clean: np.ndarray
+    """Its light without noise (H, W, 3)."""
+
+    @property
+    def nbytes(self) -> int:
+        """Its size in memory."""
+        return sum(part.nbytes for part in (*self.rays, self.clean))
+
+
+class Shelf:
+    """The plates used last, by name."""
+
+    def __init__(self) -> None:
+        self._plates: dict[Hashable, Plate] = {}
+
+    def find(self, name: Hashable) -> Plate | None:
+        """The plate of this name, if it is still there."""
+        if name in self._plates:
+            self._plates[name] = self._plates.pop(name)
+        return self._plates.get(name)
+
+    def put(self, name: Hashable, plate: Plate) -> Plate:
+        """Keep it, in place of those for which there is no room any more."""
+        while self._plates and plate.nbytes + sum(p.nbytes for p in self._plates.values()) > ROOM_BYTES:
+            del self._plates[next(iter(self._plates))]
+        self._plates[name] = plate
+        return plate
+
+    def clear(self) -> None:
+        """Give all up."""
+        self._plates.clear()
+
+
+class Kept(NamedTuple):
+    """What plates tell of a picture: its rays but for those where the mask `left` (h, w) has it, and if none is, its light."""
+
+    left: np.ndarray
+    rays: Rays
+    clean: np.ndarray | None
+
+
+def kept(
+    now: Sequence[Sight], known: Sequence[Plate], figures: Figures, strands: Strands, view: View, exposure: float
+) -> Kept | None:
+    """What of these moments is as in some plates of the same camera and light; None where that is too little to be worth it.
+
+    Args:
+        now: the moments of the picture.
+        known: the plates; the first goes before the others.
+        figures, strands: of the model.
+        view: of the camera.
+        exposure: by which light is multiplied before it is shown.
+    """
+    found: Kept | None = None
+    for plate in known:
+        differs = changed(now, plate, figures, strands, view, exposure)
+        if not differs.any():
+            return Kept(differs, plate.rays, plate.clean)
+        if found is None:
+            found = Kept(differs, plate.rays, None)
+        else:
+            found = Kept(found.left & differs, plate.rays.over(found.rays, found.left), None)
+    return found if found is not None and found.left.mean() <= MOST else None
+
+
+def changed(
+    now: Sequence[Sight], plate: Plate, figures: Figures, strands: Strands, view: View, exposure: float
+) -> np.ndarray:
+    """The mask (h, w) of what has to be traced of these moments, since it is not as in the plate at all times."""
+    first, *rest = plate.sights
+    mask = np.zeros(first.light.shape[:2], np.uint8)
+    for sight in (*now, *rest):
+        mask |= differing(first.light, sight.light, exposure)
+        moved = (*figures.moved(first.poses, sight.poses), *strands.moved(first.soft, sight.soft))
+        outline(mask, moved, view)
+    import cv2
+
+    return cv2.dilate(mask, np.ones((2 * GROWN + 1,) * 2, np.uint8)).astype(bool)
+
+
+def differing(before: np.ndarray, now: np.ndarray, exposure: float) -> np.ndarray:
+    """Where two coarse pictures of scene light (h, w, 3) would look different: uint8 (h, w)."""
+    import cv2
+
+    def shown(light: np.ndarray) -> np.ndarray:
+        bright = np.maximum(light, 0.0) * np.float32(exposure)
+        return np.sqrt(bright / (1.0 + bright))
+
+    apart = np.abs(shown(now) - shown(before)).max(axis=-1)
+    return (cv2.GaussianBlur(apart, (0, 0), BLUR) > LEAST).astype(np.uint8)
+
+
+def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, np.ndarray]], view: View) -> None:
+    """Mark in a mask (h, w) the convex outlines of things at two moments, of which the points (N, 3), m, are given.
+
+    What moved by less than can be seen is left out; all of the mask is marked where a thing reaches behind the camera.
+    """
+    import cv2
+
+    size = np.array(mask.shape[::-1])
+    for thing in things:
+        flat = []
+        for points in thing:
+            own = (points - view.eye) @ view.axes
+            away = -own[:, 2:]
+            if not len(own) or away.max() < view.near_m:
+                continue
+            if away.min() < view.near_m:
+                mask[...] = 1
+                return
+            place = (own[:, :2] / away / view.tangents * (1, -1) + 1.0) * 0.5 * size
+            flat.append(np.clip(place, -4.0 * size, 5.0 * size).astype(np.float32))
+        if len(flat) == 2 and flat[0].shape == flat[1].shape and np.abs(flat[1] - flat[0]).max() <= UNSEEN:
+            continue
+        for place in flat:
+            cv2.fillConvexPoly(mask, np.floor(cv2.convexHull(place)).astype(np.int32), 1)

@@ -1,0 +1,67 @@
+"""How a picture is exposed: its samples, shared out among the moments of an open shutter, and the lens in front of it."""
+
+from __future__ import annotations
+
+from math import atan, degrees
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from ...treatment import Treatment
+from ..preview.eye import View
+from ..preview.focus import FRAME_M
+
+if TYPE_CHECKING:
+    from .. import Quality
+
+SAMPLES: dict[str, float] = {"still": 32, "video": 3}
+GUIDE_SAMPLES, FINE_GUIDE_SAMPLES = 4, 16
+FINE, FINEST = 18, 54
+"""From so many samples a pixel on the denoiser is guided better and takes its time; and from so many, no light is cut off."""
+DRAFT_SIDE = 2
+"""Of a draft, light is traced for every second pixel of every second row."""
+
+
+class Shutter(NamedTuple):
+    """What a picture takes."""
+
+    moments: int
+    samples: float
+    """A pixel, all moments together; less than one is a draft."""
+    each: int
+    """Samples a pixel of the traced light of one moment, which is `coarser` times smaller each way."""
+    coarser: int
+    guides: int
+    """Samples a pixel of one moment for what guides the denoiser."""
+
+    @classmethod
+    def of(cls, quality: Quality, moments: int) -> Shutter:
+        """Share out the samples of a picture among so many moments."""
+        samples = SAMPLES[quality] if isinstance(quality, str) else quality
+        coarser = DRAFT_SIDE if samples < 1 else 1
+        guides = -(-(FINE_GUIDE_SAMPLES if samples >= FINE else GUIDE_SAMPLES) // moments)
+        return cls(moments, samples, max(1, round(samples * coarser**2 / moments)), coarser, guides)
+
+    @property
+    def fine(self) -> bool:
+        """Whether the denoiser takes its time."""
+        return self.samples >= FINE
+
+
+def sensor(view: View, told: Treatment, width: int, height: int, channels: str) -> Any:
+    """Mitsuba's camera for a view and a picture of `width` x `height` pixels; one with a lens where the film focuses."""
+    import mitsuba as mi
+
+    tangent = view.tangents[1]
+    place = (view.eye - view.axes[:, 2]).tolist()
+    move = mi.ScalarTransform4f().look_at(origin=view.eye.tolist(), target=place, up=view.axes[:, 1].tolist())
+    film = {
+        "type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"},
+        "pixel_format": channels, "component_format": "float32",
+    }  # fmt: skip
+    lens: dict[str, Any] = {"type": "perspective"}
+    if told.aperture > 0:
+        radius = FRAME_M / (2.0 * tangent) / told.aperture / 2.0
+        lens = {"type": "thinlens", "aperture_radius": radius, "focus_distance": max(told.focus_m, 0.02)}
+    return mi.load_dict(
+        {**lens, "fov": 2 * degrees(atan(tangent)), "fov_axis": "y", "near_clip": 0.01, "far_clip": 1e5,
+         "to_world": move, "film": film}
+    )  # fmt: skip

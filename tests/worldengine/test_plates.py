@@ -1,0 +1,116 @@
+"""Of a still camera's pictures only what differs is traced anew, and the picture is the one that is traced as a whole."""
+
+from functools import partial
+
+import mujoco
+import numpy as np
+import pytest
+
+from worldengine.film import renderers
+from worldengine.film.renderers import Before
+from worldengine.film.renderers.preview.eye import View
+from worldengine.film.renderers.traced import plates, walked
+from worldengine.film.renderers.traced.shutter import Shutter
+from worldkit import bodies, scene
+
+AHEAD = View(np.zeros(3), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]), (1.0, 0.5))
+"""Looks along +y, z up, twice as wide as high."""
+
+
+def test_a_change_of_light_is_found_where_it_is():
+    before = np.full((40, 80, 3), 0.3, np.float32)
+    assert not plates.differing(before, before.copy(), 1.0).any()
+    now = before.copy()
+    now[20, 50] = 0.6
+    found = plates.differing(before, now, 1.0)
+    assert found[20, 50] and found.sum() < 80
+    assert not plates.differing(before, before * 1.002, 1.0).any(), "nobody sees so little"
+    assert plates.differing(before, before * 1.1, 1.0).all()
+
+
+def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
+    mask = np.zeros((40, 80), np.uint8)
+    small = np.array([(0.0, 10, 0), (0.01, 10, 0), (0, 10, 0.01)])
+    plates.outline(mask, [(small, small + np.array((5, 0, 1.9)))], AHEAD)
+    assert [tuple(place) for place in np.argwhere(mask)] == [(12, 60), (19, 40), (20, 40)]
+    mask[...] = 0
+    plates.outline(mask, [(small, small + 1e-5)], AHEAD)
+    assert not mask.any(), "what trembles unseen stands"
+    plates.outline(mask, [(-small - 1.0, -small - 2.0), (small[:0], small[:0])], AHEAD)
+    assert not mask.any(), "behind the camera nothing is seen"
+    plates.outline(mask, [(small, small * (1, -1, 1) + np.array([(0, 20, 0), (0, 0, 0), (0, 0, 0)]))], AHEAD)
+    assert mask.all(), "what reaches the camera may be anywhere"
+
+
+def test_plates_that_were_used_longest_ago_make_room(monkeypatch):
+    rays = walked.Rays(*[np.zeros((4, 4, 3), np.float32)] * 5)
+    shelf = plates.Shelf()
+    one = plates.Plate("key", (), rays, rays.light)
+    monkeypatch.setattr(plates, "ROOM_BYTES", 2 * one.nbytes)
+    for name in "ab":
+        shelf.put(name, one)
+    assert shelf.find("a") is one
+    shelf.put("c", one)
+    assert shelf.find("b") is None and shelf.find("a") is one and shelf.find("c") is one
+
+
+def test_a_mask_is_spread_over_pictures_of_any_size():
+    mask = np.array([[True, False], [False, True]])
+    assert walked.spread(mask, 4, 6).astype(int).tolist() == [[1, 1, 1, 0, 0, 0]] * 2 + [[0, 0, 0, 1, 1, 1]] * 2
+
+
+@pytest.mark.parametrize(
+    ("samples", "moments", "each", "guides"), [(0.5, 1, 2, 4), (6, 1, 6, 4), (18, 8, 2, 2), (2, 2, 1, 2)]
+)
+def test_samples_are_shared_out_among_the_moments(samples, moments, each, guides):
+    shutter = Shutter.of(samples, moments)
+    assert (shutter.each, shutter.guides, shutter.coarser) == (each, guides, 2 if samples < 1 else 1)
+
+
+@pytest.mark.gl
+def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch):
+    spec = scene.new("two", time_step=0.002, setting="studio")
+    for name, x in (("ball", -0.5), ("still", 0.8)):
+        bodies.sphere(spec, name, diameter=0.3, pos=(x, 0, 0.15), look="phenolic_red")
+    spec.worldbody.add_camera(name="eye", pos=(0, -4, 1), xyaxes=(1, 0, 0, 0, 0.2, 1))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+
+    def at(x: float, camera: float = 0.0) -> mujoco.MjData:
+        data.qpos[0] = x
+        mujoco.mj_forward(model, data)
+        data.cam_xpos[0, 0] += camera
+        return data
+
+    asked, some = [], walked._some
+
+    def watched(*given):
+        asked.append(float(given[-1].mean()))
+        return some(*given)
+
+    monkeypatch.setattr(walked, "_some", watched)
+    monkeypatch.setattr(plates, "SAMPLES", 2)  # one kernel less to be compiled
+    drawing = renderers.SEAM.find("traced").take(model, 160, 90)
+
+    def open_at(x: float, camera: float = 0.0) -> list[renderers.Moment]:
+        """Two moments of an open shutter, through which the ball goes on."""
+        return [partial(at, x, camera), partial(at, x + 0.02, camera)]
+
+    def whole(x: float) -> np.ndarray:
+        return drawing.blurred((moment() for moment in open_at(x)), 2, 0, 4).astype(int)
+
+    before = [Before(n, open_at(x)) for n, x in enumerate((0.4, -0.5))]
+    there = drawing.over(before, open_at(-0.1), 0, 4)
+    light, guides, *second = asked
+    assert [light, guides] == second and light == guides and 0.005 < light < 0.25
+    apart = np.abs(there - whole(-0.1))
+    assert apart.mean() < 0.2 and np.percentile(apart, 99.5) <= 3
+    assert np.abs(there - whole(0.4)).max() > 60, "the ball stands elsewhere"
+
+    asked.clear()
+    aside = drawing.over(before, open_at(-0.1, 0.3), 0, 4)
+    assert asked == [] and np.abs(aside - whole(-0.1)).mean() > 1, "another view is drawn as a whole"
+    before = [Before("at rest", [partial(at, 0.0)] * 2)]
+    same = [drawing.over(before, [partial(at, 0.0)] * 2, 0, 4) for _ in range(2)]
+    assert np.array_equal(*same) and asked == [], "nothing differs"
+    drawing.close()
