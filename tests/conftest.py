@@ -24,6 +24,10 @@ os.environ["WORLDWRIGHT_DATA"] = (
 import pytest
 from hypothesis import HealthCheck, settings
 
+# Tests kill processes, never the machine: what a process has written outlives it without waiting for the disk, on which all
+# workers would wait for one another. A process that a test starts syncs as always.
+os.fsync = lambda _: None  # type: ignore[assignment]
+
 if "PYTEST_XDIST_WORKER" not in os.environ:
     atexit.register(shutil.rmtree, os.environ["WORLDWRIGHT_DATA"], ignore_errors=True)
 

@@ -48,7 +48,9 @@ ANOTHER = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("keys", "processor"), [(KEYS, {}), (("bowling_pin", "lamp"), ANOTHER)], ids=["this", "another"]
+    ("keys", "processor"),
+    [(KEYS[::2], {}), (KEYS[1::2], {}), (("bowling_pin", "lamp"), ANOTHER)],
+    ids=["this, one half", "this, the other", "another"],
 )
 def test_every_file_is_what_its_recipe_makes(keys, processor):
     done = subprocess.run(

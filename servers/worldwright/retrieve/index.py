@@ -165,12 +165,25 @@ def open_index(progress: Progress = silent) -> Index:
     """The index of the corpus as it is now; built first when its content is new (about a second)."""
     path = index_path(corpus.fingerprint())
     if not (path.is_file() and _usable(path)):
-        _build(path, corpus.documents(), progress)
-        _tidy(path)
-        _usable.cache_clear()
+        with _one_at_a_time():
+            _usable.cache_clear()
+            if not _usable(path):  # nobody else has built it meanwhile
+                _build(path, corpus.documents(), progress)
+                _tidy(path)
+                _usable.cache_clear()
     with suppress(OSError):
         path.touch()  # another installation may be removing old ones: this one is in use
     return Index(path)
+
+
+@contextmanager
+def _one_at_a_time() -> Iterator[None]:
+    """Let builders in one after the other, threads and processes: who waits finds it built."""
+    import fcntl
+
+    with (cache_folder() / "retrieve.lock").open("w") as handle:
+        fcntl.flock(handle, fcntl.LOCK_EX)
+        yield
 
 
 def index_path(fingerprint: str) -> Path:

@@ -5,7 +5,6 @@ A question then costs one look-up and one addition for each term, whatever its w
 """
 
 import math
-from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -48,24 +47,27 @@ def shares(said: Iterable[Fields]) -> Iterator[tuple[str, bytes, bytes]]:
     """(term, window numbers as int32, their shares of the score as float32); windows are numbered from 1."""
     import numpy as np
 
-    counts = [[Counter(field) for field in window] for window in said]
-    sizes = [[sum(field.values()) for field in window] for window in counts]
-    means = [max(1.0, sum(row[n] for row in sizes) / max(1, len(sizes))) for n in range(len(FIELDS))]
-    found: dict[str, tuple[list[int], list[float]]] = defaultdict(lambda: ([], []))
-    for number, (window, size) in enumerate(zip(counts, sizes, strict=True), 1):
-        weighed: dict[str, float] = defaultdict(float)
-        for field, count, length, mean in zip(FIELDS, window, size, means, strict=True):
-            scale = field.weight / (1.0 - field.length + field.length * length / mean)
-            for term, times in count.items():
-                weighed[term] += scale * times
-        for term, weight in weighed.items():
-            numbers, weights = found[term]
-            numbers.append(number)
-            weights.append(weight)
-    for term, (numbers, weights) in found.items():
-        tf = np.array(weights, dtype=np.float32)
-        score = (rarity(len(numbers), len(counts)) * (SATURATION + 1.0)) * tf / (tf + SATURATION)
-        yield term, np.array(numbers, dtype=np.int32).tobytes(), score.astype(np.float32).tobytes()
+    every = list(said)
+    sizes = np.array([[len(field) for field in window] for window in every], dtype=float).reshape(-1, len(FIELDS))
+    means = np.maximum(sizes.sum(axis=0) / max(1, len(every)), 1.0)
+    weights, lengths = np.array([(field.weight, field.length) for field in FIELDS]).T
+    scales = weights / (1.0 - lengths + lengths * sizes / means)
+    ranks: dict[str, int] = {}
+    terms = np.array(
+        [ranks.setdefault(term, len(ranks)) for window in every for field in window for term in field], dtype=np.int64
+    )
+    stands = np.repeat(np.arange(1, len(every) + 1), sizes.sum(axis=1).astype(int))
+    # One row for each term in each window, by term and then by window, with the sum over its fields as its weight.
+    rows, place = np.unique(terms * (len(every) + 1) + stands, return_inverse=True)
+    tf = np.bincount(place, np.repeat(scales.ravel(), sizes.ravel().astype(int)), len(rows)).astype(np.float32)
+    term, number = np.divmod(rows, len(every) + 1)
+    ends = np.cumsum(np.bincount(term, minlength=len(ranks)))
+    start = 0
+    for name, end in zip(ranks, ends.tolist(), strict=True):
+        part = tf[start:end]
+        score = (rarity(end - start, len(every)) * (SATURATION + 1.0)) * part / (part + SATURATION)
+        yield name, number[start:end].astype(np.int32).tobytes(), score.astype(np.float32).tobytes()
+        start = end
 
 
 def rarity(times: int, count: int) -> float:

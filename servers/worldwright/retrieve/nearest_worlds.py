@@ -132,11 +132,21 @@ def _meant(sentence: str, known: list[World]) -> "np.ndarray":
     from .semantic.model import encode
 
     said = [world.sentences() for world in known]
-    vectors = encode([sentence[:1000], *(text[:1000] for texts in said for text in texts)])
-    near = vectors[1:] @ vectors[0]
+    texts = [text[:1000] for one in said for text in one]
+    vectors = dict(_ENCODED)
+    new = [text for text in dict.fromkeys(texts) if text not in vectors]
+    asked, *rest = encode([sentence[:1000], *new])
+    vectors |= zip(new, rest, strict=True)
+    _ENCODED.clear()
+    _ENCODED.update((text, vectors[text]) for text in texts)
+    near = np.stack([vectors[text] for text in texts]) @ asked
     found, first = [], 0
     for texts in said:
         mine = np.sort(near[first : first + len(texts)])[::-1]
         first += len(texts)
         found.append(mine[0] + REST_WEIGHT * mine[:3].mean())
     return np.array(found, dtype=np.float32)
+
+
+_ENCODED: "dict[str, np.ndarray]" = {}
+"""Vectors of what the worlds of the last question say, by text: seconds of a processor, and the same for every sentence."""

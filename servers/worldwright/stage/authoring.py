@@ -9,7 +9,6 @@ import worldkit
 
 from ..model.errors import WorldwrightError
 from ..model.evidence import pictures_of
-from ..model.plan.plan_text import read_plan
 from . import plain
 
 PROGRAM = pictures_of.FILM
@@ -31,6 +30,8 @@ def lay_out(recording: Path, facts: Path, motion: Path, source: Path | None = No
 
 def place(source: Path) -> dict[str, Any]:
     """What a plan tells of where it is: `setting`, `floor`, `words`, and `looks`, rows of a name and a look; `{}` of no plan."""
+    from ..model.plan.plan_text import read_plan
+
     try:
         document = read_plan(source)
     except (WorldwrightError, OSError):

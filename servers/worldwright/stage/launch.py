@@ -173,6 +173,7 @@ def _detach(job: Job) -> None:
             stderr=errors,
             start_new_session=True,
             pass_fds=(lock.fileno(),),
+            env={**os.environ, "PYDANTIC_DISABLE_PLUGINS": "__all__"},  # else it asks every installed package for some
         )
 
 

@@ -17,13 +17,11 @@ from ..model import companions
 from ..model.errors import WorldwrightError
 from ..model.evidence import assets_used, environment
 from ..model.evidence.run import Run, sha256_file
-from ..model.plan.plan_text import read_plan
 from . import authoring, family, kept_sculpts, plain, refined
 from .crew import Crew, Member
 from .gates import folder_name
 from .job import Job, Spec
 from .limits import failed
-from .sculpting_step import prepare
 
 WORLD, FACTS, INPUTS = "world.mjz", "program.json", "inputs.json"
 """The engine's files: the built world, the program's facts, the plan's declared inputs."""
@@ -99,6 +97,9 @@ class Acting:
     def build(self) -> dict[str, str] | None:
         """Have the program build its world, and take the file out of its folder."""
         if not self.spec.fresh:
+            from ..model.plan.plan_text import read_plan
+            from .sculpting_step import prepare
+
             # No plan, or one that is not read here; what a file does not make the program's own process tells, if it needs it.
             with suppress(WorldwrightError):
                 prepare(read_plan(self.job.inputs / "plan.md").plan, self.cancelled)
@@ -320,6 +321,8 @@ def sculpted(program: Path) -> kept_sculpts.Given:
 
 def declared(source: Path) -> list[dict[str, Any]]:
     """Kind and names of every input that a plan declares; none without a plan."""
+    from ..model.plan.plan_text import read_plan  # a third of a supervisor's start, and most passes never ask
+
     try:
         plan = read_plan(source).plan
     except (WorldwrightError, OSError):

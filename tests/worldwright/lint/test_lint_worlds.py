@@ -222,3 +222,25 @@ def test_what_cannot_take_a_step_has_no_price_and_is_a_world_all_the_same(tmp_pa
     assert outcome.pass_s is None
     outcome = fetch.world(written(tmp_path, FALLING.replace("COUNT", "1").replace(", duration=SECONDS", "")))
     assert outcome.status == "compiled" and outcome.pass_s is None
+
+
+def test_the_world_of_an_archive_is_compiled_once_in_a_row(tmp_path, monkeypatch):
+    """By its content, and from a copy of the very bytes that were hashed; a failure is tried again."""
+    seen = []
+
+    def compiled(path, _is_mjcf, _wall_s, lasting_s):
+        seen.append((path.read_bytes(), lasting_s))
+        assert path.parent != tmp_path
+        return fetch.Outcome("died" if b"broken" in seen[-1][0] else "compiled", wall_s=len(seen))
+
+    monkeypatch.setattr(fetch, "_compiled", compiled)
+    monkeypatch.setattr(fetch, "_KEPT", {})
+    (one, same, other, broken) = (tmp_path / f"{name}.mjz" for name in ("one", "same", "other", "broken"))
+    for path, content in ((one, b"a"), (same, b"a"), (other, b"b"), (broken, b"broken")):
+        path.write_bytes(content)
+    first = fetch.world(one, is_mjcf=True, lasting_s=0.5)
+    assert fetch.world(same, is_mjcf=True) is first is fetch.world(one, is_mjcf=True, lasting_s=0.5)
+    assert fetch.world(one, is_mjcf=True, lasting_s=1.0) is not first
+    for path in (other, broken, broken, other, one):
+        fetch.world(path, is_mjcf=True)
+    assert seen == [(b"a", 0.5), (b"a", 1.0), (b"b", None), (b"broken", None), (b"broken", None), (b"a", None)]

@@ -180,13 +180,18 @@ def test_objectives_of_a_refuted_run_are_red(reviewed: Path, copy: Copy) -> None
     assert "−0.2" in text
 
 
+@pytest.fixture(scope="module")
+def whole(reviewed: Path) -> str:
+    """The page of a run that passed its review, made once: it shows every section."""
+    return report.write(Run(reviewed)).read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("name", [entry.name for entry in SECTIONS.values()])
-def test_a_section_draws(reviewed: Path, name: str) -> None:
-    assert f"The section {name} " not in report.write(Run(reviewed)).read_text(encoding="utf-8")
+def test_a_section_draws(whole: str, name: str) -> None:
+    assert f"The section {name} " not in whole
 
 
-def test_a_section_that_fails_is_named_and_the_others_are_shown(reviewed: Path, monkeypatch) -> None:
-    whole = report.write(Run(reviewed)).read_text(encoding="utf-8")
+def test_a_section_that_fails_is_named_and_the_others_are_shown(reviewed: Path, whole: str, monkeypatch) -> None:
     assert "itself failed" not in whole
 
     def breaks(material: object) -> dict:

