@@ -60,7 +60,7 @@ def test_a_mask_is_spread_over_pictures_of_any_size():
 
 
 @pytest.mark.parametrize(
-    ("samples", "moments", "each", "guides"), [(0.5, 1, 2, 4), (6, 1, 6, 4), (18, 8, 2, 2), (2, 2, 1, 2)]
+    ("samples", "moments", "each", "guides"), [(0.5, 1, 2, 2), (6, 1, 6, 4), (18, 8, 2, 2), (2, 2, 1, 2)]
 )
 def test_samples_are_shared_out_among_the_moments(samples, moments, each, guides):
     shutter = Shutter.of(samples, moments)

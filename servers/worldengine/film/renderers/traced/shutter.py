@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from .. import Quality
 
 SAMPLES: dict[str, float] = {"still": 32, "video": 3}
-GUIDE_SAMPLES, FINE_GUIDE_SAMPLES = 4, 16
+DRAFT_GUIDE_SAMPLES, GUIDE_SAMPLES, FINE_GUIDE_SAMPLES = 2, 4, 16
 FINE, FINEST = 18, 54
 """From so many samples a pixel on the denoiser is guided better and takes its time; and from so many, no light is cut off."""
 DRAFT_SIDE = 2
@@ -37,7 +37,8 @@ class Shutter(NamedTuple):
         """Share out the samples of a picture among so many moments."""
         samples = SAMPLES[quality] if isinstance(quality, str) else quality
         coarser = DRAFT_SIDE if samples < 1 else 1
-        guides = -(-(FINE_GUIDE_SAMPLES if samples >= FINE else GUIDE_SAMPLES) // moments)
+        fewest = DRAFT_GUIDE_SAMPLES if samples < 1 else GUIDE_SAMPLES
+        guides = -(-(FINE_GUIDE_SAMPLES if samples >= FINE else fewest) // moments)
         return cls(moments, samples, max(1, round(samples * coarser**2 / moments)), coarser, guides)
 
     @property
