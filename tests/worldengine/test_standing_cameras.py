@@ -2,6 +2,7 @@
 
 import json
 
+import mujoco
 import numpy as np
 
 from small_worlds import ball, empty, floor, record
@@ -17,6 +18,8 @@ def test_the_recording_knows_where_its_cameras_stand(tmp_path):
     cameras.add(spec, "side", view="side_minus_y", subjects=["ball"])
     cameras.add(spec, "with_it", subjects=["ball"], follow=True)
     spec.body("ball").add_camera(name="rider")
+    spec.worldbody.add_camera()  # nameless
+    spec.worldbody.add_camera(name="flat", proj=mujoco.mjtProjection.mjPROJ_ORTHOGRAPHIC)
     model = spec.compile()
     recording = record(spec.compile(), tmp_path / "t", 200)
     standing_cameras.write(model, recording, (320, 180), tmp_path / "t")
