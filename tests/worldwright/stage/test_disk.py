@@ -31,15 +31,15 @@ def recorded(run, size=300_000, started="2026-01-01"):
     return folder
 
 
-def job(run, number, state="failed"):
+def job(run, number, state="failed", stage="physics", variant=""):
     spec = Spec(
-        job=f"physics-{number}-0000000{number}", run=str(run.folder), stage="physics", key=key_of(run), still_s=1,
+        job=f"{stage}-{number}-0000000{number}", run=str(run.folder), stage=stage, variant=variant, key=key_of(run), still_s=1,
         memory_mb=1, output_mb=1, file_mb=1, disk_mb=1, created=time.time(),
     )  # fmt: skip
     made = Job.create(run, spec)
     (made.out / "state.arrows").write_bytes(b"0" * 100_000)
     made.log.write_text("said")
-    made.write(JobStatus(job=spec.job, stage="physics", key=spec.key.key, state=state))
+    made.write(JobStatus(job=spec.job, stage=stage, key=spec.key.key, state=state))
     return made
 
 
@@ -106,3 +106,52 @@ def test_a_world_accepted_elsewhere_and_links_are_left_alone(make, tmp_path):
     (old / "video").symlink_to(elsewhere)
     disk.free(run, key_of(run), dry=False)
     assert elsewhere.is_dir() and (old / "video").is_symlink()
+
+
+def test_traced_frames_and_the_newest_job_of_each_trial_stay(make):
+    run = make("one = 1")
+    recorded(run)
+    first, last = job(run, 1, stage="final"), job(run, 2, stage="final")
+    (first.folder / "frames" / "film").mkdir(parents=True)
+    (first.folder / "frames" / "film" / "0.exr").write_bytes(b"0")
+    trial, plain = job(run, 3, variant="half-step"), job(run, 4)
+    disk.free(run, key_of(run), dry=False)
+    assert (first.folder / "frames" / "film" / "0.exr").is_file() and not first.out.exists()
+    assert all((one.out / "state.arrows").is_file() for one in (last, trial, plain))
+
+
+def test_what_any_stamp_rests_on_stays_and_so_does_what_may_be_taken_over(make):
+    run = make("one = 1")
+    earlier = recorded(run)
+    (run.folder / "earlier" / "abc").mkdir(parents=True)
+    stamp = run.folder / "earlier" / "abc" / "stamp.json"
+    stamp.write_text(f'{{"predicate": {{"source": {{"key": "{key_of(run).key}"}}}}}}')
+    run.log("stamp", "accept", key="0" * 16, stamp_sha256="0")
+    run.program.write_text("two = 2")
+    other = run.evidence_key("1" * 64)
+    run.keep(other, "lint", LintReport(rules=1))
+    (run.evidence(other) / "physics").mkdir()
+    recorded(run)
+    disk.free(run, key_of(run), dry=False)
+    assert (earlier / "physics").is_dir() and (run.evidence(other) / "physics").is_dir()
+    stamp.write_text("torn")
+    run.program.write_text("three = 3")
+    assert not disk.free(run, key_of(run), dry=False).removed
+
+
+def test_a_removal_that_is_killed_leaves_no_part_under_its_name_and_is_finished_later(make, monkeypatch):
+    run = make("one = 1")
+    old = recorded(run)
+    run.program.write_text("two = 2")
+    recorded(run)
+
+    def killed(path):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patched:
+        patched.setattr(disk.shutil, "rmtree", killed)
+        with pytest.raises(KeyboardInterrupt):
+            disk.free(run, key_of(run), dry=False)
+    assert len([path for path in old.iterdir() if path.name.startswith(disk.GOING)]) == 1
+    disk.free(run, key_of(run), dry=False)
+    assert sorted(path.name for path in old.iterdir()) == ["key.json", "lint.json", "source"]
