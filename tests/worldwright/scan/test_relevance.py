@@ -61,9 +61,11 @@ def found(body: str, metres: float, start: float = 0.1, end: float = 0.7) -> Ano
         (found("body", 0.001), FALLS, None, "blocking", "objective 0 rests on it"),
         (found("leaf and world", 0.001), FALLS, None, "info", "no claim rests on it and no planned picture shows it"),
         (found("leaf", 0.5), FALLS, None, "blocking", "pixels in camera side"),
-        (found("leaf", 0.5, 0.3, 0.31), FALLS, None, "info", "no planned picture"),
+        (found("leaf", 0.5, 0.3, 0.31), FALLS, None, "blocking", "pixels in camera side"),
+        (found("leaf", 0.5, 0.8, 0.8), FALLS, None, "blocking", "pixels in camera side"),
+        (found("leaf", 0.001, 0.3, 0.3), FALLS, None, "info", "no planned picture"),
         (found("leaf", 0.001), FALLS, 100, "blocking", "objective 0 rests on it"),
-        (found("leaf", 0.5, 0.3, 0.3), FALLS, None, "info", "no planned picture"),
+        (found("leaf", 0.5, 0.3, 0.3), FALLS, None, "blocking", "pixels in camera side"),
         (found("leaf", 0.5, 0.1, 0.3), FALLS, None, "blocking", "camera side, frame 3 (0.1"),
         (found("body and leaf", 0.001), STAYS, None, "blocking", "objective 0 rests on it"),
         (found("leaf", 0.001), FALLS, 390, "info", "no claim rests on it"),
@@ -110,3 +112,26 @@ def test_a_camera_that_follows_is_taken_along():
 
 def test_staging_is_never_a_remark():
     assert not [entry.name for entry in engine.CHECKS.values() if entry.RELATIVE and entry.STAGING]
+
+
+def test_a_body_without_an_end_fills_the_picture():
+    flat = scene()
+    half = np.array([[0.1, 0.1, 0.1], [np.inf, np.inf, 0.1]])
+    flat = replace(flat, mechanics=replace(flat.mechanics, half_extents=half, center=np.zeros((2, 3))))
+    flat = replace(flat, pos=flat.pos + np.array([[0.0, 0.0, 0.0], [90.0, 0.0, 0.0]]))
+    claims_other = {"falls": {"body": "nobody", "min_m": 0.5}}
+    (said,) = weighed([found("body and leaf", 0.5)], flat, plan(claims_other))
+    assert said.severity == "blocking" and "pixels in camera side" in said.message
+
+
+def test_a_body_that_turns_in_place_passes_a_claim_on():
+    turns = scene(10)
+    still = np.zeros_like(turns.pos)
+    angle = 0.5 * turns.t
+    quat = np.zeros_like(turns.quat)
+    quat[..., 0] = 1.0
+    quat[:, 0, 0], quat[:, 0, 3] = np.cos(angle), np.sin(angle)
+    away = replace(turns, pos=still + np.array([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]]), quat=quat)
+    away = replace(away, mechanics=replace(away.mechanics, dynamic=np.array([False, True])))
+    (said,) = weighed([found("leaf", 0.5)], away, plan(STAYS))
+    assert said.severity == "blocking" and "objective 0" in said.message

@@ -23,6 +23,8 @@ from ...model.recording.trajectory import Trajectory
 
 Array = np.ndarray
 PIXELS, FRAMES = 2.0, 2
+WATCHED_FPS = 24
+"""Pictures are looked at so often at least: a film of fewer per second hides nothing by that."""
 LOOKED_AT = 60
 _SIGNS = np.array([(i, j, k) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)], dtype=float)
 
@@ -52,13 +54,18 @@ def seen(anomaly: Anomaly, bodies: tuple[int, ...], trajectory: Trajectory, plan
     planned = [camera.name for camera in plan.cameras()]
     if not planned or not bodies or any(name not in lenses for name in planned):
         return Sight("", 0, anomaly.window_s[0], np.nan)
-    every = frame_rows(trajectory.t, plan.recording_mode.fps)
+    fps = max(plan.recording_mode.fps, WATCHED_FPS)
+    every = frame_rows(trajectory.t, fps)
     slack = 0.5 * trajectory.interval_s
     start, end = anomaly.window_s
-    frames = np.flatnonzero((trajectory.t[every] >= start - slack) & (trajectory.t[every] <= end + slack))
+    shown_until = max(end, start + FRAMES / fps)  # what it did to the world outlasts an instant
+    frames = np.flatnonzero((trajectory.t[every] >= start - slack) & (trajectory.t[every] <= shown_until + slack))
+    frames = frames if len(frames) >= FRAMES else np.arange(len(every))[-FRAMES:]  # it ends with the recording
     if len(frames) < FRAMES:
         return None
-    metres = {"m": anomaly.measured, "m/s": anomaly.measured * (end - start)}.get(anomaly.unit, anomaly.extent_m)
+    metres = {"m": anomaly.measured, "m/s": anomaly.measured * (shown_until - start)}.get(
+        anomaly.unit, anomaly.extent_m
+    )
     best: Sight | None = None
     for name in planned:
         lens = replace(lenses[name], size=plan.recording_mode.size)
@@ -66,7 +73,12 @@ def seen(anomaly: Anomaly, bodies: tuple[int, ...], trajectory: Trajectory, plan
         pixels = np.min(each, axis=0)
         at = int(np.argmax(pixels))
         if (pixels >= PIXELS).sum() >= FRAMES and (best is None or pixels[at] > best.pixels):
-            best = Sight(name, int(frames[at]), float(trajectory.t[every[frames[at]]]), float(pixels[at]))
+            best = Sight(
+                name,
+                int(frames[at] * plan.recording_mode.fps / fps),
+                float(trajectory.t[every[frames[at]]]),
+                float(pixels[at]),
+            )
     return best
 
 
@@ -112,6 +124,8 @@ def _eyes(trajectory: Trajectory, lens: Lens, rows: Array) -> Array:
 
 def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: float | None) -> Array:
     """(F,) length of a body in the picture at these rows, or of a fault of so many metres on it, the smaller."""
+    if _unbounded(trajectory, body):
+        return np.full(len(rows), float(max(lens.size)))
     corners = _corners(trajectory, body, rows)
     eyes = np.broadcast_to(_eyes(trajectory, lens, rows)[:, None], corners.shape)
     depth = -((corners - eyes) @ lens.axes)[..., 2]
@@ -127,6 +141,12 @@ def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: 
         return np.asarray(found)
     scale = lens.size[1] / 2 / np.tan(np.radians(lens.fovy_deg) / 2)
     return np.asarray(np.minimum(found, metres * scale / np.maximum(np.abs(depth).min(axis=1), NEAR_M)))
+
+
+def _unbounded(trajectory: Trajectory, body: int) -> bool:
+    """Whether a body, or what is welded on to it, has no end: a plane may fill any picture."""
+    half = trajectory.mechanics.half_extents
+    return half is not None and bool(np.isinf(half[list(trajectory.members(body))]).any())
 
 
 def _corners(trajectory: Trajectory, body: int, rows: Array) -> Array:

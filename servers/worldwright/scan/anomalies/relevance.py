@@ -107,7 +107,7 @@ def _touched_bodies(trajectory: Trajectory, start: set[int], until_s: float) -> 
     for one, other in pairs:
         beside.setdefault(one, set()).add(other)
         beside.setdefault(other, set()).add(one)
-    moves = np.ptp(trajectory.pos, axis=0).max(axis=1) > 1e-6
+    moves = np.maximum(*(np.ptp(way, axis=0).max(axis=1) for way in (trajectory.pos, trajectory.quat))) > 1e-6
     found, new = set(start), {b for b in start if moves[b] or trajectory.moves_freely[b]}
     while new:
         reached = {b for a in new for b in beside.get(a, ()) if b >= 0}
