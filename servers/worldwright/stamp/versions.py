@@ -2,7 +2,8 @@
 
 When a run is accepted anew, the version before goes to `earlier/<name>/`, called by the beginning of its stamp's SHA-256. Any
 two are compared by their claims, their measured numbers, their motion and their films, and an earlier one is brought back
-together with the plan, the program and the film that it was made of. What it takes the place of is kept as well.
+together with the plan, the program and the film that it was made of. What it takes the place of is kept as well. A small
+form (`small_form`), whose stamp lies in the run folder itself, is no version before: of it nothing goes to `earlier/`.
 """
 
 import math
@@ -19,12 +20,10 @@ from ..model.evidence import pictures_of
 from ..model.evidence.run import SOURCE, Run, sha256_file
 from ..model.frozen import Frozen
 from ..model.storage import writing
-from . import bundle, digest, poster, sampled
+from . import bundle, digest, poster, sampled, signing
 from .kept import Kept
 from .proof import WORLD, beside
-from .state import State
 from .statement import Statement
-from .steps import steps
 
 EARLIER = "earlier"
 LETTERS = 12
@@ -98,12 +97,12 @@ def restore(run: Run, name: str) -> Version:
 
     Raises:
         NotFoundError: there is no such version.
-        GateError: it is not whole, or the run is being accepted.
+        GateError: it is not whole, it was not accepted here, or the run is being accepted.
     """
     version = find(run, name)
-    if broken := bundle.damage(version.folder, version.statement):
+    if broken := _unfit(run, version):
         raise GateError(
-            f"version {version.name} is not as it was stamped: {broken[0]}",
+            f"version {version.name} {broken}",
             place=str(version.folder),
             next_move=f"bring another one back: worldwright versions {run.folder}",
         )
@@ -115,6 +114,19 @@ def restore(run: Run, name: str) -> Version:
         run.blocked.unlink(missing_ok=True)
         run.log("stamp", "restore", version=version.name, key=version.statement.predicate.source.key)
     return version
+
+
+def _unfit(run: Run, version: Version) -> str:
+    """Why a version is not what was accepted here; empty when it is."""
+    if broken := bundle.damage(version.folder, version.statement):
+        return f"is not as it was stamped: {broken[0]}"
+    signature = signing.check(version.folder, bundle.STAMP)
+    if signature.holder == "broken":
+        return f"has a signature that does not hold: {signature.problem}"
+    stamp_sha256 = sha256_file(version.folder / bundle.STAMP)
+    if not any(e.get("action") == "accept" and e.get("stamp_sha256") == stamp_sha256 for e in run.entries()):
+        return "was not accepted in this run: its journal has no such line"
+    return ""
 
 
 def _read(folder: Path) -> Version | None:
@@ -178,14 +190,25 @@ def _made_of(run: Run, version: Version) -> dict[str, bytes]:
 
 
 def _put(run: Run, content: Mapping[str, bytes]) -> None:
-    """Write these files in place of what belongs to the program now, which is kept unless it is accepted as it stands."""
+    """Write these files in place of what belongs to the program now, which is kept unless it stands accepted, byte for byte."""
     now = beside(run.folder) | pictures_of.files(run)
     now |= {path.name: path.read_bytes() for path in (run.plan, run.program) if path.is_file()}
-    if any(content.get(name) != held for name, held in now.items()) and not steps(State(run))["accept"].holds:
-        place = run.folder / EARLIER / f"replaced-{datetime.now(UTC):%Y%m%d-%H%M%S}"
-        for name, held in now.items():
-            write_atomic(place / name, held)
+    kept = {} if _stands(run, now) or all(content.get(name) == held for name, held in now.items()) else dict(now)
+    if run.blocked.is_file():
+        kept[run.blocked.name] = run.blocked.read_bytes()
+    place = run.folder / EARLIER / f"replaced-{datetime.now(UTC):%Y%m%d-%H%M%S-%f}"
+    for name, held in kept.items():
+        write_atomic(place / name, held)
     for name in now.keys() - content.keys():
         (run.folder / name).unlink()
     for name, data in content.items():
         write_atomic(run.folder / name, data)
+
+
+def _stands(run: Run, now: Mapping[str, bytes]) -> bool:
+    """Whether the accepted version that stands, which is kept whole, holds each of these files."""
+    standing = _read(run.stamped)
+    if standing is None or bundle.damage(standing.folder, standing.statement):
+        return False
+    accepted = _made_of(run, standing)
+    return all(accepted.get(name) == held for name, held in now.items())

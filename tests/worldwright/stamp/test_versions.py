@@ -19,16 +19,19 @@ from worldwright.stamp.steps import steps
 Copy = Callable[[Path], Path]
 
 
-def accepted_anew(run: Run) -> str:
-    """Accept another program and plan in place of what stands, as far as files go; returns the name of the version before."""
+def accepted_anew(run: Run, helper: str = "") -> str:
+    """Accept another program and plan in place of what stands, as far as files go; returns the name of the version before.
+
+    With `helper` the program imports a module of that name, whose file lies beside it.
+    """
     before = versions.known(run)[-1]
     run.plan.write_text(run.plan.read_text() + "\nRevised.\n")
-    run.program.write_text("# revised\n" + run.program.read_text())
+    run.program.write_text((f"import {helper}\n" if helper else "# revised\n") + run.program.read_text())
     run.log("code", "lint", ok=True)
     run.log("user", "approve")
     draft = bundle.draft_folder(run)
     shutil.copytree(run.accepted, draft, dirs_exist_ok=True)
-    for path in (run.plan, run.program):
+    for path in (run.plan, run.program, *run.folder.glob(f"{helper}.py")):
         write_atomic(draft / path.name, path.read_bytes())
     (draft / "stills").rename(draft / "video" / "old")
     said, state = before.statement, State(run)
@@ -99,3 +102,30 @@ def test_a_version_that_was_changed_does_not_come_back(accepted: Path, copy: Cop
         versions.find(run, "nothing")
     (run.accepted / "extra").touch()
     assert versions.aside(run) is None, "only what is whole is kept as a version"
+
+
+def test_a_helper_module_edited_since_acceptance_and_the_reason_of_a_block_are_kept(accepted: Path, copy: Copy) -> None:
+    run = Run(copy(accepted))
+    (run.folder / "shapes.py").write_text("# a shape\n")
+    older = accepted_anew(run, "shapes")
+    (run.folder / "shapes.py").write_text("# half a shape\n")
+    run.blocked.write_text("{}")
+    versions.restore(run, older)
+    (kept,) = run.folder.glob("earlier/replaced-*")
+    assert (kept / "shapes.py").read_text() == "# half a shape\n" and (kept / run.blocked.name).read_text() == "{}"
+    assert not (run.folder / "shapes.py").exists() and not run.blocked.exists()
+
+
+def test_a_version_that_was_never_accepted_here_or_whose_signature_is_broken_does_not_come_back(
+    accepted: Path, copy: Copy
+) -> None:
+    run = Run(copy(accepted))
+    (standing,) = versions.known(run)
+    lines = run.journal.read_text().splitlines(keepends=True)
+    run.journal.write_text("".join(line for line in lines if '"accept"' not in line))
+    with pytest.raises(GateError, match="was not accepted in this run"):
+        versions.restore(run, standing.name)
+    run.journal.write_text("".join(lines))
+    (run.accepted / signing.ENVELOPE).write_text("{}")
+    with pytest.raises(GateError, match="signature that does not hold"):
+        versions.restore(run, standing.name)
