@@ -10,6 +10,7 @@ from worldwright.lint.problem import Problem
 from worldwright.lint.rules.model import overlaps_at_start
 from worldwright.model.errors import PlanError
 from worldwright.model.plan.belonging import Belonging
+from worldwright.model.plan.pairings import Overlap
 from worldwright.model.plan.plan_text import parse_plan
 
 ROW = {"between": ["crate", "ramp"], "up_to_m": 0.004, "why": "a groove holds it"}
@@ -33,12 +34,20 @@ def test_lint_lets_the_start_overlap_as_far(depth, count):
     view = SimpleNamespace(
         contact_geom=[(0, 1)], contact_depth=[depth], geom_rbound=np.array([0.02, 0.02]), geom_bodyid=[1, 2],
         body_parentid=[0, 0, 0], plan=plan_with({"topology": {"overlaps": [ROW]}}),
+        geom_size=np.array([[0.02, 0.02, 0.02], [0.02, 0.01, 0.0]]),
         name=lambda kind, index: ("world", "ramp", "crate")[index],
         at=lambda kind, index, message, fix: Problem(message, fix, 1),
     )  # fmt: skip
     assert len(list(overlaps_at_start.check(view))) == count
+    view.geom_size[1, 1] = 0.002  # a disk so thin is half hidden
+    assert len(list(overlaps_at_start.check(view))) == 1
     view.plan = plan_with({})
     assert len(list(overlaps_at_start.check(view))) == 1
+
+
+def test_nothing_overlaps_itself():
+    with pytest.raises(ValueError, match="names ramp twice"):
+        Overlap.model_validate({**ROW, "between": ["ramp", "ramp"]})
 
 
 def test_who_overlaps_is_an_object_of_the_plan(small_plan):

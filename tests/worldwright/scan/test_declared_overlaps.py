@@ -47,3 +47,14 @@ def context(up_to_m: float | None) -> Context:
 )
 def test_deeper_than_declared_is_found(check, depth, up_to_m, found):
     assert bool(list(check.check(pressed(depth), context(up_to_m)))) == found
+
+
+@pytest.mark.parametrize("check", [deep_penetration, seen_through])
+@pytest.mark.parametrize(("thin_m", "found"), [(0.05, False), (0.01, True), (np.nan, True)])
+def test_half_of_a_thin_part_never_hides_behind_the_size_of_its_whole(check, thin_m, found):
+    deep = pressed(0.02)
+    half = np.array([[0.05, 0.05, 0.05], [thin_m, 0.05, 0.05]])
+    facts = replace(deep.mechanics, geom_names=("peg", "plate"), geom_half_extents=half)
+    touch = replace(deep.contacts, geom1=deep.contacts.body1, geom2=deep.contacts.body2)
+    told = list(check.check(replace(deep, mechanics=facts, contacts=touch), context(0.025)))
+    assert bool(told) == found

@@ -1,6 +1,7 @@
 """What the plan says that it does to the world, for the checks of staging."""
 
 import re
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -48,15 +49,29 @@ def weighs(context: Context, declared: bool, *, claimed: bool = True) -> Anomaly
 
 
 def overlap_m(context: Context, trajectory: Trajectory, one: str, other: str) -> float:
-    """How far the plan lets two bodies be inside each other, m: at most half the thickness of the thinner one."""
+    """How far the plan lets two bodies be inside each other, m; 0 where it says nothing of it."""
     if context.plan is None or not context.plan.topology.overlaps:
         return 0.0
     names, above = trajectory.names, trajectory.mechanics.parent
     parents = {} if above is None else {n: names[p] if p >= 0 else "world" for n, p in zip(names, above, strict=True)}
-    thin = trajectory.mechanics.half_thickness()
-    known = [float(thin[names.index(n)]) for n in (one, other) if thin is not None and n in names]
-    allowed = Belonging(context.plan, parents).allowed_m(one, other)
-    return min([allowed, *(half for half in known if np.isfinite(half))])
+    return Belonging(context.plan, parents).allowed_m(one, other)
+
+
+def hideable_m(trajectory: Trajectory, bodies: Iterable[str], geoms: Iterable[str]) -> float:
+    """How much of an overlap of two geoms may be declared, m: half the thickness of the thinner one; 0 where it is not known.
+
+    A body's box stands for a geom of which the recording tells nothing.
+    """
+    facts, thin, found = trajectory.mechanics, trajectory.mechanics.half_thickness(), []
+    for body, geom in zip(bodies, geoms, strict=True):
+        if geom in facts.geom_names and facts.geom_half_extents is not None:
+            found.append(float(facts.geom_half_extents[facts.geom_names.index(geom)].min()))
+        elif body in trajectory.names and thin is not None:
+            found.append(float(thin[trajectory.names.index(body)]))
+        else:
+            return 0.0
+    least = float(np.min(found, initial=np.inf))
+    return least if np.isfinite(least) else 0.0
 
 
 def drawn_only(context: Context, meta: Any, name: str) -> bool:

@@ -48,7 +48,10 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     pairs = np.unique(np.stack([contacts.body1, contacts.body2], axis=1)[suspicious], axis=0)
     for one, other in pairs:
         ends = [trajectory.names[i] if i >= 0 else "world" for i in (one, other)]
-        rows = contacts.of_pair(one, other) & suspicious & (contacts.depth_m > overlap_m(context, trajectory, *ends))
+        rows = contacts.of_pair(one, other) & suspicious
+        if allowed := overlap_m(context, trajectory, *ends):
+            half = _half_thickness(trajectory, scenery=1.0, unknown=0.0)
+            rows &= contacts.depth_m > np.where(np.isfinite(half), np.minimum(allowed, half), 0.0)
         worst = np.zeros(len(trajectory.t))
         np.maximum.at(worst, contacts.row[rows], ratio[rows])
         lasting = _lasting_level(worst, held)
@@ -130,8 +133,8 @@ def _inside(trajectory: Trajectory, n: int) -> str:
     return "world"
 
 
-def _half_thickness(trajectory: Trajectory) -> np.ndarray:
-    """(N,) m: the half-thickness of the thinner moving geom of each contact; geoms that do not move count in full."""
+def _half_thickness(trajectory: Trajectory, scenery: float = 2.0, unknown: float = np.inf) -> np.ndarray:
+    """(N,) m: the half-thickness of the thinner geom of each contact; what does not move counts `scenery` times."""
     contacts, facts = trajectory.contacts, trajectory.mechanics
     assert contacts is not None
     thin = facts.half_thickness()
@@ -143,8 +146,8 @@ def _half_thickness(trajectory: Trajectory) -> np.ndarray:
         if geom is not None and facts.geom_half_extents is not None:
             own = np.where(inside, facts.geom_half_extents[geom].min(axis=1), np.inf)
         still = inside & ~np.where(inside, trajectory.moves_freely[body], False)
-        own = np.where(still, 2 * own, own)
-        best = np.fmin(best, np.where(np.isnan(own), np.inf, own))
+        own = np.where(still, scenery * own, own)
+        best = np.fmin(best, np.where(np.isnan(own), unknown, own))
     return best
 
 

@@ -20,7 +20,7 @@ from ....model.recording.loads import Loads
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ...predicting.shown import overlaps
-from ..declared import cast, drawn_only, overlap_m, weighs
+from ..declared import cast, drawn_only, hideable_m, overlap_m, weighs
 from ..sign import Case, Context, Sign, SkipError
 from ..wholes import head_names
 
@@ -37,7 +37,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         pair = frozenset(seen["bodies"])
         if pair in told or any(drawn_only(context, trajectory.meta, n) for n in (*seen["bodies"], *seen["geoms"])):
             continue
-        if seen["depth_m"] <= overlap_m(context, trajectory, *seen["bodies"]):
+        allowed = overlap_m(context, trajectory, *seen["bodies"])
+        if allowed and seen["depth_m"] <= min(allowed, hideable_m(trajectory, seen["bodies"], seen["geoms"])):
             continue
         told.add(pair)
         mine = next((n for n in seen["bodies"] if n in names or head.get(n, n) in names), "")
