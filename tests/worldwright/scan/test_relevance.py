@@ -8,6 +8,7 @@ import pytest
 from worldwright.model.finding import Anomaly
 from worldwright.model.plan.committed import Objective, Plan, RecordingMode
 from worldwright.model.plan.implementation_steps import CameraRow, Step
+from worldwright.model.recording.linkage import Rope
 from worldwright.model.recording.records import Contacts
 from worldwright.model.recording.stills import Lens
 from worldwright.model.recording.trajectory import Trajectory
@@ -135,3 +136,15 @@ def test_a_body_that_turns_in_place_passes_a_claim_on():
     away = replace(away, mechanics=replace(away.mechanics, dynamic=np.array([False, True])))
     (said,) = weighed([found("leaf", 0.5)], away, plan(STAYS))
     assert said.severity == "blocking" and "objective 0" in said.message
+
+
+def test_a_rope_that_stretches_shows_at_any_end():
+    away = scene()
+    away = replace(away, pos=away.pos + np.array([[0.0, 0.0, 0.0], [40.0, 0.0, 0.0]]))
+    rope = Rope("line", (0, 1), np.zeros((2, 3)), 1.0)
+    stretched = found("leaf", 0.5).model_copy(update={"name": "tendon_limit", "message": "line stretches 0.5 m"})
+    claims_other = plan({"falls": {"body": "nobody", "min_m": 0.5}})
+    (said,) = weighed([stretched], away, claims_other)
+    assert said.severity == "info"
+    (said,) = weighed([stretched], replace(away, mechanics=replace(away.mechanics, ropes=(rope,))), claims_other)
+    assert said.severity == "blocking" and "in camera side" in said.message

@@ -21,6 +21,9 @@ from ..objectives.claims import EXPECTATIONS
 from .in_picture import seen
 from .wholes import head_names
 
+OF_LINKS = ("constraint_drift", "tendon_limit")
+"""Checks whose finding names one end of what it is about, and whose message begins with the name of that."""
+
 
 class Rests(NamedTuple):
     """A claim that rests on a body, and until when."""
@@ -40,23 +43,32 @@ def weighed(anomalies: Iterable[Anomaly], trajectory: Trajectory, plan: Plan) ->
         if anomaly.severity != "blocking":
             yield anomaly
             continue
-        names = {part for part in anomaly.body.replace(",", " ").split() if part != "and"}
+        held = _ends(anomaly, trajectory)
+        names = held or {part for part in anomaly.body.replace(",", " ").split() if part != "and"}
         claim = next(
             (resting[n] for n in sorted(names) if n in resting and anomaly.window_s[0] <= resting[n].until_s), None
         )
         bodies = tuple(trajectory.names.index(name) for name in sorted(names) if name in trajectory.names)
+        together: list[tuple[int, ...]] = [(b,) for b in bodies] if held else [bodies]
         if claim is not None:
             why = f"objective {claim.objective} rests on it"
         elif not bodies:
             yield anomaly  # it is about the world as a whole
             continue
-        elif shown := seen(anomaly, bodies, trajectory, plan):
+        elif shown := next(filter(None, (seen(anomaly, one, trajectory, plan) for one in together)), None):
             why = str(shown)
         else:
             why = "no claim rests on it and no planned picture shows it"
             yield anomaly.model_copy(update={"severity": "info", "message": f"{anomaly.message}; {why}"})
             continue
         yield anomaly.model_copy(update={"message": f"{anomaly.message}; {why}"})
+
+
+def _ends(anomaly: Anomaly, trajectory: Trajectory) -> set[str]:
+    """All bodies that the tie or rope of a finding holds, any of which shows it; empty of any other finding."""
+    links = (*trajectory.mechanics.ties, *trajectory.mechanics.ropes) if anomaly.name in OF_LINKS else ()
+    told = [link for link in links if anomaly.message.startswith(f"{link.name} ")]
+    return {trajectory.names[b] for link in told for b in link.bodies if b >= 0}
 
 
 def claimed(trajectory: Trajectory, plan: Plan) -> dict[str, Rests]:
