@@ -10,7 +10,7 @@ from worldwright.lint.problem import Problem
 from worldwright.lint.rules.model import overlaps_at_start
 from worldwright.model.errors import PlanError
 from worldwright.model.plan.belonging import Belonging
-from worldwright.model.plan.pairings import Overlap
+from worldwright.model.plan.plan_references import reference_problems
 from worldwright.model.plan.plan_text import parse_plan
 
 ROW = {"between": ["crate", "ramp"], "up_to_m": 0.004, "why": "a groove holds it"}
@@ -45,9 +45,13 @@ def test_lint_lets_the_start_overlap_as_far(depth, count):
     assert len(list(overlaps_at_start.check(view))) == 1
 
 
-def test_nothing_overlaps_itself():
-    with pytest.raises(ValueError, match="names ramp twice"):
-        Overlap.model_validate({**ROW, "between": ["ramp", "ramp"]})
+def test_nothing_overlaps_itself_but_copies_do():
+    row = {**ROW, "between": ["ramp", "ramp"]}
+    data = {"scene_objects": [{"name": "ramp"}], "topology": {"overlaps": [row]}}
+    (problem,) = reference_problems(data)
+    assert problem.code == "WP012" and "named twice" in problem.message
+    data["scene_objects"][0]["count"] = 2
+    assert not reference_problems(data)
 
 
 def test_who_overlaps_is_an_object_of_the_plan(small_plan):

@@ -1,6 +1,6 @@
 """What holds of what meets: two things that rub otherwise than their materials say, or overlap; a joint's stops; the air."""
 
-from pydantic import Field, field_validator
+from pydantic import Field
 
 from ..frozen import Frozen
 from .object_parts import Vec3
@@ -46,13 +46,6 @@ class Overlap(Frozen):
     up_to_m: float = Field(gt=0, le=0.1)
     """Metres, of their solid shapes, at any time; at most half of the smallest extent of the thinner one."""
     why: str = Field(min_length=3)
-
-    @field_validator("between")
-    @classmethod
-    def _two(cls, between: tuple[str, str]) -> tuple[str, str]:
-        if between[0] == between[1]:
-            raise ValueError(f"names {between[0]} twice: name the two different objects that overlap")
-        return between
 
 
 class Stop(Frozen):

@@ -30,7 +30,17 @@ def reference_problems(data: dict[str, Any], unread: Collection[str] = ()) -> li
         data: the sections that could be read, by name, as plain data.
         unread: sections that are missing or cannot be read; names that they may declare are not called unknown.
     """
-    return [*_declared(data), *_dangling(data, unread)]
+    return [*_declared(data), *_twice(data), *_dangling(data, unread)]
+
+
+def _twice(data: dict[str, Any]) -> Iterator[Problem]:
+    """Rows that let a thing overlap itself; of one with copies they speak of any two."""
+    copied = [row.get("name") for row, _ in _rows(data, "scene_objects") if row.get("count") not in (None, 1)]
+    for row, path in _rows(data, "topology", "overlaps"):
+        names = [name for name, _ in _list(row, path, "between")]
+        if len(names) == 2 and names[0] == names[1] and names[0] not in copied:
+            said, remedy = f"`{names[0]}` is named twice", "name the two different objects that overlap"
+            yield Problem("WP012", "duplicate_name", (*path, "between"), said, remedy)
 
 
 def _declared(data: dict[str, Any]) -> Iterator[Problem]:
