@@ -1,14 +1,17 @@
 """Each check finds what it is for, at its size, and leaves a sound layout alone."""
 
+from types import SimpleNamespace
+
 import mujoco
 import pytest
 
 from worldkit import models
 from worldwright.lint import tools as lint
 from worldwright.model.plan.committed import Plan
+from worldwright.model.plan.implementation_steps import CameraRow
 from worldwright.model.plan.observation import Viewpoint
 from worldwright.place import categories
-from worldwright.place.checks import check
+from worldwright.place.checks import check, framing, penetration
 from worldwright.place.engine import resolve
 
 TABLE = {"name": "table", "primitive": "box", "size": [1.2, 0.8, 0.75], "fixed": True}
@@ -72,6 +75,33 @@ def test_what_belongs_together_may_overlap_as_far_as_the_plan_says(up_to_m, code
     assert set(told) == ({code} if code else set()), found
     if up_to_m == 0.002:
         assert "0.003 m, 0.001 m more than `topology.overlaps`" in told["WP302"][0]
+
+
+def test_many_things_are_not_all_measured_in_every_picture(monkeypatch):
+    layout = SimpleNamespace(
+        plan=SimpleNamespace(
+            cameras=lambda: (CameraRow(name="one"), CameraRow(name="two")),
+            movers=lambda: ["mug"],
+            recording_mode=SimpleNamespace(size=(640, 360)),
+        ),
+        placed=dict.fromkeys(("mug", "a", "b", "c")),
+        scene=SimpleNamespace(cameras=()),
+    )
+    monkeypatch.setattr(framing.in_view, "spoken_of", lambda plan: ("mug", "a", "b", "c"))
+    monkeypatch.setattr(framing, "MOST_MEASURED", 4)
+    assert framing._camera(layout, CameraRow(name="one"))["measured"] == ["mug", "a", "b"]
+
+
+def test_an_overlap_with_what_has_no_place_says_that_its_size_is_unknown():
+    row = SimpleNamespace(between=("jar", "cloth"), up_to_m=0.01)
+    told = []
+    layout = SimpleNamespace(
+        plan=SimpleNamespace(topology=SimpleNamespace(overlaps=(row,))),
+        placed={"jar": SimpleNamespace(size=(0.1, 0.1, 0.1))},
+        problems=SimpleNamespace(add=lambda *said, severity: told.append((said[0], said[2], severity))),
+    )
+    penetration._too_much(layout)
+    assert [(code, severity) for code, _, severity in told] == [("WP327", "warning")] and "`cloth`" in told[0][1]
 
 
 # --- hills ----------------------------------------------------------------------------------------------------------

@@ -17,6 +17,8 @@ SMALL_PX = 60
 """A subject with fewer pixels at the recording's size is a speck."""
 MOST_OBJECTS = 1500
 """A layout with more objects is skipped: to build its shapes would take longer than a call may."""
+MOST_MEASURED = 100
+"""So many pairs of a camera and a thing that is none of its subjects are measured with rays; the scan measures all (`WS146`)."""
 
 
 def check(layout: CheckedLayout) -> None:
@@ -66,7 +68,8 @@ def _camera(layout: CheckedLayout, row: CameraRow) -> dict[str, Any]:
     if placed is not None:
         pose = {"position": placed.position, "target": placed.target, "view": None}
     width, height = layout.plan.recording_mode.size
-    measured = [*subjects, *(n for n in in_view.spoken_of(layout.plan) if n in layout.placed and n not in subjects)]
+    others = [n for n in in_view.spoken_of(layout.plan) if n in layout.placed and n not in subjects]
+    measured = subjects + others[: MOST_MEASURED // len(layout.plan.cameras())]
     return {
         "name": row.name,
         "subjects": subjects,

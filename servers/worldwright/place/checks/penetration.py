@@ -54,6 +54,15 @@ def _too_much(layout: CheckedLayout) -> None:
     """Report each row of `topology.overlaps` that would hide that one thing is half inside the other."""
     for index, row in enumerate(layout.plan.topology.overlaps):
         sizes = {name: min(layout.placed[name].size) for name in row.between if name in layout.placed}
+        if unknown := [name for name in row.between if name not in layout.placed]:
+            layout.problems.add(
+                "WP327",
+                "overlap_too_large",
+                f"`topology.overlaps` lets {' and '.join(row.between)} overlap, but the size of `{unknown[0]}` is not known here",
+                "name an object that the layout places; what its geoms measure is held against it once it is built (`WM112`)",
+                ("topology", "overlaps", index),
+                severity="warning",
+            )
         thinner = min(sizes, key=lambda name: sizes[name], default="")
         if len(sizes) == 2 and row.up_to_m > sizes[thinner] / 2:
             layout.problems.add(
