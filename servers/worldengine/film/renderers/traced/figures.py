@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 MANY = 60
 """Of more spheres than this, each is drawn coarser."""
+TREMBLE = 1e-7
+"""Geoms that rest move by so much at times, m; a centimetre from the camera that is a hundredth of a pixel."""
 
 
 @dataclass
@@ -48,11 +50,11 @@ class Figure:
         """Join its meshes, and hand the mesh over to Mitsuba."""
         counts = [len(mesh.points) for mesh in self.meshes]
         self.owner = np.repeat(np.arange(len(counts)), counts)
+        self._ends = np.cumsum([0, *counts])
         self.points = np.concatenate([mesh.points for mesh in self.meshes])
         self.normals = np.concatenate([mesh.normals for mesh in self.meshes])
         uv = np.concatenate([np.zeros((len(m.points), 2)) if m.uv is None else m.uv for m in self.meshes])
-        starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-        faces = np.concatenate([mesh.faces + start for mesh, start in zip(self.meshes, starts, strict=True)])
+        faces = np.concatenate([mesh.faces + start for mesh, start in zip(self.meshes, self._ends[:-1], strict=True)])
         self.shape, self.params = mesh_of(len(self.points), faces, uv, self.coating, self.glow)
 
     def place(self, data: mujoco.MjData, sizes: np.ndarray) -> bool:
@@ -85,9 +87,14 @@ class Figure:
 
     def moved(self, before: np.ndarray, now: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """The points (V, 3), m, of each geom that stands otherwise, at both poses."""
-        for geom in np.flatnonzero((before != now).any(axis=1)):
-            chosen = np.flatnonzero(self.owner == geom)
+        for geom in np.flatnonzero(elsewhere(before, now)):
+            chosen = slice(self._ends[geom], self._ends[geom + 1])
             yield self._stands(before, chosen), self._stands(now, chosen)
+
+
+def elsewhere(before: np.ndarray, now: np.ndarray) -> np.ndarray:
+    """Which geoms stand otherwise in one of two sets of poses (G, 13): bool (G,)."""
+    return np.abs(before - now).max(axis=1) > TREMBLE
 
 
 def mesh_of(vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow: np.ndarray) -> tuple[Any, Any]:
@@ -219,6 +226,11 @@ class Figures:
     def poses(self) -> tuple[np.ndarray, ...]:
         """Where all figures stand."""
         return tuple(figure.poses for figure in self.all if figure.poses is not None)
+
+    @staticmethod
+    def most_moved(before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]) -> int:
+        """Of the figure of which most geoms stand otherwise: how many."""
+        return max((int(elsewhere(*both).sum()) for both in zip(before, now, strict=True)), default=0)
 
     def moved(
         self, before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]

@@ -8,10 +8,15 @@ too small for a coarse look is found by its outline: a thing is drawn anew where
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from worldkit.settings import Setting
+
+from ...film_curve import gains
+from ...treatment import Treatment
 from ..preview.eye import View
 from .walked import Rays
 
@@ -27,8 +32,26 @@ UNSEEN = 0.01
 """A thing that moved by so many coarse pixels stands where it stood."""
 MOST = 0.6
 """Where more than this share of a picture differs, it is traced as a whole, which costs no more then."""
+MOST_MOVED = 300
+"""Where more geoms of one figure moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
 ROOM_BYTES = 1 << 30
 """Memory for plates; those used longest ago are given up, and traced again where they are asked for."""
+
+
+class Look(NamedTuple):
+    """How light becomes a picture, as far as it makes differences plainer."""
+
+    exposure: np.ndarray
+    """By which red, green and blue light is multiplied, (3,)."""
+    contrast: float
+    """By how much the developed picture is steeper."""
+
+    @classmethod
+    def of(cls, setting: Setting, told: Treatment) -> Look:
+        """That of a setting, as the film grades it."""
+        brighter = setting.exposure * 2.0**told.grade_exposure_stops
+        exposure = brighter * gains(told.grade_temperature, told.grade_tint)
+        return cls(exposure.astype(np.float32), max(told.grade_contrast, 1.0) * max(told.grade_saturation, 1.0))
 
 
 class Sight(NamedTuple):
@@ -89,7 +112,7 @@ class Kept(NamedTuple):
 
 
 def kept(
-    now: Sequence[Sight], known: Sequence[Plate], figures: Figures, strands: Strands, view: View, exposure: float
+    now: Sequence[Sight], known: Sequence[Plate], figures: Figures, strands: Strands, view: View, look: Look
 ) -> Kept | None:
     """What of these moments is as in some plates of the same camera and light; None where that is too little to be worth it.
 
@@ -98,11 +121,11 @@ def kept(
         known: the plates; the first goes before the others.
         figures, strands: of the model.
         view: of the camera.
-        exposure: by which light is multiplied before it is shown.
+        look: how the picture is developed.
     """
     found: Kept | None = None
     for plate in known:
-        differs = changed(now, plate, figures, strands, view, exposure)
+        differs = changed(now, plate, figures, strands, view, look)
         if not differs.any():
             return Kept(differs, plate.rays, plate.clean)
         if found is None:
@@ -113,29 +136,31 @@ def kept(
 
 
 def changed(
-    now: Sequence[Sight], plate: Plate, figures: Figures, strands: Strands, view: View, exposure: float
+    now: Sequence[Sight], plate: Plate, figures: Figures, strands: Strands, view: View, look: Look
 ) -> np.ndarray:
     """The mask (h, w) of what has to be traced of these moments, since it is not as in the plate at all times."""
     first, *rest = plate.sights
     mask = np.zeros(first.light.shape[:2], np.uint8)
     for sight in (*now, *rest):
-        mask |= differing(first.light, sight.light, exposure)
-        moved = (*figures.moved(first.poses, sight.poses), *strands.moved(first.soft, sight.soft))
-        outline(mask, moved, view)
+        mask |= differing(first.light, sight.light, look)
+        for thing in chain(figures.moved(first.poses, sight.poses), strands.moved(first.soft, sight.soft)):
+            outline(mask, [thing], view)
+            if mask.mean() > MOST:  # the picture is not worth a closer look
+                return np.ones(mask.shape, bool)
     import cv2
 
     return cv2.dilate(mask, np.ones((2 * GROWN + 1,) * 2, np.uint8)).astype(bool)
 
 
-def differing(before: np.ndarray, now: np.ndarray, exposure: float) -> np.ndarray:
+def differing(before: np.ndarray, now: np.ndarray, look: Look) -> np.ndarray:
     """Where two coarse pictures of scene light (h, w, 3) would look different: uint8 (h, w)."""
     import cv2
 
     def shown(light: np.ndarray) -> np.ndarray:
-        bright = np.maximum(light, 0.0) * np.float32(exposure)
+        bright = np.maximum(light, 0.0) * look.exposure
         return np.sqrt(bright / (1.0 + bright))
 
-    apart = np.abs(shown(now) - shown(before)).max(axis=-1)
+    apart = np.float32(look.contrast) * np.abs(shown(now) - shown(before)).max(axis=-1)
     return (cv2.GaussianBlur(apart, (0, 0), BLUR) > LEAST).astype(np.uint8)
 
 

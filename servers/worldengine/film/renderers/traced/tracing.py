@@ -284,8 +284,13 @@ class Tracing:
         found = [self._plate(one, shutter, camera) for one in before] if still else []
         key = self._key(moments[0](), camera)
         known = [plate for plate in found if plate.key == key]
+        if known:
+            self._placed(moments[0](), view, drawn)
+        now, moved = self.figures.poses(), self.figures.most_moved
+        known = [plate for plate in known if moved(plate.sights[0].poses, now) <= plates.MOST_MOVED]
         sights = self._sights(moments, view, drawn) if known else ()
-        kept = plates.kept(sights, known, self.figures, self._strands, view, self.setting.exposure) if known else None
+        look = plates.Look.of(self.setting, self._treatment)
+        kept = plates.kept(sights, known, self.figures, self._strands, view, look) if known else None
         if kept is None:
             return self.blurred((moment() for moment in moments), len(moments), camera, quality)
         rays, clean = kept.rays, kept.clean
