@@ -92,16 +92,18 @@ def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
     assert mask.all(), "what reaches the camera may be anywhere"
 
 
-def test_plates_that_were_used_longest_ago_make_room(monkeypatch):
-    rays = walked.Rays(*[np.zeros((4, 4, 3), np.float32)] * 5)
-    shelf = plates.Shelf()
-    one = plates.Plate("key", (), rays, rays.light)
-    monkeypatch.setattr(plates, "ROOM_BYTES", 2 * one.nbytes)
+def test_plates_of_another_shot_make_room_and_what_does_not_fit_is_not_begun():
+    rays = walked.Rays(*[np.zeros((4, 4, 3), np.float32)] * 4, np.zeros((4, 4), np.float32))
+    one, shelf = plates.Plate("key", (), rays, rays.light), plates.Shelf()
+    assert sum(part.nbytes for part in (*rays, one.clean)) == 16 * plates.PIXEL_BYTES
     for name in "ab":
         shelf.put(name, one)
-    assert shelf.find("a") is one
-    shelf.put("c", one)
-    assert shelf.find("b") is None and shelf.find("a") is one and shelf.find("c") is one
+    shelf.keep({"b", "c"})
+    assert shelf.find("a") is None and shelf.find("b") is one
+    hd, soft = 1280 * 720, 6 << 20
+    assert plates.fitting(hd, 0, 8) > 2
+    assert plates.fitting(hd, soft, 64) == 1, "where skins were, at each of so many moments"
+    assert plates.fitting(9 * hd, 0, 1) == 2 and plates.fitting(hd, soft, 200) == 0
 
 
 def test_a_mask_is_spread_over_pictures_of_any_size():

@@ -7,7 +7,7 @@ too small for a coarse look is found by its outline: a thing is drawn anew where
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Collection, Hashable, Iterable, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -35,7 +35,9 @@ MOST = 0.6
 MOST_MOVED = 300
 """Where more geoms of one figure moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
 ROOM_BYTES = 1 << 30
-"""Memory for plates; those used longest ago are given up, and traced again where they are asked for."""
+"""Memory for plates and for what is looked at coarsely."""
+PIXEL_BYTES = 64
+"""Of a plate, for each pixel: light, colours, normals, places, the share of things, and the light without noise."""
 
 
 class Look(NamedTuple):
@@ -73,34 +75,30 @@ class Plate(NamedTuple):
     clean: np.ndarray
     """Its light without noise (H, W, 3)."""
 
-    @property
-    def nbytes(self) -> int:
-        """Its size in memory."""
-        return sum(part.nbytes for part in (*self.rays, self.clean))
+
+def fitting(pixels: int, sight: int, moments: int) -> int:
+    """How many plates of so many pixels and moments have room beside those of a picture; `sight` is the size of a moment's."""
+    return max(0, ROOM_BYTES - moments * sight) // (PIXEL_BYTES * pixels + moments * sight)
 
 
 class Shelf:
-    """The plates used last, by name."""
+    """The plates of the shot that is drawn, by name."""
 
     def __init__(self) -> None:
         self._plates: dict[Hashable, Plate] = {}
 
+    def keep(self, names: Collection[Hashable]) -> None:
+        """Give up all others: films are drawn shot by shot."""
+        self._plates = {name: plate for name, plate in self._plates.items() if name in names}
+
     def find(self, name: Hashable) -> Plate | None:
-        """The plate of this name, if it is still there."""
-        if name in self._plates:
-            self._plates[name] = self._plates.pop(name)
+        """The plate of this name, if it is there."""
         return self._plates.get(name)
 
     def put(self, name: Hashable, plate: Plate) -> Plate:
-        """Keep it, in place of those for which there is no room any more."""
-        while self._plates and plate.nbytes + sum(p.nbytes for p in self._plates.values()) > ROOM_BYTES:
-            del self._plates[next(iter(self._plates))]
+        """Take it up."""
         self._plates[name] = plate
         return plate
-
-    def clear(self) -> None:
-        """Give all up."""
-        self._plates.clear()
 
 
 class Kept(NamedTuple):

@@ -281,7 +281,9 @@ class Tracing:
         view, outlook, drawn, painted = self._seen(moments[0](), camera)
         # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
         still = self._treatment.aperture <= 0 and variant.choose() != variant.PLAIN and shutter.coarser == 1
-        found = [self._plate(one, shutter, camera) for one in before] if still else []
+        before = before[: self._fitting(shutter)] if still else ()
+        self._plates.keep({(one.name, shutter) for one in before})
+        found = [self._plate(one, shutter, camera) for one in before]
         key = self._key(moments[0](), camera)
         known = [plate for plate in found if plate.key == key]
         if known:
@@ -299,6 +301,13 @@ class Tracing:
             rays = anew.over(rays, kept.left)
             clean = self._cleaned(rays, shutter)
         return self._developed(clean, [Glimpse(view, outlook, painted, rays.places, rays.seen)])
+
+    def _fitting(self, shutter: Shutter) -> int:
+        """How many plates have room."""
+        held = (*self.figures.poses(), *self._strands.points.values())
+        pixels = self.width * self.height
+        sight = sum(part.nbytes for part in held) + 12 * pixels // plates.SIDE**2
+        return plates.fitting(pixels, sight, shutter.moments)
 
     def _key(self, data: mujoco.MjData, camera: int) -> Any:
         """What has to be equal in two pictures for the light of the one to be that of the other."""
@@ -373,7 +382,7 @@ class Tracing:
     def close(self) -> None:
         """Free what it holds."""
         self._scenes.clear()
-        self._plates.clear()
+        self._plates.keep(())
         self._put_away()
         if self._plain is not None:
             self._plain.close()
