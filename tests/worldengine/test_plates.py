@@ -19,7 +19,8 @@ AHEAD = View(np.zeros(3), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]), (1.0, 
 """Looks along +y, z up, twice as wide as high."""
 
 
-PLAIN = plates.Look(np.ones(3, np.float32), 1.0)
+PLAIN = plates.Look(np.ones(3, np.float32), 1.0, -4.0, np.array((0.6, 0.0, 0.8)))
+"""Its ground lies 4 m below the eye."""
 
 
 def test_a_change_of_light_is_found_where_it_is():
@@ -40,7 +41,7 @@ def test_what_the_film_grades_plainer_is_found_too():
         (Treatment(), False), (Treatment(grade_exposure_stops=6), True), (Treatment(grade_contrast=3), True),
         (Treatment(grade_contrast=3, grade_exposure_stops=-8), False), (Treatment(grade_saturation=3), True),
     ):  # fmt: skip
-        assert plates.differing(before, now, plates.Look.of(STUDIO, told)).all() == seen, told
+        assert plates.differing(before, now, plates.Look.of(STUDIO, told, 0.0)).all() == seen, told
 
 
 class Grains:
@@ -90,6 +91,28 @@ def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
     assert not mask.any(), "behind the camera nothing is seen"
     plates.outline(mask, [(small, small * (1, -1, 1) + np.array([(0, 20, 0), (0, 0, 0), (0, 0, 0)]))], AHEAD)
     assert mask.all(), "what reaches the camera may be anywhere"
+
+
+def test_so_are_its_shadow_and_its_image_in_the_ground():
+    small = np.array([(0.0, 10, 0), (0.01, 10, 0), (0, 10, 0.01)])
+    dark = np.zeros((40, 80, 3), np.float32)
+
+    class Moved(Grains):
+        def moved(self, before, now):
+            yield small, small + np.array((1.0, 0, 0))
+
+    plate = plates.Plate("key", (plates.Sight(dark, (), {}),), walked.Rays(*[np.zeros((160, 320, 3))] * 5), dark)
+    found = plates.changed([plate.sights[0]], plate, Moved(1), Grains(0), AHEAD, PLAIN._replace(floor_z=-2.0))
+    for column, row, what in (
+        (40, 20, "itself"),
+        (34, 28, "its shadow, 1.5 m aside"),
+        (40, 36, "its image, 4 m below"),
+    ):
+        assert found[row - 1 : row + 1, column - 1 : column + 1].any(), what
+    tall = small * (1, 1, 500)
+    big, mask = plates.echoes((tall, tall + 1.0), PLAIN), np.zeros((40, 80), np.uint8)
+    plates.outline(mask, big, AHEAD, 5)
+    assert not mask.any(), "those of a large thing are seen"
 
 
 def test_plates_of_another_shot_make_room_and_what_does_not_fit_is_not_begun():

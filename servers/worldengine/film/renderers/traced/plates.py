@@ -2,12 +2,13 @@
 
 With equal chances equal paths bring equal light: where a coarse look at two moments is the same, nothing moved there,
 and no shadow, glow or mirror image of it, and the light traced of the one is that of the other to the last sample. What is
-too small for a coarse look is found by its outline: a thing is drawn anew where it was and where it is, however small.
+too small for a coarse look is found by its outline: a thing is drawn anew where it was and where it is, however small, and
+so are its shadow on the ground and its image in it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Hashable, Iterable, Sequence
+from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -28,6 +29,10 @@ SIDE, SAMPLES = 4, 4
 """Of a coarse look one pixel stands for so many each way, and takes so many samples."""
 BLUR, LEAST, GROWN = 1.5, 1.2 / 255.0, 2
 """Differences are spread over so many coarse pixels; count from this share of white on; and reach so many further."""
+LEAST_ALONE = 10.0 / 255.0
+"""A difference of one coarse pixel alone counts from this share of white on; chance makes many that are smaller."""
+SMALL = 10
+"""The shadow or image of a thing of more coarse pixels is found by its light."""
 UNSEEN = 0.01
 """A thing that moved by so many coarse pixels stands where it stood."""
 MOST = 0.6
@@ -41,19 +46,24 @@ PIXEL_BYTES = 64
 
 
 class Look(NamedTuple):
-    """How light becomes a picture, as far as it makes differences plainer."""
+    """How light becomes a picture, as far as it makes differences plainer, and where shadows and images lie."""
 
     exposure: np.ndarray
     """By which red, green and blue light is multiplied, (3,)."""
     contrast: float
     """By how much the developed picture is steeper."""
+    floor_z: float
+    """Height of the ground, m."""
+    key: np.ndarray
+    """Unit vector toward the light, (3,)."""
 
     @classmethod
-    def of(cls, setting: Setting, told: Treatment) -> Look:
+    def of(cls, setting: Setting, told: Treatment, floor_z: float) -> Look:
         """That of a setting, as the film grades it."""
         brighter = setting.exposure * 2.0**told.grade_exposure_stops
         exposure = brighter * gains(told.grade_temperature, told.grade_tint)
-        return cls(exposure.astype(np.float32), max(told.grade_contrast, 1.0) * max(told.grade_saturation, 1.0))
+        contrast = max(told.grade_contrast, 1.0) * max(told.grade_saturation, 1.0)
+        return cls(exposure.astype(np.float32), contrast, floor_z, np.array(setting.key.direction))
 
 
 class Sight(NamedTuple):
@@ -143,6 +153,7 @@ def changed(
         mask |= differing(first.light, sight.light, look)
         for thing in chain(figures.moved(first.poses, sight.poses), strands.moved(first.soft, sight.soft)):
             outline(mask, [thing], view)
+            outline(mask, echoes(thing, look), view, SMALL)
             if mask.mean() > MOST:  # the picture is not worth a closer look
                 return np.ones(mask.shape, bool)
     import cv2
@@ -159,13 +170,21 @@ def differing(before: np.ndarray, now: np.ndarray, look: Look) -> np.ndarray:
         return np.sqrt(bright / (1.0 + bright))
 
     apart = np.float32(look.contrast) * np.abs(shown(now) - shown(before)).max(axis=-1)
-    return (cv2.GaussianBlur(apart, (0, 0), BLUR) > LEAST).astype(np.uint8)
+    return ((cv2.GaussianBlur(apart, (0, 0), BLUR) > LEAST) | (apart > LEAST_ALONE)).astype(np.uint8)
 
 
-def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, np.ndarray]], view: View) -> None:
+def echoes(thing: tuple[np.ndarray, np.ndarray], look: Look) -> Iterator[tuple[np.ndarray, ...]]:
+    """The image of a thing in the ground, and its shadow there, at both moments, as points (N, 3), m."""
+    yield tuple(points * (1, 1, -1) + (0, 0, 2 * look.floor_z) for points in thing)
+    if look.key[2] > 0:
+        yield tuple(points - np.maximum(points[:, 2:] - look.floor_z, 0.0) / look.key[2] * look.key for points in thing)
+
+
+def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: View, most: float = np.inf) -> None:
     """Mark in a mask (h, w) the convex outlines of things at two moments, of which the points (N, 3), m, are given.
 
-    What moved by less than can be seen is left out; all of the mask is marked where a thing reaches behind the camera.
+    What moved by less than can be seen is left out, and so is what is wider or higher than `most` places of the mask; all of
+    the mask is marked where a thing of any size reaches behind the camera.
     """
     import cv2
 
@@ -177,6 +196,8 @@ def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, np.ndarray]], v
             away = -own[:, 2:]
             if not len(own) or away.max() < view.near_m:
                 continue
+            if away.min() < view.near_m and most < np.inf:
+                continue
             if away.min() < view.near_m:
                 mask[...] = 1
                 return
@@ -185,4 +206,5 @@ def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, np.ndarray]], v
         if len(flat) == 2 and flat[0].shape == flat[1].shape and np.abs(flat[1] - flat[0]).max() <= UNSEEN:
             continue
         for place in flat:
-            cv2.fillConvexPoly(mask, np.floor(cv2.convexHull(place)).astype(np.int32), 1)
+            if np.ptp(place, axis=0).max() <= most:
+                cv2.fillConvexPoly(mask, np.floor(cv2.convexHull(place)).astype(np.int32), 1)

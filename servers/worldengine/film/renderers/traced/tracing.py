@@ -291,7 +291,7 @@ class Tracing:
         now, moved = self.figures.poses(), self.figures.most_moved
         known = [plate for plate in known if moved(plate.sights[0].poses, now) <= plates.MOST_MOVED]
         sights = self._sights(moments, view, drawn) if known else ()
-        look = plates.Look.of(self.setting, self._treatment)
+        look = plates.Look.of(self.setting, self._treatment, self._floor_z)
         kept = plates.kept(sights, known, self.figures, self._strands, view, look) if known else None
         if kept is None:
             return self.blurred((moment() for moment in moments), len(moments), camera, quality)
