@@ -84,7 +84,7 @@ class OfTheAuthor:
         from .directed import Screening
 
         self._film, self._fps, self.count = film, given.fps, film.frames
-        self.shots = [range(shot["first"], shot["first"] + shot["frames"]) for shot in film.shots]
+        self.shots: Sequence[range] = [range(shot["first"], shot["first"] + shot["frames"]) for shot in film.shots]
         screening = Screening(given.world, model, recording, film, given.size, given.fps, renderers.FINAL)
         self._screening = stack.enter_context(screening)
         if tick is not None:
