@@ -39,10 +39,11 @@ class Figure:
     meshes: list[Mesh] = field(default_factory=list)
     shape: Any = None
     params: Any = None
-    meshed: bool = False
-    """Meshes of any shape are among it, and light does not go through them."""
-    _meshed: tuple[np.ndarray, np.ndarray] | None = None
+    meshed: list[bool] = field(default_factory=list)
+    """Which of them are meshes of any shape, through which light does not go."""
+    _placed: tuple[np.ndarray, np.ndarray] | None = None
     _faces: bytes = b""
+    _turned: bool = False
     poses: np.ndarray | None = None
     """Of each geom the rotation, place and size that it was given last, (G, 13)."""
 
@@ -51,6 +52,7 @@ class Figure:
         counts = [len(mesh.points) for mesh in self.meshes]
         self.owner = np.repeat(np.arange(len(counts)), counts)
         self._ends = np.cumsum([0, *counts])
+        self._any_shape = np.repeat(self.meshed, counts)
         self.points = np.concatenate([mesh.points for mesh in self.meshes])
         self.normals = np.concatenate([mesh.normals for mesh in self.meshes])
         uv = np.concatenate([np.zeros((len(m.points), 2)) if m.uv is None else m.uv for m in self.meshes])
@@ -67,17 +69,26 @@ class Figure:
         normals = np.einsum("vij,vj->vi", rotation[self.owner], self.normals)
         points = self._stands(poses)
         fill(self.params, points, normals)
-        self._meshed = (points, normals) if self.meshed else None
-        self._faces = b""
+        self._placed = (points, normals) if any(self.meshed) else None
+        self._faces, self._turned = b"", False
         return True
 
     def face(self, eye: np.ndarray) -> None:
         """Let all that an eye (3,) sees of its meshes face it."""
-        if self._meshed is not None and self._faces != eye.tobytes():
-            self._faces = eye.tobytes()
-            normals = facing(*self._meshed, eye)
+        if self._placed is None or self._faces == eye.tobytes():
+            return
+        self._faces = eye.tobytes()
+        (points, normals), chosen = self._placed, self._any_shape
+        theirs = normals[chosen]
+        turned = facing(points[chosen], theirs, eye)
+        turns = turned is not theirs
+        if turns:
+            normals = normals.copy()
+            normals[chosen] = turned
+        if turns or self._turned:
             self.params["vertex_normals"] = np.ascontiguousarray(normals, dtype=np.float32).ravel()
             self.params.update()
+        self._turned = turns
 
     def _stands(self, poses: np.ndarray, chosen: Any = slice(None)) -> np.ndarray:
         """Where its points are, or those chosen, at these poses, (V, 3) m."""
@@ -195,7 +206,7 @@ class Figures:
         key = (-1 if fixed else body, id(coating), tuple(glow), geom if see_through else -1)
         figure = groups.setdefault(key, Figure(coating, glow))
         figure.geoms.append(geom)
-        figure.meshed |= kind == "mesh" and not see_through
+        figure.meshed.append(kind == "mesh" and not see_through)
         figure.meshes.append(shape_of(self.model, batch, numbers, geom))
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
