@@ -112,6 +112,21 @@ def test_a_shot_is_begun_only_if_what_stands_still_in_it_fits_too(tmp_path, monk
     assert len(again.asked) == 10 and clock[0] < now + 8, "those after it are believed to be cheaper"
 
 
+def test_a_draft_goes_on_over_all_shots_after_a_slow_start(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+
+    class GetsReady(Drawn):
+        def picture(self, number: int, samples: float) -> np.ndarray:
+            clock[0] += 0.1 if self.asked else 20.0
+            return super().picture(number % 20, samples)
+
+    film = GetsReady(80)
+    film.shots = [range(k, k + 4) for k in range(0, 80, 4)]
+    refine(film, Refined(tmp_path / "a", 80, "it"), 40.5, lambda: None)
+    assert len(film.asked) == 80, "not each shot begins as slowly"
+
+
 @pytest.mark.parametrize("count", [24, 5000])
 def test_at_least_half_of_the_minutes_is_for_drawing(count):
     assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.06 * count)

@@ -277,14 +277,15 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     """Draw frames until the clock (`time.perf_counter`) reaches `end`, s; at least one that can be shown.
 
     Returns whether nothing is left that would make it better. A frame is begun only if it is likely to be done in time, by what
-    the last ones took for each sample: the first of a shot are the dearest, since what stands still is drawn with them.
+    the last ones took for each sample: the first of a shot are the dearest, since what stands still is drawn with them; of the
+    draft only that of the film is, with which the renderer gets ready.
     """
     begun: set[tuple[int, float]] = set()
-    now = time.perf_counter()
+    draft, now = next(iter(shown.levels())), time.perf_counter()
     for number, samples in rounds(shown.shots, shown.levels()):
         if state.samples[number] >= samples:
             continue
-        shot = max(k for k, shot in enumerate(shown.shots) if shot.start <= number)
+        shot = 0 if samples == draft else max(k for k, shot in enumerate(shown.shots) if shot.start <= number)
         first = (shot, samples) not in begun
         stills = shown.stills(number, samples) if first else 0
         if any(state.samples) and now + state.pace.expected(samples, first, stills) > end:
