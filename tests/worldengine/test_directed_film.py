@@ -448,8 +448,8 @@ def test_the_frames_of_a_still_shot_stand_in_for_what_does_not_change(made):
     with made.screening(tell) as screening:
         shots = screening.film.shots
         first, last = shots[0]["first"], shots[0]["first"] + shots[0]["frames"] - 1
-        assert screening._standing(0, 2) == (last, first)
-        assert screening._standing(0, "video") == ()
-        assert screening._standing(1, 2) == (), "the camera goes along"
-        assert screening._standing(2, 2) == (), "the light wanders"
+        assert screening.standing(first, 2) == screening.standing(last, 2) == (last, first)
+        assert screening.standing(first, "video") == screening.standing(first, 0.5) == ()
+        assert screening.standing(shots[1]["first"], 2) == (), "the camera goes along"
+        assert screening.standing(shots[2]["first"], 2) == (), "the light wanders"
         assert np.array_equal(screening.picture(first, 2), screening.picture(first))

@@ -9,23 +9,74 @@ import pytest
 from worldengine.film import renderers
 from worldengine.film.renderers import Before
 from worldengine.film.renderers.preview.eye import View
-from worldengine.film.renderers.traced import plates, walked
+from worldengine.film.renderers.traced import figures, plates, rounded, walked
 from worldengine.film.renderers.traced.shutter import Shutter
+from worldengine.film.treatment import Treatment
 from worldkit import bodies, scene
+from worldkit.settings import STUDIO
 
 AHEAD = View(np.zeros(3), np.array([[1.0, 0, 0], [0, 0, -1], [0, 1, 0]]), (1.0, 0.5))
 """Looks along +y, z up, twice as wide as high."""
 
 
+PLAIN = plates.Look(np.ones(3, np.float32), 1.0, -4.0, np.array((0.6, 0.0, 0.8)))
+"""Its ground lies 4 m below the eye."""
+
+
 def test_a_change_of_light_is_found_where_it_is():
     before = np.full((40, 80, 3), 0.3, np.float32)
-    assert not plates.differing(before, before.copy(), 1.0).any()
+    assert not plates.differing(before, before.copy(), PLAIN).any()
     now = before.copy()
     now[20, 50] = 0.6
-    found = plates.differing(before, now, 1.0)
+    found = plates.differing(before, now, PLAIN)
     assert found[20, 50] and found.sum() < 80
-    assert not plates.differing(before, before * 1.002, 1.0).any(), "nobody sees so little"
-    assert plates.differing(before, before * 1.1, 1.0).all()
+    assert not plates.differing(before, before * 1.002, PLAIN).any(), "nobody sees so little"
+    assert plates.differing(before, before * 1.1, PLAIN).all()
+
+
+def test_what_the_film_grades_plainer_is_found_too():
+    before = np.full((40, 80, 3), 1e-4, np.float32)
+    now = before * 1.5
+    for told, seen in (
+        (Treatment(), False), (Treatment(grade_exposure_stops=6), True), (Treatment(grade_contrast=3), True),
+        (Treatment(grade_contrast=3, grade_exposure_stops=-8), False), (Treatment(grade_saturation=3), True),
+    ):  # fmt: skip
+        assert plates.differing(before, now, plates.Look.of(STUDIO, told, 0.0)).all() == seen, told
+
+
+class Grains:
+    """So many geoms that all moved, one a row of the picture; it counts those that are asked for."""
+
+    def __init__(self, count: int) -> None:
+        self.count, self.asked = count, 0
+
+    def moved(self, before, now):
+        row = np.array([(-20.0, 10, 0.0), (20, 10, 0), (20, 10, 0.2), (-20, 10, 0.2)])
+        for number in range(self.count):
+            self.asked += 1
+            yield tuple(row + np.array((0, 0, 0.25 * (number % 40) - 5 - x)) for x in (0.0, 0.01))
+
+
+def test_where_most_has_moved_nothing_more_is_searched():
+    sight = plates.Sight(np.zeros((40, 80, 3), np.float32), (), {})
+    plate = plates.Plate("key", (sight,), walked.Rays(*[np.zeros((160, 320, 3), np.float32)] * 5), sight.light)
+    grains, none = Grains(10000), Grains(0)
+    assert plates.kept([sight], [plate], grains, none, AHEAD, PLAIN) is None and grains.asked < 100
+    assert plates.kept([sight], [plate], Grains(3), none, AHEAD, PLAIN) is not None
+
+
+def test_of_a_figure_of_many_each_geom_that_moved_is_found_by_itself():
+    figure = figures.Figure(None, np.zeros(3))
+    figure.meshes = [rounded.box(np.full(3, 0.1 * (k + 1))) for k in range(3)]
+    figure.owner = np.repeat(np.arange(3), [len(mesh.points) for mesh in figure.meshes])
+    figure.points = np.concatenate([mesh.points for mesh in figure.meshes])
+    figure._ends = np.cumsum([0, *(len(mesh.points) for mesh in figure.meshes)])
+    before = np.tile([*np.eye(3).ravel(), 0.0, 0, 0, 1], (3, 1))
+    now = before.copy()
+    now[0, 9], now[1, 10] = 1e-9, 2.0
+    ((was, stands),) = figure.moved(before, now)
+    assert np.allclose(was, figure.meshes[1].points) and np.allclose(stands - was, (0, 2, 0))
+    assert figures.Figures.most_moved((before, before), (before, now)) == 1
 
 
 def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
@@ -42,16 +93,40 @@ def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
     assert mask.all(), "what reaches the camera may be anywhere"
 
 
-def test_plates_that_were_used_longest_ago_make_room(monkeypatch):
-    rays = walked.Rays(*[np.zeros((4, 4, 3), np.float32)] * 5)
-    shelf = plates.Shelf()
-    one = plates.Plate("key", (), rays, rays.light)
-    monkeypatch.setattr(plates, "ROOM_BYTES", 2 * one.nbytes)
+def test_so_are_its_shadow_and_its_image_in_the_ground():
+    small = np.array([(0.0, 10, 0), (0.01, 10, 0), (0, 10, 0.01)])
+    dark = np.zeros((40, 80, 3), np.float32)
+
+    class Moved(Grains):
+        def moved(self, before, now):
+            yield small, small + np.array((1.0, 0, 0))
+
+    plate = plates.Plate("key", (plates.Sight(dark, (), {}),), walked.Rays(*[np.zeros((160, 320, 3))] * 5), dark)
+    found = plates.changed([plate.sights[0]], plate, Moved(1), Grains(0), AHEAD, PLAIN._replace(floor_z=-2.0))
+    for column, row, what in (
+        (40, 20, "itself"),
+        (34, 28, "its shadow, 1.5 m aside"),
+        (40, 36, "its image, 4 m below"),
+    ):
+        assert found[row - 1 : row + 1, column - 1 : column + 1].any(), what
+    tall = small * (1, 1, 500)
+    big, mask = plates.echoes((tall, tall + 1.0), PLAIN), np.zeros((40, 80), np.uint8)
+    plates.outline(mask, big, AHEAD, 5)
+    assert not mask.any(), "those of a large thing are seen"
+
+
+def test_plates_of_another_shot_make_room_and_what_does_not_fit_is_not_begun():
+    rays = walked.Rays(*[np.zeros((4, 4, 3), np.float32)] * 4, np.zeros((4, 4), np.float32))
+    one, shelf = plates.Plate("key", (), rays, rays.light), plates.Shelf()
+    assert sum(part.nbytes for part in (*rays, one.clean)) == 16 * plates.PIXEL_BYTES
     for name in "ab":
         shelf.put(name, one)
-    assert shelf.find("a") is one
-    shelf.put("c", one)
-    assert shelf.find("b") is None and shelf.find("a") is one and shelf.find("c") is one
+    shelf.keep({"b", "c"})
+    assert shelf.find("a") is None and shelf.find("b") is one
+    hd, soft = 1280 * 720, 6 << 20
+    assert plates.fitting(hd, 0, 8) > 2
+    assert plates.fitting(hd, soft, 64) == 1, "where skins were, at each of so many moments"
+    assert plates.fitting(9 * hd, 0, 1) == 2 and plates.fitting(hd, soft, 200) == 0
 
 
 def test_a_mask_is_spread_over_pictures_of_any_size():

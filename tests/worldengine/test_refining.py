@@ -24,7 +24,7 @@ class Drawn:
     """Frames whose brightness is their number; it counts what it is asked for."""
 
     def __init__(self, count: int) -> None:
-        self.count, self.asked = count, []
+        self.count, self.shots, self.asked = count, [range(count)], []
 
     def levels(self) -> tuple[float, ...]:
         return LEVELS
@@ -32,6 +32,9 @@ class Drawn:
     def picture(self, number: int, samples: int) -> np.ndarray:
         self.asked.append((number, samples))
         return np.full((SIZE[1], SIZE[0], 3), 10 * number, np.uint8)
+
+    def stills(self, number: int, samples: int) -> int:
+        return 0
 
     def told(self) -> dict:
         return {}
@@ -43,8 +46,10 @@ def shown(path) -> list[float]:
 
 
 def test_each_round_draws_every_frame_once_the_far_apart_ones_first():
-    order = list(rounds(20, LEVELS))
+    order = list(rounds([range(12), range(12, 20)], LEVELS))
     assert [n for n, s in order if s == LEVELS[0]][:5] == [0, 8, 16, 4, 12]
+    assert [n for n, s in order if s == LEVELS[1]][:4] == [0, 8, 4, 2], "after the draft, shot by shot"
+    assert [n for n, s in order if s == LEVELS[1]][12:15] == [12, 16, 14]
     for samples in LEVELS:
         assert sorted(n for n, s in order if s == samples) == list(range(20))
     assert [s for _, s in order] == sorted(s for _, s in order)
@@ -72,6 +77,54 @@ def test_a_round_is_begun_only_if_its_dearest_frame_fits(tmp_path, monkeypatch):
     film, clock[0] = Uneven(20), 0.0
     assert not refine(film, Refined(tmp_path / "b", 20, "it"), once + 6.0 + 7.0, lambda: None)
     assert len(film.asked) == 40, "those after it are believed to be cheaper again"
+
+
+def test_a_shot_is_begun_only_if_what_stands_still_in_it_fits_too(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+
+    class TwoShots(Drawn):
+        """Of the second shot two more frames are drawn with the first one of a round, and the others are cheap then."""
+
+        def __init__(self) -> None:
+            super().__init__(20)
+            self.shots = [range(10), range(10, 20)]
+            self.known: set[float] = set()
+
+        def stills(self, number: int, samples: float) -> int:
+            return 2 if number >= 10 and samples > 1 else 0
+
+        def picture(self, number: int, samples: float) -> np.ndarray:
+            cheap = samples in self.known
+            clock[0] += samples * (1.0 if number < 10 or samples < 1 else 0.1 if cheap else 3.0)
+            if number >= 10:
+                self.known.add(samples)
+            return super().picture(number, samples)
+
+    draft, shot = 20 * 0.5, 10 * 2.0
+    film = TwoShots()
+    assert not refine(film, Refined(tmp_path / "a", 20, "it"), draft + shot + 5.9, lambda: None)
+    assert len(film.asked) == 30, "with what stands still the next frame takes 6 s"
+    again, now = TwoShots(), clock[0]
+    assert not refine(again, Refined(tmp_path / "a", 20, "it"), now + 5.9, lambda: None)
+    assert not again.asked, "whoever goes on knows what frames take"
+    assert not refine(again, Refined(tmp_path / "a", 20, "it"), now + 8.1, lambda: None)
+    assert len(again.asked) == 10 and clock[0] < now + 8, "those after it are believed to be cheaper"
+
+
+def test_a_draft_goes_on_over_all_shots_after_a_slow_start(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+
+    class GetsReady(Drawn):
+        def picture(self, number: int, samples: float) -> np.ndarray:
+            clock[0] += 0.1 if self.asked else 20.0
+            return super().picture(number % 20, samples)
+
+    film = GetsReady(80)
+    film.shots = [range(k, k + 4) for k in range(0, 80, 4)]
+    refine(film, Refined(tmp_path / "a", 80, "it"), 40.5, lambda: None)
+    assert len(film.asked) == 80, "not each shot begins as slowly"
 
 
 @pytest.mark.parametrize("count", [24, 5000])
@@ -121,13 +174,13 @@ def test_what_is_missing_is_shown_by_the_frame_before_it(tmp_path):
 
 def test_it_goes_on_where_it_was_cut_and_ends_when_all_is_drawn(tmp_path):
     first, state = Drawn(10), Refined(tmp_path / "frames", 10, "it")
-    for number, samples in list(rounds(10, LEVELS))[:13]:
+    for number, samples in list(rounds([range(10)], LEVELS))[:13]:
         state.keep(number, first.picture(number, samples), samples)
     again = Refined(tmp_path / "frames", 10, "it")
     assert again.samples == state.samples and again.told()["taken_over"] == 10
     second = Drawn(10)
     assert refine(second, again, float("inf"), lambda: None)
-    assert first.asked + second.asked == list(rounds(10, LEVELS))
+    assert first.asked + second.asked == list(rounds([range(10)], LEVELS))
     assert again.samples == [LEVELS[-1]] * 10
 
 
@@ -173,6 +226,6 @@ def test_where_paths_cannot_be_traced_the_two_kinds_of_the_preview_are_all(tmp_p
     with ExitStack() as stack:
         shown = refining.OfTheAuthor(given, portable.read(given.world), recording, told, stack)
         assert shown.told()["renderer"]["name"] == "preview"
-        shown.count, state = 2, Refined(tmp_path / "frames", 2, "it")
+        shown.count, shown.shots, state = 2, [range(2)], Refined(tmp_path / "frames", 2, "it")
         assert refine(shown, state, float("inf"), lambda: None)
     assert state.samples == [4, 4]

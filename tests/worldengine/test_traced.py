@@ -1,12 +1,14 @@
 """The traced renderer: its shapes, its light, its denoiser, and what happens where its packages are missing."""
 
+from types import SimpleNamespace
+
 import mujoco
 import numpy as np
 import pytest
 
 from worldengine.film import renderers
 from worldengine.film.drawn_frames import Frames
-from worldengine.film.renderers.traced import coatings, denoised, leaning, rounded, tracing, unwrapped, variant
+from worldengine.film.renderers.traced import coatings, denoised, figures, leaning, rounded, tracing, unwrapped, variant
 from worldengine.film.renderers.traced.half_room import Walls
 from worldkit import bodies, cameras, materials, scene
 from worldkit.settings import ROOM
@@ -288,3 +290,23 @@ def test_the_moments_of_a_moving_camera_fit_into_memory():
     for pixels in (1920 * 1080, 3840 * 2160, 1 << 26):
         kept = -(-32 // tracing.glimpses_apart(32, pixels))
         assert kept == 1 or kept * 44 * pixels <= tracing.GLIMPSES_BYTES
+
+
+def test_only_meshes_of_any_shape_are_turned_to_the_eye_and_only_where_they_lean():
+    class Params(dict):
+        def update(self):
+            self["told"] = self.get("told", 0) + 1
+
+    figure = figures.Figure(None, np.zeros(3), geoms=[0, 1], meshed=[False, True], params=Params())
+    figure.owner, figure.points = np.repeat([0, 1], 3), np.tile(np.eye(3), (2, 1))
+    figure.normals, figure._any_shape = np.tile((0.1, 0, -0.995), (6, 1)), np.repeat([False, True], 3)
+    data = SimpleNamespace(geom_xmat=np.tile(np.eye(3).ravel(), (2, 1)), geom_xpos=np.zeros((2, 3)))
+    figure.place(data, np.ones(2))
+    figure.face(np.array((0, 0, -50.0)))
+    assert figure.params["told"] == 1, "what faces the eye is not handed over again"
+    figure.face(np.array((-50.0, 0, 0)))
+    normals = figure.params["vertex_normals"].reshape(-1, 3)
+    assert figure.params["told"] == 2 and np.allclose(normals[:3], figure.normals[:3])
+    assert (normals[3:, 0] < 0).all()
+    figure.face(np.array((0, 0, -50.0)))
+    assert np.allclose(figure.params["vertex_normals"].reshape(-1, 3), figure.normals), "and turned back again"

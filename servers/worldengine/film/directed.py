@@ -74,6 +74,8 @@ class Screening:
             for shot in film.shots
         ]
         self._still: dict[int, tuple[int, ...]] = {}
+        self.tick: Callable[[], object] = lambda: None
+        """Called whenever a moment is set up, since a picture may take minutes."""
         self.frames = Frames(self.model, *size, renderer)
 
     def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
@@ -81,7 +83,7 @@ class Screening:
         film, moments = self.film, self.film.samples if self.film.shutter > 0 else 1
         if not isinstance(quality, str):
             moments = min(moments, max(1, int(quality)))  # each takes one sample at least; a draft is sharp
-        before = [Before(number, self._parts(number, moments)) for number in self._standing(film.shot(frame), quality)]
+        before = [Before(number, self._parts(number, moments)) for number in self.standing(frame, quality)]
         image = self.frames.over(before, self._parts(frame, moments), self._camera, quality)
         speed = film.speed(frame, self.fps)
         return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)])
@@ -90,11 +92,12 @@ class Screening:
         """The moments while the shutter is open for a frame."""
         return [partial(self._moment, frame + self.film.shutter * part / moments) for part in range(moments)]
 
-    def _standing(self, shot: int, quality: "Quality") -> tuple[int, ...]:
+    def standing(self, frame: int, quality: "Quality") -> tuple[int, ...]:
         """The frames that stand in for what does not change in a shot, if its camera and light do not: its last, where most
-        has come to rest, and its first, for what is about to move."""
-        if isinstance(quality, str):
+        has come to rest, and its first, for what is about to move; a draft needs none."""
+        if isinstance(quality, str) or quality < 1:
             return ()
+        shot = self.film.shot(frame)
         if shot not in self._still:
             film, first, count = self.film, self.film.shots[shot]["first"], self.film.shots[shot]["frames"]
             lit = {film.treatments.at(frame / self.fps).lit for frame in range(first, first + count)}
@@ -107,6 +110,7 @@ class Screening:
         """Set up what is shown between two frames of one shot."""
         import numpy as np
 
+        self.tick()
         film = self.film
         shot = film.shots[film.shot(int(at))]
         last = shot["first"] + shot["frames"] - 1

@@ -2,7 +2,7 @@
 
 All frames are drafted first, at half the size with their surfaces' colours at the whole, every eighth, then those between, so
 that a film stands whenever it is cut: a frame that is missing is shown by the one before it. Then they are drawn again in
-place, with three times the samples each round, as long as the minutes last. Of a shot whose camera and light stand still, the last
+place, shot by shot, with three times the samples each round, as long as the minutes last. Of a shot whose camera and light stand still, the last
 frame and the first are traced as a whole, the others only where they differ from both. What is drawn lies in `frames/`, a folder
 for each film, and is gone on with later.
 """
@@ -49,12 +49,17 @@ class Shown(Protocol):
 
     count: int
     """The number of its frames."""
+    shots: Sequence[range]
+    """The frames of each of its shots."""
 
     def levels(self) -> Iterable[float]:
         """Samples a pixel, round by round; without end where more always make it better."""
 
     def picture(self, number: int, samples: float) -> "np.ndarray":
         """One frame with so many samples a pixel: uint8 (height, width, 3)."""
+
+    def stills(self, number: int, samples: float) -> int:
+        """How many other frames are drawn with this one, if it is the first of its shot with so many samples."""
 
     def told(self) -> dict[str, Any]:
         """What the result says of it: cameras, renderer, …"""
@@ -65,16 +70,25 @@ class FellBackError(Exception):
 
 
 class OfTheAuthor:
-    """The film that `film.py` describes."""
+    """The film that `film.py` describes; `tick` is called whenever something of a frame begins to be drawn."""
 
     def __init__(
-        self, given: "Given", model: "mujoco.MjModel", recording: "Recording", film: "Described", stack: ExitStack
+        self,
+        given: "Given",
+        model: "mujoco.MjModel",
+        recording: "Recording",
+        film: "Described",
+        stack: ExitStack,
+        tick: Callable[[], object] | None = None,
     ) -> None:
         from .directed import Screening
 
         self._film, self._fps, self.count = film, given.fps, film.frames
+        self.shots: Sequence[range] = [range(shot["first"], shot["first"] + shot["frames"]) for shot in film.shots]
         screening = Screening(given.world, model, recording, film, given.size, given.fps, renderers.FINAL)
         self._screening = stack.enter_context(screening)
+        if tick is not None:
+            screening.tick = tick
         self.renderer = screening.frames.renderer
 
     @property
@@ -98,6 +112,11 @@ class OfTheAuthor:
             raise FellBackError
         return image
 
+    def stills(self, number: int, samples: float) -> int:
+        """The frames that stand in for what does not change in its shot, where paths are traced."""
+        standing = self._screening.standing(number, samples) if self._traced else ()
+        return sum(still != number for still in standing)
+
     def told(self) -> dict[str, Any]:
         """The renderer, and what the film tells of itself."""
         return {"cameras": ["film"], "renderer": self._screening.frames.told(), "film": self._film.told(self._fps)}
@@ -120,14 +139,15 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     recording, model, out = stored.open(options.recording), given.model(), options.out
     film, name = described.read(options.film, recording), named(options.film, recording.sha256)
     seconds = options.minutes * 60.0
-    tick = Progress(out, round(seconds), "s")
+    progress = Progress(out, round(seconds), "s")
+
+    def tick() -> None:
+        progress(min(round(time.perf_counter() - started), round(seconds)))
+
     with ExitStack() as stack:
-        shown = OfTheAuthor(given, model, recording, film, stack)
+        shown = OfTheAuthor(given, model, recording, film, stack, tick)
         end = started + drawing_s(seconds, shown.count, given.size)
-        complete, state = refined(
-            shown, out / FRAMES / name, [given.size, given.fps], end,
-            lambda: tick(min(round(time.perf_counter() - started), round(seconds))),
-        )  # fmt: skip
+        complete, state = refined(shown, out / FRAMES / name, [given.size, given.fps], end, tick)
         told = shown.told()
     encode(state, out / f"{NAME}.mp4", given.size, given.fps, Progress(out, shown.count, "frames in the file"))
     result = {"ok": True, "pass": NAME, **told, "frames": shown.count, "fps": given.fps, "size": list(given.size)}
@@ -162,6 +182,23 @@ def named(described: Path, recording_sha256: str) -> str:
     return hashlib.sha256("\n".join(said).encode()).hexdigest()[:16]
 
 
+class Pace:
+    """What frames take for each sample a pixel, s: the `dearest` of a level, and the `recent` ones, by which the next is judged."""
+
+    def __init__(self, level: float = 0.0, dearest: float = 0.0, recent: float = 0.0) -> None:
+        self.level, self.dearest, self.recent = level, dearest, recent
+
+    def expected(self, samples: float, first: bool, stills: int) -> float:
+        """Seconds of a frame; if it is the `first` of its shot at this level, as many as the dearest, or as it and its `stills`."""
+        return samples * (max(self.dearest, (1 + stills) * self.recent) if first else self.recent)
+
+    def add(self, samples: float, took: float, stills: int) -> None:
+        """Learn what a frame and its `stills`, which were drawn with it, took, s."""
+        each = took / samples
+        self.dearest = max(each, self.dearest) if samples == self.level else each
+        self.level, self.recent = samples, max(each / (1 + stills), CALMER * self.recent)
+
+
 class Refined:
     """The frames drawn so far, with how many samples each.
 
@@ -177,8 +214,9 @@ class Refined:
         try:
             said = json.loads((folder / STATE).read_text(encoding="utf-8"))
             samples = [float(n) for n in said["samples"]] if said["about"] == self._about else []
+            self.pace = Pace(*(float(n) for n in said["pace"])) if samples else Pace()
         except (OSError, ValueError, KeyError, TypeError):
-            samples = []
+            samples, self.pace = [], Pace()
         self.samples = samples if len(samples) == count else [0.0] * count
         self.samples = [n if self.path(k).is_file() else 0.0 for k, n in enumerate(self.samples)]
         self.taken_over = sum(n > 0 for n in self.samples)
@@ -192,7 +230,8 @@ class Refined:
         """Replace a frame by a better one."""
         write_png(self.path(number), image)
         self.samples[number] = samples
-        write_json(self._folder / STATE, {"about": self._about, "samples": self.samples})
+        pace = [self.pace.level, self.pace.dearest, self.pace.recent]
+        write_json(self._folder / STATE, {"about": self._about, "samples": self.samples, "pace": pace})
 
     def nearest(self, number: int) -> int:
         """The frame that is shown at this place: itself, or the last drawn before it, or the first of all."""
@@ -219,33 +258,43 @@ def traced_levels() -> Iterator[float]:
         yield FIRST * FACTOR**number
 
 
-def rounds(count: int, levels: Iterable[float]) -> Iterator[tuple[int, float]]:
-    """(frame, samples) in the order of drawing: each level over every eighth frame first, then those between."""
+def rounds(shots: Sequence[range], levels: Iterable[float]) -> Iterator[tuple[int, float]]:
+    """(frame, samples) in the order of drawing: of the film, and after its draft of each shot, every eighth frame first, then
+    those between. What stands still in a shot is drawn once for it, and need not be kept for another."""
+    parts: Sequence[range] = [range(shots[-1].stop)]
     for samples in levels:
-        done: set[int] = set()
-        for stride in STRIDES:
-            for number in range(0, count, stride):
-                if number not in done:
-                    done.add(number)
-                    yield number, samples
+        for part in parts:
+            done: set[int] = set()
+            for stride in STRIDES:
+                for number in part[::stride]:
+                    if number not in done:
+                        done.add(number)
+                        yield number, samples
+        parts = shots
 
 
 def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     """Draw frames until the clock (`time.perf_counter`) reaches `end`, s; at least one that can be shown.
 
     Returns whether nothing is left that would make it better. A frame is begun only if it is likely to be done in time, by what
-    the last ones took for each sample: the first of a round are the dearest, since what stands still is drawn with them.
+    the last ones took for each sample: the first of a shot are the dearest, since what stands still is drawn with them; of the
+    draft only that of the film is, with which the renderer gets ready.
     """
-    per_sample = dearest = last = 0.0
-    for number, samples in rounds(shown.count, shown.levels()):
+    begun: set[tuple[int, float]] = set()
+    draft, now = next(iter(shown.levels())), time.perf_counter()
+    for number, samples in rounds(shown.shots, shown.levels()):
         if state.samples[number] >= samples:
             continue
-        now = time.perf_counter()
-        if any(state.samples) and now + samples * (per_sample if samples == last else dearest) > end:
+        shot = 0 if samples == draft else max(k for k, shot in enumerate(shown.shots) if shot.start <= number)
+        first = (shot, samples) not in begun
+        stills = shown.stills(number, samples) if first else 0
+        if any(state.samples) and now + state.pace.expected(samples, first, stills) > end:
             return False
-        state.keep(number, shown.picture(number, samples), samples)
-        took, last = (time.perf_counter() - now) / samples, samples
-        per_sample, dearest = max(took, CALMER * per_sample), max(took, dearest)
+        image = shown.picture(number, samples)
+        begun.add((shot, samples))
+        since, now = now, time.perf_counter()  # what keeping the frame before it took is counted, too
+        state.pace.add(samples, now - since, stills)
+        state.keep(number, image, samples)
         tick()
     return True
 

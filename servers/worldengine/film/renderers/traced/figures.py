@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 MANY = 60
 """Of more spheres than this, each is drawn coarser."""
+TREMBLE = 1e-7
+"""Geoms that rest move by so much at times, m; a centimetre from the camera that is a hundredth of a pixel."""
 
 
 @dataclass
@@ -37,10 +39,11 @@ class Figure:
     meshes: list[Mesh] = field(default_factory=list)
     shape: Any = None
     params: Any = None
-    meshed: bool = False
-    """Meshes of any shape are among it, and light does not go through them."""
-    _meshed: tuple[np.ndarray, np.ndarray] | None = None
+    meshed: list[bool] = field(default_factory=list)
+    """Which of them are meshes of any shape, through which light does not go."""
+    _placed: tuple[np.ndarray, np.ndarray] | None = None
     _faces: bytes = b""
+    _turned: bool = False
     poses: np.ndarray | None = None
     """Of each geom the rotation, place and size that it was given last, (G, 13)."""
 
@@ -48,11 +51,12 @@ class Figure:
         """Join its meshes, and hand the mesh over to Mitsuba."""
         counts = [len(mesh.points) for mesh in self.meshes]
         self.owner = np.repeat(np.arange(len(counts)), counts)
+        self._ends = np.cumsum([0, *counts])
+        self._any_shape = np.repeat(self.meshed, counts)
         self.points = np.concatenate([mesh.points for mesh in self.meshes])
         self.normals = np.concatenate([mesh.normals for mesh in self.meshes])
         uv = np.concatenate([np.zeros((len(m.points), 2)) if m.uv is None else m.uv for m in self.meshes])
-        starts = np.concatenate([[0], np.cumsum(counts)[:-1]])
-        faces = np.concatenate([mesh.faces + start for mesh, start in zip(self.meshes, starts, strict=True)])
+        faces = np.concatenate([mesh.faces + start for mesh, start in zip(self.meshes, self._ends[:-1], strict=True)])
         self.shape, self.params = mesh_of(len(self.points), faces, uv, self.coating, self.glow)
 
     def place(self, data: mujoco.MjData, sizes: np.ndarray) -> bool:
@@ -65,17 +69,26 @@ class Figure:
         normals = np.einsum("vij,vj->vi", rotation[self.owner], self.normals)
         points = self._stands(poses)
         fill(self.params, points, normals)
-        self._meshed = (points, normals) if self.meshed else None
-        self._faces = b""
+        self._placed = (points, normals) if any(self.meshed) else None
+        self._faces, self._turned = b"", False
         return True
 
     def face(self, eye: np.ndarray) -> None:
         """Let all that an eye (3,) sees of its meshes face it."""
-        if self._meshed is not None and self._faces != eye.tobytes():
-            self._faces = eye.tobytes()
-            normals = facing(*self._meshed, eye)
+        if self._placed is None or self._faces == eye.tobytes():
+            return
+        self._faces = eye.tobytes()
+        (points, normals), chosen = self._placed, self._any_shape
+        theirs = normals[chosen]
+        turned = facing(points[chosen], theirs, eye)
+        turns = turned is not theirs
+        if turns:
+            normals = normals.copy()
+            normals[chosen] = turned
+        if turns or self._turned:
             self.params["vertex_normals"] = np.ascontiguousarray(normals, dtype=np.float32).ravel()
             self.params.update()
+        self._turned = turns
 
     def _stands(self, poses: np.ndarray, chosen: Any = slice(None)) -> np.ndarray:
         """Where its points are, or those chosen, at these poses, (V, 3) m."""
@@ -85,9 +98,14 @@ class Figure:
 
     def moved(self, before: np.ndarray, now: np.ndarray) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """The points (V, 3), m, of each geom that stands otherwise, at both poses."""
-        for geom in np.flatnonzero((before != now).any(axis=1)):
-            chosen = np.flatnonzero(self.owner == geom)
+        for geom in np.flatnonzero(elsewhere(before, now)):
+            chosen = slice(self._ends[geom], self._ends[geom + 1])
             yield self._stands(before, chosen), self._stands(now, chosen)
+
+
+def elsewhere(before: np.ndarray, now: np.ndarray) -> np.ndarray:
+    """Which geoms stand otherwise in one of two sets of poses (G, 13): bool (G,)."""
+    return np.abs(before - now).max(axis=1) > TREMBLE
 
 
 def mesh_of(vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow: np.ndarray) -> tuple[Any, Any]:
@@ -188,7 +206,7 @@ class Figures:
         key = (-1 if fixed else body, id(coating), tuple(glow), geom if see_through else -1)
         figure = groups.setdefault(key, Figure(coating, glow))
         figure.geoms.append(geom)
-        figure.meshed |= kind == "mesh" and not see_through
+        figure.meshed.append(kind == "mesh" and not see_through)
         figure.meshes.append(shape_of(self.model, batch, numbers, geom))
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
@@ -219,6 +237,11 @@ class Figures:
     def poses(self) -> tuple[np.ndarray, ...]:
         """Where all figures stand."""
         return tuple(figure.poses for figure in self.all if figure.poses is not None)
+
+    @staticmethod
+    def most_moved(before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]) -> int:
+        """Of the figure of which most geoms stand otherwise: how many."""
+        return max((int(elsewhere(*both).sum()) for both in zip(before, now, strict=True)), default=0)
 
     def moved(
         self, before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]

@@ -39,11 +39,13 @@ def upright(mesh: Mesh) -> Mesh:
 
 
 def facing(points: np.ndarray, normals: np.ndarray, eye: np.ndarray) -> np.ndarray:
-    """Normals (V, 3) at points (V, 3), m, of which those of any triangle that an eye (3,) sees face it."""
+    """Normals (V, 3) at points (V, 3), m, of which those of any triangle that an eye (3,) sees face it; the same if all do."""
     sight = eye - points
     sight /= np.maximum(np.linalg.norm(sight, axis=1, keepdims=True), 1e-12)
     along = np.einsum("vk,vk->v", normals, sight)
     away = (along < LEAST) & (along > -1.01 * np.sin(np.radians(MOST_DEG)))
+    if not away.any():
+        return normals
     turned = normals.copy()
     turned[away] += (LEAST - along[away])[:, None] * sight[away]
     turned[away] /= np.linalg.norm(turned[away], axis=1, keepdims=True)

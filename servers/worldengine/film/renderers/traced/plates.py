@@ -2,16 +2,22 @@
 
 With equal chances equal paths bring equal light: where a coarse look at two moments is the same, nothing moved there,
 and no shadow, glow or mirror image of it, and the light traced of the one is that of the other to the last sample. What is
-too small for a coarse look is found by its outline: a thing is drawn anew where it was and where it is, however small.
+too small for a coarse look is found by its outline: a thing is drawn anew where it was and where it is, however small, and
+so are its shadow on the ground and its image in it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Collection, Hashable, Iterable, Iterator, Sequence
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from worldkit.settings import Setting
+
+from ...film_curve import gains
+from ...treatment import Treatment
 from ..preview.eye import View
 from .walked import Rays
 
@@ -23,12 +29,41 @@ SIDE, SAMPLES = 4, 4
 """Of a coarse look one pixel stands for so many each way, and takes so many samples."""
 BLUR, LEAST, GROWN = 1.5, 1.2 / 255.0, 2
 """Differences are spread over so many coarse pixels; count from this share of white on; and reach so many further."""
+LEAST_ALONE = 10.0 / 255.0
+"""A difference of one coarse pixel alone counts from this share of white on; chance makes many that are smaller."""
+SMALL = 10
+"""The shadow or image of a thing of more coarse pixels is found by its light."""
 UNSEEN = 0.01
 """A thing that moved by so many coarse pixels stands where it stood."""
 MOST = 0.6
 """Where more than this share of a picture differs, it is traced as a whole, which costs no more then."""
+MOST_MOVED = 300
+"""Where more geoms of one figure moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
 ROOM_BYTES = 1 << 30
-"""Memory for plates; those used longest ago are given up, and traced again where they are asked for."""
+"""Memory for plates and for what is looked at coarsely."""
+PIXEL_BYTES = 64
+"""Of a plate, for each pixel: light, colours, normals, places, the share of things, and the light without noise."""
+
+
+class Look(NamedTuple):
+    """How light becomes a picture, as far as it makes differences plainer, and where shadows and images lie."""
+
+    exposure: np.ndarray
+    """By which red, green and blue light is multiplied, (3,)."""
+    contrast: float
+    """By how much the developed picture is steeper."""
+    floor_z: float
+    """Height of the ground, m."""
+    key: np.ndarray
+    """Unit vector toward the light, (3,)."""
+
+    @classmethod
+    def of(cls, setting: Setting, told: Treatment, floor_z: float) -> Look:
+        """That of a setting, as the film grades it."""
+        brighter = setting.exposure * 2.0**told.grade_exposure_stops
+        exposure = brighter * gains(told.grade_temperature, told.grade_tint)
+        contrast = max(told.grade_contrast, 1.0) * max(told.grade_saturation, 1.0)
+        return cls(exposure.astype(np.float32), contrast, floor_z, np.array(setting.key.direction))
 
 
 class Sight(NamedTuple):
@@ -50,34 +85,30 @@ class Plate(NamedTuple):
     clean: np.ndarray
     """Its light without noise (H, W, 3)."""
 
-    @property
-    def nbytes(self) -> int:
-        """Its size in memory."""
-        return sum(part.nbytes for part in (*self.rays, self.clean))
+
+def fitting(pixels: int, sight: int, moments: int) -> int:
+    """How many plates of so many pixels and moments have room beside those of a picture; `sight` is the size of a moment's."""
+    return max(0, ROOM_BYTES - moments * sight) // (PIXEL_BYTES * pixels + moments * sight)
 
 
 class Shelf:
-    """The plates used last, by name."""
+    """The plates of the shot that is drawn, by name."""
 
     def __init__(self) -> None:
         self._plates: dict[Hashable, Plate] = {}
 
+    def keep(self, names: Collection[Hashable]) -> None:
+        """Give up all others: films are drawn shot by shot."""
+        self._plates = {name: plate for name, plate in self._plates.items() if name in names}
+
     def find(self, name: Hashable) -> Plate | None:
-        """The plate of this name, if it is still there."""
-        if name in self._plates:
-            self._plates[name] = self._plates.pop(name)
+        """The plate of this name, if it is there."""
         return self._plates.get(name)
 
     def put(self, name: Hashable, plate: Plate) -> Plate:
-        """Keep it, in place of those for which there is no room any more."""
-        while self._plates and plate.nbytes + sum(p.nbytes for p in self._plates.values()) > ROOM_BYTES:
-            del self._plates[next(iter(self._plates))]
+        """Take it up."""
         self._plates[name] = plate
         return plate
-
-    def clear(self) -> None:
-        """Give all up."""
-        self._plates.clear()
 
 
 class Kept(NamedTuple):
@@ -89,7 +120,7 @@ class Kept(NamedTuple):
 
 
 def kept(
-    now: Sequence[Sight], known: Sequence[Plate], figures: Figures, strands: Strands, view: View, exposure: float
+    now: Sequence[Sight], known: Sequence[Plate], figures: Figures, strands: Strands, view: View, look: Look
 ) -> Kept | None:
     """What of these moments is as in some plates of the same camera and light; None where that is too little to be worth it.
 
@@ -98,11 +129,11 @@ def kept(
         known: the plates; the first goes before the others.
         figures, strands: of the model.
         view: of the camera.
-        exposure: by which light is multiplied before it is shown.
+        look: how the picture is developed.
     """
     found: Kept | None = None
     for plate in known:
-        differs = changed(now, plate, figures, strands, view, exposure)
+        differs = changed(now, plate, figures, strands, view, look)
         if not differs.any():
             return Kept(differs, plate.rays, plate.clean)
         if found is None:
@@ -113,36 +144,47 @@ def kept(
 
 
 def changed(
-    now: Sequence[Sight], plate: Plate, figures: Figures, strands: Strands, view: View, exposure: float
+    now: Sequence[Sight], plate: Plate, figures: Figures, strands: Strands, view: View, look: Look
 ) -> np.ndarray:
     """The mask (h, w) of what has to be traced of these moments, since it is not as in the plate at all times."""
     first, *rest = plate.sights
     mask = np.zeros(first.light.shape[:2], np.uint8)
     for sight in (*now, *rest):
-        mask |= differing(first.light, sight.light, exposure)
-        moved = (*figures.moved(first.poses, sight.poses), *strands.moved(first.soft, sight.soft))
-        outline(mask, moved, view)
+        mask |= differing(first.light, sight.light, look)
+        for thing in chain(figures.moved(first.poses, sight.poses), strands.moved(first.soft, sight.soft)):
+            outline(mask, [thing], view)
+            outline(mask, echoes(thing, look), view, SMALL)
+            if mask.mean() > MOST:  # the picture is not worth a closer look
+                return np.ones(mask.shape, bool)
     import cv2
 
     return cv2.dilate(mask, np.ones((2 * GROWN + 1,) * 2, np.uint8)).astype(bool)
 
 
-def differing(before: np.ndarray, now: np.ndarray, exposure: float) -> np.ndarray:
+def differing(before: np.ndarray, now: np.ndarray, look: Look) -> np.ndarray:
     """Where two coarse pictures of scene light (h, w, 3) would look different: uint8 (h, w)."""
     import cv2
 
     def shown(light: np.ndarray) -> np.ndarray:
-        bright = np.maximum(light, 0.0) * np.float32(exposure)
+        bright = np.maximum(light, 0.0) * look.exposure
         return np.sqrt(bright / (1.0 + bright))
 
-    apart = np.abs(shown(now) - shown(before)).max(axis=-1)
-    return (cv2.GaussianBlur(apart, (0, 0), BLUR) > LEAST).astype(np.uint8)
+    apart = np.float32(look.contrast) * np.abs(shown(now) - shown(before)).max(axis=-1)
+    return ((cv2.GaussianBlur(apart, (0, 0), BLUR) > LEAST) | (apart > LEAST_ALONE)).astype(np.uint8)
 
 
-def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, np.ndarray]], view: View) -> None:
+def echoes(thing: tuple[np.ndarray, np.ndarray], look: Look) -> Iterator[tuple[np.ndarray, ...]]:
+    """The image of a thing in the ground, and its shadow there, at both moments, as points (N, 3), m."""
+    yield tuple(points * (1, 1, -1) + (0, 0, 2 * look.floor_z) for points in thing)
+    if look.key[2] > 0:
+        yield tuple(points - np.maximum(points[:, 2:] - look.floor_z, 0.0) / look.key[2] * look.key for points in thing)
+
+
+def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: View, most: float = np.inf) -> None:
     """Mark in a mask (h, w) the convex outlines of things at two moments, of which the points (N, 3), m, are given.
 
-    What moved by less than can be seen is left out; all of the mask is marked where a thing reaches behind the camera.
+    What moved by less than can be seen is left out, and so is what is wider or higher than `most` places of the mask; all of
+    the mask is marked where a thing of any size reaches behind the camera.
     """
     import cv2
 
@@ -154,6 +196,8 @@ def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, np.ndarray]], v
             away = -own[:, 2:]
             if not len(own) or away.max() < view.near_m:
                 continue
+            if away.min() < view.near_m and most < np.inf:
+                continue
             if away.min() < view.near_m:
                 mask[...] = 1
                 return
@@ -162,4 +206,5 @@ def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, np.ndarray]], v
         if len(flat) == 2 and flat[0].shape == flat[1].shape and np.abs(flat[1] - flat[0]).max() <= UNSEEN:
             continue
         for place in flat:
-            cv2.fillConvexPoly(mask, np.floor(cv2.convexHull(place)).astype(np.int32), 1)
+            if np.ptp(place, axis=0).max() <= most:
+                cv2.fillConvexPoly(mask, np.floor(cv2.convexHull(place)).astype(np.int32), 1)

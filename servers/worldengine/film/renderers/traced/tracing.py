@@ -281,11 +281,18 @@ class Tracing:
         view, outlook, drawn, painted = self._seen(moments[0](), camera)
         # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
         still = self._treatment.aperture <= 0 and variant.choose() != variant.PLAIN and shutter.coarser == 1
-        found = [self._plate(one, shutter, camera) for one in before] if still else []
+        before = before[: self._fitting(shutter)] if still else ()
+        self._plates.keep({(one.name, shutter) for one in before})
+        found = [self._plate(one, shutter, camera) for one in before]
         key = self._key(moments[0](), camera)
         known = [plate for plate in found if plate.key == key]
+        if known:
+            self._placed(moments[0](), view, drawn)
+        now, moved = self.figures.poses(), self.figures.most_moved
+        known = [plate for plate in known if moved(plate.sights[0].poses, now) <= plates.MOST_MOVED]
         sights = self._sights(moments, view, drawn) if known else ()
-        kept = plates.kept(sights, known, self.figures, self._strands, view, self.setting.exposure) if known else None
+        look = plates.Look.of(self.setting, self._treatment, self._floor_z)
+        kept = plates.kept(sights, known, self.figures, self._strands, view, look) if known else None
         if kept is None:
             return self.blurred((moment() for moment in moments), len(moments), camera, quality)
         rays, clean = kept.rays, kept.clean
@@ -294,6 +301,13 @@ class Tracing:
             rays = anew.over(rays, kept.left)
             clean = self._cleaned(rays, shutter)
         return self._developed(clean, [Glimpse(view, outlook, painted, rays.places, rays.seen)])
+
+    def _fitting(self, shutter: Shutter) -> int:
+        """How many plates have room."""
+        held = (*self.figures.poses(), *self._strands.points.values())
+        pixels = self.width * self.height
+        sight = sum(part.nbytes for part in held) + 12 * pixels // plates.SIDE**2
+        return plates.fitting(pixels, sight, shutter.moments)
 
     def _key(self, data: mujoco.MjData, camera: int) -> Any:
         """What has to be equal in two pictures for the light of the one to be that of the other."""
@@ -368,7 +382,7 @@ class Tracing:
     def close(self) -> None:
         """Free what it holds."""
         self._scenes.clear()
-        self._plates.clear()
+        self._plates.keep(())
         self._put_away()
         if self._plain is not None:
             self._plain.close()
