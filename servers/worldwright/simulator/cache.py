@@ -66,7 +66,7 @@ def held(name: str, wait_s: float = 0.0) -> Iterator[bool]:
     """
     until = time.monotonic() + wait_s
     with ExitStack() as stack:
-        mine = None
+        mine: bool | None = None
         with suppress(OSError):  # no file there, or a file system without locks
             handle = stack.enter_context((cache_folder() / name).open("w"))
             while not (mine := _taken(handle.fileno())) and time.monotonic() < until:
