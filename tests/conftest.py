@@ -20,6 +20,8 @@ os.environ["WORLDWRIGHT_DATA"] = (
     if "PYTEST_XDIST_WORKER" in os.environ
     else tempfile.mkdtemp(prefix="worldwright-tests-")
 )
+# Nor is a pre-roll's answer taken from that person's cache: each is given in the run itself.
+os.environ["WORLDWRIGHT_PREROLLS"] = f"{os.environ['WORLDWRIGHT_DATA']}/prerolls"
 
 import pytest
 from hypothesis import HealthCheck, settings

@@ -7,6 +7,9 @@ cache, where only processes of ours write; whoever can write there can as well a
 import contextlib
 import hashlib
 import json
+import os
+import time
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
@@ -16,9 +19,14 @@ from worldkit.files import write_atomic
 from ..model.evidence import environment
 from ..model.evidence.file_hashes import below, cache_folder, sha256_of
 
-MOST = 1000
-"""Kept answers; those that were given longest ago go first."""
-MOST_BYTES = 1 << 20
+MOST, MOST_BYTES = 1000, 64 << 20
+"""Kept answers, and their bytes; those that were given longest ago go first."""
+LARGEST = 1 << 20
+"""A longer answer is not kept, bytes."""
+ABANDONED_S = 3600.0
+"""What is half written for so long, s, nobody will finish."""
+TOLD = frozenset({"contacts", "objects", "distances", "drops", "views"})
+"""What every answer tells."""
 
 
 def place_of(request: dict[str, Any]) -> Path | None:
@@ -27,27 +35,58 @@ def place_of(request: dict[str, Any]) -> Path | None:
         return None
     used = sorted({row["asset"] for row in request["objects"] if row["asset"]})
     hashes = [sha256_of(f"placed-{name}", tuple((file, file.name) for file in assets.files(name))) for name in used]
-    code = sha256_of("place", below(Path(__file__).parent, ["*.py"]))
-    told = json.dumps([request, hashes, code, environment.current().model_dump(mode="json")], sort_keys=True)
-    return cache_folder() / "prerolls" / f"{hashlib.sha256(told.encode()).hexdigest()}.json"
+    here = Path(__file__).parent
+    code = sha256_of("place", (*below(here, ["*.py"]), (here.parent / "__init__.py", "../__init__.py")))
+    told = json.dumps([request, hashes, code, _reader(), environment.current().model_dump(mode="json")], sort_keys=True)
+    return _folder() / f"{hashlib.sha256(told.encode()).hexdigest()}.json"
 
 
 def read(path: Path) -> dict[str, Any] | None:
-    """A kept answer, which counts as just given; None where there is none that can be read."""
-    with contextlib.suppress(OSError, ValueError):
+    """A kept answer, which counts as just given; None where there is none that is whole."""
+    try:
         answer = json.loads(path.read_bytes())
-        path.touch()
-        return answer if isinstance(answer, dict) else None
-    return None
+    except (OSError, ValueError, RecursionError):
+        return None
+    if not (isinstance(answer, dict) and answer.keys() >= TOLD):
+        return None
+    with contextlib.suppress(OSError):  # a cache that is only read answers too
+        os.utime(path)
+    return answer
 
 
 def keep(path: Path, answer: bytes) -> None:
     """Keep an answer; where the cache cannot be written it costs time and nothing else."""
-    if len(answer) > MOST_BYTES:
+    if len(answer) > LARGEST:
         return
     with contextlib.suppress(OSError):
         path.parent.mkdir(parents=True, exist_ok=True)
         write_atomic(path, answer)
-        old = sorted(path.parent.glob("*.json"), key=lambda one: -one.stat().st_mtime_ns)[MOST:]
-        for one in old:
-            one.unlink(missing_ok=True)
+        _tidy(path.parent)
+
+
+def _folder() -> Path:
+    """`WORLDWRIGHT_PREROLLS`, else one in the cache."""
+    named = os.environ.get("WORLDWRIGHT_PREROLLS")
+    return Path(named) if named else cache_folder() / "prerolls"
+
+
+def _reader() -> str:
+    """The version of what reads files of meshes; the other packages are the environment's."""
+    try:
+        return version("trimesh")
+    except PackageNotFoundError:
+        return ""
+
+
+def _tidy(folder: Path) -> None:
+    with os.scandir(folder) as found:
+        files = [(one.stat(), one) for one in found if one.is_file()]
+    kept = 0
+    answers = sorted((row for row in files if not row[1].name.startswith(".")), key=lambda row: -row[0].st_mtime_ns)
+    for number, (stat, one) in enumerate(answers):
+        kept += stat.st_size
+        if number >= MOST or kept > MOST_BYTES:
+            Path(one).unlink(missing_ok=True)
+    for stat, one in files:
+        if one.name.startswith(".") and stat.st_mtime < time.time() - ABANDONED_S:
+            Path(one).unlink(missing_ok=True)

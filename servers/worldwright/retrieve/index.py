@@ -15,9 +15,10 @@ from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..model import call_time
 from ..model.errors import WorldwrightError
 from ..model.progress import Progress, silent
-from ..simulator.cache import cache_folder
+from ..simulator.cache import cache_folder, held
 from . import corpus, lexical
 from .semantic.windows import digest, windows
 
@@ -28,6 +29,8 @@ FORMAT = "7"
 """Part of the index's name; it changes when the tables do, or the cutting."""
 KEPT = 4
 """Older indexes beyond this many are removed."""
+PATIENCE_S = 15.0
+"""Another builder is waited for so long, s: many times what building takes."""
 
 _TABLES = """
 CREATE TABLE piece (id INTEGER PRIMARY KEY, root TEXT, path TEXT, part TEXT, anchor TEXT, first INTEGER, last INTEGER,
@@ -165,7 +168,8 @@ def open_index(progress: Progress = silent) -> Index:
     """The index of the corpus as it is now; built first when its content is new (about a second)."""
     path = index_path(corpus.fingerprint())
     if not (path.is_file() and _usable(path)):
-        with _one_at_a_time():
+        # One after the other: who waits finds it built. Who has waited in vain builds it all the same.
+        with held("retrieve.lock", min(PATIENCE_S, call_time.left_s())):
             _usable.cache_clear()
             if not _usable(path):  # nobody else has built it meanwhile
                 _build(path, corpus.documents(), progress)
@@ -174,16 +178,6 @@ def open_index(progress: Progress = silent) -> Index:
     with suppress(OSError):
         path.touch()  # another installation may be removing old ones: this one is in use
     return Index(path)
-
-
-@contextmanager
-def _one_at_a_time() -> Iterator[None]:
-    """Let builders in one after the other, threads and processes: who waits finds it built."""
-    import fcntl
-
-    with (cache_folder() / "retrieve.lock").open("w") as handle:
-        fcntl.flock(handle, fcntl.LOCK_EX)
-        yield
 
 
 def index_path(fingerprint: str) -> Path:

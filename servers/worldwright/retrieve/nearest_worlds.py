@@ -135,8 +135,9 @@ def _meant(sentence: str, known: list[World]) -> "np.ndarray":
     texts = [text[:1000] for one in said for text in one]
     vectors = dict(_ENCODED)
     new = [text for text in dict.fromkeys(texts) if text not in vectors]
-    asked, *rest = encode([sentence[:1000], *new])
-    vectors |= zip(new, rest, strict=True)
+    if new:
+        vectors |= zip(new, encode(new), strict=True)
+    (asked,) = encode([sentence[:1000]])  # by itself: its vector is the same whatever was asked before
     _ENCODED.clear()
     _ENCODED.update((text, vectors[text]) for text in texts)
     near = np.stack([vectors[text] for text in texts]) @ asked

@@ -4,7 +4,9 @@ import hashlib
 import json
 import os
 import tempfile
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -49,3 +51,34 @@ def cached_json(name: str, key: str, build: Callable[[], Any]) -> Any:
     except OSError:
         pass
     return value
+
+
+@contextmanager
+def held(name: str, wait_s: float = 0.0) -> Iterator[bool]:
+    """Hold a lock of the cache folder, which threads and processes hold one after the other.
+
+    Args:
+        name: the lock's file.
+        wait_s: another holder is waited for so long, s.
+
+    Yields:
+        False while another holds it. True also where nothing can be locked: a lock saves double work, and is no more.
+    """
+    until = time.monotonic() + wait_s
+    with ExitStack() as stack:
+        mine: bool | None = None
+        with suppress(OSError):  # no file there, or a file system without locks
+            handle = stack.enter_context((cache_folder() / name).open("w"))
+            while not (mine := _taken(handle.fileno())) and time.monotonic() < until:
+                time.sleep(0.05)
+        yield mine is not False
+
+
+def _taken(handle: int) -> bool:
+    import fcntl
+
+    try:
+        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        return False
+    return True

@@ -225,13 +225,14 @@ def test_what_cannot_take_a_step_has_no_price_and_is_a_world_all_the_same(tmp_pa
 
 
 def test_the_world_of_an_archive_is_compiled_once_in_a_row(tmp_path, monkeypatch):
-    """By its content, and from a copy of the very bytes that were hashed; a failure is tried again."""
+    """By its content, and from a copy of the very bytes that were hashed; a failure, or a missing price, is tried again."""
     seen = []
 
     def compiled(path, _is_mjcf, _wall_s, lasting_s):
         seen.append((path.read_bytes(), lasting_s))
         assert path.parent != tmp_path
-        return fetch.Outcome("died" if b"broken" in seen[-1][0] else "compiled", wall_s=len(seen))
+        texts = {} if b"unpriced" in seen[-1][0] else {"rehearsed": {"taken": 1, "seconds": 1.0, "steps": 2}}
+        return fetch.Outcome("died" if b"broken" in seen[-1][0] else "compiled", texts=texts)
 
     monkeypatch.setattr(fetch, "_compiled", compiled)
     monkeypatch.setattr(fetch, "_KEPT", {})
@@ -244,3 +245,7 @@ def test_the_world_of_an_archive_is_compiled_once_in_a_row(tmp_path, monkeypatch
     for path in (other, broken, broken, other, one):
         fetch.world(path, is_mjcf=True)
     assert seen == [(b"a", 0.5), (b"a", 1.0), (b"b", None), (b"broken", None), (b"broken", None), (b"a", None)]
+    other.write_bytes(b"unpriced")
+    for _ in range(2):
+        fetch.world(other, is_mjcf=True, lasting_s=0.5)
+    assert seen[-2:] == [(b"unpriced", 0.5)] * 2

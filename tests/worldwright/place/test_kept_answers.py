@@ -1,9 +1,13 @@
 """The pre-roll is asked once a question, and again when anything changed that its answer depends on."""
 
+import os
+import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
+from worldkit import assets
 from worldwright.model.errors import JobError
 from worldwright.model.plan.committed import Plan
 from worldwright.place import kept_answers
@@ -31,6 +35,7 @@ def plan(mass: float = 0.2) -> Plan:
 def asked(monkeypatch, tmp_path):
     """An empty cache; returns a function that asks and tells how many processes that took."""
     monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    monkeypatch.delenv("WORLDWRIGHT_PREROLLS", raising=False)
     real, calls = subprocess.run, []
     monkeypatch.setattr(subprocess, "run", lambda *words, **more: calls.append(words) or real(*words, **more))
 
@@ -51,19 +56,54 @@ def test_the_same_question_is_answered_from_what_was_kept(asked):
     assert asked(plan(mass=0.3), duration_s=0.1)[1] == 1
 
 
-def test_a_changed_asset_is_asked_about_anew(asked, monkeypatch):
-    asked(plan())
-    changed = kept_answers.sha256_of
-    monkeypatch.setattr(
-        kept_answers, "sha256_of", lambda name, files: "other" if name == "placed-apple" else changed(name, files)
-    )
-    assert asked(plan())[1] == 1
+def question(**changes: object) -> dict:
+    """What the place of an answer is found by."""
+    return {"objects": [{"asset": "apple", "model": None}], "gravity": [0, 0, -9.81], **changes}
+
+
+def test_a_test_run_takes_no_answer_from_the_cache_of_who_runs_it():
+    assert kept_answers.place_of(question()).parent == Path(os.environ["WORLDWRIGHT_DATA"]) / "prerolls"
+
+
+def test_a_changed_asset_is_asked_about_anew(asked, monkeypatch, tmp_path):
+    there = tmp_path / "catalog"
+    for name in ("apple", "mug"):
+        shutil.copytree(assets.catalog_root() / name, there / name)
+    monkeypatch.setenv("WORLDWRIGHT_CATALOG", str(there))
+    before = kept_answers.place_of(question())
+    for name in ("mug", "apple"):
+        entry = there / name / "asset.yaml"
+        entry.write_text(f"{entry.read_text()}\n# edited\n")
+        assert (kept_answers.place_of(question()) == before) == (name == "mug")
+
+
+def test_another_environment_or_other_code_is_asked_anew(asked, monkeypatch):
+    before = kept_answers.place_of(question())
+    assert kept_answers.place_of(question()) == before and before.parent == asked.kept
+    now = kept_answers.environment.current()
+    with monkeypatch.context() as patch:
+        patch.setattr(
+            kept_answers.environment, "current", lambda: now.model_copy(update={"simulator_sha256": "0" * 64})
+        )
+        assert kept_answers.place_of(question()) != before
+    with monkeypatch.context() as patch:
+        patch.setattr(kept_answers, "below", lambda *_: ())
+        assert kept_answers.place_of(question()) != before
+    with monkeypatch.context() as patch:
+        patch.setattr(kept_answers, "version", lambda _: "0")
+        assert kept_answers.place_of(question()) != before
+
+
+def test_an_answer_about_a_model_file_is_not_kept(asked):
+    assert kept_answers.place_of(question(objects=[{"asset": None, "model": {"text": "<mujoco/>"}}])) is None
 
 
 def test_what_cannot_be_read_is_asked_anew_and_a_cache_that_cannot_be_written_costs_nothing(asked, monkeypatch):
     asked(plan())
     (kept,) = asked.kept.glob("*.json")
-    kept.write_bytes(b"[]")
+    for broken in (b"[]", b"{}", b"[" * 100_000):
+        kept.write_bytes(broken)
+        assert kept_answers.read(kept) is None
     assert asked(plan())[1] == 1
     monkeypatch.setenv("WORLDWRIGHT_CACHE", "/proc/nowhere")
     assert asked(plan())[1] == 1
@@ -75,8 +115,38 @@ def test_a_failure_is_not_kept(asked, monkeypatch):
     assert not list(asked.kept.glob("*.json"))
 
 
-def test_the_oldest_go_first(asked, monkeypatch):
-    monkeypatch.setattr(kept_answers, "MOST", 2)
-    for number in range(3):
-        kept_answers.keep(asked.kept / f"{number}.json", b"{}")
-    assert len(list(asked.kept.glob("*.json"))) == 2
+WHOLE = b'{"contacts": [], "objects": {}, "distances": [], "drops": [], "views": []}'
+
+
+def given(folder, *names: str) -> None:
+    """Answers that were kept long ago, a minute after each other."""
+    folder.mkdir(exist_ok=True)
+    for number, name in enumerate(names):
+        (folder / name).write_bytes(WHOLE)
+        os.utime(folder / name, ns=(0, (number + 1) * 60 * 10**9))
+
+
+@pytest.mark.parametrize("bound", [("MOST", 2), ("MOST_BYTES", 2 * len(WHOLE))], ids=["number", "bytes"])
+def test_those_given_longest_ago_go_first(asked, monkeypatch, bound):
+    monkeypatch.setattr(kept_answers, *bound)
+    given(asked.kept, "0.json", "1.json", "2.json")
+    assert kept_answers.read(asked.kept / "0.json") is not None  # read is given
+    kept_answers.keep(asked.kept / "3.json", WHOLE)
+    assert {path.name for path in asked.kept.iterdir()} == {"0.json", "3.json"}
+
+
+def test_what_was_left_half_written_goes(asked):
+    given(asked.kept, ".0.json.abandoned")
+    (asked.kept / ".1.json.under-way").write_bytes(b"{")
+    kept_answers.keep(asked.kept / "2.json", WHOLE)
+    assert {path.name for path in asked.kept.iterdir()} == {".1.json.under-way", "2.json"}
+
+
+def test_a_cache_that_is_only_read_answers(asked, monkeypatch):
+    given(asked.kept, "0.json")
+
+    def refused(*_):
+        raise PermissionError(13, "read-only")
+
+    monkeypatch.setattr(kept_answers.os, "utime", refused)
+    assert kept_answers.read(asked.kept / "0.json") is not None

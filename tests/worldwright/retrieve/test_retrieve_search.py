@@ -11,8 +11,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from worldwright import cli, expose
+from worldwright.model import call_time
 from worldwright.model.errors import NotFoundError
 from worldwright.retrieve import corpus, index, lexical, tools
+from worldwright.simulator import cache
 
 QUESTIONS = [
     ("sliding friction of a geom", {"body-geom-friction", "sliding-rolling-spinning-down"}),
@@ -137,6 +139,7 @@ def test_a_damaged_index_is_built_again(tmp_path, monkeypatch):
 def test_many_readers_build_one_index(tmp_path, monkeypatch):
     """One of them builds it, and the others wait."""
     monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    monkeypatch.setattr(index, "PATIENCE_S", 300.0)  # however busy the machine is
     answers, built, build = [], [], index._build
     monkeypatch.setattr(index, "_build", lambda path, *rest: (built.append(path), build(path, *rest)))
     threads = [threading.Thread(target=lambda: answers.append(anchors("sliding friction", 1))) for _ in range(4)]
@@ -146,6 +149,17 @@ def test_many_readers_build_one_index(tmp_path, monkeypatch):
         thread.join()
     assert len(answers) == 4 and len({tuple(a) for a in answers}) == 1 and len(built) == 1
     assert len(list(tmp_path.glob("retrieve-*.sqlite"))) == 1 and not list(tmp_path.glob(".retrieve-*"))
+
+
+def test_who_waits_in_vain_for_another_builder_builds_it_all_the_same(tmp_path, monkeypatch):
+    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    built = []
+    monkeypatch.setattr(corpus, "fingerprint", lambda: "0" * 64)
+    monkeypatch.setattr(corpus, "documents", list)
+    monkeypatch.setattr(index, "_build", lambda path, *_: built.append(path))
+    with cache.held("retrieve.lock"), call_time.limited(0.2):
+        index.open_index()
+    assert len(built) == 1
 
 
 def test_status_counts_what_is_there():

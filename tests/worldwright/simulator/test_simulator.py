@@ -119,3 +119,25 @@ def test_the_cache_survives_damage_and_read_only_places(tmp_path, monkeypatch):
         cache.cached_json("t", f"k{number}", make)
     assert len(list(tmp_path.glob("t-*.json"))) <= cache.KEPT
     json.loads(next(tmp_path.glob("t-*.json")).read_text())
+
+
+def test_a_lock_has_one_holder_and_its_wait_an_end(tmp_path, monkeypatch):
+    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    with cache.held("lock") as mine, cache.held("lock", 0.1) as other, cache.held("another") as free:
+        assert (mine, other, free) == (True, False, True)
+    with cache.held("lock") as again:
+        assert again
+
+
+def test_what_cannot_be_locked_stops_nobody(tmp_path, monkeypatch):
+    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    (tmp_path / "folder").mkdir()
+    with cache.held("folder") as mine:
+        assert mine
+
+    def without_locks(*_):
+        raise OSError(37, "no locks available")
+
+    monkeypatch.setattr("fcntl.flock", without_locks)
+    with cache.held("lock") as mine, cache.held("lock") as other:
+        assert mine and other

@@ -80,7 +80,8 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S, lasting_
         copy = Path(folder) / path.name
         copy.write_bytes(content)
         outcome = _compiled(copy, is_mjcf, wall_s, lasting_s)
-    if outcome.status == "compiled":
+    # The price is missing where time was up before it was known: another attempt may find it.
+    if outcome.status == "compiled" and (lasting_s is None or outcome.pass_s is not None):
         _KEPT.clear()
         _KEPT[sha256] = (lasting_s, outcome)
     return outcome

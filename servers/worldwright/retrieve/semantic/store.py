@@ -4,12 +4,11 @@ A new simulator version, an edited skill or an added repository costs only the t
 batches, so that an interrupted build goes on where it stopped. They lie in one file, or in LanceDB where it is installed.
 """
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from ...simulator.cache import cache_folder
+from ...simulator.cache import held
 from . import has_lance
 
 if TYPE_CHECKING:
@@ -36,18 +35,9 @@ def append(digests: list[str], vectors: "np.ndarray") -> None:
     _kept_in().append(digests, vectors)
 
 
-@contextmanager
-def building() -> Iterator[bool]:
+def building() -> AbstractContextManager[bool]:
     """Whether this process may build now (True), or another one does (False)."""
-    import fcntl
-
-    with (cache_folder() / "vectors.lock").open("w") as handle:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            yield False
-            return
-        yield True
+    return held("vectors.lock")
 
 
 def _kept_in() -> ModuleType:
