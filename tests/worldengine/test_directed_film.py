@@ -234,6 +234,29 @@ def test_what_a_panel_of_light_hides_is_told_unless_it_is_not_there_to_be_seen(m
             assert ("first behind softbox" in screening.hidden()) is seen
 
 
+def test_what_a_mover_carries_before_itself_hides_it_too_but_neither_it_nor_its_skin_does(made):
+    made.recording.meta["movers"] = ["first"]
+
+    def told(tell):
+        def all_of_it(film):
+            looking(film)
+            tell(film)
+
+        with made.screening(all_of_it) as screening:
+            screening._moment(0)
+            return screening.hidden()
+
+    def screen(y):
+        return lambda film: film.panel("screen", (0, y, 0), (0.5, 0.5), towards=(0, -9, 0), to="first")
+
+    assert told(screen(-0.3)) == ["first behind screen"]
+    assert told(screen(0.3)) == []
+    assert told(lambda film: film.draw("lid", "box", (0.4, 0.02, 0.4), pos=(0, -0.2, 0), to="first")) == [
+        "first behind lid"
+    ]
+    assert told(lambda film: film.mesh("coat", 0.1 * CUBE, FACES, to="first", instead=True)) == []
+
+
 def test_a_plan_s_camera_sees_what_it_sees_without_a_film(made):
     from worldengine.film.drawn_frames import Frames
     from worldengine.recording.replay import Replay

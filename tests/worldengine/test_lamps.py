@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, record
-from worldengine.film import described, dressed, motion_facts
+from worldengine.film import described, dressed, motion_facts, panel_lights
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
 from worldengine.film.renderers.preview import scenery
-from worldengine.film.renderers.traced import variant
+from worldengine.film.renderers.traced import panel_emitters, variant
 from worldkit import portable
 from worldkit.errors import ProgramError
 from worldkit.filming import Film, Recorded, still
@@ -248,3 +248,32 @@ def test_panels_are_bounded_by_the_author_and_by_us(lit):
     ):
         with pytest.raises(FilmError, match="the panel"):
             lit.film(lambda film: None, lambda facts, wrong=wrong: facts["panels"].append(one | wrong))
+
+
+def test_only_a_film_makes_panels_not_what_a_world_says_of_its_own_shapes(lit, tmp_path):
+    spec = empty()
+    floor(spec)
+    ball(spec, "ball", (0.6, 0, 0.9)).geoms[0].name = "drawn.sun"
+    said = {"half": [1, 1], "radiance": [9e9, 9e9, 9e9], "seen": True}
+    spec.add_text(name="film.panels", data=json.dumps({"drawn.sun": said} | {f"drawn.{n}": said for n in range(20)}))
+    portable.write(spec, tmp_path / "world.mjz")
+    assert panel_lights.of_model(portable.read(tmp_path / "world.mjz")) == []
+    assert panel_lights.of_model(dressed.dress(tmp_path / "world.mjz", lit.film(lambda film: None))) == []
+    film = lit.film(lambda film: film.panel("lid", (0, 0, 1), (0.4, 0.2), towards=(0, 0, 0), strength=2, seen=False))
+    model = dressed.dress(tmp_path / "world.mjz", film)
+    (panel,) = panel_lights.of_model(model)
+    assert model.geom(panel.geom).name == "drawn.lid" and panel.half == (0.2, 0.1) and not panel.seen
+    assert max(panel.radiance) == pytest.approx(2 * np.pi / 0.08, rel=0.01)
+
+
+def test_an_unseen_panel_is_sampled_as_often_as_one_lamp(lit):
+    pytest.importorskip("mitsuba")
+    variant.choose()
+    import mitsuba
+
+    film = lit.film(lambda film: film.panel("lid", (0, 0, 1), (0.4, 0.2), towards=(0, 0, 0), seen=False))
+    model = dressed.dress(lit.folder / "world.mjz", film)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    spots = panel_emitters.emitters(panel_lights.of_model(model), data).values()
+    assert sum(mitsuba.load_dict(spot).sampling_weight() for spot in spots) == pytest.approx(1.0)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from worldengine.film import renderers
-from worldengine.film.renderers.preview.things import Things
+from worldengine.film.renderers.preview.things import Things, pieces
 from worldengine.film.renderers.traced.unwrapped import SHIFT
 from worldkit import bodies, materials, scene
 
@@ -40,6 +40,35 @@ def test_of_a_pile_no_two_pieces_are_painted_alike():
     entry = materials.look("brick")
     assert 5 <= len(np.unique(tones.round(5))) <= 9, "few, as each is a material of its own"
     assert np.ptp(tones) / tones.mean() == pytest.approx(2 * entry.apart, rel=0.2)
+
+
+def test_bodies_that_hold_together_at_the_start_are_one_piece_of_one_tone():
+    spec = scene.new("planks", time_step=0.002)
+    for number in range(8):
+        body = bodies.box(spec, f"part{number}", size=(0.2, 0.1, 0.06), pos=(0.2 * number, 0, 0.03), look="wood_oak")
+        body.add_site(name=f"site{number}")
+    tie = {"type": mujoco.mjtEq.mjEQ_WELD, "objtype": mujoco.mjtObj.mjOBJ_BODY}
+    spec.add_equality(name1="part1", name2="part2", **tie)
+    spec.add_equality(name1="part2", name2="part3", active=False, **tie)
+    by_site = {"type": mujoco.mjtEq.mjEQ_CONNECT, "objtype": mujoco.mjtObj.mjOBJ_SITE}
+    spec.add_equality(name1="site0", name2="site1", **by_site)
+    spec.add_equality(name1="part4", name2="world", **tie)
+    spec.add_equality(name1="part5", name2="world", **tie)
+    knob = spec.body("part6").add_body(name="knob")  # no joint: rigid
+    knob.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.02, 0.02, 0.02), pos=(0, 0, 0.1), mass=0.01)
+    spec.worldbody.add_body(name="shelf", pos=(0, 1, 0)).add_geom(size=(0.1, 0, 0))
+    model = spec.compile()
+    of = pieces(model)
+    assert len(of) == model.nbody and of[0] == 0
+    named = {model.body(body).name: model.body(int(piece)).name for body, piece in enumerate(of)}
+    parts = {name: named[name] for name in named if name.startswith("part")}
+    assert parts == {f"part{n}": f"part{0 if n < 3 else n}" for n in range(8)}
+    assert named["knob"] == "part6" and named["shelf"] == "shelf"
+    things = Things(model)
+    tones = {
+        model.body(int(model.geom_bodyid[g])).name: row[16] for g, row in zip(things.geoms, things.rows, strict=True)
+    }
+    assert tones["part0"] == tones["part1"] == tones["part2"] != tones["part3"]
 
 
 @pytest.mark.gl

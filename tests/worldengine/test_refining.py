@@ -153,6 +153,18 @@ def test_where_the_renderer_gives_up_the_plainer_one_has_frames_of_its_own(tmp_p
     assert len(list((tmp_path / "film-preview").glob("*.png"))) == 4
 
 
+def test_frames_that_other_code_drew_are_forgotten(tmp_path, monkeypatch):
+    class Preview(Drawn):
+        renderer = "preview"
+
+    kept = []
+    for code in ("old", "old", "new"):
+        monkeypatch.setattr(refining, "identity", lambda name, code=code: SimpleNamespace(sha256=f"{name} {code}"))
+        _, state = refining.refined(Preview(2), tmp_path / "film", [SIZE], float("inf"), lambda: None)
+        kept.append(state.taken_over)
+    assert kept == [0, 2, 0]
+
+
 def test_with_no_time_at_all_there_is_still_a_whole_film(tmp_path):
     film, state = Drawn(12), Refined(tmp_path / "frames", 12, "it")
     assert not refine(film, state, time.perf_counter() - 1.0, lambda: None)

@@ -1,5 +1,7 @@
 """What every renderer must do, whichever it is: the seam's contract, on one small world."""
 
+from pathlib import Path
+
 import mujoco
 import numpy as np
 import pytest
@@ -86,6 +88,28 @@ def test_a_version_names_packages_and_code(name: str) -> None:
     assert installed
     assert all(f"{package} {number}" in said for package, number in installed.items()) and "code " in said
     assert identity.identity(name).sha256 == identity.identity(name).sha256
+
+
+@pytest.mark.parametrize("name", renderers.SEAM.names())
+@pytest.mark.parametrize(
+    "touched",
+    [
+        "worldkit/materials/catalogue.py", "worldkit/materials/paint/wood.py", "worldkit/settings.py",
+        "worldkit/model_text.py", "worldengine/recording/seen.py", "worldengine/film/panel_lights.py",
+        "worldengine/film/directed.py", "worldengine/film/renderers/__init__.py",
+        "worldengine/film/renderers/preview/things.py", "worldengine/film/renderers/preview/shaders/surface.frag",
+    ],
+)  # fmt: skip
+def test_whatever_makes_its_pictures_is_in_the_version_of_a_renderer_and_in_the_identity(name, touched, monkeypatch):
+    def said() -> tuple[str, str]:
+        return identity.renderer_version(name), identity.identity(name).sha256
+
+    before, read = said(), Path.read_bytes
+    edited = Path(identity.__file__).parents[2] / touched
+    assert edited.is_file()
+    monkeypatch.setattr(Path, "read_bytes", lambda path: read(path) + b"#" * (path.resolve() == edited.resolve()))
+    changed = name != "classic" or "/preview/" not in touched
+    assert [a != b for a, b in zip(before, said(), strict=True)] == [changed, changed]
 
 
 def test_the_shelf_names_what_is_missing(tmp_path, monkeypatch) -> None:

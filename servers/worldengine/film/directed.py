@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 
 HELD = ("eye", "target", "roll_deg", "fovy_deg", "focus_m", "aperture")
 """What does not change while a camera stands still."""
+PAST_M = 1e-5
+"""A ray goes on so far behind a surface that does not count."""
 
 
 class Screening:
@@ -164,16 +166,26 @@ class Screening:
 
         data, found, hit = self._replay.data, [], np.zeros(1, np.int32)
         eye = np.array(data.cam_xpos[self._camera])
+        groups = np.array([1, 1, 1, 0, 0, 0], np.uint8)
+        skins = {f"drawn.{thing['name']}" for thing in self.film.things if thing.get("instead")}
         stands = self.film.things or any(panel["seen"] for panel in self.film.panels)
         for name in self._movers if stands else ():
             body = self.model.body(name).id
-            way = data.xipos[body] - eye
-            away = float(np.linalg.norm(way))
-            groups = np.array([1, 1, 1, 0, 0, 0], np.uint8)
-            met = mujoco.mj_ray(self.model, data, eye, way / max(away, 1e-9), groups, True, body, hit)
-            geom = self.model.geom(int(hit[0])).name if 0 <= met < away else ""
-            if geom.startswith("drawn."):
-                found.append(f"{name} behind {geom.removeprefix('drawn.').split('/')[0]}")
+            to = data.xipos[body] - eye
+            away = float(np.linalg.norm(to))
+            way, gone = to / max(away, 1e-9), 0.0
+            while gone < away:
+                met = mujoco.mj_ray(self.model, data, eye + gone * way, way, groups, True, -1, hit)
+                if met < 0 or gone + met >= away:
+                    break
+                geom = self.model.geom(int(hit[0]))
+                drawn = geom.name.startswith("drawn.")
+                if int(self.model.geom_bodyid[geom.id]) != body or (drawn and geom.name not in skins):
+                    if drawn:
+                        found.append(f"{name} behind {geom.name.removeprefix('drawn.').split('/')[0]}")
+                    break
+                # Neither the mover itself nor its skin hides it.
+                gone += met + PAST_M
         return found
 
     def segmentation(self) -> "np.ndarray":

@@ -51,11 +51,13 @@ def dress(world: Path, film: Described) -> "mujoco.MjModel":
     for name, corner in (("low", eyes.min(axis=0)), ("high", eyes.max(axis=0))):  # a room surrounds all cameras
         spec.worldbody.add_camera(name=f"{CAMERA} {name}", pos=np.asarray(corner))
     try:
-        return spec.compile()
+        model = spec.compile()
     except ValueError as cause:
         raise FilmError(
             f"what the film draws cannot be drawn: {cause}", "film.py", "give it a plainer shape"
         ) from cause
+    panel_lights.keep(model, film.panels)
+    return model
 
 
 def _material(spec: "mujoco.MjSpec", film: Described, look: Any, name: str) -> str:

@@ -5,12 +5,15 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from worldkit import filming
+import worldkit
 
 from . import renderers
 
 PACKAGES = ("av", "opencv-python-headless")
 """Packages that encode and scale pictures, whichever renderer draws them."""
+
+DRAWN_FROM = ("filming/**/*.py", "materials/**/*.py", "settings.py", "model_text.py")
+"""What of `worldkit` decides how a recorded world looks when it is drawn."""
 
 
 @dataclass(frozen=True)
@@ -37,26 +40,30 @@ def identity(renderer: str = "") -> Identity:
     """
     name = renderer or renderers.wanted()
     packages = renderers.installed((*PACKAGES, *renderers.SEAM.find(name).PACKAGES))
-    own = [*Path(__file__).parent.glob("*.py"), *Path(filming.__file__ or "").parent.rglob("*.py")]
-    own.append(Path(renderers.__file__ or ""))
-    # Plainer renderers may take over from any other, so they count for it.
-    drawn: list[Path] = []
-    one = name
-    while one:
-        drawn += renderers.SEAM.files(one)
-        one = renderers.plainer(one)
     digest = hashlib.sha256(json.dumps([name, packages]).encode())
-    for path in dict.fromkeys([*sorted(own), *drawn]):
-        digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+    digest.update(_code(name).encode())
     return Identity(name, renderer_version(name), packages, digest.hexdigest())
 
 
 def renderer_version(name: str) -> str:
-    """A renderer's version: its packages' versions, and the beginning of the SHA-256 of its own code."""
-    digest = hashlib.sha256()
-    for path in renderers.SEAM.files(name):
-        digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+    """A renderer's version: its packages' versions, and the beginning of the SHA-256 of all code that its pictures depend on."""
     said = [
         f"{package} {number}" for package, number in renderers.installed(renderers.SEAM.find(name).PACKAGES).items()
     ]
-    return ", ".join([*said, f"code {digest.hexdigest()[:12]}"])
+    return ", ".join([*said, f"code {_code(name)[:12]}"])
+
+
+def _code(name: str) -> str:
+    """The hash of the film's code, of what it takes from `worldkit` when it draws, of a renderer, and of all plainer ones, which
+    it draws on, and which may take over from it."""
+    film, kit = Path(__file__).parent, Path(worldkit.__file__ or "").parent
+    own = [*film.glob("*.py"), film.parent / "recording" / "seen.py", Path(renderers.__file__ or "")]
+    own += [path for pattern in DRAWN_FROM for path in kit.glob(pattern)]
+    drawn: list[Path] = []
+    while name:
+        drawn += renderers.SEAM.files(name)
+        name = renderers.plainer(name)
+    digest = hashlib.sha256()
+    for path in dict.fromkeys([*sorted(own), *drawn]):
+        digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+    return digest.hexdigest()

@@ -1,19 +1,16 @@
-"""Panels of light in a dressed world: thin boxes before a dark back, with a note in the model of what they give."""
+"""Panels of light in a dressed world: thin boxes before a dark back, and what they give, kept beside the model."""
 
 from __future__ import annotations
 
-import json
 from math import pi
 from typing import TYPE_CHECKING, Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
-
-from worldkit.model_text import read
 
 if TYPE_CHECKING:
     import mujoco
 
-TEXT = "film.panels"
 THICK_M, DEEP_M = 0.001, 0.008
 """What shines of a panel is so thick, from its front, the side of its own z axis, back; and so is the dark back behind it."""
 
@@ -35,30 +32,44 @@ class Panel(NamedTuple):
         return np.stack([front, axes[0] * self.half[0], axes[1] * self.half[1], axes[2]])
 
 
+_KEPT: WeakKeyDictionary[mujoco.MjModel, list[Panel]] = WeakKeyDictionary()
+"""By dressed world. It is kept here and not in the model, since a world could write there what no film has declared."""
+
+
 def of_model(model: mujoco.MjModel) -> list[Panel]:
     """The panels of a dressed world, none in any other."""
-    return [
-        Panel(model.geom(name).id, tuple(one["half"]), tuple(one["radiance"]), bool(one["seen"]))
-        for name, one in (read(model, TEXT) or {}).items()
-    ]
+    return list(_KEPT.get(model, ()))
+
+
+def keep(model: mujoco.MjModel, panels: tuple[dict[str, Any], ...]) -> None:
+    """Note what the panels give that were hung up in a world which is now compiled."""
+    _KEPT[model] = [
+        Panel(
+            model.geom(f"drawn.{panel['name']}").id, (panel["size"][0] / 2, panel["size"][1] / 2),
+            tuple((np.array(panel["rgb"]) ** 2.2 * _bright(panel)).tolist()), bool(panel["seen"]),
+        )
+        for panel in panels
+    ]  # fmt: skip
+
+
+def _bright(panel: dict[str, Any]) -> float:
+    """From afar each lights as a lamp of its strength: its radiance is strength x pi / area."""
+    return float(panel["strength"] * pi / (panel["size"][0] * panel["size"][1]))
 
 
 def hang(spec: mujoco.MjSpec, panels: tuple[dict[str, Any], ...], hidden_group: int, **common: Any) -> None:
-    """Add the panels of a film's description to a world.
+    """Add the panels of a film's description to a world; `keep` follows.
 
-    From afar each lights as a lamp of its strength: its radiance is strength x pi / area. One that is not seen lies in the
-    hidden group. `common` are properties of all geoms that are drawn only.
+    One that is not seen lies in the hidden group. `common` are properties of all geoms that are drawn only.
     """
     import mujoco
 
-    notes = {}
     for panel in panels:
         name, place = f"drawn.{panel['name']}", np.array(panel["pos"])
         width, height = panel["size"]
         turn, quat = facing(np.array(panel["towards"]) - place), np.zeros(4)
         mujoco.mju_mat2Quat(quat, turn.ravel())
-        colour = np.array(panel["rgb"]) ** 2.2
-        bright = panel["strength"] * pi / (width * height)
+        bright = _bright(panel)
         parts = {"": (bright, THICK_M), "/back": (0.0, DEEP_M)} if panel["seen"] else {"": (bright, THICK_M)}
         body, front = spec.body(panel["to"]) if panel["to"] else spec.worldbody, 0.0
         for part, (glow, deep) in parts.items():
@@ -70,11 +81,6 @@ def hang(spec: mujoco.MjSpec, panels: tuple[dict[str, Any], ...], hidden_group: 
                 pos=place - turn[:, 2] * (front + deep / 2), material=name + part,
             )  # fmt: skip
             front += deep
-        notes[name] = {
-            "half": [width / 2, height / 2], "radiance": (colour * bright).tolist(), "seen": panel["seen"],
-        }  # fmt: skip
-    if notes:
-        spec.add_text(name=TEXT, data=json.dumps(notes))
 
 
 def facing(way: np.ndarray) -> np.ndarray:

@@ -22,6 +22,7 @@ from worldkit.files import write_json
 
 from . import renderers
 from .encode import Video, write_png
+from .identity import identity
 
 if TYPE_CHECKING:
     import mujoco
@@ -169,7 +170,7 @@ def drawing_s(seconds: float, count: int, size: Sequence[int]) -> float:
 def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick: Any) -> "tuple[bool, Refined]":
     """`refine` on the frames in a folder; where the renderer gives up, on those of the plainer one, in a folder beside it."""
     while True:
-        state = Refined(folder, shown.count, json.dumps([folder.name, *about, shown.told()["renderer"]]))
+        state = Refined(folder, shown.count, json.dumps([folder.name, *about, identity(shown.renderer).sha256]))
         try:
             return refine(shown, state, end, tick), state
         except FellBackError:

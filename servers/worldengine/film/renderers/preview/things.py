@@ -52,6 +52,27 @@ def _traits(look: Look) -> tuple[bool, ...]:
     return (look.coat > 0, look.sheen > 0, look.mark, look.vary > 0, look.clear > 0, glossy)
 
 
+def pieces(model: mujoco.MjModel) -> np.ndarray:
+    """(nbody,) int: the piece of material that each body is of, named by the first of its bodies.
+
+    Bodies that are joined rigidly, or by welds and connections that hold at the start, are one, until they break too. What stands
+    fixed in the world is a piece for each body, and joins nothing.
+    """
+    import mujoco
+
+    rigid = np.array(model.body_weldid)
+    found = np.where(rigid == 0, np.arange(model.nbody), rigid)
+    kinds = (mujoco.mjtEq.mjEQ_CONNECT, mujoco.mjtEq.mjEQ_WELD)
+    for index in np.flatnonzero(np.isin(model.eq_type, [int(kind) for kind in kinds]) & (model.eq_active0 != 0)):
+        ends = np.array([model.eq_obj1id[index], model.eq_obj2id[index]])
+        if model.eq_objtype[index] == mujoco.mjtObj.mjOBJ_SITE:
+            ends = model.site_bodyid[ends]
+        if rigid[ends].all():
+            one, other = sorted(found[ends])
+            found[found == other] = one
+    return found
+
+
 class Things:
     """The geoms of a model that can be seen.
 
@@ -64,6 +85,7 @@ class Things:
         self.model = model
         self._skinned = skinned(model)
         kinds = mujoco.mjtGeom
+        self._pieces = pieces(model)
         self._finishes = {-1: plain(DEFAULT_RGBA)} | {i: of_material(model, i) for i in range(model.nmat)}
         alpha = np.array([self._rgba(g)[3] for g in range(model.ngeom)])
         shown = np.isin(model.geom_group, VISIBLE_GROUPS) & (alpha > 0.003) if model.ngeom else np.zeros(0, bool)
@@ -142,7 +164,8 @@ class Things:
         elif kind in (kinds.mjGEOM_MESH, kinds.mjGEOM_SDF, kinds.mjGEOM_HFIELD):
             full[:] = 1.0
         out[12:16] = *full, half
-        piece = 0 if kind in (kinds.mjGEOM_PLANE, kinds.mjGEOM_HFIELD) else int(self.model.geom_bodyid[geom]) or geom
+        body = int(self.model.geom_bodyid[geom])
+        piece = 0 if kind in (kinds.mjGEOM_PLANE, kinds.mjGEOM_HFIELD) else int(self._pieces[body]) or geom
         out[16:19] = linear(rgba[:3]) * (1.0 + entry.apart * PIECES[piece % len(PIECES)])
         out[19] = rgba[3]
         out[20:24] = entry.roughness, entry.metallic, entry.coat, entry.sheen

@@ -29,6 +29,7 @@ def emitters(panels: list[Panel], data: mujoco.MjData) -> dict[str, dict[str, An
             each = [channel * area / SIDE**2 for channel in value]
             told = {
                 "type": "spot", "intensity": {"type": "rgb", "value": each}, "cutoff_angle": 89.0, "beam_width": 10.0,
+                "sampling_weight": 1 / SIDE**2,  # together they are looked at as often as any one lamp
             }  # fmt: skip
         for name, move in _stand(number, panel, data).items():
             parts[name] = told | {"to_world": move}

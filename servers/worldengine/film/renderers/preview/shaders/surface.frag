@@ -254,7 +254,8 @@ void main() {
     for (int i = 0; i < panel_count; i++) {
         vec3 u = panels[4 * i + 1].xyz, w = panels[4 * i + 2].xyz, way = normalize(cross(u, w));
         vec3 middle = panels[4 * i].xyz - world;
-        if (dot(middle, way) >= 0.0) continue;  // behind it is dark
+        // Behind it is dark, and so is its own front, which lies in its plane but for rounding.
+        if (dot(middle, way) > -1e-4 * (length(u) + length(w))) continue;
         vec3 glow = panels[4 * i + 3].rgb * mix(ao, 1.0, 0.3);
         light += diffuse * glow * panel_form(middle, u, w, n);
 #if !SIMPLE
