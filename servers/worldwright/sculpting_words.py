@@ -24,7 +24,7 @@ PARTS = (
     ("Of one shape", "bend twist rough"),
     ("Of several", "union difference intersection linear radial repeat"),
     ("Where things go", "along skin share_along"),
-    ("Into the world", "Part add assemble from_file dress made"),
+    ("Into the world", "Part add assemble from_file dress made leaf"),
 )
 SOLIDS = "box lathe slab loft sweep ring curve"
 MASKS = "gradient over plain step within stripes spots net mottled noise label"

@@ -46,7 +46,7 @@ def main() -> int:
                 return 1
         source = run.program.read_text(encoding="utf-8")
         moved = source.replace("fovy=35.0", "fovy=28.0")
-        heavier = moved.replace("    return spec", "    spec.option.impratio = 3.0\n    return spec", 1)
+        heavier = moved.replace("    return spec", "    spec.worldbody.add_site(name='mark')\n    return spec", 1)
         if len({source, moved, heavier}) != 3:
             print("the example's program is not as this script expects it")
             return 1

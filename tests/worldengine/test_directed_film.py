@@ -1,6 +1,7 @@
 """A film shows the recording: its bodies stand where they stood, and what it may not do it is refused."""
 
 import json
+from dataclasses import replace
 
 import mujoco
 import numpy as np
@@ -13,7 +14,7 @@ from worldengine.film.directed import Screening, axes
 from worldengine.film.dressed import DressedReplay, dress
 from worldengine.film.lettering import letter, pace
 from worldengine.film.treatment import Treatments
-from worldkit import portable
+from worldkit import portable, sculpt, turning
 from worldkit.filming import Film, Recorded, Surface, follow, planned, still, wide
 
 SIZE = (96, 54)
@@ -142,6 +143,75 @@ def test_a_skin_takes_the_place_of_its_body_if_it_has_its_size(made):
         )
         with pytest.raises(FilmError, match="times the size"):
             dress(made.folder / "world.mjz", wrong)
+
+
+def test_a_thin_body_may_have_a_skin_that_curls_but_no_thick_or_high_one(tmp_path):
+    spec = empty()
+    floor(spec)
+    plate = spec.worldbody.add_body(name="leaf", pos=(0, 0, 0.2))
+    plate.add_freejoint()
+    plate.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.04, 0.022, 0.0005), mass=0.001)
+    portable.write(spec, tmp_path / "world.mjz")
+
+    def skin(points, faces=FACES):
+        name = {
+            "name": "skin",
+            "shape": "mesh",
+            "size": (1, 1, 1),
+            "pos": (0, 0, 0),
+            "quat": (1, 0, 0, 0),
+            "to": "leaf",
+        }
+        thing = {**name, "instead": True, "vertices": "v", "faces": "f", "look": "leaf_green"}
+        arrays = {"v": points, "f": faces, "eye": np.zeros((1, 3))}
+        film = described.Described((), (), Treatments([]), (thing,), (), (), (), {}, 0.0, 1, arrays)
+        return dress(tmp_path / "world.mjz", film)
+
+    leaf = sculpt.leaf(0.08, 0.045, curl_deg=70)
+    assert 0.006 < np.ptp(leaf.vertices[:, 2]) < 0.015
+    assert skin(leaf.vertices, leaf.faces).geom("drawn.skin").id >= 0
+    for half, middle in (((0.04, 0.022, 0.009), 0.0), ((0.04, 0.022, 0.002), 0.004), ((0.12, 0.022, 0.002), 0.0)):
+        with pytest.raises(FilmError, match="15 mm thick"):
+            skin(CUBE * half + (0, 0, middle))
+
+
+def test_leaves_are_drawn_where_and_as_they_are_told(made):
+    def tell(film):
+        looking(film)
+        path = np.array([[0.0, 0, 1], [0.3, 0.2, 0.8]])
+        film.particles(
+            "leaves", lambda t: path + t[:, None, None] * [0, 0, -0.5], shape="leaf", diameter=0.06, look="leaf_autumn"
+        )
+
+    screening = made.screening(tell)
+    film, model, frame = screening.film, screening.model, 5
+    assert "leaves (2 particles)" in film.drawn_only()
+    data = screening._moment(frame)
+    one = model.geom("drawn.leaves/0").id
+    mesh = int(model.geom_dataid[one])
+    start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+    for number in range(2):
+        points = (
+            data.geom_xpos[one + number]
+            + model.mesh_vert[start : start + count] @ data.geom_xmat[one + number].reshape(3, 3).T
+        )
+        turn = turning.matrices(film.arrays["turns0"][frame, number])
+        assert abs(turn[2, 2]) < 0.99  # it rocks
+        own = (points - film.arrays["ways0"][frame, number]) @ turn
+        assert np.ptp(own[:, 0]) == pytest.approx(0.06, rel=0.05)
+        assert np.allclose(own.min(axis=0), -own.max(axis=0), atol=1e-5)
+
+
+@pytest.mark.parametrize(
+    "wrong", [lambda a: a.update(turns0=2 * a["turns0"]), lambda a: a.update(turns0=a["turns0"][1:])]
+)
+def test_leaves_that_are_turned_by_no_quaternion_are_refused(made, wrong):
+    def tell(film):
+        looking(film)
+        film.particles("leaves", lambda t: np.zeros((len(t), 2, 3)), shape="leaf")
+
+    with pytest.raises(FilmError, match="quaternion"):
+        made.film(tell, lambda facts, arrays: wrong(arrays))
 
 
 def setting(name, value):
@@ -475,4 +545,10 @@ def test_the_frames_of_a_still_shot_stand_in_for_what_does_not_change(made):
         assert screening.standing(first, "video") == screening.standing(first, 0.5) == ()
         assert screening.standing(shots[1]["first"], 2) == (), "the camera goes along"
         assert screening.standing(shots[2]["first"], 2) == (), "the light wanders"
+        assert screening.stills(first, 2) == 0, "this renderer draws none of them beside"
+        screening.frames._drawing.beside = lambda moments, quality: {1: 2, 4: 1}[moments]
+        assert [screening.stills(frame, 2) for frame in (first, first + 1, last, shots[1]["first"])] == [1, 2, 1, 0]
+        screening.film = replace(screening.film, shutter=0.5, samples=4)
+        assert [screening.stills(frame, 5) for frame in (first, last)] == [1, 0], "there is room for one"
+        screening.film = replace(screening.film, shutter=0.0)
         assert np.array_equal(screening.picture(first, 2), screening.picture(first))

@@ -71,6 +71,20 @@ def test_bodies_that_hold_together_at_the_start_are_one_piece_of_one_tone():
     assert tones["part0"] == tones["part1"] == tones["part2"] != tones["part3"]
 
 
+def test_the_ground_has_the_tone_of_its_look():
+    """The world's first geom, a slab; a plane; height fields of bodies of their own."""
+    spec = mujoco.MjSpec()
+    material = materials.add(spec, "slate")
+    spec.add_hfield(name="hill", nrow=2, ncol=2, size=(1, 1, 1, 1), userdata=[0.0, 1, 0, 1])
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(1, 1, 0.1), material=material)
+    spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1), material=material)
+    for number in range(3):
+        body = spec.worldbody.add_body(name=f"hill{number}")
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname="hill", material=material)
+    tones = Things(spec.compile()).rows[:, 16]
+    assert len(tones) == 5 and np.unique(tones) == pytest.approx([1.0]), "a material's own colour lies in its picture"
+
+
 @pytest.mark.gl
 @pytest.mark.parametrize("renderer", ["preview", "traced"])
 def test_two_boxes_of_one_look_differ_by_more_than_their_light(renderer):

@@ -76,7 +76,8 @@ def test_of_a_figure_of_many_each_geom_that_moved_is_found_by_itself():
     now[0, 9], now[1, 10] = 1e-9, 2.0
     ((was, stands),) = figure.moved(before, now)
     assert np.allclose(was, figure.meshes[1].points) and np.allclose(stands - was, (0, 2, 0))
-    assert figures.Figures.most_moved((before, before), (before, now)) == 1
+    assert figures.Figures.how_many_moved((before, before), (before, now)) == 1
+    assert figures.Figures.how_many_moved((before,) * 9, (now,) * 9) == 9, "of all figures: loose things are one each"
 
 
 def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
@@ -188,4 +189,8 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
     before = [Before("at rest", [partial(at, 0.0)] * 2)]
     same = [drawing.over(before, [partial(at, 0.0)] * 2, 0, 4) for _ in range(2)]
     assert np.array_equal(*same) and asked == [], "nothing differs"
+
+    assert drawing.beside(2, 4) >= 2 and drawing.beside(2, 0.5) == 0, "none beside a draft"
+    drawing.treat(Treatment(aperture=2.8, focus_m=4.0))
+    assert drawing.beside(2, 4) == 0, "nor out of focus"
     drawing.close()

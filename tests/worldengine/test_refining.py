@@ -13,7 +13,7 @@ import pytest
 from small_worlds import ball, empty, floor, record
 from worldengine.film import described, motion_facts, refining
 from worldengine.film.refining import Refined, encode, refine, rounds, traced_levels
-from worldkit import portable
+from worldkit import materials, portable
 from worldkit.filming import Film, Recorded
 
 SIZE = (64, 36)
@@ -40,6 +40,10 @@ class Drawn:
         return {}
 
 
+class Traced(Drawn):
+    renderer = "traced"
+
+
 def shown(path) -> list[float]:
     with av.open(str(path)) as film:
         return [float(frame.to_ndarray(format="rgb24").mean()) / 10 for frame in film.decode(video=0)]
@@ -64,7 +68,10 @@ def test_a_round_is_begun_only_if_its_dearest_frame_fits(tmp_path, monkeypatch):
     monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
 
     class Uneven(Drawn):
-        """The first frame of each round also draws what stands still."""
+        """The first frame of each round also draws what stands still, which costs as much as 29 others."""
+
+        def stills(self, number: int, samples: float) -> int:
+            return 0 if number else 29
 
         def picture(self, number: int, samples: float) -> np.ndarray:
             clock[0] += samples * (3.0 if number == 0 else 0.1)
@@ -107,7 +114,7 @@ def test_a_shot_is_begun_only_if_what_stands_still_in_it_fits_too(tmp_path, monk
     assert len(film.asked) == 30, "with what stands still the next frame takes 6 s"
     again, now = TwoShots(), clock[0]
     assert not refine(again, Refined(tmp_path / "a", 20, "it"), now + 5.9, lambda: None)
-    assert not again.asked, "whoever goes on knows what frames take"
+    assert again.asked == [(10, 2)] and clock[0] == now + 6, "one is drawn whatever is expected"
     assert not refine(again, Refined(tmp_path / "a", 20, "it"), now + 8.1, lambda: None)
     assert len(again.asked) == 10 and clock[0] < now + 8, "those after it are believed to be cheaper"
 
@@ -123,8 +130,26 @@ def test_a_draft_goes_on_over_all_shots_after_a_slow_start(tmp_path, monkeypatch
 
     film = GetsReady(80)
     film.shots = [range(k, k + 4) for k in range(0, 80, 4)]
-    refine(film, Refined(tmp_path / "a", 80, "it"), 40.5, lambda: None)
-    assert len(film.asked) == 80, "not each shot begins as slowly"
+    assert refine(film, Refined(tmp_path / "a", 80, "it"), 50.0, lambda: None), "no shot and no round begins as slowly"
+    assert len(film.asked) == 80 * len(LEVELS)
+
+
+def test_what_an_earlier_process_found_does_not_stop_a_film_for_good(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+
+    class Quick(Drawn):
+        def picture(self, number: int, samples: float) -> np.ndarray:
+            clock[0] += 0.1
+            return super().picture(number, samples)
+
+    slow = Refined(tmp_path / "a", 8, "it")
+    slow.pace = refining.Pace(LEVELS[0], 500.0, 500.0)  # beside much else
+    slow.keep(0, Drawn(8).picture(0, LEVELS[0]), LEVELS[0])
+    film = Quick(8)
+    film.shots = [range(4), range(4, 8)]
+    assert refine(film, Refined(tmp_path / "a", 8, "it"), 20.0, lambda: None)
+    assert len(film.asked) == 8 * len(LEVELS) - 1
 
 
 @pytest.mark.parametrize("count", [24, 5000])
@@ -163,6 +188,32 @@ def test_frames_that_other_code_drew_are_forgotten(tmp_path, monkeypatch):
         _, state = refining.refined(Preview(2), tmp_path / "film", [SIZE], float("inf"), lambda: None)
         kept.append(state.taken_over)
     assert kept == [0, 2, 0]
+
+
+def test_frames_of_a_world_that_only_looks_otherwise_are_forgotten(tmp_path, monkeypatch):
+    """Whatever the frames' folder is called: its name is taken from the file, not from what is compiled of it."""
+    monkeypatch.setattr(refining, "named", lambda *given: "film")
+    monkeypatch.setattr(refining, "encode", lambda *given: None)
+    (tmp_path / "out").mkdir()
+    kept = []
+    for number, look in enumerate(("wood_oak", "wood_oak", "steel_dark")):
+        world = empty()
+        ball(world, "ball", (0, 0, 0.6))
+        materials.add(world, look)
+        world.geoms[0].material = look
+        portable.write(world, tmp_path / "world.mjz")
+        recording = record(world, tmp_path / str(number), 8)
+        monkeypatch.setattr(described, "read", lambda *given: None)
+        monkeypatch.setattr(refining, "OfTheAuthor", lambda *given: Traced(2))
+        given = SimpleNamespace(
+            world=tmp_path / "world.mjz", fps=24, size=SIZE, model=lambda: portable.read(tmp_path / "world.mjz")
+        )
+        options = SimpleNamespace(recording=tmp_path / str(number), film=tmp_path, out=tmp_path / "out", minutes=5.0)
+        refining.run(given, options)
+        result = json.loads((tmp_path / "out" / "result.json").read_text())
+        kept.append((recording.sha256, result["taken_over"]))
+    assert len({sha256 for sha256, _ in kept}) == 1, "they move alike"
+    assert [taken for _, taken in kept] == [0, 2, 0]
 
 
 def test_with_no_time_at_all_there_is_still_a_whole_film(tmp_path):

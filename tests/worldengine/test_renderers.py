@@ -96,7 +96,7 @@ def test_a_version_names_packages_and_code(name: str) -> None:
     [
         "worldkit/materials/catalogue.py", "worldkit/materials/paint/wood.py", "worldkit/settings.py",
         "worldkit/model_text.py", "worldengine/recording/seen.py", "worldengine/film/panel_lights.py",
-        "worldengine/film/directed.py", "worldengine/film/renderers/__init__.py",
+        "worldkit/cameras/aiming.py", "worldkit/turning.py", "worldengine/recording/replay.py", "worldengine/film/directed.py", "worldengine/film/renderers/__init__.py",
         "worldengine/film/renderers/preview/things.py", "worldengine/film/renderers/preview/shaders/surface.frag",
     ],
 )  # fmt: skip

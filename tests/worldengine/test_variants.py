@@ -98,6 +98,28 @@ def test_gravity_and_wind(tmp_path):
     assert vary(spec.copy(), tmp_path / "c", 300, weaken=["gravity=0.5"]).linvel[-1, 0, 2] > drifting.linvel[-1, 0, 2]
 
 
+@pytest.mark.parametrize(("change", "left"), [({"without": ["wind"]}, 0.0), ({"weaken": ["wind=0.5"]}, 0.5)])
+def test_a_wind_that_control_writes_is_taken_away_and_weakened_too(tmp_path, change, left):
+    """A cause that is written anew at every step would otherwise stay as strong as it was."""
+    spec = empty(gravity=0.0)
+    spec.option.wind, spec.option.density = (1.0, 0, 0), 1.2
+    ball(spec, "ball", (0, 0, 5), mass=0.001)
+
+    def gust(model, data):
+        model.opt.wind[0] = 2.0 + np.sin(6.0 * data.time)
+
+    def halved(model, data):
+        model.opt.wind[0] = left * (2.0 + np.sin(6.0 * data.time))
+
+    spec_of_it = spec.copy()
+    spec_of_it.option.wind = (left, 0, 0)
+    gone = vary(spec, tmp_path / "a", 300, gust, **change).linvel[:, 0, 0]
+    meant = vary(spec_of_it, tmp_path / "b", 300, halved).linvel[:, 0, 0]
+    assert np.array_equal(gone, meant) and (abs(gone).max() > 0.1) == (left > 0)
+    undone = vary(spec, tmp_path / "c", 300, gust, without=["parameter:opt.wind"]).linvel[-1, 0, 0]
+    assert 0 < undone < vary(spec, tmp_path / "d", 300, gust).linvel[-1, 0, 0]  # the wind of the beginning stays
+
+
 def cart():
     spec = empty(gravity=0.0)
     body = spec.worldbody.add_body(name="cart")

@@ -5,8 +5,23 @@ import json
 import numpy as np
 import pytest
 
+from worldkit import turning
 from worldkit.errors import ProgramError
-from worldkit.filming import MOODS, Film, Recorded, Surface, along, follow, orbit, planned, ride, still, telling, wide
+from worldkit.filming import (
+    MOODS,
+    Film,
+    Recorded,
+    Surface,
+    along,
+    fluttering,
+    follow,
+    orbit,
+    planned,
+    ride,
+    still,
+    telling,
+    wide,
+)
 from worldkit.filming.viewpoints import between, fovy_deg
 
 T = np.linspace(0.0, 3.0, 301)[:, None]
@@ -169,6 +184,16 @@ def test_what_grows_is_one_mesh_that_keeps_clear(film):
     assert 0.05 < points[..., 2].max() <= 0.2
 
 
+def test_leaves_rock_as_they_fall_lie_level_at_rest_and_a_moment_looks_the_same_twice() -> None:
+    times = np.array([*np.linspace(0, 2, 81), *np.linspace(0.5, 1.0, 21), 1.0, 1.0])
+    height = np.maximum(1.0 - times, 0.0)[:, None, None]
+    found = fluttering.turns(np.concatenate([0 * height, 0 * height, height], axis=2), times, 0.05)
+    assert found.shape == (len(times), 1, 4) and np.allclose(np.linalg.norm(found, axis=2), 1)
+    level = turning.matrices(found)[:, 0, 2, 2]
+    assert level[:40].min() < 0.8 and np.allclose(level[45:81], 1)
+    assert np.allclose(found[81], found[20]) and np.allclose(found[-3:], found[40])
+
+
 def test_particles_have_a_place_in_every_frame(film):
     film.shot(wide(), until=1.0)
     film.particles("sparks", lambda times: (np.zeros((len(times), 3, 3)), np.full((len(times), 3), 0.01)))
@@ -200,6 +225,10 @@ REFUSED = {
     "lens_mm must lie": lambda f: f.shot(wide(lens_mm=2), until=1.0),
     "stands where it looks": lambda f: f.shot(still((1, 1, 1), (1, 1, 1)), until=1.0) or f.description(),
     "must be": lambda f: f.particles("p", lambda times: np.zeros(3)) or f.description(),
+    "balls or leaves": lambda f: f.particles("p", lambda times: np.zeros((len(times), 1, 3)), shape="cube"),
+    "all of one size": lambda f: (
+        f.particles("p", lambda t: (np.zeros((len(t), 1, 3)), np.ones((len(t), 1))), shape="leaf") or f.description()
+    ),
     "a picture is uint8": lambda f: Surface(picture=np.zeros((4, 4, 3))),
 }
 

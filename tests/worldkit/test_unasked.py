@@ -32,6 +32,9 @@ def rolling(length: float, points: int = 60) -> np.ndarray:
         ("outdoor", "a sledge goes down the snow", 10.0, "snow_field"),
         ("outdoor", "something moves", 10.0, "meadow"),
         ("outdoor", "a car brakes on the road", 20.0, "street"),
+        ("outdoor", "a light breeze blows over a leaf and a tree branch", 2.0, "park"),
+        ("outdoor", "a twig falls from a tree in the garden", 2.0, "park"),
+        ("outdoor", "a log rolls into a tree and leaves it standing", 5.0, "forest"),
         ("room", "a toy car rolls", 9.0, "gym"),
     ],
 )

@@ -171,7 +171,7 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
     bodies = set(recording.names)
     things = tuple(_thing(one, arrays, bodies, n) for one in told["things"])
     things = tuple(thing | ground_skins.off(thing, arrays, recording) for thing in things)
-    particles = {thing["name"] for thing in things if thing.get("ways")}
+    particles = {thing["name"] for thing in things if thing.get("ways") and thing["shape"] == "sphere"}
     surfaces = tuple(_surface(one, arrays, bodies | particles) for one in told.get("surfaces", ()))
     if (
         len({one["name"] for one in (*things, *surfaces)}) < len(things) + len(surfaces)
@@ -337,9 +337,14 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
     if "ways" in told:
         ways, sizes = arrays[str(told["ways"])], arrays[str(told["sizes"])]
         good = ways.ndim == 3 and ways.shape[0] == frames and ways.shape[2] == 3 and 1 <= ways.shape[1] <= MOST_COPIES
-        if not good or shape != "sphere" or not np.isfinite(ways).all():
+        if not good or shape != ("mesh" if "turns" in told else "sphere") or not np.isfinite(ways).all():
             raise _refuse(f"{name!r} has no place in each of the {frames} frames")
         if sizes.shape != ways.shape[:2] or not ((sizes >= 0) & (sizes <= FAR_M)).all():
             raise _refuse(f"{name!r} has not a size of 0 to {FAR_M:g} m for each of its particles in each frame")
         found |= {"ways": str(told["ways"]), "sizes": str(told["sizes"])}
+        if "turns" in told:
+            found["turns"] = str(told["turns"])
+            turns = arrays[found["turns"]]
+            if turns.shape != (*ways.shape[:2], 4) or not (np.abs(np.linalg.norm(turns, axis=2) - 1) < 1e-3).all():
+                raise _refuse(f"{name!r} is not turned by a quaternion for each of its particles in each frame")
     return found

@@ -3,7 +3,7 @@
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from worldkit import cameras
+from worldkit import cameras, turning
 
 from ..recording.replay import Replay
 from .described import Described
@@ -63,7 +63,12 @@ class Screening:
         self._copies = [
             (self.model.geom(f"drawn.{thing['name']}/0").id, film.arrays[thing["ways"]], film.arrays[thing["sizes"]])
             for thing in film.things
-            if thing.get("ways")
+            if thing.get("ways") and "turns" not in thing
+        ]
+        self._leaves = [
+            (self.model.geom(f"drawn.{thing['name']}/0").id, film.arrays[thing["ways"]], film.arrays[thing["turns"]])
+            for thing in film.things
+            if "turns" in thing
         ]
         self._surfaces = surfaces(self.model, film)
         self._planned: Replay | None = None
@@ -82,13 +87,16 @@ class Screening:
 
     def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame, words and all: uint8 (height, width, 3)."""
-        film, moments = self.film, self.film.samples if self.film.shutter > 0 else 1
-        if not isinstance(quality, str):
-            moments = min(moments, max(1, int(quality)))  # each takes one sample at least; a draft is sharp
+        film, moments = self.film, self._moments(quality)
         before = [Before(number, self._parts(number, moments)) for number in self.standing(frame, quality)]
         image = self.frames.over(before, self._parts(frame, moments), self._camera, quality)
         speed = film.speed(frame, self.fps)
         return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)])
+
+    def _moments(self, quality: "Quality") -> int:
+        """How many moments the shutter is open for: each takes one sample at least, and a draft is sharp."""
+        moments = self.film.samples if self.film.shutter > 0 else 1
+        return moments if isinstance(quality, str) else min(moments, max(1, int(quality)))
 
     def _parts(self, frame: int, moments: int) -> "list[Moment]":
         """The moments while the shutter is open for a frame."""
@@ -107,6 +115,14 @@ class Screening:
             held = all((film.arrays[name][first : first + count] == film.arrays[name][first]).all() for name in seen)
             self._still[shot] = (first + count - 1, first) if held and len(lit) == 1 and count > 1 else ()
         return self._still[shot]
+
+    def stills(self, frame: int, quality: "Quality") -> int:
+        """How many other frames the renderer draws with this one, if it is the first of its shot."""
+        standing = self.standing(frame, quality)
+        if not standing:
+            return 0
+        self._moment(frame)  # what stands out of focus depends on how it is treated
+        return sum(still != frame for still in standing[: self.frames.beside(self._moments(quality), quality)])
 
     def _moment(self, at: float) -> "mujoco.MjData":
         """Set up what is shown between two frames of one shot."""
@@ -134,6 +150,12 @@ class Screening:
             count = ways.shape[1]
             data.geom_xpos[first : first + count] = (1 - part) * ways[low] + part * ways[high]
             self.model.geom_size[first : first + count, 0] = np.maximum(sizes[low] / 2, 1e-9)
+        for first, ways, turns in self._leaves:
+            copies, mesh = slice(first, first + ways.shape[1]), int(self.model.geom_dataid[first])
+            turned = turning.matrices(turns[low if part < 0.5 else high])
+            place = (1 - part) * ways[low] + part * ways[high]
+            data.geom_xpos[copies] = place + turned @ self.model.mesh_pos[mesh]
+            data.geom_xmat[copies] = (turned @ turning.matrices(self.model.mesh_quat[mesh])).reshape(-1, 9)
         for surface in self._surfaces:
             surface.place(data)
         self._look(data, shot, row, told)

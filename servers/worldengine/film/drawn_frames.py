@@ -130,6 +130,11 @@ class Frames:
             self.treat(self._treatment)
             return self.over(before, moments, camera, quality)
 
+    def beside(self, moments: int, quality: renderers.Quality) -> int:
+        """How many pictures `before` at most are drawn with one of so many moments, as the drawing is treated now."""
+        beside = getattr(self._open, "beside", None)
+        return 0 if beside is None else int(beside(moments, quality))
+
     def treat(self, treatment: Treatment) -> None:
         """Apply this light, haze, focus and grading from now on, as far as the renderer can."""
         self._treatment = treatment

@@ -24,6 +24,8 @@ DRAWN = {"contype": 0, "conaffinity": 0, "mass": 0.0, "group": 2}
 HIDDEN_GROUP = 5
 SHARE_OF_BODY = (0.4, 2.5)
 """The size of a skin, as a share of that of the body it stands for, lies between these in each direction."""
+THIN_M = 0.006
+"""Where a body is thinner than this, and than a fifth of its longest side, its skin may be as if it were so thick: a leaf curls."""
 BY_BODY = ("geom", "cam")
 """Arrays that lie in the order of the bodies, so that additions shift them."""
 
@@ -101,7 +103,7 @@ def _add(spec: "mujoco.MjSpec", film: Described, thing: dict[str, Any]) -> None:
     body = spec.body(thing["to"]) if thing["to"] else spec.worldbody
     material = _material(spec, film, thing["look"], name)
     common: dict[str, Any] = {**DRAWN, "material": material}
-    if thing.get("ways"):
+    if thing.get("ways") and thing["shape"] == "sphere":
         places, sizes = film.arrays[thing["ways"]], film.arrays[thing["sizes"]]
         for number, place in enumerate(places[0]):
             body.add_geom(
@@ -120,6 +122,13 @@ def _add(spec: "mujoco.MjSpec", film: Described, thing: dict[str, Any]) -> None:
         )  # fmt: skip
         if "uv" in thing:
             mesh.usertexcoord = film.arrays[thing["uv"]].astype(float).ravel()
+        if thing.get("ways"):
+            for number, place in enumerate(film.arrays[thing["ways"]][0]):
+                body.add_geom(
+                    name=f"{name}/{number}", type=kinds.mjGEOM_MESH, meshname=name, pos=place.astype(float), **DRAWN,
+                    material=material,
+                )  # fmt: skip
+            return
         if thing["instead"]:
             _skin(spec, thing, points)
         body.add_geom(type=kinds.mjGEOM_MESH, meshname=name, **common)
@@ -213,13 +222,18 @@ def _skin(spec: "mujoco.MjSpec", thing: dict[str, Any], points: "np.ndarray") ->
             corners = model.geom_pos[geom] + turned(model.geom_quat[geom][None], box[:3] + signs * box[3:])
             low, high = np.minimum(low, corners.min(axis=0)), np.maximum(high, corners.max(axis=0))
     placed = turned(np.array(thing["quat"])[None], points) + np.array(thing["pos"])
-    share = np.ptp(placed, axis=0) / np.maximum(high - low, 1e-9)
-    away = np.abs(0.5 * (placed.min(axis=0) + placed.max(axis=0) - low - high)) / np.maximum(high - low, 1e-9)
-    if not ((share > SHARE_OF_BODY[0]) & (share < SHARE_OF_BODY[1]) & (away < 0.5)).all():
+    extents = np.maximum(high - low, 1e-9)
+    floor = min(THIN_M, extents.max() / 5)
+    share, taken = np.ptp(placed, axis=0) / extents, np.maximum(extents, floor)
+    least = np.where(extents < floor, 0.0, SHARE_OF_BODY[0] * extents)  # a sheet stands for a thin body
+    away = np.abs(0.5 * (placed.min(axis=0) + placed.max(axis=0) - low - high)) / taken
+    size = np.ptp(placed, axis=0)
+    if not ((size >= least) & (size < SHARE_OF_BODY[1] * taken) & (away < 0.5)).all():
         raise FilmError(
             f"the skin {thing['name']!r} is {np.round(share, 2).tolist()} times the size of {thing['to']!r}, or lies beside it",
             "film.py",
-            "a skin stands for its body: give it the body's size and place",
+            f"a skin stands for its body: give it the body's place, and {SHARE_OF_BODY[0]} to {SHARE_OF_BODY[1]} times its size; "
+            f"what is thin may be up to {1e3 * SHARE_OF_BODY[1] * THIN_M:.0f} mm thick",
         )
     for geom in spec.body(thing["to"]).geoms:
         if not geom.name.startswith("drawn."):

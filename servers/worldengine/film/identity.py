@@ -12,8 +12,10 @@ from . import renderers
 PACKAGES = ("av", "opencv-python-headless")
 """Packages that encode and scale pictures, whichever renderer draws them."""
 
-DRAWN_FROM = ("filming/**/*.py", "materials/**/*.py", "settings.py", "model_text.py")
-"""What of `worldkit` decides how a recorded world looks when it is drawn."""
+DRAWN_FROM = ("cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "model_text.py", "turning.py")
+"""What of `worldkit` decides how a recorded world looks when it is drawn, and from where."""
+REPLAYED_BY = ("seen.py", "replay.py")
+"""What of `recording` decides what is shown at which time."""
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,8 @@ def _code(name: str) -> str:
     """The hash of the film's code, of what it takes from `worldkit` when it draws, of a renderer, and of all plainer ones, which
     it draws on, and which may take over from it."""
     film, kit = Path(__file__).parent, Path(worldkit.__file__ or "").parent
-    own = [*film.glob("*.py"), film.parent / "recording" / "seen.py", Path(renderers.__file__ or "")]
+    own = [*film.glob("*.py"), Path(renderers.__file__ or "")]
+    own += [film.parent / "recording" / name for name in REPLAYED_BY]
     own += [path for pattern in DRAWN_FROM for path in kit.glob(pattern)]
     drawn: list[Path] = []
     while name:

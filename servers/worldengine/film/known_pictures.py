@@ -60,7 +60,7 @@ class Known:
 
         self._model, self._earlier = model, tuple(earlier)
         told = [facts, identity(renderers.wanted()).sha256, recording.sha256]
-        self._common = hashlib.sha256(json.dumps(told, sort_keys=True).encode() + _drawn(model) + shared)
+        self._common = hashlib.sha256(json.dumps(told, sort_keys=True).encode() + drawn(model) + shared)
         self.keys: dict[str, str] = {}
         """The hash of each picture or film asked for, by the name of its file; goes into the result."""
         self.taken: dict[str, str] = {}
@@ -103,8 +103,8 @@ class Known:
         return {"pictures": offered} | ({"taken": self.taken} if self.taken else {})
 
 
-def _drawn(model: "mujoco.MjModel") -> bytes:
-    """Everything of a model that any picture may show, but its cameras."""
+def drawn(model: "mujoco.MjModel") -> bytes:
+    """A hash of everything of a model that any picture may show, but its cameras."""
     import mujoco
     import numpy as np
 

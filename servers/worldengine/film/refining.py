@@ -114,9 +114,8 @@ class OfTheAuthor:
         return image
 
     def stills(self, number: int, samples: float) -> int:
-        """The frames that stand in for what does not change in its shot, where paths are traced."""
-        standing = self._screening.standing(number, samples) if self._traced else ()
-        return sum(still != number for still in standing)
+        """The frames that stand in for what does not change in its shot, as far as the renderer draws any."""
+        return self._screening.stills(number, samples) if self._traced else 0
 
     def told(self) -> dict[str, Any]:
         """The renderer, and what the film tells of itself."""
@@ -133,12 +132,14 @@ def run(given: "Given", options: argparse.Namespace) -> None:
 
     from ..recording import stored
     from . import described
+    from .known_pictures import drawn
     from .passes import headless_gl
 
     headless_gl()
     started = time.perf_counter()
     recording, model, out = stored.open(options.recording), given.model(), options.out
-    film, name = described.read(options.film, recording), named(options.film, recording.sha256)
+    film, name = described.read(options.film, recording), named(options.film, recording.sha256, given.world)
+    about = [given.size, given.fps, drawn(model).hex()]
     seconds = options.minutes * 60.0
     progress = Progress(out, round(seconds), "s")
 
@@ -148,7 +149,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     with ExitStack() as stack:
         shown = OfTheAuthor(given, model, recording, film, stack, tick)
         end = started + drawing_s(seconds, shown.count, given.size)
-        complete, state = refined(shown, out / FRAMES / name, [given.size, given.fps], end, tick)
+        complete, state = refined(shown, out / FRAMES / name, about, end, tick)
         told = shown.told()
     encode(state, out / f"{NAME}.mp4", given.size, given.fps, Progress(out, shown.count, "frames in the file"))
     result = {"ok": True, "pass": NAME, **told, "frames": shown.count, "fps": given.fps, "size": list(given.size)}
@@ -177,9 +178,11 @@ def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick
             folder = folder.with_name(f"{folder.name}-{shown.renderer}")
 
 
-def named(described: Path, recording_sha256: str) -> str:
-    """The name of the set of frames of a film: a hash of its description, in this folder, and of what it shows."""
-    said = [recording_sha256, *(hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(described.iterdir()))]
+def named(described: Path, recording_sha256: str, world: Path) -> str:
+    """The name of the set of frames of a film: a hash of its description, in this folder, and of what it shows: the motion, and
+    the world's file, which also has all looks, lights and planned cameras."""
+    files = [world, *sorted(described.iterdir())]
+    said = [recording_sha256, *(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)]
     return hashlib.sha256("\n".join(said).encode()).hexdigest()[:16]
 
 
@@ -192,6 +195,11 @@ class Pace:
     def expected(self, samples: float, first: bool, stills: int) -> float:
         """Seconds of a frame; if it is the `first` of its shot at this level, as many as the dearest, or as it and its `stills`."""
         return samples * (max(self.dearest, (1 + stills) * self.recent) if first else self.recent)
+
+    def doubt(self, samples: float, took: float, stills: int) -> None:
+        """Learn from a frame with which the renderer got ready: others take no longer, whatever an earlier process found."""
+        each = took / samples
+        self.dearest, self.recent = min(self.dearest, each), min(self.recent, each / (1 + stills))
 
     def add(self, samples: float, took: float, stills: int) -> None:
         """Learn what a frame and its `stills`, which were drawn with it, took, s."""
@@ -278,8 +286,9 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     """Draw frames until the clock (`time.perf_counter`) reaches `end`, s; at least one that can be shown.
 
     Returns whether nothing is left that would make it better. A frame is begun only if it is likely to be done in time, by what
-    the last ones took for each sample: the first of a shot are the dearest, since what stands still is drawn with them; of the
-    draft only that of the film is, with which the renderer gets ready.
+    the last ones took for each sample: the first of a shot are the dearest, since what stands still is drawn with them. The very
+    first is begun whatever is expected, since that was found by another process, maybe beside others; and with it the renderer
+    gets ready, which tells of those after it only that they take no longer.
     """
     begun: set[tuple[int, float]] = set()
     draft, now = next(iter(shown.levels())), time.perf_counter()
@@ -289,12 +298,13 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
         shot = 0 if samples == draft else max(k for k, shot in enumerate(shown.shots) if shot.start <= number)
         first = (shot, samples) not in begun
         stills = shown.stills(number, samples) if first else 0
-        if any(state.samples) and now + state.pace.expected(samples, first, stills) > end:
+        if begun and now + state.pace.expected(samples, first, stills) > end:
             return False
         image = shown.picture(number, samples)
+        learn = state.pace.add if begun else state.pace.doubt
         begun.add((shot, samples))
         since, now = now, time.perf_counter()  # what keeping the frame before it took is counted, too
-        state.pace.add(samples, now - since, stills)
+        learn(samples, now - since, stills)
         state.keep(number, image, samples)
         tick()
     return True

@@ -31,6 +31,8 @@ class Hold:
         """The share left, by (qpos or qvel, joint)."""
         self.owners: dict[str, float] = {}
         """The share left of the parameters, by their owner."""
+        self.laws: dict[str, float] = {}
+        """The share left of a law of the world (`opt.wind`), counted from nought and not from what the model begins with."""
         self.silent = False
         """If set, the author is never asked."""
 
@@ -40,7 +42,7 @@ class Hold:
 
     def shares(self) -> "Shares | None":
         """The shares to apply to the answers; None when all of them are left whole."""
-        return Shares(self) if self.inputs or self.coordinates or self.owners else None
+        return Shares(self) if self.inputs or self.coordinates or self.owners or self.laws else None
 
     def write(self, kind: str, target: str, share: float) -> None:
         """Leave only this share of writes of this kind to this target (see `altered`)."""
@@ -164,6 +166,8 @@ class Shares:
 
     def of_parameters(self, edit: "Edit") -> "np.ndarray":
         """The new values of one array that are left."""
+        if edit.array in self._hold.laws:
+            return edit.values * self._hold.laws[edit.array]
         import numpy as np
 
         from worldkit.watch import owner_of

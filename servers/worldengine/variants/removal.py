@@ -52,7 +52,7 @@ class Removal:
         elif kind == "control":
             self.hold.everything()
         else:
-            getattr(model.opt, kind)[:] = 0.0
+            self._scale_law(kind, 0.0)
 
     def weaken(self, kind: str, index: Any, factor: float, aspect: str) -> None:
         """Make one thing weaker."""
@@ -69,13 +69,18 @@ class Removal:
         elif kind == "tendon":
             self._scale_tendon(index, factor)
         elif kind in ("gravity", "wind"):
-            getattr(self.model.opt, kind)[:] *= factor
+            self._scale_law(kind, factor)
         else:
             raise ProgramError(
                 f"{'the program’s control' if kind == 'control' else f'a {kind}'} is there or not: it cannot be weakened",
                 "--weaken",
                 "take it away with --without, or weaken a body, a joint, an actuator, a tendon, gravity or wind",
             )
+
+    def _scale_law(self, kind: str, factor: float) -> None:
+        """Scale gravity or wind as the world begins, and as `control` writes it anew."""
+        getattr(self.model.opt, kind)[:] *= factor
+        self.hold.laws[f"opt.{kind}"] = factor
 
     def _unwind(self, target: str) -> None:
         """Let the springs of a body's joints begin as in the model's own pose."""

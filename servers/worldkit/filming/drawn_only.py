@@ -84,6 +84,8 @@ class Thing:
     """(F, P, 3), m: where P copies are in each frame of the film."""
     sizes: np.ndarray | None = None
     """(F, P): the diameter of each copy in each frame, m; 0 is not drawn."""
+    turns: np.ndarray | None = None
+    """(F, P, 4): how each copy of a mesh is turned in each frame."""
 
     def facts(self, arrays: dict[str, np.ndarray], number: int) -> dict[str, Any]:
         """This thing as JSON; its arrays go into `arrays`."""
@@ -92,7 +94,14 @@ class Thing:
             "quat": list(map(float, self.quat)), "to": self.to, "instead": self.instead,
             "look": look_facts(self.look, arrays, f"picture{number}"),
         }  # fmt: skip
-        for name, kind in (("vertices", "f4"), ("faces", "i4"), ("uv", "f4"), ("ways", "f4"), ("sizes", "f4")):
+        for name, kind in (
+            ("vertices", "f4"),
+            ("faces", "i4"),
+            ("uv", "f4"),
+            ("ways", "f4"),
+            ("sizes", "f4"),
+            ("turns", "f4"),
+        ):
             value = getattr(self, name)
             if value is not None:
                 arrays[f"{name}{number}"] = np.asarray(value, dtype=kind)

@@ -169,12 +169,30 @@ class Dressing(Weather):
         *,
         look: str | Surface = "#ffffff",
         diameter: float = 0.02,
+        shape: str = "ball",
     ) -> None:
         """Small balls that are not simulated: `at(times)` gives for recorded times (F,) their places (F, P, 3), m.
 
         It may give a pair: places, and diameters (F, P) in metres, where 0 is not drawn. Asked once, when the film is whole.
+        With `shape="leaf"` they are leaves as long as `diameter`, which rock and spin as they go and lie level at rest.
+
+        Raises:
+            ProgramError: there is no such shape, or no diameter above 0.
         """
-        self._add(Thing(name, "sphere", (diameter,) * 3, look, (0, 0, 0), (1, 0, 0, 0)))
+        if shape not in ("ball", "leaf") or not 0 < diameter < np.inf:
+            raise ProgramError(
+                f"{name!r} is of balls or leaves with a diameter above 0, not {diameter} of {shape!r}",
+                "film.py",
+                "shape='leaf'",
+            )
+        size, place, turn = (diameter,) * 3, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
+        if shape == "leaf":
+            from ..sculpt.foliage import leaf
+
+            one = leaf(1.0, 0.6, veins=0)
+            self._add(Thing(name, "mesh", size, look, place, turn, vertices=one.vertices, faces=one.faces, uv=one.uv))
+        else:
+            self._add(Thing(name, "sphere", size, look, place, turn))
         self._grown.append((self._things.pop(), at))
 
     def surface(self, name: str, *, of: str | Sequence[str], look: str | Surface = "wax") -> None:
@@ -188,7 +206,7 @@ class Dressing(Weather):
         """
         known(look)
         wanted = [of] if isinstance(of, str) else list(of)
-        names = [*self.recorded.bodies, *(thing.name for thing, _ in self._grown)]
+        names = [*self.recorded.bodies, *(thing.name for thing, _ in self._grown if thing.shape == "sphere")]
         found = [each for each in names if any(fnmatchcase(each, pattern) for pattern in wanted)]
         taken = {each for one in self._surfaces for each in one["of"]}
         if not found or taken & set(found):

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
-from . import viewpoints
+from . import fluttering, viewpoints
 from .drawn_only import Thing
 from .film_bounds import MOST_COPIES
 from .recorded import Recorded
@@ -65,4 +65,8 @@ def grown(thing: Thing, at: Callable[[np.ndarray], Any], times: np.ndarray) -> T
     sizes = np.full(places.shape[:2], thing.size[0]) if sizes is None else np.asarray(sizes, dtype=float)
     if sizes.shape != places.shape[:2] or not (sizes >= 0).all():
         raise ProgramError(f"the diameters of {thing.name!r} must be {places.shape[:2]}, none below 0", "film.py", "")
+    if thing.shape == "mesh":
+        if isinstance(told, tuple):
+            raise ProgramError(f"the leaves {thing.name!r} are all of one size", "film.py", "give their places alone")
+        return replace(thing, ways=places, sizes=sizes, turns=fluttering.turns(places, times, thing.size[0]))
     return replace(thing, ways=places, sizes=sizes)

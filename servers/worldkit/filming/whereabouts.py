@@ -30,7 +30,7 @@ OUTDOORS: dict[str, str] = {
     "riverbank": "river stream brook bank bridge",
     "forest": "forest wood fir tree log axe mushroom fox",
     "mountain_side": "mountain hill slope cliff rock boulder climb avalanche edge",
-    "park": "park playground swing slide kite dog frisbee picnic tether football soccer",
+    "park": "park playground swing slide kite dog frisbee picnic tether football soccer garden leaf branch twig breeze",
     "meadow": "meadow grass field lawn horse cow flower wind butterfly",
     "night_sky": "night star moon firework comet",
 }

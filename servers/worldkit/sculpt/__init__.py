@@ -13,6 +13,7 @@ from . import brushes, crisp
 from .copied import linear, radial, repeat
 from .deformed import bend, noise, rough, twist
 from .figure import Part, add, assemble, dress
+from .foliage import Leaf, leaf
 from .following import along, share_along, skin
 from .from_files import from_file
 from .minting import Made, made
@@ -22,7 +23,7 @@ from .signed import Shape, difference, intersection, union
 from .tubing import strap, tube
 
 __all__ = [
-    "Made", "Part", "Shape", "add", "along", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference", "dress",
-    "ellipsoid", "extruded", "from_file", "half_space", "intersection", "linear", "made", "noise", "radial", "repeat", "revolved",
+    "Leaf", "Made", "Part", "Shape", "add", "along", "assemble", "bend", "box", "brushes", "capsule", "crisp", "cylinder", "difference", "dress",
+    "ellipsoid", "extruded", "from_file", "half_space", "intersection", "leaf", "linear", "made", "noise", "radial", "repeat", "revolved",
     "rough", "round_cone", "share_along", "skin", "sphere", "strap", "torus", "tube", "twist", "union",
 ]  # fmt: skip

@@ -93,7 +93,7 @@ CODE = Role(
     name="code",
     purpose="Write the one program simulation.py that does what the plan says, or make one targeted patch to it.",
     inputs=("runs/<slug>/plan.md, approved", "the one repair of the last review, or the findings of a failed step"),
-    outputs=("runs/<slug>/simulation.py, linted, simulated, measured and filmed",),
+    outputs=("runs/<slug>/simulation.py and film.py, linted, simulated, measured and filmed",),
     tools=(
         "retrieve.search",
         "retrieve.read",
@@ -125,8 +125,8 @@ alone: read the descriptions of steps and objects, the laws of interventions, an
 your memory. Never edit the plan; if it cannot be built as it stands, say which line and why. A coordinate that it rounds by less
 than 0.2 mm you may write exactly, with a comment. Then `stamp.go` until it waits for the description: it lints, simulates, measures and films, and tells all that is wrong
 together. Mend what it names first, where the program and not the plan is wrong; after three patches that did not help,
-leave it. How it is filmed, if anybody asks, is `film.py` (skill `film`). Modules and data may lie beside the program (`*.py`,
-`sculpt/`, `laws/`, `data/`): what it imports or names by its path belongs to it. A file that the plan names was approved with
+leave it. Once the claims hold (`until`), write `film.py` (skill `film`): three shots, light, a set, dressing; look at each by `stage.frames`.
+Modules and data may lie beside the program (`*.py`, `sculpt/`, `laws/`, `data/`): what it imports or names by its path belongs to it. A file that the plan names was approved with
 it: change it only if told to. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
 Answer with: what you wrote or changed, and what `stamp.go` says last.""",

@@ -39,8 +39,14 @@ def actuators(plan: Plan, needs: Needs) -> str:
 
 def control(plan: Plan, needs: Needs) -> str:
     """Write the `control` function: constant controls of the plan's actuators, and marks for what else it declares."""
-    # A solver beside the engine needs nothing from the program.
-    interventions = [row for row in plan.simulation_parameters.interventions if row.solver is None]
+    parameters = plan.simulation_parameters
+    blown = parameters.medium is not None and any(parameters.medium.wind)
+    # Neither a solver beside the engine nor the wind of the medium, which `build` has, needs anything from here.
+    interventions = [
+        row
+        for row in parameters.interventions
+        if row.solver is None and not (blown and row.kind == "force" and set(row.bodies) == {"wind"})
+    ]
     driven = {row.name: row for row in plan.topology.actuators if row.control is not None}
     if not interventions and not driven:
         return ""

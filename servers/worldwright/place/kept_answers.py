@@ -8,6 +8,7 @@ import contextlib
 import hashlib
 import json
 import os
+import re
 import time
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -25,6 +26,9 @@ LARGEST = 1 << 20
 """A longer answer is not kept, bytes."""
 ABANDONED_S = 3600.0
 """What is half written for so long, s, nobody will finish."""
+ANSWER = re.compile(r"[0-9a-f]{64}\.json")
+HALF_WRITTEN = re.compile(rf"\.{ANSWER.pattern}\..+")
+"""The files of ours; whatever else lies in the folder, which the user may name, is not ours to remove."""
 TOLD = frozenset({"contacts", "objects", "distances", "drops", "views"})
 """What every answer tells."""
 
@@ -82,11 +86,11 @@ def _tidy(folder: Path) -> None:
     with os.scandir(folder) as found:
         files = [(one.stat(), one) for one in found if one.is_file()]
     kept = 0
-    answers = sorted((row for row in files if not row[1].name.startswith(".")), key=lambda row: -row[0].st_mtime_ns)
+    answers = sorted((row for row in files if ANSWER.fullmatch(row[1].name)), key=lambda row: -row[0].st_mtime_ns)
     for number, (stat, one) in enumerate(answers):
         kept += stat.st_size
         if number >= MOST or kept > MOST_BYTES:
             Path(one).unlink(missing_ok=True)
     for stat, one in files:
-        if one.name.startswith(".") and stat.st_mtime < time.time() - ABANDONED_S:
+        if HALF_WRITTEN.fullmatch(one.name) and stat.st_mtime < time.time() - ABANDONED_S:
             Path(one).unlink(missing_ok=True)

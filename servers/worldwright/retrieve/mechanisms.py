@@ -24,15 +24,19 @@ _TABLE = """
     tipping  ; tip, toppl*, domino*, fall over, lean, balanc*, ladder*, wobbl*, overturn*, see-saw, seesaw ; tips_over ; solver-and-time-step
     stacking ; stack, pile, tower, brick ; ; layouts
     crowded  ; laid, crowd*, bookshel*, dining, dinner, desk, workshop, street ; ; layouts
-    air      ; wind, blow, draught, parachut*, feather, leaf, flutter*, sail, flag, kite, windmill, gust, air ; reaches_terminal_speed ; fluid-drag-and-wind
+    air      ; wind, blow, blown, breez*, draught, carried away, carried off, parachut*, feather, leaf, flutter*, sail, flag, kite, windmill, gust, air ; reaches_terminal_speed ; fluid-drag-and-wind
     water    ; water, float, sink, swim, boat, ship, raft, river, wave, buoy* ; floats, sinks, surfaces, pours_into ; fluid-drag-and-wind
-    soft     ; cloth, flag, curtain, towel, jelly, rubber, sponge, soft*, bend, bent, hose, cable ; sags, bends, stretches, keeps_new_shape, returns_to_shape ; flex-cloth-soft-rods
+    soft     ; cloth, flag, curtain, towel, jelly, rubber, sponge, soft*, bend, bent, hose, cable, branch, bough, twig, reed, tree ; sags, bends, stretches, keeps_new_shape, returns_to_shape ; flex-cloth-soft-rods
     breaking ; break, broke, broken, snap, shatter*, crack, tear, torn, burst, fractur*, collaps* ; breaks, breaks_at, comes_apart ; breakable-things
     figure   ; person, man, woman, child, dancer, gymnast, doll, puppet, walk, acrobat ; ; articulated-figures
     vehicle  ; car, truck, cart, bicycl*, bike, train, wagon, vehicl*, tractor, skateboard* ; ; vehicles
     force    ; magnet*, attract*, repel*, electr*, planet*, thrust, rocket, charge ; ; custom-forces
     model    ; urdf, mjcf, humanoid, quadruped ; ; importing-models
 """
+
+
+WIND = {"wind", "opt.wind"}
+"""What an intervention that is a wind speaks of."""
 
 
 class Mechanism(NamedTuple):
@@ -98,7 +102,7 @@ def _built(plan: Plan) -> Iterator[str]:
         yield "turning"
     if topology.actuators:
         yield "motor"
-    if any(row.kind == "wind" or "wind" in row.law.split() for row in parameters.interventions):
+    if parameters.medium is not None or any(WIND & {*row.bodies, *row.law.split()} for row in parameters.interventions):
         yield "air"
     if plan.layout_density:
         yield "crowded"

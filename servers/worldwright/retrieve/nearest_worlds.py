@@ -129,15 +129,15 @@ def _meant(sentence: str, known: list[World]) -> "np.ndarray":
 
     if not semantic.installed():
         return np.zeros(len(known), dtype=np.float32)
-    from .semantic.model import encode
+    from .semantic.model import encode_plainly
 
     said = [world.sentences() for world in known]
     texts = [text[:1000] for one in said for text in one]
     vectors = dict(_ENCODED)
     new = [text for text in dict.fromkeys(texts) if text not in vectors]
     if new:
-        vectors |= zip(new, encode(new), strict=True)
-    (asked,) = encode([sentence[:1000]])  # by itself: its vector is the same whatever was asked before
+        vectors |= zip(new, encode_plainly(new), strict=True)
+    (asked,) = encode_plainly([sentence[:1000]])  # by itself: its vector is the same whatever was asked before
     _ENCODED.clear()
     _ENCODED.update((text, vectors[text]) for text in texts)
     near = np.stack([vectors[text] for text in texts]) @ asked

@@ -220,7 +220,7 @@ class Acting:
         """Draw the film that was described last; a final pass goes on with the frames that an earlier one drew of it."""
         described = self.job.inputs / authoring.FOLDER
         if self.spec.stage == "final":
-            refined.carry_over(self.run, self.job, described, self.physics / "trajectory")
+            refined.carry_over(self.run, self.job, described, self.physics / "trajectory", self.job.inputs / WORLD)
         return self.drawn([described])
 
     def drawn(self, film: list[Path]) -> tuple[dict[str, str] | None, dict[str, Any]]:

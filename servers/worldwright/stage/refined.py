@@ -32,15 +32,15 @@ def put_aside(job: Job) -> None:
         drawn.rename(job.folder / FOLDER)
 
 
-def carry_over(run: Run, job: Job, described: Path, recording: Path) -> None:
-    """Move the frames that the last final pass drew of this film to where the new one goes on with them.
+def carry_over(run: Run, job: Job, described: Path, recording: Path, world: Path) -> None:
+    """Move the frames that the last final pass drew of this film, of a world's file, to where the new one goes on with them.
 
     Those of the last `KEPT` other films stay where they lie; older ones are removed.
     """
     from worldengine.film import refining
     from worldengine.recording import stored
 
-    name = refining.named(described, stored.open(recording).sha256)
+    name = refining.named(described, stored.open(recording).sha256, world)
     there = job.out / FOLDER / name
     past = [other for other in Job.all(run) if other.spec.stage == "final" and other.folder != job.folder]
     sets = [path for other in past if other.read().ended for path in (other.folder / FOLDER).glob("*") if path.is_dir()]

@@ -99,6 +99,17 @@ def test_what_cannot_be_drafted_is_left_to_the_author_by_name():
     assert "program.main(build, control" in drafted.source
 
 
+def test_a_wind_that_the_medium_blows_leaves_nothing_to_write():
+    row = {"kind": "force", "bodies": ["wind"], "law": "air at 3 m/s along +x", "source": "the prompt's breeze"}
+    medium = {"wind": [3.0, 0, 0], "source": "Beaufort 2"}
+    parameters = {**PENDULUM["simulation_parameters"], "medium": medium}
+    still = draft(plan(simulation_parameters=parameters), LAYOUT)
+    declared = draft(plan(simulation_parameters={**parameters, "interventions": [row]}), LAYOUT)
+    assert declared.source == still.source and "wind on" not in declared.source
+    calm = {**parameters, "medium": {**medium, "wind": [0, 0, 0]}, "interventions": [row]}
+    assert "AUTHOR: force on wind" in draft(plan(simulation_parameters=calm), LAYOUT).source
+
+
 def test_open_questions_and_missing_poses_are_refused():
     with pytest.raises(PlanError, match="time step of what"):
         draft(plan(clarifications_needed=["time step of what?"]), LAYOUT)

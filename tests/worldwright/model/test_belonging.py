@@ -2,6 +2,7 @@
 
 from types import SimpleNamespace
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -34,15 +35,25 @@ def test_lint_lets_the_start_overlap_as_far(depth, count):
     view = SimpleNamespace(
         contact_geom=[(0, 1)], contact_depth=[depth], geom_rbound=np.array([0.02, 0.02]), geom_bodyid=[1, 2],
         body_parentid=[0, 0, 0], plan=plan_with({"topology": {"overlaps": [ROW]}}),
-        geom_size=np.array([[0.02, 0.02, 0.02], [0.02, 0.01, 0.0]]),
+        geom_aabb=np.array([[0, 0, 0, 0.02, 0.02, 0.02], [0, 0, 0, 0.02, 0.02, 0.01]]),
         name=lambda kind, index: ("world", "ramp", "crate")[index],
         at=lambda kind, index, message, fix: Problem(message, fix, 1),
     )  # fmt: skip
     assert len(list(overlaps_at_start.check(view))) == count
-    view.geom_size[1, 1] = 0.002  # a disk so thin is half hidden
+    view.geom_aabb[1, 5] = 0.002  # a disk so thin is half hidden
     assert len(list(overlaps_at_start.check(view))) == 1
     view.plan = plan_with({})
     assert len(list(overlaps_at_start.check(view))) == 1
+
+
+@pytest.mark.parametrize(
+    ("kind", "size"), [("capsule", "0.02 0.001"), ("cylinder", "0.02 0.02"), ("plane", "1 1 0.001")]
+)
+def test_a_short_capsule_is_as_thick_as_its_ball(kind, size):
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><worldbody><geom type='{kind}' size='{size}'/></worldbody></mujoco>"
+    )
+    assert overlaps_at_start._half_m(model, 0) == (np.inf if kind == "plane" else 0.02)
 
 
 def test_nothing_overlaps_itself_but_copies_do():
@@ -52,6 +63,7 @@ def test_nothing_overlaps_itself_but_copies_do():
     assert problem.code == "WP012" and "named twice" in problem.message
     data["scene_objects"][0]["count"] = 2
     assert not reference_problems(data)
+    assert not reference_problems({"topology": data["topology"]}, ("scene_objects",)), "it may have copies"
 
 
 def test_who_overlaps_is_an_object_of_the_plan(small_plan):

@@ -42,6 +42,8 @@ def test_a_point_on_a_thread_is_a_body_on_a_pivot(mass, length):
         (lambda: forms.spring_period(10.0, 0.0), "mass"),
         (lambda: forms.sliding_distance(1.0, 0.0), "friction"),
         (lambda: forms.flight_time(1.0, 45.0, -1.0), "rises"),
+        (lambda: forms.terminal_speed(1.0, 0.0), "area"),
+        (lambda: forms.cantilever_period(1e9, 1e-9, 1.0, -1.0), "mass"),
     ],
 )
 def test_what_no_world_can_have_is_refused_by_name(call, cause):
@@ -85,6 +87,38 @@ def test_a_rod_swings_with_the_period_of_the_engine():
             crossings.append(data.time - model.opt.timestep * abs(data.qpos[0]) / abs(data.qpos[0] - before))
     arm, inertia = 0.4, forms.inertia_rod(1.0, 0.8) + 0.4**2
     assert crossings[2] - crossings[0] == pytest.approx(forms.body_pendulum_period(inertia, 1.0, arm, 50), rel=2e-3)
+
+
+def test_a_plate_falls_at_its_terminal_speed_in_the_engine():
+    plate = """<mujoco><option timestep="0.002" density="1.2" integrator="implicitfast"/><worldbody><body><freejoint/>
+    <geom type="box" size="0.04 0.03 0.0005" mass="0.001"/></body></worldbody></mujoco>"""
+    speed = -simulated(plate, lambda data: False, 2.0).qvel[2]
+    assert speed == pytest.approx(forms.terminal_speed(0.001, 0.08 * 0.06), rel=0.002)
+    assert forms.wind_force(speed, 0.08 * 0.06) == pytest.approx(0.001 * 9.81, rel=0.004)
+
+
+def test_a_chain_of_hinges_sways_and_bends_as_the_beam_does():
+    length, thick, modulus, joints = 0.8, 0.012, 9e9, 10
+    moment, mass, part = math.pi * thick**4 / 64, 0.06, length / joints
+    bodies = ""
+    for number in range(joints):  # the clamped one has half a part to bend
+        stiffness = modulus * moment / part * (2 if number == 0 else 1)
+        bodies += f"""<body pos="0 0 {part if number else 0}"><joint axis="0 1 0" stiffness="{stiffness}"/>
+        <geom type="cylinder" size="{thick / 2}" fromto="0 0 0 0 0 {part}" mass="{mass / joints}"/>"""
+    chain = f"<option gravity='0 0 0' timestep='0.0001'/><worldbody>{bodies}{'</body>' * joints}</worldbody>"
+    model = mujoco.MjModel.from_xml_string(f"<mujoco>{chain}</mujoco>")
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    inertia, to_tip = np.zeros((joints, joints)), np.zeros((3, joints))
+    mujoco.mj_fullM(model, data, inertia)
+    springs = model.jnt_stiffness.reshape(joints, -1)[:, 0]
+    slowest = np.linalg.eigvals(springs[:, None] * np.linalg.inv(inertia)).real.min()
+    assert 2 * math.pi / math.sqrt(slowest) == pytest.approx(
+        forms.cantilever_period(modulus, moment, length, mass), rel=0.01
+    )
+    mujoco.mj_jac(model, data, to_tip, None, np.array([0, 0, length]), joints)
+    per_newton = (to_tip[0] ** 2 / springs).sum()
+    assert 1 / per_newton == pytest.approx(forms.cantilever_stiffness(modulus, moment, length), rel=0.01)
 
 
 @pytest.mark.parametrize(("tilt", "tips"), [(-1.0, False), (1.0, True)])

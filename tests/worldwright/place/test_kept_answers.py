@@ -118,6 +118,11 @@ def test_a_failure_is_not_kept(asked, monkeypatch):
 WHOLE = b'{"contacts": [], "objects": {}, "distances": [], "drops": [], "views": []}'
 
 
+def name(digit: str) -> str:
+    """What an answer is called."""
+    return f"{digit * 64}.json"
+
+
 def given(folder, *names: str) -> None:
     """Answers that were kept long ago, a minute after each other."""
     folder.mkdir(exist_ok=True)
@@ -129,17 +134,19 @@ def given(folder, *names: str) -> None:
 @pytest.mark.parametrize("bound", [("MOST", 2), ("MOST_BYTES", 2 * len(WHOLE))], ids=["number", "bytes"])
 def test_those_given_longest_ago_go_first(asked, monkeypatch, bound):
     monkeypatch.setattr(kept_answers, *bound)
-    given(asked.kept, "0.json", "1.json", "2.json")
-    assert kept_answers.read(asked.kept / "0.json") is not None  # read is given
-    kept_answers.keep(asked.kept / "3.json", WHOLE)
-    assert {path.name for path in asked.kept.iterdir()} == {"0.json", "3.json"}
+    given(asked.kept, "my own.json", "abc", name("0"), name("1"), name("2"))
+    assert kept_answers.read(asked.kept / name("0")) is not None  # read is given
+    kept_answers.keep(asked.kept / name("3"), WHOLE)
+    left = {path.name for path in asked.kept.iterdir()}
+    assert left == {name("0"), name("3"), "my own.json", "abc"}, "what is not ours is never removed"
 
 
 def test_what_was_left_half_written_goes(asked):
-    given(asked.kept, ".0.json.abandoned")
-    (asked.kept / ".1.json.under-way").write_bytes(b"{")
-    kept_answers.keep(asked.kept / "2.json", WHOLE)
-    assert {path.name for path in asked.kept.iterdir()} == {".1.json.under-way", "2.json"}
+    given(asked.kept, f".{name('0')}.abandoned", ".gitignore")
+    (asked.kept / f".{name('1')}.under-way").write_bytes(b"{")
+    kept_answers.keep(asked.kept / name("2"), WHOLE)
+    left = {path.name for path in asked.kept.iterdir()}
+    assert left == {f".{name('1')}.under-way", name("2"), ".gitignore"}, "what is not ours is never removed"
 
 
 def test_a_cache_that_is_only_read_answers(asked, monkeypatch):

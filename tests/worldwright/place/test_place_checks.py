@@ -77,6 +77,22 @@ def test_what_belongs_together_may_overlap_as_far_as_the_plan_says(up_to_m, code
         assert "0.003 m, 0.001 m more than `topology.overlaps`" in told["WP302"][0]
 
 
+@pytest.mark.parametrize("between", [["peg", "plate"], ["peg", "peg"]])
+def test_a_row_that_lets_copies_overlap_too_far_is_told_once(between):
+    row = {"between": between, "up_to_m": 0.06, "why": "a tight fit"}
+    fine = {"between": ["plate", "peg"], "up_to_m": 0.01, "why": "another"}
+    places = {f"peg_{k + 1}": {"x": 0.5 * k, "y": 1, "z": 0.05} for k in range(3)} | {
+        "plate": {"x": 0, "y": 0, "z": 0.05}
+    }
+    found = report(
+        [box("peg", 0.1, 0.1, 0.1, count=3, fixed=True), box("plate", 0.1, 0.1, 0.1, fixed=True)], [],
+        topology={"body_positions": places, "overlaps": [fine, row]},
+    )  # fmt: skip
+    assert codes(found)["WP327"] == [
+        f"`topology.overlaps` lets peg and {between[1]} overlap by 0.06 m, more than half of `peg` (0.1 m)"
+    ]
+
+
 def test_many_things_are_not_all_measured_in_every_picture(monkeypatch):
     layout = SimpleNamespace(
         plan=SimpleNamespace(
@@ -93,10 +109,10 @@ def test_many_things_are_not_all_measured_in_every_picture(monkeypatch):
 
 
 def test_an_overlap_with_what_has_no_place_says_that_its_size_is_unknown():
-    row = SimpleNamespace(between=("jar", "cloth"), up_to_m=0.01)
+    row = SimpleNamespace(between=("jar", "cloth"), up_to_m=0.01, why="it lies on it")
     told = []
     layout = SimpleNamespace(
-        plan=SimpleNamespace(topology=SimpleNamespace(overlaps=(row,))),
+        plan=SimpleNamespace(topology=SimpleNamespace(overlaps=(row,)), families={}),
         placed={"jar": SimpleNamespace(size=(0.1, 0.1, 0.1))},
         problems=SimpleNamespace(add=lambda *said, severity: told.append((said[0], said[2], severity))),
     )

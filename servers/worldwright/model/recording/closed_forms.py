@@ -126,6 +126,39 @@ def precession_rate(mass: float, arm: float, inertia: float, spin: float, g: flo
     return mass * g * arm / (_positive(inertia, "inertia") * _positive(abs(spin), "spin")) * math.copysign(1, spin)
 
 
+def terminal_speed(mass: float, area: float, drag: float = 1.0, density: float = 1.2, g: float = GRAVITY) -> float:
+    """Speed at which drag carries the weight, m/s: sqrt(2 m g / rho C A); C = 1 for a plate of area A across the flow.
+
+    As much wind blowing upwards holds it in the air. Source: the drag equation.
+    """
+    weight = _positive(mass, "mass") * _positive(g, "g")
+    return math.sqrt(weight / wind_force(1.0, _positive(area, "area"), _positive(drag, "drag"), density))
+
+
+def wind_force(speed: float, area: float, drag: float = 1.0, density: float = 1.2) -> float:
+    """Force of a flow on a body at rest, N: rho C A v^2 / 2, A seen along the flow. Source: the drag equation."""
+    return _positive(density, "density") * _least(drag, "drag") * _least(area, "area") * speed**2 / 2
+
+
+def cantilever_stiffness(modulus: float, second_moment: float, length: float) -> float:
+    """Force per deflection at the free end of a clamped beam, N/m: 3 E I / L^3; I = pi d^4 / 64 of a round rod, b h^3 / 12.
+
+    Source: Euler and Bernoulli's beam.
+    """
+    return (
+        3 * _positive(modulus, "modulus") * _positive(second_moment, "second_moment") / _positive(length, "length") ** 3
+    )
+
+
+def cantilever_period(modulus: float, second_moment: float, length: float, mass: float) -> float:
+    """Slowest period of a clamped uniform beam of that mass, s: 2 pi / 1.8751^2 sqrt(m L^3 / E I).
+
+    Source: Euler and Bernoulli's beam; 1.8751 is the first root of cos x cosh x = -1.
+    """
+    slope = cantilever_stiffness(modulus, second_moment, length) / 3
+    return 2 * math.pi / 1.8751041**2 * math.sqrt(_positive(mass, "mass") / slope)
+
+
 def inertia_ball(mass: float, radius: float) -> float:
     """The inertia of a solid ball about its centre, kg m^2: 2/5 m r^2."""
     return 0.4 * mass * radius**2

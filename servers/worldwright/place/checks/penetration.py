@@ -1,5 +1,8 @@
 """Nothing is inside anything else: boxes first, then the exact collision shapes of those that overlap."""
 
+import math
+from itertools import groupby
+
 from ...model.errors import JobError
 from ..anchors import shown
 from ..asking import simulate
@@ -51,24 +54,30 @@ def check(layout: CheckedLayout) -> None:
 
 
 def _too_much(layout: CheckedLayout) -> None:
-    """Report each row of `topology.overlaps` that would hide that one thing is half inside the other."""
-    for index, row in enumerate(layout.plan.topology.overlaps):
-        sizes = {name: min(layout.placed[name].size) for name in row.between if name in layout.placed}
-        if unknown := [name for name in row.between if name not in layout.placed]:
+    """Report each row of `topology.overlaps`, as it is written, that would hide that one thing is half inside the other."""
+    whole = {copy: name for name, copies in layout.plan.families.items() for copy in copies}
+    rows = groupby(layout.plan.topology.overlaps, lambda r: (*(whole.get(n, n) for n in r.between), r.up_to_m, r.why))
+    for index, ((one, other, up_to_m, _), copied) in enumerate(rows):
+        sizes: dict[str, float] = {}
+        for name in (name for row in copied for name in row.between if name in layout.placed):
+            said = whole.get(name, name)
+            sizes[said] = min(sizes.get(said, math.inf), *layout.placed[name].size)
+        if unknown := [name for name in (one, other) if name not in sizes]:
             layout.problems.add(
                 "WP327",
                 "overlap_too_large",
-                f"`topology.overlaps` lets {' and '.join(row.between)} overlap, but the size of `{unknown[0]}` is not known here",
+                f"`topology.overlaps` lets {one} and {other} overlap, but the size of `{unknown[0]}` is not known here",
                 "name an object that the layout places; what its geoms measure is held against it once it is built (`WM112`)",
                 ("topology", "overlaps", index),
                 severity="warning",
             )
-        thinner = min(sizes, key=lambda name: sizes[name], default="")
-        if len(sizes) == 2 and row.up_to_m > sizes[thinner] / 2:
+            continue
+        thinner = min(sizes, key=lambda name: sizes[name])
+        if up_to_m > sizes[thinner] / 2:
             layout.problems.add(
                 "WP327",
                 "overlap_too_large",
-                f"`topology.overlaps` lets {' and '.join(row.between)} overlap by {shown(row.up_to_m)} m, more than half of "
+                f"`topology.overlaps` lets {one} and {other} overlap by {shown(up_to_m)} m, more than half of "
                 f"`{thinner}` ({shown(sizes[thinner])} m)",
                 f"let it be {shown(sizes[thinner] / 2)} m at most, weld them (`type: weld`), or make room for one in the other",
                 ("topology", "overlaps", index),

@@ -28,10 +28,17 @@ def encode(texts: list[str]) -> "np.ndarray":
     Raises:
         NotFoundError: the model's package is not installed.
     """
+    return _with_torch(texts) if len(texts) >= MANY and has_torch() else encode_plainly(texts)
+
+
+def encode_plainly(texts: list[str]) -> "np.ndarray":
+    """As `encode`, always with numpy: for vectors that are compared to the last digit, however many are asked for at a time.
+
+    Raises:
+        NotFoundError: the model's package is not installed.
+    """
     import numpy as np
 
-    if len(texts) >= MANY and has_torch():
-        return _with_torch(texts)
     with _LOADING:  # `cache` alone would load it once a thread
         pieces, network = _load()
     groups: dict[int, list[int]] = defaultdict(list)

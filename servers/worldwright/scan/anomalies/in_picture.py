@@ -124,10 +124,9 @@ def _eyes(trajectory: Trajectory, lens: Lens, rows: Array) -> Array:
 
 def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: float | None) -> Array:
     """(F,) length of a body in the picture at these rows, or of a fault of so many metres on it, the smaller."""
-    if _unbounded(trajectory, body):
-        return np.full(len(rows), float(max(lens.size)))
     corners = _corners(trajectory, body, rows)
-    eyes = np.broadcast_to(_eyes(trajectory, lens, rows)[:, None], corners.shape)
+    stands = _eyes(trajectory, lens, rows)
+    eyes = np.broadcast_to(stands[:, None], corners.shape)
     depth = -((corners - eyes) @ lens.axes)[..., 2]
     flat = lens.pixels(corners.reshape(-1, 3), eyes.reshape(-1, 3)).reshape(*corners.shape[:2], 2)
     size = np.array(lens.size, dtype=float)
@@ -137,16 +136,32 @@ def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: 
     low, high = np.clip(low.min(axis=1), 0, size), np.clip(high.max(axis=1), 0, size)
     sides = np.where(around[:, None], size, np.maximum(high - low, 0.0))
     found = np.where((sides > 0).all(axis=1) & ~behind.all(axis=1), sides.max(axis=1), 0.0)
+    away = np.abs(depth).min(axis=1)
+    for plane in _planes(trajectory, body):  # it may fill any picture
+        found, away = np.full(len(rows), size.max()), np.minimum(away, _from_plane(trajectory, plane, rows, stands))
     if metres is None:
         return np.asarray(found)
     scale = lens.size[1] / 2 / np.tan(np.radians(lens.fovy_deg) / 2)
-    return np.asarray(np.minimum(found, metres * scale / np.maximum(np.abs(depth).min(axis=1), NEAR_M)))
+    return np.asarray(np.minimum(found, metres * scale / np.maximum(away, NEAR_M)))
 
 
-def _unbounded(trajectory: Trajectory, body: int) -> bool:
-    """Whether a body, or what is welded on to it, has no end: a plane may fill any picture."""
-    half = trajectory.mechanics.half_extents
-    return half is not None and bool(np.isinf(half[list(trajectory.members(body))]).any())
+def _planes(trajectory: Trajectory, body: int) -> Array:
+    """The geoms without an end of a body and what is welded on to it."""
+    half, of = trajectory.mechanics.geom_half_extents, trajectory.mechanics.geom_body
+    if half is None or of is None:
+        return np.zeros(0, dtype=int)
+    return np.flatnonzero(np.isinf(half).any(axis=1) & np.isin(of, trajectory.members(body)))
+
+
+def _from_plane(trajectory: Trajectory, geom: int, rows: Array, eyes: Array) -> Array:
+    """(F,) m: how far eyes (F, 3) are from a plane; of one that nobody says how it lies, from its body."""
+    facts = trajectory.mechanics
+    assert facts.geom_body is not None
+    part = int(facts.geom_body[geom])
+    own = np.einsum("fi,fij->fj", eyes - trajectory.pos[rows, part], matrices(trajectory.quat[rows, part]))
+    if facts.geom_pos is None or facts.geom_quat is None:
+        return np.asarray(np.linalg.norm(own, axis=1))
+    return np.asarray(np.abs((own - facts.geom_pos[geom]) @ matrices(facts.geom_quat[geom])[:, 2]))
 
 
 def _corners(trajectory: Trajectory, body: int, rows: Array) -> Array:

@@ -26,7 +26,8 @@ SIDE_MODE, EXACT_UV, FLAT_UV = 2.0, 6.0, 7.0
 GOLDEN, SHIFTS = 0.6180339887, 512.0
 """Shares of the golden section never meet again; so many tiles on, the paint of two things has nothing in common."""
 PIECES = (0.0, 0.7, -0.4, 0.3, -1.0, 1.0, -0.7)
-"""How much of what pieces may differ each does, by turns, a world's first not at all: few, so that few materials are made of one look."""
+"""How much of what pieces may differ each does, by turns: few, so that few materials are made of one look. The first body of a
+world has its look's own tone, and so has all ground."""
 
 
 @dataclass
@@ -166,7 +167,7 @@ class Things:
         out[12:16] = *full, half
         body = int(self.model.geom_bodyid[geom])
         piece = 0 if kind in (kinds.mjGEOM_PLANE, kinds.mjGEOM_HFIELD) else int(self._pieces[body]) or geom
-        out[16:19] = linear(rgba[:3]) * (1.0 + entry.apart * PIECES[(piece - 1) % len(PIECES)])
+        out[16:19] = linear(rgba[:3]) * (1.0 + entry.apart * PIECES[max(piece - 1, 0) % len(PIECES)])
         out[19] = rgba[3]
         out[20:24] = entry.roughness, entry.metallic, entry.coat, entry.sheen
         extents = self.model.geom_aabb[geom, 3:]

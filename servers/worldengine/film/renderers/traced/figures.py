@@ -239,9 +239,9 @@ class Figures:
         return tuple(figure.poses for figure in self.all if figure.poses is not None)
 
     @staticmethod
-    def most_moved(before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]) -> int:
-        """Of the figure of which most geoms stand otherwise: how many."""
-        return max((int(elsewhere(*both).sum()) for both in zip(before, now, strict=True)), default=0)
+    def how_many_moved(before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]) -> int:
+        """How many geoms stand otherwise; loose ones are a figure each."""
+        return sum(int(elsewhere(*both).sum()) for both in zip(before, now, strict=True))
 
     def moved(
         self, before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]

@@ -38,7 +38,7 @@ UNSEEN = 0.01
 MOST = 0.6
 """Where more than this share of a picture differs, it is traced as a whole, which costs no more then."""
 MOST_MOVED = 300
-"""Where more geoms of one figure moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
+"""Where more geoms moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
 ROOM_BYTES = 1 << 30
 """Memory for plates and for what is looked at coarsely."""
 PIXEL_BYTES = 64

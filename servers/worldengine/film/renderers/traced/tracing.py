@@ -279,16 +279,14 @@ class Tracing:
         """As `blurred`, but where nothing differs from the pictures `before` of the same still camera and light, these stand."""
         shutter = Shutter.of(quality, len(moments))
         view, outlook, drawn, painted = self._seen(moments[0](), camera)
-        # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
-        still = self._treatment.aperture <= 0 and variant.choose() != variant.PLAIN and shutter.coarser == 1
-        before = before[: self._fitting(shutter)] if still else ()
+        before = before[: self.beside(len(moments), quality)]
         self._plates.keep({(one.name, shutter) for one in before})
         found = [self._plate(one, shutter, camera) for one in before]
         key = self._key(moments[0](), camera)
         known = [plate for plate in found if plate.key == key]
         if known:
             self._placed(moments[0](), view, drawn)
-        now, moved = self.figures.poses(), self.figures.most_moved
+        now, moved = self.figures.poses(), self.figures.how_many_moved
         known = [plate for plate in known if moved(plate.sights[0].poses, now) <= plates.MOST_MOVED]
         sights = self._sights(moments, view, drawn) if known else ()
         look = plates.Look.of(self.setting, self._treatment, self._floor_z)
@@ -302,12 +300,14 @@ class Tracing:
             clean = self._cleaned(rays, shutter)
         return self._developed(clean, [Glimpse(view, outlook, painted, rays.places, rays.seen)])
 
-    def _fitting(self, shutter: Shutter) -> int:
-        """How many plates have room."""
+    def beside(self, moments: int, quality: Quality) -> int:
+        """How many pictures of its shot at most `over` draws with one of so many moments: those that have room."""
+        shutter, pixels = Shutter.of(quality, moments), self.width * self.height
+        # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
+        still = self._treatment.aperture <= 0 and variant.choose() != variant.PLAIN and shutter.coarser == 1
         held = (*self.figures.poses(), *self._strands.points.values())
-        pixels = self.width * self.height
         sight = sum(part.nbytes for part in held) + 12 * pixels // plates.SIDE**2
-        return plates.fitting(pixels, sight, shutter.moments)
+        return plates.fitting(pixels, sight, shutter.moments) if still else 0
 
     def _key(self, data: mujoco.MjData, camera: int) -> Any:
         """What has to be equal in two pictures for the light of the one to be that of the other."""

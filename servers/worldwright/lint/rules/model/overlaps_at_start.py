@@ -53,8 +53,5 @@ def check(view: ModelView) -> Iterator[Problem]:
 
 
 def _half_m(view: ModelView, geom: int) -> float:
-    """Half the thickness of a geom, m: the least of its sizes; inf of a plane, 0 where it is not known."""
-    if view.geom_rbound[geom] <= 0:
-        return math.inf
-    sizes = [float(size) for size in view.geom_size[geom] if size > 0]
-    return min(sizes, default=0.0)
+    """Half the thickness of a geom, m: the least half extent of its box; inf of a plane."""
+    return math.inf if view.geom_rbound[geom] <= 0 else float(view.geom_aabb[geom, 3:].min())

@@ -2,7 +2,7 @@
 
 What it does: resolves what each row of `interventions` speaks of. Its `bodies`, for forces, torques, poses, velocities and
 mocap motion (objects, the numbered points of one such as `cloth_12`, or `wind`), and for controls where the plan declares actuators; the body or tendon in a `trigger` such
-as `speed of cart > 2 m/s`; and every `constants.NAME`, `materials.NAME` and `masses.NAME` in its law, trigger and source.
+as `speed of cart > 2 m/s`; a `parameter` on `wind` or `gravity`, which is `opt.wind`; and every `constants.NAME`, `materials.NAME` and `masses.NAME` in its law, trigger and source.
 
 Why is this bad: a declaration covers what it names and nothing else. One that names nothing is never seen to act, and what
 really acts is undeclared, which blocks acceptance after the run. A source that leads nowhere is no source.
@@ -25,6 +25,8 @@ SEVERITY = "error"
 ON_BODIES = ("force", "torque", "pose", "velocity", "mocap")
 EVERYWHERE = ("wind", "gravity", "world")
 """Names of what acts on all bodies at once."""
+OPTIONS = ("wind", "gravity", "density", "viscosity", "magnetic")
+"""What `control` may write of the world as a whole, as `opt.wind`: without `opt.` a row opens none of it."""
 WITH_A_BODY = ("contact force", "speed", "height")
 POINT = re.compile(r"(.+?)(?:_\d+){1,3}")
 """What the points of a flex are called; the flex' own name stands for all of them."""
@@ -43,6 +45,7 @@ GOOD: Changes = (
     _with(trigger="speed of crate > 2 m/s"),
     _with(source="materials.wood.density of the crate"),
     _with(kind="control", bodies=["winch_motor"]),  # an actuator that the program makes
+    _with(kind="parameter", bodies=["opt.wind"], law="from 1 m/s to 4 m/s along +x"),
 )
 BAD: Changes = (
     _with(bodies=["locomotive"]),
@@ -52,6 +55,7 @@ BAD: Changes = (
     _with(source="constants.pull, inferred"),
     _with(law="F = constants.pull along +X"),
     _with(trigger="height of crate < constants.brim"),
+    _with(kind="parameter", bodies=["wind"], law="from 1 m/s to 4 m/s along +x"),
 )
 EVIDENCE = Argued("what is meant by a name that nobody has, no run tells; what acts undeclared is WS108 after the run")
 
@@ -81,6 +85,10 @@ def check(view: PlanView) -> Iterator[Problem]:
             if name not in known and name not in EVERYWHERE and not name.startswith(inner):
                 what = f"the {row.kind} acts on `{name}`, which the plan does not have"
                 yield view.at((*place, "bodies", n), what, _fix(name, known))
+        for n, name in enumerate(row.bodies if row.kind == "parameter" else ()):
+            if name in OPTIONS and name not in known:
+                what = f"a parameter `{name}` opens nothing: `model.opt.{name}`, which control writes, is another name"
+                yield view.at((*place, "bodies", n), what, f"write opt.{name}")
         found = threshold(row.trigger)
         if found is not None and found.name:
             near = objects if found.quantity in WITH_A_BODY else tendons if found.quantity == "tension" else []
