@@ -106,6 +106,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--time-step-factor", type=float)
     parser.add_argument("--without", action="append", default=[])
     parser.add_argument("--weaken", action="append", default=[])
+    parser.add_argument("--vary", action="append", default=[])
     parser.add_argument(
         "--reuse", action="append", default=[], type=Path, help="an earlier pass that may hold the same"
     )

@@ -15,6 +15,8 @@ from collections.abc import Mapping
 from importlib.metadata import Distribution, PackageNotFoundError, distribution
 from pathlib import Path
 
+from .wheels import version_of
+
 WHEELS = ("mujoco", "mujoco-core", "numpy", "pyarrow", "av", "opencv-python-headless")
 """Everything installed that can change a trajectory or a picture."""
 VARIABLE = "WORLDKIT_LOCK"
@@ -32,7 +34,7 @@ def observe(gl: str | None = None) -> dict[str, str]:
         "python": f"{platform.python_implementation()} {platform.python_version()}",
         "machine": f"{platform.system()}-{platform.machine()}",
         "gl": os.environ.get("MUJOCO_GL", "") if gl is None else gl,
-        "cpu features": " ".join(_cpu_features()),
+        "cpu features": cpu_features(),
     }
     for name in WHEELS:
         try:
@@ -40,7 +42,7 @@ def observe(gl: str | None = None) -> dict[str, str]:
         except PackageNotFoundError:
             continue
         record = found.read_text("RECORD") or ""
-        facts[f"wheel {name}"] = f"{found.version} {hashlib.sha256(record.encode()).hexdigest()}"
+        facts[f"wheel {name}"] = f"{version_of(found)} {hashlib.sha256(record.encode()).hexdigest()}"
         for library in _engine(found) if name.startswith("mujoco") else ():
             with library.open("rb") as stream:
                 facts["engine"] = f"{library.name} {hashlib.file_digest(stream, 'sha256').hexdigest()}"
@@ -94,14 +96,14 @@ def _engine(package: Distribution) -> list[Path]:
     return [Path(str(f.locate())) for f in files if f.name.startswith("libmujoco") or f.name == "mujoco.dll"]
 
 
-def _cpu_features() -> list[str]:
-    """Instruction sets of the first processor, sorted; empty where the system does not say."""
+def cpu_features() -> str:
+    """Instruction sets of the first processor, sorted and in one line; empty where the system does not say."""
     try:
         text = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace")
     except OSError:
-        return []
+        return ""
     for line in text.splitlines():
         name, _, value = line.partition(":")
         if name.strip() in ("flags", "Features"):
-            return sorted(value.split())
-    return []
+            return " ".join(sorted(value.split()))
+    return ""

@@ -1,5 +1,6 @@
 """What the things of a compiled model are called."""
 
+import itertools
 from collections.abc import Container
 from typing import TYPE_CHECKING
 
@@ -17,4 +18,4 @@ def names(model: "mujoco.MjModel", kind: str, count: int) -> list[str]:
 
 def free(stem: str, taken: Container[str]) -> str:
     """The first of `stem`, `stem2`, `stem3` … that is not taken."""
-    return next(name for name in (f"{stem}{n or ''}" for n in (0, *range(2, 10**6))) if name not in taken)
+    return next(name for n in itertools.chain(("",), itertools.count(2)) if (name := f"{stem}{n}") not in taken)

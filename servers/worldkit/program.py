@@ -2,7 +2,8 @@
 
     simulation.py --pass physics|still|video|view|build|control [--out DIR] [--from RECORDING]
                   [--seed N] [--camera NAME]… [--duration S]
-                  [--time-step-factor 0.5] [--without NAME]… [--weaken NAME=FACTOR]… [--reuse PASS]…
+                  [--time-step-factor 0.5] [--without NAME]… [--weaken NAME=FACTOR]…
+                  [--vary friction|masses|start=FACTOR]… [--reuse PASS]…
 
 A program answers two questions and owns nothing else: what the world is (`build`), and what its inputs are in a state that
 it is shown (`control`). Another process, `worldengine`, owns the world while it runs: it compiles the file that the build
@@ -111,6 +112,9 @@ def _parse(argv: Sequence[str], name: str) -> argparse.Namespace:
     changed.add_argument("--time-step-factor", metavar="F", help="simulate in finer steps, e.g. 0.5")
     changed.add_argument("--without", action="append", default=[], metavar="NAME", help="take it away; repeatable")
     changed.add_argument("--weaken", action="append", default=[], metavar="NAME=FACTOR", help="repeatable")
+    changed.add_argument(
+        "--vary", action="append", default=[], metavar="WHAT=FACTOR", help="friction, masses or start; repeatable"
+    )
     parser.add_argument(
         "--reuse", action="append", default=[], type=Path, metavar="PASS",
         help="folder of an earlier physics pass: its recording is taken over if the same motion follows; repeatable",
@@ -160,7 +164,7 @@ def _physics(asked: Asked, options: argparse.Namespace, out: Path, program: str,
 
     asked.write(out)
     words = ["physics", *_world(out), "--out", str(out), "--source", program]
-    for name in ("time_step_factor", "without", "weaken", "reuse"):
+    for name in ("time_step_factor", "without", "weaken", "vary", "reuse"):
         given = getattr(options, name)
         for value in given if isinstance(given, list) else [given] if given else []:
             words += [f"--{name.replace('_', '-')}", str(value)]

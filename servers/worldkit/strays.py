@@ -77,7 +77,7 @@ class Strays:
             mine = index[(index >= start // 8) & (index < end // 8)] - start // 8
             shown = np.zeros(end - start, np.uint8)
             live = words(self._buffer + start, (end - start) // 8)
-            self._ranges.append((start, end - start, shown, shown.view(float), live, mine))
+            self._ranges.append((start, end - start, shown, address(shown), shown.view(float), live, mine))
         self._switches = mirror.at("eq_active") - mirror.at("ctrl") + switches
         self._watch = Watch(model) if parameters else None
         self._told: set[str] = set()
@@ -86,13 +86,13 @@ class Strays:
     def look(self, slot: int) -> None:
         """Report what differs from the slot at this address, which must still hold the state that was shown."""
         shown_at = self._mirror.buffer_in(slot)
-        for start, size, shown, numbers, live, mine in self._ranges:
-            move(address(shown), shown_at + start, size)
+        for start, size, shown, copied_at, numbers, live, mine in self._ranges:
+            move(copied_at, shown_at + start, size)
             if len(mine):
                 numbers[mine] = live[mine]
             if start == self._inputs_at and len(self._switches):
                 shown[self._switches] = live.view("u1")[self._switches]
-            if differ(address(shown), self._buffer + start, size):
+            if differ(copied_at, self._buffer + start, size):
                 self._name(start, live.view("u1") != shown)
         sample = self._looks % SAMPLE == 0
         for name in self._derived.written(slot, shown_at, sample=sample):
@@ -125,7 +125,9 @@ class Derived:
         known = [name for name in DERIVED if hasattr(data, name) and getattr(data, name).size]
         names = [*known, "time", "contact"]
         if any(isinstance(node, ast.Attribute) and node.attr.startswith("mj_") for node in ast.walk(tree)):
-            names = [name for name in names if any(_written(tree, name))]
+            said = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
+            # A search for each array in a long program would take longer than starting its process.
+            names = [name for name in names if said.intersection(_words(name)) and any(_written(tree, name))]
         self._arrays = [(name, mirror.at(name), getattr(data, name).nbytes) for name in names if name in known]
         self._time = ctypes.c_double.from_address(mirror.time_at) if "time" in names else None
         self._contact = "contact" in names
@@ -195,10 +197,13 @@ def _written(tree: ast.AST, array: str) -> Iterator[int]:
 
 
 def _mentioned(tree: ast.AST, array: str) -> Iterator[int]:
-    # A view by name leaves out the array's own prefix: `data.body("ball").xpos`, `model.geom("skin").friction`.
-    short = (
-        array.partition("_")[2] if array.partition("_")[0] in ("geom", "body", "jnt", "dof", "actuator", "eq") else ""
-    )
+    words = _words(array)
     for node in ast.walk(tree):
-        if isinstance(node, ast.Attribute) and node.attr in (array, short):
+        if isinstance(node, ast.Attribute) and node.attr in words:
             yield node.lineno
+
+
+def _words(array: str) -> tuple[str, ...]:
+    """What a program calls an array; a view by name leaves out its prefix: `data.body("ball").xpos`, `model.geom("skin").friction`."""
+    prefix, _, rest = array.partition("_")
+    return (array, rest) if prefix in ("geom", "body", "jnt", "dof", "actuator", "eq") else (array,)

@@ -145,15 +145,14 @@ def test_a_skin_takes_the_place_of_its_body_if_it_has_its_size(made):
             dress(made.folder / "world.mjz", wrong)
 
 
-def test_a_thin_body_may_have_a_skin_that_curls_but_no_thick_or_high_one(tmp_path):
-    spec = empty()
-    floor(spec)
-    plate = spec.worldbody.add_body(name="leaf", pos=(0, 0, 0.2))
-    plate.add_freejoint()
-    plate.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.04, 0.022, 0.0005), mass=0.001)
-    portable.write(spec, tmp_path / "world.mjz")
-
-    def skin(points, faces=FACES):
+def test_a_thin_body_may_have_a_skin_that_curls_but_no_thick_or_high_one_and_never_a_line(tmp_path):
+    def skin(points, faces=FACES, body=(0.04, 0.022, 0.0005)):
+        spec = empty()
+        floor(spec)
+        plate = spec.worldbody.add_body(name="leaf", pos=(0, 0, 0.2))
+        plate.add_freejoint()
+        plate.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=body, mass=0.001)
+        portable.write(spec, tmp_path / "world.mjz")
         name = {
             "name": "skin",
             "shape": "mesh",
@@ -173,6 +172,10 @@ def test_a_thin_body_may_have_a_skin_that_curls_but_no_thick_or_high_one(tmp_pat
     for half, middle in (((0.04, 0.022, 0.009), 0.0), ((0.04, 0.022, 0.002), 0.004), ((0.12, 0.022, 0.002), 0.0)):
         with pytest.raises(FilmError, match="15 mm thick"):
             skin(CUBE * half + (0, 0, middle))
+    wire = (0.04, 0.0005, 0.0005)
+    assert skin(CUBE * (0.04, 0.001, 0.0001), body=wire).geom("drawn.skin").id >= 0, "a ribbon"
+    with pytest.raises(FilmError, match="times the size"):
+        skin(CUBE * (0.04, 0.0001, 0.0001), body=wire)
 
 
 def test_leaves_are_drawn_where_and_as_they_are_told(made):

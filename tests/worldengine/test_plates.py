@@ -152,7 +152,10 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
     model = spec.compile()
     data = mujoco.MjData(model)
 
+    set_up = []
+
     def at(x: float, camera: float = 0.0) -> mujoco.MjData:
+        set_up.append(x)
         data.qpos[0] = x
         mujoco.mj_forward(model, data)
         data.cam_xpos[0, 0] += camera
@@ -189,6 +192,9 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
     before = [Before("at rest", [partial(at, 0.0)] * 2)]
     same = [drawing.over(before, [partial(at, 0.0)] * 2, 0, 4) for _ in range(2)]
     assert np.array_equal(*same) and asked == [], "nothing differs"
+    set_up.clear()
+    assert np.array_equal(drawing.over(before, [partial(at, 0.0)] * 2, 0, 4), same[0])
+    assert len(set_up) == 3, "the first moment for the view, and each for its coarse look"
 
     assert drawing.beside(2, 4) >= 2 and drawing.beside(2, 0.5) == 0, "none beside a draft"
     drawing.treat(Treatment(aperture=2.8, focus_m=4.0))

@@ -178,6 +178,16 @@ def test_where_the_renderer_gives_up_the_plainer_one_has_frames_of_its_own(tmp_p
     assert len(list((tmp_path / "film-preview").glob("*.png"))) == 4
 
 
+def test_a_plainer_renderer_that_draws_from_the_start_leaves_what_was_traced(tmp_path):
+    class Preview(Drawn):
+        renderer = "preview"
+
+    for film in (Traced(2), Preview(2), Traced(2)):
+        _, state = refining.refined(film, tmp_path / "film", [SIZE], float("inf"), lambda: None)
+    assert state.taken_over == 2 and film.asked == []
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["film", "film-preview"]
+
+
 def test_frames_that_other_code_drew_are_forgotten(tmp_path, monkeypatch):
     class Preview(Drawn):
         renderer = "preview"
@@ -191,10 +201,10 @@ def test_frames_that_other_code_drew_are_forgotten(tmp_path, monkeypatch):
 
 
 def test_frames_of_a_world_that_only_looks_otherwise_are_forgotten(tmp_path, monkeypatch):
-    """Whatever the frames' folder is called: its name is taken from the file, not from what is compiled of it."""
-    monkeypatch.setattr(refining, "named", lambda *given: "film")
     monkeypatch.setattr(refining, "encode", lambda *given: None)
-    (tmp_path / "out").mkdir()
+    for name in ("out", "film"):
+        (tmp_path / name).mkdir()
+    (tmp_path / "film" / "film.json").write_text("{}")
     kept = []
     for number, look in enumerate(("wood_oak", "wood_oak", "steel_dark")):
         world = empty()
@@ -208,12 +218,15 @@ def test_frames_of_a_world_that_only_looks_otherwise_are_forgotten(tmp_path, mon
         given = SimpleNamespace(
             world=tmp_path / "world.mjz", fps=24, size=SIZE, model=lambda: portable.read(tmp_path / "world.mjz")
         )
-        options = SimpleNamespace(recording=tmp_path / str(number), film=tmp_path, out=tmp_path / "out", minutes=5.0)
+        options = SimpleNamespace(
+            recording=tmp_path / str(number), film=tmp_path / "film", out=tmp_path / "out", minutes=5.0
+        )
         refining.run(given, options)
         result = json.loads((tmp_path / "out" / "result.json").read_text())
         kept.append((recording.sha256, result["taken_over"]))
     assert len({sha256 for sha256, _ in kept}) == 1, "they move alike"
     assert [taken for _, taken in kept] == [0, 2, 0]
+    assert len(list((tmp_path / "out" / refining.FRAMES).iterdir())) == 2
 
 
 def test_with_no_time_at_all_there_is_still_a_whole_film(tmp_path):

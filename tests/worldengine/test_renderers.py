@@ -96,7 +96,7 @@ def test_a_version_names_packages_and_code(name: str) -> None:
     [
         "worldkit/materials/catalogue.py", "worldkit/materials/paint/wood.py", "worldkit/settings.py",
         "worldkit/model_text.py", "worldengine/recording/seen.py", "worldengine/film/panel_lights.py",
-        "worldkit/cameras/aiming.py", "worldkit/turning.py", "worldengine/recording/replay.py", "worldengine/film/directed.py", "worldengine/film/renderers/__init__.py",
+        "worldkit/cameras/aiming.py", "worldkit/turning.py", "worldkit/forms/lattice.py", "worldengine/recording/replay.py", "worldengine/film/directed.py", "worldengine/film/renderers/__init__.py",
         "worldengine/film/renderers/preview/things.py", "worldengine/film/renderers/preview/shaders/surface.frag",
     ],
 )  # fmt: skip
@@ -104,12 +104,28 @@ def test_whatever_makes_its_pictures_is_in_the_version_of_a_renderer_and_in_the_
     def said() -> tuple[str, str]:
         return identity.renderer_version(name), identity.identity(name).sha256
 
+    monkeypatch.setattr(
+        identity, "_hash", identity._hash.__wrapped__
+    )  # which is remembered while no file's time changes
     before, read = said(), Path.read_bytes
     edited = Path(identity.__file__).parents[2] / touched
     assert edited.is_file()
     monkeypatch.setattr(Path, "read_bytes", lambda path: read(path) + b"#" * (path.resolve() == edited.resolve()))
     changed = name != "classic" or "/preview/" not in touched
     assert [a != b for a, b in zip(before, said(), strict=True)] == [changed, changed]
+
+
+def test_a_file_that_changes_is_read_anew(tmp_path) -> None:
+    def said() -> str:
+        stat = path.stat()
+        return identity._hash(((path, stat.st_size, stat.st_mtime_ns),))
+
+    path = tmp_path / "shader.frag"
+    path.write_text("one")
+    before = said()
+    assert said() == before
+    path.write_text("another")
+    assert said() != before
 
 
 def test_the_shelf_names_what_is_missing(tmp_path, monkeypatch) -> None:

@@ -170,3 +170,16 @@ def test_user_data_is_an_input_and_is_driven_again(tmp_path: Path) -> None:
     assert replay(spec(), tmp_path / "b", STEPS, first).sha256 == first.sha256
     assert Ports(model, (("force", frozenset({"ball"})),)).entries.keys() == {"qfrc_applied", "xfrc_applied"}
     assert Ports(model, (("parameter", frozenset({"userdata"})),)).entries == {"userdata": [0, 1, 2]}
+
+
+@pytest.mark.parametrize("rows", [(("force", frozenset({"ball"})),), None], ids=["force", "everything"])
+def test_an_answer_like_the_last_one_is_in_no_row_and_acts_all_the_same(tmp_path: Path, rows: Any) -> None:
+    """With all inputs open each answer is written; with one force alone, the same force is not even read again."""
+
+    def steady(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+        data.xfrc_applied[1, 2] = 3.0 if data.time < 0.02 else 5.0
+
+    once = record(world(), tmp_path / "once", 40, steady, rows=rows)
+    steps, values = once.inputs["step"].tolist(), once.inputs["value"].tolist()
+    assert [(s, v) for s, v in zip(steps, values, strict=True) if v in (3.0, 5.0)] == [(0, 3.0), (20, 5.0)]
+    assert once.interventions["kind"].tolist().count("force") == 40  # the ledger has every step

@@ -224,6 +224,12 @@ REFUSED = {
     "fog needs a visibility": lambda f: f.fog(visibility_m=0),
     "lens_mm must lie": lambda f: f.shot(wide(lens_mm=2), until=1.0),
     "stands where it looks": lambda f: f.shot(still((1, 1, 1), (1, 1, 1)), until=1.0) or f.description(),
+    "the roll_deg of shot 1 is no number": lambda f: f.shot(wide(roll_deg=np.nan), until=1.0) or f.description(),
+    "the focus of shot 1 is no number": lambda f: f.shot(wide(focus=np.inf), until=1.0) or f.description(),
+    "the shake of shot 1 is no number": lambda f: f.shot(wide(shake=np.nan), until=1.0) or f.description(),
+    "numbers, none below 0": lambda f: (
+        f.particles("p", lambda t: (np.zeros((len(t), 1, 3)), np.full((len(t), 1), np.inf))) or f.description()
+    ),
     "must be": lambda f: f.particles("p", lambda times: np.zeros(3)) or f.description(),
     "balls or leaves": lambda f: f.particles("p", lambda times: np.zeros((len(times), 1, 3)), shape="cube"),
     "all of one size": lambda f: (

@@ -39,7 +39,7 @@ def run(given: Given, options: argparse.Namespace) -> None:
     from .simulate import prepare, simulate
 
     out: Path = options.out
-    variant = altered.Variant.parse(options.time_step_factor, options.without, options.weaken)
+    variant = altered.Variant.parse(options.time_step_factor, options.without, options.weaken, options.vary)
     model = given.model()
     world.check_cast(model, given.movers, given.visual_only)
     # At a finer step the recorded instants stay the same, so that expectations measure the same thing.

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.errors import ProgramError
 from worldkit.film_files import ARRAYS, DESCRIPTION
 from worldkit.filming.drawn_only import SHAPES
-from worldkit.filming.film_bounds import MOST_COPIES, MOST_FRAMES, MOST_LAMPS, MOST_PANELS, PANEL_M, PLACES
+from worldkit.filming.film_bounds import MOST_COPIES, MOST_FRAMES, MOST_LAMPS, MOST_PANELS, PANEL_M, PLACES, STORM_M_S
 from worldkit.scene import GROUND
 
 from . import ground_skins
@@ -56,6 +56,8 @@ class Described:
     shutter: float
     samples: int
     arrays: "dict[str, np.ndarray]"
+    breeze: tuple[float, float] | None = None
+    """The wind that moves what sways, towards x and y, m/s."""
 
     @property
     def frames(self) -> int:
@@ -92,7 +94,11 @@ class Described:
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
+        if otherwise := self.treatments.departs():
+            said.append(f"light otherwise than the world states: {', '.join(otherwise)}")
         treated = self.treatments.at(0.0)
+        if self.breeze is not None and any(thing.get("sways") for thing in self.things):
+            said.append("breeze (moves what is drawn only)")
         said += ["sky"] if treated.sky_zenith is not None else []
         return said + (["fog"] if treated.fog_rgb is not None else [])
 
@@ -121,8 +127,8 @@ class Described:
         }
 
 
-def read(folder: Path, recording: "Recording") -> Described:
-    """Read the description in a folder for a recording.
+def read(folder: Path, recording: "Recording", stated: dict[str, Any] | None = None) -> Described:
+    """Read the description in a folder for a recording; `stated` is the light that its world states (`worldkit.lights.of`).
 
     Raises:
         FilmError: it is damaged or too large, or asks for what no film may do: there are no words to move, hide or
@@ -135,12 +141,14 @@ def read(folder: Path, recording: "Recording") -> Described:
         told = json.loads((folder / DESCRIPTION).read_bytes())
         with np.load(folder / ARRAYS, allow_pickle=False) as found:
             arrays = {name: np.asarray(found[name]) for name in found.files}
-        return _checked(told, arrays, recording)
+        return _checked(told, arrays, recording, stated)
     except (OSError, ValueError, KeyError, TypeError, AttributeError, IndexError, RecursionError) as cause:
         raise _refuse(f"the film's description is damaged: {type(cause).__name__}: {cause}") from cause
 
 
-def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "Recording") -> Described:
+def _checked(
+    told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "Recording", stated: dict[str, Any] | None
+) -> Described:
     import numpy as np
 
     n = len(arrays["time"])
@@ -200,7 +208,18 @@ def _checked(told: dict[str, Any], arrays: "dict[str, np.ndarray]", recording: "
         raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")
     air = [_air(one) for one in told["air"]]
     return Described(
-        tuple(shots), captions, Treatments(air), things, surfaces, lamps, panels, looks, share, samples, arrays
+        tuple(shots),
+        captions,
+        Treatments(air, stated),
+        things,
+        surfaces,
+        lamps,
+        panels,
+        looks,
+        share,
+        samples,
+        arrays,
+        _breeze(told),
     )
 
 
@@ -247,6 +266,17 @@ def _panel(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
     if not good or (to and to not in bodies):
         raise _refuse(f"the panel {name!r} is none that can be lit, or is fixed to no body")
     return found
+
+
+def _breeze(told: dict[str, Any]) -> tuple[float, float] | None:
+    import numpy as np
+
+    if told.get("breeze") is None:
+        return None
+    wind = np.asarray(told["breeze"], dtype=float)
+    if wind.shape != (2,) or not np.isfinite(wind).all() or not 0 < np.hypot(*wind) <= STORM_M_S * (1 + 1e-6):
+        raise _refuse(f"a breeze is a wind of at most {STORM_M_S:g} m/s")
+    return float(wind[0]), float(wind[1])
 
 
 def _caption(told: dict[str, Any]) -> dict[str, Any]:
@@ -299,6 +329,16 @@ def _look(told: Any, arrays: "dict[str, np.ndarray]") -> Any:
     return found
 
 
+def _sways(name: str, look: Any, points: "np.ndarray", weight: "np.ndarray") -> None:
+    """Refuse what sways further than it is large, under a picture, or see-through: both drawings agree on neither."""
+    from worldkit.materials import look as known
+
+    if (weight < 0).any() or weight.max() > min(10.0, float((points.max(axis=0) - points.min(axis=0)).max())):
+        raise _refuse(f"{name!r} sways further than it is large, or by over 10 m", "give it smaller sways")
+    if "picture" in look or (known(look).clear > 0 if isinstance(look, str) else look["opacity"] < 0.997):
+        raise _refuse(f"{name!r} sways under a picture, or is see-through", "give it a plain, opaque look")
+
+
 def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[str], frames: int) -> dict[str, Any]:
     import numpy as np
 
@@ -332,8 +372,11 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
         found |= {"vertices": str(told["vertices"]), "faces": str(told["faces"])}
         if "uv" in told:
             found["uv"] = str(told["uv"])
-            if arrays[found["uv"]].shape != (len(points), 2):
+            if arrays[found["uv"]].shape != (len(points), 2) or not np.isfinite(arrays[found["uv"]]).all():
                 raise _refuse(f"{name!r} has not one uv for each vertex")
+            found["sways"] = bool(told.get("sways")) and not found["instead"]
+            if found["sways"]:
+                _sways(name, found["look"], points * found["size"], arrays[found["uv"]][:, 0])
     if "ways" in told:
         ways, sizes = arrays[str(told["ways"])], arrays[str(told["sizes"])]
         good = ways.ndim == 3 and ways.shape[0] == frames and ways.shape[2] == 3 and 1 <= ways.shape[1] <= MOST_COPIES

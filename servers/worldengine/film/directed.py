@@ -1,5 +1,6 @@
 """Draw a film as its author described it: each frame from recorded rows, through the film's own camera."""
 
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -54,6 +55,8 @@ class Screening:
     ) -> None:
         import numpy as np
 
+        from .hiding import Swaying
+
         self.film, self.fps = film, fps
         self.model = dress(world, film)
         self._replay = DressedReplay(self.model, plain, recording)
@@ -71,6 +74,7 @@ class Screening:
             if "turns" in thing
         ]
         self._surfaces = surfaces(self.model, film)
+        self._swaying = Swaying(self.model)
         self._planned: Replay | None = None
         if any(shot["planned"] for shot in film.shots):
             self._planned = Replay(plain, recording)
@@ -80,6 +84,7 @@ class Screening:
             bool(shot["first"] and shown[shot["first"]] < shown[: shot["first"]].max() - 1.5 / fps)
             for shot in film.shots
         ]
+        self._blown: tuple[float, float, float] | None = None
         self._still: dict[int, tuple[int, ...]] = {}
         self.tick: Callable[[], object] = lambda: None
         """Called whenever a moment is set up, since a picture may take minutes."""
@@ -160,6 +165,9 @@ class Screening:
             surface.place(data)
         self._look(data, shot, row, told)
         treatment = film.treatments.at(at / self.fps, float(told("focus_m")), float(told("aperture")))
+        if film.breeze is not None and len(self._swaying.geoms):  # else what stands would be drawn anew for nothing
+            self._blown = (*film.breeze, time)
+            treatment = replace(treatment, breeze=self._blown)
         self.frames.treat(treatment)
         return data
 
@@ -182,7 +190,15 @@ class Screening:
         """The film's own things that cover the middle of a moving body in the frame drawn last: `ball behind pillar`.
 
         The plan's cameras are drawn without them, so evidence is never hidden; the statement tells where the film hides it.
+        What sways counts where the breeze has carried it.
         """
+        if self._blown is not None and self._movers:
+            self._swaying.blow(self._replay.data, self._blown)
+        with self._swaying:
+            return self._met()
+
+    def _met(self) -> list[str]:
+        """What `hidden` says, while rays pass what sways."""
         import mujoco
         import numpy as np
 
@@ -196,22 +212,25 @@ class Screening:
             to = data.xipos[body] - eye
             away = float(np.linalg.norm(to))
             way, gone = to / max(away, 1e-9), 0.0
+            near, before = self._swaying.nearest(eye, way, away)
             while gone < away:
                 met = mujoco.mj_ray(self.model, data, eye + gone * way, way, groups, True, -1, hit)
-                if met < 0 or gone + met >= away:
+                if met < 0 or gone + met >= near:
+                    if before >= 0:
+                        found.append(f"{name} behind {_called(self.model.geom(before).name)}")
                     break
                 geom = self.model.geom(int(hit[0]))
                 drawn = geom.name.startswith("drawn.")
                 if int(self.model.geom_bodyid[geom.id]) != body or (drawn and geom.name not in skins):
                     if drawn:
-                        found.append(f"{name} behind {geom.name.removeprefix('drawn.').split('/')[0]}")
+                        found.append(f"{name} behind {_called(geom.name)}")
                     break
                 # Neither the mover itself nor its skin hides it.
                 gone += met + PAST_M
         return found
 
     def segmentation(self) -> "np.ndarray":
-        """Geom numbers of the dressed world in the frame drawn last: int32 (height, width)."""
+        """Geom numbers of the dressed world in the frame drawn last: int32 (height, width), of what sways as in calm air or blown."""
         return self.frames.segmentation(self._replay.data, self._camera)
 
     def close(self) -> None:
@@ -225,6 +244,11 @@ class Screening:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: "TracebackType | None"
     ) -> None:
         self.close()
+
+
+def _called(geom: str) -> str:
+    """The name of a drawn thing by that of its geom, which its copies number."""
+    return geom.removeprefix("drawn.").split("/")[0]
 
 
 def axes(eye: "np.ndarray", target: "np.ndarray", roll_deg: float) -> "np.ndarray":

@@ -4,6 +4,8 @@ from collections.abc import Sequence
 from types import TracebackType
 from typing import TYPE_CHECKING
 
+from worldkit import lights
+
 from . import renderers
 from .identity import renderer_version
 from .treatment import PLAIN as UNTREATED
@@ -49,6 +51,8 @@ class Frames:
         except Exception as error:
             # Any driver may lack any feature in its own way; a plainer picture is better than none.
             self._fall_back(error)
+        if stated := lights.of(model):
+            self.treat(UNTREATED.started_from(stated))
 
     def _fall_back(self, why: Exception) -> None:
         """Let the next plainer renderer draw from now on."""

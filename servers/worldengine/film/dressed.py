@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from worldkit import materials, portable
+from worldkit.lights import LIGHT_GAIN
 
 from ..recording.replay import Replay
-from . import one_surface, panel_lights
+from . import one_surface, panel_lights, swaying
 from .described import Described, FilmError
-from .renderers.preview.scenery import LIGHT_GAIN
 
 if TYPE_CHECKING:
     import mujoco
@@ -47,6 +47,7 @@ def dress(world: Path, film: Described) -> "mujoco.MjModel":
         _cover(spec, film, one)
     for lamp in film.lamps:
         _light(spec, lamp)
+    swaying.add(spec, [f"drawn.{thing['name']}" for thing in film.things if thing.get("sways") and film.breeze])
     panel_lights.hang(spec, film.panels, HIDDEN_GROUP, **DRAWN)
     eyes = film.arrays["eye"]
     spec.worldbody.add_camera(name=CAMERA, pos=eyes[0])
@@ -225,10 +226,13 @@ def _skin(spec: "mujoco.MjSpec", thing: dict[str, Any], points: "np.ndarray") ->
     extents = np.maximum(high - low, 1e-9)
     floor = min(THIN_M, extents.max() / 5)
     share, taken = np.ptp(placed, axis=0) / extents, np.maximum(extents, floor)
-    least = np.where(extents < floor, 0.0, SHARE_OF_BODY[0] * extents)  # a sheet stands for a thin body
     away = np.abs(0.5 * (placed.min(axis=0) + placed.max(axis=0) - low - high)) / taken
     size = np.ptp(placed, axis=0)
-    if not ((size >= least) & (size < SHARE_OF_BODY[1] * taken) & (away < 0.5)).all():
+    flat = (
+        size < SHARE_OF_BODY[0] * extents
+    )  # a sheet stands for a thin body, but nothing stands for it that is not even that
+    good = flat.sum() <= 1 and (extents[flat] < floor).all()
+    if not good or not ((size < SHARE_OF_BODY[1] * taken) & (away < 0.5)).all():
         raise FilmError(
             f"the skin {thing['name']!r} is {np.round(share, 2).tolist()} times the size of {thing['to']!r}, or lies beside it",
             "film.py",

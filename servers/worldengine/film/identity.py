@@ -3,6 +3,7 @@
 import hashlib
 import json
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 import worldkit
@@ -12,7 +13,9 @@ from . import renderers
 PACKAGES = ("av", "opencv-python-headless")
 """Packages that encode and scale pictures, whichever renderer draws them."""
 
-DRAWN_FROM = ("cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "model_text.py", "turning.py")
+DRAWN_FROM = (
+    "cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "lights.py", "model_text.py", "turning.py", "forms/lattice.py",
+)  # fmt: skip
 """What of `worldkit` decides how a recorded world looks when it is drawn, and from where."""
 REPLAYED_BY = ("seen.py", "replay.py")
 """What of `recording` decides what is shown at which time."""
@@ -42,17 +45,22 @@ def identity(renderer: str = "") -> Identity:
     """
     name = renderer or renderers.wanted()
     packages = renderers.installed((*PACKAGES, *renderers.SEAM.find(name).PACKAGES))
+    code = _code(name)
     digest = hashlib.sha256(json.dumps([name, packages]).encode())
-    digest.update(_code(name).encode())
-    return Identity(name, renderer_version(name), packages, digest.hexdigest())
+    digest.update(code.encode())
+    return Identity(name, _version(name, code), packages, digest.hexdigest())
 
 
 def renderer_version(name: str) -> str:
     """A renderer's version: its packages' versions, and the beginning of the SHA-256 of all code that its pictures depend on."""
+    return _version(name, _code(name))
+
+
+def _version(name: str, code: str) -> str:
     said = [
         f"{package} {number}" for package, number in renderers.installed(renderers.SEAM.find(name).PACKAGES).items()
     ]
-    return ", ".join([*said, f"code {_code(name)[:12]}"])
+    return ", ".join([*said, f"code {code[:12]}"])
 
 
 def _code(name: str) -> str:
@@ -66,7 +74,14 @@ def _code(name: str) -> str:
     while name:
         drawn += renderers.SEAM.files(name)
         name = renderers.plainer(name)
+    files = dict.fromkeys([*sorted(own), *drawn])
+    return _hash(tuple((path, stat.st_size, stat.st_mtime_ns) for path in files for stat in (path.stat(),)))
+
+
+@lru_cache(maxsize=32)
+def _hash(files: tuple[tuple[Path, int, int], ...]) -> str:
+    """One hash over names and contents, read anew when a file's size or time changes: each step of a run asks for it."""
     digest = hashlib.sha256()
-    for path in dict.fromkeys([*sorted(own), *drawn]):
+    for path, *_ in files:
         digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()

@@ -26,7 +26,7 @@ def write(recording: "Recording", path: Path, facts: dict[str, Any], told: "Mapp
         recording: the recording to film.
         path: the file.
         facts: `fps`, `size` and `movers` of the program, as `program.json` has them.
-        told: what the plan tells of the place: `setting`, `floor`, `words`, and `looks`, pairs of a name and a look.
+        told: what the plan tells of the place: `setting`, `floor`, `light` (JSON), `wind` (m/s), `words`, and `looks`, pairs of a name and a look.
     """
     import numpy as np
 

@@ -8,6 +8,9 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from worldkit.cameras.views import axes
+from worldkit.turning import quaternion
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -67,8 +70,9 @@ def hang(spec: mujoco.MjSpec, panels: tuple[dict[str, Any], ...], hidden_group: 
     for panel in panels:
         name, place = f"drawn.{panel['name']}", np.array(panel["pos"])
         width, height = panel["size"]
-        turn, quat = facing(np.array(panel["towards"]) - place), np.zeros(4)
-        mujoco.mju_mat2Quat(quat, turn.ravel())
+        way = np.array(panel["towards"]) - place
+        turn = axes(way / np.linalg.norm(way))
+        quat = quaternion(turn)
         bright = _bright(panel)
         parts = {"": (bright, THICK_M), "/back": (0.0, DEEP_M)} if panel["seen"] else {"": (bright, THICK_M)}
         body, front = spec.body(panel["to"]) if panel["to"] else spec.worldbody, 0.0
@@ -81,13 +85,3 @@ def hang(spec: mujoco.MjSpec, panels: tuple[dict[str, Any], ...], hidden_group: 
                 pos=place - turn[:, 2] * (front + deep / 2), material=name + part,
             )  # fmt: skip
             front += deep
-
-
-def facing(way: np.ndarray) -> np.ndarray:
-    """(3, 3): columns are a level width, a height, and the unit direction of `way`, which is not zero."""
-    normal = way / np.linalg.norm(way)
-    across = np.array([-normal[1], normal[0], 0.0])
-    if np.linalg.norm(across) < 1e-6:
-        across = np.array([1.0, 0.0, 0.0])
-    across /= np.linalg.norm(across)
-    return np.stack([across, np.cross(normal, across), normal], axis=-1)

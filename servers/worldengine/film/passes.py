@@ -41,6 +41,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         WorldkitError: the recording is of another world, or cannot be read; there is no such camera.
     """
     headless_gl()
+    from worldkit import lights
     from worldkit.reporting import Progress
 
     from ..recording import stored
@@ -50,7 +51,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     recording, model, out = stored.open(options.recording), given.model(FREE if options.eye else ""), options.out
     same = fingerprint(model) == recording.meta["model"]["fingerprint"]
     started = time.perf_counter()
-    film = None if options.film is None else described.read(options.film, recording)
+    film = None if options.film is None else described.read(options.film, recording, lights.of(model))
     if options.run == "frame":
         summary = frame(model, recording, film, given, options)
     elif options.run == "still":

@@ -14,7 +14,7 @@ import json
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import ExitStack
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -128,6 +128,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     Raises:
         WorldkitError: the recording is of another world, or cannot be read; the film asks for what may not be shown.
     """
+    from worldkit import lights
     from worldkit.reporting import Progress
 
     from ..recording import stored
@@ -138,7 +139,8 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     headless_gl()
     started = time.perf_counter()
     recording, model, out = stored.open(options.recording), given.model(), options.out
-    film, name = described.read(options.film, recording), named(options.film, recording.sha256, given.world)
+    film = described.read(options.film, recording, lights.of(model))
+    name = named(options.film, recording.sha256, given.world)
     about = [given.size, given.fps, drawn(model).hex()]
     seconds = options.minutes * 60.0
     progress = Progress(out, round(seconds), "s")
@@ -169,13 +171,14 @@ def drawing_s(seconds: float, count: int, size: Sequence[int]) -> float:
 
 
 def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick: Any) -> "tuple[bool, Refined]":
-    """`refine` on the frames in a folder; where the renderer gives up, on those of the plainer one, in a folder beside it."""
+    """`refine` on the frames in a folder; where a plainer renderer draws, from the start or since the other gave up, on those of
+    its own, in a folder beside it: what was traced stands."""
     while True:
-        state = Refined(folder, shown.count, json.dumps([folder.name, *about, identity(shown.renderer).sha256]))
-        try:
+        plain = "" if shown.renderer == renderers.FINAL else f"-{shown.renderer}"
+        own = folder.with_name(folder.name + plain)
+        state = Refined(own, shown.count, json.dumps([own.name, *about, identity(shown.renderer).sha256]))
+        with suppress(FellBackError):
             return refine(shown, state, end, tick), state
-        except FellBackError:
-            folder = folder.with_name(f"{folder.name}-{shown.renderer}")
 
 
 def named(described: Path, recording_sha256: str, world: Path) -> str:

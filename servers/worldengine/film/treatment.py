@@ -1,6 +1,6 @@
 """The light, haze, focus and grading of one picture as a film asks for them: a value that every renderer may use."""
 
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from typing import Any
 
 Rgb = tuple[float, float, float]
@@ -38,6 +38,8 @@ class Treatment:
     grade_fade: float = 0.0
     focus_m: float = 0.0
     """The distance that is sharp, m."""
+    breeze: tuple[float, float, float] | None = None
+    """The wind that moves what sways, towards x and y, m/s, and the recorded time, s."""
     aperture: float = 0.0
     """The f-number of the lens; with 0 everything is sharp."""
 
@@ -45,6 +47,11 @@ class Treatment:
     def lit(self) -> tuple[Any, ...]:
         """Everything that the light of the scene depends on."""
         return tuple(getattr(self, f.name) for f in fields(self) if f.name.startswith(("light_", "sky_")))
+
+    def started_from(self, told: dict[str, Any]) -> "Treatment":
+        """The same, begun from what a world states (`worldkit.lights.treated`)."""
+        values: dict[str, Any] = {name: tuple(v) if isinstance(v, list) else v for name, v in told.items()}
+        return replace(self, **values)
 
 
 PLAIN = Treatment()
@@ -62,10 +69,16 @@ LIMITS: dict[str, tuple[float, float]] = {
 class Treatments:
     """The moments of a film at which its light or grading is told, and the values between them."""
 
-    def __init__(self, told: list[dict[str, Any]]) -> None:
-        """Take `[{"at_s": film time, name: value, …}, …]`, checked already."""
+    def __init__(self, told: list[dict[str, Any]], stated: dict[str, Any] | None = None) -> None:
+        """Take `[{"at_s": film time, name: value, …}, …]`, checked already, and what the world states (`worldkit.lights`)."""
         import numpy as np
 
+        self.stated = dict(stated or {})
+        own_sky = any(
+            "sky_zenith" in one for one in told
+        )  # a sky of the film's own comes with its own air and developing
+        kept = {n: v for n, v in self.stated.items() if not own_sky or n.startswith("light_")}
+        self._begun = asdict(PLAIN.started_from(kept))
         self._tracks: dict[str, tuple[Any, Any]] = {}
         for name in LIMITS:
             moments: dict[float, Any] = {float(one["at_s"]): one[name] for one in told if name in one}
@@ -77,13 +90,26 @@ class Treatments:
         """The treatment at a film time, s: linear between the told moments, constant before the first and after the last."""
         import numpy as np
 
-        values: dict[str, Any] = {"focus_m": focus_m, "aperture": aperture}
+        values: dict[str, Any] = {**self._begun, "focus_m": focus_m, "aperture": aperture}
         for name, (at, told) in self._tracks.items():
             if told.ndim == 2:
                 values[name] = tuple(float(np.interp(film_s, at, told[:, k])) for k in range(told.shape[1]))
             else:
                 values[name] = float(np.interp(film_s, at, told))
         return Treatment(**values)
+
+    def departs(self) -> list[str]:
+        """What of the light and the sky that the world states is otherwise in the film, in words: `its elevation`, `its sky`."""
+        import numpy as np
+
+        found = []
+        for name, value in self.stated.items():
+            if name not in self._tracks or not name.startswith(("light_", "sky_")):
+                continue
+            if np.abs(self._tracks[name][1] - np.asarray(value)).max() > 1e-6:
+                part, _, which = name.partition("_")
+                found.append("sky" if part == "sky" else {"rgb": "colour"}.get(which, which.removesuffix("_deg")))
+        return list(dict.fromkeys(found))
 
     @property
     def told(self) -> bool:

@@ -47,6 +47,9 @@ class Drive:
     def _apply(self, step: int) -> bool:
         """Write the latest answer; returns whether it changed the state."""
         answers, ledger = self.answers, self._ledger
+        if not answers.news:  # the inputs stand as they were written
+            ledger.messages.step = step
+            return False
         ledger.messages.add(step, answers.vector)
         changes = answers.changes
         if changes:

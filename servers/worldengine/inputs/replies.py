@@ -6,10 +6,11 @@ there, and reads NaN once it is checked. Changed parameters come beside the vect
 """
 
 import ctypes
+import math
 from typing import TYPE_CHECKING
 
 from worldkit.channel import PeerError
-from worldkit.mirror import Mirror, address, move
+from worldkit.mirror import Mirror, address, differ, move
 from worldkit.speaking import EDIT, HELD, MOST_EDITS, STATE, SWITCHES
 from worldkit.watch import LOOKS, Edit
 
@@ -43,15 +44,21 @@ class Answers:
         self._switches = np.array(ports.entries.get(SWITCHES[0], ()), np.intp)
         first, second = len(self._held), len(self._held) + len(self._state)
         self._raw = np.zeros(8 * (1 + second + len(self._switches)), np.uint8)
-        self._raw_at = address(self._raw)
+        self._raw_at, self._size = address(self._raw), self._raw.nbytes
         self.vector = self._raw[8:].view(float)
         """(width,) the latest answer."""
+        self._ones = np.ones(len(self.vector))
+        self.news = True
+        """Whether the latest answer differs from the one before; always where entries act by being changed."""
         self.changing = self.vector[first:]
         """Its entries that act by being changed; NaN where they are not."""
         self._pushes, self._moves, self._flips = self.vector[:first], self.vector[first:second], self.vector[second:]
         self._shown_state = self._numbers[self._state]
         self._shown_switches = np.array(data.eq_active[self._switches], float)
         self._ports = [(name, None if index is None else np.array(index)) for name, index in ports.parameters]
+        # Where all that can be written holds until it is written again, an answer like the last one changes nothing.
+        self._lasts = not (len(self.changing) or self._ports or shares is not None)
+        self._heard = False
         self.edits: list[Edit] = []
         """Parameters that the latest answer changes."""
         self._slot_first = mirror.buffer_in(0)
@@ -81,10 +88,16 @@ class Answers:
         """
         import numpy as np
 
-        move(self._raw_at, message, self._raw.nbytes)
+        raw = self._raw_at
+        if self._lasts and self._heard and not differ(raw, message, self._size):
+            self.news = False
+            return
+        move(raw, message, self._size)
+        self.news = True
         # The sum of finite numbers may overflow; then each of them is looked at.
-        if not np.isfinite(self.vector.sum()) and not np.isfinite(self.vector).all():
+        if not math.isfinite(self.vector.dot(self._ones)) and not np.isfinite(self.vector).all():
             raise PeerError("the author's process answers with a number that is not finite", "control", "send numbers")
+        self._heard = True
         if len(self._moves):
             self._moves[self._moves == self._shown_state] = np.nan
         if len(self._flips):
@@ -159,4 +172,4 @@ class Answers:
     def replay(self, vector: "np.ndarray", edits: "list[Edit]") -> None:
         """Take a recorded answer."""
         self.vector[:] = vector
-        self.edits = edits
+        self.news, self.edits = True, edits

@@ -65,6 +65,8 @@ def triangles_of(model: "mujoco.MjModel", geom: int) -> "tuple[np.ndarray, np.nd
     import mujoco
     import numpy as np
 
+    from worldkit.forms.lattice import lattice
+
     kind, index = mujoco.mjtGeom(int(model.geom_type[geom])), int(model.geom_dataid[geom])
     if kind == mujoco.mjtGeom.mjGEOM_MESH:
         vertex, face = (
@@ -83,6 +85,4 @@ def triangles_of(model: "mujoco.MjModel", geom: int) -> "tuple[np.ndarray, np.nd
     start = model.hfield_adr[index]
     z = model.hfield_data[start : start + rows * columns].reshape(rows, columns) * top
     y, x = np.meshgrid(np.linspace(-ry, ry, rows), np.linspace(-rx, rx, columns), indexing="ij")
-    k = np.arange(rows * columns).reshape(rows, columns)
-    a, b, c, d = (part.ravel() for part in (k[:-1, :-1], k[:-1, 1:], k[1:, 1:], k[1:, :-1]))
-    return np.stack([x, y, z], -1).reshape(-1, 3), np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    return np.stack([x, y, z], -1).reshape(-1, 3), lattice(rows, columns)

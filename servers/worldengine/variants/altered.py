@@ -1,4 +1,4 @@
-"""The same world with one thing changed: a finer time step, a cause taken away, a cause made weaker.
+"""The same world with one thing changed: a finer time step, a cause taken away or made weaker, a number a little otherwise.
 
 A variant needs no help from the program: it changes the compiled model, and what the program's `control` sends (`hold`).
 Bodies are never deleted, so that the program's indices and the recording's columns stay the same.
@@ -24,6 +24,8 @@ Made weaker (`--weaken NAME=FACTOR`, 0 < FACTOR):
     joint     spring, motors, initial velocity      actuator  its force and what it is asked for
     tendon    spring, damper, motors                gravity, wind
     force: torque: pose: velocity: mocap: control: parameter:    what is written, times FACTOR
+
+A little otherwise (`--vary friction|masses|start=FACTOR`): see `varied`.
 
 A bare name means every object that has it; where a body has the name of its joint or geom, the body is meant.
 """
@@ -54,9 +56,12 @@ class Variant:
     time_step_factor: float = 1.0
     without: tuple[str, ...] = ()
     weaken: tuple[tuple[str, float], ...] = ()
+    vary: tuple[tuple[str, float], ...] = ()
 
     @classmethod
-    def parse(cls, factor: float | None, without: Sequence[str], weaken: Sequence[str]) -> "Variant":
+    def parse(
+        cls, factor: float | None, without: Sequence[str], weaken: Sequence[str], vary: Sequence[str] = ()
+    ) -> "Variant":
         """Read the command line; raises `ProgramError` with what is wrong with an option."""
         factor = 1.0 if factor is None else factor
         if not 0 < factor <= 1 or abs(1 / factor - round(1 / factor)) > 1e-9:
@@ -65,22 +70,11 @@ class Variant:
                 "--time-step-factor",
                 "use 0.5, or another whole fraction of one, so that the recorded instants stay the same",
             )
-        weaker = []
-        for text in weaken:
-            name, sign, number = text.rpartition("=")
-            try:
-                value = float(number)
-            except ValueError:
-                value = -1.0
-            if not (sign and name and 0 < value < 1e6):
-                raise ProgramError(
-                    f"'{text}' does not say what to weaken by how much", "--weaken", "write NAME=FACTOR, e.g. foot=0.5"
-                )
-            weaker.append((name, value))
-        return cls(factor, tuple(without), tuple(weaker))
+        weaker = tuple(_factor(text, "weaken", "foot=0.5") for text in weaken)
+        return cls(factor, tuple(without), weaker, tuple(_factor(text, "vary", "friction=1.2") for text in vary))
 
     def __bool__(self) -> bool:
-        return self.time_step_factor != 1.0 or bool(self.without or self.weaken)
+        return self.time_step_factor != 1.0 or bool(self.without or self.weaken or self.vary)
 
     @property
     def steps_per_step(self) -> int:
@@ -93,7 +87,22 @@ class Variant:
             "time_step_factor": self.time_step_factor,
             "without": list(self.without),
             "weaken": [list(pair) for pair in self.weaken],
+            **({"vary": [list(pair) for pair in self.vary]} if self.vary else {}),
         }
+
+
+def _factor(text: str, option: str, example: str) -> tuple[str, float]:
+    """(name, factor) of `NAME=FACTOR`."""
+    name, sign, number = text.rpartition("=")
+    try:
+        value = float(number)
+    except ValueError:
+        value = -1.0
+    if not (sign and name and 0 < value < 1e6):
+        raise ProgramError(
+            f"'{text}' does not say what to {option} by how much", f"--{option}", f"write NAME=FACTOR, e.g. {example}"
+        )
+    return name, value
 
 
 def alter(model: "mujoco.MjModel", variant: Variant) -> "Hold":
@@ -106,6 +115,7 @@ def alter(model: "mujoco.MjModel", variant: Variant) -> "Hold":
 
     from .holding import Hold
     from .removal import Removal
+    from .varied import vary
 
     hold = Hold(model)
     edit = Removal(model, hold)
@@ -125,6 +135,8 @@ def alter(model: "mujoco.MjModel", variant: Variant) -> "Hold":
             edit.weaken(kind, index, factor, aspect)
     if variant.without or variant.weaken:
         mujoco.mj_setConst(model, mujoco.MjData(model))
+    for name, factor in variant.vary:
+        vary(model, name, factor)
     model.opt.timestep *= variant.time_step_factor
     return hold
 

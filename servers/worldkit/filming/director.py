@@ -121,12 +121,14 @@ class Film(Dressing):
         """Surroundings in one line: `film.set("meadow")`, drawn only, with light, sky and air that suit them.
 
         `facing_deg` is the side from which the camera looks (an azimuth; `wide()` looks from -57) and which is kept free;
-        another `seed` makes another of the same kind. What is said afterwards (light, mood, grade) changes it.
+        another `seed` makes another of the same kind. Light and sky that the plan states stay as they are; what is said
+        afterwards (light, mood, grade) changes it.
 
         Raises:
             ProgramError: there is no such set, or what happens is too large for it.
         """
         sets.build(self, name, facing_deg, seed)
+        self.as_planned()
 
     # -- the description -----------------------------------------------------------------------------------------------
 
@@ -151,7 +153,7 @@ class Film(Dressing):
         things = [*self._things, *(grown(thing, at, times) for thing, at in self._grown)]
         facts = {
             "schema": 1, "shots": shots, "captions": self._captions, "air": self._air,
-            "things": [thing.facts(arrays, number) for number, thing in enumerate(things)],
+            "things": [thing.facts(arrays, number, self._breeze is not None) for number, thing in enumerate(things)],
             "lamps": self._lamps, "panels": self._panels,
             "surfaces": [
                 one | {"look": look_facts(one["look"], arrays, f"look_surface{n}")} for n, one in enumerate(self._surfaces)
@@ -160,7 +162,7 @@ class Film(Dressing):
             "ground": None if self._ground_look is None else look_facts(self._ground_look, arrays, "look_ground"),
             "shutter": self._shutter, "samples": self._samples,
         }  # fmt: skip
-        return facts, arrays
+        return facts | ({"breeze": self._breeze} if self._breeze else {}), arrays
 
 
 def _line() -> int:

@@ -80,6 +80,8 @@ class Thing:
     vertices: np.ndarray | None = None
     faces: np.ndarray | None = None
     uv: np.ndarray | None = None
+    sways: np.ndarray | None = None
+    """(V, 2): how far a fresh breeze carries each corner of a mesh, m, and its phase, radians."""
     ways: np.ndarray | None = None
     """(F, P, 3), m: where P copies are in each frame of the film."""
     sizes: np.ndarray | None = None
@@ -87,8 +89,8 @@ class Thing:
     turns: np.ndarray | None = None
     """(F, P, 4): how each copy of a mesh is turned in each frame."""
 
-    def facts(self, arrays: dict[str, np.ndarray], number: int) -> dict[str, Any]:
-        """This thing as JSON; its arrays go into `arrays`."""
+    def facts(self, arrays: dict[str, np.ndarray], number: int, breeze: bool) -> dict[str, Any]:
+        """This thing as JSON; its arrays go into `arrays`. In a `breeze` it says how it sways."""
         found: dict[str, Any] = {
             "name": self.name, "shape": self.shape, "size": list(map(float, self.size)), "pos": list(map(float, self.pos)),
             "quat": list(map(float, self.quat)), "to": self.to, "instead": self.instead,
@@ -103,6 +105,8 @@ class Thing:
             ("turns", "f4"),
         ):
             value = getattr(self, name)
+            if name == "uv" and breeze and self.sways is not None:
+                value, found["sways"] = self.sways, True
             if value is not None:
                 arrays[f"{name}{number}"] = np.asarray(value, dtype=kind)
                 found[name] = f"{name}{number}"

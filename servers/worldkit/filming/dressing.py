@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
-from . import trees
+from . import swaying_weights, trees
 from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
-from .film_bounds import MOST_LAMPS, MOST_PANELS, PANEL_M
+from .film_bounds import MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
 from .recorded import Recorded
 from .weather import Weather
@@ -28,6 +28,14 @@ class Dressing(Weather):
         self._panels: list[dict[str, Any]] = []
         self._looks: dict[str, str | Surface] = {}
         self._ground_look: str | Surface | None = None
+        self._breeze: tuple[float, float] | None = None
+
+    def as_planned(self) -> None:
+        """Light and sky as the plan states them, whatever was said of them before; nothing where it states none."""
+        from ..lights import treated
+
+        if told := treated(**self.recorded.light):
+            self._told(None, **told)
 
     def draw(
         self,
@@ -63,12 +71,15 @@ class Dressing(Weather):
         look: str | Surface = "plastic_grey",
         to: str = "",
         instead: bool = False,
+        sways: np.ndarray | None = None,
     ) -> None:
         """Draw a mesh that is not simulated: `vertices` (V, 3) in metres, `faces` (F, 3), `uv` (V, 2) for its picture.
 
         With `instead` it is a skin: drawn in place of the shapes of the body `to`, in the body's frame, and of its size. The
         ground may have one, too: `film.recorded.into("hill", points)` brings points of the world into the hill's frame, and
         the statement says how far the drawn surface is from the simulated one at most.
+
+        `sways` (V,) is how far a fresh breeze carries each vertex, m (cloth on a line: 0 where it hangs); see `breeze`.
         """
         points, triangles = np.asarray(vertices, dtype=float), np.asarray(faces, dtype=int)
         good = points.ndim == 2 and points.shape[1] == 3 and triangles.ndim == 2 and triangles.shape[1] == 3
@@ -78,7 +89,22 @@ class Dressing(Weather):
             raise ProgramError(f"the uv of {name!r} must be ({len(points)}, 2)", "film.py", "one for each vertex")
         if instead and not to:
             raise ProgramError(f"the skin {name!r} belongs to no body", "film.py", "name it: to='…'")
-        self._add(Thing(name, "mesh", (1, 1, 1), look, pos, _yaw(yaw_deg), to, instead, points, triangles, uv))
+        told = None
+        if sways is not None:
+            weight = np.asarray(sways, dtype=float)
+            pictured = uv is not None or (isinstance(look, Surface) and look.picture is not None)
+            if weight.shape != (len(points),) or not ((weight >= 0) & (weight < 10)).all() or instead or pictured:
+                raise ProgramError(
+                    f"the sways of {name!r} must be ({len(points)},) metres from 0 to 10, of a mesh without picture that is no skin",
+                    "film.py",
+                    "0 where it is held",
+                )
+            told = np.stack([weight, 0.8 * points @ np.array([1.0, 0.7, 1.3])], axis=1)
+        self._add(
+            Thing(
+                name, "mesh", (1, 1, 1), look, pos, _yaw(yaw_deg), to, instead, points, triangles, uv, sways=told
+            )
+        )  # fmt: skip
 
     def grass(
         self,
@@ -105,7 +131,9 @@ class Dressing(Weather):
             raise ProgramError(
                 f"no blade of {name!r} stands on the ground that it is given", "film.py", "move its area"
             )
-        self._add(Thing(name, "mesh", (1, 1, 1), look, (0, 0, 0), (1, 0, 0, 0), vertices=points, faces=faces))
+        sways = swaying_weights.of_grass(points)
+        still = (0, 0, 0), (1, 0, 0, 0)
+        self._add(Thing(name, "mesh", (1, 1, 1), look, *still, vertices=points, faces=faces, sways=sways))
 
     def tree(
         self,
@@ -140,18 +168,43 @@ class Dressing(Weather):
             raise ProgramError(f"a tree of {name!r} at {where} stands beside its ground", "film.py", "move it")
         random = np.random.default_rng(seed)
         parts: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {"wood": [], "leaves": []}
+        sways: dict[str, list[np.ndarray]] = {"wood": [], "leaves": []}
         for place, level in zip(places, levels, strict=True):
             one = trees.tree(kind, height * random.uniform(0.8, 1.1), int(random.integers(1 << 30)))
             foot = np.array([*place, level - 0.02])
             parts["wood"].append((one.wood + foot, one.wood_faces))
             parts["leaves"].append((one.leaves + foot, one.leaf_faces))
+            sways["wood"].append(swaying_weights.of_wood(one.wood, height))
+            sways["leaves"].append(swaying_weights.of_leaves(one.leaves, height))
         green = leaves or {"conifer": "#2f4a2c", "broadleaf": "#557a32"}[kind]
         for part, look in (("wood", bark), ("leaves", green)):
             starts = np.cumsum([0, *(len(points) for points, _ in parts[part])])
             faces = np.concatenate([f + s for (_, f), s in zip(parts[part], starts, strict=False)])
             points = np.concatenate([points for points, _ in parts[part]])
             title = name if part == "wood" else f"{name} ({part})"
-            self._add(Thing(title, "mesh", (1, 1, 1), look, (0, 0, 0), (1, 0, 0, 0), vertices=points, faces=faces))
+            told, still = np.concatenate(sways[part]), ((0, 0, 0), (1, 0, 0, 0))
+            self._add(Thing(title, "mesh", (1, 1, 1), look, *still, vertices=points, faces=faces, sways=told))
+
+    def breeze(self, speed: float | None = None, *, towards_deg: float | None = None) -> None:
+        """Let a wind move the grass, the leaves and branches of trees, and every mesh with `sways`; drawn only.
+
+        It blows with `speed`, m/s, towards an azimuth; what is left out is the wind that the plan's medium states, of which no
+        more than 40 m/s are drawn. Gusts travel with it. In the final pass a shot with it is drawn whole, frame by frame.
+
+        Raises:
+            ProgramError: the plan states no wind, and none is given; or it is none of 0 to 40 m/s.
+        """
+        x, y = self.recorded.wind[:2]
+        planned = float(np.hypot(x, y))
+        strong = min(planned, STORM_M_S) if speed is None else float(speed)
+        if not 0 < strong <= STORM_M_S:
+            raise ProgramError(
+                f"a breeze of {strong:g} m/s: a wind blows with more than 0 and at most 40 m/s",
+                "film.py",
+                "film.breeze(3.0, towards_deg=90)" + ("" if planned else ", as the plan's medium states no wind"),
+            )
+        way = np.arctan2(y, x) if towards_deg is None else np.radians(float(towards_deg))
+        self._breeze = (strong * float(np.cos(way)), strong * float(np.sin(way)))
 
     def _ground(self, z: float | str | Height | None) -> Height:
         """What things stand on, as a height over x and y."""

@@ -3,5 +3,7 @@
 MOST_FRAMES, MOST_LAMPS, MOST_PANELS, MOST_COPIES = 20_000, 64, 16, 2_000
 PLACES = ("bottom", "top", "title", "left")
 """Where words stand in the picture."""
+STORM_M_S = 40.0
+"""The strongest wind that is drawn, m/s."""
 PANEL_M = (0.005, 100.0)
 """The least and the most that a panel of light measures, m."""

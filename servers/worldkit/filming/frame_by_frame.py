@@ -43,11 +43,15 @@ def sampled(shot: dict[str, Any], recorded: Recorded, number: int) -> dict[str, 
         focus = np.linalg.norm(recorded.position(camera.focus, times) - eye, axis=1)
     else:
         focus = away if camera.focus is None else np.full(n, float(camera.focus))
-    return {
+    found = {
         "eye": eye, "target": target, "roll_deg": viewpoints.between(camera.roll_deg, share),
         "fovy_deg": viewpoints.fovy_deg(viewpoints.between(camera.lens_mm, share)), "focus_m": focus,
         "aperture": np.full(n, camera.aperture or 0.0),
     }  # fmt: skip
+    for name, word in (("target", "shake"), ("roll_deg", "roll_deg"), ("focus_m", "focus")):
+        if not np.isfinite(found[name]).all():
+            raise ProgramError(f"the {word} of shot {number + 1} is no number", "film.py", "check how it is reckoned")
+    return found
 
 
 def grown(thing: Thing, at: Callable[[np.ndarray], Any], times: np.ndarray) -> Thing:
@@ -63,8 +67,10 @@ def grown(thing: Thing, at: Callable[[np.ndarray], Any], times: np.ndarray) -> T
             "",
         )
     sizes = np.full(places.shape[:2], thing.size[0]) if sizes is None else np.asarray(sizes, dtype=float)
-    if sizes.shape != places.shape[:2] or not (sizes >= 0).all():
-        raise ProgramError(f"the diameters of {thing.name!r} must be {places.shape[:2]}, none below 0", "film.py", "")
+    if sizes.shape != places.shape[:2] or not (np.isfinite(sizes) & (sizes >= 0)).all():
+        raise ProgramError(
+            f"the diameters of {thing.name!r} must be {places.shape[:2]} numbers, none below 0", "film.py", ""
+        )
     if thing.shape == "mesh":
         if isinstance(told, tuple):
             raise ProgramError(f"the leaves {thing.name!r} are all of one size", "film.py", "give their places alone")

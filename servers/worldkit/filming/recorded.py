@@ -1,8 +1,10 @@
 """What a film's author knows: where the bodies were, how large they are, and when they touched."""
 
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from typing import Any
 
 import numpy as np
 
@@ -53,6 +55,12 @@ class Recorded:
         """The look of the ground that the plan names; empty for the setting's own."""
         self.words: tuple[str, ...] = tuple(str(word) for word in arrays["words"]) if "words" in arrays else ()
         """The plan's title, thrice, its first paragraph and the names of its things, word by word, in small letters."""
+        self.light: dict[str, Any] = json.loads(str(arrays["light"])) if "light" in arrays else {}
+        """The light and sky that the plan states, by the words of `worldkit.lights.treated`; empty where it states none."""
+        self.wind: tuple[float, ...] = (0.0, 0.0, 0.0)
+        """What the plan's medium blows with, m/s; gusts that a program makes are not in it."""
+        if "wind" in arrays:
+            self.wind = tuple(float(part) for part in arrays["wind"])
         self.looks: dict[str, str] = {}
         """The looks that the plan gives its things, by name."""
         if "looks" in arrays:

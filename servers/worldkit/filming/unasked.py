@@ -13,4 +13,6 @@ def film(film: Film) -> None:
         film.set(name, facing_deg=azimuth)
         if recorded.floor:  # the plan says what the ground is
             film.ground(recorded.floor)
+    if any(recorded.wind[:2]):
+        film.breeze()
     film.usual()

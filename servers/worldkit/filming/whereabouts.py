@@ -97,6 +97,7 @@ def countryside(film: Dressing, facing_deg: float, seed: int = 1) -> None:
     wet = [name for name in wide if any(part in WET for part in name.lower().replace("-", "_").split("_"))]
     film.mood("noon")
     film.light(azimuth_deg=facing_deg - 62, elevation_deg=38, strength=1.05)
+    film.as_planned()
     reach = 1.4 * place.radius + 3.0
 
     def ground(x: np.ndarray, y: np.ndarray, only: str = "") -> np.ndarray:

@@ -11,8 +11,9 @@ CHERRY = ((0.66, 0.38, 0.24), (0.56, 0.29, 0.17), (0.40, 0.18, 0.10))
 EBONY = ((0.19, 0.16, 0.14), (0.13, 0.105, 0.095), (0.07, 0.055, 0.05))
 
 
-HANDLED = 1.8
-"""Coloured metals look as pale as measured ones only when they are fresh; light meets those in use so many times."""
+HANDLED, CAST = 1.8, 2.4
+"""How many times light meets a coloured metal in use, which is not as pale as a fresh one, and one in the pores of a casting: by
+eye, since nothing measured tells it."""
 
 
 def _wood(description: str, name: str, tones: tuple, rings: float = 26.0, pore: float = 0.5) -> Look:
@@ -146,10 +147,11 @@ LIBRARY: dict[str, Look] = {
     "gold": _metal("Polished gold", "gold", 0.16, HANDLED),
     "silver": _metal("Polished silver", "silver", 0.14),
     "titanium": _metal("Satin titanium", "titanium", 0.34),
-    "iron_cast": Look("Grey cast iron, rough from the mould", paint="fibre.worn", arguments=("cast iron", bare("iron", 2.4), 2.0), tile_m=0.2, roughness=0.62, metallic=1.0, relief_m=0.0006),
+    "iron_cast": Look("Grey cast iron, rough from the mould", paint="fibre.worn", arguments=("cast iron", bare("iron", CAST), 2.0), tile_m=0.2, roughness=0.62, metallic=1.0, relief_m=0.0006),
     "iron_rusty": Look("Rusty iron", paint="fibre.rust", arguments=("rust", (0.33, 0.30, 0.28), (0.50, 0.25, 0.12)), tile_m=0.6, roughness=0.85, metallic=0.25, relief_m=0.001, apart=0.1),
     "glass_clear": Look("Clear glass", rgba=(0.95, 0.98, 0.97, 0.25), roughness=0.03, clear=1.0),
-    "glass_green": Look("Bottle glass", rgba=(0.60, 0.86, 0.67, 0.35), roughness=0.03, clear=1.0),
+    "glass_green": Look("Green bottle glass, deeper the thicker it is", rgba=(0.60, 0.86, 0.67, 0.35), roughness=0.03, clear=1.0, index=1.52, absorbs=(105.0, 28.0, 90.0)),
+    "glass_brown": Look("Brown bottle glass, deeper the thicker it is", rgba=(0.62, 0.36, 0.12, 0.45), roughness=0.03, clear=1.0, index=1.52, absorbs=(55.0, 150.0, 420.0)),
     "glass_blue": Look("Blue glass", rgba=(0.60, 0.76, 0.95, 0.35), roughness=0.03, clear=1.0),
     "acrylic_clear": Look("Clear acrylic sheet", rgba=(0.96, 0.98, 0.99, 0.22), roughness=0.06, clear=1.0),
     "plastic_red": _plastic("Red moulded plastic", (0.76, 0.075, 0.07)),
@@ -172,7 +174,13 @@ LIBRARY: dict[str, Look] = {
     "cardboard": Look("Corrugated cardboard", paint="fibre.cardboard", arguments=("cardboard", (0.69, 0.52, 0.345)), tile_m=0.3, roughness=0.88, relief_m=0.0005, apart=0.1),
     "cork": Look("Pressed cork", paint="stone.granite", arguments=("cork", (0.72, 0.53, 0.34), (0.60, 0.41, 0.25), (0.38, 0.23, 0.13)), tile_m=0.22, roughness=0.88, relief_m=0.0005, apart=0.08),
     "foam": Look("Soft grey foam", paint="fibre.worn", arguments=("foam", (0.36, 0.37, 0.40), 2.5), tile_m=0.1, roughness=0.98, relief_m=0.001),
-    "honey": Look("Clear honey, amber", rgba=(0.93, 0.58, 0.10, 0.5), roughness=0.05, coat=1.0, clear=0.8),
+    "water_clear": Look("Clear water in a vessel, seen through", rgba=(0.93, 0.97, 0.98, 0.25), roughness=0.03, clear=1.0, index=1.333, absorbs=(0.34, 0.057, 0.02)),
+    "tea": Look("Black tea, clear: golden where it is thin, red-brown where it is deep", rgba=(0.86, 0.44, 0.12, 0.5), roughness=0.03, clear=1.0, index=1.334, absorbs=(5.0, 21.0, 55.0)),
+    "wine_red": Look("Red wine: ruby where it is thin, nearly black where it is deep", rgba=(0.55, 0.06, 0.10, 0.6), roughness=0.03, clear=1.0, index=1.345, absorbs=(14.0, 95.0, 75.0)),
+    "wine_white": Look("White wine, pale straw", rgba=(0.95, 0.90, 0.60, 0.35), roughness=0.03, clear=1.0, index=1.345, absorbs=(0.6, 1.8, 11.0)),
+    "beer": Look("Pale beer, golden", rgba=(0.95, 0.68, 0.18, 0.45), roughness=0.03, clear=1.0, index=1.343, absorbs=(1.5, 8.0, 38.0)),
+    "oil_olive": Look("Olive oil, golden green", rgba=(0.82, 0.74, 0.16, 0.45), roughness=0.03, clear=1.0, index=1.467, absorbs=(4.2, 5.2, 45.0)),
+    "honey": Look("Clear honey, amber, darker the thicker it lies", rgba=(0.93, 0.58, 0.10, 0.5), roughness=0.05, coat=1.0, clear=0.8, index=1.49, absorbs=(4.5, 24.0, 130.0)),
     "wax": Look("Cream wax", rgba=(0.94, 0.89, 0.76, 1.0), roughness=0.42, coat=0.1, sheen=0.15),
     "apple_red": Look("Red apple with streaks and pale dots", paint="around.apple", arguments=((0.62, 0.035, 0.05), (0.80, 0.20, 0.09), (0.74, 0.68, 0.22)), around=True, roughness=0.26, coat=0.4, apart=0.08),
     "apple_green": Look("Green apple", paint="around.apple", arguments=((0.48, 0.62, 0.13), (0.62, 0.72, 0.25), (0.78, 0.80, 0.38)), around=True, roughness=0.26, coat=0.4, apart=0.08),

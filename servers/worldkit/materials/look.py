@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
+NOTHING = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,11 @@ class Look:
     """Height of the painted relief, metres from lowest to highest."""
     clear: float = 0.0
     """Share of light that passes and is refracted, 0..1."""
+    index: float = 1.5
+    """Of refraction, of what is clear."""
+    absorbs: tuple[float, float, float] = NOTHING
+    """What light loses of itself in it, of red, green and blue, 1/m: of what is clear, in place of its tint where that can
+    be told by the way that light goes in it."""
     mark: bool = False
     """A sphere of this look carries a thin band and two dots, so that its spin can be seen."""
     emission: float = 0.0

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..errors import ProgramError
+from ..forms.lattice import lattice
 
 STALK = 0.14
 """Share of the length that is the stalk."""
@@ -55,8 +56,7 @@ def leaf(length: float = 0.08, width: float = 0.045, *, curl_deg: float = 40.0, 
     middle = np.stack([(radius - high) * np.sin(bend), y, radius - (radius - high) * np.cos(bend)], axis=-1)
     up = np.stack([-np.sin(bend), np.zeros_like(bend), np.cos(bend)], axis=-1) * (0.5 * THICK * length)
     k = np.arange(rows * columns).reshape(rows, columns)
-    a, b, c, d = (part.ravel() for part in (k[:-1, :-1], k[1:, :-1], k[1:, 1:], k[:-1, 1:]))
-    top = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    top = lattice(rows, columns)[:, [0, 2, 1]]  # its rows run along x
     rim = np.concatenate([k[:, 0], k[-1, 1:], k[-2::-1, -1], k[0, -2:0:-1]])
     after, below = np.roll(rim, -1), rows * columns
     edge = np.concatenate([np.stack([rim, rim + below, after], 1), np.stack([after, rim + below, after + below], 1)])

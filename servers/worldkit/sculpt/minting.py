@@ -76,7 +76,9 @@ def made(
 ) -> Made:
     """Make a shape, or take it from what is kept of an earlier call with the same shape, paint and settings.
 
-    Where nobody can tell what a paint is made of (it holds a generator, a file), it is made anew at each call.
+    A paint is made anew at each call where nobody can tell what it is made of or what depends on it: it holds an iterator or a
+    generator of random numbers, it changes something, or it reads a file or imports a module of yours when it is called. Do
+    that at the top of your file, and give the paint what came of it.
 
     Args:
         shape: distance function, or exact solid (for which `cells` has no meaning).
@@ -93,17 +95,21 @@ def made(
         raise ValueError(f"texels: give 64 to 4096, not {texels}")
     if not 100 <= triangles <= 400_000:
         raise ValueError(f"triangles: give 100 to 400000, not {triangles}")
-    key = signature(code(), shape, cells, triangles, paint, texels, hulls)
+    of = (code(), shape, cells, triangles, paint, texels, hulls)
+    key = signature(*of)
     if not key:
-        return _named(_made("", shape, cells, triangles, paint, texels, hulls))
-    if key not in _memory:
-        found = _kept(key)
-        if found is None:
-            with _draws_of_its_own(key):
-                found = _made(key, shape, cells, triangles, paint, texels, hulls)
-            _keep(found)
-        _memory[key] = found
-    return _memory[key]
+        return _named(_made("", *of[1:]))
+    if key in _memory:
+        return _memory[key]
+    found = _kept(key)
+    if found is None:
+        with _draws_of_its_own(key):
+            found = _made(key, *of[1:])
+        if signature(*of) != key:
+            return _named(found)
+        _keep(found)
+    _memory[key] = found
+    return found
 
 
 @contextmanager

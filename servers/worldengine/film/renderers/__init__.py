@@ -12,9 +12,9 @@ quality)`: the same picture, for which it need not draw again what stands in the
 
 import os
 from collections.abc import Callable, Hashable, Sequence
-from importlib import metadata
 from typing import TYPE_CHECKING, Literal, NamedTuple, Protocol
 
+from worldkit import wheels
 from worldkit.seams import Seam
 
 if TYPE_CHECKING:
@@ -90,10 +90,4 @@ def plainer(name: str) -> str:
 
 def installed(packages: tuple[str, ...]) -> dict[str, str]:
     """The versions of the installed distributions, by name."""
-    found = {}
-    for package in packages:
-        try:
-            found[package] = metadata.version(package)
-        except metadata.PackageNotFoundError:
-            continue
-    return found
+    return {package: found for package in packages if (found := wheels.version(package))}

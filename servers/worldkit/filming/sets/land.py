@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...forms.lattice import lattice
 from ..drawn_only import Surface
 from . import Place, pieces
 
@@ -48,7 +49,8 @@ def flowers(
         fan = np.stack([np.zeros(5, int), 1 + k, 1 + (k + 1) % 5], axis=1)
         faces = (np.arange(len(foot))[:, None, None] * 6 + np.concatenate([fan, fan[:, ::-1]])[None]).reshape(-1, 3)
         if len(foot):
-            film.mesh(f"blossoms {colour}", points, faces, look=Surface(colour=colour, roughness=0.7))
+            sways = np.repeat(0.35 * (heart[:, 2] - place.floor), 6)  # with the blade that carries it
+            film.mesh(f"blossoms {colour}", points, faces, look=Surface(colour=colour, roughness=0.7), sways=sways)
 
 
 def stones(
@@ -91,9 +93,7 @@ def range_of_hills(
         - 0.5
         + height * np.sin(np.pi * np.minimum(1.0, 1.25 * depth)) ** 0.8 * np.clip(shape - crags, 0.05, None)
     )
-    k = np.arange(across * deep).reshape(deep, across)
-    a, b, c, d = (part.ravel() for part in (k[:-1, :-1], k[:-1, 1:], k[1:, 1:], k[1:, :-1]))
-    faces = np.concatenate([np.stack([a, c, b], 1), np.stack([a, d, c], 1)])
+    faces = lattice(deep, across)[:, [0, 2, 1]]
     film.mesh(name, np.stack([x, y, z], -1).reshape(-1, 3), faces, look=look)
 
 

@@ -38,7 +38,8 @@ def relight(own: Setting, told: Treatment) -> Setting:
     )
     found = replace(own, key=Light(azimuth, elevation, tuple(colour.tolist())), key_spread=spread)
     if told.sky_zenith is None:
-        return replace(found, sky=own.sky * told.sky_strength)
+        fills = tuple(replace(fill, colour=tuple(told.sky_strength * c for c in fill.colour)) for fill in own.fills)
+        return replace(found, sky=own.sky * told.sky_strength, fills=fills)
     far = (1e6, 2e6)
     return replace(
         found, index=TOLD, fills=(), sky=1.0, fade=far, pool=far, haze_m=260.0, key_in_sky=False, exposure=0.8

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 from OpenGL import GL
 
+from worldkit.materials.look import NOTHING
+
 from . import gl
 from .eye import View
+from .far_first import far_first
 from .shader_variants import Features, Variants, features, glossy
 from .shadows import ShadowMap
 from .soft import Soft
@@ -23,6 +26,10 @@ if TYPE_CHECKING:
 ROUND = ("sphere", "capsule", "cylinder")
 CLOSED = (*ROUND, "box")
 """Shapes whose far sides are never seen from outside."""
+SHEETS = ("plane", "disc", "hfield")
+"""Shapes without a thickness, which keep their tint whatever their look absorbs."""
+NESTED = 16
+"""Of so many see-through things each is seen through the others."""
 UNSEEN_PX = 40.0
 """The radius assumed where no eye looks, as in the shadow map."""
 
@@ -141,7 +148,8 @@ class Painter:
             wide = batch.shape[0] == "disc" or batch.finish.look.tile_m > 1.0
             target = GL.GL_TEXTURE_CUBE_MAP if kind == 2 else GL.GL_TEXTURE_2D
             program.texture("paint", 1 if kind == 2 else 0, self.supplies.picture(batch.finish, wide), target)
-        program.set(first=batch.first)
+        absorbs = NOTHING if batch.shape[0] in SHEETS else batch.finish.look.absorbs
+        program.set(first=batch.first, absorbs=absorbs)
         shape.draw(count)
 
     def shade(self, view: View, height: int, *, mirrored: bool = False) -> None:
@@ -170,18 +178,25 @@ class Painter:
                 far_sides.hide(batch.shape[0] in CLOSED)
                 self._shade(batch, self._shape(batch, view, height), len(batch.rows), mirror=True)
 
-    def shade_glass(self, view: View, height: int) -> None:
-        """Draw see-through things, the farthest first, over the picture so far."""
+    def shade_glass(self, view: View, height: int, copy: Callable[[], None]) -> None:
+        """Draw see-through things over the picture so far, the farthest first, and what is inside of another before it.
+
+        Where there are few, the picture is copied before each, so that one is seen through another.
+        """
         GL.glEnable(GL.GL_BLEND)
         GL.glBlendFuncSeparate(GL.GL_SRC_ALPHA, GL.GL_ONE_MINUS_SRC_ALPHA, GL.GL_ONE, GL.GL_ONE)
         owners = [(row, batch) for batch in self.things.batches if batch.clear for row in batch.rows]
-        places = self._rows[:, [3, 7, 11]]
-        owners.sort(key=lambda pair: -float((places[pair[0]] - view.eye) @ view.forward))
+        model, geoms = self.things.model, self.things.geoms[[row for row, _ in owners]]
+        frames = self._rows[[row for row, _ in owners], :12].reshape(-1, 3, 4)
+        order = far_first(frames, model.geom_aabb[geoms], model.geom_rbound[geoms], view.eye, view.forward)
+        owners = [owners[number] for number in order]
         with gl.FarSides(False) as far_sides:
             far_sides.hide(True)
             for shape, batch, count in self._soft(clear=True):
                 self._shade(batch, shape or self._shape(batch, view, height, count), count)
-            for row, batch in owners:
+            for number, (row, batch) in enumerate(owners):
+                if 0 < number < NESTED and len(owners) <= NESTED:
+                    copy()
                 single = replace(batch, first=row)
                 self._shade(single, self._shape(single, view, height, 1), 1)
         GL.glDisable(GL.GL_BLEND)

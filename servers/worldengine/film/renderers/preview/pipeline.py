@@ -122,6 +122,7 @@ class Pipeline:
         """Apply this light, haze, focus and grading from now on."""
         relit = treatment.lit != self._treatment.lit
         self._treatment = treatment
+        self.things.breeze = treatment.breeze
         if relit:
             self.setting = relight(self._own, treatment)
             self._sky_uniforms = sky_uniforms(self.setting, treatment)
@@ -283,7 +284,7 @@ class Pipeline:
             painter.shade_mirrors(view, height)
         if clear:
             self._copy(stage)
-            painter.shade_glass(view, height)
+            painter.shade_glass(view, height, lambda: self._copy(stage))
         scene, told = stage.picture.colour, self._treatment
         if told.aperture > 0:
             if stage.focus is None:

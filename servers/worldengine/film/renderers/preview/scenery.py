@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worldkit.filming.film_bounds import MOST_PANELS
+from worldkit.lights import LIGHT_GAIN
 from worldkit.model_text import numbers, read
 from worldkit.settings import SETTINGS, STUDIO, Setting
 
@@ -20,8 +21,6 @@ SPACE_NUMERIC = "worldkit.space"
 LIGHT_PREFIX = "worldkit."
 MOST, MOST_FILLS = 8, 4
 """Lights of the model, and fill lights of its setting, that the shader takes; `surface.frag` has room for as many together."""
-LIGHT_GAIN = 1.5
-"""MuJoCo's lights are sized for displays that clip at 1; ours for a film curve."""
 
 
 def setting_of(model: mujoco.MjModel) -> Setting | None:

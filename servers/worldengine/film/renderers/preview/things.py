@@ -13,6 +13,8 @@ import numpy as np
 from worldkit.materials.look import Look
 
 from ....recording.seen import skinned
+from ... import swaying
+from . import mean_chord
 from .finish import DEFAULT_RGBA, Finish, linear, of_material, plain
 
 if TYPE_CHECKING:
@@ -47,10 +49,11 @@ def _longest(size: np.ndarray) -> float:
     return SIDE_MODE + float(np.argmax(size))
 
 
-def _traits(look: Look) -> tuple[bool, ...]:
+def _traits(look: Look) -> tuple[object, ...]:
     """The traits that plain looks must share to be drawn together."""
     glossy = look.roughness < 0.3 and (look.metallic > 0.5 or look.coat >= 0.4)
-    return (look.coat > 0, look.sheen > 0, look.mark, look.vary > 0, look.clear > 0, glossy)
+    clear = (look.index, look.absorbs) if look.clear > 0 else ()
+    return (look.coat > 0, look.sheen > 0, look.mark, look.vary > 0, look.clear > 0, glossy, *clear)
 
 
 def pieces(model: mujoco.MjModel) -> np.ndarray:
@@ -132,6 +135,9 @@ class Things:
         self._glossy = [
             i for i, g in enumerate(self.geoms) if i != self.ground and model.geom_type[g] != kinds.mjGEOM_PLANE
         ]
+        self._swaying = np.flatnonzero(np.isin(self.geoms, sorted(swaying.geoms(model))))
+        self.breeze: tuple[float, float, float] | None = None
+        """The wind towards x and y, m/s, and the time, s."""
         self._balls = np.flatnonzero(model.geom_type[self.geoms] == int(kinds.mjGEOM_SPHERE))
         self._supports_of_fixed = False
 
@@ -175,6 +181,10 @@ class Things:
         bevel = 0.0
         if kind in (kinds.mjGEOM_BOX, kinds.mjGEOM_CYLINDER) and entry.clear == 0:
             bevel = float(np.clip(0.035 * full.min(), 0.0004, 0.008))
+        elif kind in (kinds.mjGEOM_MESH, kinds.mjGEOM_SDF) and entry.clear > 0:
+            bevel = mean_chord.radius(self.model, int(self.model.geom_dataid[geom]))
+        elif kind == kinds.mjGEOM_CAPSULE and entry.clear > 0:
+            bevel = mean_chord.of_capsule(size[0], size[1])
         out[28:32] = geom, entry.emission, 0.0, bevel
         out[30] = geom / max(self.model.ngeom, 1)
         shapes = {
@@ -213,6 +223,10 @@ class Things:
         frame[:, :, :3] = rotation
         frame[:, :, 3] = data.geom_xpos[self.geoms]
         self.rows[self._balls, 12:15] = self.model.geom_size[self.geoms[self._balls], :1]
+        if len(self._swaying) and self.breeze is not None:
+            x, y, time = self.breeze
+            self.rows[self._swaying, 15], self.rows[self._swaying, 31] = x, y
+            self.rows[self._swaying, 39] = swaying.FLAG + time
         self._support(data)
 
     def _support(self, data: mujoco.MjData) -> None:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from worldkit.forms.lattice import lattice
+
 from . import hard_edges
 
 if TYPE_CHECKING:
@@ -153,9 +155,7 @@ def height_field(model: mujoco.MjModel, index: int) -> Vertices:
     points = np.stack([x, y, z], -1)
     uv = np.stack([x / (2 * rx) + 0.5, y / (2 * ry) + 0.5], -1)
     vertices = [_pack(points.reshape(-1, 3), normal.reshape(-1, 3), uv.reshape(-1, 2))]
-    k = np.arange(rows * columns).reshape(rows, columns)
-    a, b, c, d = (part.ravel() for part in (k[:-1, :-1], k[:-1, 1:], k[1:, 1:], k[1:, :-1]))
-    triangles = [np.concatenate([np.stack([a, b, c], -1), np.stack([a, c, d], -1)])]  # cut as the engine collides
+    triangles = [lattice(rows, columns)]  # cut as the engine collides
     used = rows * columns
     edges = (
         (points[0], (0, -1, 0)),

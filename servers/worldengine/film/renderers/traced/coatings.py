@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from worldkit.materials import paint
+from worldkit.materials.look import NOTHING
 
 from ..preview.finish import Finish, model_pixels
+from . import variant
 
 if TYPE_CHECKING:
     import mujoco
 
 PIXELS, WIDE_PIXELS, CUBE_PIXELS, BALL_PIXELS = 512, 1024, 256, 512
-GLASS, WATER = 1.5, 1.33
-"""Indices of refraction."""
 CLEAR = 0.6
 """What is more transparent than this by its colour alone is glass; the rest is partly there."""
 
@@ -70,6 +70,8 @@ class Coatings:
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
+        self.fades = variant.choose() != variant.PLAIN
+        """Light fades in what absorbs it by the way that it goes there; computed plainly, it is tinted where it enters."""
         self._made: dict[Any, Any] = {}
         self._pictures: dict[Any, np.ndarray] = {}
 
@@ -128,9 +130,9 @@ class Coatings:
         if entry.clear > 0 or alpha < CLEAR:
             tint = {"type": "rgb", "value": [float(x) for x in np.clip(rgb, 0.0, 1.0) ** 0.5]}
             if sheet:
-                return {"type": "thindielectric", "int_ior": GLASS, "specular_transmittance": tint}
-            index = WATER if "water" in entry.description.lower() else GLASS
-            return {"type": "dielectric", "int_ior": index, "specular_transmittance": tint}
+                return {"type": "thindielectric", "int_ior": entry.index, "specular_transmittance": tint}
+            faded = self.fades and entry.absorbs != NOTHING
+            return {"type": "dielectric", "int_ior": entry.index} | ({} if faded else {"specular_transmittance": tint})
         pixels = marked(rgb) if mark else self.picture(finish, wide)
         if pixels is None:
             colour: dict[str, Any] = {"type": "rgb", "value": [float(x) for x in np.clip(rgb, 0.0, 0.97)]}

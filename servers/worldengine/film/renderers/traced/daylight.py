@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from worldkit.lights import LIGHT_GAIN
 from worldkit.settings import Setting
 
 from ...treatment import Treatment
 from ..preview import sky_maps
-from ..preview.scenery import LIGHT_GAIN
 
 if TYPE_CHECKING:
     import mujoco

@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from worldkit.materials.look import NOTHING
+
+from ... import swaying
 from ...panel_lights import of_model
 from ..preview import unit_shapes
 from ..preview.things import EXACT_UV, FLAT_UV, Things
@@ -41,9 +44,14 @@ class Figure:
     params: Any = None
     meshed: list[bool] = field(default_factory=list)
     """Which of them are meshes of any shape, through which light does not go."""
+    absorbs: tuple[float, float, float] = NOTHING
+    """What light loses of itself in it, 1/m."""
     _placed: tuple[np.ndarray, np.ndarray] | None = None
     _faces: bytes = b""
     _turned: bool = False
+    _blown: tuple[float, float, float] | None = None
+    sways: list[np.ndarray] = field(default_factory=list)
+    """Of each mesh that a breeze moves its corners' weights, m, and phases, (V, 2)."""
     poses: np.ndarray | None = None
     """Of each geom the rotation, place and size that it was given last, (G, 13)."""
 
@@ -59,15 +67,20 @@ class Figure:
         faces = np.concatenate([mesh.faces + start for mesh, start in zip(self.meshes, self._ends[:-1], strict=True)])
         self.shape, self.params = mesh_of(len(self.points), faces, uv, self.coating, self.glow)
 
-    def place(self, data: mujoco.MjData, sizes: np.ndarray) -> bool:
+    def place(self, data: mujoco.MjData, sizes: np.ndarray, breeze: tuple[float, float, float] | None = None) -> bool:
         """Move it to the poses in `data`, with the geoms' present sizes over those drawn; returns whether anything changed."""
         poses = np.column_stack([data.geom_xmat[self.geoms], data.geom_xpos[self.geoms], sizes[self.geoms]])
-        if self.poses is not None and np.array_equal(poses, self.poses):
+        blown = breeze if self.sways else None
+        if self.poses is not None and np.array_equal(poses, self.poses) and blown == self._blown:
             return False
+        self._blown = blown
         self.poses = poses
         rotation = poses[:, :9].reshape(-1, 3, 3)
         normals = np.einsum("vij,vj->vi", rotation[self.owner], self.normals)
         points = self._stands(poses)
+        if blown is not None:
+            weight, phase = np.concatenate(self.sways).T
+            points = points + swaying.swayed(points, weight, phase, blown)
         fill(self.params, points, normals)
         self._placed = (points, normals) if any(self.meshed) else None
         self._faces, self._turned = b"", False
@@ -165,6 +178,13 @@ def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int) 
     return along_sides(mesh, int(mode + 0.5), per_metre, seed)
 
 
+def found_again(points: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Weights, m, and phases (V, 2) of corners at `points` (V, 3), which paint may have split, of a mesh that tells them."""
+    known = {place.tobytes(): number for number, place in enumerate(rows[:, :3].astype(np.float32))}
+    chosen = [known[place.tobytes()] for place in points.astype(np.float32)]
+    return np.column_stack([rows[chosen, 7], 1.0 - rows[chosen, 8]]).astype(float)
+
+
 class Figures:
     """The figures of one model."""
 
@@ -175,6 +195,7 @@ class Figures:
         self.coatings = Coatings(model)
         self._sizes = np.array(model.geom_size[:, 0])
         self.all: list[Figure] = []
+        self._swaying = swaying.geoms(model)
         self.clear = any(batch.clear for batch in self.things.batches)
         """Glass or water is in the world, which takes longer paths."""
         groups: dict[Any, Figure] = {}
@@ -203,11 +224,15 @@ class Figures:
         if batch.finish.texture >= 0 or entry.paint:  # what glows by a picture glows in its mean colour
             glow = np.asarray(batch.finish.mean) * float(numbers[29]) if glow.any() else glow
         see_through = batch.clear and not sheet
-        key = (-1 if fixed else body, id(coating), tuple(glow), geom if see_through else -1)
-        figure = groups.setdefault(key, Figure(coating, glow))
+        alone = see_through or geom in self._swaying
+        key = (-1 if fixed else body, id(coating), tuple(glow), geom if alone else -1)
+        figure = groups.setdefault(key, Figure(coating, glow, absorbs=entry.absorbs if see_through else NOTHING))
         figure.geoms.append(geom)
         figure.meshed.append(kind == "mesh" and not see_through)
         figure.meshes.append(shape_of(self.model, batch, numbers, geom))
+        if geom in self._swaying:
+            rows, _ = unit_shapes.mesh(self.model, batch.shape[1])
+            figure.sways.append(found_again(figure.meshes[-1].points, rows))
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
         """Meshes of the endless planes, none of which moves."""
@@ -227,12 +252,16 @@ class Figures:
                     fill(params, ring.mesh.points @ frame[:, :3].T + frame[:, 3], ring.mesh.normals @ frame[:, :3].T)
                     yield shape
 
-    def place(self, data: mujoco.MjData) -> bool:
-        """Move all figures to the poses in `data`; returns whether anything changed."""
+    def place(self, data: mujoco.MjData, breeze: tuple[float, float, float] | None = None) -> bool:
+        """Move all figures to the poses in `data`, and what sways by a breeze; returns whether anything changed."""
         sizes = np.ones(self.model.ngeom)
         balls = self.things.geoms[self.things._balls]
         sizes[balls] = self.model.geom_size[balls, 0] / np.maximum(self._sizes[balls], 1e-12)
-        return bool(sum([figure.place(data, sizes) for figure in self.all]))
+        return bool(sum([figure.place(data, sizes, breeze) for figure in self.all]))
+
+    def absorbing(self) -> list[tuple[Any, tuple[float, float, float]]]:
+        """The shapes in which light fades, with what it loses, 1/m."""
+        return [(figure.shape, figure.absorbs) for figure in self.all if figure.absorbs != NOTHING]
 
     def poses(self) -> tuple[np.ndarray, ...]:
         """Where all figures stand."""

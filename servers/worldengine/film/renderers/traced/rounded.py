@@ -6,6 +6,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from worldkit.forms.lattice import lattice
+
 SHARE, LEAST_M, MOST_M = 0.035, 0.0004, 0.008
 """The radius of an edge, as a share of the smallest half size, lies between these."""
 ENDS = np.radians([0.0, 22.5, 45.0])
@@ -23,13 +25,6 @@ class Mesh(NamedTuple):
 def edge(smallest: float) -> float:
     """The radius of the edges of a thing of this smallest half size, m."""
     return float(min(np.clip(SHARE * smallest, LEAST_M, MOST_M), 0.45 * smallest))
-
-
-def grid(rows: int, columns: int) -> np.ndarray:
-    """(M, 3) triangles of a grid of `rows` x `columns` vertices, row-major."""
-    a = (np.arange(rows - 1)[:, None] * columns + np.arange(columns - 1)).ravel()
-    b, c, d = a + 1, a + columns, a + columns + 1
-    return np.concatenate([np.stack([a, b, d], -1), np.stack([a, d, c], -1)])
 
 
 def box(half: np.ndarray) -> Mesh:
@@ -53,7 +48,7 @@ def box(half: np.ndarray) -> Mesh:
             normal /= np.linalg.norm(normal, axis=1, keepdims=True)
             points.append(inner + radius * normal)
             normals.append(normal)
-            faces.append(used + grid(len(lines[0]), len(lines[1])))
+            faces.append(used + lattice(len(lines[0]), len(lines[1])))
             used += len(face)
     found = Mesh(np.concatenate(points), np.concatenate(normals), np.concatenate(faces))
     return found._replace(faces=outward(found))
@@ -79,7 +74,7 @@ def turned(profile: np.ndarray, slopes: np.ndarray, sectors: int) -> Mesh:
     uv = np.stack(
         np.broadcast_arrays(phi[None] / (2 * np.pi), np.linspace(1.0, 0.0, len(profile))[:, None]), -1
     ).reshape(-1, 2)
-    mesh = Mesh(around(profile), around(slopes), grid(len(profile), sectors + 1), uv)
+    mesh = Mesh(around(profile), around(slopes), lattice(len(profile), sectors + 1), uv)
     return mesh._replace(faces=outward(mesh))
 
 
@@ -121,5 +116,5 @@ def sheet(half_x: float, half_y: float) -> Mesh:
     a, b = np.meshgrid(x, y, indexing="xy")
     points = np.stack([a.ravel(), b.ravel(), np.zeros(4)], -1)
     normals = np.tile([0.0, 0.0, 1.0], (4, 1))
-    mesh = Mesh(points, normals, grid(2, 2), np.array([[0, 1], [1, 1], [0, 0], [1, 0]], dtype=float))
+    mesh = Mesh(points, normals, lattice(2, 2), np.array([[0, 1], [1, 1], [0, 0], [1, 0]], dtype=float))
     return mesh._replace(faces=outward(mesh))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from . import daylight, panel_emitters, plates, rounded, variant, walked
 from .darkroom import Scene, air, develop
 from .denoised import Denoiser
 from .figures import Figures, fill, mesh_of
+from .glimpses import Glimpse, Outlook
 from .half_room import Face, Walls
 from .plates import Plate, Sight
 from .shutter import FINEST, Shutter, sensor
@@ -44,24 +45,6 @@ LEAST_ALBEDO = 0.2
 """Darker surfaces show light as it comes: of what they hardly reflect no draft can tell what fell on them."""
 BRIGHTEST = 12.0
 """Of few samples, a pixel of more scene light would be a speck that the denoiser cannot take out; of many, it is a caustic."""
-
-
-class Outlook(NamedTuple):
-    """Unit viewing directions (H, W, 3), and by how much the surroundings look otherwise than they light things."""
-
-    ways: np.ndarray
-    behind: np.ndarray | None
-
-
-class Glimpse(NamedTuple):
-    """What is seen from one place besides the light on things: where they are, as in `Rays`, and what is around them."""
-
-    view: View
-    outlook: Outlook
-    painted: frozenset[Face]
-    """Walls that are painted in, since they stand between the eye and the room."""
-    places: np.ndarray
-    seen: np.ndarray
 
 
 class Tracing:
@@ -101,6 +84,7 @@ class Tracing:
         """Scenes that do not know yet that something has moved."""
         self._denoiser: tuple[Any, Denoiser] | None = None
         self._depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
+        self._absorbing = [*self.figures.absorbing(), *self._strands.absorbing] if self.figures.coatings.fades else []
         self._plates = plates.Shelf()
         self._plain: Drawing | None = None
         self.figures.place(rest)
@@ -205,7 +189,7 @@ class Tracing:
 
     def _placed(self, data: mujoco.MjData, view: View, faces: frozenset[Face]) -> Any:
         """The scene with these walls at the poses of `data`, as it is seen from here."""
-        if self.figures.place(data) | self._strands.place(data):
+        if self.figures.place(data, self._treatment.breeze) | self._strands.place(data):
             self._stale.update(self._scenes)
         for figure in self.figures.all:
             figure.face(view.eye)
@@ -224,7 +208,7 @@ class Tracing:
     ) -> Rays:
         """Trace the picture of `data`, with these walls, or some of it; its light `coarser` times smaller each way."""
         scene, eye = self._placed(data, view, faces), self._sensor(view, "rgb", coarser)
-        light = walked.light(scene, eye, self._depth, samples, seed, where)
+        light = walked.light(scene, eye, self._depth, samples, seed, where, self._absorbing)
         return walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
 
     def image(self, data: mujoco.MjData, camera: int, quality: Quality) -> np.ndarray:
@@ -278,15 +262,14 @@ class Tracing:
     def over(self, before: Sequence[Before], moments: Sequence[Moment], camera: int, quality: Quality) -> np.ndarray:
         """As `blurred`, but where nothing differs from the pictures `before` of the same still camera and light, these stand."""
         shutter = Shutter.of(quality, len(moments))
-        view, outlook, drawn, painted = self._seen(moments[0](), camera)
+        first = moments[0]()  # which stands only until another moment is asked for
+        view, outlook, drawn, painted = self._seen(first, camera)
+        self._placed(first, view, drawn)
+        now, moved = self.figures.poses(), self.figures.how_many_moved
         before = before[: self.beside(len(moments), quality)]
         self._plates.keep({(one.name, shutter) for one in before})
         found = [self._plate(one, shutter, camera) for one in before]
-        key = self._key(moments[0](), camera)
-        known = [plate for plate in found if plate.key == key]
-        if known:
-            self._placed(moments[0](), view, drawn)
-        now, moved = self.figures.poses(), self.figures.how_many_moved
+        known = [plate for plate in found if plate.key == self._key(view, drawn)]
         known = [plate for plate in known if moved(plate.sights[0].poses, now) <= plates.MOST_MOVED]
         sights = self._sights(moments, view, drawn) if known else ()
         look = plates.Look.of(self.setting, self._treatment, self._floor_z)
@@ -304,14 +287,18 @@ class Tracing:
         """How many pictures of its shot at most `over` draws with one of so many moments: those that have room."""
         shutter, pixels = Shutter.of(quality, moments), self.width * self.height
         # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
-        still = self._treatment.aperture <= 0 and variant.choose() != variant.PLAIN and shutter.coarser == 1
+        still = (
+            self._treatment.aperture <= 0
+            and self._treatment.breeze is None
+            and variant.choose() != variant.PLAIN
+            and shutter.coarser == 1
+        )
         held = (*self.figures.poses(), *self._strands.points.values())
         sight = sum(part.nbytes for part in held) + 12 * pixels // plates.SIDE**2
         return plates.fitting(pixels, sight, shutter.moments) if still else 0
 
-    def _key(self, data: mujoco.MjData, camera: int) -> Any:
+    def _key(self, view: View, drawn: frozenset[Face]) -> Any:
         """What has to be equal in two pictures for the light of the one to be that of the other."""
-        view, _, drawn, _ = self._seen(data, camera)
         return view.eye.tobytes(), view.axes.tobytes(), view.tangents, drawn, self._treatment.lit
 
     def _plate(self, one: Before, shutter: Shutter, camera: int) -> Plate:
@@ -320,8 +307,9 @@ class Tracing:
         plate = self._plates.find(name)
         if plate is None:
             view, _, drawn, _ = self._seen(one.moments[0](), camera)
-            key = self._key(one.moments[0](), camera)
-            moving = any(self._key(moment(), camera) != key for moment in one.moments)
+            key = self._key(view, drawn)
+            seen = (self._seen(moment(), camera) for moment in one.moments[1:])
+            moving = any(self._key(later, walls) != key for later, _, walls, _ in seen)
             sights = () if moving else self._sights(one.moments, view, drawn)
             rays, _ = self._exposed((moment() for moment in one.moments), shutter, camera)
             plate = self._plates.put(name, Plate(None if moving else key, sights, rays, self._cleaned(rays, shutter)))
@@ -332,7 +320,8 @@ class Tracing:
         sights = []
         for moment in moments:
             scene = self._placed(moment(), view, drawn)
-            light = walked.light(scene, self._sensor(view, "rgb", plates.SIDE), self._depth, plates.SAMPLES, 0)
+            eye = self._sensor(view, "rgb", plates.SIDE)
+            light = walked.light(scene, eye, self._depth, plates.SAMPLES, 0, absorbing=self._absorbing)
             sights.append(Sight(light, self.figures.poses(), dict(self._strands.points)))
         return tuple(sights)
 

@@ -5,14 +5,16 @@ With the same seed each path meets the same chances, so a pixel that is walked a
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from . import absorbed
+
 AT_ONCE = 64
 """Samples a pixel that are traced in one go, since the memory they take grows with them."""
-LONGEST = 16
-"""No path is ended by chance before this many turns."""
+Absorbing = Sequence[tuple[Any, tuple[float, float, float]]]
 
 
 class Rays(NamedTuple):
@@ -50,7 +52,15 @@ def spread(mask: np.ndarray, height: int, width: int) -> np.ndarray:
     return mask[np.arange(height)[:, None] * rows // height, np.arange(width) * columns // width]
 
 
-def light(scene: Any, sensor: Any, depth: int, samples: int, seed: int, where: np.ndarray | None = None) -> np.ndarray:
+def light(
+    scene: Any,
+    sensor: Any,
+    depth: int,
+    samples: int,
+    seed: int,
+    where: np.ndarray | None = None,
+    absorbing: Absorbing = (),
+) -> np.ndarray:
     """Scene light (H, W, 3) of paths of at most `depth` turns; where a coarser mask does not have it, nothing.
 
     Args:
@@ -59,10 +69,15 @@ def light(scene: Any, sensor: Any, depth: int, samples: int, seed: int, where: n
         samples: a pixel.
         seed: of their chances.
         where: (h, w) of the pixels that are walked, a mask of any size.
+        absorbing: shapes in which light fades, with how much of each colour, 1/m.
     """
     import mitsuba as mi
 
-    path = mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": LONGEST})
+    path = (
+        absorbed.walker(depth, absorbing)
+        if absorbing
+        else mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": absorbed.LONGEST})
+    )
     total: Any = np.float32(0)
     for first in range(0, samples, AT_ONCE):
         some = min(AT_ONCE, samples - first)

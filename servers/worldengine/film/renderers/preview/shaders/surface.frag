@@ -35,6 +35,9 @@ uniform float stride;
 uniform vec3 eye;
 uniform vec3 forward;
 uniform vec2 pixels;
+#if CLEAR
+uniform vec3 absorbs;            // what light loses in what is clear, 1/m; nil: it is tinted instead
+#endif
 uniform vec3 harmonics[9];       // irradiance of the upper surroundings over pi
 uniform vec3 ground_mean;        // mean colour of the ground
 uniform vec3 ground_light;       // light that falls on level ground, over pi
@@ -141,6 +144,26 @@ float occlusion(vec2 at, float distance_m) {
     return dot(w, shades) / dot(w, vec4(1.0));
 }
 
+#if CLEAR
+// How far a ray goes on inside of a thing, m: from p along d, both in the thing's own frame; dip is how straight it goes in.
+float way_within(vec3 p, vec3 d, float kind, float radius, float dip) {
+    vec3 half_size = abs(size.xyz);
+    vec3 inverse = 1.0 / (d + vec3(1e-6) * (step(0.0, d) * 2.0 - 1.0));
+    vec3 walls = (sign(d) * half_size - p) * inverse;
+    if (kind > 1.5 && kind < 2.5) return max(min(walls.x, min(walls.y, walls.z)), 0.0);
+    if (kind > 2.5 && kind < 3.5) {
+        float a = max(dot(d.xy, d.xy), 1e-6), b = dot(p.xy, d.xy);
+        float round_wall = (-b + sqrt(max(b * b - a * (dot(p.xy, p.xy) - half_size.x * half_size.x), 0.0))) / a;
+        return max(min(round_wall, walls.z), 0.0);
+    }
+    if (kind > 0.5 && kind < 1.5) {
+        vec3 q = p / half_size, w = d / half_size;
+        return 2.0 * max(-dot(q, w), 0.0) / dot(w, w);
+    }
+    return 2.0 * radius * dip;
+}
+#endif
+
 void main() {
     mat3 rotation = transpose(mat3(row0.xyz, row1.xyz, row2.xyz));
     vec3 to_eye = eye - world;
@@ -154,7 +177,7 @@ void main() {
     float height = 1.0;
     float extent = max(size.x, max(size.y, abs(size.z)));
 #if CLEAR
-    if (misc.w > 0.0) extent = misc.w;  // of a soft thing, which has no size of its own
+    if (more.y > 0.0 && misc.w > 0.0) extent = misc.w;  // of a soft thing, which has no size of its own; else a bevel
 #endif
 #if PAINT == 1
     Paint coat_of_paint = paint_sides(local, nl, int(weave.z + 0.5), weave.x, weave.y, weave.w);
@@ -321,6 +344,8 @@ void main() {
         vec4 clip = to_clip * vec4(exit_point + onward * max(t, 0.0), 1.0);
         vec2 q = clamp(clip.xy / clip.w * 0.5 + 0.5, 0.002, 0.998);
         vec3 tint = pow(base.rgb, vec3(BALL == 1 ? 0.9 : 0.5 + 0.9 * (1.0 - nv)));
+        if (dot(absorbs, vec3(1.0)) > 0.0)
+            tint = exp(-absorbs * way_within(local, through * rotation, more.w, misc.w, dip));
         c = textureLod(behind, q, 0.0).rgb * tint * (1.0 - f) + mirror * f + shine;
         alpha = more.y > 0.0 ? 1.0 : base.a;
         if (more.y <= 0.0) c = light + shine + env + albedo * misc.y;

@@ -1,4 +1,5 @@
 // Places one instance of a shape: the pose, size and appearance of each thing lie in a buffer texture, ten texels apiece.
+#include "swaying.glsl"
 layout(location = 0) in vec4 corner;
 layout(location = 1) in vec3 corner_normal;
 layout(location = 2) in vec2 corner_uv;
@@ -45,6 +46,8 @@ void main() {
     local_normal = corner_normal / max(abs(extent.xyz), 1e-9);
     world = rotation * local + origin;
     uv = corner_uv;
+    float kind = texelFetch(things, thing + 9).w;
+    if (kind >= 100.0) world += swayed(world, vec2(corner_uv.x, 1.0 - corner_uv.y), vec2(extent.w, facts.w), kind - 100.0);
     vec3 drawn = world;
     if (mirrored == 1) drawn.z = 2.0 * mirror_z - drawn.z;
     gl_ClipDistance[0] = mirrored == 1 ? world.z - mirror_z + 1e-4 : 1.0;

@@ -1,0 +1,78 @@
+"""What a film draws that sways, in the way of a ray: tested where the breeze carries it, as both renderers draw it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import swaying
+
+if TYPE_CHECKING:
+    import mujoco
+
+ASIDE_GROUP = 5
+"""The group that a ray does not meet."""
+
+
+class Swaying:
+    """The meshes of a dressed model that sway, with their corners' weights and phases."""
+
+    def __init__(self, model: mujoco.MjModel) -> None:
+        self.model = model
+        self.geoms = np.array(sorted(swaying.geoms(model)), dtype=int)
+        self._group = np.array(model.geom_group[self.geoms])
+        self._parts = [_corners(model, geom) for geom in self.geoms]
+        self._placed: list[np.ndarray] = []
+
+    def __enter__(self) -> Swaying:
+        """Let MuJoCo's rays, which know the meshes only in calm air, pass them."""
+        self.model.geom_group[self.geoms] = ASIDE_GROUP
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.model.geom_group[self.geoms] = self._group
+
+    def blow(self, data: mujoco.MjData, breeze: tuple[float, float, float]) -> None:
+        """Move their corners to where they are in `data`, in a wind towards x and y, m/s, at a time, s."""
+        self._placed = []
+        for geom, (points, told, _) in zip(self.geoms, self._parts, strict=True):
+            there = points @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+            self._placed.append(there + swaying.swayed(there, told[:, 0], told[:, 1], breeze))
+
+    def nearest(self, eye: np.ndarray, way: np.ndarray, away: float) -> tuple[float, int]:
+        """How far from `eye` (3,) along `way` (3,), of length 1, the nearest stands, m, and its geom; (`away`, -1) if none does."""
+        one = np.cross(way, (1.0, 0.0, 0.0) if abs(way[0]) < 0.9 else (0.0, 1.0, 0.0))
+        one /= np.linalg.norm(one)
+        basis = np.stack([one, np.cross(way, one), way])
+        found, owner = away, -1
+        for geom, points, (_, _, faces) in zip(self.geoms, self._placed, self._parts, strict=True):
+            flat = (points - eye) @ basis.T  # as the ray sees them: it runs along the third axis
+            a, b, c = (flat[faces[:, k]] for k in range(3))
+            shares = np.stack([_cross(b, c), _cross(c, a), _cross(a, b)], axis=1)
+            met = (shares >= 0).all(axis=1) | (shares <= 0).all(axis=1)
+            total = shares.sum(axis=1)
+            met &= np.abs(total) > 1e-18
+            if not met.any():
+                continue
+            depth = (shares[met] * np.stack([a[met, 2], b[met, 2], c[met, 2]], axis=1)).sum(axis=1) / total[met]
+            depth = depth[depth > 0]
+            if len(depth) and depth.min() < found:
+                found, owner = float(depth.min()), int(geom)
+        return found, owner
+
+
+def _cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    product: np.ndarray = a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]
+    return product
+
+
+def _corners(model: mujoco.MjModel, geom: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """A mesh's corners (C, 3), m, in the geom's frame, their weights, m, and phases (C, 2), and its faces (F, 3)."""
+    mesh = int(model.geom_dataid[geom])
+    chosen = slice(model.mesh_faceadr[mesh], model.mesh_faceadr[mesh] + model.mesh_facenum[mesh])
+    faces, coords = model.mesh_face[chosen].astype(int), model.mesh_facetexcoord[chosen].astype(int)
+    pairs, back = np.unique(np.stack([faces.ravel(), coords.ravel()], axis=1), axis=0, return_inverse=True)
+    points = model.mesh_vert[model.mesh_vertadr[mesh] + pairs[:, 0]].astype(float)
+    told = model.mesh_texcoord[model.mesh_texcoordadr[mesh] + pairs[:, 1]].astype(float)
+    return points, told, back.reshape(-1, 3)

@@ -1,0 +1,116 @@
+"""Paths of light that fade in what is clear and coloured: tea, wine, honey, bottle glass, by the way that they go in it.
+
+Light keeps exp(-a d) of itself on a way d, m, in a substance that absorbs a, 1/m, of each colour (Beer and Lambert). That is
+told for each stretch of a path from where it entered and left things, so it has no noise of its own; nothing is scattered.
+Where a liquid reaches a little into the glass around it, both count, and light bends as if they touched.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+LONGEST = 16
+"""No path is ended by chance before this many turns."""
+
+
+def walker(depth: int, absorbing: Sequence[tuple[Any, tuple[float, float, float]]]) -> Any:
+    """Mitsuba's integrator for paths of at most `depth` turns through shapes that absorb so much, 1/m; compiled variants only."""
+    import drjit as dr
+    import mitsuba as mi
+
+    numbers = [int(dr.reinterpret_array(mi.UInt32, mi.ShapePtr(shape))[0]) for shape, _ in absorbing]
+    table = np.zeros((3, max(numbers) + 1), np.float32)
+    for number, (_, absorbs) in zip(numbers, absorbing, strict=True):
+        table[:, number] = absorbs
+    found = _kind()(mi.Properties())
+    found.depth = depth
+    found.table = [mi.Float(row) for row in table]
+    dr.make_opaque(found.table)
+    return found
+
+
+def weight(one: Any, other: Any) -> Any:
+    """The power heuristic."""
+    import drjit as dr
+
+    one, other = dr.square(one), dr.square(other)
+    return dr.select(one > 0, one / (one + other), 0)
+
+
+@cache
+def _kind() -> type:
+    """The integrator's class, of the variant that is chosen: Mitsuba's own path tracer, and what is absorbed on the way."""
+    import drjit as dr
+    import mitsuba as mi
+
+    class Absorbed(mi.SamplingIntegrator):
+        depth = 0
+        table: list[Any] = []
+
+        def absorbs(self, shape: Any, active: Any) -> Any:
+            """What a shape absorbs, 1/m, of each colour."""
+            number: Any = dr.reinterpret_array(mi.UInt32, shape)
+            active &= number < dr.width(self.table[0])
+            return mi.Color3f([dr.gather(mi.Float, row, number, active) for row in self.table])
+
+        @dr.syntax
+        def sample(self, scene: Any, sampler: Any, ray: Any, medium: Any = None, active: Any = True) -> Any:
+            """Light of a ray, as Mitsuba's `path` finds it, with the same chances."""
+            import drjit as dr  # what is compiled from this text knows no names from around it
+            import mitsuba as mi
+
+            context = mi.BSDFContext()
+            active = mi.Bool(active)
+            ray = mi.Ray3f(ray)
+            depth, eta = mi.UInt32(0), mi.Float(1)
+            throughput, result, within = mi.Spectrum(1), mi.Spectrum(0), mi.Color3f(0)
+            seen = mi.Bool(scene.environment() is not None)
+            before = dr.zeros(mi.SurfaceInteraction3f)
+            before_pdf, before_delta = mi.Float(1), mi.Bool(True)
+            while active:
+                si = scene.ray_intersect(ray, +mi.RayFlags.All, coherent=depth == 0, active=active)
+                throughput *= dr.select(si.is_valid(), dr.exp(-within * dr.select(si.is_valid(), si.t, 0)), 1)
+
+                ds = mi.DirectionSample3f(scene, si, before)
+                chance = scene.pdf_emitter_direction(before, ds, ~before_delta)
+                result = dr.fma(
+                    throughput, ds.emitter.eval(si, active & (before_pdf > 0)) * weight(before_pdf, chance), result
+                )
+                goes_on = active & (depth + 1 < self.depth) & si.is_valid()
+
+                bsdf = si.bsdf(ray)
+                lit = goes_on & mi.has_flag(bsdf.flags(), mi.BSDFFlags.Smooth)
+                ds, strength = scene.sample_emitter_direction(si, sampler.next_2d(), True, lit)
+                lit &= ds.pdf != 0
+                wo = si.to_local(ds.d)
+                value, pdf, sampled, kept = bsdf.eval_pdf_sample(
+                    context, si, wo, sampler.next_1d(goes_on), sampler.next_2d(goes_on), goes_on
+                )
+                share = dr.select(ds.delta, 1, weight(ds.pdf, pdf))
+                share *= dr.select(
+                    dr.isfinite(ds.dist), dr.exp(-within * dr.select(dr.isfinite(ds.dist), ds.dist, 0)), 1
+                )
+                result[lit] = dr.fma(throughput, value * strength * share, result)
+
+                through = goes_on & mi.has_flag(sampled.sampled_type, mi.BSDFFlags.Transmission)
+                change = self.absorbs(si.shape, through)
+                within = dr.maximum(within + dr.select(through, dr.select(si.wi.z > 0, change, -change), 0), 0)
+                ray = si.spawn_ray(si.to_world(sampled.wo))
+                throughput[goes_on] *= kept
+                eta *= sampled.eta
+                seen |= goes_on & ~mi.has_flag(sampled.sampled_type, mi.BSDFFlags.Null)
+                before = dr.detach(si, True)
+                before_pdf = sampled.pdf
+                before_delta = mi.has_flag(sampled.sampled_type, mi.BSDFFlags.Delta)
+
+                depth[si.is_valid()] += 1
+                most: Any = dr.max(throughput)
+                ends = sampler.next_1d() >= dr.minimum(most * dr.square(eta), 0.95)
+                active = goes_on & ((depth < LONGEST) | ~ends) & (most != 0)
+            return dr.select(seen, result, 0), seen, []
+
+    return Absorbed
