@@ -1,7 +1,8 @@
 """What holds for every test: the OpenGL that draws, hypothesis' examples, and that nothing is left out in silence.
 
 Which OpenGL draws is decided before anything imports the simulator. Where `CI=true`, a test that skips fails: CI is meant
-to prove it. Elsewhere the whole suite says at its end what it did not run, and how to.
+to prove it. Elsewhere the whole suite says at its end what it did not run, and how to. A test that fails is named when it does,
+also when workers run the tests; why it failed stands at the end as always.
 """
 
 import atexit
@@ -78,6 +79,30 @@ def pytest_make_collect_report() -> Generator[None, pytest.CollectReport, pytest
     report = yield
     _judged(report)
     return report
+
+
+class NamedAtOnce:
+    """Between the dots, writes `FAILED` and the name of a test as soon as one fails: a long run's end is far."""
+
+    def __init__(self, config: pytest.Config) -> None:
+        self.config = config
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """After the letter that stands for the test."""
+        if not report.failed:
+            return
+        terminal = self.config.get_terminal_writer()
+        if terminal.width_of_current_line:
+            terminal.line()
+        terminal.line(f"FAILED {report.nodeid}")
+        terminal.flush()  # who reads along reads a pipe or a file
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Name failures where the terminal is, which is not in a worker; with -v each test is named anyway."""
+    if not hasattr(config, "workerinput") and config.get_verbosity() <= 0:
+        config.pluginmanager.register(NamedAtOnce(config))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:

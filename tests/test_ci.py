@@ -2,8 +2,10 @@
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -105,3 +107,57 @@ def test_every_part_runs_after_one_that_failed(tmp_path):
     assert done.returncode == 1 and found["style"][0] == "no" and found["types"][0] == "yes"
     assert "types: exit code 2: x.py:1: error: wrong type" in done.stdout
     assert "tests: exit code 0: asked for -k test" in done.stdout  # it left no results
+
+
+def test_a_busy_machine_is_busy_while_the_tests_run_and_at_no_other_time(tmp_path):
+    """The script itself; its `make` counts the loops beside it and fails to set up the second clone."""
+    room = tmp_path / "a folder"
+    home, tools, seen = room / ".ci", room / "bin", room / "seen"
+    home.mkdir(parents=True)
+    tools.mkdir()
+    for name in ("matrix", "table.py"):
+        shutil.copy(CI / name, home)
+    git = '#!/bin/sh\nmkdir -p "$4"\n'
+    make = f"""#!/bin/sh
+loops=$(cat /proc/[0-9]*/status 2>/dev/null | grep -A 8 "^Name:[[:space:]]*bash" | grep -c "^PPid:[[:space:]]*$PPID$")
+case "$*" in *set-up*) what=set-up ;; *) what=tests ;; esac
+echo "$what $loops" >> "{seen}"
+[ "$what" = tests ] || [ "$(grep -c set-up "{seen}")" = 1 ]
+"""
+    for name, text in (("git", git), ("make", make)):
+        (tools / name).write_text(text)
+        (tools / name).chmod(0o755)
+    env = {**os.environ, "PATH": f"{tools}:{os.environ['PATH']}", "PYTHON": sys.executable}
+    said = in_a_group(["bash", str(home / "matrix"), "busy", "busy+elsewhere", "again"], env, timeout_s=120)
+    assert seen.read_text().split("\n")[:-1] == ["set-up 0", "tests 4", "set-up 0", "tests 0"], said
+
+
+def in_a_group(call: list[str], env: dict[str, str], timeout_s: float) -> str:
+    """Run a script that begins loops, in a session of its own; returns what it printed. Out of time, all of it is ended."""
+    with subprocess.Popen(
+        call, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, start_new_session=True
+    ) as script:
+        try:
+            return script.communicate(timeout=timeout_s)[0]
+        except BaseException:
+            os.killpg(script.pid, signal.SIGKILL)
+            raise
+
+
+def test_a_script_that_is_out_of_time_leaves_no_loop(tmp_path):
+    begun = tmp_path / "begun"
+    loops = f"""trap 'kill $!' EXIT; while :; do sleep 0.05; done & echo $! > "{begun}"; wait"""
+    with pytest.raises(subprocess.TimeoutExpired):
+        in_a_group(["bash", "-c", loops], {**os.environ}, timeout_s=3)
+    loop = Path(f"/proc/{begun.read_text().strip()}/stat")
+    until = time.monotonic() + 60
+    while not (gone := _ended(loop)) and time.monotonic() < until:
+        time.sleep(0.05)  # the kernel ends it when it comes to it
+    assert gone
+
+
+def _ended(stat: Path) -> bool:
+    try:
+        return ") Z " in stat.read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return True

@@ -27,11 +27,17 @@ def suite(tmp_path):
         (tests / f"test_{name}.py").write_text(text)
     (tmp_path / "pytest.ini").write_text("[pytest]\ntestpaths = tests\n")
 
-    def run(*options: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    def run(*options: str, stdout=subprocess.PIPE, **environment: str) -> subprocess.CompletedProcess[str]:
         env = {name: value for name, value in os.environ.items() if name != "CI" and not name.startswith("PYTEST")}
         call = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *options]
         return subprocess.run(
-            call, cwd=tmp_path, env={**env, **environment}, capture_output=True, text=True, timeout=120
+            call,
+            cwd=tmp_path,
+            env={**env, **environment},
+            stdout=stdout,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=120,
         )
 
     return run
@@ -56,3 +62,19 @@ def test_elsewhere_the_end_says_what_did_not_run(suite):
 def test_a_part_of_the_suite_says_nothing_of_the_rest(suite):
     done = suite("tests/test_mark.py", "tests/test_nothing.py")
     assert done.returncode == 0 and "did not run" not in done.stdout
+
+
+@pytest.mark.parametrize("options", [(), ("-n", "1")], ids=["here", "in a worker"])
+def test_a_failing_test_is_named_at_once(suite, tmp_path, options):
+    """By the second test: the first has failed, and what has been written of it until then is in the log already."""
+    log = tmp_path / "log.txt"
+    told = f"import time\n\ndef test_b():\n    for _ in range(600):\n        if 'test_red.py::test_a' in open({str(log)!r}).read():\n            return\n        time.sleep(0.1)\n    assert False, 'not named'\n"
+    (tmp_path / "tests/test_red.py").write_text("def test_a():\n    assert 1 == 2\n")
+    (tmp_path / "tests/test_then.py").write_text(told)
+    with log.open("w") as stream:
+        done = suite("-q", "tests/test_nothing.py", "tests/test_red.py", "tests/test_then.py", *options, stdout=stream)
+    lines = log.read_text().splitlines()
+    assert done.returncode == 1 and "1 failed, 2 passed" in lines[-1], lines
+    assert lines.index("FAILED tests/test_red.py::test_a") < next(
+        n for n, line in enumerate(lines) if "FAILURES" in line
+    )

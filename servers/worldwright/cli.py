@@ -32,6 +32,10 @@ COMMANDS = {
     "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
     "sculpt": ("worldwright.sculpting", "See something sculpted from four sides: `sculpt sheet FILE.py[:NAME]`."),
     "watch": ("worldwright.kept_open", "Look at a run and leave it open: redrawn when a file of it is saved."),
+    "hand-in": (
+        "worldwright.handing_in",
+        "Hand in a film of a run that you drew yourself: shown as its author's, never evidence.",
+    ),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
     "export": ("worldwright.exported", "Write the drawn world with its recorded motion as glTF or USD."),
     "gc": (

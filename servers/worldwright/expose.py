@@ -46,13 +46,16 @@ SERVERS = {
 }
 
 
+LENT = {"stage": "worldwright.rehearsing"}
+"""Modules with more tools of a server: such as need servers that stand on it, and which it may therefore not import."""
 BEAT_S = 10.0
 """A call is silent for at most twice so long, s: a client that counts its patience anew at each word waits 30 s."""
 
 
 def tools(server: str) -> tuple[Callable[..., Any], ...]:
-    """The public functions of a server, imported when asked for."""
-    return importlib.import_module(f"worldwright.{server}.tools").TOOLS
+    """The public functions of a server, with those that it is lent, imported when asked for."""
+    own: tuple[Callable[..., Any], ...] = importlib.import_module(f"worldwright.{server}.tools").TOOLS
+    return (*own, *importlib.import_module(LENT[server]).TOOLS) if server in LENT else own
 
 
 def hints(function: Callable[..., Any]) -> dict[str, Any]:
@@ -242,7 +245,7 @@ def _line(data: Any) -> str:
 
 
 class _Heard:
-    """What the client of one call has heard: progress that only grows, and a word now and then."""
+    """What the client of one call has heard: progress that grows as long as its total stays, and a word now and then."""
 
     def __init__(self, ctx: Any) -> None:
         self.ctx, self.done, self.total, self.at = ctx, 0.0, 0.0, time.monotonic()

@@ -5,6 +5,8 @@ import sys
 import click
 
 from .cli import report_errors
+from .model.errors import NotFoundError
+from .model.evidence.reports import EvidenceKey
 from .model.evidence.run import Run
 
 
@@ -19,7 +21,15 @@ def command(runs: tuple[str, ...], dry_run: bool) -> None:
     def work() -> None:
         for name in runs:
             run = Run.find(name)
-            click.echo(disk.free(run, run.evidence_key(environment.current().sha256()), dry=dry_run).text())
+            click.echo(disk.free(run, _key(run, environment.current().sha256()), dry=dry_run).text())
 
     report_errors(work)
     sys.exit(0)
+
+
+def _key(run: Run, environment_sha256: str) -> EvidenceKey | None:
+    """The present key; None for a run without a program, which may have a rehearsal all the same."""
+    try:
+        return run.evidence_key(environment_sha256)
+    except NotFoundError:
+        return None

@@ -7,7 +7,6 @@ Source: the reference paper's write-back of root causes.
 """
 
 import ast
-import json
 import re
 import sys
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ import click
 from worldkit.files import write_atomic
 
 from .cli import report_errors
+from .model import json_object
 from .model.errors import NotFoundError, WorldwrightError
 from .model.evidence.run import Run
 
@@ -63,7 +63,7 @@ def failures(run: Run) -> list[Failure]:
 def _pass(run: Run, number: int, entry: dict) -> Failure:
     """Read a failed pass: the program's own words, and the lines at which it failed."""
     folder = run.jobs / str(entry.get("job"))
-    result = _json(folder / "result.json")
+    result = json_object.read(folder / "result.json") or {}
     place, said = str(result.get("place", "")), str(result.get("message", ""))
     line = place.rpartition(":")[2]
     excerpt = ""
@@ -79,21 +79,13 @@ def _pass(run: Run, number: int, entry: dict) -> Failure:
 
 def _kept(run: Run, key: str, action: str) -> str:
     """The first complaint of a kept report."""
-    report = _json(run.folder / "evidence" / key / f"{action}.json")
+    report = json_object.read(run.folder / "evidence" / key / f"{action}.json") or {}
     for anomaly in report.get("anomalies") or ():
         return str(anomaly.get("message", ""))
     for objective in report.get("objectives") or ():
         if objective.get("status") not in ("proved", "visual_only"):
             return f"{objective.get('claim')}: {objective.get('status')}"
     return "see its report"
-
-
-def _json(path: Path) -> dict:
-    try:
-        value = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return value if isinstance(value, dict) else {}
 
 
 def next_code(shelf: str, rules: Path) -> str:

@@ -1,6 +1,7 @@
 """Every tool of every server, called by a real client over stdio against a world that was really built."""
 
 import json
+import os
 import shutil
 import sys
 from pathlib import Path
@@ -29,6 +30,9 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
     run, plan = str(world), str(world / "plan.md")
     key = Run(world).evidence_key(environment.current().sha256()).key
     copied = Run(copy)
+    planned = Path(f"{copy}-planned")
+    planned.mkdir()
+    (planned / "plan.md").write_text((copy / "plan.md").read_text(encoding="utf-8") + "\n", encoding="utf-8")
     (copy / "pebble.py").write_text("from worldkit import sculpt\n\npebble = sculpt.sphere(0.05)\n", encoding="utf-8")
     return {
         "retrieve": {
@@ -65,6 +69,7 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "sheet": {"thing": str(copied.folder / "pebble.py")},
             "log": {"run": run},
             "cancel": {"run": run},
+            "rehearse": {"run": str(planned), "timeout_s": 1},
         },
         "scan": {
             "scan": {"run": run},
@@ -86,11 +91,17 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
     }[server]
 
 
+def serve(server: str) -> StdioServerParameters:
+    """How a client starts a server that has the tests' own key and cache, since a client passes on next to nothing."""
+    return StdioServerParameters(
+        command=sys.executable, args=["-m", "worldwright.cli", "serve", server], env=dict(os.environ)
+    )
+
+
 async def talk(server: str, table: dict[str, dict]) -> dict:
     """Call every tool of the table in its order; returns the results by name."""
-    parameters = StdioServerParameters(command=sys.executable, args=["-m", "worldwright.cli", "serve", server])
     results = {}
-    async with mcp.Client(parameters) as client:
+    async with mcp.Client(serve(server)) as client:
         listed = {tool.name: tool for tool in (await client.list_tools()).tools}
         assert set(listed) == set(table)
         for tool in listed.values():
@@ -130,8 +141,7 @@ def test_a_broken_run_is_an_answer_not_an_end(tmp_path):
     plan.write_bytes(b"\xff\xfe\x00 not a plan")
 
     async def ask():
-        parameters = StdioServerParameters(command=sys.executable, args=["-m", "worldwright.cli", "serve", "stamp"])
-        async with mcp.Client(parameters) as client:
+        async with mcp.Client(serve("stamp")) as client:
             first = await client.call_tool("approve", {"run": str(tmp_path)})
             second = await client.call_tool("status", {"run": str(tmp_path / "nowhere")})
             third = await client.call_tool("status", {"run": str(tmp_path)})

@@ -63,18 +63,20 @@ PLAN = Role(
         "place.explain",
         "place.draw",
         "place.reckon",
+        "stage.rehearse",
+        "stage.sheet",
         "stamp.go",
     ),
     writes=("plan.md", "prompt.md", "sculpt/"),
     reads_files=True,
     instructions="""
-First call `retrieve.begin` with the person's words and `run`: it writes `prompt.md` and a whole `plan.md`, adapted from the
-nearest accepted world, and names the skills of the mechanism. Read the skill `prompt-to-plan`, which holds every decision, and
-that plan, then write the plan anew in one go; look up another skill only when a field asks for it. With an image, look at it first,
-let `place.resolve` keep it (`image`), and write down what is seen as `topology.image_observation` (skill `layouts`); `place.check`
-then says where the layout disagrees with it. Objectives first, and the `cause` of every effect that could be staged.
-Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan, not a solution. Then
-call `stamp.go`, look at `place.draw`, and mend until it waits for approval.
+First call `retrieve.begin` with the person's words and `run`: it writes `prompt.md` and a whole `plan.md`, and names the
+mechanism's skills. Read the skill `prompt-to-plan`, which holds every decision, and that plan, then write it anew in one go; look
+up another skill only when a field asks for it. With an image, look first, let `place.resolve` keep it (`image`), and write down
+what is seen as `topology.image_observation` (skill `layouts`), which `place.check` compares.
+Objectives first, and the `cause` of every effect that could be staged.
+Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan. Then
+`stage.rehearse` tells, unapproved, what holds, by what margin: look at its pictures, mend, until `stamp.go` waits for approval.
 What you cannot know you infer, named in `inferred`. What changes the design (who moves, what counts as success, how long,
 seen from where) you ask: at most five questions, each with two or three answers and the one you would take;
 never what a source or the catalog answers. In auto mode ask nothing: take that answer and mark it.

@@ -43,9 +43,18 @@ def writable(project: Path) -> Iterator[Path]:
 
 
 def _siblings(folder: Path, keep: set[Path]) -> Iterator[Path]:
-    for entry in sorted(folder.iterdir()):
+    for entry in _entries(folder):
         if entry not in keep and not entry.is_symlink() and not any(entry in path.parents for path in keep):
             yield entry
+
+
+def _entries(folder: Path) -> list[Path]:
+    """What a folder holds; of one above homes that may be entered and not listed, what is known by name."""
+    try:
+        return sorted(folder.iterdir())
+    except PermissionError:
+        named = {Path(os.path.realpath(os.environ[name])) for name in ("HOME", "TMPDIR") if os.environ.get(name)}
+        return sorted({folder / path.relative_to(folder).parts[0] for path in named if folder in path.parents})
 
 
 def confine(project: Path) -> None:

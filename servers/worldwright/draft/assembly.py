@@ -81,6 +81,7 @@ class _Writer:
             self.pairs(),
             driving.tendons(plan, scene, needs),
             driving.actuators(plan, needs),
+            self.light(),
             self.cameras(),
             self.motion(),
         )
@@ -218,6 +219,17 @@ class _Writer:
             if any(medium.wind):
                 made += f"\n    spec.option.wind = {exact(medium.wind)}"
         return made
+
+    def light(self) -> str:
+        """Light, sky and lamps, where the plan states any."""
+        show = self.plan.visualization
+        lines = [call("lights.add", Raw("spec"), **show.light)] if show.light else []
+        for title, lamp, name in show.hung(self.plan.families):
+            keywords: dict = {"colour": lamp.colour, "strength": lamp.strength} | ({"to": name} if name else {})
+            lines.append(call("lights.lamp", Raw("spec"), title, lamp.at, **keywords))
+        if lines:
+            self.needs.use("lights")
+        return "\n".join(lines)
 
     def cameras(self) -> str:
         """The cameras of every step."""

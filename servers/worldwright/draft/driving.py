@@ -1,9 +1,10 @@
 """Write what fastens and drives: ropes and springs between bodies, motors and servos on joints, and their control."""
 
-from ..model.plan.committed import Plan
+from ..model.plan.committed import Intervention, Plan, SimulationParameters
 from ..model.plan.drives import Actuator
 from ..model.plan.fastening import point
 from ..model.plan.layout import Scene
+from ..model.plan.trigger import always
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
 
@@ -40,13 +41,8 @@ def actuators(plan: Plan, needs: Needs) -> str:
 def control(plan: Plan, needs: Needs) -> str:
     """Write the `control` function: constant controls of the plan's actuators, and marks for what else it declares."""
     parameters = plan.simulation_parameters
-    blown = parameters.medium is not None and any(parameters.medium.wind)
     # Neither a solver beside the engine nor the wind of the medium, which `build` has, needs anything from here.
-    interventions = [
-        row
-        for row in parameters.interventions
-        if row.solver is None and not (blown and row.kind == "force" and set(row.bodies) == {"wind"})
-    ]
+    interventions = [row for row in parameters.interventions if row.solver is None and not _said_again(row, parameters)]
     driven = {row.name: row for row in plan.topology.actuators if row.control is not None}
     if not interventions and not driven:
         return ""
@@ -63,6 +59,12 @@ def control(plan: Plan, needs: Needs) -> str:
         needs.leave(f"declared intervention: {text}", "its law, in control()")
         lines.append(comment(f"AUTHOR: {text}"))
     return "\n".join(lines) + "\n"
+
+
+def _said_again(row: Intervention, parameters: SimulationParameters) -> bool:
+    """Whether a row only says that the medium's wind blows, which it does always: a gust with a moment of its own is more."""
+    blows = parameters.medium is not None and any(parameters.medium.wind)
+    return blows and row.kind == "force" and set(row.bodies) == {"wind"} and always(row.trigger)
 
 
 def driven_names(plan: Plan, driven: dict[str, Actuator]) -> set[str]:

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from worldkit.files import write_atomic
 
+from ..model.evidence import handed_in
 from ..model.evidence.run import Run
 from ..model.plan.plan_text import read_plan
 from ..stamp.poster import NAME as POSTER
@@ -75,8 +76,23 @@ def _card(slug: str) -> str:
         film = films[0].relative_to(worlds.BUILT.resolve()).as_posix()
         shown = f'<video src="{film}" poster="{poster}" controls loop muted preload="metadata"></video>'
     claims = "".join(f"<p>{escape(objective.claim)}</p>" for objective in plan.objectives)
+    shown += _handed_in(slug, run)
     report = f'<p class="quiet"><a href="{slug}/report.html">report</a></p>' if run.report.is_file() else ""
     return f"<article>{shown}<h2>{escape(plan.title or slug)}</h2>{claims}{report}</article>"
+
+
+def _handed_in(slug: str, run: Run) -> str:
+    """The author's own film, marked as such; empty where none was handed in, or none that can be shown."""
+    try:
+        film = handed_in.of(run.folder)
+    except handed_in.HandedInError:
+        return ""
+    if film is None:
+        return ""
+    return (
+        f'<video src="{slug}/{film.name}" controls loop muted preload="metadata"></video>'
+        '<p class="quiet">the author\'s own film, handed in: no evidence</p>'
+    )
 
 
 def _title(plan: Path) -> str:

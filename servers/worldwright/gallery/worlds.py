@@ -7,7 +7,9 @@ from worldkit.files import write_atomic
 
 from ..model.errors import NotFoundError
 from ..model.evidence.run import Run
-from ..stamp import keyring
+from ..stamp import bundle, keyring
+from ..stamp.kept import Kept
+from ..stamp.statement import Statement
 
 EXAMPLES = Path("examples")
 BUILT = Path("runs") / "gallery"
@@ -46,7 +48,8 @@ def seeded(slug: str) -> Run:
     same = target.is_dir() and _bytes(target / "stamp.json") == _bytes(stamp)
     if not same:
         shutil.rmtree(target, ignore_errors=True)
-        shutil.copytree(source, target, ignore=shutil.ignore_patterns("evidence", "accepted", "jobs", "proof"))
+        left = bundle.left_by_builds(Kept.read(stamp, Statement).value)
+        shutil.copytree(source, target, ignore=lambda folder, _: left if Path(folder) == source else set())
     return Run(target)
 
 

@@ -365,15 +365,9 @@ def check_program_file(
     if plan is None:
         outcome = world()
     else:
-        from concurrent.futures import ThreadPoolExecutor
-        from contextvars import copy_context
-
         from .compiled import planned as plans
 
-        with ThreadPoolExecutor(1) as beside:  # each runs in a process that cannot see the other
-            waiting = beside.submit(copy_context().run, plans.world, plan, wall_s)
-            outcome = world()
-            planned = waiting.result()
+        outcome, planned = plans.beside(plan, source.text, world, wall_s)
     if outcome.status == "refused":
         return found, f"{path.name}: the world is not built: no sandbox confines here (worldwright doctor says why)"
     if outcome.status == "nothing":

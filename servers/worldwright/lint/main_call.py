@@ -15,15 +15,17 @@ def facts(path: Path, defaults: bool = True) -> dict[str, Any]:
     """Arguments of the one call of `program.main`, by name; with `defaults`, those of today for what is left out.
 
     An argument that only a run would tell is missing; `control` is the function's name, or None. A program with no such call,
-    with several, or with arguments in a mapping tells nothing.
+    with several, or with arguments in a list or a mapping tells nothing.
     """
     from worldkit import program as runtime
 
     view = Program(source.read(path))
     calls = view.calls_by_name.get(MAIN, [])
-    if len(calls) != 1 or any(k.arg is None for k in calls[0].keywords):
+    if len(calls) != 1:
         return {}
     (call,) = calls
+    if any(k.arg is None for k in call.keywords) or any(isinstance(word, ast.Starred) for word in call.args):
+        return {}
     parameters = inspect.signature(runtime.main).parameters
     given: dict[str, ast.expr] = dict(zip(parameters, call.args, strict=False))
     given |= {str(keyword.arg): keyword.value for keyword in call.keywords}

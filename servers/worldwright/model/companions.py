@@ -8,6 +8,7 @@ program reaches by a name put together while it runs is not found, and then is n
 import ast
 import hashlib
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 
 from . import syntax
@@ -15,7 +16,8 @@ from .errors import WorldwrightError
 
 OURS = (
     "plan.md", "prompt.md", "model.json", "simulation.py", "film.py", "journal.jsonl", "blocked.json", "report.html", "stamp.json",
-    "environment.lock", "accepted", "earlier", "evidence", "jobs", "proof", "source", "out", "runs", "examples",
+    "environment.lock", "accepted", "earlier", "evidence", "jobs", "rehearsal", "proof", "source", "out", "runs", "examples",
+    "handed_in.mp4", "handed_in.webm", "handed_in.mov",
 )  # fmt: skip
 """Files of a run folder that belong to no program."""
 MOST_FILES = 2_000
@@ -104,7 +106,11 @@ def _found(program: Path, tree: _Disk | _Memory) -> dict[str, bytes]:
 
 def sha256(program: Path) -> str:
     """One hash over names and contents; empty when the program stands alone."""
-    found = of(program) if program.is_file() else {}
+    return digest_of(of(program)) if program.is_file() else ""
+
+
+def digest_of(found: Mapping[str, bytes]) -> str:
+    """The same over files that are read already, by path and in the order of the names."""
     digest = hashlib.sha256()
     for name, content in found.items():
         digest.update(f"{name}\n{hashlib.sha256(content).hexdigest()}\n".encode())
@@ -114,19 +120,42 @@ def sha256(program: Path) -> str:
 def _named(source: Path, tree: _Disk | _Memory) -> Iterator[Path]:
     """Files that one module imports or names."""
     try:
-        parsed = syntax.module(tree.read(source))
+        mentioned = _mentioned(tree.read(source))
     except (OSError, ValueError, SyntaxError, RecursionError):
         return
-    for node in ast.walk(parsed):
-        if isinstance(node, ast.Import):
-            for alias in node.names:
-                yield from _module(alias.name, source.parent, tree)
-        elif isinstance(node, ast.ImportFrom):
-            for name in (node.module or "", *(f"{node.module or ''}.{alias.name}".strip(".") for alias in node.names)):
-                yield from _module(name, source.parent, tree)
-        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+    for name, imported in mentioned:
+        if imported:
+            yield from _module(name, source.parent, tree)
+        else:
             for base in dict.fromkeys((tree.folder, source.parent)):
-                yield from _data(node.value, base, tree)
+                yield from _data(name, base, tree)
+
+
+@lru_cache(maxsize=64)
+def _mentioned(content: bytes) -> tuple[tuple[str, bool], ...]:
+    """The names that a module imports (True) and the texts in it that may name a file (False), each once; remembered, since each
+    step of a run asks for it. Raises what the parser raises."""
+    found: list[tuple[str, bool]] = []
+    for node in ast.walk(syntax.module(content)):
+        if isinstance(node, ast.Import):
+            found += [(alias.name, True) for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            module = node.module or ""
+            found += [(name, True) for name in (module, *(f"{module}.{alias.name}".strip(".") for alias in node.names))]
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str) and _may_name(node.value):
+            found.append((node.value, False))
+    return tuple(dict.fromkeys(found))
+
+
+def _may_name(text: str) -> bool:
+    """Whether a text may be the relative path of a file."""
+    return (
+        bool(text)
+        and len(text) <= 200
+        and "\n" not in text
+        and "\0" not in text
+        and not text.startswith(("/", ".", "~"))
+    )
 
 
 def _module(name: str, base: Path, tree: _Disk | _Memory) -> Iterator[Path]:
@@ -144,8 +173,6 @@ def _module(name: str, base: Path, tree: _Disk | _Memory) -> Iterator[Path]:
 
 def _data(text: str, base: Path, tree: _Disk | _Memory) -> Iterator[Path]:
     """The file that a text names, seen from one folder of the run, or all below the folder that it names."""
-    if not text or len(text) > 200 or "\n" in text or "\0" in text or text.startswith(("/", ".", "~")):
-        return
     path = base / text
     if (base == tree.folder and Path(text).parts[0] in OURS) or ".." in Path(text).parts:
         return

@@ -57,6 +57,13 @@ class JobError(WorldwrightError):
         self.code = code
 
 
+class CallOverError(JobError):
+    """A client's call ended before the work in it was done, which says nothing about the work: who asks again gets an answer."""
+
+    def __init__(self, cause: str, *, place: str = "", next_move: str = "") -> None:
+        super().__init__(cause, code="timed_out", place=place, next_move=next_move)
+
+
 class RecordingError(WorldwrightError):
     """A recording cannot be read."""
 

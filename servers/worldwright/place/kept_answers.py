@@ -17,6 +17,7 @@ from typing import Any
 from worldkit import assets
 from worldkit.files import write_atomic
 
+from ..model import json_object
 from ..model.evidence import environment
 from ..model.evidence.file_hashes import below, cache_folder, sha256_of
 
@@ -47,11 +48,8 @@ def place_of(request: dict[str, Any]) -> Path | None:
 
 def read(path: Path) -> dict[str, Any] | None:
     """A kept answer, which counts as just given; None where there is none that is whole."""
-    try:
-        answer = json.loads(path.read_bytes())
-    except (OSError, ValueError, RecursionError):
-        return None
-    if not (isinstance(answer, dict) and answer.keys() >= TOLD):
+    answer = json_object.read(path)
+    if answer is None or not answer.keys() >= TOLD:
         return None
     with contextlib.suppress(OSError):  # a cache that is only read answers too
         os.utime(path)

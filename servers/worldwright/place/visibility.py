@@ -54,7 +54,7 @@ def seen(model: Any, data: Any, cameras: list[dict[str, Any]]) -> list[dict[str,
             body = model.body(name).id
             window = _window(model, data, body, eye, axes, scale)
             told = {"camera": row["name"], "object": name, "share": 0.0, "in_frame": 0.0, "hidden": 0.0, "length": 0.0}
-            told |= {"eye": eye.tolist(), "place": data.xipos[body].tolist()}
+            told |= {"eye": eye.tolist(), "place": data.subtree_com[body].tolist()}
             if window is not None:
                 told["length"] = float(max((window[1] - window[0]) / (2.0, 2.0 * row["aspect"])))
                 told |= _measured(model, data, body, eye, axes, scale, window)
@@ -77,7 +77,7 @@ def _measured(model: Any, data: Any, body: int, eye: Any, axes: Any, scale: Any,
     if not framed:
         return {"in_frame": 0.0}
     first = _hit(model, data, eye, directions[alone & inside], None)
-    visible = int((model.geom_bodyid[first] == body).sum())
+    visible = int(_belongs(model, body)[first].sum())
     cell = float(np.prod((high - low) / RAYS)) / 4.0
     return {"share": visible * cell, "in_frame": framed / outline, "hidden": 1 - visible / framed}
 
@@ -88,7 +88,7 @@ def _window(model: Any, data: Any, body: int, eye: Any, axes: Any, scale: Any) -
 
     signs = np.array([(i, j, k) for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
     points = []
-    for geom in np.flatnonzero(model.geom_bodyid == body):
+    for geom in np.flatnonzero(_belongs(model, body)):
         box = model.geom_aabb[geom]
         points.append((box[:3] + signs * box[3:]) @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom])
     local = (np.concatenate(points) - eye) @ axes if points else np.zeros((0, 3))
@@ -102,6 +102,11 @@ def _window(model: Any, data: Any, body: int, eye: Any, axes: Any, scale: Any) -
     return (low, high) if (high > low).all() else None
 
 
+def _belongs(model: Any, body: int) -> Any:
+    """(G,) bool: the geoms of an object, which stands on its own here, so that all below its body is part of it."""
+    return model.body_rootid[model.geom_bodyid] == body
+
+
 def _hit(model: Any, data: Any, eye: Any, directions: Any, body: int | None) -> Any:
     """The first geom that each ray meets, -1 for none; with `body`, only that body's geoms count."""
     import mujoco
@@ -109,7 +114,7 @@ def _hit(model: Any, data: Any, eye: Any, directions: Any, body: int | None) -> 
 
     model.geom_group[:] = OTHERS
     if body is not None:
-        model.geom_group[model.geom_bodyid == body] = ALONE
+        model.geom_group[_belongs(model, body)] = ALONE
     groups = np.zeros(mujoco.mjNGROUP, dtype=np.uint8)
     groups[OTHERS if body is None else ALONE] = 1
     count = len(directions)

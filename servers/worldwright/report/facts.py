@@ -154,6 +154,12 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("hidden by what is drawn", ", ".join(f"{what} for {s:g} s" for what, s in hidden.items())),
             ("shots", "; ".join(shots)),
         ]
+    if material.handed_in:
+        own = material.handed_in
+        tables["Handed in, no evidence"] = [
+            (own.name, own.sha256),
+            ("length", f"{own.seconds:g} s at {own.size[0]}x{own.size[1]}"),
+        ]
     if material.environment:
         packages: dict[str, Any] = material.environment.get("packages", {})
         film: dict[str, Any] = material.environment.get("film") or {}

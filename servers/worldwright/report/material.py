@@ -11,7 +11,9 @@ from typing import Any, TypeVar
 from pydantic import BaseModel
 
 from ..model.errors import WorldwrightError
-from ..model.evidence.audits import Acting, CausesReport, InterventionReport, RefineReport
+from ..model.evidence.audits import Acting, CausesReport, InterventionReport, RefineReport, RobustReport
+from ..model.evidence.handed_in import HandedIn, HandedInError
+from ..model.evidence.handed_in import of as film_handed_in
 from ..model.evidence.reports import ExpectReport, LintReport, PassResult, ScanReport, VisualDescription
 from ..model.evidence.run import Run
 from ..model.evidence.verdict import Verdict
@@ -45,11 +47,14 @@ class Material:
     videos: dict[str, Path] = field(default_factory=dict)
     film: dict[str, Any] = field(default_factory=dict)
     """What the video pass says of the author's film: what is drawn only, looks of its own, shots; empty without one."""
+    handed_in: HandedIn | None = None
+    """A film that the author drew with a renderer of their own."""
     scan: ScanReport | None = None
     expect: ExpectReport | None = None
     interventions: InterventionReport | None = None
     causes: CausesReport | None = None
     refine: RefineReport | None = None
+    robust: RobustReport | None = None
     visual: VisualDescription | None = None
     review: Verdict | None = None
     stamp: Statement | None = None
@@ -102,6 +107,10 @@ def gather(run: Run) -> Material:
             found.environment["cpu"] = found.stamp.predicate.cpu
     _motion(found, state)
     _layout(found)
+    try:
+        found.handed_in = film_handed_in(run.folder)
+    except HandedInError as error:
+        found.missing["handed-in film"] = error.cause
     return found
 
 
@@ -130,6 +139,7 @@ def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
     found.interventions = read("interventions", InterventionReport)
     found.causes = read("causes", CausesReport)
     found.refine = read("refine", RefineReport)
+    found.robust = read("robust", RobustReport)
     found.visual = read("visual", VisualDescription)
     found.review = read("review", Verdict)
     found.stills = {p.stem: p for p in sorted((media / "stills").glob("*.png"))}

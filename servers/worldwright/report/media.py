@@ -6,6 +6,8 @@ from typing import Any
 
 BUDGET = 20 * 2**20
 """Bytes of video that one page may carry; above that, videos are encoded again, smaller."""
+SHOWN = {".mp4": "video/mp4", ".webm": "video/webm"}
+"""What browsers show, by its ending."""
 SMALL = (640, 30)
 """Width in pixels and quality (constant rate factor) of what is encoded again."""
 
@@ -67,6 +69,16 @@ def videos(paths: dict[str, Path]) -> dict[str, str]:
         if data and sum(map(len, found.values())) + len(data) <= 2 * BUDGET:
             found[name] = data_uri(data, "video/mp4")
     return found
+
+
+def handed_in(path: Path) -> str:
+    """A film as a data URI; empty if it is too large for a page, or no browser's, and the page links the file beside it."""
+    if path.suffix not in SHOWN:
+        return ""
+    try:
+        return data_uri(path.read_bytes(), SHOWN[path.suffix]) if path.stat().st_size <= BUDGET // 2 else ""
+    except OSError:
+        return ""
 
 
 def frames(path: Path, count: int = 6, width: int = 320) -> list[tuple[float, str]]:

@@ -60,6 +60,7 @@ def _context(material: Material) -> dict[str, Any]:
         "title": (material.plan.title if material.plan else "") or material.run.name,
         "lede": _lede(material),
         "films": films,
+        "handed_in": media.handed_in(material.run.folder / material.handed_in.name) if material.handed_in else "",
         "stills": stills,
         "strip": media.frames(material.videos[first]) if first else [],
         "charts": _charts(material),

@@ -37,6 +37,8 @@ _TABLE = """
 
 WIND = {"wind", "opt.wind"}
 """What an intervention that is a wind speaks of."""
+LIQUID = 100.0
+"""kg/m^3: what is denser is a liquid; no gas of a plan comes near, and every liquid is several times as dense."""
 
 
 class Mechanism(NamedTuple):
@@ -102,7 +104,9 @@ def _built(plan: Plan) -> Iterator[str]:
         yield "turning"
     if topology.actuators:
         yield "motor"
-    if parameters.medium is not None or any(WIND & {*row.bodies, *row.law.split()} for row in parameters.interventions):
+    if parameters.medium is not None and parameters.medium.density > LIQUID:
+        yield "water"  # its wind is a current
+    elif parameters.medium is not None or any(WIND & {*i.bodies, *i.law.split()} for i in parameters.interventions):
         yield "air"
     if plan.layout_density:
         yield "crowded"

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from ..expose import reads, several
 from ..model.errors import NotFoundError
-from ..model.evidence.audits import CausesReport, RefineReport
+from ..model.evidence.audits import CausesReport, RefineReport, RobustReport
 from ..model.evidence.reports import CheckRun, EvidenceKey, ExpectReport, ScanReport
 from ..model.evidence.run import Run
 from ..model.finding import Anomaly, AnomalySeverity
@@ -63,6 +63,7 @@ class Scanned(ScanReport):
     """What acted on the state besides the engine, one line each; `interventions.json` has all of it."""
     refine: RefineReport | None = None
     causes: CausesReport | None = None
+    robust: RobustReport | None = None
     pending: tuple[str, ...] = ()
     """Repetitions of the physics pass that still run: call again with the same arguments."""
 
@@ -90,6 +91,8 @@ class Scanned(ScanReport):
             lines += [f"{c.outcome}: objective {c.objective}: {c.message}" for c in self.causes.causes]
             lines += [f"{t.outcome}: {t.message}" for t in self.causes.triggers]
             lines += [h.message for h in self.causes.helpers]
+        if self.robust is not None:
+            lines.append(self.robust.text())
         if self.pending:
             lines.append(f"still running: {', '.join(self.pending)}; call again with the same arguments")
         return "\n".join(lines)
@@ -136,6 +139,7 @@ def scan(
     run: RunName,
     refine: Annotated[bool, Field(description="Also repeat the physics at half the time step.")] = False,
     causes: Annotated[bool, Field(description="Also take each declared cause away, and weaken it.")] = False,
+    robust: Annotated[bool, Field(description="Also vary friction, masses, start and step a little.")] = False,
     timeout_s: Annotated[float, Field(description="Return after so many seconds.", ge=0, le=42)] = 40,
     progress: Progress = silent,
 ) -> Scanned:
@@ -143,8 +147,8 @@ def scan(
 
     Keeps the report of the current recording as evidence, with the ledger of what acted. Each anomaly names its body,
     its window, what was measured and the threshold; `blocking` ones stand in the way of acceptance. `refine` reports
-    claims that the time step decides, `causes` effects that come without their cause or by the clock; both repeat the
-    physics pass: while any is `pending`, call again.
+    claims that the time step decides, `causes` effects that come without their cause or by the clock, `robust` (a remark)
+    in how many worlds each claim holds; all repeat the physics pass: while any is `pending`, call again.
     """
     from .anomalies import engine
     from .anomalies.sign import Context
@@ -152,7 +156,7 @@ def scan(
     folder, key, plan, trajectory = _subject(run)
     report = engine.scan(trajectory, Context.of(plan))
     if folder is None or key is None or plan is None:
-        if refine or causes:
+        if refine or causes or robust:
             raise NotFoundError(
                 "a lone recording has no program to repeat", place=run, next_move="name a run folder instead"
             )
@@ -163,10 +167,10 @@ def scan(
     acted = running.interventions(folder, key, plan, trajectory, report)
     folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
     audited = running.Audited()
-    if refine or causes:
+    if refine or causes or robust:
         audited = running.audit(
             folder, key, plan, trajectory, acted,
-            refined=refine, causes=causes, timeout_s=timeout_s, progress=progress,
+            refined=refine, causes=causes, robust=robust, timeout_s=timeout_s, progress=progress,
         )  # fmt: skip
     told = tuple(row.text for row in acted.acting)
     return _scanned(run, report, **audited.model_dump(), acting=told[:MOST_TOLD])

@@ -17,6 +17,7 @@ from ..model.evidence.run import Run
 from ..model.plan.committed import Intervention, Plan
 from ..model.plan.declaration import covering, declaration
 from ..model.plan.plan_text import read_plan
+from ..model.plan.trigger import always
 from ..model.recording.trajectory import Trajectory
 from ..model.recording.trajectory_files import read_trajectory
 from ..model.recording.travel import stays_put
@@ -114,7 +115,7 @@ def _undeclared_first(line: str) -> bool:
 
 def _acts_unseen(trajectory: Trajectory, row: Intervention) -> bool:
     """Whether a declared actuator pushes by itself, or a declared wind blows: the ledger shows neither."""
-    if "wind" in row.bodies and np.any((trajectory.meta.get("option") or {}).get("wind", 0)):
+    if "wind" in row.bodies and always(row.trigger) and np.any((trajectory.meta.get("option") or {}).get("wind", 0)):
         return True
     loads, actuators = trajectory.loads, trajectory.meta.get("actuators") or ()
     if row.kind != "control" or loads is None or loads.actuator_force.shape[1:] != (len(actuators),):

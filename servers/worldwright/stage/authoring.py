@@ -1,5 +1,6 @@
 """Hand a recording to a film's author, and ask it what the film is to show; where nobody wrote a film, the house's own tells."""
 
+import json
 import re
 import sys
 from pathlib import Path
@@ -29,7 +30,7 @@ def lay_out(recording: Path, facts: Path, motion: Path, source: Path | None = No
 
 
 def place(source: Path) -> dict[str, Any]:
-    """What a plan tells of where it is: `setting`, `floor`, `words`, and `looks`, rows of a name and a look; `{}` of no plan."""
+    """What a plan tells of where it is: `setting`, `floor`, `light`, `wind`, `words`, and `looks`, rows of a name and a look; `{}` of no plan."""
     from ..model.plan.plan_text import read_plan
 
     try:
@@ -49,6 +50,8 @@ def place(source: Path) -> dict[str, Any]:
         "floor": shown.floor or "",
         "words": words[:MOST_WORDS],
         "looks": looks or [["", ""]],
+        "light": json.dumps(shown.light),
+        "wind": list(map(str, medium.wind if (medium := plan.simulation_parameters.medium) else (0, 0, 0))),
     }
 
 

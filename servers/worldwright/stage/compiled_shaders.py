@@ -59,7 +59,7 @@ def _state() -> str:
     """A hash of everything that decides what a driver compiles."""
     libraries = [path for folder in ("/usr/lib", "/usr/lib64") for path in _drivers(Path(folder))]
     seen = [(str(path), stat.st_size, stat.st_mtime_ns) for path in libraries for stat in (path.stat(),)]
-    facts = [environment.film().sha256, gl_backend(), lock.observe(gl_backend()).get("cpu features", ""), seen]
+    facts = [environment.film().sha256, gl_backend(), lock.cpu_features(), seen]
     facts.append(hashlib.sha256(Path(shader_sampler.__file__).read_bytes()).hexdigest())
     return hashlib.sha256(json.dumps(facts).encode()).hexdigest()[:24]
 

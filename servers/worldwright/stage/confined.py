@@ -14,7 +14,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from ..model import call_time
+from ..model import call_time, processor_time
 from . import family, plain, sandbox
 from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
@@ -27,6 +27,7 @@ STARVED = 20.0
 """A run that gets less than this part of its time is ended all the same."""
 MB = 1 << 20
 LOG_BYTES = 20_000
+CALL_OVER = "call_over"
 MOST_MATCHING = 64
 
 
@@ -67,16 +68,21 @@ def run(
         wanted: names of the files in that folder that the caller wants to see, or patterns such as `*.jpg`.
         wall_s: the run is killed after so many seconds of its own: while it sleeps the clock on the wall counts, while it
             computes only what it gets of a processor, so that other work beside it does not end it. The end of a client's call
-            (`model.call_time`) ends it by the clock.
+            (`model.call_time`) ends it by the clock, as an error: it tells nothing of what runs.
         memory_mb: resident memory of all its processes, MiB.
         file_mb: size of one file, MiB.
         sculpts: shapes that were made earlier by the same sources, and the place for those that it makes.
         home: lays something into its throw-away home, whose folder it is given, before it starts.
         cancelled: asked several times a second; the run is ended when it says so.
+
+    Raises:
+        CallOverError: the client's call ended first; what was sculpted until then is kept.
     """
     name = sandbox.level()
-    if name not in sandbox.CONFINING and os.environ.get("WORLDWRIGHT_SANDBOX") != name:
+    if not allowed(name):
         return Confined("refused", level=name)
+    if call_time.left_s() <= 0:  # what is short would else end before it is looked at
+        raise call_time.over()
     with tempfile.TemporaryDirectory(prefix="worldwright-confined-") as folder:
         out, scratch = Path(folder) / "out", Path(folder) / "tmp"
         out.mkdir()
@@ -106,7 +112,14 @@ def run(
         names = [name for word in wanted for name in (_matching(out, word) if "*" in word else [word])]
         files = {file: data for file in names if (data := plain.read(out / file, file_mb * MB)) is not None}
         sculpted = sculpts.keep(scratch) if sculpts else ()
+    if status == CALL_OVER:
+        raise call_time.over()
     return Confined(status, code, files, tail, round(wall, 3), name, sculpted)
+
+
+def allowed(level: str) -> bool:
+    """Whether a program that nobody has read may be run at a level: it confines, or the user chose it by name."""
+    return level in sandbox.CONFINING or os.environ.get("WORLDWRIGHT_SANDBOX") == level
 
 
 def _places(sculpts: "Given | None") -> tuple[Path, ...]:
@@ -149,12 +162,16 @@ def _watched(
 ) -> tuple[str, int]:
     entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
     process, status = entered.process, "ended"
-    own = OwnTime(time.monotonic())
+    own, computed = OwnTime(time.monotonic()), 0.0
     try:
         while not family.ends_within(process, TICK_S):
             seen = family.census(process.pid)
-            if own.after(time.monotonic(), seen.cpu_s, seen.wanting) > wall_s or call_time.left_s() < 0:
+            computed = max(computed, seen.cpu_s)
+            if own.after(time.monotonic(), seen.cpu_s, seen.wanting) > wall_s:
                 status = "timed_out"
+                break
+            if call_time.left_s() < 0:
+                status = CALL_OVER
                 break
             if seen.resident_bytes > memory:
                 status = "out_of_memory"
@@ -163,5 +180,6 @@ def _watched(
                 status = "cancelled"
                 break
     finally:
+        processor_time.add(computed)
         family.end(process.pid, confinement.token)
     return status, process.wait()

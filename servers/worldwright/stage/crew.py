@@ -23,7 +23,7 @@ from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
 
 LOG_BYTES = 1_000_000
-TICK_S = 0.1
+TICK_S, REAPED_S = 0.1, 2.0
 ADDRESS_SPACE_SLACK = 12 << 30
 """Software OpenGL and its compiler reserve far more address space than they use; resident memory is the real limit."""
 UNLIMITED_CPU_S = 30 * 86_400
@@ -166,6 +166,18 @@ def adopt_orphans() -> None:
     import ctypes
 
     ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER
+
+
+def reap_all(seconds: float = REAPED_S) -> None:
+    """Wait for all that is left after the members' end: the kernel counts a process's time for its parent when it is reaped.
+
+    bubblewrap leaves its child, under which the program ran, to whoever adopts it.
+    """
+    until = time.monotonic() + seconds
+    with contextlib.suppress(ChildProcessError):
+        while time.monotonic() < until:
+            if os.waitpid(-1, os.WNOHANG)[0] == 0:
+                time.sleep(TICK_S / 10)
 
 
 def reap_orphans(members: "Sequence[subprocess.Popen[bytes]]") -> None:

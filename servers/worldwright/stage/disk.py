@@ -4,7 +4,9 @@ Kept whole: the evidence of the program and plan as they stand, that of every ac
 take over while the present program has none, the newest job of each pass and variant, and the frames of traced films that
 the next final pass could go on with. Of an earlier key go the folders of its passes and trials; its reports stay, and its
 program and plan, so that iterations are compared and gone back to. Of an earlier job goes what it drew or wrote; its log and
-its state stay. A folder is renamed before it is removed, so that a kill never leaves a part of it under its name.
+its state stay. A rehearsal, on which nothing rests, goes as a whole. Where there is no present program, nobody can say what of
+the rest is earlier, and it stays. A folder is renamed before it is removed, so that a kill never leaves a part of it under its
+name.
 """
 
 import json
@@ -12,17 +14,19 @@ import os
 import shutil
 import uuid
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
+from ..model import json_object
 from ..model.errors import GateError
+from ..model.evidence import rehearsed
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import SOURCE, Run
 from ..model.frozen import Frozen
 from ..model.storage import writing
 from . import gates, refined
 from .job import Job
+from .launch import end_orphans, one_at_a_time, orphans
 
 HEAVY = ("out", "frames", "author", "filming", "told", "tmp", "inputs/world.mjz")
 """What of an ended job may go; what it was given, its log and its state are small."""
@@ -77,22 +81,25 @@ def used(run: Run, key: EvidenceKey) -> Disk:
     return Disk(total_mb=sizes.get(str(run.folder), 0) / MB, freeable_mb=freeable, **size)
 
 
-def free(run: Run, key: EvidenceKey, *, dry: bool) -> Freed:
-    """Remove what can be made again; with `dry` only say what.
+def free(run: Run, key: EvidenceKey | None, *, dry: bool) -> Freed:
+    """Remove what can be made again; with `dry` only say what. Without a key: a rehearsal, and what a killed removal left.
 
     Raises:
-        GateError: a job of the run is under way.
+        GateError: a job of the run, or its rehearsal, is under way.
         StorageError: the folder cannot be written.
     """
-    from .launch import one_at_a_time
-
-    with writing("the run", run.folder), one_at_a_time(run):  # no job begins meanwhile
+    with writing("the run", run.folder), one_at_a_time(run), _held(run) as rehearsal:  # no job begins meanwhile
         if names := _under_way(run):
+            busy = run.folder / names[0]
+            its = busy.parents[1]
             raise GateError(
-                f"{names[0]} is under way, and may read what would be removed",
-                place=str(run.jobs / names[0]),
-                next_move=f"wait for it (`worldwright stage wait {run.folder}`), or `worldwright stage cancel {run.folder}`",
+                f"{busy.name} is under way, and may read what would be removed",
+                place=str(busy),
+                next_move=f"wait for it (`worldwright stage wait {its}`), or `worldwright stage cancel {its}`",
             )
+        if not dry:
+            for one in (run, rehearsal) if rehearsal else (run,):
+                end_orphans(one)  # what still writes would write on, into what is removed
         found = sorted(freeable_of(run, key))
         freed = sum(map(_size, found))
         for path in () if dry else found:
@@ -101,25 +108,58 @@ def free(run: Run, key: EvidenceKey, *, dry: bool) -> Freed:
     return Freed(run=run.name, removed=removed, freed_mb=freed / MB, dry=dry)
 
 
-def freeable_of(run: Run, key: EvidenceKey) -> Iterator[Path]:
+@contextmanager
+def _held(run: Run) -> Iterator[Run | None]:
+    """The rehearsal of a run, if it has one, in which nobody walks and no job begins meanwhile."""
+    if (rehearsal := rehearsed.of(run.folder)) is None:
+        yield None
+        return
+    with rehearsed.alone(rehearsal.folder) as nobody_else:
+        if not nobody_else:
+            raise GateError(
+                "the run is being rehearsed",
+                place=str(rehearsal.folder),
+                next_move=f"wait until `worldwright stage rehearse {run.folder}` has answered",
+            )
+        with one_at_a_time(rehearsal):
+            yield rehearsal
+
+
+def freeable_of(run: Run, key: EvidenceKey | None) -> Iterator[Path]:
     """The files and folders that may go; links are left alone."""
-    kept = _kept(run, key)
+    if (rehearsal := rehearsed.of(run.folder)) is not None:
+        yield rehearsal.folder
+    yield from _left(run.folder)
+    kept = None if key is None else _kept(run, key)
     for folder in (run.folder / "evidence").glob("*"):
         yield from _left(folder)
         if kept is not None and folder.name not in kept and not folder.is_symlink():
             passes = (p for p in folder.glob("*") if not p.name.startswith(GOING) and p.name != SOURCE)
             yield from (p for p in passes if p.is_dir() and not p.is_symlink())
-    newest = set[tuple[str, str]]()
+    newest, killed = set[tuple[str, str]](), {job.folder for job in orphans(run)}
     for job in Job.all(run):
         yield from _left(job.folder)
+        if key is None:
+            continue
         if (made := (job.spec.stage, job.spec.variant)) not in newest:
             newest.add(made)
+            if job.folder in killed and not job.folder.is_symlink():
+                yield from _torn(job)
         elif not job.folder.is_symlink():
             heavy = [*(job.folder / name for name in HEAVY), *job.folder.glob("replaced-*")]
             if job.spec.stage == "final":  # the next final pass goes on with them, and tidies
                 traced = job.folder / refined.FOLDER, job.out if (job.out / refined.FOLDER).is_dir() else None
                 heavy = [path for path in heavy if path not in traced]
             yield from (path for path in heavy if path.exists() and not path.is_symlink())
+
+
+def _torn(job: Job) -> Iterator[Path]:
+    """What a killed job wrote, which the next job of the run would remove; not the frames that a final pass goes on with."""
+    frames = job.out / refined.FOLDER
+    drawn = job.spec.stage == "final" and frames.is_dir()
+    for path in (job.scratch, *(job.out.iterdir() if drawn else (job.out,))):
+        if path != frames and path.exists() and not path.is_symlink():
+            yield path
 
 
 def _left(folder: Path) -> list[Path]:
@@ -138,9 +178,13 @@ def _remove(path: Path) -> None:
 
 
 def _kept(run: Run, key: EvidenceKey) -> set[str] | None:
-    """Keys whose evidence stays whole; None (all of them) where a stamp cannot be read."""
+    """Keys whose evidence stays whole; None (all of them) where a stamp cannot be read.
+
+    Of what cannot be read nobody can say that nothing rests on it: a key with a torn report of what it is, or of a pass, stays.
+    One that never had such a report rests on nothing.
+    """
     kept = {key.key, *(str(e.get("key")) for e in run.entries() if e.get("action") == "accept")}
-    for folder in (run.folder, run.accepted, *(run.folder / "earlier").glob("*")):
+    for folder in (run.folder, run.accepted, *run.earlier()):  # nothing rests on one that is damaged
         if (stamp := folder / STAMP).exists():
             try:
                 kept.add(str(json.loads(stamp.read_bytes())["predicate"]["source"]["key"]))
@@ -148,9 +192,13 @@ def _kept(run: Run, key: EvidenceKey) -> set[str] | None:
                 return None
     evidence, same = run.folder / "evidence", ("program_sha256", "plan_sha256")
     for path in evidence.glob("*/key.json"):  # the present program and plan, seen in another environment
-        said = _said(path)
+        said = json_object.read(path) or {}
         if all(said.get(name) == getattr(key, name) for name in same):
             kept.add(path.parent.name)
+    for folder in evidence.glob("*"):
+        reports = (folder / "key.json", *folder.glob("*/result.json"))
+        if any(os.path.lexists(path) and json_object.read(path) is None for path in reports):
+            kept.add(folder.name)
     if not (run.evidence(key) / "physics").is_dir():
         dated = [(_started(path), path.parents[1].name) for path in evidence.glob("*/physics/result.json")]
         kept |= {max(dated)[1]} if dated else set()
@@ -162,20 +210,14 @@ def _kept(run: Run, key: EvidenceKey) -> set[str] | None:
 
 
 def _started(result: Path) -> str:
-    return str(_said(result).get("started", ""))
-
-
-def _said(path: Path) -> dict[str, Any]:
-    """A JSON object; empty where there is none."""
-    try:
-        found = json.loads(path.read_bytes())
-    except (OSError, ValueError, RecursionError):
-        return {}
-    return found if isinstance(found, dict) else {}
+    return str((json_object.read(result) or {}).get("started", ""))
 
 
 def _under_way(run: Run) -> list[str]:
-    return [job.folder.name for job in Job.all(run) if not job.read().ended]
+    """Jobs that have not ended, of the run and of its rehearsal, by their paths in the run folder."""
+    rehearsal = rehearsed.of(run.folder)
+    jobs = [*Job.all(run), *(Job.all(rehearsal) if rehearsal else ())]
+    return [job.folder.relative_to(run.folder).as_posix() for job in jobs if not job.read().ended]
 
 
 def _size(path: Path) -> int:

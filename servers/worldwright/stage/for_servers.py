@@ -1,10 +1,11 @@
 """What the stage does for other servers, which reach it through `stage.tools`; none of it is a tool."""
 
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..model.errors import NotFoundError
+from ..model.errors import NotFoundError, WorldwrightError
 from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run
 from ..model.progress import Progress, silent
@@ -47,6 +48,25 @@ def latest(run: Run, stage: PassName) -> JobStatus | None:
     wanted = (stage, "", run.evidence_key(environment.current().sha256()), pictures_of.identity(run, stage))
     jobs = (job for job in Job.all(run) if (s := job.spec) and (s.stage, s.variant, s.key, s.film_sha256) == wanted)
     return next((job.read() for job in jobs), None)
+
+
+def free_earlier(run: Run) -> None:
+    """For another server's walk (no tool): cancel what is under way in a run, and free all that is not of its present files."""
+    from ..model.evidence import environment
+    from . import disk
+
+    for job in Job.all(run):
+        job.cancel()
+    with suppress(WorldwrightError):  # without a program there is no key; what a job still holds goes another time
+        disk.free(run, run.evidence_key(environment.current().sha256()), dry=False)
+
+
+def spent(run: Run) -> float:
+    """For another server's walk (no tool): processor time of the passes of the program and plan as they stand, s."""
+    from ..model.evidence import environment
+
+    key = run.evidence_key(environment.current().sha256())
+    return sum(job.read().cpu_s for job in Job.all(run) if job.spec.key == key)
 
 
 def start_fresh(run: Run, stage: PassName) -> JobStatus:
@@ -101,6 +121,13 @@ def run_confined(call: Sequence[str], *, program: Path | None = None, **limits: 
     return confined.run(call, sculpts=sculpts, **limits)
 
 
+def may_run_strangers() -> bool:
+    """For other servers (no tool): whether a program that nobody has read may be run here; see `confined.allowed`."""
+    from . import confined, sandbox
+
+    return confined.allowed(sandbox.level())
+
+
 def sculpt_of(plan: "Plan") -> int:
     """For other servers (no tool): have what a plan's files sculpt made, once; see `stage.sculpting_step.prepare`."""
     from .sculpting_step import prepare
@@ -128,12 +155,14 @@ def try_film(folder: Path) -> dict[str, str] | None:
 
     Returns how it failed (`code`, `message`, `line`, `next_move`), empty if it did not; None without a recording.
     """
-    from ..model.errors import GateError, JobError
+    from ..model.errors import CallOverError, GateError, JobError
 
     try:
         draw_moment(Run.find(folder), 0.0, None, (64, 36))
     except (NotFoundError, GateError):
         return None
+    except CallOverError:
+        raise  # it tells nothing of the film
     except JobError as failure:
         line = failure.place.rpartition(":")[2]
         said = {"code": failure.code, "message": failure.cause, "next_move": failure.next_move}

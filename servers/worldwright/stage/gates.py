@@ -2,7 +2,7 @@
 
 The bundle, the world as one file, needs this exact plan approved, with the model files that it names. Physics also needs this
 exact program linted clean against it; a name that the simulator did not know must have been looked up. Storyboard, stills and
-final film need physics on this key, video needs stills.
+final film need physics on this key, video needs stills. A rehearsal, which nothing rests on, needs neither approval nor lint.
 """
 
 import json
@@ -11,8 +11,9 @@ from typing import Any
 
 from worldkit import lock
 
+from ..model import json_object
 from ..model.errors import GateError
-from ..model.evidence import approval, environment, lookups, pictures_of
+from ..model.evidence import approval, environment, lookups, pictures_of, rehearsed
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
 from .sandbox.confinement import gl_backend
@@ -57,10 +58,10 @@ def earlier(run: Run, key: EvidenceKey, variant: str = "") -> list[Path]:
     name = folder_name("physics", variant)
     found: dict[str, tuple[str, Path]] = {}
     for folder in run.folder.glob(f"evidence/*/{name}"):
-        other = _json(folder.parent / "key.json")
+        other = json_object.read(folder.parent / "key.json") or {}
         if folder.parent.name == key.key or other.get("environment_sha256") != key.environment_sha256:
             continue
-        result = _json(folder / "result.json")
+        result = json_object.read(folder / "result.json") or {}
         motion, started = str((result.get("summary") or {}).get("motion_key", "")), str(result.get("started", ""))
         if motion and result.get("ok") and (folder / "trajectory" / "complete.json").is_file():
             found[motion] = max(found.get(motion, ("", folder)), (started, folder))
@@ -72,7 +73,7 @@ def earlier_pictures(run: Run, stage: PassName) -> list[Path]:
     drawn = environment.film().sha256
     found: list[tuple[str, Path]] = []
     for folder in run.folder.glob(f"evidence/*/{stage}"):
-        result = _json(folder / "result.json")
+        result = json_object.read(folder / "result.json") or {}
         summary = result.get("summary") or {}
         if (
             result.get("ok")
@@ -115,7 +116,7 @@ def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> N
     if run.source == run.model:  # a bare model makes no claim that a person would have to approve
         return
     approval.require(run, f"the {stage} pass needs an approval")
-    if stage == "bundle":
+    if stage == "bundle" or rehearsed.is_one(run.entries()):  # a rehearsal measures what lint would not let pass, too
         return
     lint = _read(run, key, "lint.json")
     if not lint or any(f.get("severity") == "error" for f in lint.get("findings", ())):
@@ -133,12 +134,4 @@ def require(run: Run, key: EvidenceKey, stage: PassName, variant: str = "") -> N
 
 
 def _read(run: Run, key: EvidenceKey, name: str) -> dict[str, Any]:
-    return _json(run.evidence(key) / name)
-
-
-def _json(path: Path) -> dict[str, Any]:
-    try:
-        value = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return {}
-    return value if isinstance(value, dict) else {}
+    return json_object.read(run.evidence(key) / name) or {}

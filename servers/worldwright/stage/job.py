@@ -8,6 +8,7 @@ for, `cancel`.
 
 import fcntl
 import json
+import time
 from pathlib import Path
 from typing import Literal
 
@@ -25,6 +26,8 @@ from ..model.frozen import Frozen
 from .gates import folder_name, passed
 from .sandbox.confinement import gl_backend
 
+CANCEL_S = 10.0
+"""A job that is cancelled is waited for so long."""
 State = Literal["queued", "running", "succeeded", "failed", "cancelled", "lost"]
 
 
@@ -85,6 +88,8 @@ class JobStatus(Frozen):
     total: float = 0
     unit: str = ""
     wall_s: float = 0
+    cpu_s: float = 0
+    """Processor time of all its processes, once it has ended, s."""
     eta_s: float | None = None
     sandbox: str = ""
     result: str = ""
@@ -220,6 +225,15 @@ class Job:
                 "next_move": f"start the {spec.stage} pass again; earlier evidence is untouched",
             }
         )
+
+    def cancel(self) -> None:
+        """Ask for the job's end, and wait for it a while."""
+        if self.read().ended:
+            return
+        (self.folder / "cancel").touch()
+        deadline = time.monotonic() + CANCEL_S
+        while not self.read().ended and time.monotonic() < deadline:
+            time.sleep(0.05)
 
     def supervised(self) -> bool:
         """Whether a live supervisor holds the job's lock (a lock dies with its process, unlike a process number)."""

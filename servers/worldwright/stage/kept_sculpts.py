@@ -11,7 +11,7 @@ import json
 import os
 import re
 import shutil
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -108,19 +108,36 @@ def place_of(files: Mapping[str, bytes]) -> Path:
 
 
 def _tidy() -> None:
-    """Drop the places that were used longest ago, and of all that is kept the oldest entries that are too much."""
+    """Leave the places that were used last, as many as may be and as have so many bytes; of each, its newest entries.
+
+    A place goes whole: half of one would be filled again by the next look at its plan, at the cost of another place.
+    """
+    left = MOST_IN_ALL
+    for number, (_, path) in enumerate(sorted(_used(), reverse=True)):
+        with contextlib.suppress(OSError):  # others tidy beside
+            left -= _trim(path, MOST_IN_PLACE) if number < MOST_PLACES else 0
+            if number >= MOST_PLACES or left < 0:
+                shutil.rmtree(path, ignore_errors=True)
+
+
+def _used() -> Iterator[tuple[int, Path]]:
+    """Each place, and when it was used last, ns."""
     with contextlib.suppress(OSError):
-        places = sorted((cache_folder() / "sculpts").iterdir(), key=lambda path: path.stat().st_mtime)
-        for path in places[: max(0, len(places) - MOST_PLACES)]:
-            shutil.rmtree(path, ignore_errors=True)
-        for path in places[-MOST_PLACES:]:
-            _trim(path.glob("*.npz"), MOST_IN_PLACE)
-        _trim((cache_folder() / "sculpts").glob("*/*.npz"), MOST_IN_ALL)
+        for path in (cache_folder() / "sculpts").iterdir():
+            with contextlib.suppress(OSError):
+                yield path.stat().st_mtime_ns, path
 
 
-def _trim(entries: Iterable[Path], most: int) -> None:
-    """Leave the newest of some files, as many as have so many bytes."""
-    for path, state in sorted(((path, path.stat()) for path in entries), key=lambda one: -one[1].st_mtime_ns):
-        most -= state.st_size
-        if most < 0:
+def _trim(place: Path, most: int) -> int:
+    """Leave the newest entries of a place, as many as have so many bytes; returns how many bytes are left."""
+    kept, before = 0, place.stat()
+    for path, state in sorted(
+        ((path, path.stat()) for path in place.glob("*.npz")), key=lambda one: -one[1].st_mtime_ns
+    ):
+        if kept + state.st_size > most:
+            most = kept  # nor what is older and smaller
             path.unlink(missing_ok=True)
+        else:
+            kept += state.st_size
+    os.utime(place, ns=(before.st_atime_ns, before.st_mtime_ns))  # to be trimmed is no use of it
+    return kept

@@ -132,7 +132,9 @@ def launch(
             fresh=fresh,
             created=time.time(),
         )
-        _tidy(run)
+        for left in end_orphans(run):
+            shutil.rmtree(left.scratch, ignore_errors=True)
+            shutil.rmtree(left.out, ignore_errors=True)
         job = Job.create(run, spec)
         _detach(job)
         return job.read()
@@ -152,14 +154,18 @@ def _needed_job(run: Run, key: EvidenceKey, stage: PassName, variant: str) -> st
     return next((job.folder.name for job in jobs if job.spec.stage == before and not job.read().ended), "")
 
 
-def _tidy(run: Run) -> None:
-    """End the processes of killed supervisors and remove their files; logs and results stay."""
-    for job in Job.all(run):
-        if job.scratch.exists() and job.read().ended:
-            family.sweep(job.spec.token)
-            refined.put_aside(job)
-            shutil.rmtree(job.scratch, ignore_errors=True)
-            shutil.rmtree(job.out, ignore_errors=True)
+def orphans(run: Run) -> list[Job]:
+    """Jobs whose supervisor was killed: they have ended, and what they were writing lies there still."""
+    return [job for job in Job.all(run) if job.scratch.exists() and job.read().ended]
+
+
+def end_orphans(run: Run) -> list[Job]:
+    """End the processes that killed supervisors have left, and put their frames aside; returns the jobs, whose output may go."""
+    found = orphans(run)
+    for job in found:
+        family.sweep(job.spec.token)
+        refined.put_aside(job)
+    return found
 
 
 def _detach(job: Job) -> None:

@@ -7,6 +7,7 @@ Each has its own code, and says what to do.
 
 import os
 import shutil
+import signal
 import time
 from pathlib import Path
 from typing import Any
@@ -22,7 +23,7 @@ SPARE_MEMORY_BYTES = 256 * MB
 SPARE_DISK_BYTES = 64 * MB
 MOST_FILES = 50_000
 DISK_EVERY_S = 0.5
-CPU_SIGNAL, SIZE_SIGNAL = 24, 25
+CPU_SIGNAL, SIZE_SIGNAL, KILL_SIGNAL = 24, 25, 9
 
 
 class Guard:
@@ -89,7 +90,7 @@ class Guard:
             for folder, _, names in os.walk(root):
                 for name in names:
                     try:
-                        written += (Path(folder) / name).lstat().st_blocks * 512
+                        written += os.lstat(f"{folder}/{name}").st_blocks * 512
                     except OSError:
                         continue
                 files += len(names) + 1
@@ -129,15 +130,13 @@ def failed(status: int, summary: dict[str, Any], error: dict[str, Any], log: str
         return _out_of_cpu_time("one of its processes used all its processor time")
     if number == SIZE_SIGNAL:
         return _file_too_large("it wrote a file over its limit")
-    if number == 9:
+    if number == KILL_SIGNAL:
         cause = "it was killed by a signal (SIGKILL): by itself, or because the machine ran out of memory"
         return {"code": "killed", "message": cause, "next_move": f"see its last words in `{log}`"}
-    if number:
-        return {
-            "code": "killed",
-            "message": f"it was ended by signal {number}",
-            "next_move": f"see its last words in `{log}`",
-        }
+    if number:  # a crash in native code, or an abort: of the program's own doing, unlike a kill
+        named = f"{number} ({signal.Signals(number).name})" if number in set(signal.Signals) else f"{number}"
+        cause = f"it was ended by signal {named}"
+        return {"code": "crashed", "message": cause, "next_move": f"see its last words in `{log}`"}
     if status == 0:
         cause = "it ended without a result: does it hand its world to worldkit's program.main?"
         return {"code": "no_result", "message": cause, "next_move": "end the file with program.main(build, …)"}

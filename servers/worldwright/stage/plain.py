@@ -4,7 +4,6 @@ A link called `log.txt` may lead to a file of the host, which a careless write w
 publish. Whatever is taken out of a program's folder is taken by these functions.
 """
 
-import json
 import os
 import stat
 from collections.abc import Iterator
@@ -13,7 +12,11 @@ from typing import Any
 
 from worldkit.files import write_atomic
 
+from ..model import json_object
+
 MB = 1 << 20
+MOST_JSON = json_object.MOST_BYTES
+"""Bytes of a report."""
 
 
 def read(path: Path, limit: int) -> bytes | None:
@@ -34,16 +37,12 @@ def read(path: Path, limit: int) -> bytes | None:
 
 def read_json(path: Path) -> dict[str, Any]:
     """A JSON object, or an empty one: what a confined program writes is never trusted."""
-    return as_object(read(path, 4 * MB) or b"")
+    return as_object(read(path, MOST_JSON) or b"")
 
 
 def as_object(content: bytes) -> dict[str, Any]:
-    """The JSON object that a content is, or an empty one."""
-    try:
-        value = json.loads(content)
-    except (ValueError, RecursionError):
-        return {}
-    return value if isinstance(value, dict) else {}
+    """The JSON object that a content is, or an empty one; what is larger than `MOST_JSON` is not parsed."""
+    return json_object.told(content) or {}
 
 
 def take(path: Path, to: Path, limit: int) -> bool:

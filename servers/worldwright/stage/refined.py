@@ -33,7 +33,8 @@ def put_aside(job: Job) -> None:
 
 
 def carry_over(run: Run, job: Job, described: Path, recording: Path, world: Path) -> None:
-    """Move the frames that the last final pass drew of this film, of a world's file, to where the new one goes on with them.
+    """Move the frames that the last final pass drew of this film, of a world's file, to where the new one goes on with them:
+    those that were traced, and those that a plainer renderer drew, which are called by it too.
 
     Those of the last `KEPT` other films stay where they lie; older ones are removed.
     """
@@ -41,14 +42,14 @@ def carry_over(run: Run, job: Job, described: Path, recording: Path, world: Path
     from worldengine.recording import stored
 
     name = refining.named(described, stored.open(recording).sha256, world)
-    there = job.out / FOLDER / name
     past = [other for other in Job.all(run) if other.spec.stage == "final" and other.folder != job.folder]
     sets = [path for other in past if other.read().ended for path in (other.folder / FOLDER).glob("*") if path.is_dir()]
-    others = 0
+    others: set[str] = set()
     for path in sorted(sets, key=_drawn_at, reverse=True):
-        if path.name != name and others < KEPT:
-            others += 1
-        elif path.name == name and not there.exists() and not job.spec.force:
+        there, film = job.out / FOLDER / path.name, path.name.partition("-")[0]
+        if film != name and (film in others or len(others) < KEPT):
+            others.add(film)
+        elif film == name and not there.exists() and not job.spec.force:
             there.parent.mkdir(parents=True, exist_ok=True)
             with suppress(OSError):  # another pass, which runs beside it, tidied them away
                 path.rename(there)

@@ -4,6 +4,7 @@ What fails or takes too long does so once, too: a note with its own words lies i
 or the code that makes shapes, change.
 """
 
+import errno
 import json
 import re
 import sys
@@ -15,7 +16,6 @@ from typing import Any
 from worldkit import kept_shapes
 from worldkit.files import write_atomic, write_json
 
-from ..model import call_time
 from ..model.errors import JobError
 from ..model.evidence import environment
 from ..model.plan import imported
@@ -31,6 +31,14 @@ KEYS = "keys.json"
 KEY = re.compile("[0-9a-f]{24}")
 WALL_S, MEMORY_MB = 120.0, 4096
 OVER, KILLED = ("timed_out", "out_of_memory"), 128
+MACHINE = {errno.ENOSPC: "disk_full", errno.EDQUOT: "disk_full"}
+"""The system's errors that are the machine's, and their codes: no disk space or quota is left to give."""
+EITHER = {errno.EAGAIN: "too_many_processes", errno.ENOMEM: "out_of_memory"}
+"""Those that are the machine's or the file's own, which asks for more processes or memory than it may have."""
+LAST = re.compile(r"(?:\w+\.)*\w+: \[Errno (\d+)\]")
+"""How the last line of a traceback begins that the system's error ended."""
+ROOM = "free some disk space of this machine, then call it again"
+FEWER = "let it start fewer processes, or ask for less memory at once; if it does neither, free memory of this machine and call again"
 LESS = "take fewer `cells` and `texels` (64, 512), rows by `linear` or `radial`, no `within` of a large union; a first sheet without paint"
 
 
@@ -70,15 +78,24 @@ def _made(root: Path, file: str, names: set[str], cancelled: Callable[[], bool])
             sculpts=Given((place,), place), cancelled=cancelled,
         )  # fmt: skip
     if ended.status == "ended" and ended.exit_code == 0 and KEYS in ended.files:
-        write_json(place / MADE, {"names": sorted(names), "keys": _listed(ended.files[KEYS])})
-    elif ended.status == "ended" or (ended.status in OVER and call_time.left_s() > 0):  # the end of a call says nothing
+        # What is too large to be kept is made by whoever needs it, not by every look at the plan, too.
+        keys = [key for key in _listed(ended.files[KEYS]) if _whole(place, key)]
+        write_json(place / MADE, {"names": sorted(names), "keys": keys})
+    elif ended.status in ("ended", *OVER):
         noted = {**tried, "code": ended.status, "message": _words(ended), "line": _line(file, ended.log)}
-        if ended.status in OVER or (
-            0 < ended.exit_code < KILLED and "Errno 28" not in ended.log
-        ):  # else the machine did it
+        if ended.status == "ended" and (number := _errno(ended.log)) in (MACHINE | EITHER):  # not surely the file's own
+            move = ROOM if number in MACHINE else FEWER
+            raise JobError(noted["message"], code=(MACHINE | EITHER)[number], place=str(root / file), next_move=move)
+        if ended.status in OVER or 0 < ended.exit_code < KILLED:  # else something ended it from outside
             write_json(place / FAILED, noted)
         raise _error(root / file, noted)
     return len(ended.sculpted)
+
+
+def _errno(log: str) -> int:
+    """The system's error that the last traceback ends with; 0 where it ends with none."""
+    found = LAST.match((log.strip().splitlines() or [""])[-1])
+    return int(found[1]) if found else 0
 
 
 def forget(root: Path, file: str) -> None:

@@ -13,7 +13,9 @@ from typing import Any
 PACKED = "shaders.zip"
 CACHES = ("mesa_shader_cache", "mesa_shader_cache_db", ".drjit", ".nv")
 """Folders below a home in which drivers keep what they compiled."""
-SIZE = (64, 48)
+SIZE = (160, 90)
+"""Pixels. No side of it, nor of the smaller pictures that are made on the way, is a power of two: a driver for the processor
+compiles another shader for those, and hardly a film has such sides."""
 
 
 def draw() -> None:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..model import call_time
-from ..model.errors import JobError
+from ..model.errors import CallOverError, JobError
 from . import compiled_shaders, confined, plain
 from .kept_sculpts import Given
 from .limits import failed
@@ -44,17 +44,21 @@ def run_process(
 
     Raises:
         JobError: it failed, was stopped, or left too little; a line of the author's is in its place.
+        CallOverError: the client's call ended first.
     """
-    ended = confined.run(
-        call,
-        reads=reads,
-        wanted=(*wanted, RESULT, ERROR),
-        wall_s=wall_s,
-        memory_mb=memory_mb,
-        file_mb=512,
-        home=home,
-        sculpts=sculpts,
-    )
+    try:
+        ended = confined.run(
+            call,
+            reads=reads,
+            wanted=(*wanted, RESULT, ERROR),
+            wall_s=wall_s,
+            memory_mb=memory_mb,
+            file_mb=512,
+            home=home,
+            sculpts=sculpts,
+        )
+    except CallOverError as early:
+        raise call_time.over(again) from early
     said = {name: plain.as_object(ended.files.get(name, b"")) for name in (RESULT, ERROR)}
     if ended.status != "ended":
         why = {
@@ -62,9 +66,6 @@ def run_process(
             "out_of_memory": f"it took more than {memory_mb / 1024:g} GB of memory",
         }
         cause = why.get(ended.status, f"it was stopped: {ended.status}")
-        if ended.status == "timed_out" and call_time.left_s() < 0:
-            cause = f"it was not done within the {call_time.CALL_S:g} s that a call may take"
-            less = f"call it again when the machine has less to do, or on the shell, which waits longer: `{again}`"
         raise JobError(cause, code=ended.status, next_move=less if ended.status in why else "worldwright doctor")
     failure = failed(ended.exit_code, said[RESULT], said[ERROR], again)
     if failure is None and any(name not in ended.files for name in wanted if "*" not in name):

@@ -7,6 +7,7 @@ the engine alone. Only when everything ended well are the engine's files moved i
 """
 
 import os
+import resource
 import shutil
 import sys
 import time
@@ -21,7 +22,7 @@ from ..model.evidence.reports import PassResult
 from ..model.evidence.run import Run, sha256_file
 from ..model.storage import FULL
 from . import bare_models, plain, refined, sandbox
-from .crew import Crew, adopt_orphans
+from .crew import Crew, adopt_orphans, reap_all
 from .gates import folder_name, require
 from .job import Job, JobStatus, Spec
 from .pace import Pace
@@ -163,7 +164,7 @@ class Supervision:
         if result.ok:
             told["done"] = self.last.get("total", 0)
             told["result"] = str(self.run.evidence(self.spec.key) / folder_name(self.spec.stage, self.spec.variant))
-        self.state(name, **told)
+        self.state(name, cpu_s=_cpu_s(), **told)
 
     def journal(self, result: PassResult, **more: str) -> None:
         """Write one line: which pass of which program and plan ended how."""
@@ -235,6 +236,13 @@ class Supervision:
         )
         self.journal(result)
         return result
+
+
+def _cpu_s() -> float:
+    """Processor time of this process and of all that it has started and that has ended, s."""
+    reap_all()
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return round(sum(one.ru_utime + one.ru_stime for one in used), 2)
 
 
 def main() -> int:

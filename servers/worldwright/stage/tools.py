@@ -1,6 +1,5 @@
 """The tools of `stage`: start a pass, follow it, look at what it shows."""
 
-import time
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -17,14 +16,17 @@ from .disk import Disk, used
 from .for_servers import (
     declared_inputs,
     draw_moment,
+    free_earlier,
     latest,
     look_at_start,
+    may_run_strangers,
     model_files,
     read_plain,
     run_confined,
     run_variant,
     sculpt_of,
     simulate_given,
+    spent,
     start_fresh,
     start_storyboard,
     try_film,
@@ -36,14 +38,17 @@ __all__ = [
     "TOOLS",
     "declared_inputs",
     "draw_moment",
+    "free_earlier",
     "latest",
     "look_at_start",
+    "may_run_strangers",
     "model_files",
     "read_plain",
     "run_confined",
     "run_variant",
     "sculpt_of",
     "simulate_given",
+    "spent",
     "start_fresh",
     "start_storyboard",
     "try_film",
@@ -219,11 +224,7 @@ def status(run: RunName) -> RunStages:
 def cancel(run: RunName, job: JobName = None) -> JobStatus:
     """Stop a running job and everything it started. Earlier evidence is untouched."""
     found = Job.find(Run.find(run), job)
-    if not found.read().ended:
-        (found.folder / "cancel").touch()
-        deadline = time.monotonic() + 10
-        while not found.read().ended and time.monotonic() < deadline:
-            time.sleep(0.05)
+    found.cancel()
     return found.read()
 
 

@@ -13,7 +13,7 @@ from typing import Literal
 from worldkit.files import write_atomic
 
 from ..model.errors import GateError
-from ..model.evidence import came, pictures_of
+from ..model.evidence import came, handed_in, pictures_of
 from ..model.evidence.journal import Journal
 from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
@@ -35,7 +35,7 @@ from . import (
     versions,
     world_facts,
 )
-from .proof import FACTS, WORLD, Proved, beside, driven_by, lay_out, prove
+from .proof import FACTS, WORLD, Proved, driven_by, lay_out, prove
 from .state import State
 from .statement import (
     Acceptance,
@@ -48,10 +48,11 @@ from .statement import (
     Source,
     Statement,
 )
-from .steps import steps
+from .steps import handed_in_since, steps
 from .strip import Stripped, strip
+from .taken import Taken, take
 
-REPORTS = ("key", "lint", "scan", "expect", "interventions", "causes", "refine", "visual", "review")
+REPORTS = ("key", "lint", "scan", "expect", "interventions", "causes", "refine", "robust", "visual", "review")
 
 
 LARGEST = 4 << 30
@@ -108,13 +109,17 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
     deadline = time.monotonic() + timeout_s
     signer = signing.private_key(key) if key else keyring.own()
     with writing("the accepted folder", state.run.folder), bundle.only_one(state.run):
-        if steps(state)["accept"].holds and signing.check(state.run.stamped, bundle.STAMP).vouched:
+        taken = take(state.run)
+        listed = not handed_in_since(state)
+        if listed and steps(state)["accept"].holds and signing.check(state.run.stamped, bundle.STAMP).vouched:
             if key is not None:
                 signing.sign(state.run.stamped, bundle.STAMP, signer)
             return _again(state)
         gates.pass_through("accept", state)
+        taken.still(state.run)  # what the gates saw
         for _, path in _published(state):
             _plain(state, path)  # now, rather than after the proof run
+        handed_in.of(state.run.folder)
         stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
         program, plan = stripped.source.encode(), state.plan_bytes or b""
         work = private.proofs(state.run, state.key.key if state.key else "")
@@ -128,7 +133,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             reason=f"copied from {state.run.name}",
             timeout_s=timeout_s,
             progress=progress,
-            near=beside(state.run.folder),
+            near=taken.near,
             kept=kept,
         )
         if proved is None:
@@ -145,7 +150,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
         folder = bundle.draft_folder(state.run)
         try:
-            statement = _assemble(state, stripped, proved, folder)
+            statement = _assemble(state, stripped, proved, taken, folder)
             stamp_sha256 = bundle.seal(folder, statement)
             signing.sign(folder, bundle.STAMP, signer)
             bundle.publish(folder, state.run.accepted, versions.aside(state.run))
@@ -178,14 +183,11 @@ def _as_planned(state: State, proved: Proved) -> None:
         )
 
 
-def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) -> Statement:
+def _assemble(state: State, stripped: Stripped, proved: Proved, taken: Taken, folder: Path) -> Statement:
     """Fill the draft folder and say what is in it."""
+    taken.lay(folder)
     write_atomic(folder / "simulation.py", stripped.source.encode())
     write_atomic(folder / "plan.md", state.plan_bytes or b"")
-    if state.run.prompt.is_file():
-        write_atomic(folder / "prompt.md", state.run.prompt.read_bytes())
-    for name, content in (beside(state.run.folder) | pictures_of.files(state.run)).items():
-        write_atomic(folder / name, content)
     write_atomic(folder / digest.NAME, digest.motion(proved.recording).model_dump_json() + "\n")
     sampled.write(proved.recording, folder / sampled.NAME)
     if proved.world is not None:
@@ -198,10 +200,13 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, folder: Path) ->
         write_atomic(folder / name, content)
         if path.suffix == ".json":
             evidence[str(path.relative_to(state.folder))] = Digest(sha256=hashlib.sha256(content).hexdigest())
-    filmed = _filmed(state)
+    if (film := handed_in.find(state.run.folder)) is not None:
+        write_atomic(folder / film.name, handed_in.content(film))
+    filmed = _filmed(state, taken)
     cameras = [camera.name for camera in state.plan.cameras()] if state.plan else []
     poster.write(folder, cameras, filmed.shots if filmed else ())
-    return Statement(subject=bundle.subjects(folder), predicate=_predicate(state, stripped, proved, evidence))
+    predicate = _predicate(state, stripped, proved, taken, evidence, folder)
+    return Statement(subject=bundle.subjects(folder), predicate=predicate)
 
 
 def _factual(state: State, stripped: Stripped, facts: Path) -> None:
@@ -209,7 +214,9 @@ def _factual(state: State, stripped: Stripped, facts: Path) -> None:
     with tempfile.TemporaryDirectory(prefix="worldwright-") as folder:
         program = Path(folder) / "simulation.py"
         write_atomic(program, stripped.source.encode())
-        for found in world_facts.differ(facts / WORLD, facts, program, state.run.plan):
+        plan = Path(folder) / "plan.md"  # the one that is accepted, whatever the run's file says by then
+        write_atomic(plan, state.plan_bytes or b"")
+        for found in world_facts.differ(facts / WORLD, facts, program, plan):
             raise GateError(
                 f"the program calls `program.main` otherwise than its text says: {found}",
                 place=f"{state.place}/simulation.py",
@@ -258,7 +265,9 @@ def _plain(state: State, path: Path) -> bytes:
     return content
 
 
-def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[str, Digest]) -> Acceptance:
+def _predicate(
+    state: State, stripped: Stripped, proved: Proved, taken: Taken, evidence: dict[str, Digest], folder: Path
+) -> Acceptance:
     from .. import __version__
 
     plan, key, environment = state.plan, state.key, state.environment
@@ -275,12 +284,13 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
             key=key.key,
             program_sha256=key.program_sha256,
             plan_sha256=key.plan_sha256,
-            prompt_sha256=bundle.sha256_file(state.run.prompt) if state.run.prompt.is_file() else "",
+            prompt_sha256="" if taken.prompt is None else hashlib.sha256(taken.prompt).hexdigest(),
             stripped_lines=stripped.removed,
-            materials=_materials(state, environment),
+            materials=_materials(state, taken, environment),
         ),
         proof=_proof(state, proved),
-        film=_filmed(state),
+        film=_filmed(state, taken),
+        handed_in=handed_in.of(folder),
         environment=environment.model_copy(update={"film": state.film}),
         cpu=processor.cpu(),
         evidence=evidence,
@@ -321,9 +331,9 @@ def _predicate(state: State, stripped: Stripped, proved: Proved, evidence: dict[
     )
 
 
-def _filmed(state: State) -> Filmed | None:
+def _filmed(state: State, taken: Taken) -> Filmed | None:
     """The author's film, and what the video pass says of it; None where there is none."""
-    video, sha256 = state.passes["video"].value, pictures_of.author_sha256(state.run)
+    video, sha256 = state.passes["video"].value, taken.film_sha256
     told = (video.summary.get("film") or {}) if video and video.ok else {}
     if not sha256:
         return None
@@ -332,18 +342,16 @@ def _filmed(state: State) -> Filmed | None:
     )
 
 
-def _materials(state: State, environment: Environment) -> dict[str, Digest]:
+def _materials(state: State, taken: Taken, environment: Environment) -> dict[str, Digest]:
     """What the world was made from, by name: the run's own files, the engine, the code, its assets and the film."""
     reference = [p for p in state.run.folder.glob("reference.*") if p.is_file()]
-    files = (
-        state.run.program,
-        state.run.plan,
-        state.run.prompt,
-        state.run.journal,
-        state.run.folder / pictures_of.FILM,
-        *reference,
-    )
+    files = (state.run.journal, *reference)
     found = {path.name: Digest(sha256=bundle.sha256_file(path)) for path in files if path.is_file()}
+    bytes_of = {state.run.program.name: state.program_bytes, state.run.plan.name: state.plan_bytes}
+    bytes_of |= {state.run.prompt.name: taken.prompt, pictures_of.FILM: taken.film.get(pictures_of.FILM)}
+    found |= {
+        name: Digest(sha256=hashlib.sha256(held).hexdigest()) for name, held in bytes_of.items() if held is not None
+    }
     made = {name: getattr(environment, f"{name}_sha256") for name in ("simulator", "worldkit", "catalog")}
     made["film"] = state.film.sha256 if state.film else ""
     return found | {name: Digest(sha256=sha256) for name, sha256 in made.items() if sha256}

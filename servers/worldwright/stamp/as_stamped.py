@@ -18,6 +18,9 @@ class Check(Frozen):
     name: str
     ok: bool
     detail: str
+    open: bool = False
+    """Not `ok`, and not refuted either: it cannot be shown here."""
+    next_move: str = ""
 
 
 def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:

@@ -12,6 +12,7 @@ from pathlib import Path
 from worldkit.files import write_atomic
 
 from ..model.errors import GateError
+from ..model.evidence import handed_in
 from ..model.evidence.run import Run, sha256_file
 from . import signing
 from .statement import Digest, Statement, Subject
@@ -24,8 +25,8 @@ PREFIX = ".accepting-"
 WORLD = "world"
 """Folder beside `world.mjz` with the facts of the program and the inputs that drove the world."""
 OF_WORLD = ("world.mjz", f"{WORLD}/")
-LEFT_OUT = ("evidence/", "stills/", "video/", *OF_WORLD, "trajectory.npz")
-"""What the small form of an accepted world may leave out, since a build makes it again."""
+LEFT_OUT = ("evidence/", "stills/", "video/", *OF_WORLD, "trajectory.npz", *handed_in.NAMES)
+"""What the small form of an accepted world may leave out: a build makes it again, but for a handed-in film, which proves nothing."""
 BESIDE = (
     "journal.jsonl", "accepted", "earlier", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json", "scene.glb", "scene.usda",
     "out",
@@ -83,6 +84,12 @@ def sums(listed: Iterable[Subject], stamp_sha256: str) -> str:
 def is_small(folder: Path) -> bool:
     """Whether a folder is the small form of an accepted world: its stamp stands beside the journal."""
     return (folder / STAMP).is_file() and (folder / "journal.jsonl").is_file()
+
+
+def left_by_builds(statement: Statement | None) -> set[str]:
+    """Names beside a small form that a build left there; what its stamp lists is its own, whatever it is called."""
+    own = {s.name.split("/")[0] for s in statement.subject if not may_be_missing(s.name)} if statement else set()
+    return {*BESIDE} - {"journal.jsonl"} - own
 
 
 def may_be_missing(name: str) -> bool:
@@ -167,9 +174,13 @@ def damage(folder: Path, statement: Statement) -> list[str]:
             found.append(f"{name} cannot be read ({cause.strerror or cause})")
     try:
         known = {*(s.name for s in statement.subject), *UNLISTED}
+        known |= (
+            set(handed_in.NAMES) if small else set()
+        )  # where the run itself stands accepted, one handed in since lies in it
         extra = [name for name in files_in(folder) if name not in known]
         found += [f"{name} is not in the stamp" for name in extra if not small or name.split("/")[0] not in BESIDE]
-        if (folder / SUMS).read_bytes() != sums(present, sha256_file(folder / STAMP)).encode():
+        summed = [s for s in present if not small or s.name not in handed_in.NAMES]  # the small form's never name it
+        if (folder / SUMS).read_bytes() != sums(summed, sha256_file(folder / STAMP)).encode():
             found.append(f"{SUMS} and {STAMP} do not match")
     except OSError as cause:
         found.append(f"{SUMS} cannot be read ({cause})")

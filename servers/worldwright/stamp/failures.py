@@ -1,8 +1,9 @@
 """How the newest job of a pass ended, for a person who asks what is missing."""
 
-import json
 from pathlib import Path
 from typing import Any
+
+from ..model import json_object
 
 
 def newest_failure(jobs: Path, stage: str, key: str) -> str:
@@ -13,7 +14,7 @@ def newest_failure(jobs: Path, stage: str, key: str) -> str:
     except OSError:
         return ""
     for folder in folders:
-        spec, state = _read(folder / "spec.json"), _read(folder / "state.json")
+        spec, state = (json_object.read(folder / name) or {} for name in ("spec.json", "state.json"))
         if state.get("stage") == stage and state.get("key") == key:
             newest = max(newest, {**state, "_at": _number(spec.get("created"))}, key=lambda j: j.get("_at", -1.0))
     state = newest.get("state", "")
@@ -24,14 +25,6 @@ def newest_failure(jobs: Path, stage: str, key: str) -> str:
     place = newest.get("place") or ""
     message = newest.get("message") or "it gave no message"
     return f"the last try ended with {newest.get('code') or state}{f' at {place}' if place else ''}: {message}"
-
-
-def _read(path: Path) -> dict[str, Any]:
-    try:
-        value = json.loads(path.read_bytes())
-    except (OSError, ValueError, RecursionError):
-        return {}
-    return value if isinstance(value, dict) else {}
 
 
 def _number(value: Any) -> float:

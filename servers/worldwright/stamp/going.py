@@ -8,13 +8,15 @@ evidence of this program and plan answers is not done again, so a walk that ran 
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
+from pathlib import Path
 from typing import Literal
 
-from ..model.errors import WorldwrightError
+from ..model.errors import CallOverError, WorldwrightError
 from ..model.evidence import approval
 from ..model.evidence.build_steps import StepName
 from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
+from ..model.finding import Finding
 from ..model.progress import Progress, silent
 from . import audited, gates, picture_claims
 from .gone import Gone, Wrong
@@ -89,6 +91,7 @@ class Going:
         self.wrong: list[Wrong] = []
         self.under_way: list[str] = []
         self.storyboard = ""
+        self.of_layout: tuple[Finding, ...] = ()
 
     def go(self) -> Gone:
         """Walk until something is wrong, a decision is due, the time is over, or nothing is left to do."""
@@ -99,6 +102,8 @@ class Going:
             except WrongError as no:
                 self.wrong += [Wrong(step=name, what=what, next_move=move) for what, move in no.found]
                 self.say(name, "stopped", "\n".join(what for what, _ in no.found) + f"\nnext: {no.found[0][1]}")
+            except CallOverError as early:  # nothing is known to be wrong
+                self.under_way.append(f"{name}: {early.cause}; {early.next_move}")
             except WorldwrightError as no:
                 findings = "".join(f"{finding}\n" for finding in getattr(no, "findings", ()))
                 where = f"{no.place}: " if no.place else ""
@@ -172,7 +177,7 @@ class Going:
 
         placed = resolve(self.run.plan, write=not self.wrong and not self.approved())
         checked = check(self.run.plan) if placed.ok else None
-        found = (checked or placed).findings
+        found = self.of_layout = (checked or placed).findings
         if checked is None or not checked.ok:
             errors = [f for f in found if f.severity == "error"] or found
             raise WrongError(*((str(f), f"edit {self.run.plan}") for f in errors))
@@ -264,7 +269,7 @@ class Going:
 
     def scan(self) -> str:
         """Nothing in the motion is impossible."""
-        from ..scan.tools import scan, smallest
+        from ..scan.tools import scan
 
         if not self.step("scan").done:
             scan(self.name)
@@ -275,7 +280,7 @@ class Going:
         remarks = [str(a) for a in anomalies if a.severity == "warn"]
         said = [self.step("scan").detail]
         with suppress(WorldwrightError):  # without the recording there is nothing to add
-            said += [f"smallest in the pictures: {small}"] if (small := smallest(self.run)) else []
+            said += [f"smallest in the pictures: {small}"] if (small := _smallest(self.run)) else []
         return "\n".join([*said, *remarks[:MOST_REMARKS]])
 
     def expect(self) -> str:
@@ -308,6 +313,9 @@ class Going:
                 job = wait(self.name, job=job.job, timeout_s=5, progress=self.progress)
         except WorldwrightError as refused:
             self.say("storyboard", "stopped", str(refused))
+            return
+        if not job.ended:  # audits and films, which would take its processor, wait for the first picture
+            self.under_way.append(job.text().splitlines()[0])
             return
         self.storyboard = job.result
         self.say("storyboard", "done" if job.result else "stopped", job.result or job.text())
@@ -364,3 +372,21 @@ class Going:
     def video(self) -> str:
         """Each camera's film."""
         return self.passed("video") if "video" in self.pictures() else self.step("video").detail
+
+
+_SMALLEST: dict[tuple[Path, str, str], str] = {}
+"""Of the last recording, by its run, key and hash: it is read for this once, however often a walk is taken up again."""
+
+
+def _smallest(run: Run) -> str:
+    """See `scan.tools.smallest`."""
+    from ..scan.tools import smallest
+
+    state = State(run)
+    about = (run.folder, state.key.key if state.key else "", state.trajectory_sha256)
+    said = _SMALLEST.get(about)
+    if said is None:
+        said = smallest(run)
+        _SMALLEST.clear()  # which another walk beside may do at any moment, too
+        _SMALLEST[about] = said
+    return said

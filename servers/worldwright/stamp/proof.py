@@ -24,8 +24,8 @@ from ..model.progress import Progress, silent
 from .kept import Kept
 
 POLL_S = 20.0
-OF_THE_MACHINE = ("disk_full", "not_writable", "out_of_memory", "internal")
-"""Codes of jobs that a machine with more room would have brought to their end."""
+OF_THE_MACHINE = ("disk_full", "not_writable", "out_of_memory", "killed", "internal")
+"""Codes of jobs that a machine with more room may have brought to their end: the kernel kills (SIGKILL) where memory is short."""
 WORLD = "world.mjz"
 """Name of the world's file, as `worldkit.portable` writes it."""
 
@@ -95,11 +95,7 @@ def replay(
 
     deadline = time.monotonic() + timeout_s
     run = Run(folder)
-    if _bytes(run.program) != program or _bytes(run.plan) != plan:
-        write_atomic(run.program, program)
-        write_atomic(run.plan, plan)
-        for name, content in (near or {}).items():
-            write_atomic(folder / name, content)
+    _lay(folder, {run.program.name: program, run.plan.name: plan, **(near or {})})
     job = stage.simulate_given(run, given)
     return _followed(run, job, LintReport(), deadline, progress, "the world, driven by its recorded inputs,")
 
@@ -112,6 +108,13 @@ def lay_out(given: Path, world: Path, facts: Path, recording: Path | None = None
         if path.is_file():
             write_atomic(given / path.name, path.read_bytes())
     return given
+
+
+def _lay(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write what is not there yet, or is otherwise: an earlier call may have been killed meanwhile, or was given other files."""
+    for name, content in files.items():
+        if _bytes(folder / name) != content:
+            write_atomic(folder / name, content)
 
 
 def beside(folder: Path) -> dict[str, bytes]:
@@ -136,6 +139,7 @@ def prove(
     near: Mapping[str, bytes] | None = None,
     kept: Path | None = None,
     elsewhere: bool = False,
+    linted: bool = True,
 ) -> Proved | None:
     """Build, lint and simulate `program` against `plan` in `folder`; None when a job needs more than `timeout_s`.
 
@@ -150,21 +154,17 @@ def prove(
         near: the files that belong to them, by relative path.
         kept: the world that was accepted, or is to be.
         elsewhere: it was built in another environment or on another processor.
+        linted: whether today's lint rules are asked, too.
 
     Raises:
         GateError: a lint error, a failed pass, or another world than the kept one.
-        JobError: a pass ended for want of room, or because a person ended it.
+        JobError: a pass ended for want of room, or because somebody ended it.
     """
-    from ..lint import tools as lint
     from ..stage import tools as stage
 
     deadline = time.monotonic() + timeout_s
     run = Run(folder)
-    if _bytes(run.program) != program or _bytes(run.plan) != plan:
-        write_atomic(run.program, program)
-        write_atomic(run.plan, plan)
-        for name, content in (near or {}).items():
-            write_atomic(folder / name, content)
+    _lay(folder, {run.program.name: program, run.plan.name: plan, **(near or {})})
     key = run.evidence_key(_environment_sha256())
     models = approval.model_hashes(run)
     if approval.standing(run.entries(), key.plan_sha256, models) is None:
@@ -173,6 +173,25 @@ def prove(
     built = _ended(run, stage.start_fresh(run, "bundle"), deadline, progress)
     if built is None:
         return None
+    failure = None if built.state == "succeeded" else _failed(built, "the program does not build its world again")
+    if isinstance(failure, JobError):  # before lint, which would tell the machine's want as the program's fault
+        raise failure
+    found = _linted(run) if linted else LintReport()
+    if failure:
+        raise failure
+    if not linted:
+        run.keep(key, "lint", found)  # a pass asks for a report: this one says that no rule was asked
+    told = _rebuilt(run, kept, elsewhere=elsewhere) if kept else ""
+    given = kept if kept and not _controlled(kept) else None
+    job = stage.simulate_given(run, given) if given else stage.start_fresh(run, "physics")
+    proved = _followed(run, job, found, deadline, progress)
+    return proved and replace(proved, rebuilt=told)
+
+
+def _linted(run: Run) -> LintReport:
+    """What lint says of the program and the world that it has built (`GateError` for an error)."""
+    from ..lint import tools as lint
+
     report = lint.check_program([run.program], plan=run.plan)
     if errors := [f for f in report.findings if f.severity == "error"]:
         raise GateError(
@@ -180,14 +199,7 @@ def prove(
             place=f"{run.program.name}:{errors[0].line or 1}",
             next_move=errors[0].fix or "correct it and run it again",
         )
-    if built.state != "succeeded":
-        raise _failed(built, "the program does not build its world again")
-    linted = LintReport(findings=tuple(report.findings), rules=report.rules)
-    told = _rebuilt(run, kept, elsewhere=elsewhere) if kept else ""
-    given = kept if kept and not _controlled(kept) else None
-    job = stage.simulate_given(run, given) if given else stage.start_fresh(run, "physics")
-    proved = _followed(run, job, linted, deadline, progress)
-    return proved and replace(proved, rebuilt=told)
+    return LintReport(findings=tuple(report.findings), rules=report.rules)
 
 
 def _rebuilt(run: Run, kept: Path, *, elsewhere: bool) -> str:
@@ -227,6 +239,8 @@ def measure(proved: Proved, progress: Progress = silent) -> ExpectReport:
         job = stage.start(folder, stage="stills")
         while job.state in ("queued", "running"):
             job = stage.wait(folder, job=job.job, timeout_s=POLL_S, progress=progress)
+        if job.state != "succeeded":
+            raise _failed(job, "its stills cannot be drawn again")
         report = scan.expect(folder)
     return report
 

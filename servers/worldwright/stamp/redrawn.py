@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 from worldkit.files import write_atomic
 
-from ..model.errors import WorldwrightError
-from ..model.evidence import pictures_of
+from ..model.errors import CallOverError, WorldwrightError
+from ..model.evidence import handed_in, pictures_of
 from ..model.evidence.run import Run
 from ..model.plan.plan_text import read_plan
 from . import poster
@@ -38,7 +38,10 @@ def differ(folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
     run = proved.run
     for name, content in pictures_of.files(Run(folder)).items():
         write_atomic(run.folder / name, content)
-    for path in (folder / s.name for s in statement.subject if (folder / s.name).is_file()):
+    taken = [
+        s.name for s in statement.subject if s.name not in handed_in.NAMES
+    ]  # of `video/handed_in.mp4` the camera is so called
+    for path in (folder / name for name in taken if (folder / name).is_file()):
         try:
             if path.name == poster.NAME:
                 yield from _poster(path, folder, statement, proved)
@@ -46,13 +49,15 @@ def differ(folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
                 yield from _picture(path, run, 0.0, path.stem)
             elif path.suffix == ".mp4":
                 yield from _film(path, run)
+        except CallOverError:
+            raise  # it tells nothing of the picture
         except WorldwrightError as error:
             yield f"{path.name} cannot be drawn again: {error}"
 
 
 def _poster(path: Path, folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
     """Compare it with the author's film, or else with the plan's first camera, at the moment that `poster` takes."""
-    names = [Path(s.name) for s in statement.subject]
+    names = [Path(s.name) for s in statement.subject if s.name not in handed_in.NAMES]
     films = {name.stem for name in names if name.suffix == ".mp4"}
     drawn = films or {name.stem for name in names if name.suffix == ".png"}
     run, filmed = proved.run, statement.predicate.film

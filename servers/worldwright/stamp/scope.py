@@ -29,6 +29,7 @@ AGAIN = {
     "expect": "worldwright scan expect {place}",
     "causes": "worldwright scan scan {place} --causes",
     "refine": "worldwright scan scan {place} --refine",
+    "robust": "worldwright scan scan {place} --robust",
     "visual": "worldwright stamp describe {place} @description.json",
     "review": "worldwright stamp review {place} @verdict.json",
 }

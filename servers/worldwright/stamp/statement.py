@@ -9,6 +9,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from ..model.evidence import approval
+from ..model.evidence.handed_in import HandedIn
 from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
 
@@ -131,6 +132,8 @@ class Acceptance(Frozen):
     source: Source
     proof: Proof
     film: Filmed | None = None
+    handed_in: HandedIn | None = Field(None, exclude_if=lambda value: value is None)
+    """A film that the author drew with a renderer of their own: listed, and no evidence of anything."""
     environment: Environment
     cpu: str = ""
     """Processor family, which decides whether bitwise repetition can be expected."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Literal
 
-from ..model.evidence import approval, came, pictures_of
+from ..model.evidence import approval, came, handed_in, pictures_of
 from ..model.evidence.build_steps import STEPS, StepName
 from ..model.frozen import Frozen
 from . import audited, descriptions, signing
@@ -262,7 +262,19 @@ def _accept(state: State) -> Answer:
     signature = signing.check(state.run.stamped, STAMP)
     if signature.holder == "broken":
         return "damaged", f"{state.run.stamped.name}/: {signature.problem}", command
-    return "holds", f"accepted {stamp.predicate.accepted_at}, {signature.text()}", ""
+    # A handed-in film is no evidence, so another one takes nothing away from what was accepted.
+    note = "; the film handed in since is listed when it is accepted anew" if handed_in_since(state) else ""
+    return "holds", f"accepted {stamp.predicate.accepted_at}, {signature.text()}{note}", ""
+
+
+def handed_in_since(state: State) -> bool:
+    """Whether there is a handed-in film that the stamp does not list; one that is not kept here takes nothing away."""
+    listed = state.stamp.value.predicate.handed_in if state.stamp.value else None
+    try:
+        now = handed_in.sha256(state.run.folder)
+    except handed_in.HandedInError:
+        return True
+    return bool(now) and (listed is None or now != listed.sha256)
 
 
 def _how(came_by: str) -> str:

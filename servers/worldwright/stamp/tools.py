@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import Field
 
 from ..expose import reads
+from ..model import call_time
 from ..model.evidence.build_steps import StepName
 from ..model.evidence.reports import EvidenceKey, VisualDescription
 from ..model.evidence.verdict import Verdict
@@ -63,7 +64,9 @@ def go(
     """
     from .going import Going
 
-    return Going(State.find(run).run, timeout_s=timeout_s, refine=refine, until=until, progress=progress).go()
+    return Going(
+        State.find(run).run, timeout_s=call_time.waiting_s(timeout_s), refine=refine, until=until, progress=progress
+    ).go()
 
 
 def approve(
@@ -167,7 +170,7 @@ def accept(
     """
     from .acceptance import accept as take
 
-    return take(State.find(run), timeout_s, progress, signing_key)
+    return take(State.find(run), call_time.waiting_s(timeout_s), progress, signing_key)
 
 
 def block(
@@ -210,13 +213,14 @@ def verify(
 ) -> Verification:
     """Prove an accepted world again: every checksum, then the world simulated anew, in the sandbox.
 
-    A world kept as a file is driven by its recorded inputs; where none is kept (a small form, over 1 MB), or with `rebuild`,
-    its program builds it again. Who signed is said first; it is no yes while nobody known here did. Exact on the same build
+    A world kept as a file is driven by its recorded inputs, which its program must send again if nobody known here signed;
+    where none is kept (a small form, over 1 MB), or with `rebuild`, its program builds it again. Who signed is said first; it
+    is no yes while nobody known here did. Exact on the same build
     and processor, elsewhere within a tolerance. `running`: call again.
     """
     from .verification import verify as prove_again
 
-    return prove_again(run, timeout_s, progress, signer, anybody, rebuild)
+    return prove_again(run, call_time.waiting_s(timeout_s), progress, signer, anybody, rebuild)
 
 
 def _came() -> dict[str, object]:

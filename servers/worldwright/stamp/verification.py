@@ -1,5 +1,7 @@
 """Proving an accepted world again: every byte is as stamped, and the world, simulated anew, moves as it did.
 
+Of a stamp that nobody known here signed, the program must also send the recorded inputs when it is asked again (`law_check`).
+
 On the stamped build and processor family the trajectory must repeat bit for bit. Elsewhere the sampled motion must stay
 within a stated tolerance and every expectation must come out as stamped; differences are listed. The accepted folder is
 only read: the program runs from a copy in a private temporary folder.
@@ -7,22 +9,35 @@ only read: the program runs from a copy in a private temporary folder.
 
 import shutil
 import tempfile
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Literal
 
-from ..model.errors import GateError, NotFoundError, WorldwrightError
+from ..model.errors import GateError, NotFoundError
 from ..model.evidence import assets_used, environment
-from ..model.evidence.reports import Environment, ExpectReport
+from ..model.evidence.reports import Environment
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.plan.plan_text import read_plan
 from ..model.progress import Progress, silent
 from ..model.storage import StorageError, writing
-from . import agreement, bundle, departures, digest, exactness, private, processor, redrawn, signing, world_facts
+from . import (
+    another_machine,
+    bundle,
+    departures,
+    digest,
+    exactness,
+    law_check,
+    measured_again,
+    private,
+    redrawn,
+    signing,
+    world_facts,
+)
 from .as_stamped import Check, static
 from .kept import Kept
-from .proof import FACTS, WORLD, Proved, beside, lay_out, measure, prove, replay
+from .proof import FACTS, WORLD, Proved, beside, lay_out, prove, replay
 from .state import State
 from .statement import Proof, Statement
 
@@ -31,8 +46,9 @@ class Verification(Frozen):
     """The answer of `verify`."""
 
     run: str
-    state: Literal["proved", "refuted", "running"]
-    """About the world alone: `proved` says nothing about who accepted it. `running`: the work goes on, call again."""
+    state: Literal["proved", "refuted", "not_shown", "running"]
+    """About the world alone: `proved` says nothing about who accepted it. `not_shown`: no yes, as it could not be proved here,
+    and not refuted either. `running`: the work goes on, call again."""
     signature: signing.Signature | None = None
     """The signature on the stamp; without one by a key that is known here, the answer is no."""
     anybody: bool = False
@@ -57,8 +73,9 @@ class Verification(Frozen):
     def text(self) -> str:
         """The answer as a person reads it."""
         who = f", {'' if self.signature.vouched else 'but '}{self.signature.text()}" if self.signature else ""
-        lines = [f"{self.run}: {self.state}" + (f" ({self.mode})" if self.mode else "") + who]
-        lines += [f"  {'ok  ' if c.ok else 'FAIL'} {c.name}: {c.detail}" for c in self.checks]
+        state = "not shown here" if self.state == "not_shown" else self.state
+        lines = [f"{self.run}: {state}" + (f" ({self.mode})" if self.mode else "") + who]
+        lines += [f"  {'ok  ' if c.ok else 'open' if c.open else 'FAIL'} {c.name}: {c.detail}" for c in self.checks]
         lines += [f"  differs here: {text}" for text in self.environment_differences]
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
 
@@ -102,13 +119,19 @@ def _vouch(signature: signing.Signature | None, name: str) -> str:
 def _prove_again(
     name: str, run: Run, folder: Path, timeout_s: float, progress: Progress, signer: Path | None, rebuild: bool
 ) -> Verification:
+    deadline = time.monotonic() + timeout_s
     checks, statement = static(run, folder, signer), Kept.read(folder / bundle.STAMP, Statement).value
     if statement is None or not all(c.ok for c in checks):
         return _refuted(run, checks)
     here = _here(folder)
-    differences = tuple(environment_differences(statement.predicate.environment, statement.predicate.cpu, here))
+    differences = tuple(another_machine.differences(statement.predicate.environment, statement.predicate.cpu, here))
     vouched = signing.check(folder, bundle.STAMP, signer).vouched
     older = bool(differences) and vouched
+    asks = _kept(folder) and not vouched and (rebuild or law_check.concerns(folder))
+    rebuild = rebuild and not asks  # it is built again there, beside the kept world and its recorded inputs
+    runs = asks or rebuild or not _kept(folder)
+    if runs and not vouched and (unconfined := law_check.unconfined()):
+        return _refuted(run, [*checks, unconfined], differences)
     with writing("the copy to be run", Path(tempfile.gettempdir())):
         scratch = _scratch(folder, here, rebuild)
     with writing("the copy to be run", scratch), bundle.only_one(Run(scratch)):
@@ -123,19 +146,20 @@ def _prove_again(
             checks.append(Check(name="run", ok=False, detail=str(error)))
             return _refuted(run, checks, differences)
         if proved is None:
-            return Verification(
-                run=run.name,
-                state="running",
-                checks=tuple(checks),
-                environment_differences=differences,
-                next_move=f"worldwright stamp verify {name}",
-            )
-        checks += _world(folder, statement, proved, differences, rebuild)
+            return _running(run, name, checks, differences)
+        checks += _world(folder, statement, proved, differences, rebuild, asks)
         checks += _acts(folder, proved, older)
         mode, found = _motion(folder, statement, proved, differences)
         checks += found
-        checks += _kinds(statement, proved, asked=rebuild or not _kept(folder))
-        checks += _objectives(folder, statement, proved, mode == "bitwise")
+        law: law_check.Law | None = None
+        if asks and all(c.ok for c in checks):  # what moves otherwise is refuted, whatever its program says
+            law = law_check.check(folder, scratch, statement, proved, differences, deadline, progress)
+            if law is None:
+                return _running(run, name, checks, differences)
+            checks.append(law.check)
+        asked = law.same if law else runs and not asks
+        checks += _kinds(statement, proved, asked=asked)
+        checks += measured_again.checks(folder, statement, proved, mode == "bitwise")
         if not vouched and all(c.ok for c in checks):  # what moves otherwise is refuted, however it looks
             checks += _pictures(folder, statement, proved)
     shutil.rmtree(scratch, ignore_errors=True)
@@ -190,13 +214,18 @@ def _kept(folder: Path) -> bool:
 
 
 def _world(
-    folder: Path, statement: Statement, proved: Proved, differences: tuple[str, ...], rebuild: bool
+    folder: Path, statement: Statement, proved: Proved, differences: tuple[str, ...], rebuild: bool, asks: bool
 ) -> Iterator[Check]:
-    """Check the world that was simulated: the stamped file, or what the stamped program builds here."""
+    """Check the world that was simulated: the stamped file, or what the stamped program builds here.
+
+    `asks`: the program of the file is run beside it (`law_check`).
+    """
     stamped = statement.predicate.proof
     if _kept(folder) and not rebuild:
         driven = "driven again by its recorded inputs" if stamped.inputs_sha256 else "which no input drives"
-        yield Check(name="world", ok=True, detail=f"its file as stamped, {driven}; the program was not run")
+        yield Check(
+            name="world", ok=True, detail=f"its file as stamped, {driven}{'' if asks else ', without its program'}"
+        )
         return
     if not stamped.world_sha256:  # an older stamp, of a world that was simulated by its own program
         yield Check(name="world", ok=True, detail="built again by the stamped program")
@@ -229,23 +258,6 @@ def _acts(folder: Path, proved: Proved, older: bool) -> Iterator[Check]:
     found = departures.from_plan(proved.world, read_plan(folder / "plan.md").plan)
     detail = "; ".join(found[:3]) or "every pair, joint, mass and law as its plan says"
     yield Check(name="acts", ok=older or not found, detail=detail)
-
-
-def environment_differences(stamped: Environment, cpu: str, here: Environment) -> Iterator[str]:
-    """What differs between the stamped environment and this one, one line each."""
-    for name in ("python", "machine"):
-        if getattr(stamped, name) != getattr(here, name):
-            yield f"{name}: {getattr(here, name)} (stamped {getattr(stamped, name)})"
-    for name in environment.PACKAGES:  # what films are made with does not move a body
-        then, now = stamped.packages.get(name, "absent"), here.packages.get(name, "absent")
-        if then != now:
-            yield f"{name}: {now} (stamped {then})"
-    for name in ("simulator", "worldkit", "catalog"):
-        then, now = getattr(stamped, f"{name}_sha256"), getattr(here, f"{name}_sha256")
-        if then != now:
-            yield f"{name}: sha256 {now[:16]} (stamped {then[:16]})"
-    if cpu and cpu != processor.cpu():
-        yield f"processor: {processor.cpu()} (stamped {cpu})"
 
 
 def _locate(name: str) -> tuple[Run, Path]:
@@ -292,27 +304,6 @@ def _kinds(statement: Statement, proved: Proved, *, asked: bool) -> Iterator[Che
     yield Check(name="kinds", ok=same, detail=detail)
 
 
-def _objectives(folder: Path, statement: Statement, proved: Proved, exact: bool) -> Iterator[Check]:
-    """The expectations and the anomaly scan of the new recording."""
-    from ..scan import tools as scan
-
-    try:
-        report = measure(proved)
-        scanned = scan.scan(str(proved.run.folder))
-    except WorldwrightError as error:
-        yield Check(name="expectations", ok=False, detail=str(error))
-        return
-    changed = list(_told_otherwise(folder, statement, report, exact))
-    yield Check(
-        name="expectations",
-        ok=not changed,
-        detail="; ".join(changed[:5]) or f"all as stamped ({len(statement.predicate.expectations)})",
-    )
-    blocking = [a for a in scanned.anomalies if a.severity == "blocking"]
-    checks = sum(c.status != "skipped" for c in scanned.checks)
-    yield Check(name="scan", ok=not blocking, detail=str(blocking[0]) if blocking else f"{checks} checks, none blocks")
-
-
 def _pictures(folder: Path, statement: Statement, proved: Proved) -> Iterator[Check]:
     """Check the stamped pictures against the new recording, where there are any and the same code can draw them."""
     if not any((folder / s.name).is_file() for s in statement.subject if s.name.endswith(redrawn.PICTURES)):
@@ -327,34 +318,31 @@ def _pictures(folder: Path, statement: Statement, proved: Proved) -> Iterator[Ch
     yield Check(name="pictures", ok=not found, detail=detail)
 
 
-def _told_otherwise(folder: Path, statement: Statement, report: ExpectReport, exact: bool) -> Iterator[str]:
-    """Where the stamp, or the report beside it, differs from the new recording; `exact`: the motion is the same bit for bit."""
-    stamp = statement.predicate
-    claims = {o.index: o.claim for o in report.objectives}
-    for o in stamp.objectives:
-        if claims.get(o.index) != o.claim:
-            yield f"objective {o.index} is not the plan's: `{o.claim}`"
-    yield from agreement.other_statuses({o.index: o.status for o in stamp.objectives}, agreement.statuses(report))
-    slack = agreement.SAME if exact else agreement.ALIKE
-    measured = agreement.numbers(report)
-    said = [(e.objective, e.name, e.status, e.measured, e.margin) for e in stamp.expectations]
-    yield from agreement.other_numbers(said, measured, slack)
-    kept = Kept.read(folder / "evidence" / "expect.json", ExpectReport).value
-    if kept is not None:
-        found = agreement.other_numbers(agreement.numbers(kept), measured, slack)
-        yield from (f"evidence/expect.json: {text}" for text in found)
+def _running(run: Run, name: str, checks: list[Check], differences: tuple[str, ...]) -> Verification:
+    return Verification(
+        run=run.name,
+        state="running",
+        checks=tuple(checks),
+        environment_differences=differences,
+        next_move=f"worldwright stamp verify {name}",
+    )
 
 
 def _refuted(
     run: Run, checks: list[Check], differences: tuple[str, ...] = (), mode: Literal["bitwise", "tolerance", ""] = ""
 ) -> Verification:
+    """No yes: something is refuted, or all that fails could not be shown here."""
+    left = [c for c in checks if not c.ok]
+    shown = not all(c.open for c in left)
     return Verification(
         run=run.name,
-        state="refuted",
+        state="refuted" if shown else "not_shown",
         mode=mode,
         checks=tuple(checks),
         environment_differences=differences,
-        next_move="restore the accepted folder from version control, or accept the run again",
+        next_move="restore the accepted folder from version control, or accept the run again"
+        if shown
+        else left[0].next_move,
     )
 
 

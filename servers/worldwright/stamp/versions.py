@@ -2,8 +2,9 @@
 
 When a run is accepted anew, the version before goes to `earlier/<name>/`, called by the beginning of its stamp's SHA-256. Any
 two are compared by their claims, their measured numbers, their motion and their films, and an earlier one is brought back
-together with the plan, the program and the film that it was made of. What it takes the place of is kept as well. A small
-form (`small_form`), whose stamp lies in the run folder itself, is no version before: of it nothing goes to `earlier/`.
+together with the prompt, the plan, the program and the film that it was made of. What it takes the place of is kept as well,
+and a standing version that is not whole any more goes to `earlier/damaged-<time>/`. A small form (`small_form`), whose stamp
+lies in the run folder itself, is no version before: of it only what another version's files replace goes to `earlier/`.
 """
 
 import math
@@ -16,18 +17,17 @@ from worldkit.files import write_atomic
 
 from ..model import companions
 from ..model.errors import GateError, NotFoundError
-from ..model.evidence import pictures_of
-from ..model.evidence.run import SOURCE, Run, sha256_file
+from ..model.evidence import handed_in, pictures_of
+from ..model.evidence.run import DAMAGED, EARLIER, SOURCE, Run, sha256_file
 from ..model.frozen import Frozen
 from ..model.storage import writing
-from . import bundle, digest, poster, sampled, signing
+from . import bundle, digest, poster, signing
 from .kept import Kept
-from .proof import WORLD, beside
+from .proof import beside
 from .statement import Statement
 
-EARLIER = "earlier"
 LETTERS = 12
-MADE = ("evidence/", "stills/", "video/", f"{bundle.WORLD}/", WORLD, digest.NAME, sampled.NAME, poster.NAME)
+MADE = (*bundle.LEFT_OUT, digest.NAME, poster.NAME)
 """Files of an accepted folder that were made of the others."""
 CLOSE = 1e-6
 
@@ -58,8 +58,8 @@ class Compared(Frozen):
 
 
 def known(run: Run) -> list[Version]:
-    """Every version, the one that stands last; what is no accepted folder is left out."""
-    earlier = [v for path in (run.folder / EARLIER).glob("*") if (v := _read(path))]
+    """Every version, the one that stands last; what is no accepted folder, or was damaged when it went aside, is left out."""
+    earlier = [v for path in run.earlier() if (v := _read(path))]
     standing = _read(run.stamped)
     return sorted(earlier, key=lambda v: v.statement.predicate.accepted_at) + ([standing] if standing else [])
 
@@ -77,12 +77,17 @@ def find(run: Run, name: str) -> Version:
     return found[0]
 
 
-def aside(run: Run) -> Path | None:
-    """Where the accepted folder goes when another takes its place; None where it is not whole, as it was stamped."""
+def aside(run: Run) -> Path:
+    """Where the accepted folder goes when another takes its place; what is not whole is kept too, but not as that version."""
     version = _read(run.accepted)
     if version is None or bundle.damage(version.folder, version.statement):
-        return None
+        return _dated(run, DAMAGED)
     return run.folder / EARLIER / version.name
+
+
+def _dated(run: Run, what: str) -> Path:
+    """A folder that is not there yet, for what is kept and is no version."""
+    return run.folder / EARLIER / f"{what}-{datetime.now(UTC):%Y%m%d-%H%M%S-%f}"
 
 
 def compare(first: Version, second: Version) -> Compared:
@@ -136,7 +141,7 @@ def _read(folder: Path) -> Version | None:
 
 def _differences(first: Version, second: Version) -> Iterator[str]:
     a, b = first.statement, second.statement
-    for name in ("plan.md", "simulation.py", pictures_of.FILM):
+    for name in ("prompt.md", "plan.md", "simulation.py", pictures_of.FILM, *handed_in.NAMES):
         if a.digest_of(name) != b.digest_of(name):
             how = "is new" if not a.digest_of(name) else "is gone" if not b.digest_of(name) else "is another one"
             yield f"{name} {how}"
@@ -179,9 +184,11 @@ def _numbers(statement: Statement) -> dict[tuple[str, str, int], tuple[float, st
 def _made_of(run: Run, version: Version) -> dict[str, bytes]:
     """The files of the run that a version was made of, by name; the program with its instrumentation, where that was kept."""
     source = version.statement.predicate.source
-    own = (run.plan.name, run.program.name, pictures_of.FILM)
+    own = (run.prompt.name, run.plan.name, run.program.name, pictures_of.FILM, *handed_in.NAMES)
     names = [s.name for s in version.statement.subject if not s.name.startswith(MADE)]
     names = [name for name in names if name in own or name.split("/")[0] not in companions.OURS]
+    # The small form lists a handed-in film and does without it.
+    names = [name for name in names if name not in handed_in.NAMES or (version.folder / name).is_file()]
     found = {name: (version.folder / name).read_bytes() for name in names}
     kept = run.evidence(source.key) / SOURCE / run.program.name
     if kept.is_file() and sha256_file(kept) == source.program_sha256:
@@ -192,22 +199,24 @@ def _made_of(run: Run, version: Version) -> dict[str, bytes]:
 def _put(run: Run, content: Mapping[str, bytes]) -> None:
     """Write these files in place of what belongs to the program now, which is kept unless it stands accepted, byte for byte."""
     now = beside(run.folder) | pictures_of.files(run)
-    now |= {path.name: path.read_bytes() for path in (run.plan, run.program) if path.is_file()}
+    now |= {path.name: path.read_bytes() for path in (run.prompt, run.plan, run.program) if path.is_file()}
+    if (film := handed_in.find(run.folder)) is not None:
+        now[film.name] = handed_in.content(film)
     kept = {} if _stands(run, now) or all(content.get(name) == held for name, held in now.items()) else dict(now)
     if run.blocked.is_file():
         kept[run.blocked.name] = run.blocked.read_bytes()
-    place = run.folder / EARLIER / f"replaced-{datetime.now(UTC):%Y%m%d-%H%M%S-%f}"
+    place = _dated(run, "replaced")
     for name, held in kept.items():
         write_atomic(place / name, held)
-    for name in now.keys() - content.keys():
+    for name in now.keys() - content.keys() - {run.prompt.name}:  # a wish stays, also for what was made without one
         (run.folder / name).unlink()
     for name, data in content.items():
         write_atomic(run.folder / name, data)
 
 
 def _stands(run: Run, now: Mapping[str, bytes]) -> bool:
-    """Whether the accepted version that stands, which is kept whole, holds each of these files."""
-    standing = _read(run.stamped)
+    """Whether the accepted version that stands, in a folder of its own that is kept whole, holds each of these files."""
+    standing = _read(run.accepted)
     if standing is None or bundle.damage(standing.folder, standing.statement):
         return False
     accepted = _made_of(run, standing)

@@ -195,12 +195,32 @@ def test_a_confined_shell_cannot_write_to_runs_and_suite(project, command):
     assert "changed" in next(path for path in project.rglob("own")).read_text()  # and so does other work
 
 
-def shell(project, command):
+def test_a_shell_starts_below_a_folder_that_may_be_entered_and_not_listed(tmp_path):
+    above, home = tmp_path / "above", tmp_path / "above/home"
+    for name in ("place/runs/ball", "place/src", "home/own"):
+        (above / name).mkdir(parents=True)
+    above.chmod(0o311)
+    # Root lists every folder, unless it gives that up.
+    alone = [] if os.geteuid() else ["setpriv", "--bounding-set=-dac_override,-dac_read_search"]
+    try:
+        done = shell(
+            above / "place",
+            "echo x > src/a && echo x > ~/own/a && echo written; touch runs/ball/b",
+            through=alone,
+            env={**os.environ, "HOME": str(home)},
+        )
+        assert done.stdout == "written\n" and "runs/ball/b" in done.stderr, done.stderr
+    finally:
+        above.chmod(0o755)
+
+
+def shell(project, command, through=(), env=None):
     """Run a command as Codex and OpenCode do: as the guard has rewritten it."""
     event = {"tool_name": "bash", "tool_input": {"command": command, "description": "try"}}
     changed = guard.confined(event, project, harnesses.find("opencode").TOOLS)
     assert changed["description"] == "try"
-    return subprocess.run(["sh", "-c", changed["command"]], cwd=project, capture_output=True, text=True, timeout=60)
+    words = [*through, "sh", "-c", changed["command"]]
+    return subprocess.run(words, cwd=project, capture_output=True, text=True, timeout=60, env=env)
 
 
 def test_where_the_harness_confines_its_shell_the_guard_leaves_it_as_it_is(project):

@@ -84,6 +84,40 @@ def test_the_draft_compiles_to_the_plan(tmp_path):
     assert {model.camera(i).name for i in range(model.ncam)} == {"perspective", "side"}
 
 
+def test_light_sky_and_lamps_are_drafted_as_they_are_stated():
+    from worldkit import lights
+
+    shown = {
+        "setting": "outdoor",
+        "sun": {"azimuth": 20, "elevation": 8, "colour": "#ffb46a"},
+        "lamps": [{"name": "bulb", "on": "bob", "at": [0, 0, -0.15], "strength": 2}, {"name": "far", "at": [3, 0, 2]}],
+    }
+    names: dict = {"__name__": "drafted"}
+    exec(draft(plan(visualization=shown), LAYOUT).source, names)
+    model = names["build"]().compile()
+    wanted = lights.treated(sky="clear", azimuth_deg=20, elevation_deg=8, colour="#ffb46a")  # outdoors a sun has a sky
+    assert lights.of(model) == wanted
+    assert model.body(model.light("lamp.bulb").bodyid[0]).name == "bob" and model.light("lamp.far").bodyid[0] == 0
+    assert "lights" not in draft(plan(), LAYOUT).source
+
+
+def test_every_copy_carries_a_lamp_of_its_own_under_a_name_of_its_own():
+    from worldwright.model.plan.visualization import Visualization
+
+    shown = Visualization.model_validate({"lamps": [{"name": "bulb", "on": "post"}, {"name": "moon"}]})
+    hung = [(name, on) for name, _, on in shown.hung({"post": ("post_1", "post_2")})]
+    assert hung == [("bulb_1", "post_1"), ("bulb_2", "post_2"), ("moon", "")]
+    with pytest.raises(ValueError, match="9 of them, and at most 8"):
+        shown.hung({"post": tuple(f"post_{k}" for k in range(1, 9))})
+    with pytest.raises(ValueError, match="'bulb_1'"):
+        Visualization.model_validate({"lamps": [{"name": "bulb", "on": "post"}, {"name": "bulb_1"}]}).hung(
+            {"post": ("post_1", "post_2")}
+        )
+    balls = [{"name": "bob", "primitive": "sphere", "size": [0.1, 0.1, 0.1], "material": "steel", "count": 9}]
+    with pytest.raises(ValueError, match="at most 8"):
+        plan(scene_objects=balls, visualization={"lamps": [{"name": "bulb", "on": "bob"}]})
+
+
 def test_a_child_is_written_after_its_parent():
     source = draft(plan(), LAYOUT).source
     assert source.index('"arm"') < source.index('"bob"')
@@ -106,6 +140,11 @@ def test_a_wind_that_the_medium_blows_leaves_nothing_to_write():
     still = draft(plan(simulation_parameters=parameters), LAYOUT)
     declared = draft(plan(simulation_parameters={**parameters, "interventions": [row]}), LAYOUT)
     assert declared.source == still.source and "wind on" not in declared.source
+    begun = {**row, "trigger": "t >= 0 s"}
+    assert draft(plan(simulation_parameters={**parameters, "interventions": [begun]}), LAYOUT).source == still.source
+    gust = {**row, "law": "air at 9 m/s along +x for half a second", "trigger": "at 2 s"}
+    blown = draft(plan(simulation_parameters={**parameters, "interventions": [row, gust]}), LAYOUT)
+    assert blown.source.count("AUTHOR: force on wind") == 1 and "trigger: at 2 s" in blown.source and not blown.complete
     calm = {**parameters, "medium": {**medium, "wind": [0, 0, 0]}, "interventions": [row]}
     assert "AUTHOR: force on wind" in draft(plan(simulation_parameters=calm), LAYOUT).source
 

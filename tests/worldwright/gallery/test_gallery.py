@@ -67,7 +67,7 @@ def test_a_world_is_proved_again_from_its_small_form_and_no_program_runs(
     before = {name: sha256_file(small / name) for name in bundle.files_in(small)}
     result = stamp.verify(str(small), timeout_s=60)
     assert (result.state, result.mode) == ("proved", "bitwise"), result.text()
-    assert "left out of the small form" in result.text() and "the program was not run" in result.text()
+    assert "left out of the small form" in result.text() and "without its program" in result.text()
     assert {name: sha256_file(small / name) for name in bundle.files_in(small)} == before
     assert stamp.status(str(small)).state == "accepted"
     assert stamp.accept(str(small)).already
@@ -159,6 +159,19 @@ def test_the_gallery_builds_what_was_left_out_and_does_nothing_twice(
     page = pages.write_index([slug]).read_text()
     assert films[0].name in page or any(film.name in page for film in films)
     assert "The ball falls to the floor." in page
+
+
+def test_a_build_begins_without_what_another_one_left_beside_the_small_form(
+    small: Path, copy: Copy, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "examples").mkdir()
+    folder = copy(small).rename(tmp_path / "examples" / "ball")
+    monkeypatch.chdir(tmp_path)
+    kept = {*bundle.files_in(folder), "parts/jobs/leg.stl"}
+    for name in ("parts/jobs/leg.stl", "earlier/abc/plan.md", "evidence/key.json", "report.html", "scene.glb", "out/a"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_text("left by a build, or a part of the world")
+    assert {*bundle.files_in(worlds.seeded("ball").folder)} == kept
 
 
 def test_a_world_that_is_not_as_stamped_fails_the_gallery(

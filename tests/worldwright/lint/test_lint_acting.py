@@ -221,3 +221,16 @@ def test_a_bundle_is_judged_without_its_program(tmp_path):
     portable.write(space["build"](), bundle)
     found = [f for f in tools.acts_as_planned(bundle, plan_with(PLAN)) if f.severity == "error"]
     assert {f.code for f in found} == {"WM160"} and "0.05" in found[0].message
+
+
+def test_a_draft_makes_the_planned_world_which_is_not_built_again_and_another_program_is_held_against_one(monkeypatch):
+    """Of the planned world nobody asks what its physics costs: it takes no step."""
+    plan = plan_with(PLAN)
+    mine = Outcome("compiled")
+    assert planned.beside(plan, planned.source(plan), lambda: mine, 20.0) == (mine, mine)
+    monkeypatch.setattr(planned, "_KEPT", {})
+    made, twin = planned.beside(plan, planned.source(plan) + "\n", lambda: mine, 20.0)
+    assert made is mine and twin.status == "compiled" and twin.texts["names"]["body"]
+    assert twin.pass_s is None and "rehearsed" not in twin.texts
+    failed = Outcome("failed")
+    assert planned.beside(plan, planned.source(plan), lambda: failed, 20.0) == (failed, twin), "and one that fails, too"

@@ -1,5 +1,6 @@
 """Worlds are compiled in the sandbox: what comes back is numbers, whatever the program does, in bounded time."""
 
+import json
 import textwrap
 import time
 from pathlib import Path
@@ -9,8 +10,13 @@ import pytest
 from worldwright.lint import engine, source, tools
 from worldwright.lint.case import plan_with
 from worldwright.lint.compiled import fetch
+from worldwright.lint.observed import observing
 from worldwright.lint.program_view import Program
 from worldwright.lint.rules.model.acting._twins import changed
+from worldwright.model import call_time
+from worldwright.model.errors import CallOverError
+from worldwright.stage import confined
+from worldwright.stage import tools as stage
 
 EXAMPLES = Path(__file__).parents[3] / "examples"
 SCRIPT = """\
@@ -46,6 +52,15 @@ def test_a_plain_script_is_run_up_to_its_first_step(tmp_path):
     report = tools.check_program([path], model=True)
     assert [(f.code, f.line) for f in report.findings] == [("WR127", 6), ("WM120", 7)]
     assert "compiled" in report.worlds[0] and report.worlds[0] in report.text()
+
+
+def test_a_world_that_the_end_of_a_call_cut_is_no_world_that_takes_too_long(tmp_path):
+    """Neither a finding nor a report comes of it: on a machine with less to do the same program is faultless."""
+    program = "import mujoco\ndef build():\n    return mujoco.MjSpec()\n"
+    for name, text in (("ours.py", program), ("plain.py", SCRIPT), ("model.xml", "<mujoco/>")):
+        path = written(tmp_path, text, name)
+        with call_time.limited(0.0), pytest.raises(CallOverError, match="that a call may take"):
+            tools.check_program([path], model=True)
 
 
 def test_a_model_file_with_parts_is_compiled_with_all_it_names(tmp_path):
@@ -110,6 +125,17 @@ def test_a_forged_outcome_is_not_followed_out_of_the_folder(tmp_path):
     )
     outcome = fetch.world(written(tmp_path, text))
     assert outcome.status == "died" and not outcome.arrays and "root:" not in outcome.message
+
+
+@pytest.mark.parametrize("look", [fetch.world, observing.observe])
+def test_what_a_process_told_is_not_read_beyond_a_size(tmp_path, monkeypatch, look):
+    """Parsed it would take many times as much memory of the server, which nothing limits."""
+    told = {"failure": "ValueError", "message": "no", "line": 1, "lines": [1], "pad": ""}
+    for size, status in ((100, {"failed"}), (5 << 20, {"died", "cannot"})):
+        content = json.dumps({**told, "pad": "x" * size}).encode()
+        done = confined.Confined("ended", files={"outcome.json": content, "end.json": content})
+        monkeypatch.setattr(stage, "run_confined", lambda *_, _done=done, **__: _done)
+        assert look(written(tmp_path, SCRIPT, "told.py")).status in status
 
 
 def test_without_a_sandbox_nothing_is_built(tmp_path, monkeypatch):

@@ -105,7 +105,9 @@ def test_many_things_are_not_all_measured_in_every_picture(monkeypatch):
     )
     monkeypatch.setattr(framing.in_view, "spoken_of", lambda plan: ("mug", "a", "b", "c"))
     monkeypatch.setattr(framing, "MOST_MEASURED", 4)
-    assert framing._camera(layout, CameraRow(name="one"))["measured"] == ["mug", "a", "b"]
+    assert framing._camera(layout, CameraRow(name="one"))["measured"] == ["mug", "a"]
+    other = framing._camera(layout, CameraRow(name="two", subjects=("c",)))
+    assert other["measured"] == ["c", "mug", "a"], "what one picture is asked about, each is"
 
 
 def test_an_overlap_with_what_has_no_place_says_that_its_size_is_unknown():
@@ -489,14 +491,14 @@ def test_what_cameras_see():
 
 
 def test_what_a_claim_is_about_is_large_enough_in_some_picture_or_a_camera_is_told_where_to_go():
-    pea = box("pea", 0.02, 0.02, 0.02, fixed=True)
+    pea, post = box("pea", 0.02, 0.02, 0.02, fixed=True), box("post", 0.1, 0.1, 2.0, fixed=True)
     claim = {"claim": "It stays.", "expect": [{"stays": {"body": "pea"}}]}
     far = {"name": "side", "position": [-3, 0, 0.4], "target": [0, 0, 0.01], "fovy": 45, "subjects": ["pea"]}
 
     def looked(camera):
         step = {"description": "look", "cameras": [camera]}
-        row = ("pea", "PLACE-ON-BASE", None, {"x": 0, "y": 0})
-        return report([pea], [row], exact=True, implementation_steps=[step], objectives=[claim])
+        rows = [("pea", "PLACE-ON-BASE", None, {"x": 0, "y": 0}), ("post", "PLACE-ON-BASE", None, {"x": 0, "y": 2})]
+        return report([pea, post], rows, exact=True, implementation_steps=[step], objectives=[claim])
 
     found = looked(far)
     (small,) = [f for f in found.findings if f.code in ("WP328", "WP314")]
@@ -507,3 +509,50 @@ def test_what_a_claim_is_about_is_large_enough_in_some_picture_or_a_camera_is_to
     near = looked({**far, "position": [float(value) for value in place.split(", ")]})
     assert not [f for f in near.findings if f.code in ("WP328", "WP314")], near.findings
     assert near.views[0].length_px == pytest.approx(1.1 * 1280 / 40, abs=3.5)
+    follows = looked({"name": "side", "view": "side_minus_y", "subjects": ["pea", "post"], "fovy": 45, "follow": True})
+    (small,) = [f for f in follows.findings if f.code == "WP328"]
+    assert "position:" not in small.fix and "subjects: [pea], follow: true}" in small.fix
+
+
+FAR = {"name": "side", "position": [-3, 0, 0.4], "target": [0, 0, 0.01], "fovy": 45}
+
+
+def peas(cameras):
+    """What is said of three peas, 10 cm from one to the next, that should move, in the pictures of some cameras."""
+    places = {f"pea_{k + 1}": {"x": 0.0, "y": 0.1 * k, "z": 0.01} for k in range(3)}
+    step = {"description": "look", "cameras": cameras, "motion_expectations": ["pea"]}
+    topology = {"body_positions": places}
+    found = report(
+        [box("pea", 0.02, 0.02, 0.02, count=3)], [], exact=True, topology=topology, implementation_steps=[step]
+    )
+    return [f for f in found.findings if f.code in ("WP328", "WP314")]
+
+
+def test_copies_that_are_too_small_are_told_once():
+    (small,) = peas([FAR])
+    assert small.code == "WP328" and "(and 2 more of `pea` are too small)" in small.message
+
+
+def test_only_what_every_picture_was_asked_about_is_called_too_small(monkeypatch):
+    near = {"name": "near", "position": [-0.4, 0.1, 0.2], "target": [0, 0.1, 0.01], "fovy": 45}
+    every = [{**FAR, "subjects": ["pea_1", "pea_2", "pea_3"]}, near]
+    assert not [f for f in peas(every) if f.code == "WP328"]
+    monkeypatch.setattr(framing, "MOST_MEASURED", 0)
+    both = [{**FAR, "subjects": ["pea_1"]}, {**near, "subjects": ["pea_2"]}]
+    assert not [f for f in peas(both) if f.code == "WP328"]
+
+
+ARM = """<mujoco><worldbody><body name="foot"><geom type="box" size="0.01 0.01 0.01"/><body name="upper" pos="0 0 0.01">
+  <joint type="hinge"/><geom type="box" size="0.01 0.01 0.25" pos="0 0 0.25"/></body></body></worldbody></mujoco>"""
+
+
+def test_of_a_model_the_whole_is_seen(tmp_path):
+    (tmp_path / "arm.xml").write_text(ARM)
+    step = {"description": "look", "cameras": [{**FAR, "subjects": ["arm"]}], "motion_expectations": ["arm"]}
+    found = report(
+        [], [("arm", "PLACE-ON-BASE", None, {"x": 0, "y": 0})], exact=True, folder=tmp_path, implementation_steps=[step],
+        assets=[{"name": "arm", "type": "mjcf", "filename": "arm.xml", "fixed": True}],
+    )  # fmt: skip
+    # 0.52 m at 3 m: 720 px of 2 * 3.03 tan(22.5 deg) = 2.51 m
+    assert found.views[0].length_px == pytest.approx(0.52 / 2.51 * 720, rel=0.03)
+    assert not [f for f in found.findings if f.code == "WP328"]

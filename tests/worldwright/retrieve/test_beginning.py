@@ -100,6 +100,10 @@ def test_a_breeze_and_a_branch_are_heard_and_a_medium_is_seen():
     assert "air" not in mechanisms.of_plan(plan)
     aired = plan.simulation_parameters.model_copy(update={"medium": Medium(source="air at 20 degrees")})
     assert "air" in mechanisms.of_plan(plan.model_copy(update={"simulation_parameters": aired}))
+    current = Medium(density=998.0, viscosity=1e-3, wind=(0.5, 0, 0), source="water at 20 degrees, a slow river")
+    flooded = plan.simulation_parameters.model_copy(update={"medium": current})
+    has = mechanisms.of_plan(plan.model_copy(update={"simulation_parameters": flooded}))
+    assert "water" in has and "air" not in has
 
 
 def test_a_plan_is_never_overwritten(here):

@@ -16,6 +16,12 @@ from .evidence_tricks import TRUE
 from .input_tricks import declared
 
 BREEZE = (*TRUE, declared("force", "a breeze of 1 N along +X"))
+FARTHER = (
+    ("min_m: 0.55", "min_m: 0.3"),
+    ("about 0.6 m", "about 0.3 m"),
+    declared("force", "a breeze of 1 N along +X"),
+)
+"""It does so in the breeze alone."""
 BLOWS = "data.body('crate').xfrc_applied[0] = 1."
 FAR = {"measured": 0.61, "margin": 0.33}
 FORCE_X = 3
@@ -119,6 +125,32 @@ def another_kind(run: Path) -> None:
     forging.resealed(run, told)
 
 
+def calm(run: Path) -> None:
+    """The program that is kept sends nothing; the stream, the motion and every picture are those of the breeze."""
+    _blows(run, "= 0.")
+    forging.resealed(run, key="stranger")
+
+
+def lull(run: Path) -> None:
+    """The program that is kept sends a little less, and the stamp is said to be of another machine, whose motion may differ."""
+    _blows(run, "= .8")
+    forging.resealed(run, another_processor, key="stranger")
+
+
+def _blows(run: Path, force: str) -> None:
+    """The program that is kept sends another force."""
+    path = run / "accepted" / "simulation.py"
+    text = path.read_text(encoding="utf-8")
+    assert BLOWS in text
+    path.write_text(text.replace(BLOWS, BLOWS.replace("= 1.", force)), encoding="utf-8")
+
+
+def another_processor(value: Any) -> Any:
+    """The stamp names a processor that is not this one."""
+    value["predicate"]["cpu"] = "another processor"
+    return value
+
+
 def bundle(name: str, does: str, touch: Touch, refused_by: str, **more: Any) -> Trick:
     more = {"plan": TRUE, **more}
     return Trick(name, "bundle", does, touch={"accepted": touch}, anybody=True, refused_by=refused_by, **more)
@@ -194,6 +226,22 @@ TRICKS = (
     driven("breeze_taken_away", "The recorded breeze is taken away.", without_inputs, "trajectory"),
     driven(
         "breeze_cut_off", "The recorded breeze is cut off.", damaged("inputs.arrows", b"\xff\xff\xff\xff\x10"), "run"
+    ),
+    bundle(
+        "stream_that_the_program_would_not_send",
+        "The recorded breeze is as declared; the program that is kept would send none, and the crate would stop short.",
+        calm,
+        "law",
+        plan=FARTHER,
+        control=BLOWS,
+    ),
+    bundle(
+        "stream_of_a_false_processor",
+        "As that, with a program that would stop the crate 2 mm short, and a stamp that says it is of another processor.",
+        lull,
+        "law",
+        plan=FARTHER,
+        control=BLOWS,
     ),
     bundle("kinds_of_proof", "The stamp says that a medium was proved exactly, too.", another_kind, "kinds"),
 )

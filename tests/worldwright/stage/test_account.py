@@ -106,6 +106,16 @@ def test_what_acted_is_told_with_whether_it_was_meant(plan):
     assert not any("never acted" in line for line in account(cut, meant, {}))
 
 
+def test_a_gust_with_a_moment_of_its_own_is_no_wind_that_blows_anyway(plan):
+    moved = replace(analytic.falling(), interventions=analytic.pushed())
+    blown = replace(moved, meta={**moved.meta, "option": {"wind": [2.0, 0.0, 0.0]}})
+    for trigger in ("always", "from the start"):
+        meant = declaring(plan, row("force", "wind", trigger=trigger))
+        assert not any("never acted" in line for line in account(blown, meant, {}))
+    told = list(account(blown, declaring(plan, row("force", "wind", trigger="at 0.5 s")), {}))
+    assert "declared, but never acted: force on wind (trigger: at 0.5 s)" in told
+
+
 def test_a_mover_that_stays_and_many_warnings_are_told_shortly(plan):
     warned = tuple((0.1 * n, f"warning_{n % (MOST + 2)}", 1) for n in range(2 * (MOST + 2)))
     lines = list(account(replace(analytic.resting(), warnings=warned), plan, {"duration_s": 2.0, "wall_s": 0.5}))

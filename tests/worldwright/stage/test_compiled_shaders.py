@@ -42,6 +42,26 @@ def test_a_picture_is_the_same_with_them_and_without(reviewed):
     assert kept and bare.files == kept, bare.log
 
 
+def test_a_world_of_such_things_has_nothing_compiled_anew(reviewed, tmp_path):
+    """Or each job would compile for a second or two what it is to find."""
+    (physics,) = reviewed.glob("evidence/*/physics")
+    script = tmp_path / "drawing.py"
+    script.write_text(
+        "import os, pathlib, subprocess, sys\n"
+        "subprocess.run([sys.executable, '-s', '-m', 'worldengine', *sys.argv[1:]], check=True)\n"
+        "home, out = pathlib.Path(os.environ['HOME']), pathlib.Path(sys.argv[-1])\n"
+        "left = [path.relative_to(home).as_posix() for path in home.rglob('*') if path.is_file()]\n"
+        "(out / 'left.txt').write_text('\\n'.join(left))\n"
+    )
+    call = [sys.executable, "-s", str(script), "still", *given_words(physics), "--out", "{out}"]
+    reads = [physics, script]
+    done = run(call, reads=reads, wanted=["left.txt"], wall_s=300.0, memory_mb=4096, home=compiled_shaders.lay)
+    assert done.exit_code == 0, done.log
+    if not any(Path("/dev/dri").glob("render*")):  # what a card's driver adds is its own matter
+        new = set(done.files["left.txt"].decode().split()) - set(laid(tmp_path / "home"))
+        assert not any("mesa_shader_cache" in name for name in new), done.log
+
+
 def test_what_a_job_writes_in_its_home_goes_with_it(tmp_path):
     before = laid(tmp_path / "before")
     spoil = (

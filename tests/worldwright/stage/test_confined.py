@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from worldwright.model import call_time
+from worldwright.model.errors import CallOverError
 from worldwright.stage import family, sandbox
 from worldwright.stage.confined import STARVED, OwnTime, run
 
@@ -53,9 +54,17 @@ def test_who_sleeps_is_ended_too():
 
 
 def test_the_end_of_a_call_ends_it_by_the_clock():
-    with call_time.limited(1.0):
-        assert python("import time; time.sleep(60)", wall_s=60.0).status == "timed_out"
+    """As an error that says to call again: what ran has not failed."""
+    with call_time.limited(1.0), pytest.raises(CallOverError, match="280 s that a call may take") as over:
+        python("import time; time.sleep(60)", wall_s=60.0)
+    assert over.value.code == "timed_out" and "on the shell" in over.value.next_move
     assert call_time.left_s() > 1e9
+
+
+def test_nothing_is_begun_when_the_call_is_over():
+    """However soon it would end: it is not a matter of who is faster."""
+    with call_time.limited(0.0), pytest.raises(CallOverError):
+        run(["true"])
 
 
 def test_time_memory_and_output_are_limited():

@@ -1,16 +1,19 @@
 """What can be made again of a run is freed; evidence of what stands, of what was accepted, and running jobs never are."""
 
 import fcntl
+import resource
+import subprocess
 import time
 
 import pytest
 from click.testing import CliRunner
 
+from worldkit.files import write_json
 from worldwright import freeing
 from worldwright.model.errors import GateError
 from worldwright.model.evidence import environment
 from worldwright.model.evidence.reports import LintReport
-from worldwright.stage import disk
+from worldwright.stage import disk, family
 from worldwright.stage.job import Job, JobStatus, Spec
 from worldwright.stage.tools import status
 
@@ -39,6 +42,7 @@ def job(run, number, state="failed", stage="physics", variant=""):
     made = Job.create(run, spec)
     (made.out / "state.arrows").write_bytes(b"0" * 100_000)
     made.log.write_text("said")
+    made.scratch.rmdir()  # its supervisor does that at the end
     made.write(JobStatus(job=spec.job, stage=stage, key=spec.key.key, state=state))
     return made
 
@@ -137,6 +141,91 @@ def test_what_any_stamp_rests_on_stays_and_so_does_what_may_be_taken_over(make):
     stamp.write_text("torn")
     run.program.write_text("three = 3")
     assert not disk.free(run, key_of(run), dry=False).removed
+
+
+@pytest.mark.parametrize("name", ["key.json", "physics/result.json", "video/result.json"])
+@pytest.mark.parametrize("content", ["torn", "[]", None])
+def test_a_key_of_which_a_report_cannot_be_read_stays_whole(make, name, content):
+    run = make("one = 1")
+    old = recorded(run)
+    (old / "video").mkdir()
+    run.program.write_text("two = 2")
+    recorded(run)
+    if content is None:
+        (old / name).unlink(missing_ok=True)
+        (old / name).mkdir()
+    else:
+        (old / name).write_text(content)
+    assert not disk.free(run, key_of(run), dry=False).removed and (old / "physics" / "trajectory").is_dir()
+
+
+def test_a_damaged_version_and_a_key_that_never_said_what_it_is_keep_nothing(make):
+    run = make("one = 1")
+    old = recorded(run)
+    run.program.write_text("two = 2")
+    unnamed = recorded(run)
+    run.program.write_text("three = 3")
+    recorded(run)
+    (unnamed / "key.json").unlink()
+    stamp = run.folder / "earlier" / "damaged-20260101-000000-000000" / "stamp.json"
+    stamp.parent.mkdir(parents=True)
+    stamp.write_text("torn")
+    disk.free(run, key_of(run), dry=False)
+    assert not (old / "physics").exists() and not (unnamed / "physics").exists()
+
+
+def test_what_a_killed_job_left_is_ended_and_goes(make):
+    run = make("one = 1")
+    recorded(run)
+    killed, traced = job(run, 1, state="running"), job(run, 2, state="running", stage="final")
+    for one in (killed, traced):
+        one.scratch.mkdir()
+        (one.scratch / "half.bin").write_bytes(b"0" * 50_000)
+    (traced.out / "frames" / "film").mkdir(parents=True)
+    (traced.out / "frames" / "film" / "0.exr").write_bytes(b"0" * 10)
+    token = family.new_token()
+    spec = killed.spec.model_copy(update={"token": token})
+    write_json(killed.folder / "spec.json", spec.model_dump(mode="json"))
+    marked = [resource.RLIMIT_MSGQUEUE, family.mark(token)]
+    with subprocess.Popen(["sleep", "600"], preexec_fn=lambda: resource.setrlimit(*marked)) as orphan:  # noqa: PLW1509
+        said = disk.free(run, key_of(run), dry=True)
+        assert orphan.poll() is None and killed.scratch.exists() and said.freed_mb == pytest.approx(0.3, abs=0.001)
+        freed = disk.free(run, key_of(run), dry=False)
+        assert orphan.wait(timeout=60) == -9
+    assert freed.freed_mb == pytest.approx(said.freed_mb, abs=0.001)
+    assert not any(path.exists() for one in (killed, traced) for path in (one.scratch, one.out))
+    assert (traced.folder / "frames" / "film" / "0.exr").is_file() and killed.log.read_text() == "said"
+
+
+def test_what_a_killed_job_of_a_rehearsal_left_is_ended_before_it_goes(make):
+    run, copy = make("one = 1"), make("one = 1", name="world/rehearsal")
+    copy.journal.unlink()
+    copy.log("rehearsal", "rehearse", of="0", files=[])
+    killed = job(copy, 1, state="running")
+    killed.scratch.mkdir()
+    token = family.new_token()
+    write_json(killed.folder / "spec.json", killed.spec.model_copy(update={"token": token}).model_dump(mode="json"))
+    marked = [resource.RLIMIT_MSGQUEUE, family.mark(token)]
+    with subprocess.Popen(["sleep", "600"], preexec_fn=lambda: resource.setrlimit(*marked)) as orphan:  # noqa: PLW1509
+        try:
+            assert disk.free(run, key_of(run), dry=False).removed == ("rehearsal",)
+            assert orphan.wait(timeout=60) == -9
+        finally:
+            orphan.kill()
+    assert not copy.folder.exists()
+
+
+def test_without_a_program_nothing_is_called_earlier(make):
+    run = make("one = 1")
+    recorded(run)
+    run.program.write_text("two = 2")
+    recorded(run)
+    first, _ = job(run, 1), job(run, 2)
+    (run.folder / f"{disk.GOING}0").mkdir()
+    run.program.unlink()
+    done = CliRunner().invoke(freeing.command, [str(run.folder)])
+    assert done.exit_code == 0 and not (run.folder / f"{disk.GOING}0").exists()
+    assert len(list((run.folder / "evidence").glob("*/physics"))) == 2 and first.out.is_dir()
 
 
 def test_a_removal_that_is_killed_leaves_no_part_under_its_name_and_is_finished_later(make, monkeypatch):

@@ -7,6 +7,7 @@ kind of victim each.
 import json
 import os
 import random
+import shlex
 import shutil
 import signal
 import subprocess
@@ -126,7 +127,7 @@ def test_what_was_proven_survives_a_kill_at_any_moment(approved, tmp_path, numbe
 
 def confined(script: str, folder: Path, options: str) -> "subprocess.CompletedProcess[str]":
     """Run Python in a mount namespace of its own, where the folder is a small or read-only file system."""
-    mount = f"mount {options} && exec {sys.executable} -c '{script}' {folder}"
+    mount = f"mount {options} && exec {shlex.join([sys.executable, '-c', script, str(folder)])}"
     words = ["unshare", "--mount", "sh", "-c", mount]
     if os.geteuid():
         words[1:1] = ["--user", "--map-root-user"]
@@ -164,7 +165,7 @@ print(json.dumps(said))
 
 
 def test_a_full_disk_is_named_and_the_next_run_succeeds(tmp_path):
-    done = confined(SMALL, tmp_path, f"-t tmpfs -o size=100m tmpfs {tmp_path}")
+    done = confined(SMALL, tmp_path, f"-t tmpfs -o size=100m tmpfs {shlex.quote(str(tmp_path))}")
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout) == [["succeeded", "ok"], ["failed", "disk_full"], ["succeeded", "ok"]]
 
@@ -177,13 +178,13 @@ def test_a_disk_that_was_full_before_and_a_folder_that_cannot_be_written_are_ref
         "try: start(sys.argv[1])\n"
         "except JobError as refusal: print(refusal.code, bool(refusal.next_move))"
     )
-    place = run.folder
-    done = confined(script, place, f"--bind {place} {place} && mount -o remount,bind,ro {place}")
+    folder, place = run.folder, shlex.quote(str(run.folder))
+    done = confined(script, folder, f"--bind {place} {place} && mount -o remount,bind,ro {place}")
     assert done.stdout.split()[1:] == ["not_writable", "True"], done.stderr
-    copy = place.with_name("copy")
+    copy = shlex.quote(str(folder.with_name("copy")))
     fill = f"mkdir -p {copy} && mount -t tmpfs -o size=64k tmpfs {copy} && cp -r {place}/. {copy} "
     fill += f"&& (head -c 1m /dev/zero > {copy}/fill || true) 2>/dev/null && mount --bind {copy} {place}"
-    done = confined(script, place, f"-t tmpfs none /mnt && {fill}")
+    done = confined(script, folder, f"-t tmpfs none /mnt && {fill}")
     assert done.stdout.split()[1:] == ["disk_full", "True"], done.stderr
 
 

@@ -93,7 +93,8 @@ def test_a_slip_and_a_variant_taken_back_cost_no_frame(reviewed, tmp_path):
     assert stood(run, back) == [frame] and stood(run, mine) == [] and stood(run, slip) == [house]
 
 
-def test_frames_of_the_last_films_are_kept(tmp_path, monkeypatch):
+@pytest.mark.parametrize("renderers", [("",), ("-preview",), ("", "-preview")])
+def test_frames_of_the_last_films_are_kept_whatever_drew_them(tmp_path, monkeypatch, renderers):
     monkeypatch.setattr("worldengine.recording.stored.open", lambda path: SimpleNamespace(sha256=path.name))
     told, jobs = tmp_path / "told", []
     told.mkdir()
@@ -108,10 +109,12 @@ def test_frames_of_the_last_films_are_kept(tmp_path, monkeypatch):
         job = _with(Job(tmp_path / f"final-{len(jobs)}"), spec)
         job.read = lambda: SimpleNamespace(ended=True)
         refined.carry_over(None, job, told, Path("recording"), world)
-        frames = job.out / refined.FOLDER / named(told, "recording", world)
-        known = frames.is_dir()
-        frames.mkdir(parents=True, exist_ok=True)
-        os.utime(frames, (len(jobs), len(jobs)))
+        name = named(told, "recording", world)
+        sets = [job.out / refined.FOLDER / f"{name}{renderer}" for renderer in renderers]
+        (known,) = {frames.is_dir() for frames in sets}
+        for frames in sets:
+            frames.mkdir(parents=True, exist_ok=True)
+            os.utime(frames, (len(jobs), len(jobs)))
         refined.put_aside(job)
         jobs.append(job)
         return known

@@ -54,6 +54,13 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
         start(str(run.folder))
 
 
+def test_a_job_tells_the_processor_time_of_its_confined_processes(make, level, finish):
+    """Also at the level that leaves the program's process to whoever adopts it."""
+    burning = "import time\nwhile time.process_time() < 2.0:\n    pass\n"
+    job = finish(make(burning + GOOD), stage="bundle")
+    assert job.state == "succeeded" and job.cpu_s >= 2.0, job
+
+
 PREAMBLE = """
 import json, pathlib, sys
 OUT = pathlib.Path(sys.argv[sys.argv.index("--out") + 1])
@@ -104,6 +111,7 @@ time.sleep(4)
             {"memory_mb": 256},
         ),
         ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", "killed", {}),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGSEGV)", "crashed", {}),
         ("import sys\nwhile True: sys.stdout.write('x' * 65536)", "too_much_output", {}),
         ("print('nothing')", "no_result", {}),
         (BORN, "too_many_processes", {}),

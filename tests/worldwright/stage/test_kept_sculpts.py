@@ -8,12 +8,13 @@ import pytest
 
 from worldwright.lint import tools as lint
 from worldwright.lint.compiled import planned
-from worldwright.model.errors import JobError
+from worldwright.model import call_time
+from worldwright.model.errors import CallOverError, JobError
 from worldwright.model.evidence import environment
 from worldwright.model.evidence.reports import LintReport
 from worldwright.model.evidence.run import Run
 from worldwright.model.plan.plan_text import read_plan
-from worldwright.stage import kept_sculpts, sculpting_step
+from worldwright.stage import confined, kept_sculpts, sculpting_step
 from worldwright.stage import tools as stage
 
 BOWL = """\
@@ -91,6 +92,8 @@ def test_a_broken_entry_is_found_by_its_hash_and_made_anew(run):
     [
         ("raise ValueError('no clay')", "crashed", "no clay", ":7"),
         ("while True: pass", "timed_out", "more than 1 s of processor time", ""),
+        ("try: raise OSError(28, 'No space')\nexcept OSError: raise ValueError('no clay')", "crashed", "no clay", ":8"),
+        ("raise ValueError('no clay, said the last one: [Errno 28] No space')", "crashed", "no clay", ":7"),
     ],
 )
 def test_what_fails_does_so_once_for_exactly_these_sources(run, monkeypatch, line, code, said, where):
@@ -109,11 +112,36 @@ def test_what_fails_does_so_once_for_exactly_these_sources(run, monkeypatch, lin
     assert sculpting_step.prepare(plan) == 1
 
 
-@pytest.mark.parametrize("line", ["import os; os.kill(os.getpid(), 9)", "raise OSError(28, 'No space left on device')"])
-def test_what_the_machine_did_is_not_noted_against_the_file(run, line):
+def test_the_end_of_a_call_tells_nothing_of_a_plan_or_its_file(run):
     file, plan = run.folder / "sculpt/bowl.py", read_plan(run.plan).plan
-    file.write_text(file.read_text() + line + "\n")
-    refused(plan)
+    file.write_text(file.read_text() + f"# {uuid.uuid4()}\n")
+    with call_time.limited(0.0), pytest.raises(CallOverError):
+        planned.world(plan)
+    assert not (place(run) / sculpting_step.FAILED).exists()
+
+
+def test_what_took_all_its_own_time_is_told_though_the_call_ended_too(run, monkeypatch):
+    monkeypatch.setattr(sculpting_step.confined, "run", lambda *_, **__: confined.Confined("timed_out"))
+    with call_time.limited(0.0):
+        assert refused(read_plan(run.plan).plan).code == "timed_out"
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "move"),
+    [
+        ("import os; os.kill(os.getpid(), 9)", "crashed", "correct it"),
+        ("raise OSError(errno.ENOSPC, 'No space left on device', 'a file')", "disk_full", "disk space of this machine"),
+        ("raise OSError(errno.EDQUOT, 'Disk quota exceeded')", "disk_full", "disk space of this machine"),
+        ("import mmap; mmap.mmap(-1, 1 << 44)", "out_of_memory", "if it does neither, free memory of this machine"),
+        ("raise OSError(errno.EAGAIN, 'No process')", "too_many_processes", "let it start fewer processes"),
+    ],
+)
+def test_what_the_machine_did_or_may_have_done_is_not_noted_against_the_file(run, line, code, move):
+    """A process or memory that is refused may be the machine's want, or the file's own that asks for too much: both are named."""
+    file, plan = run.folder / "sculpt/bowl.py", read_plan(run.plan).plan
+    file.write_text(file.read_text() + f"import errno\n{line}\n")
+    said = refused(plan)
+    assert said.code == code and move in said.next_move
     assert not (place(run) / sculpting_step.FAILED).exists()
 
 
@@ -133,6 +161,14 @@ def test_what_no_key_tells_is_not_made_ahead_twice(run, monkeypatch):
     held = "HELD = (n for n in range(9))\n\ndef paint(points, _):\n    return points * 0 + 0.1 * (HELD is not None)\n"
     file.write_text(file.read_text().replace("POT = ", held + "\n\nPOT = ").replace("look=CLAY", "paint=paint"))
     assert sculpting_step.prepare(plan) == 0 and not entries(run)
+    monkeypatch.setattr(sculpting_step.confined, "run", None)
+    assert sculpting_step.prepare(plan) == 0
+
+
+def test_what_is_too_much_to_be_kept_is_not_made_ahead_twice(run, monkeypatch):
+    monkeypatch.setattr(kept_sculpts, "MOST_IN_PLACE", 10)
+    plan = read_plan(run.plan).plan
+    assert sculpting_step.prepare(plan) == 1 and not entries(run)
     monkeypatch.setattr(sculpting_step.confined, "run", None)
     assert sculpting_step.prepare(plan) == 0
 
@@ -246,6 +282,11 @@ def test_what_is_kept_has_a_limit_in_bytes_for_each_place_and_for_all(tmp_path, 
             path.parent.mkdir(parents=True, exist_ok=True)
             path.write_bytes(b"x" * 1_000)
             os.utime(path, (1_000 + 10 * place + entry,) * 2)
+    # The place whose entries are older was used last: it is the other one that goes, and it goes whole.
+    used = {f"place{place}": (5_000 - place,) * 2 for place in range(2)}
+    for name, times in used.items():
+        os.utime(tmp_path / "sculpts" / name, times)
     kept_sculpts._tidy()
-    left = {path.relative_to(tmp_path / "sculpts").as_posix() for path in tmp_path.rglob("*.npz")}
-    assert left == {f"place1/{n}.npz" for n in (2, 3, 4)} | {f"place0/{n}.npz" for n in (3, 4)}
+    left = {path.relative_to(tmp_path / "sculpts").as_posix() for path in (tmp_path / "sculpts").rglob("*")}
+    assert left == {"place0", *(f"place0/{n}.npz" for n in (2, 3, 4))}
+    assert (tmp_path / "sculpts" / "place0").stat().st_mtime == used["place0"][1], "to be trimmed is no use of it"

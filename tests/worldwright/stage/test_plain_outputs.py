@@ -75,6 +75,12 @@ def test_only_plain_files_of_one_name_are_read(tmp_path, victim):
     assert plain.read_json(tmp_path / "good") == {"ok": True}
 
 
+def test_a_report_that_is_too_long_is_not_parsed():
+    fits = b'{"ok": true}' + b" " * (plain.MOST_JSON - 12)
+    assert plain.as_object(fits) == {"ok": True} and plain.as_object(fits + b" ") == {}
+    assert plain.as_object(b"[1]") == plain.as_object(b"{") == plain.as_object(b"[" * 100_000) == {}
+
+
 def test_the_author_sees_neither_the_evidence_nor_the_engines_folder(level, make, finish):
     run = make(
         BUILT

@@ -50,7 +50,7 @@ def test_a_sheet_a_camera_shows_the_ball_where_it_was(boarded):
     _, board = boarded
     sheets = {path.stem: cv2.imread(str(path)) for path in board.glob("*.jpg")}
     assert set(sheets) == {"overview", "side"}
-    height = 480 * 96 // 160
+    height = 480 * 90 // 160
     page = sheets["side"]
     assert page.shape == (2 * (height + 4) + 4, 3 * 484 + 4, 3)
     cells = [page[4 + r * (height + 4) :, 4 + c * 484 :][:height, :480] for r, c in ((0, 0), (0, 1), (0, 2), (1, 0))]

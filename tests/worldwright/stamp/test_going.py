@@ -8,11 +8,18 @@ import pytest
 from click.testing import CliRunner
 
 from worldwright import cli
+from worldwright.draft.writing import write_program
+from worldwright.lint.compiled import fetch
+from worldwright.model import call_time
 from worldwright.model.errors import WorldwrightError
 from worldwright.model.evidence import environment
 from worldwright.model.evidence.reports import LintReport
 from worldwright.model.evidence.run import Run
+from worldwright.scan import tools as scan
+from worldwright.stage import tools as stage
+from worldwright.stamp import going
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.state import State
 
 
 def journal(folder) -> Counter:
@@ -25,6 +32,15 @@ def to_the_end(folder, **options):
     for _ in range(40):
         gone = stamp.go(str(folder), timeout_s=30, **options)
         if gone.state != "running":
+            return gone
+    raise AssertionError(gone.text())
+
+
+def to_the_storyboard(folder, **options):
+    """The same, and until the storyboard is there, which is drawn beside the call: that does not wait for it beyond its time."""
+    for _ in range(10):
+        gone = to_the_end(folder, **options)
+        if gone.storyboard:
             return gone
     raise AssertionError(gone.text())
 
@@ -84,11 +100,40 @@ def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_tw
 
 
 @pytest.mark.slow
-def test_the_walk_ends_where_it_is_told_to(fresh):
+def test_the_walk_ends_where_it_is_told_to(fresh, monkeypatch):
     stamp.approve(str(fresh), by="tester")
-    gone = stamp.go(str(fresh), until="expect", timeout_s=120)
-    assert list(gone.held)[-1] == "expect" and gone.storyboard, gone.text()
+    gone = to_the_storyboard(fresh, until="expect")
+    assert list(gone.held)[-1] == "expect", gone.text()
     assert not [job for job in (fresh / "jobs").iterdir() if job.name.startswith(("stills", "video"))]
+    monkeypatch.setattr(scan, "smallest", lambda _: pytest.fail("the recording is read again"))
+    assert "smallest" in gone.held["scan"] and stamp.go(str(fresh), until="expect").held["scan"] == gone.held["scan"]
+
+
+def test_what_one_walk_keeps_another_may_drop_meanwhile(fresh, monkeypatch):
+    class Dropped(dict):
+        def __setitem__(self, *_):
+            """Another thread clears it at once."""
+
+    monkeypatch.setattr(going, "_SMALLEST", Dropped())
+    monkeypatch.setattr(scan, "smallest", lambda _: "ball 9 px")
+    assert going._smallest(Run(fresh)) == "ball 9 px"
+
+
+@pytest.mark.slow
+def test_what_the_end_of_a_call_cut_is_not_wrong_but_under_way(fresh, monkeypatch):
+    stamp.go(str(fresh))
+    stamp.approve(str(fresh), by="tester")
+    write_program(Run(fresh))
+    job = stage.start(str(fresh), stage="bundle")
+    while not job.ended:
+        job = stage.wait(str(fresh), job=job.job)
+    monkeypatch.setattr(fetch, "_KEPT", {})
+    with call_time.limited(0.0):
+        gone = stamp.go(str(fresh))
+    assert (gone.state, gone.wrong) == ("running", ()), gone.text()
+    assert gone.under_way[0].startswith("lint: it was not done within the 280 s that a call may take; call it again")
+    assert not State(Run(fresh)).lint.value
+    assert "lint" in stamp.go(str(fresh), until="lint").held
 
 
 @pytest.mark.slow
@@ -97,10 +142,7 @@ def test_what_the_recording_refutes_is_told_at_once_together_and_nothing_is_film
     plan_of(fresh, ("- falls: {body: ball, min_m: 0.3}", claims), ("duration: 0.5", "duration: 1.1"))
     stamp.go(str(fresh))
     stamp.approve(str(fresh), by="tester")
-    for _ in range(10):  # the storyboard is drawn beside the call, which does not wait for it beyond its time
-        gone = to_the_end(fresh)
-        if gone.storyboard:
-            break
+    gone = to_the_storyboard(fresh)
     assert gone.state == "stopped"
     assert [wrong.step for wrong in gone.wrong] == ["scan", "expect"], gone.text()
     assert "failure_to_settle" in gone.wrong[0].what

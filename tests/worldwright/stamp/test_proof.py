@@ -8,7 +8,9 @@ import pytest
 
 from worldwright.lint import tools as lint
 from worldwright.model.errors import GateError, JobError
+from worldwright.model.evidence.reports import LintReport
 from worldwright.model.evidence.run import Run
+from worldwright.stage import limits
 from worldwright.stage import tools as stage
 from worldwright.stage.job import JobStatus
 from worldwright.stamp import proof, rebuilt
@@ -65,9 +67,15 @@ def test_a_paint_that_draws_from_a_global_generator_is_proved(built) -> None:
     assert proved is not None and proved.rebuilt == rebuilt.SAME
 
 
+def ended(state: str, code: str) -> JobStatus:
+    told = {"message": "it ended", "place": "simulation.py:7", "next_move": "do this"}
+    return JobStatus(job="bundle-1", stage="bundle", key="", state=state, code=code, **told)
+
+
 ENDED = [
     ("failed", "disk_full", JobError),
     ("failed", "out_of_memory", JobError),
+    ("failed", "killed", JobError),
     ("cancelled", "cancelled", JobError),
     ("failed", "unnamed_asset", GateError),
     ("failed", "crashed", GateError),
@@ -79,12 +87,28 @@ def test_a_build_that_ends_badly_is_told_as_it_ended(
     state: str, code: str, raised: type, tmp_path: Path, small_plan: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A full disk says nothing about a world: nothing is refuted, and the job's log stays."""
-    told = {"message": "it ended", "place": "simulation.py:7", "next_move": "do this"}
-    ended = JobStatus(job="bundle-1", stage="bundle", key="", state=state, code=code, **told)
-    monkeypatch.setattr(stage, "start_fresh", lambda *_: ended)
-    monkeypatch.setattr(lint, "check_program", lambda *_, **__: SimpleNamespace(findings=(), rules=()))
+    monkeypatch.setattr(stage, "start_fresh", lambda *_: ended(state, code))
+    monkeypatch.setattr(lint, "check_program", lambda *_, **__: LintReport())
     with pytest.raises(raised, match="it ended") as caught:
         proof.prove(tmp_path / "proof", b"", small_plan.encode(), reason="a test", timeout_s=1, kept=tmp_path)
     assert code in (caught.value.code, caught.value.cause.split(": ")[1])
     assert (caught.value.place, caught.value.next_move) == ("simulation.py:7", "do this")
     assert (tmp_path / "proof/plan.md").is_file()
+
+
+@pytest.mark.parametrize(
+    ("status", "raised", "said"),
+    [(-9, JobError, "SIGKILL"), (-11, GateError, "WM101"), (134, GateError, "WM101"), (1, GateError, "WM101")],
+    ids=["killed", "segfault", "abort", "exit"],
+)
+def test_the_machine_is_judged_before_lint_and_a_program_by_lint(
+    status: int, raised: type, said: str, tmp_path: Path, small_plan: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where there is no room to build a world, lint finds none either; that is not the program's fault."""
+    found = SimpleNamespace(severity="error", code="WM101", message="no world", line=None, fix="")
+    told = limits.failed(status, {}, {}, "its log")
+    job = ended("failed", "").model_copy(update=told)
+    monkeypatch.setattr(stage, "start_fresh", lambda *_: job)
+    monkeypatch.setattr(lint, "check_program", lambda *_, **__: SimpleNamespace(findings=(found,), rules=()))
+    with pytest.raises(raised, match=said):
+        proof.prove(tmp_path / "proof", b"", small_plan.encode(), reason="a test", timeout_s=1, kept=tmp_path)

@@ -15,16 +15,32 @@ from types import SimpleNamespace
 
 import pytest
 
-from worldwright.model.errors import GateError
+from worldwright.lint.compiled import fetch, planned
+from worldwright.model import call_time
+from worldwright.model.errors import CallOverError, GateError
 from worldwright.model.evidence.journal import Journal
 from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.model.plan.committed import Plan
 from worldwright.model.plan.plan_text import read_plan
-from worldwright.stamp import acceptance, bundle, departures, digest, private, repeats, signing, verification
+from worldwright.stage import tools as stage
+from worldwright.stamp import (
+    acceptance,
+    bundle,
+    departures,
+    digest,
+    private,
+    proof,
+    redrawn,
+    repeats,
+    signing,
+    taken,
+    verification,
+)
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.proof import Proved
 from worldwright.stamp.state import State
 from worldwright.stamp.statement import Statement
-from worldwright.stamp.strip import BEGIN, END
+from worldwright.stamp.strip import BEGIN, END, strip
 
 Copy = Callable[[Path], Path]
 Prepare = Callable[[Path], None]
@@ -140,7 +156,7 @@ def test_another_program_under_a_resealed_stamp_is_refuted_by_its_run(accepted: 
     result = stamp.verify(str(folder), timeout_s=60, rebuild=True)
     assert not result.ok
     failed = {check.name for check in result.checks if not check.ok}
-    assert failed & {"trajectory", "run"}, result.text()
+    assert failed & {"trajectory", "run", "law"}, result.text()
 
 
 def without_film(folder: Path) -> None:
@@ -159,7 +175,8 @@ def test_instrumentation_is_taken_out_of_what_is_accepted(planned: Path, copy: C
     )
     program.write_text(watched, encoding="utf-8")
     prepare(folder)
-    result = stamp.accept(str(folder), timeout_s=60)
+    while (result := stamp.accept(str(folder), timeout_s=60)).state == "proving":
+        pass  # a busy machine needs more than one call
     assert result.stripped_lines == 3
     kept = (folder / "accepted" / "simulation.py").read_text(encoding="utf-8")
     assert "instrumentation" not in kept
@@ -441,3 +458,82 @@ def test_the_file_that_was_simulated_acts_as_its_plan_says(accepted: Path) -> No
     told = departures.from_plan(world, Plan.model_validate(other))
     assert told and "2.5" in told[0]
     assert "acts: every pair" in stamp.verify(str(accepted), timeout_s=60).text()
+
+
+def test_the_end_of_a_call_tells_nothing_of_a_world_or_its_pictures(
+    accepted: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Neither is another world than planned, nor a picture of another one: there was no time to look."""
+    run = Run(copy(accepted))
+    inside, state = run.accepted, State(run)
+    statement = Statement.model_validate_json((inside / "stamp.json").read_bytes())
+    proved = Proved(run, state.passes["physics"].value, state.lint.value, state.folder / "physics" / "trajectory")
+    for module in (fetch, planned):
+        monkeypatch.setattr(module, "_KEPT", {})
+    with call_time.limited(0.0):
+        for look in (
+            lambda: departures.from_plan(inside / "world.mjz", state.plan),
+            lambda: list(redrawn.differ(inside, statement, proved)),
+            lambda: stage.try_film(run.folder),
+        ):
+            with pytest.raises(CallOverError, match="that a call may take"):
+                look()
+
+
+def test_an_acceptance_waits_no_longer_than_its_call_lasts(reviewed: Path, copy: Copy) -> None:
+    with call_time.limited(call_time.SPARE_S):
+        assert stamp.accept(str(copy(reviewed)), timeout_s=1e6).state == "proving"
+
+
+def test_the_facts_of_a_world_are_held_against_the_accepted_plan(reviewed: Path, copy: Copy) -> None:
+    """Somebody edits the run's plan while it is being accepted."""
+    state = State(Run(copy(reviewed)))
+    stripped = strip((state.program_bytes or b"").decode())
+    assert state.plan_bytes
+    state.run.plan.write_text("half written")
+    acceptance._factual(state, stripped, state.folder / "physics")
+
+
+def edited_by(monkeypatch: pytest.MonkeyPatch, owner: object, name: str, edit: Callable[[], object]) -> None:
+    """Somebody edits right after that step of an acceptance."""
+    step = getattr(owner, name)
+
+    def after(*args: object, **named: object) -> object:
+        done = step(*args, **named)
+        edit()
+        return done
+
+    monkeypatch.setattr(owner, name, after)
+
+
+def test_what_is_published_is_what_was_proved(reviewed: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A helper, a film and the prompt are edited while the proof runs."""
+    run = Run(copy(reviewed))
+    helper, asked = run.folder / "shapes.py", run.prompt.read_bytes()
+    helper.write_text("# a shape")
+    read = proof.beside
+    monkeypatch.setattr(taken, "beside", lambda folder: {**read(folder), "shapes.py": helper.read_bytes()})
+
+    def edit() -> None:
+        helper.write_text("# half a shape")
+        (run.folder / "film.py").write_text("# half a film")
+        run.prompt.write_text("something else")
+
+    edited_by(monkeypatch, acceptance, "prove", edit)
+    assert stamp.accept(str(run.folder), timeout_s=400).ok
+    inner = run.accepted
+    assert (inner / "shapes.py").read_text() == "# a shape" and not (inner / "film.py").exists()
+    assert (inner / "prompt.md").read_bytes() == asked
+    predicate = Statement.model_validate_json((inner / "stamp.json").read_bytes()).predicate
+    assert predicate.film is None and "film.py" not in predicate.source.materials
+    assert predicate.source.materials["prompt.md"].sha256 == sha256_file(inner / "prompt.md")
+
+
+def test_what_changes_while_the_gates_look_is_refused(
+    reviewed: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = Run(copy(reviewed))
+    edited_by(monkeypatch, acceptance.gates, "pass_through", lambda: (run.folder / "film.py").write_text("# a film"))
+    with pytest.raises(GateError, match=r"film.py changed while the run was being accepted"):
+        stamp.accept(str(run.folder), timeout_s=60)
+    assert not run.accepted.exists()

@@ -11,7 +11,7 @@ from worldkit.files import write_atomic
 from worldwright import accepted_versions
 from worldwright.model.errors import GateError, NotFoundError
 from worldwright.model.evidence.run import Run
-from worldwright.stamp import bundle, keyring, scope, signing, versions
+from worldwright.stamp import bundle, keyring, scope, signing, small_form, versions
 from worldwright.stamp.state import State
 from worldwright.stamp.statement import Statement
 from worldwright.stamp.steps import steps
@@ -100,8 +100,43 @@ def test_a_version_that_was_changed_does_not_come_back(accepted: Path, copy: Cop
         versions.restore(run, name)
     with pytest.raises(NotFoundError):
         versions.find(run, "nothing")
-    (run.accepted / "extra").touch()
-    assert versions.aside(run) is None, "only what is whole is kept as a version"
+
+
+def test_what_stood_and_is_not_whole_is_kept_beside_the_versions(accepted: Path, copy: Copy) -> None:
+    """An edit of an accepted file may be somebody's work: it goes aside under another name, as a version it does not count."""
+    run = Run(copy(accepted))
+    plan = run.accepted / "plan.md"
+    plan.write_text(plan.read_text() + "\nBy hand.\n")
+    name = accepted_anew(run)
+    (kept,) = run.folder.glob("earlier/*")
+    assert kept.name.startswith("damaged-") and (kept / "plan.md").read_text().endswith("By hand.\n")
+    assert name not in {version.name for version in versions.known(run)} and len(versions.known(run)) == 1
+    with pytest.raises(NotFoundError):
+        versions.restore(run, name)
+
+
+def test_of_a_small_form_what_another_version_replaces_is_kept(accepted: Path, copy: Copy, tmp_path: Path) -> None:
+    """Its files lie in the run folder itself, and nowhere else."""
+    run = Run(copy(accepted))
+    name = accepted_anew(run)
+    small = Run(tmp_path / "small")
+    small_form.write(run, small.folder)
+    shutil.copytree(run.folder / "earlier", small.folder / "earlier")
+    before = {path.name: path.read_bytes() for path in (small.plan, small.program)}
+    versions.restore(small, name)
+    (kept,) = small.folder.glob("earlier/replaced-*")
+    assert small.plan.read_bytes() != before["plan.md"]
+    assert {found: (kept / found).read_bytes() for found in before} == before
+
+
+def test_the_prompt_comes_back_with_its_version(accepted: Path, copy: Copy) -> None:
+    run = Run(copy(accepted))
+    (standing,) = versions.known(run)
+    first = run.prompt.read_bytes()
+    run.prompt.write_text("Drop two balls.\n")
+    versions.restore(run, standing.name)
+    (kept,) = run.folder.glob("earlier/replaced-*")
+    assert run.prompt.read_bytes() == first and (kept / "prompt.md").read_text() == "Drop two balls.\n"
 
 
 def test_a_helper_module_edited_since_acceptance_and_the_reason_of_a_block_are_kept(accepted: Path, copy: Copy) -> None:

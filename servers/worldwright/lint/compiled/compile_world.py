@@ -3,7 +3,7 @@
     compile_world.py program|mjcf FILE OUT [SECONDS]
 
 A program is run as a script up to the moment it hands its world to worldkit, or takes its first step; a model file, or the
-archive that a bundle pass has made, is compiled; SECONDS is how long such a world is simulated. What is left behind is `outcome.json` and, when there is a world, `facts.npz`: numbers and names, no code.
+archive that a bundle pass has made, is compiled; SECONDS is how long such a world is simulated, 0 that its price is not asked. What is left behind is `outcome.json` and, when there is a world, `facts.npz`: numbers and names, no code.
 """
 
 import contextlib
@@ -150,7 +150,7 @@ def main(kind: str, path: Path, out: Path, lasting_s: float | None = None) -> No
             outcome.update(texts)
             np.savez(out / "facts.npz", **arrays)
     outcome["warnings"] = [str(w.message)[:500] for w in said if w.category is UserWarning][:20]
-    seconds = outcome.pop("duration_s", None)
+    seconds = outcome.pop("duration_s", None) if lasting_s != 0 else None
     (out / "outcome.json").write_text(json.dumps(outcome), encoding="utf-8")
     if model is not None and isinstance(seconds, int | float):  # after that: a step may never return
         with contextlib.suppress(

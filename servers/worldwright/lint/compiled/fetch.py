@@ -7,13 +7,14 @@ can mislead the rules about that program, and about nothing else.
 import contextlib
 import hashlib
 import io
-import json
 import sys
 import tempfile
 import zipfile
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from ...model import json_object
 
 if TYPE_CHECKING:
     import numpy as np
@@ -23,6 +24,8 @@ if TYPE_CHECKING:
 
 MOST_BYTES = 128 << 20
 WALL_S = 20.0
+UNPRICED = 0.0
+"""In place of how long a program's world is simulated: what that costs is not asked, so that no step is taken."""
 PROGRAM = "simulation.py"
 MEMORY_MB = 2048
 BUNDLE, FACTS = "world.mjz", "program.json"
@@ -66,7 +69,11 @@ def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S, lasting_
         path: the file.
         is_mjcf: it is a model and not a program.
         wall_s: the attempt ends after so many seconds.
-        lasting_s: how long the world of a file is simulated, s, where that is known.
+        lasting_s: how long the world of a file is simulated, s, where that is known; a program says it itself, but for
+            `UNPRICED`.
+
+    Raises:
+        CallOverError: the client's call ended first, which says nothing of the world.
     """
     if not (is_mjcf and path.suffix == ARCHIVE and path.is_file() and path.stat().st_size <= MOST_BYTES):
         return _compiled(path, is_mjcf, wall_s, lasting_s)
@@ -114,7 +121,11 @@ def _compiled(path: Path, is_mjcf: bool, wall_s: float, lasting_s: float | None)
     if done.status != "ended" and "outcome.json" not in done.files:  # the world was compiled, and its first step failed
         status = "too_large" if done.status == "timed_out" and "compiling" in done.files else done.status
         return Outcome(status, message=done.log[-500:], **common)
-    told = _object(done.files.get("outcome.json", b""))
+    outcome = done.files.get("outcome.json", b"")
+    if len(outcome) > json_object.MOST_BYTES:
+        much = f"what its process told of it is larger than {json_object.MOST_BYTES >> 20} MB"
+        return Outcome("died", message=much, **common)
+    told = json_object.told(outcome) or {}
     common["warnings"] = tuple(str(w) for w in told.get("warnings") or ())
     if "failure" in told:
         line = told.get("line")
@@ -140,21 +151,13 @@ def bundled(run: "Run", key: "EvidenceKey") -> tuple[Path, float] | None:
 
     folder = run.evidence(key) / "bundle"
     try:
-        result = _object((folder / "result.json").read_bytes())
+        result = json_object.read(folder / "result.json") or {}
         files = result.get("files") or {}
         if not result.get("ok") or any(sha256_file(folder / name) != files.get(name) for name in (BUNDLE, FACTS)):
             return None
-        return folder / BUNDLE, float(_object((folder / FACTS).read_bytes())["duration"])
+        return folder / BUNDLE, float((json_object.read(folder / FACTS) or {})["duration"])
     except (OSError, KeyError, TypeError, ValueError, AttributeError):
         return None
-
-
-def _object(data: bytes) -> dict[str, Any]:
-    try:
-        value = json.loads(data)
-    except (ValueError, RecursionError):
-        return {}
-    return value if isinstance(value, dict) else {}
 
 
 def _arrays(data: bytes) -> "dict[str, np.ndarray]":

@@ -6,12 +6,14 @@ program's world is held against it (`rules/model/acting`), however the program i
 
 import hashlib
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from pathlib import Path
 
 from worldkit.files import write_atomic
 
-from ...model.errors import WorldwrightError
+from ...model.errors import CallOverError, WorldwrightError
 from ...model.plan import imported
 from ...model.plan.committed import Plan
 from ...stage.tools import sculpt_of
@@ -31,7 +33,11 @@ def source(plan: Plan) -> str:
 
 
 def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
-    """The compiled world of a plan's draft; with status `failed` when the plan makes none, and why."""
+    """The compiled world of a plan's draft; with status `failed` when the plan makes none, and why.
+
+    Raises:
+        CallOverError: the client's call ended first, which says nothing of the plan.
+    """
     try:
         text = source(plan)
     except (WorldwrightError, ValueError, KeyError) as error:
@@ -42,6 +48,8 @@ def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
     if kept is None:
         try:
             sculpt_of(plan)
+        except CallOverError:
+            raise
         except WorldwrightError as error:
             return fetch.Outcome("failed", failure=type(error).__name__, message=str(error))
         kept = _compiled(text, near, wall_s)
@@ -49,6 +57,30 @@ def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
             _KEPT.clear()  # people work on one run at a time
             _KEPT[key] = kept
     return kept
+
+
+def beside(
+    plan: Plan, program: str, make: Callable[[], fetch.Outcome], wall_s: float
+) -> tuple[fetch.Outcome, fetch.Outcome]:
+    """The world of a program, which `make` gives, and that of its plan, each from a process that cannot see the other.
+
+    A program that is the plan's draft word for word makes the planned world: it is not built a second time. (Acceptance holds
+    the file that is stamped against a draft that it builds itself.)
+    """
+    if drafted(plan, program):
+        made = make()
+        return made, made if made.status == "compiled" else world(plan, wall_s)
+    with ThreadPoolExecutor(1) as other:
+        waiting = other.submit(copy_context().run, world, plan, wall_s)
+        return make(), waiting.result()
+
+
+def drafted(plan: Plan, program: str) -> bool:
+    """Whether a program's text is the draft of a plan."""
+    try:
+        return source(plan) == program
+    except (WorldwrightError, ValueError, KeyError):  # a plan that makes no world says why where that is asked for
+        return False
 
 
 _KEPT: dict[str, fetch.Outcome] = {}
@@ -62,4 +94,4 @@ def _compiled(text: str, near: Mapping[str, bytes], wall_s: float) -> fetch.Outc
         for name, content in near.items():
             write_atomic(path.parent / name, content)
         path.write_text(text, encoding="utf-8")
-        return fetch.world(path, wall_s=wall_s)
+        return fetch.world(path, wall_s=wall_s, lasting_s=fetch.UNPRICED)

@@ -5,12 +5,13 @@ can mislead the rules about that program, and about nothing else.
 """
 
 import contextlib
-import json
 import re
 import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
+
+from ...model import json_object
 
 WALL_S = 40.0
 MEMORY_MB = 2048
@@ -83,7 +84,7 @@ def _run(path: Path, wall_s: float, how: str) -> Observation:
     common["events"] = tuple(_events(done.files.get("events.jsonl", b"")))
     if done.status != "ended":
         return Observation(done.status if done.status != "out_of_memory" else "timed_out", **common)
-    end = _object(done.files.get("end.json", b""))
+    end = json_object.told(done.files.get("end.json", b"")) or {}
     if not end:
         traced = done.files.get("death.txt", b"").decode(errors="replace")
         lines = [int(n) for n in re.findall(rf'File "{re.escape(str(path))}", line (\d+)', traced)]
@@ -112,18 +113,10 @@ def beside(path: Path) -> list[Path]:
     return list(dict.fromkeys(found))
 
 
-def _object(data: bytes) -> dict[str, Any]:
-    try:
-        value = json.loads(data)
-    except (ValueError, RecursionError):
-        return {}
-    return value if isinstance(value, dict) else {}
-
-
 def _events(data: bytes) -> list[dict[str, Any]]:
     found = []
     for line in data[: 1 << 20].splitlines()[:MOST_EVENTS]:
-        event = _object(line)
+        event = json_object.told(line) or {}
         if isinstance(event.get("code"), str) and isinstance(event.get("line"), int) and event["line"] > 0:
             found.append({k: v if isinstance(v, int | float) else str(v)[:200] for k, v in event.items()})
     return found

@@ -8,6 +8,7 @@ that is not named is refused (`unnamed`).
 import hashlib
 import re
 from collections.abc import Iterable
+from functools import lru_cache
 from pathlib import Path
 
 from worldkit import assets
@@ -29,9 +30,8 @@ def named(source: Path, program: Path) -> tuple[str, ...]:
     known = _known()
     texts = [path.read_bytes() for path in (source, program) if path.is_file()]
     texts += companions.of(program).values() if program.is_file() else ()
-    words = {word for text in texts for word in re.findall(rb"[\w.-]*\w", text)}
-    words |= {part for word in words for part in re.split(rb"[.-]", word)}
-    return tuple(name for name in known if name.encode() in words)
+    words = [_words(text) for text in texts]
+    return tuple(name for name in known if any(name.encode() in found for found in words))
 
 
 def sha256(source: Path, program: Path) -> str:
@@ -51,6 +51,13 @@ def sha256(source: Path, program: Path) -> str:
 def unnamed(taken: Iterable[str], source: Path, program: Path) -> tuple[str, ...]:
     """The names of what a build took from the catalog although no text names it."""
     return tuple(sorted(set(taken) - set(named(source, program))))
+
+
+@lru_cache(maxsize=64)
+def _words(text: bytes) -> frozenset[bytes]:
+    """The whole words of a text, and their parts between dots and dashes; remembered, since each step of a run asks for them."""
+    words = set(re.findall(rb"[\w.-]*\w", text))
+    return frozenset(words | {part for word in words for part in re.split(rb"[.-]", word)})
 
 
 def _known() -> list[str]:

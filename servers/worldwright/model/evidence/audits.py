@@ -1,7 +1,8 @@
-"""What the three audits of truth found: what acted on the state, what a finer time step changes, what causes what.
+"""What the audits of truth found: what acted on the state, what a finer time step changes, what causes what, what is robust.
 
 All are evidence of one key: `interventions.json` (`InterventionReport`, made by every scan), `refine.json`
-(`RefineReport`, made by `scan --refine`) and `causes.json` (`CausesReport`, made by `scan --causes`).
+(`RefineReport`, made by `scan --refine`), `causes.json` (`CausesReport`, made by `scan --causes`) and `robust.json`
+(`RobustReport`, made by `scan --robust`).
 """
 
 from typing import Literal
@@ -181,6 +182,48 @@ class Trial(Frozen):
     trajectory_sha256: str = ""
     failed: str = ""
     """Why it could not be run, when it could not."""
+
+
+class Held(Frozen):
+    """One expectation that holds as planned, in worlds a little otherwise."""
+
+    objective: int
+    name: str
+    holds: int
+    """In so many worlds it holds, too."""
+    of: int
+    """So many could be simulated, or diverged, in which no claim holds."""
+    not_in: tuple[str, ...] = ()
+    """Labels of those in which it does not hold."""
+    message: str = ""
+    """The first of these, and what was measured there."""
+
+    def text(self) -> str:
+        """One line."""
+        where = f", not with {', '.join(self.not_in)} ({self.message})" if self.not_in else ""
+        return f"objective {self.objective}, {self.name}: holds in {self.holds} of {self.of} worlds{where}"
+
+
+class RobustReport(Frozen):
+    """How robust the claims are (`robust.json`): a remark, which blocks nothing."""
+
+    trajectory_sha256: str
+    worlds: tuple[Trial, ...] = ()
+    claims: tuple[Held, ...] = ()
+
+    @property
+    def everywhere(self) -> int:
+        """The number of claims that hold in every world; of one that could not be simulated nobody knows."""
+        return sum(claim.holds == len(self.worlds) > 0 for claim in self.claims)
+
+    def text(self) -> str:
+        """The claims that do not hold everywhere, one line each, and the count of the others."""
+        lines = [f"robust: {claim.text()}" for claim in self.claims if claim.not_in]
+        lines += [
+            f"robust: {world.label} could not be simulated: {world.failed}" for world in self.worlds if world.failed
+        ]
+        claims = f"{self.everywhere} of {len(self.claims)} measured claims hold"
+        return "\n".join([*lines, f"robust: {claims} in all of {len(self.worlds)} worlds a little otherwise"])
 
 
 class Response(Frozen):

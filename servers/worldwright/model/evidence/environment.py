@@ -10,11 +10,11 @@ server can name an evidence key without loading the simulator.
 """
 
 import platform
-import re
 from functools import lru_cache
-from importlib.metadata import PackageNotFoundError, distribution, version
+from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
+from worldkit import wheels
 from worldkit.errors import SeamError
 
 from ..errors import NotFoundError
@@ -25,7 +25,6 @@ PACKAGES = ("mujoco", "mujoco-core", "numpy", "pyarrow", "opencv-python-headless
 """Everything installed that can change a trajectory."""
 SOURCES = ("*.py", "*.vert", "*.frag", "*.glsl")
 SERVERS = Path(__file__).parents[3]
-VERSION = re.compile(r"^Version: *(\S+)", re.MULTILINE)
 FILM = ("worldengine/film/", "worldkit/filming/")
 """What only pictures depend on."""
 
@@ -35,7 +34,7 @@ def current() -> Environment:
     return Environment(
         python=platform.python_version(),
         machine=f"{platform.system()}-{platform.machine()}",
-        packages={name: found for name in PACKAGES if (found := _version(name))},
+        packages={name: found for name in PACKAGES if (found := wheels.version(name))},
         simulator_sha256=sha256_of("simulator", _simulator()),
         worldkit_sha256=sha256_of("worldkit", physics_code(SERVERS)),
     )
@@ -62,15 +61,6 @@ def film(renderer: str = "") -> Film:
     except SeamError as cause:
         raise NotFoundError(cause.cause, place=cause.place, next_move=cause.next_move) from cause
     return Film(renderer=found.renderer, version=found.version, packages=found.packages, sha256=found.sha256)
-
-
-def _version(name: str) -> str:
-    """The installed version, read without parsing the package's whole description."""
-    try:
-        found = VERSION.search(distribution(name).read_text("METADATA") or "")
-        return found[1] if found else version(name)
-    except PackageNotFoundError:
-        return ""
 
 
 @lru_cache

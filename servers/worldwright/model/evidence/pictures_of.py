@@ -5,13 +5,14 @@ makes video and final pass others; of the video pass only the author's own film 
 """
 
 import hashlib
+from collections.abc import Mapping
 
 from worldengine.film.renderers import FINAL
 
 from .. import companions
 from . import environment
 from .reports import PassName
-from .run import Run, sha256_file
+from .run import Run
 
 FILM = "film.py"
 AUTHORED: tuple[PassName, ...] = ("video", "final")
@@ -33,11 +34,16 @@ def identity(run: Run, stage: PassName) -> str:
 
 def author_sha256(run: Run) -> str:
     """One hash over `film.py` and the files that belong to it; empty where nobody wrote one."""
-    path = run.folder / FILM
-    if not path.is_file():
+    return sha256_of(files(run))
+
+
+def sha256_of(found: Mapping[str, bytes]) -> str:
+    """The same of files that are read already (`files`)."""
+    if FILM not in found:
         return ""
-    beside = companions.sha256(path)
-    return hashlib.sha256(f"{sha256_file(path)}\n{beside}".encode()).hexdigest()
+    film = hashlib.sha256(found[FILM]).hexdigest()
+    beside = companions.digest_of({name: content for name, content in found.items() if name != FILM})
+    return hashlib.sha256(f"{film}\n{beside}".encode()).hexdigest()
 
 
 def files(run: Run) -> dict[str, bytes]:

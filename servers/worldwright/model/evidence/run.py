@@ -15,6 +15,8 @@ from . import assets_used
 from .journal import Journal
 from .reports import EvidenceKey
 
+EARLIER, DAMAGED = "earlier", "damaged"
+"""Folder of what was accepted before, and how the folders in it begin that were not as they were stamped any more."""
 SOURCE = "source"
 """Folder beside the evidence of a key that holds the program and the plan it is about."""
 
@@ -89,6 +91,10 @@ class Run:
     def accepted(self) -> Path:
         """The folder of the accepted world."""
         return self.folder / "accepted"
+
+    def earlier(self) -> list[Path]:
+        """The folders of the versions that were accepted before, and of what one that was brought back has replaced."""
+        return [path for path in (self.folder / EARLIER).glob("*") if not path.name.startswith(f"{DAMAGED}-")]
 
     @property
     def stamped(self) -> Path:

@@ -25,6 +25,7 @@ from .observation import ImageObservation
 from .pairings import Medium, Overlap, PairSurface, SurfaceConstants
 from .scene_objects import AssetRow, SceneObject, Vec3
 from .spread import Spread
+from .visualization import RecordingMode, Visualization
 
 TO_CLARIFY = "TO_CLARIFY"
 Unresolved = Literal["TO_CLARIFY"]
@@ -214,32 +215,6 @@ class Topology(Frozen):
         return tuple(found)
 
 
-class Visualization(Frozen):
-    """Section `visualization`: how the world is shown."""
-
-    mode: Literal["headless", "viewer"] = "headless"
-    setting: Literal["studio", "room", "outdoor", "dark"] = "studio"
-    """The sky, floor and light around the world."""
-    floor: str | None = None
-    """Look of the ground, e.g. `wood_planks`; None: the setting's own."""
-
-
-class RecordingMode(Frozen):
-    """Section `recording_mode`: what is filmed."""
-
-    mode: Literal["cameras", "none"] = "cameras"
-    fps: int = Field(24, ge=1, le=240)
-    size: tuple[int, int] = (1280, 720)
-    """Width and height in pixels, both even."""
-
-    @field_validator("size")
-    @classmethod
-    def _even(cls, value: tuple[int, int]) -> tuple[int, int]:
-        if not all(16 <= side <= 4096 and side % 2 == 0 for side in value):
-            raise ValueError(f"width and height must be even and between 16 and 4096 pixels, got {value}")
-        return value
-
-
 class RelationRow(Frozen):
     """A named relation pattern binding a body (or a camera) to a reference."""
 
@@ -293,6 +268,7 @@ class Plan(Frozen):
     def _copied(self) -> "Plan":
         if copied := copies.families(self):
             self.__dict__.update(copies.changes(self, copied), families=copied)
+        self.visualization.hung(self.families)
         return self
 
     def read_from(self, folder: Path) -> "Plan":

@@ -220,6 +220,8 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
     for row, path in _rows(data, "topology", "scene_predicates"):
         yield from _one("object", row, path, "subject")
         yield from _one("reference", row, path, "object")
+    for row, path in _rows(data, "visualization", "lamps"):
+        yield from _one("object", row, path, "on")
     for row, path in _rows(data, "geometry_relations"):
         yield from _one("body or camera", row, path, "body_a")
         yield from _one("side", row, path, "body_b")

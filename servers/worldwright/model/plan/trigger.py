@@ -14,6 +14,11 @@ TRIGGER = re.compile(
     re.IGNORECASE,
 )
 TOUCH = re.compile(r"\bwhile\s+(?:the\s+)?([\w./-]+)\s+touches\s+(?:the\s+)?([\w./-]+)", re.IGNORECASE)
+ALWAYS = re.compile(
+    r"^\s*(always|throughout|at all times|(at )?every step|constant(ly)?|continuous(ly)?|(during |for )?the (whole|entire) time|"
+    r"from (the )?(very )?(start|beginning)( (on|to the end))?|(at )?(t|time)\s*(>=?|≥)\s*0+(\.0*)?\s*(s|seconds)?|)\s*\.?\s*$",
+    re.IGNORECASE,
+)
 SCALE = {"kn": 1e3, "mm": 1e-3, "cm": 1e-2}
 
 
@@ -24,6 +29,11 @@ class Threshold(NamedTuple):
     name: str
     rising: bool
     number: float
+
+
+def always(trigger: str) -> bool:
+    """Whether it acts from the beginning to the end: no moment and no state is waited for."""
+    return ALWAYS.match(trigger) is not None
 
 
 def threshold(trigger: str) -> Threshold | None:

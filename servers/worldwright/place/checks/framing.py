@@ -1,5 +1,6 @@
 """Each camera sees what it should show: in the picture, not hidden, and large enough to be recognised."""
 
+from collections import Counter
 from typing import Any
 
 from ...model.errors import JobError
@@ -18,15 +19,15 @@ SMALL_PX = 60
 MOST_OBJECTS = 1500
 """A layout with more objects is skipped: to build its shapes would take longer than a call may."""
 MOST_MEASURED = 100
-"""So many pairs of a camera and a thing that is none of its subjects are measured with rays; the scan measures all (`WS146`)."""
+"""So many pairs of a camera and a thing that the plan speaks of are measured with rays; the scan measures all (`WS146`)."""
 
 
 def check(layout: CheckedLayout) -> None:
     """Report WP312 for a subject outside the picture, WP313 for a hidden one, WP314 for a speck; note all in `views`.
 
-    WP328: what the plan speaks of is less than a fortieth of the width long in every picture.
+    WP328: what the plan speaks of is less than a fortieth of the width long in every planned picture.
     """
-    cameras = [camera for row in layout.plan.cameras() if (camera := _camera(layout, row))["subjects"]]
+    cameras = [camera for row in layout.plan.cameras() if _points(camera := _camera(layout, row))]
     if not layout.exact or not cameras or not layout.scene.objects or len(layout.scene.objects) > MOST_OBJECTS:
         return
     try:
@@ -68,8 +69,10 @@ def _camera(layout: CheckedLayout, row: CameraRow) -> dict[str, Any]:
     if placed is not None:
         pose = {"position": placed.position, "target": placed.target, "view": None}
     width, height = layout.plan.recording_mode.size
-    others = [n for n in in_view.spoken_of(layout.plan) if n in layout.placed and n not in subjects]
-    measured = subjects + others[: MOST_MEASURED // len(layout.plan.cameras())]
+    spoken = [
+        n for n in in_view.spoken_of(layout.plan) if n in layout.placed
+    ]  # the first ones, the same for each camera
+    measured = list(dict.fromkeys([*subjects, *spoken[: MOST_MEASURED // len(layout.plan.cameras())]]))
     return {
         "name": row.name,
         "subjects": subjects,
@@ -80,29 +83,42 @@ def _camera(layout: CheckedLayout, row: CameraRow) -> dict[str, Any]:
     }
 
 
+def _points(camera: dict[str, Any]) -> bool:
+    """Whether it is known where a camera looks, at its subjects or at a place that the plan gives, and something is measured."""
+    return bool(camera["subjects"]) or (bool(camera["measured"]) and None not in (camera["position"], camera["target"]))
+
+
 def _smallest(layout: CheckedLayout, rows: list[dict[str, Any]]) -> set[str]:
-    """Note what is smallest where it is seen largest; report, and return, each thing that is too small to be watched."""
-    width = layout.plan.recording_mode.size[0]
+    """Note what is smallest where it is seen largest; report what is too small to be watched, copies as one, and return all of it.
+
+    Only what every planned camera was asked about counts: another picture may show it large.
+    """
+    width, planned = layout.plan.recording_mode.size[0], {row.name: row for row in layout.plan.cameras()}
+    asked = Counter(row["object"] for row in rows)
     largest: dict[str, dict[str, Any]] = {}
     for row in rows:
         clear = row["in_frame"] >= CUT_OFF and row["hidden"] <= HIDDEN
         if clear and row["length"] > largest.get(row["object"], {"length": 0.0})["length"]:
             largest[row["object"]] = row
-    spoken = [largest[name] for name in in_view.spoken_of(layout.plan) if name in largest]
-    for n, row in enumerate(sorted(spoken, key=lambda row: row["length"])):
-        pixels = row["length"] * width
-        said = in_view.told(row["object"], pixels, row["camera"], width)
-        layout.smallest = layout.smallest if n else said
-        if row["length"] < in_view.SHARE:
-            layout.problems.add(
-                "WP328",
-                "too_small",
-                f"at the start {said}; it is watched from {in_view.SHARE:.1%} on",
-                in_view.remedy(row["object"], row["camera"], tuple(row["eye"]), tuple(row["place"]), pixels, width),
-                ("implementation_steps",),
-                severity="warning",
-            )
-    return {row["object"] for row in spoken if row["length"] < in_view.SHARE}
+    spoken = [name for name in in_view.spoken_of(layout.plan) if name in largest and asked[name] == len(planned)]
+    lengths = {name: float(largest[name]["length"]) for name in spoken}
+    for name in sorted(spoken, key=lambda name: lengths[name])[:1]:
+        layout.smallest = in_view.told(name, lengths[name] * width, largest[name]["camera"], width)
+    small = {name: length for name, length in lengths.items() if length < in_view.SHARE}
+    for name, others in in_view.once(layout.plan, small):
+        row, pixels = largest[name], small[name] * width
+        said = in_view.told(name, pixels, row["camera"], width)
+        eye, place = tuple(row["eye"]), tuple(row["place"])
+        follows = planned[row["camera"]].follow
+        layout.problems.add(
+            "WP328",
+            "too_small",
+            f"at the start {said}{others}; it is watched from {in_view.SHARE:.1%} on",
+            in_view.remedy(name, row["camera"], eye, place, pixels, width, follows=follows),
+            ("implementation_steps",),
+            severity="warning",
+        )
+    return set(small)
 
 
 def _judge(layout: CheckedLayout, seen: Seen, told: set[str]) -> None:

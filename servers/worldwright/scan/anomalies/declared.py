@@ -11,6 +11,7 @@ from ...model.finding import AnomalySeverity
 from ...model.plan.belonging import Belonging
 from ...model.plan.committed import Plan
 from ...model.plan.in_view import mentioned
+from ...model.plan.trigger import always
 from ...model.recording.trajectory import Trajectory
 from .sign import Context
 
@@ -19,12 +20,11 @@ TIME = re.compile(
     re.IGNORECASE,
 )
 """A trigger that looks at the clock alone: `t >= 3 s`, `at 3 s`, `after 2 s`, `0.5 s`."""
-ALWAYS = re.compile(r"^\s*(always|throughout|at all times|every step|constant|continuous(ly)?|)\s*$", re.IGNORECASE)
 
 
 def when(trigger: str) -> Trigger:
     """Whether a declared trigger holds always, looks at the clock, or at the state of the world."""
-    if ALWAYS.match(trigger):
+    if always(trigger):
         return "always"
     return "time" if TIME.match(trigger) else "state"
 

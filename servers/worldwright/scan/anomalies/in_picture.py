@@ -15,6 +15,7 @@ from worldengine.recording.replay import frame_rows
 from worldkit.turning import matrices
 
 from ...model.finding import Anomaly
+from ...model.plan import belonging
 from ...model.plan.committed import Plan
 from ...model.plan.in_view import spoken_of
 from ...model.plan.scene_objects import Vec3
@@ -69,7 +70,7 @@ def seen(anomaly: Anomaly, bodies: tuple[int, ...], trajectory: Trajectory, plan
     best: Sight | None = None
     for name in planned:
         lens = replace(lenses[name], size=plan.recording_mode.size)
-        each = [_pixels(trajectory, body, every[frames], lens, metres) for body in bodies]
+        each = [_pixels(trajectory, trajectory.members(body), every[frames], lens, metres) for body in bodies]
         pixels = np.min(each, axis=0)
         at = int(np.argmax(pixels))
         if (pixels >= PIXELS).sum() >= FRAMES and (best is None or pixels[at] > best.pixels):
@@ -93,7 +94,9 @@ class Largest(NamedTuple):
     eye: Vec3
     """Where the camera stands then, m."""
     place: Vec3
-    """Where the thing is then, m."""
+    """Where the middle of the thing is then, m."""
+    follows: bool
+    """Whether the camera moves with its subjects."""
 
 
 def largest(trajectory: Trajectory, plan: Plan) -> Iterator[Largest]:
@@ -104,15 +107,26 @@ def largest(trajectory: Trajectory, plan: Plan) -> Iterator[Largest]:
     lenses = {name: replace(lens, size=plan.recording_mode.size) for name, lens in found.items()}
     if not lenses or len(rows) < FRAMES:
         return
+    owners = _owners(trajectory, plan)
     for name in (n for n in spoken_of(plan) if n in trajectory.names):
-        body = trajectory.names.index(name)
-        each = {camera: _pixels(trajectory, body, rows, lens, None) for camera, lens in lenses.items()}
+        parts = tuple({*trajectory.members(trajectory.names.index(name)), *np.flatnonzero(owners == name).tolist()})
+        each = {camera: _pixels(trajectory, parts, rows, lens, None) for camera, lens in lenses.items()}
         camera = max(each, key=lambda camera: float(np.sort(each[camera])[-FRAMES]))
         at = int(np.argsort(each[camera])[-FRAMES])
         if each[camera][at] > 0:
             eye = _eyes(trajectory, lenses[camera], rows[[at]])[0].tolist()
-            place, time_s = trajectory.pos[rows[at], body].tolist(), float(trajectory.t[rows[at]])
-            yield Largest(name, float(each[camera][at]), camera, time_s, tuple(eye), tuple(place))
+            box = _corners(trajectory, parts, rows[[at]])[0]
+            place, time_s = ((box.min(axis=0) + box.max(axis=0)) / 2).tolist(), float(trajectory.t[rows[at]])
+            follows = bool(lenses[camera].follows)
+            yield Largest(name, float(each[camera][at]), camera, time_s, tuple(eye), tuple(place), follows)
+
+
+def _owners(trajectory: Trajectory, plan: Plan) -> Array:
+    """(B,) the object of the plan that each body belongs to: all that an imported model brings along is that model's."""
+    names, above = trajectory.names, trajectory.mechanics.parent
+    parents = {} if above is None else {n: names[p] if p >= 0 else "world" for n, p in zip(names, above, strict=True)}
+    objects = frozenset(plan.object_names())
+    return np.array([belonging.owner(name, parents, objects) for name in names])
 
 
 def _eyes(trajectory: Trajectory, lens: Lens, rows: Array) -> Array:
@@ -122,9 +136,9 @@ def _eyes(trajectory: Trajectory, lens: Lens, rows: Array) -> Array:
     return np.broadcast_to(eye, (len(rows), 3))
 
 
-def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: float | None) -> Array:
-    """(F,) length of a body in the picture at these rows, or of a fault of so many metres on it, the smaller."""
-    corners = _corners(trajectory, body, rows)
+def _pixels(trajectory: Trajectory, parts: tuple[int, ...], rows: Array, lens: Lens, metres: float | None) -> Array:
+    """(F,) length of some bodies together in the picture at these rows, or of a fault of so many metres on them, the smaller."""
+    corners = _corners(trajectory, parts, rows)
     stands = _eyes(trajectory, lens, rows)
     eyes = np.broadcast_to(stands[:, None], corners.shape)
     depth = -((corners - eyes) @ lens.axes)[..., 2]
@@ -137,7 +151,7 @@ def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: 
     sides = np.where(around[:, None], size, np.maximum(high - low, 0.0))
     found = np.where((sides > 0).all(axis=1) & ~behind.all(axis=1), sides.max(axis=1), 0.0)
     away = np.abs(depth).min(axis=1)
-    for plane in _planes(trajectory, body):  # it may fill any picture
+    for plane in _planes(trajectory, parts):  # it may fill any picture
         found, away = np.full(len(rows), size.max()), np.minimum(away, _from_plane(trajectory, plane, rows, stands))
     if metres is None:
         return np.asarray(found)
@@ -145,12 +159,12 @@ def _pixels(trajectory: Trajectory, body: int, rows: Array, lens: Lens, metres: 
     return np.asarray(np.minimum(found, metres * scale / np.maximum(away, NEAR_M)))
 
 
-def _planes(trajectory: Trajectory, body: int) -> Array:
-    """The geoms without an end of a body and what is welded on to it."""
+def _planes(trajectory: Trajectory, parts: tuple[int, ...]) -> Array:
+    """The geoms without an end of some bodies."""
     half, of = trajectory.mechanics.geom_half_extents, trajectory.mechanics.geom_body
     if half is None or of is None:
         return np.zeros(0, dtype=int)
-    return np.flatnonzero(np.isinf(half).any(axis=1) & np.isin(of, trajectory.members(body)))
+    return np.flatnonzero(np.isinf(half).any(axis=1) & np.isin(of, parts))
 
 
 def _from_plane(trajectory: Trajectory, geom: int, rows: Array, eyes: Array) -> Array:
@@ -164,10 +178,10 @@ def _from_plane(trajectory: Trajectory, geom: int, rows: Array, eyes: Array) -> 
     return np.asarray(np.abs((own - facts.geom_pos[geom]) @ matrices(facts.geom_quat[geom])[:, 2]))
 
 
-def _corners(trajectory: Trajectory, body: int, rows: Array) -> Array:
-    """(F, 8 P, 3) m: the boxes around a body and what is welded on to it; a ball's box where its shape is not known."""
+def _corners(trajectory: Trajectory, parts: tuple[int, ...], rows: Array) -> Array:
+    """(F, 8 P, 3) m: the boxes around P bodies; a ball's box where a shape is not known."""
     facts, found = trajectory.mechanics, []
-    for part in trajectory.members(body):
+    for part in parts:
         half = None if facts.half_extents is None else facts.half_extents[part]
         known = half is not None and facts.center is not None and bool(np.isfinite(half).all())
         if known:

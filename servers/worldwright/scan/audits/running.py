@@ -2,7 +2,7 @@
 
 import time
 
-from ...model.evidence.audits import CausesReport, InterventionReport, RefineReport
+from ...model.evidence.audits import CausesReport, InterventionReport, RefineReport, RobustReport
 from ...model.evidence.reports import EvidenceKey, ScanReport
 from ...model.evidence.run import Run
 from ...model.frozen import Frozen
@@ -10,7 +10,7 @@ from ...model.plan.committed import Plan
 from ...model.progress import Progress, silent
 from ...model.recording.trajectory import Trajectory
 from ..anomalies.sign import Context
-from . import acting
+from . import acting, robustness
 from .causes import Causes
 from .refine import FACTOR, refine
 from .trials import Trials
@@ -21,6 +21,7 @@ class Audited(Frozen):
 
     refine: RefineReport | None = None
     causes: CausesReport | None = None
+    robust: RobustReport | None = None
     pending: tuple[str, ...] = ()
     """Repetitions of the physics pass that still run; another call goes on with them."""
 
@@ -34,6 +35,7 @@ def audit(
     *,
     refined: bool,
     causes: bool,
+    robust: bool = False,
     timeout_s: float,
     progress: Progress = silent,
 ) -> Audited:
@@ -44,6 +46,8 @@ def audit(
     causal = Causes(trajectory, plan, interventions.acting, trials) if causes else None
     if causal is not None:
         causal.plan_trials()
+    if robust:
+        robustness.ask(trials)
     if not trials.collect(deadline - time.monotonic(), progress):
         return Audited(pending=trials.pending)
     found = Audited(
@@ -53,11 +57,15 @@ def audit(
         if refined
         else None,
         causes=None if causal is None else causal.report(),
+        robust=robustness.report(trajectory, plan, trials) if robust else None,
     )
     for name, report in (("refine", found.refine), ("causes", found.causes)):
         if report is not None:
             run.keep(key, name, report)
             run.log("scan", name, key=key.key, ok=report.ok)
+    if found.robust is not None:
+        run.keep(key, "robust", found.robust)
+        run.log("scan", "robust", key=key.key, everywhere=found.robust.everywhere, claims=len(found.robust.claims))
     return found
 
 

@@ -3,7 +3,7 @@
 Needed: an approved and unchanged plan, a clean lint, all passes, no blocking anomaly, no refuted or unproved objective,
 a passing review whose evidence still exists, evidence files as the passes left them, no undeclared intervention, every
 declared cause shown to be one, and no claim that a finer time step was found to change. Before all that: plan, program
-and reports are what the last legal step left, by the hashes in the journal.
+and reports are what the last legal step left, by the hashes in the journal, and the folder is no rehearsal.
 
 Why: an accepted world is one that a stranger can trust without having watched it being made.
 """
@@ -14,7 +14,7 @@ from ...model.errors import WorldwrightError
 from ...model.evidence.build_steps import STEPS
 from ...model.evidence.run import sha256_file
 from .. import audited, bindings, interventions, iterations, scope
-from ..needs import held
+from ..needs import held, no_rehearsal
 from ..refusal import Refusal
 from ..state import State
 
@@ -23,7 +23,7 @@ CODE = "WG070"
 
 def check(state: State) -> Iterator[Refusal]:
     """Refusals for whatever is missing, refuted, changed or undeclared."""
-    outside = list(scope.refusals(state))
+    outside = [*no_rehearsal(state), *scope.refusals(state)]
     yield from outside
     if outside:
         return

@@ -6,7 +6,7 @@ would otherwise be chosen by whoever writes the code.
 
 from collections.abc import Iterator
 
-from ..needs import held
+from ..needs import held, no_rehearsal
 from ..refusal import Refusal
 from ..state import State
 
@@ -14,5 +14,6 @@ CODE = "WG010"
 
 
 def check(state: State) -> Iterator[Refusal]:
-    """Refusals for an unreadable, faulty or open plan."""
+    """Refusals for an unreadable, faulty or open plan, and for a rehearsal's copy of one."""
+    yield from no_rehearsal(state)
     yield from held(state, "check", "place")

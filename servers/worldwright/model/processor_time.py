@@ -1,0 +1,19 @@
+"""Processor time of short runs that this process had made beside it: who waits for one adds it, who tells a cost reads it."""
+
+import resource
+import threading
+
+_LOCK = threading.Lock()
+_BESIDE = [0.0]
+
+
+def add(seconds: float) -> None:
+    """Count a run that has ended, s."""
+    with _LOCK:
+        _BESIDE[0] += seconds
+
+
+def spent_s() -> float:
+    """Processor time of this process so far and of the runs that were counted, s; jobs tell their own (`JobStatus.cpu_s`)."""
+    own = resource.getrusage(resource.RUSAGE_SELF)
+    return own.ru_utime + own.ru_stime + _BESIDE[0]

@@ -1,0 +1,74 @@
+"""What is started before the first picture of an approved plan: each thing once, and nothing that the picture does not need.
+
+Counted, not timed: a process that imports the engine costs about a second of a processor, whatever it then does.
+"""
+
+import subprocess
+from collections import Counter
+from pathlib import Path
+
+import pytest
+
+from worldwright.model.evidence.run import Run
+from worldwright.stage.job import Job
+from worldwright.stamp import tools as stamp
+
+ASKED_ONCE = ("--version", "probe.py")
+"""What is asked of a machine once, whichever run asks first: its sandbox's version, and whether it confines."""
+
+
+def kind(words) -> str:
+    """What a command line starts, in a word."""
+    said = " ".join(map(str, words))
+    found = [name for name in ("compile_world", "place.preroll", "stage.supervisor") if name in said]
+    return found[0] if found else said[:200]
+
+
+@pytest.fixture
+def started(monkeypatch, tmp_path):
+    """Every process that this one starts, by its kind, with no answer kept of an earlier test."""
+    seen: list[str] = []
+    original = subprocess.Popen.__init__
+
+    def init(self, args, *more, **options):
+        if not any(word in str(args) for word in ASKED_ONCE):
+            seen.append(kind(args))
+        original(self, args, *more, **options)
+
+    monkeypatch.setenv("WORLDWRIGHT_PREROLLS", str(tmp_path / "prerolls"))
+    monkeypatch.setattr(subprocess.Popen, "__init__", init)
+    return seen
+
+
+@pytest.mark.gl
+@pytest.mark.slow
+def test_before_the_first_picture_each_process_is_started_once(tmp_path, small_plan, started):
+    folder = tmp_path / "ball"
+    folder.mkdir()
+    (folder / "plan.md").write_text(small_plan, encoding="utf-8")
+    stamp.go(str(folder))
+    stamp.approve(str(folder), by="tester")
+    while not (gone := stamp.go(str(folder), until="expect", timeout_s=30)).storyboard:
+        assert gone.state in ("running", "waiting"), gone.text()
+    assert list(Path(gone.storyboard).glob("*.jpg"))
+    assert Counter(started) <= Counter({  # a world that another test compiled is known, and not compiled again
+        "place.preroll": 1,  # the exact shapes and views of the layout, which the approved plan still has
+        "stage.supervisor": 3,  # bundle, physics, storyboard
+        "compile_world": 1,  # what lint looks at: the bundle, which a draft's twin is, too
+    })  # fmt: skip
+    jobs = [job.spec for job in Job.all(Run(folder))]
+    assert sorted(spec.stage for spec in jobs) == ["bundle", "physics", "storyboard"]
+
+
+@pytest.mark.gl
+@pytest.mark.slow
+def test_audits_and_films_wait_for_the_first_picture(tmp_path, small_plan):
+    """Also where a call's time ends while the picture is drawn: what is drawn next would take its processor."""
+    folder = tmp_path / "ball"
+    folder.mkdir()
+    (folder / "plan.md").write_text(small_plan, encoding="utf-8")
+    stamp.go(str(folder))
+    stamp.approve(str(folder), by="tester")
+    while not (gone := stamp.go(str(folder), timeout_s=1)).storyboard:
+        assert gone.state == "running", gone.text()
+        assert {job.spec.stage for job in Job.all(Run(folder))} <= {"bundle", "physics", "storyboard"}
