@@ -88,7 +88,17 @@ def described(schema: Mapping[str, Any]) -> str:
         return "one of " + ", ".join(map(str, schema["enum"]))
     if "anyOf" in schema:
         return " or ".join(dict.fromkeys(text for text in map(described, schema["anyOf"]) if text != "null"))
-    return KINDS.get(str(schema.get("type")), "an object")
+    return KINDS.get(str(schema.get("type")), "an object") + _bounds(schema)
+
+
+def _bounds(schema: Mapping[str, Any]) -> str:
+    """Between what a number of the schema must lie, in words."""
+    words = {
+        "minimum": "at least", "exclusiveMinimum": "above",
+        "maximum": "at most", "exclusiveMaximum": "below",
+    }  # fmt: skip
+    told = [f"{word} {schema[key]:g}" for key, word in words.items() if key in schema]
+    return f" {' and '.join(told)}" if told else ""
 
 
 def _unknown(name: str, schema: Mapping[str, Any]) -> str:

@@ -30,7 +30,7 @@ def refused(server, tool, arguments):
             "retrieve",
             "search",
             {},
-            "`question` is missing | search takes question (a text), k (a whole number, optional)",
+            "`question` is missing | search takes question (a text), k (a whole number",
         ),
         ("retrieve", "search", {"question": ["a"]}, "`question` must be a text, not ['a']"),
         ("retrieve", "search", {"question": "a", "ranks": 1}, "there is no argument `ranks` (is `ranking` meant?)"),
@@ -40,7 +40,8 @@ def refused(server, tool, arguments):
         ("stamp", "status", {"run": LONG}, "`run` has 300 characters, which is too long for a file's name"),
         ("stamp", "status", {"run": "a" * 2_000_000}, "`run` has 2000000 characters"),
         ("lint", "check_program", {"files": ["a\0"]}, "`files` holds a NUL character"),
-        ("stage", "wait", {"run": "a", "timeout_s": "soon"}, "`timeout_s` must be a number, not 'soon'"),
+        ("stage", "wait", {"run": "a", "timeout_s": "soon"}, "`timeout_s` must be a number above 0 and at most 40"),
+        ("stage", "wait", {"run": "a", "timeout_s": 50}, "and at most 40, not 50"),
     ],
 )
 def test_wrong_arguments_are_named(server, tool, arguments, said):

@@ -78,7 +78,7 @@ def test_http_lists_and_runs_and_tells_its_progress(http, make):
         async with mcp.Client(address) as client:
             names = {tool.name for tool in (await client.list_tools()).tools}
             job = facts(await client.call_tool("start", {"run": str(run.folder)}))
-            arguments = {"run": str(run.folder), "job": job["job"], "timeout_s": 50}
+            arguments = {"run": str(run.folder), "job": job["job"], "timeout_s": 40}
             ended = facts(await client.call_tool("wait", arguments, progress_callback=hear))
             wrong = await client.call_tool("status", {"run": "no-such-run"})
             return names, ended, wrong
@@ -104,7 +104,7 @@ def test_a_server_killed_and_restarted_goes_on_with_the_same_job(http, make):
     async def end(job):
         async with mcp.Client(address) as client:
             same = facts(await client.call_tool("start", {"run": str(run.folder)}))
-            arguments = {"run": str(run.folder), "job": job["job"], "timeout_s": 50}
+            arguments = {"run": str(run.folder), "job": job["job"], "timeout_s": 40}
             return same, facts(await client.call_tool("wait", arguments))
 
     job = anyio.run(begin)
