@@ -81,7 +81,9 @@ def test_what_is_wrong_with_a_plan_is_told_together(fresh):
 
 @pytest.mark.gl
 @pytest.mark.slow
-def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_twice(fresh):
+def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_twice(fresh, monkeypatch):
+    beside = []
+    monkeypatch.setattr(scan, "begin_robust", lambda run: beside.append(len(journal(run.folder))) or "robust: beside")
     stamp.go(str(fresh))
     stamp.approve(str(fresh), by="tester")
     first = stamp.go(str(fresh), timeout_s=0.01)
@@ -91,6 +93,7 @@ def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_tw
     assert list(gone.held) == [
         "check", "place", "approve", "draft", "lint", "physics", "scan", "expect", "causes", "stills", "video",
     ]  # fmt: skip
+    assert len(beside) == 1 and gone.robust == "beside" and "· robust  beside" in gone.text()
     assert gone.storyboard.endswith("storyboard") and "deepest penetration" in gone.held["physics"]
     done = journal(fresh)
     once = [("draft", ""), ("scan", ""), ("expect", ""), ("stage", "physics"), ("stage", "storyboard")]
