@@ -177,6 +177,13 @@ def stated_facts(program: Path, defaults: bool = True) -> dict[str, Any]:
     return main_call.facts(program, defaults)
 
 
+def states_alone(program: Path) -> bool:
+    """Whether no other call than that one can be made; for other servers, no tool: see `lint.main_call.sole`."""
+    from . import main_call
+
+    return main_call.sole(program)
+
+
 def _read_plan(path: Path):
     """The plan (None when it cannot be read as one), its findings, and its line look-up."""
     from ..model.plan.plan_text import read_plan
