@@ -29,6 +29,8 @@ UNPRICED = 0.0
 PROGRAM = "simulation.py"
 MEMORY_MB = 2048
 BUNDLE, FACTS = "world.mjz", "program.json"
+MOST_FACTS = 1 << 20
+"""Bytes of a program's facts, as the pass takes them."""
 ARCHIVE = ".mjz"
 """Suffix of a file that holds all of a world, so that its content alone says what it compiles to."""
 
@@ -178,14 +180,18 @@ def _compiled(path: Path, is_mjcf: bool, wall_s: float, lasting_s: float | None)
 def bundled(run: "Run", key: "EvidenceKey") -> tuple[Path, float] | None:
     """The world that the bundle pass has made of this program and plan, and how long it is simulated, s; None without."""
     from ...model.evidence.run import sha256_file
+    from ...stage.tools import read_plain
+
+    def said(name: str, most: int) -> dict[str, Any]:
+        return json_object.told(read_plain(folder / name, most) or b"") or {}
 
     folder = run.evidence(key) / "bundle"
     try:
-        result = json_object.read(folder / "result.json") or {}
+        result = said("result.json", json_object.MOST_BYTES)
         files = result.get("files") or {}
         if not result.get("ok") or any(sha256_file(folder / name) != files.get(name) for name in (BUNDLE, FACTS)):
             return None
-        return folder / BUNDLE, float((json_object.read(folder / FACTS) or {})["duration"])
+        return folder / BUNDLE, float(said(FACTS, MOST_FACTS)["duration"])
     except (OSError, KeyError, TypeError, ValueError, AttributeError):
         return None
 
