@@ -2,9 +2,8 @@
 
 from worldkit.tendons import ROUNDED_M
 
-from ...model.errors import JobError
 from ..anchors import shown
-from ..asking import drawn_only, simulate
+from ..asking import RefusedLayoutError, drawn_only, simulate
 from ..start import filtered, hung, told
 from .checked_layout import OVERLAP_M, CheckedLayout
 
@@ -54,7 +53,7 @@ def _collisions(layout: CheckedLayout) -> None:
         if not touching:
             return
         laid = simulate(layout.plan, layout.scene, loose=True, ground=True)["contacts"]
-    except JobError as error:
+    except RefusedLayoutError as error:
         layout.problems.add(
             "WP325", "collides_at_start", f"the start pose could not be tested: {error.cause}", error.next_move
         )
