@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from ..model import call_time
+from ..model import call_time, processor_time
 from ..model.errors import JobError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
 from ..model.plan.formed import arguments
@@ -21,7 +21,7 @@ from ..model.plan.layout import Scene
 from . import kept_answers
 from .start import Motion
 
-STILL_S, TICK_S = 180.0, 0.1
+STILL_S, TICK_S = 180.0, 0.02
 """It is ended when nothing advances for so long, s, as passes are; while it advances it may take its time."""
 
 
@@ -154,10 +154,8 @@ def _follow(process: "subprocess.Popen[bytes]", progress: Path) -> None:
     """
     said, advanced = b"", time.monotonic()
     try:
-        while True:
-            with suppress(subprocess.TimeoutExpired):
-                process.wait(TICK_S)
-                return
+        while not _ended(process, os.WNOHANG):
+            time.sleep(TICK_S)
             if call_time.left_s() <= 0:
                 raise call_time.over()
             with suppress(OSError):
@@ -171,9 +169,18 @@ def _follow(process: "subprocess.Popen[bytes]", progress: Path) -> None:
                     next_move="ask again when the machine has less to do; if it stands still there again, split the plan",
                 )
     finally:
-        if process.poll() is None:
+        if process.returncode is None:
             process.kill()
-            process.wait()
+            _ended(process, 0)
+
+
+def _ended(process: "subprocess.Popen[bytes]", options: int) -> bool:
+    """Whether a process has ended; what it computed is counted when it has (`model.processor_time`)."""
+    ended, status, used = os.wait4(process.pid, options)
+    if ended:
+        process.returncode = os.waitstatus_to_exitcode(status)
+        processor_time.add(used.ru_utime + used.ru_stime)
+    return bool(ended)
 
 
 def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: bool) -> dict[str, Any]:

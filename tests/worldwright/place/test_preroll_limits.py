@@ -1,10 +1,11 @@
 """The pre-roll may take its time while it advances; what ends it says nothing of the plan, what it cannot take does."""
 
 import math
+import resource
 
 import pytest
 
-from worldwright.model import call_time
+from worldwright.model import call_time, processor_time
 from worldwright.model.errors import CallOverError, JobError
 from worldwright.model.plan.committed import Plan
 from worldwright.place import asking, preroll
@@ -74,3 +75,17 @@ def test_what_it_cannot_take_is_told_of_the_plan():
     plan = crates()
     with pytest.raises(RefusedLayoutError, match="the pre-roll failed"):
         simulate(plan, resolve(plan).scene, cameras=[{"measured": []}])
+
+
+@pytest.mark.usefixtures("unkept")
+def test_what_its_process_computes_is_counted():
+    """Who tells what a call has cost asks for that, too, and not for the caller's own part alone."""
+    plan = crates()
+    children, before = resource.getrusage(resource.RUSAGE_CHILDREN), processor_time.spent_s()
+    own = resource.getrusage(resource.RUSAGE_SELF)
+    simulate(plan, resolve(plan).scene, duration_s=0.1)
+    after, now = resource.getrusage(resource.RUSAGE_CHILDREN), resource.getrusage(resource.RUSAGE_SELF)
+    theirs = after.ru_utime + after.ru_stime - children.ru_utime - children.ru_stime
+    ours = now.ru_utime + now.ru_stime - own.ru_utime - own.ru_stime
+    assert theirs > 0.05
+    assert processor_time.spent_s() - before == pytest.approx(ours + theirs, abs=0.05)
