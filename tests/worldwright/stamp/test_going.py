@@ -54,14 +54,6 @@ def plan_of(folder, *changes):
     return folder
 
 
-@pytest.fixture
-def fresh(tmp_path, small_plan):
-    """A run that is a plan and nothing else."""
-    (tmp_path / "ball").mkdir()
-    (tmp_path / "ball/plan.md").write_text(small_plan, encoding="utf-8")
-    return tmp_path / "ball"
-
-
 def test_it_waits_for_a_persons_word_and_gives_none_itself(fresh):
     gone = stamp.go(str(fresh))
     assert (gone.state, gone.ok, gone.wrong) == ("waiting", True, ())
