@@ -23,6 +23,8 @@ os.environ["WORLDWRIGHT_DATA"] = (
 )
 # Nor is a pre-roll's answer taken from that person's cache: each is given in the run itself.
 os.environ["WORLDWRIGHT_PREROLLS"] = f"{os.environ['WORLDWRIGHT_DATA']}/prerolls"
+# Nor does a walk leave anything at work beside it: a test that wants it asks for it.
+os.environ["WORLDWRIGHT_BESIDE"] = "0"
 
 import pytest
 from hypothesis import HealthCheck, settings

@@ -1,10 +1,12 @@
 """Small worlds for the runtime's tests, and a short way to record them."""
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import mujoco
+import numpy as np
 
 from worldengine.clock.simulate import prepare, simulate
 from worldengine.inputs.author_link import Local
@@ -13,6 +15,8 @@ from worldengine.inputs.replayed_inputs import Asked, Replayed
 from worldengine.recording import describing, stored
 from worldengine.recording.record import Recorder
 from worldengine.variants.holding import Hold
+from worldkit import film_files
+from worldkit.filming import Film
 from worldkit.world import start
 
 INTEGRATORS = ("EULER", "RK4", "IMPLICIT", "IMPLICITFAST", "DISCRETE")
@@ -97,3 +101,14 @@ def replay(spec: mujoco.MjSpec, folder: Path, steps: int, recording: stored.Reco
     with Recorder(model, data, folder, {**meta, "inputs": ports.as_meta()}) as recorder:
         simulate(model, data, recorder, steps, Replayed(model, data, ports, recording, steps))
     return stored.open(folder)
+
+
+def lay_film(
+    folder: Path, film: Film, change: Callable[[dict[str, Any], dict[str, Any]], object] | None = None
+) -> None:
+    """Lay the description of a film in a folder, as the engine reads it; `change(facts, arrays)` alters it first."""
+    facts, arrays = film.description()
+    if change:
+        change(facts, arrays)
+    (folder / film_files.DESCRIPTION).write_text(json.dumps(facts), encoding="utf-8")
+    np.savez(folder / film_files.ARRAYS, **arrays)

@@ -26,6 +26,11 @@ def write_atomic(path: Path | str, content: bytes | str) -> None:
         raise
 
 
+def json_text(value: Any) -> str:
+    """`value` as indented JSON with a final newline; NaN is refused (`ValueError`), since JSON has none."""
+    return json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
 def write_json(path: Path | str, value: Any) -> None:
-    """Atomically write `value` as indented JSON with a final newline; NaN is refused, since JSON has none."""
-    write_atomic(path, json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    """Atomically write `value` as `json_text` has it."""
+    write_atomic(path, json_text(value))

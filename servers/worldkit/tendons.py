@@ -1,7 +1,7 @@
-"""Ropes and springs between points of bodies, described in world coordinates at the initial pose.
+"""Ropes, springs and rods between points of bodies, described in world coordinates at the initial pose.
 
 A rope is a spatial tendon with an upper limit: slack it does nothing, taut it pulls with whatever force keeps its length.
-A spring pulls when it is longer than its rest length and pushes when it is shorter.
+A spring pulls when it is longer than its rest length and pushes when it is shorter. A rod keeps its length, pulled or pushed.
 
 >>> tendons.rope(spec, "leash", [("world", (0, 0, 2)), ("lamp", (0, 0, 1.2))], slack=0.1)
 """
@@ -20,6 +20,8 @@ at 2 ms, by 0 to 60 N at 16 ms, on average by its friction either way; a weight 
 by 13 mm for a moment."""
 ROUNDED_M = 2e-4
 """Distance, m, by which the ends of a taut rope may be too far apart: plans round coordinates to a tenth of a millimetre."""
+PLAY_M = 1e-5
+"""Half the play of a rod, m: the engine wants a range that is not empty."""
 End = tuple[str, Vec3]
 """Name of a body, or `world`; and a world-frame point at the initial pose, m."""
 
@@ -97,6 +99,43 @@ def spring(
     made.stiffness[0] = stiffness
     made.damping[0] = damping
     made.springlength = (rest, rest)
+    return made
+
+
+def rod(
+    spec: "mujoco.MjSpec",
+    name: str,
+    ends: Sequence[End],
+    *,
+    time_constant: float | None = None,
+    diameter: float = 0.01,
+    look: str = "steel_brushed",
+) -> "mujoco.MjsTendon":
+    """A rigid rod without mass, as long as the way between its two ends at the start; it turns freely at both.
+
+    Its force stands in the recording as a tension, negative while it pushes. A rod whose mass matters is a body with a joint at
+    either end.
+
+    Args:
+        time_constant: s with which it comes back to its length; None: four time steps, the least. The other arguments are
+            those of `rope`.
+
+    Raises:
+        ValueError: a body that is not there, ends other than two, or two that lie at one point.
+
+    Source: MuJoCo manual, XML reference, `tendon/spatial` (`range`, `solreflimit`): a limit on either side.
+    """
+    import mujoco
+
+    if len(ends) != 2:
+        raise ValueError(f"rod {name}: it has two ends, got {len(ends)}")
+    made, way = _line(spec, name, ends, diameter, look)
+    if way < 10 * PLAY_M:
+        raise ValueError(f"rod {name}: its ends lie at one point")
+    made.limited = mujoco.mjtLimited.mjLIMITED_TRUE
+    made.range = (way - PLAY_M, way + PLAY_M)
+    least = 4 * spec.option.timestep
+    made.solref_limit = (least if time_constant is None else max(least, time_constant), 1.0)
     return made
 
 

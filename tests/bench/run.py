@@ -15,6 +15,8 @@ from figures import TO, Figure, line
 
 HERE = Path(__file__).parent
 NO_BENCH = {"run", "figures"}
+ALONE = {"WORLDWRIGHT_BESIDE": "0"}
+"""No walk leaves anything at work beside what is measured."""
 
 
 def cores() -> int:
@@ -36,7 +38,7 @@ def main(wanted: list[str]) -> int:
             path = Path(scratch) / name
             print(f"== {name}", flush=True)
             code = subprocess.run(
-                [sys.executable, str(HERE / f"{name}.py")], env={**os.environ, TO: str(path)}, check=False
+                [sys.executable, str(HERE / f"{name}.py")], env={**os.environ, **ALONE, TO: str(path)}, check=False
             ).returncode
             mine = [Figure(**json.loads(text)) for text in path.read_text().splitlines()] if path.exists() else []
             found += mine

@@ -1,11 +1,9 @@
 """A breeze moves what is drawn only, the same in both renderers; what is simulated stands where it was recorded."""
 
-import json
-
 import numpy as np
 import pytest
 
-from small_worlds import ball, empty, floor, record
+from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, dressed, motion_facts, swaying
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
@@ -40,11 +38,7 @@ class Blown:
         film = Film(self.seen)
         tell(film)
         film.shot(still((0, -3, 0.6), (0, 0, 0.5), lens_mm=35), until=0.9)
-        facts, arrays = film.description()
-        if change:
-            change(facts, arrays)
-        (self.folder / "film.json").write_text(json.dumps(facts))
-        np.savez(self.folder / "film.npz", **arrays)
+        lay_film(self.folder, film, change)
         return described.read(self.folder, self.recording)
 
     def pictures(self, tell, renderer, frames=(2, 16)):

@@ -1,13 +1,12 @@
 """A film shows the recording: its bodies stand where they stood, and what it may not do it is refused."""
 
-import json
 from dataclasses import replace
 
 import mujoco
 import numpy as np
 import pytest
 
-from small_worlds import ball, empty, floor, record
+from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, motion_facts
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening, axes
@@ -53,11 +52,7 @@ class Made:
     def film(self, tell, change=None):
         film = Film(self.seen)
         tell(film)
-        facts, arrays = film.description()
-        if change:
-            change(facts, arrays)
-        (self.folder / "film.json").write_text(json.dumps(facts))
-        np.savez(self.folder / "film.npz", **arrays)
+        lay_film(self.folder, film, change)
         return described.read(self.folder, self.recording)
 
     def screening(self, tell):

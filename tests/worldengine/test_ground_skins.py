@@ -1,13 +1,12 @@
 """A film draws a hill anew in place of its shapes, and the statement says how far it is from the simulated one."""
 
-import json
 from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 
-from small_worlds import ball, empty, record
+from small_worlds import ball, empty, lay_film, record
 from worldengine.film import described, dressed, motion_facts
 from worldengine.recording import still_surfaces
 from worldkit import portable
@@ -53,9 +52,7 @@ def drawn(made, lift):
     faces = faces[np.isfinite(z.ravel()[faces]).all(axis=1)]
     film.mesh("turf", seen.into("hill", points), faces, to="hill", instead=True, look="grass")
     film.shot(still((0, -5, 3), "ball"), until=0.04)
-    facts, arrays = film.description()
-    (folder / "film.json").write_text(json.dumps(facts))
-    np.savez(folder / "film.npz", **arrays)
+    lay_film(folder, film)
     return described.read(folder, recording)
 
 

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from small_worlds import ball, empty, floor, record
+from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, dressed, motion_facts, panel_lights
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
@@ -40,11 +40,7 @@ class Lit:
         film.sky(zenith="#050505", horizon="#050505", ground="#050505", strength=0.1)
         tell(film)
         film.shot(still((0, -4, 2.5), (0, 0, 0.2), lens_mm=30), until=0.2)
-        facts, arrays = film.description()
-        if change:
-            change(facts)
-        (self.folder / "film.json").write_text(json.dumps(facts))
-        np.savez(self.folder / "film.npz", **arrays)
+        lay_film(self.folder, film, change and (lambda facts, _: change(facts)))
         return described.read(self.folder, self.recording)
 
     def picture(self, tell, renderer, frame=0):

@@ -1,12 +1,10 @@
 """Many bodies of one substance are one smooth closed surface, in both renderers, from where they are in each picture."""
 
-import json
-
 import mujoco
 import numpy as np
 import pytest
 
-from small_worlds import ball, empty, floor, record
+from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, dressed, motion_facts, one_surface, renderers
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
@@ -72,11 +70,7 @@ class Poured:
         film = Film(self.seen)
         film.surface("honey", of="drop_*", look=look)
         film.shot(still((0.2, -1.6, 0.5), (0.2, 0.2, 0.2), lens_mm=35), until=0.25)
-        facts, arrays = film.description()
-        if change:
-            change(facts)
-        (self.folder / "film.json").write_text(json.dumps(facts))
-        np.savez(self.folder / "film.npz", **arrays)
+        lay_film(self.folder, film, change and (lambda facts, _: change(facts)))
         return described.read(self.folder, self.recording)
 
 
@@ -134,9 +128,7 @@ def test_particles_can_be_a_surface_too(poured):
     places = grid(3, 0.03)
     film.particles("foam", lambda times: np.tile(places, (len(times), 1, 1)), diameter=0.04)
     film.surface("lather", of="foam", look="#ffffff")
-    facts, arrays = film.description()
-    (poured.folder / "film.json").write_text(json.dumps(facts))
-    np.savez(poured.folder / "film.npz", **arrays)
+    lay_film(poured.folder, film)
     told = described.read(poured.folder, poured.recording)
     model = dressed.dress(poured.folder / "world.mjz", told)
     data = mujoco.MjData(model)

@@ -10,7 +10,7 @@ import av
 import numpy as np
 import pytest
 
-from small_worlds import ball, empty, floor, record
+from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, motion_facts, refining
 from worldengine.film.refining import Refined, encode, refine, rounds, traced_levels
 from worldkit import materials, portable
@@ -294,9 +294,7 @@ def test_where_paths_cannot_be_traced_the_two_kinds_of_the_preview_are_all(tmp_p
     motion_facts.write(recording, tmp_path / "motion.npz", {"fps": 24, "size": list(SIZE), "movers": ["ball"]})
     with np.load(tmp_path / "motion.npz") as arrays:
         film = Film(Recorded(dict(arrays)))
-    facts, numbers = film.description()
-    (tmp_path / "film.json").write_text(json.dumps(facts))
-    np.savez(tmp_path / "film.npz", **numbers)
+    lay_film(tmp_path, film)
     given = SimpleNamespace(world=tmp_path / "world.mjz", fps=24, size=SIZE)
     told = described.read(tmp_path, recording)
     with ExitStack() as stack:

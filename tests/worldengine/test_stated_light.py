@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from small_worlds import record
+from small_worlds import lay_film, record
 from worldengine.film import described, motion_facts
 from worldengine.film.directed import Screening
 from worldengine.film.drawn_frames import Frames
@@ -90,9 +90,7 @@ class Filmed:
         film = Film(self.seen)
         tell(film)
         film.shot(still((3, -4, 2.5), (0, 0, 0.2), lens_mm=30), until=0.2)
-        facts, arrays = film.description()
-        (self.folder / "film.json").write_text(json.dumps(facts))
-        np.savez(self.folder / "film.npz", **arrays)
+        lay_film(self.folder, film)
         return described.read(self.folder, self.recording, lights.of(self.plain))
 
 

@@ -104,3 +104,45 @@ def test_a_rope_holds_as_soon_as_it_is_told_and_not_sooner_than_four_steps():
     ends = [("world", (0, 0, 2)), ("world", (0, 0, 1))]
     assert tendons.rope(spec, "firm", ends, time_constant=0.01).solref_limit[0] == 0.01
     assert tendons.rope(spec, "firmer", ends, time_constant=1e-9).solref_limit[0] == 4 * spec.option.timestep
+
+
+def thrown_up(line) -> tuple[float, float, float]:
+    """A bob below a hook goes up with 4 m/s, a little aside: its least and greatest distance from the hook, and its greatest height, m."""
+    spec = world()
+    line(spec, "line", [("world", (0, 0, 3)), ("bob", (0, 0, 2.0))])
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[:3] = (0.4, 0, 4.0)
+    far, high = [], []
+    for _ in range(700):
+        mujoco.mj_step(model, data)
+        far.append(float(np.linalg.norm(data.body("bob").xpos - (0, 0, 3))))
+        high.append(float(data.body("bob").xpos[2]))
+    return min(far), max(far), max(high)
+
+
+def test_a_rod_pushes_where_a_rope_goes_slack():
+    least, most, high = thrown_up(tendons.rod)
+    assert least == pytest.approx(1.0, abs=0.01) and most == pytest.approx(1.0, abs=0.01), "4 m/s, stopped within 4 ms"
+    assert high < 2.1, "its speed along the rod is stopped at once"
+    assert thrown_up(tendons.rope)[0] < 0.5 and thrown_up(tendons.rope)[2] > 2.5
+
+
+def test_a_rod_swings_over_its_top_as_a_pendulum_does():
+    """v at the bottom 6.6 m/s: at the top v^2 = v0^2 - 4 g L, where a rope would need g L to stay taut."""
+    spec = world()
+    tendons.rod(spec, "rod", [("world", (0, 0, 3)), ("bob", (0, 0, 2.0))])
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.qvel[0] = 6.6
+    while data.body("bob").xpos[2] < 3.999 and data.time < 2:
+        mujoco.mj_step(model, data)
+    assert float(np.linalg.norm(data.qvel[:3])) == pytest.approx((6.6**2 - 4 * 9.81) ** 0.5, rel=0.03)
+
+
+@pytest.mark.parametrize(
+    "ends", [[("bob", (0, 0, 2)), ("bob", (0, 0, 2))], [("world", (0, 0, 3)), ("world", (0, 1, 3)), ("bob", (0, 0, 2))]]
+)
+def test_a_rod_has_two_ends_apart(ends):
+    with pytest.raises(ValueError, match="rod rod: "):
+        tendons.rod(world(), "rod", ends)

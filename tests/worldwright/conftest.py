@@ -37,6 +37,14 @@ def _once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], obj
     return Path(shutil.copytree(kept / RUN, factory.mktemp(name) / RUN))
 
 
+@pytest.fixture
+def fresh(tmp_path: Path, small_plan: str) -> Path:
+    """A run that is a plan and nothing else."""
+    (tmp_path / "ball").mkdir()
+    (tmp_path / "ball/plan.md").write_text(small_plan, encoding="utf-8")
+    return tmp_path / "ball"
+
+
 @pytest.fixture(scope="session")
 def sculpted_plan() -> str:
     """The text of a plan in which a pea falls into what `sculpt/bowl.py` makes."""

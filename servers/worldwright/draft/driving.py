@@ -1,4 +1,4 @@
-"""Write what fastens and drives: ropes and springs between bodies, motors and servos on joints, and their control."""
+"""Write what fastens and drives: ropes, springs and rods between bodies, motors and servos on joints, and their control."""
 
 from ..model.plan.committed import Intervention, Plan, SimulationParameters
 from ..model.plan.drives import Actuator
@@ -10,7 +10,7 @@ from .requirements import Needs
 
 
 def tendons(plan: Plan, scene: Scene, needs: Needs) -> str:
-    """Write ropes and springs between points of the placed bodies."""
+    """Write ropes, springs and rods between points of the placed bodies."""
     lines = []
     for row in plan.topology.tendons:
         needs.use("tendons")
@@ -20,7 +20,7 @@ def tendons(plan: Plan, scene: Scene, needs: Needs) -> str:
             k: getattr(row, k) for k in ("length", "slack", "pretension", "damping", "time_constant") if getattr(row, k)
         }
         keywords |= {"diameter": row.diameter} | ({"look": row.look} if row.look else {})
-        made = "tendons.spring" if row.stiffness else "tendons.rope"
+        made = "tendons.rod" if row.rod else "tendons.spring" if row.stiffness else "tendons.rope"
         lines.append(call(made, Raw("spec"), row.name, ends, **keywords))
     return "\n".join(lines)
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from ..expose import reads
-from ..model.errors import NotFoundError, PlanError
+from ..model.errors import JobError, NotFoundError, PlanError
 from ..model.evidence.reports import EvidenceKey, LintReport
 from ..model.finding import Finding
 from ..model.plan.committed import Plan
@@ -146,6 +146,9 @@ def acts_as_planned(bundle: Path, plan: Plan) -> list[Finding]:
 
     Both worlds are compiled in the sandbox, the plan's from its own draft; nothing of the author's runs. A finding of severity
     `error` means that it is not the planned world.
+
+    Raises:
+        JobError: this machine lacks what making the plan's takes, which says nothing of the bundle.
     """
     from concurrent.futures import ThreadPoolExecutor
     from contextvars import copy_context
@@ -156,8 +159,12 @@ def acts_as_planned(bundle: Path, plan: Plan) -> list[Finding]:
     with ThreadPoolExecutor(1) as beside:
         waiting = beside.submit(copy_context().run, planned.world, plan)
         outcome = fetch.world(bundle, is_mjcf=True)
+    twin = waiting.result()
+    if lacked := twin.lacked:
+        cause = f"what acts could not be held against the plan, whose world this machine could not make: {lacked[0]}"
+        raise JobError(cause, code=twin.failure or twin.status, place="plan.md", next_move=lacked[1])
     if outcome.status == "compiled":
-        return engine.check_acting(outcome, waiting.result(), plan, bundle.name)
+        return engine.check_acting(outcome, twin, plan, bundle.name)
     return [
         Finding(
             code="WM101",
@@ -175,6 +182,13 @@ def stated_facts(program: Path, defaults: bool = True) -> dict[str, Any]:
     from . import main_call
 
     return main_call.facts(program, defaults)
+
+
+def states_alone(program: Path) -> bool:
+    """Whether no other call than that one can be made; for other servers, no tool: see `lint.main_call.sole`."""
+    from . import main_call
+
+    return main_call.sole(program)
 
 
 def _read_plan(path: Path):

@@ -1,4 +1,4 @@
-"""Processor time of short runs that this process had made beside it: who waits for one adds it, who tells a cost reads it."""
+"""Processor time of short processes that this one had made beside it (confined runs, pre-rolls): who waits for one adds it."""
 
 import resource
 import threading

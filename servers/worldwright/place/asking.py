@@ -2,13 +2,17 @@
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from ..model import call_time, processor_time
 from ..model.errors import JobError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
 from ..model.plan.formed import arguments
@@ -17,7 +21,12 @@ from ..model.plan.layout import Scene
 from . import kept_answers
 from .start import Motion
 
-LIMIT_S = 40.0
+STILL_S, TICK_S = 180.0, 0.02
+"""It is ended when nothing advances for so long, s, as passes are; while it advances it may take its time."""
+
+
+class RefusedLayoutError(JobError):
+    """The pre-roll cannot take these objects: a fault of what the plan says of them, unlike any other of its failures."""
 
 
 def jointed(plan: Plan) -> set[str]:
@@ -80,7 +89,9 @@ def simulate(
         moved: rigid motions to start from, by name (`start.motions`); others start where they are placed.
 
     Raises:
-        JobError: the process failed, diverged, or took longer than 40 s.
+        RefusedLayoutError: it cannot take these objects, or they diverged.
+        JobError: nothing of it advanced any more, or it was killed, which says nothing of the plan.
+        CallOverError: the client's call ended first.
     """
     hidden = drawn_only(plan)
     names = {o.name for o in scene.objects if (everything or o.name not in hidden) and (only is None or o.name in only)}
@@ -96,27 +107,26 @@ def simulate(
         out = Path(folder) / "answer.json"
         sources = str(Path(__file__).resolve().parents[2])
         paths = os.pathsep.join(p for p in (sources, os.environ.get("PYTHONPATH", "")) if p)
-        try:
-            done = subprocess.run(
+        asked, told = Path(folder) / "request.json", Path(folder) / "errors.txt"
+        asked.write_text(json.dumps(request | {"out": str(out)}), encoding="utf-8")
+        with asked.open("rb") as question, told.open("wb") as errors:
+            process = subprocess.Popen(
                 [sys.executable, "-m", "worldwright.place.preroll"],
-                input=json.dumps(request | {"out": str(out)}).encode(),
-                capture_output=True,
+                stdin=question,
+                stdout=subprocess.DEVNULL,
+                stderr=errors,
                 cwd=folder,  # the engine may leave a log file where it runs
                 env={**os.environ, "PYTHONPATH": paths},
-                timeout=LIMIT_S,
-                check=False,
             )
-        except subprocess.TimeoutExpired as cause:
-            raise JobError(
-                f"the pre-roll took longer than {LIMIT_S:g} s",
-                code="timed_out",
-                place="place.preroll",
-                next_move="settle for a shorter duration_s, or split the plan",
-            ) from cause
+            _follow(process, out.with_suffix(".progress"))
         if not out.is_file():
-            last = done.stderr.decode(errors="replace").strip().splitlines()
-            raise JobError(
-                f"the pre-roll process ended with status {done.returncode}: {last[-1] if last else 'no message'}",
+            last = told.read_text(encoding="utf-8", errors="replace").strip().splitlines()
+            how = f"the pre-roll process ended with status {process.returncode}: {last[-1] if last else 'no message'}"
+            if process.returncode == -signal.SIGKILL:
+                move = "free memory of this machine, then ask again"
+                raise JobError(how, code="killed", place="place.preroll", next_move=move)
+            raise RefusedLayoutError(
+                how,
                 code="crashed",
                 place="place.preroll",
                 next_move="check the sizes and masses of the objects; `worldwright doctor` checks the simulator",
@@ -124,7 +134,7 @@ def simulate(
         answer = out.read_bytes()
     result: dict[str, Any] = json.loads(answer)
     if "error" in result:
-        raise JobError(
+        raise RefusedLayoutError(
             f"the pre-roll failed: {result['error']}",
             code="crashed",
             place="place.preroll",
@@ -133,6 +143,44 @@ def simulate(
     if kept is not None:
         kept_answers.keep(kept, answer)
     return result
+
+
+def _follow(process: "subprocess.Popen[bytes]", progress: Path) -> None:
+    """Wait for a process as long as what it writes there changes.
+
+    Raises:
+        JobError: nothing has for so long.
+        CallOverError: the client's call ended first.
+    """
+    said, advanced = b"", time.monotonic()
+    try:
+        while not _ended(process, os.WNOHANG):
+            time.sleep(TICK_S)
+            if call_time.left_s() <= 0:
+                raise call_time.over()
+            with suppress(OSError):
+                if (now := progress.read_bytes()) != said:
+                    said, advanced = now, time.monotonic()
+            if time.monotonic() - advanced > STILL_S:
+                raise JobError(
+                    f"the pre-roll was ended: nothing advanced for {STILL_S:g} s ({said.decode(errors='replace') or 'at its start'})",
+                    code="timed_out",
+                    place="place.preroll",
+                    next_move="ask again when the machine has less to do; if it stands still there again, split the plan",
+                )
+    finally:
+        if process.returncode is None:
+            process.kill()
+            _ended(process, 0)
+
+
+def _ended(process: "subprocess.Popen[bytes]", options: int) -> bool:
+    """Whether a process has ended; what it computed is counted when it has (`model.processor_time`)."""
+    ended, status, used = os.wait4(process.pid, options)
+    if ended:
+        process.returncode = os.waitstatus_to_exitcode(status)
+        processor_time.add(used.ru_utime + used.ru_stime)
+    return bool(ended)
 
 
 def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: bool) -> dict[str, Any]:

@@ -4,21 +4,28 @@ An engine error may end its process, and engines print, so the server never step
 JSON request on standard input (`asking.simulate`) and writes its answer to the file `out` named there.
 
 Its world has a ground plane and every object with its real collision shapes at its resolved pose, and nothing else: no
-initial motion, no control.
+initial motion, no control. While it is at work it says where in the file `out`.progress, which its caller watches.
 """
 
 import json
 import math
 import sys
+import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+EVERY_S = 0.25
 FAR_M = 1e3
 """What is deeper below is not looked for."""
 
 
-def answer(request: dict[str, Any]) -> dict[str, Any]:
+def answer(request: dict[str, Any], advanced: Callable[[str], None] = lambda _: None) -> dict[str, Any]:
     """Find contacts at the start and, if `duration_s` is positive, what each object does until then.
+
+    Args:
+        request: see `asking.simulate`.
+        advanced: told where it is, at every step of the way.
 
     Returns:
         `contacts`: [name, name, depth in metres] for each pair of objects that penetrate at the start, deepest first;
@@ -34,8 +41,14 @@ def answer(request: dict[str, Any]) -> dict[str, Any]:
     model = _build(request)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    distances = [[a, b, _distance(model, data, a, b, request["far_m"])] for a, b in request["pairs"]]
-    drops = [[name, *_drop(model, data, name)] for name in request["falling"]]
+    advanced("built")
+    distances, drops = [], []
+    for a, b in request["pairs"]:
+        distances.append([a, b, _distance(model, data, a, b, request["far_m"])])
+        advanced(f"distance {len(distances)} of {len(request['pairs'])}")
+    for name in request["falling"]:
+        drops.append([name, *_drop(model, data, name)])
+        advanced(f"drop {len(drops)} of {len(request['falling'])}")
     deepest: dict[tuple[str, str], float] = {}
     for geoms, distance in zip(data.contact.geom, data.contact.dist, strict=True):
         first, second = sorted(_owner(model, geom) for geom in geoms)
@@ -45,8 +58,9 @@ def answer(request: dict[str, Any]) -> dict[str, Any]:
     ids = {row["name"]: model.body(row["name"]).id for row in request["objects"]}
     start = {name: data.xpos[i].copy() for name, i in ids.items()}
     steps = math.ceil(request["duration_s"] / model.opt.timestep)
-    for _ in range(steps):
+    for step in range(steps):
         mujoco.mj_step(model, data)
+        advanced(f"step {step + 1} of {steps}")
         if not np.isfinite(data.qpos).all():
             raise FloatingPointError(f"the pre-roll diverged at t = {data.time:.3f} s")
     if steps:
@@ -62,7 +76,10 @@ def answer(request: dict[str, Any]) -> dict[str, Any]:
             "speed": float(np.linalg.norm(velocity[3:])),
         }
     contacts = sorted(deepest.items(), key=lambda row: -row[1])
-    views = visibility.seen(model, data, request["cameras"]) if request["cameras"] else []
+    views = []
+    for camera in request["cameras"]:
+        views += visibility.seen(model, data, [camera])
+        advanced(f"camera {camera['name']}")
     return {
         "contacts": [[a, b, depth] for (a, b), depth in contacts],
         "objects": objects,
@@ -205,11 +222,25 @@ def _owner(model: Any, geom: int) -> str:
     return "ground" if body == 0 else str(model.body(body).name)
 
 
+class Progress:
+    """Writes where the pre-roll is into a file, at most some times a second."""
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.written = path, 0.0
+
+    def __call__(self, where: str) -> None:
+        """Say where it is."""
+        now = time.monotonic()
+        if now - self.written >= EVERY_S:
+            self.written = now
+            self.path.write_text(where, encoding="utf-8")
+
+
 def main() -> None:
     """Read the request and answer it; what goes wrong is printed on standard error."""
     request = json.load(sys.stdin)
     try:
-        result = answer(request)
+        result = answer(request, Progress(Path(request["out"]).with_suffix(".progress")))
     except Exception as error:  # the caller turns it into a finding
         result = {"error": f"{type(error).__name__}: {error}"}
     Path(request["out"]).write_text(json.dumps(result), encoding="utf-8")

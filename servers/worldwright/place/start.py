@@ -105,7 +105,7 @@ def way(plan: Plan, scene: Scene, tendon: Tendon, moved: dict[str, Motion] | Non
 
 @dataclass(frozen=True)
 class Hung:
-    """A rope or spring at the start: the length of its way, and its own."""
+    """A rope, spring or rod at the start: the length of its way, and its own."""
 
     tendon: Tendon
     way_m: float
@@ -131,6 +131,11 @@ class Hung:
             force = f"{abs(self.tendon.stiffness * slack):.3g} N"
             does = "at rest" if abs(slack) < 1e-6 else f"{'pulls' if slack < 0 else 'pushes'} with {force}"
             return f"spring `{name}`: {size} at rest: {does}"
+        if self.tendon.rod:
+            fits = (
+                "fits" if abs(slack) < ROUNDED_M else f"too {'long' if slack > 0 else 'short'} by {_mm(abs(slack))} m"
+            )
+            return f"rod `{name}`: {size} long: {fits}"
         does = (
             "taut"
             if abs(slack) < ROUNDED_M

@@ -326,6 +326,22 @@ def smallest(run: Run) -> str:
     return told(least.name, least.pixels, least.camera, plan.recording_mode.size[0]) if plan and least else ""
 
 
+def begin_robust(run: Run) -> str:
+    """For the walk of another server (no tool): see `audits.unasked_audit.begin`; says in a line how it stands."""
+    from ..model.evidence import environment
+    from .audits import unasked_audit
+
+    return unasked_audit.begin(run, run.evidence_key(environment.current().sha256()))
+
+
+def finish_robust(run: Run) -> bool:
+    """For the process that does it (no tool): see `audits.unasked_audit.finish`; whether anything was done."""
+    from .audits import unasked_audit
+
+    _, key, plan, trajectory = _subject(str(run.folder))
+    return key is not None and plan is not None and unasked_audit.finish(run, key, plan, trajectory) is not None
+
+
 def repair_target(code: str) -> str:
     """What a repair changes where the anomaly check of this code finds something; for other servers, no tool."""
     from .anomalies.engine import CHECKS

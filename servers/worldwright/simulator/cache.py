@@ -12,6 +12,8 @@ from typing import Any
 
 from worldkit.files import write_atomic
 
+from ..model import try_lock
+
 KEPT = 4
 """So many tables of other versions stay beside the newest, as several environments may share the folder."""
 
@@ -69,16 +71,6 @@ def held(name: str, wait_s: float = 0.0) -> Iterator[bool]:
         mine: bool | None = None
         with suppress(OSError):  # no file there, or a file system without locks
             handle = stack.enter_context((cache_folder() / name).open("w"))
-            while not (mine := _taken(handle.fileno())) and time.monotonic() < until:
+            while not (mine := try_lock.taken(handle.fileno())) and time.monotonic() < until:
                 time.sleep(0.05)
         yield mine is not False
-
-
-def _taken(handle: int) -> bool:
-    import fcntl
-
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True

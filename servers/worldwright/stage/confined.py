@@ -162,11 +162,11 @@ def _watched(
 ) -> tuple[str, int]:
     entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
     process, status = entered.process, "ended"
-    own, computed = OwnTime(time.monotonic()), 0.0
+    own, computed = OwnTime(time.monotonic()), [0.0]
     try:
-        while not family.ends_within(process, TICK_S):
+        while not family.ends_within(process, TICK_S, computed.append):
             seen = family.census(process.pid)
-            computed = max(computed, seen.cpu_s)
+            computed.append(seen.cpu_s)
             if own.after(time.monotonic(), seen.cpu_s, seen.wanting) > wall_s:
                 status = "timed_out"
                 break
@@ -180,6 +180,6 @@ def _watched(
                 status = "cancelled"
                 break
     finally:
-        processor_time.add(computed)
+        processor_time.add(max(computed))
         family.end(process.pid, confinement.token)
     return status, process.wait()

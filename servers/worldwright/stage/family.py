@@ -57,6 +57,12 @@ def census(root: int, *, itself: bool = True) -> Census:
     )
 
 
+def _spent_s(pid: int) -> float:
+    """Processor time of a process, which may have ended, and of those that it has waited for, s."""
+    words = _stat(pid)
+    return sum(int(word) for word in words[11:15]) / TICKS if words else 0.0
+
+
 def _stat(pid: int) -> list[bytes]:
     """What the kernel tells of a process, from its state on; nothing when it is gone.
 
@@ -115,9 +121,14 @@ def available_bytes() -> int | None:
     return None
 
 
-def ends_within(process: "subprocess.Popen[bytes]", seconds: float) -> bool:
-    """Whether a child ends within so many seconds, told at the moment that it does; a kernel that does not tell is asked."""
-    if process.poll() is not None:
+def ends_within(
+    process: "subprocess.Popen[bytes]", seconds: float, at_end: Callable[[float], object] = lambda _: None
+) -> bool:
+    """Whether a child ends within so many seconds, told at the moment that it does; a kernel that does not tell is asked.
+
+    `at_end` is told the processor time of the child and of those that it has waited for, s, where that is known.
+    """
+    if process.returncode is not None:
         return True
     try:
         told = os.pidfd_open(process.pid)
@@ -129,7 +140,8 @@ def ends_within(process: "subprocess.Popen[bytes]", seconds: float) -> bool:
     try:
         ended = select.poll()
         ended.register(told, select.POLLIN)
-        ended.poll(1000 * seconds)
+        if ended.poll(1000 * seconds):
+            at_end(_spent_s(process.pid))  # until it is waited for the kernel knows it
     finally:
         os.close(told)
     return process.poll() is not None

@@ -22,13 +22,15 @@ def run_variant(
     variant: str,
     arguments: tuple[str, ...],
     *,
+    still_s: float | None = None,
     timeout_s: float = 40,
     progress: Progress = silent,
 ) -> JobStatus:
-    """See `stage.variants.run`."""
-    from . import variants
+    """See `stage.variants.run`; with `still_s` None as long as any pass."""
+    from . import launch, variants
 
-    return variants.run(run, variant, arguments, timeout_s=timeout_s, progress=progress)
+    patience = launch.STILL_S if still_s is None else still_s
+    return variants.run(run, variant, arguments, still_s=patience, timeout_s=timeout_s, progress=progress)
 
 
 def start_storyboard(run: Run, claimed: Sequence[tuple[float, str]]) -> JobStatus:

@@ -6,7 +6,6 @@ writes), `out/` (what the engine writes, which becomes evidence), `log.txt`, `lo
 for, `cancel`.
 """
 
-import fcntl
 import json
 import time
 from pathlib import Path
@@ -17,7 +16,7 @@ from pydantic import ValidationError
 from worldkit import lock
 from worldkit.files import write_atomic, write_json
 
-from ..model import companions
+from ..model import companions, try_lock
 from ..model.errors import NotFoundError
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
@@ -239,12 +238,9 @@ class Job:
         """Whether a live supervisor holds the job's lock (a lock dies with its process, unlike a process number)."""
         try:
             with (self.folder / "lock").open("rb") as handle:
-                fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            return True
+                return not try_lock.taken(handle.fileno())
         except OSError:
             return False
-        return False
 
 
 def _number(spec: Path) -> int:

@@ -6,9 +6,12 @@ count too. An audit of another recording counts for nothing.
 """
 
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Literal
 
+from ..model.errors import WorldwrightError
 from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport
+from ..model.evidence.run import Run
 from .kept import Kept
 from .refusal import Refusal
 from .state import State
@@ -54,6 +57,15 @@ def refusals(state: State) -> Iterator[Refusal]:
     yield from _of(state, "interventions", state.interventions, again, needed="every acceptance rests on it")
     yield from _of(state, "causes", state.causes, f"{again} --causes", needed=why_causes(state))
     yield from _of(state, "refine", state.refine, f"{again} --refine", needed="")
+
+
+def robust_beside(run: Run) -> str:
+    """Have the claims measured in worlds a little otherwise, which nothing waits for; says in a line how it stands."""
+    from ..scan.tools import begin_robust
+
+    with suppress(WorldwrightError):  # a remark, which blocks nothing
+        return begin_robust(run).removeprefix("robust: ")
+    return ""
 
 
 def _of(

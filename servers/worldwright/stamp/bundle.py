@@ -1,6 +1,5 @@
 """The accepted folder: written whole or not at all, and checkable by anyone with `sha256sum -c SHA256SUMS`."""
 
-import fcntl
 import hashlib
 import os
 import shutil
@@ -11,6 +10,7 @@ from pathlib import Path
 
 from worldkit.files import write_atomic
 
+from ..model import try_lock
 from ..model.errors import GateError
 from ..model.evidence import handed_in
 from ..model.evidence.run import Run, sha256_file
@@ -39,14 +39,12 @@ def only_one(run: Run) -> Iterator[None]:
     """Hold a lock on the run folder itself (no lock file to leave behind; the kernel lets go when the process dies)."""
     handle = os.open(run.folder, os.O_RDONLY | os.O_CLOEXEC)
     try:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError as cause:
+        if not try_lock.taken(handle):
             raise GateError(
                 "another process is accepting this run",
                 place=str(run.folder),
                 next_move=f"wait for it, then `worldwright stamp status {run.folder}`",
-            ) from cause
+            )
         yield
     finally:
         os.close(handle)

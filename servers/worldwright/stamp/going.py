@@ -90,7 +90,7 @@ class Going:
         self.held: dict[StepName, str] = {}
         self.wrong: list[Wrong] = []
         self.under_way: list[str] = []
-        self.storyboard = ""
+        self.storyboard = self.robust = ""
         self.of_layout: tuple[Finding, ...] = ()
 
     def go(self) -> Gone:
@@ -117,6 +117,9 @@ class Going:
                 self.under_way.append(str(still))
             else:
                 self.say(name, "done", self.held[name])
+        if {"causes", "stills", "video"} <= self.held.keys() and (robust := audited.robust_beside(self.run)):
+            self.say("robust", "done", robust)
+            self.robust = robust
         return self.told(turn)
 
     def told(self, turn: str) -> Gone:
@@ -138,6 +141,7 @@ class Going:
             wrong=tuple(self.wrong),
             under_way=tuple(self.under_way),
             storyboard=self.storyboard,
+            robust=self.robust,
             next_move=turn,
         )
 

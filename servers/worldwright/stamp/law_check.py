@@ -36,17 +36,20 @@ class Law:
 def concerns(folder: Path) -> bool:
     """Whether anything entered the kept world of an accepted folder, or its program may have a `control` that could send it.
 
-    The facts beside the world are the stranger's, so that only the program's own text can say that there is none.
+    The facts beside the world are the stranger's, so that only the program's own text can say that there is none, and where the
+    plan declares what a `control` may write, not even that: the program has to show it.
     """
     from worldengine.recording import stored
 
     from ..lint import tools as lint
+    from ..stage import tools as stage
 
-    facts = folder / bundle.WORLD
+    facts, program = folder / bundle.WORLD, folder / "simulation.py"
     try:
         controlled = bool(json.loads((facts / FACTS[0]).read_bytes()).get("control"))
-        unsaid = lint.stated_facts(folder / "simulation.py").get("control", "unknown") is not None
-        return controlled or unsaid or bool(stored.inputs_digest(facts))
+        unsaid = lint.stated_facts(program).get("control", "unknown") is not None or not lint.states_alone(program)
+        open_to_it = any("solver" not in row for row in stage.declared_inputs(folder / "plan.md"))
+        return controlled or unsaid or open_to_it or bool(stored.inputs_digest(facts))
     except (OSError, ValueError, AttributeError, WorldwrightError, stored.RecordingError):
         return True
 

@@ -7,10 +7,7 @@ import pytest
 from worldkit import bodies, forms, joints, portable, scene, sculpt
 from worldkit.sculpt import blended, brushes
 
-
-@pytest.fixture(autouse=True)
-def kept(tmp_path, monkeypatch):
-    monkeypatch.setenv("WORLDKIT_SCULPT_CACHE", str(tmp_path / "kept"))
+pytestmark = pytest.mark.usefixtures("kept")
 
 
 def arm(**words):

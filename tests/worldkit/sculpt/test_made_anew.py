@@ -17,15 +17,10 @@ import pytest
 from worldkit import sculpt
 from worldkit.sculpt import minting
 
+pytestmark = pytest.mark.usefixtures("kept")
+
 BALL = sculpt.sphere(0.1)
 SMALL = {"cells": 16, "texels": 64}
-
-
-@pytest.fixture(autouse=True)
-def kept(tmp_path, monkeypatch):
-    monkeypatch.setenv("WORLDKIT_SCULPT_CACHE", str(tmp_path / "kept"))
-    minting._memory.clear()
-    return tmp_path / "kept"
 
 
 class Counter:

@@ -9,15 +9,10 @@ import pytest
 from worldkit import bodies, contacts, joints, portable, scene, sculpt
 from worldkit.sculpt import brushes, crisp, minting
 
+pytestmark = pytest.mark.usefixtures("kept")
+
 BALL = sculpt.sphere(0.1)
 SMALL = {"cells": 24, "texels": 64}
-
-
-@pytest.fixture(autouse=True)
-def kept(tmp_path, monkeypatch):
-    monkeypatch.setenv("WORLDKIT_SCULPT_CACHE", str(tmp_path / "kept"))
-    minting._memory.clear()
-    return tmp_path / "kept"
 
 
 def world():

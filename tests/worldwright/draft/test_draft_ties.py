@@ -161,3 +161,36 @@ def test_an_adhesive_face_holds_with_its_force_at_each_of_four_points(adhesion, 
     model, data = built(objects, rows, materials=materials, masses={"box": 1.0})
     mujoco.mj_step(model, data, round(0.5 / STEP))
     assert (data.body("box").xpos[2] > 0.94) == holds
+
+
+ROD = {"name": "strut", "ends": [{"offset": [0, 0, 1.0]}, {"body": "box", "at": "top"}], "rod": True}
+
+
+def test_a_rod_holds_up_what_stands_on_it():
+    """A box that stands on a rod below it, in the balance: the rod pushes with its weight, and keeps its length."""
+    on = {"name": "strut", "ends": [{"offset": [0, 0, 0.3]}, {"body": "box", "at": "bottom"}], "rod": True}
+    guide = {"name": "guide", "type": "slide", "child": "box", "axis": [0, 0, 1]}
+    model, data = built([BOX], [{"x": 0, "y": 0, "gap": 0.5}], {"tendons": [on], "joints": [guide]})
+    for _ in range(round(0.3 / STEP)):
+        mujoco.mj_step(model, data)
+    assert data.tendon("strut").length[0] == pytest.approx(0.2, abs=2e-4)
+    assert abs(data.qvel[0]) < 1e-3 and data.efc_force[data.efc_type == 4].sum() == pytest.approx(0.6 * 9.81, rel=0.02)
+
+
+def test_a_hanging_rod_keeps_its_length_while_a_rope_would_go_slack():
+    up = {"box": {"linear": [0, 0, 2.0]}}
+    lengths = {}
+    for kind, row in (("rod", ROD), ("rope", {**ROD, "rod": False})):
+        model, data = built([BOX], [{"x": 0, "y": 0, "gap": 0.4}], {"tendons": [row]}, initial_motion=up)
+        found = []
+        for _ in range(round(0.2 / STEP)):
+            mujoco.mj_step(model, data)
+            found.append(float(data.tendon("strut").length[0]))
+        lengths[kind] = min(found)
+    assert lengths["rod"] == pytest.approx(0.5, abs=2e-3) and lengths["rope"] < 0.4
+
+
+@pytest.mark.parametrize("more", [{"length": 1.0}, {"slack": 0.1}, {"stiffness": 10.0}, {"damping": 1.0}])
+def test_a_rod_is_as_long_as_it_is_laid_out(more):
+    with pytest.raises(ValidationError, match="rod"):
+        Tendon.model_validate({**ROD, **more})

@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mujoco.introspect import structs
 
-from worldwright.lint import engine
+from worldwright.lint import engine, tools
 from worldwright.lint.case import plan_with
 from worldwright.lint.compiled import planned, touching
 from worldwright.lint.compiled.fetch import Outcome
@@ -18,6 +18,8 @@ from worldwright.lint.compiled.measure import facts
 from worldwright.lint.compiled.view import ModelView
 from worldwright.lint.harm import outcome_of
 from worldwright.lint.rules.model.acting._twins import PLAN, changed
+from worldwright.model.errors import JobError
+from worldwright.model.storage import StorageError
 
 RULES = Path(engine.__file__).parent / "rules" / "model" / "acting"
 GEOM = st.fixed_dictionaries(
@@ -234,3 +236,43 @@ def test_a_draft_makes_the_planned_world_which_is_not_built_again_and_another_pr
     assert twin.pass_s is None and "rehearsed" not in twin.texts
     failed = Outcome("failed")
     assert planned.beside(plan, planned.source(plan), lambda: failed, 20.0) == (failed, twin), "and one that fails, too"
+
+
+@pytest.mark.parametrize(
+    ("error", "lacks"),
+    [
+        (JobError("making it took more than 4 GB of memory", code="out_of_memory", next_move="free some"), "4 GB"),
+        (JobError("[Errno 28] No space left on device", code="disk_full", next_move="free some space"), "No space"),
+        (JobError("ModuleNotFoundError: No module named 'manifold3d'", code="crashed"), "'manifold3d'"),
+        (StorageError("the kept shapes cannot be written"), "cannot be written"),
+    ],
+)
+def test_what_the_machine_lacks_is_not_the_plans_fault(error, lacks, monkeypatch, tmp_path):
+    """Neither in what lint says, nor where a world is to be stamped: nobody knows then whether it acts as planned."""
+
+    def wanting(_):
+        raise error
+
+    monkeypatch.setattr(planned, "sculpt_of", wanting)
+    monkeypatch.setattr(planned, "_KEPT", {})
+    plan = plan_with(PLAN)
+    (said,) = engine.check_acting(outcome_of(changed()[0]), planned.world(plan), plan)
+    assert said.code == "WM171" and "this machine could not make" in said.message and lacks in said.message
+    assert said.fix and "plan" not in said.fix
+    world = tmp_path / "world.xml"
+    world.write_text("<mujoco/>", encoding="utf-8")
+    with pytest.raises(JobError, match="this machine could not make") as told:
+        tools.acts_as_planned(world, plan)
+    assert lacks in told.value.cause and told.value.next_move
+
+
+def test_what_the_plan_lacks_is(monkeypatch):
+    plan = plan_with(PLAN | {"topology": {"scene_predicates": None}})
+    assert planned.world(plan).lacked is None
+
+
+@pytest.mark.parametrize("status", ["refused", "out_of_memory", "timed_out", "too_large"])
+def test_a_world_of_the_plan_that_a_limit_stopped_is_told_as_such(status):
+    plan = plan_with(PLAN)
+    (said,) = engine.check_acting(outcome_of(changed()[0]), Outcome(status, wall_s=20.0), plan)
+    assert "this machine could not make" in said.message and said.fix != "correct the plan"

@@ -36,8 +36,8 @@ def asked(monkeypatch, tmp_path):
     """An empty cache; returns a function that asks and tells how many processes that took."""
     monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
     monkeypatch.delenv("WORLDWRIGHT_PREROLLS", raising=False)
-    real, calls = subprocess.run, []
-    monkeypatch.setattr(subprocess, "run", lambda *words, **more: calls.append(words) or real(*words, **more))
+    real, calls = subprocess.Popen, []
+    monkeypatch.setattr(subprocess, "Popen", lambda *words, **more: calls.append(words) or real(*words, **more))
 
     def ask(plan: Plan, **more: object) -> tuple[dict, int]:
         calls.clear()

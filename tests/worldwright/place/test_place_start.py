@@ -159,6 +159,13 @@ def test_a_start_angle_that_stretches_a_rope_is_refused_and_one_that_slackens_it
     assert any("slack by" in line for line in slack.at_start)
 
 
+def test_a_start_angle_at_which_a_rod_does_not_fit_is_refused():
+    for deg, fits in ((0, True), (30, False), (-30, False)):
+        report = checked(made(initial=start(deg) if deg else None, tendons=[rope(rod=True)]))
+        assert ("WP324" in {f.code for f in report.findings}) != fits
+        assert not fits or any("rod `" in line and line.endswith(": fits") for line in report.at_start)
+
+
 def test_a_spring_is_told_with_its_force():
     plan = made(tendons=[rope(length=1.0, stiffness=10.0)])
     away = math.dist((1.0, 0, 1.2), (0, 0, 0.25))

@@ -54,14 +54,6 @@ def plan_of(folder, *changes):
     return folder
 
 
-@pytest.fixture
-def fresh(tmp_path, small_plan):
-    """A run that is a plan and nothing else."""
-    (tmp_path / "ball").mkdir()
-    (tmp_path / "ball/plan.md").write_text(small_plan, encoding="utf-8")
-    return tmp_path / "ball"
-
-
 def test_it_waits_for_a_persons_word_and_gives_none_itself(fresh):
     gone = stamp.go(str(fresh))
     assert (gone.state, gone.ok, gone.wrong) == ("waiting", True, ())
@@ -81,7 +73,9 @@ def test_what_is_wrong_with_a_plan_is_told_together(fresh):
 
 @pytest.mark.gl
 @pytest.mark.slow
-def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_twice(fresh):
+def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_twice(fresh, monkeypatch):
+    beside = []
+    monkeypatch.setattr(scan, "begin_robust", lambda run: beside.append(len(journal(run.folder))) or "robust: beside")
     stamp.go(str(fresh))
     stamp.approve(str(fresh), by="tester")
     first = stamp.go(str(fresh), timeout_s=0.01)
@@ -91,6 +85,7 @@ def test_one_call_after_another_brings_it_to_its_description_and_does_nothing_tw
     assert list(gone.held) == [
         "check", "place", "approve", "draft", "lint", "physics", "scan", "expect", "causes", "stills", "video",
     ]  # fmt: skip
+    assert len(beside) == 1 and gone.robust == "beside" and "· robust  beside" in gone.text()
     assert gone.storyboard.endswith("storyboard") and "deepest penetration" in gone.held["physics"]
     done = journal(fresh)
     once = [("draft", ""), ("scan", ""), ("expect", ""), ("stage", "physics"), ("stage", "storyboard")]

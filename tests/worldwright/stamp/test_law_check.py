@@ -33,3 +33,45 @@ def test_one_whose_text_does_not_say_so_is_asked_whatever_its_facts_say(
     assert PLAIN in text
     program.write_text(text.replace(PLAIN, call).replace("if __name__", CONTROL + "if __name__"), encoding="utf-8")
     assert law_check.concerns(folder)
+
+
+@pytest.mark.parametrize(
+    "before",
+    [
+        "getattr(program, 'm' + 'ain')(build, control, duration=1.0)\n",
+        "run = program\n\nrun.main(build, control, duration=1.0)\n",
+        "from worldkit.program import *\n\nmain(build, control, duration=1.0)\n",
+        "program.__dict__['main'](build, control, duration=1.0)\n",
+        "import sys\n\nsys.modules['worldkit.program'].main(build, control, duration=1.0)\n",
+    ],
+)
+def test_a_call_beside_which_another_may_be_hidden_says_nothing(
+    accepted: Path, copy: Callable[[Path], Path], before: str
+) -> None:
+    folder = copy(accepted) / "accepted"
+    program = folder / "simulation.py"
+    text = program.read_text(encoding="utf-8")
+    program.write_text(text.replace("if __name__", f"{CONTROL}{before}\n\nif __name__"), encoding="utf-8")
+    assert law_check.concerns(folder)
+
+
+@pytest.mark.parametrize("where", ["def decoy():\n    ", "if False:\n    ", "while 0:\n    "])
+def test_a_call_that_may_never_be_made_says_nothing(accepted: Path, copy: Callable[[Path], Path], where: str) -> None:
+    folder = copy(accepted) / "accepted"
+    program = folder / "simulation.py"
+    text = program.read_text(encoding="utf-8")
+    assert text.count('if __name__ == "__main__":\n    ') == 1
+    program.write_text(text.replace('if __name__ == "__main__":\n    ', where), encoding="utf-8")
+    assert law_check.concerns(folder)
+
+
+def test_where_the_plan_lets_a_control_write_the_program_is_asked_whatever_its_text_says(
+    accepted: Path, copy: Callable[[Path], Path]
+) -> None:
+    folder = copy(accepted) / "accepted"
+    plan = folder / "plan.md"
+    text = plan.read_text(encoding="utf-8")
+    row = "interventions: [{kind: force, bodies: [ball], law: a push, trigger: always, source: a test}]"
+    assert "time_step: 0.002" in text
+    plan.write_text(text.replace("time_step: 0.002", f"time_step: 0.002\n{row}"), encoding="utf-8")
+    assert law_check.concerns(folder)

@@ -22,14 +22,6 @@ from worldwright.stamp import tools as stamp
 from worldwright.stamp.going import WrongError
 
 
-@pytest.fixture
-def fresh(tmp_path, small_plan):
-    """A run that is a plan and nothing else."""
-    (tmp_path / "ball").mkdir()
-    (tmp_path / "ball/plan.md").write_text(small_plan, encoding="utf-8")
-    return tmp_path / "ball"
-
-
 def to_the_end(folder):
     """Call as an agent does, until it is no longer running."""
     for _ in range(40):

@@ -29,8 +29,25 @@ UNPRICED = 0.0
 PROGRAM = "simulation.py"
 MEMORY_MB = 2048
 BUNDLE, FACTS = "world.mjz", "program.json"
+MOST_FACTS = 1 << 20
+"""Bytes of a program's facts, as the pass takes them."""
 ARCHIVE = ".mjz"
 """Suffix of a file that holds all of a world, so that its content alone says what it compiles to."""
+
+
+LACKED = {
+    "refused": ("no sandbox confines a program on this machine", "`worldwright doctor` says what it lacks"),
+    "out_of_memory": (
+        f"it takes more than {MEMORY_MB >> 10} GB of memory",
+        "free memory if it is short; else fewer copies, cells or parts",
+    ),
+    "timed_out": (
+        "it was not there after {wall:.0f} s",
+        "try again with less beside it; else fewer copies, cells or parts",
+    ),
+    "too_large": ("the engine was still compiling it after {wall:.0f} s", "fewer copies, cells or parts"),
+}
+"""Why a machine makes no world, and what helps, by the status."""
 
 
 @dataclass(frozen=True)
@@ -40,12 +57,14 @@ class Outcome:
     status: str
     """`compiled`; `nothing` (the program makes no world); `failed` (it raised); `timed_out`, `out_of_memory`, `died`;
     `too_large` (the engine's compiler was still at it);
-    `refused` (no sandbox here)."""
+    `refused` (no sandbox here); `wanting` (a tool or the machine itself failed on the way to it)."""
     arrays: "dict[str, np.ndarray]" = field(default_factory=dict)
     texts: dict[str, Any] = field(default_factory=dict)
     failure: str = ""
     """Name of the exception."""
     message: str = ""
+    next_move: str = ""
+    """With status `wanting`: what the machine lacks is to be had by this."""
     line: int | None = None
     """The line of the program that the exception passed, if it passed one."""
     warnings: tuple[str, ...] = ()
@@ -60,6 +79,19 @@ class Outcome:
         rows = [told.get(name) for name in ("taken", "seconds", "steps")] if isinstance(told, dict) else []
         numbers = [float(n) for n in rows if isinstance(n, int | float) and n > 0]
         return numbers[2] * numbers[1] / numbers[0] if len(numbers) == 3 else None
+
+    @property
+    def lacked(self) -> tuple[str, str] | None:
+        """What this machine lacked to make it, and what helps; None where that is not why there is no world."""
+        if self.status == "wanting":
+            return self.message, self.next_move
+        if self.status == "failed" and self.failure == "ModuleNotFoundError":
+            return (
+                f"a package is not installed: {self.message}",
+                "install it; `worldwright doctor` names what is missing",
+            )
+        cause, move = LACKED.get(self.status, ("", ""))
+        return (cause.format(wall=self.wall_s), move) if cause else None
 
 
 def world(path: Path, *, is_mjcf: bool = False, wall_s: float = WALL_S, lasting_s: float | None = None) -> Outcome:
@@ -148,14 +180,18 @@ def _compiled(path: Path, is_mjcf: bool, wall_s: float, lasting_s: float | None)
 def bundled(run: "Run", key: "EvidenceKey") -> tuple[Path, float] | None:
     """The world that the bundle pass has made of this program and plan, and how long it is simulated, s; None without."""
     from ...model.evidence.run import sha256_file
+    from ...stage.tools import read_plain
+
+    def said(name: str, most: int) -> dict[str, Any]:
+        return json_object.told(read_plain(folder / name, most) or b"") or {}
 
     folder = run.evidence(key) / "bundle"
     try:
-        result = json_object.read(folder / "result.json") or {}
+        result = said("result.json", json_object.MOST_BYTES)
         files = result.get("files") or {}
         if not result.get("ok") or any(sha256_file(folder / name) != files.get(name) for name in (BUNDLE, FACTS)):
             return None
-        return folder / BUNDLE, float((json_object.read(folder / FACTS) or {})["duration"])
+        return folder / BUNDLE, float(said(FACTS, MOST_FACTS)["duration"])
     except (OSError, KeyError, TypeError, ValueError, AttributeError):
         return None
 

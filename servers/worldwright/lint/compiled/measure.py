@@ -12,6 +12,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from worldkit import lights
+
 KINDS = ("body", "joint", "geom", "site", "camera", "light", "tendon", "actuator", "equality", "flex", "key", "mesh")
 COUNTS = {
     "body": "nbody",
@@ -40,6 +42,8 @@ KEPT = [
     "light_active",
     "light_diffuse",
     "light_ambient",
+    "light_bodyid",
+    "light_type",
     "mat_rgba",
     "mesh_vertnum",
     "mesh_facenum",
@@ -70,6 +74,7 @@ def facts(model: mujoco.MjModel) -> tuple[dict[str, np.ndarray], dict[str, Any]]
         "mesh_sha256": [_mesh_sha256(model, mesh) for mesh in range(model.nmesh)],
         "near_m": float(model.vis.map.znear * model.stat.extent),
         "counts": {"nq": model.nq, "nv": model.nv, "nu": model.nu, "nbody": model.nbody, "ngeom": model.ngeom},
+        "light": lights.of(model),
         "annotated_cameras": [n for n in _names_of(model, "text", model.ntext) if n.startswith("worldkit.camera.")],
     }
     arrays["gravity"], arrays["wind"] = np.array(option.gravity), np.array(option.wind)
@@ -136,6 +141,7 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "xmat": data.xmat.reshape(-1, 3, 3).copy(),
         "geom_xpos": data.geom_xpos.copy(),
         "geom_xmat": data.geom_xmat.reshape(-1, 3, 3).copy(),
+        "light_xpos": data.light_xpos.copy(),
         "cam_xpos": data.cam_xpos.copy(),
         "cam_xmat": data.cam_xmat.reshape(-1, 3, 3).copy(),
         "cvel": data.cvel.copy(),

@@ -5,6 +5,7 @@ program's world is held against it (`rules/model/acting`), however the program i
 """
 
 import hashlib
+import re
 import tempfile
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
@@ -40,8 +41,10 @@ def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
     """
     try:
         text = source(plan)
+    except CallOverError:
+        raise
     except (WorldwrightError, ValueError, KeyError) as error:
-        return fetch.Outcome("failed", failure=type(error).__name__, message=str(error))
+        return _none(error)
     near = imported.contents(plan)
     key = hashlib.sha256(repr((text, near)).encode()).hexdigest()
     kept = _KEPT.get(key)
@@ -51,12 +54,23 @@ def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
         except CallOverError:
             raise
         except WorldwrightError as error:
-            return fetch.Outcome("failed", failure=type(error).__name__, message=str(error))
+            return _none(error)
         kept = _compiled(text, near, wall_s)
         if kept.status == "compiled":
             _KEPT.clear()  # people work on one run at a time
             _KEPT[key] = kept
     return kept
+
+
+def _none(error: Exception) -> fetch.Outcome:
+    """No world, by the fault of the plan, or of the machine that was to make it."""
+    code, move = getattr(error, "code", ""), getattr(error, "next_move", "")
+    cause = str(getattr(error, "cause", error))
+    if code in MACHINES:
+        return fetch.Outcome("wanting", failure=code, message=cause, next_move=move or "worldwright doctor")
+    if missing := MISSING.search(cause):
+        return fetch.Outcome("failed", failure="ModuleNotFoundError", message=missing[0])
+    return fetch.Outcome("failed", failure=type(error).__name__, message=str(error))
 
 
 def beside(
@@ -83,6 +97,11 @@ def drafted(plan: Plan, program: str) -> bool:
         return False
 
 
+MACHINES = frozenset(
+    ("disk_full", "not_writable", "too_many_processes", "out_of_memory", "timed_out", "killed", "refused", "cancelled")
+)
+"""Codes of errors that say nothing of a plan."""
+MISSING = re.compile(r"No module named '[^']+'")
 _KEPT: dict[str, fetch.Outcome] = {}
 """The last plan's world: a program is linted many times against one plan."""
 

@@ -6,7 +6,6 @@ approved or accepted, and no line, report or recording of it lies where those of
 removes it.
 """
 
-import fcntl
 import os
 import time
 from collections.abc import Iterable, Iterator, Mapping
@@ -14,6 +13,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
+from .. import try_lock
 from .run import Run
 
 FOLDER, ACTION, LAID = "rehearsal", "rehearse", "laid"
@@ -56,7 +56,7 @@ def alone(here: Path, until: float = 0.0) -> Iterator[bool]:
         here.mkdir(exist_ok=True)
         handle = os.open(here, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
         try:
-            if _taken(handle) and here.is_dir() and here.stat().st_ino == os.fstat(handle).st_ino:
+            if try_lock.taken(handle) and here.is_dir() and here.stat().st_ino == os.fstat(handle).st_ino:
                 yield True
                 return
         finally:  # taken by another; or it was removed meanwhile, and what was taken is no more
@@ -65,11 +65,3 @@ def alone(here: Path, until: float = 0.0) -> Iterator[bool]:
             break
         time.sleep(POLL_S)
     yield False
-
-
-def _taken(handle: int) -> bool:
-    try:
-        fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return False
-    return True

@@ -23,7 +23,7 @@ class End(Frozen):
 
 
 class Tendon(Frozen):
-    """A rope (no longer than `length`) or a spring (`stiffness`) from one body to another."""
+    """A rope (no longer than `length`), a spring (`stiffness`) or a rod (`rod`) from one body to another."""
 
     name: str
     ends: tuple[End, ...] = Field(min_length=2)
@@ -32,12 +32,15 @@ class Tendon(Frozen):
     """Metres: a rope cannot be longer, a spring rests at it; None: as long as it is at the start."""
     slack: float = Field(0.0, ge=0)
     """Metres that a rope is longer than the way at the start; only without `length`."""
+    rod: bool = False
+    """It keeps the length that it has as laid out, pulled or pushed, turns freely at its two ends, and has no mass."""
     stiffness: float = Field(0.0, ge=0)
     """N/m: makes it a spring, which pulls when longer than `length` and pushes when shorter."""
     damping: float = Field(0.0, ge=0)
     """N·s/m; of a spring only: a slack rope brakes nothing."""
     time_constant: float | None = Field(None, gt=0)
-    """s; of a rope only: how soon it holds when it runs taut. None: 16 ms, which tows quietly; a swing wants four steps."""
+    """s; not of a spring: how soon it holds when it runs taut. None: a rope's 16 ms, which tows quietly (a swing wants four
+    steps); a rod's four steps."""
     pretension: float = Field(0.0, ge=0)
     """N with which a spring pulls at the start; instead of `length`."""
     diameter: float = Field(0.01, gt=0)
@@ -46,10 +49,15 @@ class Tendon(Frozen):
 
     @model_validator(mode="after")
     def _one_length(self) -> "Tendon":
+        if self.rod and (len(self.ends) > 2 or self.length or self.slack or self.stiffness or self.pretension):
+            raise ValueError(
+                "a `rod` has two ends and the length between them as laid out: give it no guides, `length`, `slack`, `stiffness` "
+                "or `pretension`"
+            )
         if self.length is not None and self.slack:
             raise ValueError("give `length` or `slack`, not both: slack is measured from the length at the start")
         if not self.stiffness and self.damping:
-            raise ValueError("`damping` needs `stiffness`: a rope only holds, a spring is damped")
+            raise ValueError("`damping` needs `stiffness`: a rope or rod only holds, a spring is damped")
         if self.pretension and (not self.stiffness or self.length is not None):
             raise ValueError(
                 "`pretension` is a spring's, and stands for its `length`: give one of them, and `stiffness`"

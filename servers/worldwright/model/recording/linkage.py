@@ -42,7 +42,7 @@ class Tie:
 
 @dataclass(frozen=True)
 class Rope:
-    """A tendon that may not be longer than its limit."""
+    """A tendon that may not be longer than its limit; a rod not shorter than another, either."""
 
     name: str
     bodies: tuple[int, ...]
@@ -50,6 +50,7 @@ class Rope:
     points: Array
     """(N, 3) in each body's own frame, m."""
     longest_m: float
+    shortest_m: float = 0.0
 
 
 def ropes(rows: Sequence[Mapping[str, Any]], index: Any) -> tuple[Rope, ...]:
@@ -60,6 +61,7 @@ def ropes(rows: Sequence[Mapping[str, Any]], index: Any) -> tuple[Rope, ...]:
             tuple(index(body) for body, _ in row["way"]),
             np.array([point for _, point in row["way"]], dtype=float),
             float(row["range"][1]),
+            float(row["range"][0]),
         )
         for row in rows
         if row.get("range") is not None and len(row.get("way") or ()) > 1

@@ -1,9 +1,8 @@
 """The distances that `layout_density.clearance` demands are free."""
 
-from ...model.errors import JobError
 from ...model.plan.layout_density import Clearance, read
 from ..anchors import shown
-from ..asking import simulate
+from ..asking import RefusedLayoutError, simulate
 from .checked_layout import CheckedLayout
 
 Pair = tuple[str, str]
@@ -33,7 +32,7 @@ def check(layout: CheckedLayout) -> None:
         if near and layout.exact:
             try:
                 distances = _exact(layout, near, clearance.min_m)
-            except JobError as error:
+            except RefusedLayoutError as error:
                 layout.problems.add(
                     "WP308", "too_close", f"clearances could not be measured: {error.cause}", error.next_move, path
                 )

@@ -3,10 +3,9 @@
 from collections import Counter
 from typing import Any
 
-from ...model.errors import JobError
 from ...model.plan import in_view
 from ...model.plan.implementation_steps import CameraRow
-from ..asking import simulate
+from ..asking import RefusedLayoutError, simulate
 from ..placement_results import Seen
 from .checked_layout import CheckedLayout
 
@@ -32,7 +31,7 @@ def check(layout: CheckedLayout) -> None:
         return
     try:
         result = simulate(layout.plan, layout.scene, everything=True, cameras=cameras, moved=layout.moved)
-    except JobError as error:
+    except RefusedLayoutError as error:
         layout.problems.add(
             "WP312",
             "out_of_view",

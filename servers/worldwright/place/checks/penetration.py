@@ -3,9 +3,8 @@
 import math
 from itertools import groupby
 
-from ...model.errors import JobError
 from ..anchors import shown
-from ..asking import simulate
+from ..asking import RefusedLayoutError, simulate
 from .checked_layout import OVERLAP_M, CheckedLayout
 
 
@@ -29,7 +28,7 @@ def check(layout: CheckedLayout) -> None:
         close = {pair[:2] for pair in pairs}
         try:
             touching = simulate(layout.plan, layout.scene, only=names, loose=True)["contacts"]
-        except JobError as error:
+        except RefusedLayoutError as error:
             layout.problems.add(
                 "WP302", "overlap", f"overlaps could not be tested exactly: {error.cause}", error.next_move
             )

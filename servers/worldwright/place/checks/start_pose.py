@@ -2,10 +2,9 @@
 
 from worldkit.tendons import ROUNDED_M
 
-from ...model.errors import JobError
 from ..anchors import shown
-from ..asking import drawn_only, simulate
-from ..start import filtered, hung, told
+from ..asking import RefusedLayoutError, drawn_only, simulate
+from ..start import Hung, filtered, hung, told
 from .checked_layout import OVERLAP_M, CheckedLayout
 
 STRETCH_M = 1e-3
@@ -14,12 +13,15 @@ GROUND = "ground"
 
 
 def check(layout: CheckedLayout) -> None:
-    """Report WP324 for a rope shorter than its way at the start, WP325 for parts on joints that collide there."""
+    """Report WP324 for a rope shorter than its way at the start, or a rod of another length, WP325 for parts on joints that collide there."""
     plan = layout.plan
     layout.at_start += told(plan, layout.scene)
     for index, tendon in enumerate(plan.topology.tendons):
         rope = next((one for one in hung(plan, layout.scene) if one.tendon.name == tendon.name), None)
         if rope is None or tendon.stiffness:
+            continue
+        if tendon.rod:
+            _rod(layout, index, rope)
             continue
         too_short = rope.length_m < rope.laid_m - ROUNDED_M
         if too_short or rope.slack_m < -STRETCH_M:
@@ -35,6 +37,20 @@ def check(layout: CheckedLayout) -> None:
             )
     if layout.moved and layout.exact:
         _collisions(layout)
+
+
+def _rod(layout: CheckedLayout, index: int, rod: Hung) -> None:
+    """Report a rod that is longer or shorter than the way between its ends where `initial_motion` starts them."""
+    if abs(rod.slack_m) <= STRETCH_M:
+        return
+    layout.problems.add(
+        "WP324",
+        "rope_too_short",
+        f"rod `{rod.tendon.name}` is {shown(round(rod.length_m, 4))} m long, but at the start angle of its joint its ends are "
+        f"{shown(round(rod.way_m, 4))} m apart",
+        "lay both ends out where the rod fits between them, or start the joint at its laid-out position",
+        ("topology", "tendons", index),
+    )
 
 
 def _collisions(layout: CheckedLayout) -> None:
@@ -54,7 +70,7 @@ def _collisions(layout: CheckedLayout) -> None:
         if not touching:
             return
         laid = simulate(layout.plan, layout.scene, loose=True, ground=True)["contacts"]
-    except JobError as error:
+    except RefusedLayoutError as error:
         layout.problems.add(
             "WP325", "collides_at_start", f"the start pose could not be tested: {error.cause}", error.next_move
         )

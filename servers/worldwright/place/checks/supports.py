@@ -2,11 +2,10 @@
 
 from collections import defaultdict
 
-from ...model.errors import JobError
 from ...model.plan.committed import AssetRow, SceneObject
 from ...model.plan.layout import PlacedObject
 from ..anchors import TOLERANCE_M, Box, Surface, shown
-from ..asking import simulate, tied
+from ..asking import RefusedLayoutError, simulate, tied
 from ..footprints import area_of, centre_of_mass, clipped, footprint, hull, inset, rows, turned
 from .checked_layout import CONTACT_M, CheckedLayout
 
@@ -168,7 +167,7 @@ def _drops(layout: CheckedLayout, floating: dict[str, tuple[PlacedObject, float]
         return {}
     try:
         told = simulate(layout.plan, layout.scene, falling=over)["drops"]
-    except JobError:
+    except RefusedLayoutError:
         return {}  # what the pre-roll cannot take is told by the checks that cannot do without it
     found = {}
     for name, way, below in told:

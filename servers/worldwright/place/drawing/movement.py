@@ -148,6 +148,8 @@ def _hung_words(one: Hung) -> str:
     name, slack = one.tendon.name, one.slack_m
     if one.tendon.stiffness:
         return f"{name} ({shown(round(one.tendon.stiffness, 1))} N/m)"
+    if one.tendon.rod:
+        return f"{name} (rod)"
     if abs(slack) < 1e-6:
         return f"{name} (taut)"
     return f"{name} ({'slack' if slack > 0 else 'too short'} by {shown(round(abs(slack), 3))} m)"
@@ -155,7 +157,7 @@ def _hung_words(one: Hung) -> str:
 
 def _sagging(points: list[Vec3], one: Hung) -> list[Vec3]:
     """The way of a rope, whose longest stretch hangs by the slack: a parabola with a sag of sqrt(3/8 · chord · slack)."""
-    if one.slack_m < 1e-6:
+    if one.slack_m < 1e-6 or one.tendon.rod:
         return points
     longest = max(range(len(points) - 1), key=lambda i: math.dist(points[i], points[i + 1]))
     a, b = np.array(points[longest]), np.array(points[longest + 1])

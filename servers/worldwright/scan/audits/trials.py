@@ -38,6 +38,9 @@ class Trials:
     None: nothing is remembered."""
     jobs: dict[str, str] = field(default_factory=dict)
     """The jobs under way, by label."""
+    at_once: int = AT_ONCE
+    still_s: float | None = None
+    """A repetition ends when nothing advances for so long, s; None: as any pass does."""
 
     def __post_init__(self) -> None:
         if self.memory is not None and self.memory.is_file():
@@ -65,7 +68,7 @@ class Trials:
         while True:
             running = 0
             for label in self.pending:
-                if running >= AT_ONCE:
+                if running >= self.at_once:
                     break
                 try:
                     status = self._status(label)
@@ -104,7 +107,7 @@ class Trials:
                 return wait(str(self.run.folder), job=self.jobs[label], timeout_s=0)
             except NotFoundError:  # its folder was cleared away
                 self._forget(label)
-        status = run_variant(self.run, variant_name(label), self.words[label], timeout_s=0)
+        status = run_variant(self.run, variant_name(label), self.words[label], still_s=self.still_s, timeout_s=0)
         if not status.ended:
             self.jobs[label] = status.job
             self._remember()

@@ -1,7 +1,7 @@
 """The plan makes no world to compare with.
 
 What it does: says why the plan's own draft could not be compiled, so that nothing of what acts in the program's world was
-held against it.
+held against it; and whether that is the plan's fault, or this machine lacks what making it takes.
 
 Why is this bad: nobody approved what the plan cannot say, and a world that is compared with nothing can be anything.
 
@@ -28,6 +28,10 @@ def check(view: ModelView) -> Iterator[Problem]:
     """Check the outcome of the plan's draft."""
     planned = view.planned
     if planned is not None and planned.outcome.status != "compiled":
+        if lacked := planned.outcome.lacked:
+            said = "what acts could not be held against the plan, whose world this machine could not make"
+            yield Problem(f"{said}: {lacked[0]}", lacked[1], 1)
+            return
         why = " ".join((planned.outcome.message or planned.outcome.status).split())[:300]
         yield Problem(
             f"what acts could not be held against the plan, which makes no world: {why}", "correct the plan", 1

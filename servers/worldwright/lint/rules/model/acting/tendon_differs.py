@@ -1,4 +1,4 @@
-"""A rope or spring acts otherwise than the plan's, or is not the plan's at all.
+"""A rope, spring or rod acts otherwise than the plan's, or is not the plan's at all.
 
 What it does: compares every tendon with the one of that name in the world of the plan's draft: its limit, stiffness and rest,
 damping, friction, armature, yield, how firm the limit is, and the bodies and points it is fastened to. Finds tendons that
@@ -17,14 +17,19 @@ import numpy as np
 from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
-from ._twins import SOUND, changed, compared, missing, names, owner, shown, twins, unplanned, yields
+from ._twins import PLAN, SOUND, changed, compared, missing, names, owner, shown, twins, unplanned, yields
 
 CODE = "WM166"
 SEVERITY = "error"
 SCOPE = "acts"
 HIDDEN = "tendons.spring(spec, 'hidden', (('world', (0, 0, 1)), ('crate', (0, 0, .1))), stiffness=500, length=0.1)"
-GOOD = SOUND
+ENDS = "(('world', (1.5, 0, 1.5)), ('arm', (1.5, 0, 0.5)))"
+STRUT = {"name": "strut", "ends": [{"offset": [1.5, 0, 1.5]}, {"body": "arm"}], "rod": True}
+ROD_PLAN = PLAN | {"topology": PLAN["topology"] | {"tendons": [*PLAN["topology"]["tendons"], STRUT]}}  # type: ignore[operator, index]
+GOOD = (*SOUND, (changed(f"tendons.rod(spec, 'strut', {ENDS})")[0], ROD_PLAN))
 BAD = (
+    (changed(f"tendons.rope(spec, 'strut', {ENDS})")[0], ROD_PLAN),
+    (changed(f"tendons.rod(spec, 'strut', {ENDS}, time_constant=0.2)")[0], ROD_PLAN),
     changed(HIDDEN),
     changed("spec.tendon('rope').range = (0, 1.6)"),
     changed("spec.tendon('rope').stiffness[0] = 20"),

@@ -1,0 +1,88 @@
+"""The audit of robustness, made by itself beside other work, once a walk has come to its pictures.
+
+It takes seven more physics passes, and nothing waits for them. So a process of its own makes them one at a time, with the
+lowest priority; what a claim rests on (the causes, acceptance's own proof) is never repeated for it, nor it for them. What is
+there already costs nothing: `robust.json` is not made twice, and a walk that is taken up again joins what is under way.
+"""
+
+import os
+import subprocess
+import sys
+from contextlib import suppress
+
+from pydantic import ValidationError
+
+from ...model import try_lock
+from ...model.evidence.audits import RobustReport
+from ...model.evidence.reports import EvidenceKey, ExpectReport
+from ...model.evidence.run import Run
+from ...model.plan.committed import Plan
+from ...model.recording.trajectory import Trajectory
+from ...model.storage import writing
+from . import robustness, running
+from .trials import Trials
+
+MODULE = "worldwright.robust_beside"
+"""What the process runs; it stands at the top of the house, since it writes the run's report anew at its end."""
+SWITCH, OFF = "WORLDWRIGHT_BESIDE", "0"
+"""The variable that keeps a machine from doing anything unasked, and how."""
+LOWEST = 19
+STILL_S = 3600.0
+"""With the lowest priority beside much other work, a pass may advance as slowly as this."""
+
+
+def begin(run: Run, key: EvidenceKey) -> str:
+    """Begin the audit of the recording of this key, unless it is done or under way.
+
+    Returns:
+        What there is to say of it, one line; empty where no measured claim holds, or nothing may go on unasked.
+    """
+    folder = run.evidence(key)
+    if (done := _kept(run, key)) is not None:
+        return done.text().splitlines()[-1]
+    if os.environ.get(SWITCH) == OFF or not _holds(run, key):
+        return ""
+    with writing("the audit of robustness", folder):
+        handle = os.open(folder, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        try:
+            if try_lock.taken(handle):
+                subprocess.Popen(
+                    [sys.executable, "-m", MODULE, str(run.folder), str(handle)],
+                    stdin=subprocess.DEVNULL,
+                    stdout=subprocess.DEVNULL,
+                    stderr=subprocess.DEVNULL,
+                    start_new_session=True,
+                    pass_fds=(handle,),
+                )
+        finally:  # the process holds the lock by its own copy, and as long as it lives
+            os.close(handle)
+    return "robust: the worlds a little otherwise are simulated beside, one by one; the report will tell"
+
+
+def finish(run: Run, key: EvidenceKey, plan: Plan, trajectory: Trajectory) -> RobustReport | None:
+    """Make the audit to its end; None where it is there already. Lowers the priority of the calling process for good."""
+    if _kept(run, key) is not None:
+        return None
+    with suppress(OSError):
+        os.nice(LOWEST)
+    trials = Trials(run, at_once=1, still_s=STILL_S)
+    robustness.ask(trials)
+    trials.collect(float("inf"))
+    report = robustness.report(trajectory, plan, trials)
+    running.keep_robust(run, key, report)
+    return report
+
+
+def _kept(run: Run, key: EvidenceKey) -> RobustReport | None:
+    """The report of this key; None where there is none that can be read."""
+    with suppress(OSError, ValidationError):
+        return RobustReport.model_validate_json((run.evidence(key) / "robust.json").read_bytes())
+    return None
+
+
+def _holds(run: Run, key: EvidenceKey) -> bool:
+    """Whether any claim was measured and holds."""
+    with suppress(OSError, ValidationError):
+        report = ExpectReport.model_validate_json((run.evidence(key) / "expect.json").read_bytes())
+        return any(e.status == "holds" and not e.needs_stills for o in report.objectives for e in o.expectations)
+    return False
