@@ -180,8 +180,8 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
 
     before = [Before(n, open_at(x)) for n, x in enumerate((0.4, -0.5))]
     there = drawing.over(before, open_at(-0.1), 0, 4)
-    light, guides, *second = asked
-    assert [light, guides] == second and light == guides and 0.005 < light < 0.25
+    assert len(asked) % 2 == 0 and len(set(asked)) == 1, "of each moment the same is walked"
+    assert 0.005 < asked[0] < 0.25
     apart = np.abs(there - whole(-0.1))
     assert apart.mean() < 0.2 and np.percentile(apart, 99.5) <= 3
     assert np.abs(there - whole(0.4)).max() > 60, "the ball stands elsewhere"
