@@ -20,6 +20,7 @@ from .ground_rings import rings
 from .leaning import facing, upright
 from .relief import displaced
 from .rounded import Mesh
+from .two_sides import Sides, two_sided
 from .unwrapped import along_sides, around_centre
 
 if TYPE_CHECKING:
@@ -229,10 +230,12 @@ class Figures:
         figure = groups.setdefault(key, Figure(coating, glow, absorbs=entry.absorbs if see_through else NOTHING))
         figure.geoms.append(geom)
         figure.meshed.append(kind == "mesh" and not see_through)
-        figure.meshes.append(shape_of(self.model, batch, numbers, geom))
+        mesh = shape_of(self.model, batch, numbers, geom)
+        sides = two_sided(mesh) if figure.meshed[-1] else Sides(mesh, np.arange(len(mesh.points)))
+        figure.meshes.append(sides.mesh)
         if geom in self._swaying:
             rows, _ = unit_shapes.mesh(self.model, batch.shape[1])
-            figure.sways.append(found_again(figure.meshes[-1].points, rows))
+            figure.sways.append(found_again(mesh.points, rows)[sides.origin])
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
         """Meshes of the endless planes, none of which moves."""
