@@ -1,6 +1,7 @@
 """Of a still camera's pictures only what differs is traced anew, and the picture is the one that is traced as a whole."""
 
 from functools import partial
+from types import SimpleNamespace
 
 import mujoco
 import numpy as np
@@ -76,8 +77,11 @@ def test_of_a_figure_of_many_each_geom_that_moved_is_found_by_itself():
     now[0, 9], now[1, 10] = 1e-9, 2.0
     ((was, stands),) = figure.moved(before, now)
     assert np.allclose(was, figure.meshes[1].points) and np.allclose(stands - was, (0, 2, 0))
-    assert figures.Figures.how_many_moved((before, before), (before, now)) == 1
-    assert figures.Figures.how_many_moved((before,) * 9, (now,) * 9) == 9, "of all figures: loose things are one each"
+    some = SimpleNamespace(all=[figures.Figure(None, np.zeros(3), strip=number == 4) for number in range(9)])
+    assert figures.Figures.how_many_moved(some, (before,) * 9, (*(before,) * 8, now)) == 1
+    assert figures.Figures.how_many_moved(some, (before,) * 9, (now,) * 9) == 8, (
+        "loose things are one each, with their edges"
+    )
 
 
 def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
