@@ -8,7 +8,17 @@ import pytest
 
 from worldengine.film import renderers
 from worldengine.film.drawn_frames import Frames
-from worldengine.film.renderers.traced import coatings, denoised, figures, leaning, rounded, tracing, unwrapped, variant
+from worldengine.film.renderers.traced import (
+    coatings,
+    denoised,
+    figures,
+    glimpses,
+    leaning,
+    rounded,
+    tracing,
+    unwrapped,
+    variant,
+)
 from worldengine.film.renderers.traced.half_room import Walls
 from worldkit import bodies, cameras, materials, scene
 from worldkit.settings import ROOM
@@ -284,12 +294,10 @@ def test_looks_become_materials_of_their_kind() -> None:
 
 
 def test_the_moments_of_a_moving_camera_fit_into_memory():
-    from worldengine.film.renderers.traced import tracing
-
-    assert tracing.glimpses_apart(8, 1280 * 720) == 1
+    assert glimpses.glimpses_apart(8, 1280 * 720) == 1
     for pixels in (1920 * 1080, 3840 * 2160, 1 << 26):
-        kept = -(-32 // tracing.glimpses_apart(32, pixels))
-        assert kept == 1 or kept * 44 * pixels <= tracing.GLIMPSES_BYTES
+        kept = -(-32 // glimpses.glimpses_apart(32, pixels))
+        assert kept == 1 or kept * 44 * pixels <= glimpses.GLIMPSES_BYTES
 
 
 def test_only_meshes_of_any_shape_are_turned_to_the_eye_and_only_where_they_lean():

@@ -15,15 +15,24 @@ ASIDE_GROUP = 5
 """The group that a ray does not meet."""
 
 
+BEYOND = 1.3
+"""Gusts and flutter carry a corner so many times as far as its weight says, at most."""
+
+
 class Swaying:
-    """The meshes of a dressed model that sway, with their corners' weights and phases."""
+    """The meshes of a dressed model that sway, with their corners' weights and phases.
+
+    Moving all blades of a meadow takes longer than anything else that is asked of a frame, so a mesh is moved only when a ray
+    meets the box that the breeze cannot carry it out of.
+    """
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
         self.geoms = np.array(sorted(swaying.geoms(model)), dtype=int)
         self._group = np.array(model.geom_group[self.geoms])
-        self._parts = [_corners(model, geom) for geom in self.geoms]
-        self._placed: list[np.ndarray] = []
+        self._parts: dict[int, tuple[np.ndarray, np.ndarray, np.ndarray]] = {}
+        self._placed: dict[int, np.ndarray] = {}
+        self._blown: tuple[mujoco.MjData, tuple[float, float, float]] | None = None
 
     def __enter__(self) -> Swaying:
         """Let MuJoCo's rays, which know the meshes only in calm air, pass them."""
@@ -34,11 +43,29 @@ class Swaying:
         self.model.geom_group[self.geoms] = self._group
 
     def blow(self, data: mujoco.MjData, breeze: tuple[float, float, float]) -> None:
-        """Move their corners to where they are in `data`, in a wind towards x and y, m/s, at a time, s."""
-        self._placed = []
-        for geom, (points, told, _) in zip(self.geoms, self._parts, strict=True):
-            there = points @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
-            self._placed.append(there + swaying.swayed(there, told[:, 0], told[:, 1], breeze))
+        """Let them be where they are in `data`, in a wind towards x and y, m/s, at a time, s."""
+        self._placed, self._blown = {}, (data, breeze)
+
+    def _there(self, geom: int, eye: np.ndarray, way: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
+        """A mesh's corners (C, 3), m, where the breeze has carried them, and its faces; None where a ray does not come near it."""
+        assert self._blown is not None
+        data, breeze = self._blown
+        if geom not in self._parts:
+            self._parts[geom] = _corners(self.model, geom)
+        points, told, faces = self._parts[geom]
+        turn = data.geom_xmat[geom].reshape(3, 3)
+        start, along = (eye - data.geom_xpos[geom]) @ turn, way @ turn
+        reach = BEYOND * swaying.MOST * float(np.abs(told[:, 0]).max(initial=0.0))
+        middle, half = self.model.geom_aabb[geom, :3], self.model.geom_aabb[geom, 3:] + reach
+        with np.errstate(divide="ignore", invalid="ignore"):
+            ends = np.stack([(middle - half - start) / along, (middle + half - start) / along])
+        enters, leaves = np.nanmax(ends.min(axis=0)), np.nanmin(ends.max(axis=0))
+        if enters > leaves or leaves < 0:
+            return None
+        if geom not in self._placed:
+            there = points @ turn.T + data.geom_xpos[geom]
+            self._placed[geom] = there + swaying.swayed(there, told[:, 0], told[:, 1], breeze)
+        return self._placed[geom], faces
 
     def nearest(self, eye: np.ndarray, way: np.ndarray, away: float) -> tuple[float, int]:
         """How far from `eye` (3,) along `way` (3,), of length 1, the nearest stands, m, and its geom; (`away`, -1) if none does."""
@@ -46,7 +73,11 @@ class Swaying:
         one /= np.linalg.norm(one)
         basis = np.stack([one, np.cross(way, one), way])
         found, owner = away, -1
-        for geom, points, (_, _, faces) in zip(self.geoms, self._placed, self._parts, strict=True):
+        for geom in self.geoms if self._blown is not None else ():
+            met_there = self._there(int(geom), eye, way)
+            if met_there is None:
+                continue
+            points, faces = met_there
             flat = (points - eye) @ basis.T  # as the ray sees them: it runs along the third axis
             a, b, c = (flat[faces[:, k]] for k in range(3))
             shares = np.stack([_cross(b, c), _cross(c, a), _cross(a, b)], axis=1)

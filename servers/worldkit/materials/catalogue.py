@@ -19,7 +19,7 @@ eye, since nothing measured tells it."""
 def _wood(description: str, name: str, tones: tuple, rings: float = 26.0, pore: float = 0.5) -> Look:
     return Look(
         description, paint="wood.solid", arguments=(name, *tones, rings, pore), tile_m=0.5, grain=True,
-        apart=0.22, roughness=0.38, coat=0.25, relief_m=0.0006,
+        apart=0.22, roughness=0.38, coat=0.25, relief_m=0.0006, worn_m=0.005,
     )  # fmt: skip
 
 
@@ -43,12 +43,21 @@ def _metal(description: str, metal: str, roughness: float, met: float = 1.0) -> 
     return Look(description, rgba=(*bare(metal, met), 1.0), roughness=roughness, metallic=1.0)
 
 
+def _painted(description: str, rgb: tuple[float, float, float], beneath: tuple[float, float, float]) -> Look:
+    return Look(
+        description, paint="fibre.worn", arguments=(f"paint{rgb}", rgb, 0.8), tile_m=0.4, roughness=0.36, coat=0.18,
+        worn_m=0.006, beneath=beneath,
+    )  # fmt: skip
+
+
 def _felt(description: str, rgb: tuple[float, float, float]) -> Look:
     return Look(
         description, paint="fibre.felt", arguments=(f"felt{rgb}", rgb), tile_m=0.22, roughness=0.95, sheen=0.35,
         relief_m=0.0004, vary=0.10,
     )  # fmt: skip
 
+
+PRIMER, BARE_PINE = (0.41, 0.40, 0.385), (0.76, 0.60, 0.40)
 
 POOL_TONES = {
     "yellow": ((0.93, 0.68, 0.06), "1", "9"),
@@ -113,19 +122,19 @@ LIBRARY: dict[str, Look] = {
     "ceramic_white": _ceramic("Glazed white porcelain", (0.93, 0.925, 0.90)),
     "ceramic_blue": _ceramic("Cobalt glazed stoneware", (0.09, 0.25, 0.55)),
     "ceramic_green": _ceramic("Celadon glaze", (0.50, 0.66, 0.55)),
-    "ceramic_terracotta": Look("Unglazed red clay", paint="fibre.worn", arguments=("terracotta", (0.72, 0.36, 0.23), 1.6), tile_m=0.3, roughness=0.85, relief_m=0.0004, apart=0.1),
+    "ceramic_terracotta": Look("Unglazed red clay", paint="fibre.worn", arguments=("terracotta", (0.72, 0.36, 0.23), 1.6), tile_m=0.3, roughness=0.85, relief_m=0.0004, apart=0.1, worn_m=0.004),
     "tiles_white": Look("White glazed tiles with grey joints", paint="masonry.tiles", arguments=("tiles", (0.90, 0.90, 0.88), (0.55, 0.54, 0.52)), tile_m=0.8, roughness=0.15, coat=0.6, relief_m=0.0015),
     "tiles_chequer": Look("Black and cream chequered tiles", paint="masonry.tiles", arguments=("chequer", (0.88, 0.85, 0.78), (0.42, 0.40, 0.38), 4, (0.10, 0.10, 0.11)), tile_m=1.2, roughness=0.18, coat=0.5, relief_m=0.001),
-    "marble_white": Look("Polished white marble with grey veins", paint="stone.marble", arguments=("carrara", (0.94, 0.935, 0.925), (0.84, 0.845, 0.85), (0.40, 0.41, 0.44)), tile_m=1.1, roughness=0.12, coat=0.6, apart=0.04),
+    "marble_white": Look("Polished white marble with grey veins", paint="stone.marble", arguments=("carrara", (0.94, 0.935, 0.925), (0.84, 0.845, 0.85), (0.40, 0.41, 0.44)), tile_m=1.1, roughness=0.12, coat=0.6, apart=0.04, worn_m=0.003),
     "marble_black": Look("Polished black marble with white veins", paint="stone.marble", arguments=("marquina", (0.055, 0.055, 0.06), (0.10, 0.10, 0.105), (0.80, 0.79, 0.76)), tile_m=1.1, roughness=0.12, coat=0.6),
-    "granite": Look("Polished grey granite", paint="stone.granite", arguments=("granite", (0.56, 0.55, 0.54), (0.36, 0.35, 0.35), (0.16, 0.155, 0.15)), tile_m=0.45, roughness=0.2, coat=0.4, apart=0.1),
-    "slate": Look("Dark split slate", paint="stone.concrete", arguments=("slate", (0.21, 0.225, 0.24), 1.0), tile_m=1.2, roughness=0.55, relief_m=0.002, vary=0.06, apart=0.12),
-    "concrete": Look("Smooth trowelled concrete", paint="stone.concrete", arguments=("concrete", (0.63, 0.62, 0.60)), tile_m=1.8, roughness=0.60, relief_m=0.0012, vary=0.10, apart=0.07),
+    "granite": Look("Polished grey granite", paint="stone.granite", arguments=("granite", (0.56, 0.55, 0.54), (0.36, 0.35, 0.35), (0.16, 0.155, 0.15)), tile_m=0.45, roughness=0.2, coat=0.4, apart=0.1, worn_m=0.003),
+    "slate": Look("Dark split slate", paint="stone.concrete", arguments=("slate", (0.21, 0.225, 0.24), 1.0), tile_m=1.2, roughness=0.55, relief_m=0.002, vary=0.06, apart=0.12, worn_m=0.005),
+    "concrete": Look("Smooth trowelled concrete", paint="stone.concrete", arguments=("concrete", (0.63, 0.62, 0.60)), tile_m=1.8, roughness=0.60, relief_m=0.0012, vary=0.10, apart=0.07, worn_m=0.008),
     "plaster": Look("Warm white wall plaster", paint="stone.concrete", arguments=("plaster", (0.90, 0.885, 0.86), 0.12), tile_m=1.6, roughness=0.9, relief_m=0.0006),
     "backdrop": Look("Seamless warm grey studio floor", paint="stone.concrete", arguments=("backdrop", (0.71, 0.685, 0.655), 0.22), tile_m=2.4, roughness=0.48, coat=0.10, vary=0.04),
     "stone": Look("Irregular sandstone paving", paint="stone.slabs", arguments=("stone", (0.74, 0.69, 0.60), (0.50, 0.46, 0.40), (0.40, 0.38, 0.34)), tile_m=1.8, roughness=0.8, relief_m=0.010, vary=0.12, apart=0.1),
     "asphalt": Look("Road asphalt", paint="stone.asphalt", arguments=("asphalt", (0.27, 0.27, 0.275)), tile_m=0.6, roughness=0.85, relief_m=0.003, vary=0.2),
-    "brick": Look("Red brick in running bond", paint="masonry.bricks", arguments=("brick", (0.66, 0.33, 0.23), (0.43, 0.19, 0.135), (0.66, 0.62, 0.56)), tile_m=0.66, roughness=0.85, relief_m=0.006, apart=0.2),
+    "brick": Look("Red brick in running bond", paint="masonry.bricks", arguments=("brick", (0.66, 0.33, 0.23), (0.43, 0.19, 0.135), (0.66, 0.62, 0.56)), tile_m=0.66, roughness=0.85, relief_m=0.006, apart=0.2, worn_m=0.008),
     "sand": Look("Pale beach sand", paint="stone.sand", arguments=("sand", (0.90, 0.79, 0.60), (0.70, 0.57, 0.39)), tile_m=1.3, roughness=0.95, relief_m=0.008, vary=0.15),
     "soil": Look("Dark garden soil", paint="stone.asphalt", arguments=("soil", (0.33, 0.235, 0.165)), tile_m=0.5, roughness=0.95, relief_m=0.006, vary=0.25),
     "grass": Look("Mown lawn", paint="stone.grass", arguments=("grass", (0.50, 0.57, 0.27), (0.295, 0.40, 0.15), (0.10, 0.17, 0.05)), tile_m=1.1, roughness=0.92, sheen=0.25, relief_m=0.02, vary=0.16),
@@ -138,7 +147,7 @@ LIBRARY: dict[str, Look] = {
     "bark": Look("Bark of an oak: grey-brown ridges and deep cracks along the trunk", paint="nature.bark", arguments=("bark", (0.53, 0.46, 0.38), (0.36, 0.29, 0.225), (0.11, 0.085, 0.065), (0.33, 0.37, 0.19)), tile_m=0.32, grain=True, roughness=0.92, relief_m=0.006, vary=0.12, apart=0.15),
     "rock": Look("Weathered river rock", paint="nature.rock", arguments=("rock", (0.60, 0.58, 0.55), (0.27, 0.265, 0.26), (0.56, 0.58, 0.44)), tile_m=0.7, roughness=0.85, relief_m=0.014, vary=0.1, apart=0.2),
     "steel_brushed": Look("Brushed stainless steel", paint="fibre.brushed", arguments=("steel", bare("steel")), tile_m=0.35, grain=True, roughness=0.36, metallic=1.0, relief_m=0.00012),
-    "steel_dark": Look("Blackened steel", paint="fibre.worn", arguments=("dark steel", (0.30, 0.30, 0.315), 1.5), tile_m=0.4, roughness=0.42, metallic=1.0),
+    "steel_dark": Look("Blackened steel", paint="fibre.worn", arguments=("dark steel", (0.30, 0.30, 0.315), 1.5), tile_m=0.4, roughness=0.42, metallic=1.0, worn_m=0.004, beneath=bare("steel")),
     "aluminium": _metal("Bead-blasted aluminium", "aluminium", 0.42),
     "chrome": _metal("Mirror chrome", "chromium", 0.06),
     "brass": _metal("Polished brass", "brass", 0.20, HANDLED),
@@ -149,6 +158,14 @@ LIBRARY: dict[str, Look] = {
     "titanium": _metal("Satin titanium", "titanium", 0.34),
     "iron_cast": Look("Grey cast iron, rough from the mould", paint="fibre.worn", arguments=("cast iron", bare("iron", CAST), 2.0), tile_m=0.2, roughness=0.62, metallic=1.0, relief_m=0.0006),
     "iron_rusty": Look("Rusty iron", paint="fibre.rust", arguments=("rust", (0.33, 0.30, 0.28), (0.50, 0.25, 0.12)), tile_m=0.6, roughness=0.85, metallic=0.25, relief_m=0.001, apart=0.1),
+    "paint_red": _painted("Red paint on metal, chipped to the primer at its edges", (0.60, 0.075, 0.06), PRIMER),
+    "paint_blue": _painted("Blue paint on metal, chipped to the primer at its edges", (0.07, 0.20, 0.47), PRIMER),
+    "paint_green": _painted("Green paint on metal, chipped to the primer at its edges", (0.09, 0.30, 0.16), PRIMER),
+    "paint_yellow": _painted("Yellow paint on metal, chipped to the primer at its edges", (0.88, 0.64, 0.07), PRIMER),
+    "paint_grey": _painted("Grey paint on metal, chipped to bare steel at its edges", (0.33, 0.345, 0.36), (0.60, 0.59, 0.575)),
+    "paint_wood_white": _painted("White paint on wood, rubbed to the wood at its edges", (0.87, 0.86, 0.82), BARE_PINE),
+    "paint_wood_blue": _painted("Blue paint on wood, rubbed to the wood at its edges", (0.24, 0.41, 0.53), BARE_PINE),
+    "paint_wood_green": _painted("Green paint on wood, rubbed to the wood at its edges", (0.33, 0.45, 0.34), BARE_PINE),
     "glass_clear": Look("Clear glass", rgba=(0.95, 0.98, 0.97, 0.25), roughness=0.03, clear=1.0),
     "glass_green": Look("Green bottle glass, deeper the thicker it is", rgba=(0.60, 0.86, 0.67, 0.35), roughness=0.03, clear=1.0, index=1.52, absorbs=(105.0, 28.0, 90.0)),
     "glass_brown": Look("Brown bottle glass, deeper the thicker it is", rgba=(0.62, 0.36, 0.12, 0.45), roughness=0.03, clear=1.0, index=1.52, absorbs=(55.0, 150.0, 420.0)),
@@ -163,7 +180,7 @@ LIBRARY: dict[str, Look] = {
     "plastic_white": _plastic("White moulded plastic", (0.90, 0.90, 0.885)),
     "plastic_grey": _plastic("Grey moulded plastic", (0.46, 0.47, 0.48)),
     "plastic_black": _plastic("Black moulded plastic", (0.055, 0.055, 0.06)),
-    "leather_brown": Look("Brown leather", paint="fibre.leather", arguments=("leather", (0.42, 0.235, 0.135)), tile_m=0.13, roughness=0.48, coat=0.12, relief_m=0.0006, apart=0.08),
+    "leather_brown": Look("Brown leather", paint="fibre.leather", arguments=("leather", (0.42, 0.235, 0.135)), tile_m=0.13, roughness=0.48, coat=0.12, relief_m=0.0006, apart=0.08, worn_m=0.003),
     "leather_black": Look("Black leather", paint="fibre.leather", arguments=("leather black", (0.085, 0.08, 0.08)), tile_m=0.13, roughness=0.45, coat=0.12, relief_m=0.0006),
     "fabric_linen": Look("Natural linen", paint="fibre.weave", arguments=("linen", (0.83, 0.775, 0.67), (0.77, 0.71, 0.60), 40), tile_m=0.07, roughness=0.95, sheen=0.25, relief_m=0.0004),
     "fabric_blue": Look("Blue cotton", paint="fibre.weave", arguments=("cotton", (0.17, 0.28, 0.50), (0.22, 0.34, 0.57), 48, 0.6), tile_m=0.06, roughness=0.95, sheen=0.3, relief_m=0.0003),
@@ -171,7 +188,7 @@ LIBRARY: dict[str, Look] = {
     "carpet": Look("Short-pile beige carpet", paint="fibre.felt", arguments=("carpet", (0.62, 0.56, 0.48)), tile_m=0.35, roughness=0.97, sheen=0.35, relief_m=0.003, vary=0.10),
     "paper": Look("White paper", paint="fibre.paper", arguments=("paper", (0.94, 0.935, 0.91)), tile_m=0.2, roughness=0.9),
     "paper_kraft": Look("Brown kraft paper", paint="fibre.paper", arguments=("kraft", (0.68, 0.52, 0.35), 2.5), tile_m=0.2, roughness=0.88, apart=0.1),
-    "cardboard": Look("Corrugated cardboard", paint="fibre.cardboard", arguments=("cardboard", (0.69, 0.52, 0.345)), tile_m=0.3, roughness=0.88, relief_m=0.0005, apart=0.1),
+    "cardboard": Look("Corrugated cardboard", paint="fibre.cardboard", arguments=("cardboard", (0.69, 0.52, 0.345)), tile_m=0.3, roughness=0.88, relief_m=0.0005, apart=0.1, worn_m=0.004),
     "cork": Look("Pressed cork", paint="stone.granite", arguments=("cork", (0.72, 0.53, 0.34), (0.60, 0.41, 0.25), (0.38, 0.23, 0.13)), tile_m=0.22, roughness=0.88, relief_m=0.0005, apart=0.08),
     "foam": Look("Soft grey foam", paint="fibre.worn", arguments=("foam", (0.36, 0.37, 0.40), 2.5), tile_m=0.1, roughness=0.98, relief_m=0.001),
     "water_clear": Look("Clear water in a vessel, seen through", rgba=(0.93, 0.97, 0.98, 0.25), roughness=0.03, clear=1.0, index=1.333, absorbs=(0.34, 0.057, 0.02)),

@@ -37,6 +37,10 @@ class Look:
     """Clear varnish over the base, 0..1."""
     sheen: float = 0.0
     """Soft glow of fibres at grazing angles, 0..1."""
+    worn_m: float = 0.0
+    """How far from the edges of boxes and cylinders it is rubbed and chipped, m; only what is painted flat wears."""
+    beneath: tuple[float, float, float] | None = None
+    """sRGB of what shows where it has worn off; None: itself, paler."""
     relief_m: float = 0.0
     """Height of the painted relief, metres from lowest to highest."""
     clear: float = 0.0

@@ -248,9 +248,10 @@ def _draw(
     from .. import materials
 
     moved = np.round(centre - (solid.low + solid.high) / 2, 7)
-    levels = np.unique(solid.roughness) if len(solid.roughness) else np.array([roughness])
+    shines = _shines(solid)
+    levels = np.unique(shines) if len(shines) else np.array([roughness])
     for number, level in enumerate(levels):
-        faces = solid.faces[solid.roughness == level] if len(solid.roughness) else solid.faces
+        faces = solid.faces[shines == level] if len(shines) else solid.faces
         label = free(f"{name}/look", {geom.name for geom in body.geoms})
         mesh = _mesh_file(spec, f"sculpt_{solid.signature[:16]}_{number}" + _away(moved), solid, faces, centre)
         if len(solid.picture):
@@ -289,6 +290,18 @@ def _material(spec: "mujoco.MjSpec", solid: Made, roughness: float, metallic: fl
         roles[int(mujoco.mjtTextureRole.mjTEXROLE_RGB)] = texture
         material.textures = roles
     return name
+
+
+def _shines(solid: Made) -> Array:
+    """The roughness of each face (F,), of which none is that of so few that they make no mesh: fewer than four corners."""
+    shines = np.array(solid.roughness)
+    levels = list(np.unique(shines))
+    for level in list(levels):
+        few = shines == level
+        if len(levels) > 1 and len(np.unique(solid.faces[few])) < 4:
+            levels.remove(level)
+            shines[few] = min(levels, key=lambda other: abs(other - level))
+    return shines
 
 
 def _mesh_file(spec: "mujoco.MjSpec", name: str, solid: Made, faces: Array, centre: Array) -> str:

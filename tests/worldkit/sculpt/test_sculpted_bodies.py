@@ -1,5 +1,6 @@
 """Sculpted bodies: they weigh what they are, collide as they look, are drawn as painted, and are made once."""
 
+import dataclasses
 import math
 
 import mujoco
@@ -7,7 +8,7 @@ import numpy as np
 import pytest
 
 from worldkit import bodies, contacts, joints, portable, scene, sculpt
-from worldkit.sculpt import brushes, crisp, minting
+from worldkit.sculpt import brushes, crisp, figure, minting
 
 pytestmark = pytest.mark.usefixtures("kept")
 
@@ -213,3 +214,19 @@ def test_a_ball_falls_through_the_neck_of_a_turned_vase():
     data = mujoco.MjData(model)
     mujoco.mj_step(model, data, 1000)
     assert data.body("pea").xpos[2] < 0.06 and abs(data.body("pea").xpos[0]) < 0.05
+
+
+def test_a_triangle_that_shines_alone_shines_as_what_is_around_it():
+    def paint(points, normals):
+        return np.tile((0.5, 0.4, 0.3), (len(points), 1)), np.full(len(points), 0.6)
+
+    solid = sculpt.made(sculpt.sphere(0.1), paint=paint, cells=16, triangles=400, texels=64)
+    rough = np.array(solid.roughness)
+    rough[0], rough[1:90] = 0.1, 0.3
+    odd = dataclasses.replace(solid, roughness=rough)
+    shines = figure._shines(odd)
+    assert shines[0] == 0.3 and np.array_equal(shines[1:], rough[1:])
+    spec = mujoco.MjSpec()
+    body = spec.worldbody.add_body(name="ball")
+    figure._draw(spec, body, "ball", odd, np.zeros(3), None, 0.6, 0.0)
+    assert spec.compile().nmesh == 2

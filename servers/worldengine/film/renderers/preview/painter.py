@@ -14,6 +14,7 @@ from worldkit.materials.look import NOTHING
 from . import gl
 from .eye import View
 from .far_first import far_first
+from .finish import linear
 from .shader_variants import Features, Variants, features, glossy
 from .shadows import ShadowMap
 from .soft import Soft
@@ -150,6 +151,9 @@ class Painter:
             program.texture("paint", 1 if kind == 2 else 0, self.supplies.picture(batch.finish, wide), target)
         absorbs = NOTHING if batch.shape[0] in SHEETS else batch.finish.look.absorbs
         program.set(first=batch.first, absorbs=absorbs)
+        if wanted.worn:
+            beneath = batch.finish.look.beneath
+            program.set(worn=(*((-1.0, -1.0, -1.0) if beneath is None else linear(beneath)), batch.finish.look.worn_m))
         shape.draw(count)
 
     def shade(self, view: View, height: int, *, mirrored: bool = False) -> None:

@@ -23,6 +23,8 @@ class Features:
     sheen: bool
     mark: bool
     bevel: int
+    worn: bool
+    """Its edges are rubbed."""
     curved: bool
     ball: bool
     ground: int
@@ -40,6 +42,7 @@ def features(
 ) -> Features:
     """The features that a batch needs."""
     look, kind = batch.finish.look, batch.shape[0]
+    bevel = {"box": 1, "cylinder": 2}.get(kind, 0) if look.clear == 0 and not simple else 0
     ground = (2 if reflecting else 1) if kind == "disc" else 0
     return Features(
         setting=setting,
@@ -49,7 +52,8 @@ def features(
         coat=look.coat > 0 and not (batch.clear and look.clear == 0),
         sheen=look.sheen > 0 and not simple,
         mark=look.mark and kind == "sphere",
-        bevel={"box": 1, "cylinder": 2}.get(kind, 0) if look.clear == 0 and not simple else 0,
+        bevel=bevel,
+        worn=bool(bevel) and look.worn_m > 0 and paint == 1,
         curved=kind not in ("box", "plane", "disc"),
         ball=kind == "sphere",
         ground=ground,

@@ -16,14 +16,15 @@ SIZE, LEVELS = 256, 7
 
 
 @lru_cache(maxsize=1)
-def _noise() -> np.ndarray:
+def noise_field() -> np.ndarray:
+    """Smooth noise, uint8 (512, 512), that goes on at its other side, mean one half."""
     field = noise.spectral(512, 1.35, "surroundings", low=1.0)
     return (noise.unit(field, 2.6) * 255).astype(np.uint8)
 
 
 def noise_map() -> int:
     """A tileable map of smooth noise, mean one half."""
-    field = _noise()
+    field = noise_field()
     handle = gl.texture(GL.GL_R8, 512, 512, repeat=True, levels=1)
     GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
     GL.glTexSubImage2D(GL.GL_TEXTURE_2D, 0, 0, 0, 512, 512, GL.GL_RED, GL.GL_UNSIGNED_BYTE, field)

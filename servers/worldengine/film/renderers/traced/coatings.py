@@ -10,7 +10,7 @@ from worldkit.materials import paint
 from worldkit.materials.look import NOTHING
 
 from ..preview.finish import Finish, model_pixels
-from . import variant
+from . import rubbed, variant
 
 if TYPE_CHECKING:
     import mujoco
@@ -104,6 +104,7 @@ class Coatings:
         ball: bool = False,
         wide: bool = False,
         sheet: bool = False,
+        strip: bool = False,
     ) -> Any:
         """The material of a thing.
 
@@ -114,17 +115,19 @@ class Coatings:
             ball: it is a sphere, which may carry a mark.
             wide: it is large, so its paint is finer.
             sheet: it has no thickness.
+            strip: it is the worn strip along its edges.
         """
         mark = ball and finish.look.mark and finish.texture < 0 and finish.look.paint is None
-        key = (finish.look, finish.texture, tuple(np.round(rgb, 4)), round(alpha, 3), mark, wide, sheet)
+        key = (finish.look, finish.texture, tuple(np.round(rgb, 4)), round(alpha, 3), mark, wide, sheet, strip)
         if key not in self._made:
             import mitsuba as mi
 
-            self._made[key] = mi.load_dict(self._told(finish, np.asarray(rgb, dtype=float), alpha, mark, wide, sheet))
+            told = self._told(finish, np.asarray(rgb, dtype=float), alpha, mark, wide, sheet, strip)
+            self._made[key] = mi.load_dict(told)
         return self._made[key]
 
     def _told(
-        self, finish: Finish, rgb: np.ndarray, alpha: float, mark: bool, wide: bool, sheet: bool
+        self, finish: Finish, rgb: np.ndarray, alpha: float, mark: bool, wide: bool, sheet: bool, strip: bool
     ) -> dict[str, Any]:
         entry = finish.look
         if entry.clear > 0 or alpha < CLEAR:
@@ -137,7 +140,8 @@ class Coatings:
         if pixels is None:
             colour: dict[str, Any] = {"type": "rgb", "value": [float(x) for x in np.clip(rgb, 0.0, 0.97)]}
         else:
-            colour = texture(pixels if mark else pixels * rgb.astype(np.float32))
+            tinted = pixels if mark else pixels * rgb.astype(np.float32)
+            colour = texture(rubbed.flaked(tinted, finish.look) if strip else tinted)
         opaque = told(colour, entry)
         if alpha < 0.997:
             return {"type": "mask", "opacity": float(alpha), "nested": opaque}

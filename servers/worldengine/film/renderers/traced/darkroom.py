@@ -14,6 +14,8 @@ from ...treatment import Treatment
 from ..preview.finish import linear
 
 STEPS = 4096
+SPREAD_PX = 2.5
+FAR_M = 60.0
 HAZE = np.array([0.46, 0.57, 0.56], np.float32)
 _CURVE = film_curve(BRIGHTEST * np.linspace(0.0, 1.0, STEPS) ** 4).astype(np.float32)
 
@@ -39,6 +41,7 @@ def _smooth(low: float, high: float, x: np.ndarray) -> np.ndarray:
 
 def air(
     light: np.ndarray,
+    sky: np.ndarray,
     places: np.ndarray,
     seen: np.ndarray,
     eye: np.ndarray,
@@ -48,8 +51,11 @@ def air(
 ) -> np.ndarray:
     """Scene light (H, W, 3) with what lies between the eye and things.
 
+    Where a thing covers only some of a pixel, the air before it changes its share of the light, and leaves that of the sky.
+
     Args:
         light: scene light.
+        sky: that of the surroundings (H, W, 3), which is in it where no thing is seen.
         places: what is seen behind each pixel, world frame, m (H, W, 3).
         seen: the share of each pixel that shows a thing (H, W).
         eye: of the camera, (3,).
@@ -57,15 +63,20 @@ def air(
         scene: what surrounds it.
         told: what the film asks for.
     """
-    setting, out = scene.setting, light
+    setting, light = scene.setting, np.maximum(light, 0.0)
     foggy = told.fog_rgb is not None and told.fog_density > 0
     if setting.name == "room" and told.sky_zenith is None and not foggy:
         return light
     reach = np.linalg.norm(places - eye.astype(np.float32), axis=-1)
+    there, reach, places = _spread(seen > 0, reach, places)
+    ground = there & (np.abs(places[..., 2] - scene.floor_z) < 1e-3 + 2e-4 * reach)
+    things = light - (1.0 - seen)[..., None] * sky
+    seen = _to_horizon(seen, ground & (reach > FAR_M), ways)
+    open_sky = (1.0 - seen)[..., None] * sky
 
     def mixed(colour: np.ndarray, share: np.ndarray) -> None:
-        nonlocal out
-        out = out + (share * seen)[..., None].astype(np.float32) * (colour - out)
+        nonlocal things
+        things = things + (share * there)[..., None].astype(np.float32) * (seen[..., None] * colour - things)
 
     def backdrop() -> np.ndarray:
         turn = np.arctan2(ways[..., 0], ways[..., 1]) / (2 * np.pi) % 1.0
@@ -76,7 +87,6 @@ def air(
     elif told.sky_zenith is not None:
         mixed(backdrop(), 0.95 * (1.0 - np.exp(-np.maximum(reach - 12.0, 0.0) / setting.haze_m)))
     elif setting.name in ("studio", "dark"):
-        ground = np.abs(places[..., 2] - scene.floor_z) < 1e-3 + 2e-4 * reach
         away = np.linalg.norm(places[..., :2] - scene.centre[:2], axis=-1)
         mixed(
             np.zeros(3, np.float32),
@@ -84,20 +94,53 @@ def air(
         )
         mixed(backdrop(), ground * _smooth(setting.fade[0] * scene.span, setting.fade[1] * scene.span, away))
     if foggy:
-        out = _fogged(out, reach, ways, seen, eye, scene, told)
+        fog, before_things, before_sky = _fogged(reach, ways, eye, scene, told)
+        mixed(fog, before_things)
+        share = before_sky[..., None].astype(np.float32)
+        open_sky = open_sky + share * ((1.0 - seen)[..., None] * fog - open_sky)
+        things = np.where(there[..., None], things, (1.0 - share) * things)
+    return np.maximum(things + open_sky, 0.0)
+
+
+def _spread(there: np.ndarray, reach: np.ndarray, places: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where things are (H, W), how far, m, and their places, spread by `SPREAD_PX` into what shows none: the samples that tell of
+    places may have missed what those of light met, at the horizon above all, and the denoiser smears it by a pixel."""
+    if there.all() or not there.any():
+        return there, reach, places
+    import cv2
+
+    away, nearest = cv2.distanceTransformWithLabels(
+        (~there).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    taken = ~there & (away < SPREAD_PX)
+    owner = np.zeros(int(nearest.max()) + 1, dtype=np.int64)
+    owner[nearest[there]] = np.flatnonzero(there)
+    chosen = owner[nearest[taken]]
+    reach, places = reach.copy(), places.copy()
+    reach[taken], places[taken] = reach.ravel()[chosen], places.reshape(-1, 3)[chosen]
+    return there | taken, reach, places
+
+
+def _to_horizon(seen: np.ndarray, far: np.ndarray, ways: np.ndarray) -> np.ndarray:
+    """The share of things (H, W), by the level line of the horizon where endless ground is `far` (H, W): a few samples are dots."""
+    rows = np.flatnonzero(far.any(axis=1))
+    if not len(rows) or min(far.shape) < 2:
+        return seen
+    some = slice(max(rows[0] - 1, 0), rows[-1] + 2)
+    up = ways[some, :, 2]
+    if len(up) < 2:
+        return seen
+    high = np.abs(np.gradient(up, axis=0)) + np.abs(np.gradient(up, axis=1))
+    out = seen.copy()
+    below = np.clip(0.5 - up / np.maximum(high, 1e-9), 0.0, 1.0)
+    out[some] = np.where(far[some] & (np.abs(up) < high), below, seen[some])
     return out
 
 
 def _fogged(
-    light: np.ndarray,
-    reach: np.ndarray,
-    ways: np.ndarray,
-    seen: np.ndarray,
-    eye: np.ndarray,
-    scene: Scene,
-    told: Treatment,
-) -> np.ndarray:
-    """Fog that thins with height, and glows around the light."""
+    reach: np.ndarray, ways: np.ndarray, eye: np.ndarray, scene: Scene, told: Treatment
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Fog that thins with height, and glows around the light: its light (H, W, 3), how much it hides of things and of the sky."""
     key = scene.setting.key
     toward = np.maximum(ways @ np.array(key.direction), 0.0) ** 10
     fog = (linear(told.fog_rgb or (0, 0, 0)) + 0.10 * toward[..., None] * np.array(key.colour)).astype(np.float32)
@@ -109,8 +152,7 @@ def _fogged(
     thing = 1.0 - np.exp(-told.fog_density * reach * np.exp(-over / height) * mean)
     high = min(height, 120.0)
     sky = 1.0 - np.exp(-told.fog_density * np.exp(-over / high) * high / np.maximum(ways[..., 2], 0.002))
-    share = (seen * thing + (1 - seen) * sky)[..., None].astype(np.float32)
-    return light + share * (fog - light)
+    return fog, thing, sky
 
 
 @lru_cache(maxsize=2)

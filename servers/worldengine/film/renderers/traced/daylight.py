@@ -53,11 +53,16 @@ def lighting(setting: Setting, told: Treatment, shown: np.ndarray) -> np.ndarray
 
 
 def looked_up(picture: np.ndarray, ways: np.ndarray) -> np.ndarray:
-    """The radiance of surroundings (N, 2 N, 3) along unit directions (..., 3)."""
+    """The radiance (H, W, 3) of surroundings (N, 2 N, 3) along unit directions (H, W, 3), between pixels as Mitsuba has it."""
+    import cv2
+
     height, width, _ = picture.shape
     turn = np.arctan2(ways[..., 0], ways[..., 1]) / (2 * np.pi) % 1.0
     down = np.arccos(np.clip(ways[..., 2], -1.0, 1.0)) / np.pi
-    return picture[np.minimum((down * height).astype(int), height - 1), (turn * width).astype(int) % width]
+    wide = np.concatenate([picture[:, -1:], picture, picture[:, :1]], axis=1)
+    # Mitsuba lays the middles of columns between the degrees, and the first and the last row on the poles.
+    at = (turn * width + 0.5).astype(np.float32), (down * (height - 1)).astype(np.float32)
+    return np.asarray(cv2.remap(np.ascontiguousarray(wide, np.float32), *at, cv2.INTER_LINEAR))
 
 
 def environment(picture: np.ndarray) -> dict[str, Any]:
@@ -68,18 +73,23 @@ def environment(picture: np.ndarray) -> dict[str, Any]:
     return {"type": "envmap", "bitmap": mi.Bitmap(np.ascontiguousarray(picture, np.float32)), "to_world": turn}
 
 
+def key_disk(setting: Setting, centre: np.ndarray, radius: float) -> tuple[np.ndarray, float]:
+    """The middle (3,) and the radius of the disk that the key light of a scene of this centre and radius is, m."""
+    return centre + AWAY * radius * np.array(setting.key.direction), AWAY * radius * max(setting.key_spread, 0.008)
+
+
 def key_light(setting: Setting, centre: np.ndarray, radius: float) -> dict[str, Any]:
     """The key light: a disk of its spread, by which a white surface that faces it has the radiance of its colour."""
     import mitsuba as mi
 
     way = np.array(setting.key.direction)
     spread = max(setting.key_spread, 0.008)
-    place = centre + AWAY * radius * way
+    place, wide = key_disk(setting, centre, radius)
     up = [0, 0, 1] if abs(way[2]) < 0.99 else [0, 1, 0]
     move = mi.ScalarTransform4f().look_at(origin=place.tolist(), target=centre.tolist(), up=up)
     radiance = (np.array(setting.key.colour) / spread**2).tolist()
     return {
-        "type": "disk", "to_world": move @ mi.ScalarTransform4f().scale(AWAY * radius * spread),
+        "type": "disk", "to_world": move @ mi.ScalarTransform4f().scale(wide),
         "emitter": {"type": "area", "radiance": {"type": "rgb", "value": radiance}},
     }  # fmt: skip
 

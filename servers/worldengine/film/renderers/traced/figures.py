@@ -14,12 +14,13 @@ from ... import swaying
 from ...panel_lights import of_model
 from ..preview import unit_shapes
 from ..preview.things import EXACT_UV, FLAT_UV, Things
-from . import rounded
+from . import rounded, rubbed
 from .coatings import CLEAR, Coatings
 from .ground_rings import rings
 from .leaning import facing, upright
 from .relief import displaced
 from .rounded import Mesh
+from .two_sides import Sides, two_sided
 from .unwrapped import along_sides, around_centre
 
 if TYPE_CHECKING:
@@ -50,6 +51,8 @@ class Figure:
     _faces: bytes = b""
     _turned: bool = False
     _blown: tuple[float, float, float] | None = None
+    strip: bool = False
+    """It is the worn strips along the edges of geoms that others hold."""
     sways: list[np.ndarray] = field(default_factory=list)
     """Of each mesh that a breeze moves its corners' weights, m, and phases, (V, 2)."""
     poses: np.ndarray | None = None
@@ -144,8 +147,8 @@ def fill(params: Any, points: np.ndarray, normals: np.ndarray) -> None:
     params.update()
 
 
-def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int) -> Mesh:
-    """The mesh of a geom in its own frame, with texture coordinates."""
+def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int, line_m: float = 0.0) -> Mesh:
+    """The mesh of a geom in its own frame, with texture coordinates; with a line of corners so far from its edges, m."""
     kind, finish = batch.shape[0], batch.finish
     entry, size, half = finish.look, numbers[12:15].astype(float), float(numbers[15])
     many = len(batch.rows) > MANY
@@ -155,9 +158,9 @@ def shape_of(model: mujoco.MjModel, batch: Any, numbers: np.ndarray, geom: int) 
     elif kind == "capsule":
         mesh = rounded.capsule(size[0], half, 16 if many else 32)
     elif kind == "cylinder":
-        mesh = rounded.cylinder(size[0], size[2], 24 if many else 72)
+        mesh = rounded.cylinder(size[0], size[2], 24 if many else 72, line_m)
     elif kind == "box":
-        mesh = rounded.box(size)
+        mesh = rounded.box(size, line_m)
     elif kind == "plane":
         mesh = rounded.sheet(size[0], size[1])
     else:
@@ -220,6 +223,8 @@ class Figures:
         sheet = kind == "plane"
         extent = float(self.model.geom_rbound[geom])
         coating = self.coatings.of(batch.finish, rgb, alpha, ball=kind == "sphere", wide=extent > 0.8, sheet=sheet)
+        half = numbers[12:15].astype(float)
+        worn = rubbed.width(entry, kind, half) if batch.finish.texture < 0 else 0.0
         glow = rgb * float(numbers[29]) if entry.emission > 0 and entry.clear == 0 and alpha >= CLEAR else np.zeros(3)
         if batch.finish.texture >= 0 or entry.paint:  # what glows by a picture glows in its mean colour
             glow = np.asarray(batch.finish.mean) * float(numbers[29]) if glow.any() else glow
@@ -229,10 +234,19 @@ class Figures:
         figure = groups.setdefault(key, Figure(coating, glow, absorbs=entry.absorbs if see_through else NOTHING))
         figure.geoms.append(geom)
         figure.meshed.append(kind == "mesh" and not see_through)
-        figure.meshes.append(shape_of(self.model, batch, numbers, geom))
+        mesh = shape_of(self.model, batch, numbers, geom, worn)
+        if worn > 0:
+            mesh, strips = rubbed.parted(mesh, kind, half, worn)
+            edge = self.coatings.of(batch.finish, rgb, alpha, wide=extent > 0.8, strip=True)
+            along = groups.setdefault((key[0], id(edge), "strip"), Figure(edge, np.zeros(3), strip=True))
+            along.geoms.append(geom)
+            along.meshed.append(False)
+            along.meshes.append(strips)
+        sides = two_sided(mesh) if figure.meshed[-1] else Sides(mesh, np.arange(len(mesh.points)))
+        figure.meshes.append(sides.mesh)
         if geom in self._swaying:
             rows, _ = unit_shapes.mesh(self.model, batch.shape[1])
-            figure.sways.append(found_again(figure.meshes[-1].points, rows))
+            figure.sways.append(found_again(mesh.points, rows)[sides.origin])
 
     def ground(self, centre: np.ndarray, radius: float) -> Iterator[Any]:
         """Meshes of the endless planes, none of which moves."""
@@ -267,14 +281,15 @@ class Figures:
         """Where all figures stand."""
         return tuple(figure.poses for figure in self.all if figure.poses is not None)
 
-    @staticmethod
-    def how_many_moved(before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]) -> int:
+    def how_many_moved(self, before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]) -> int:
         """How many geoms stand otherwise; loose ones are a figure each."""
-        return sum(int(elsewhere(*both).sum()) for both in zip(before, now, strict=True))
+        whole = zip(self.all, before, now, strict=True)
+        return sum(int(elsewhere(mine, theirs).sum()) for figure, mine, theirs in whole if not figure.strip)
 
     def moved(
         self, before: tuple[np.ndarray, ...], now: tuple[np.ndarray, ...]
     ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         """The points (V, 3), m, of each geom that stands otherwise, at both of two sets of poses."""
         for figure, mine, theirs in zip(self.all, before, now, strict=True):
-            yield from figure.moved(mine, theirs)
+            if not figure.strip:
+                yield from figure.moved(mine, theirs)

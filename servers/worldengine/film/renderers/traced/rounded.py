@@ -27,8 +27,8 @@ def edge(smallest: float) -> float:
     return float(min(np.clip(SHARE * smallest, LEAST_M, MOST_M), 0.45 * smallest))
 
 
-def box(half: np.ndarray) -> Mesh:
-    """A box of half sizes (3,)."""
+def box(half: np.ndarray, line_m: float = 0.0) -> Mesh:
+    """A box of half sizes (3,), with a line of corners so far from each edge, m, if it is not 0."""
     half = np.maximum(np.asarray(half, dtype=float), 1e-6)
     radius = edge(float(half.min()))
     points, normals, faces, used = [], [], [], 0
@@ -38,6 +38,8 @@ def box(half: np.ndarray) -> Mesh:
         lines = []
         for other in (u, v):
             outer = half[other] - radius + away
+            inner_line = [half[other] - line_m] if line_m > radius else []
+            outer = np.concatenate([inner_line, outer])
             lines.append(np.concatenate([-outer[::-1], outer]))
         a, b = np.meshgrid(*lines, indexing="ij")
         for sign in (1.0, -1.0):
@@ -89,14 +91,16 @@ def sphere(radii: np.ndarray, sectors: int = 48) -> Mesh:
     return unit._replace(points=unit.points * radii, normals=normals)
 
 
-def cylinder(radius: float, half: float, sectors: int = 56) -> Mesh:
-    """A cylinder around z."""
+def cylinder(radius: float, half: float, sectors: int = 56, line_m: float = 0.0) -> Mesh:
+    """A cylinder around z, with a line of corners so far from each edge, m, if it is not 0."""
     r = edge(min(radius, half))
     turn = np.radians([0.0, 30.0, 60.0, 90.0])
     rim = np.stack([radius - r + r * np.sin(turn), half - r + r * np.cos(turn)], -1)
     slope = np.stack([np.sin(turn), np.cos(turn)], -1)
-    top = np.concatenate([[[0.0, half]], rim])
-    slopes = np.concatenate([[[0.0, 1.0]], slope])
+    top, slopes = np.concatenate([[[0.0, half]], rim]), np.concatenate([[[0.0, 1.0]], slope])
+    if line_m > r:
+        top = np.concatenate([top[:1], [[radius - line_m, half]], top[1:], [[radius, half - line_m]]])
+        slopes = np.concatenate([slopes[:1], [[0.0, 1.0]], slopes[1:], [[1.0, 0.0]]])
     down = np.array([1.0, -1.0])
     return turned(np.concatenate([top * down, top[::-1]]), np.concatenate([slopes * down, slopes[::-1]]), sectors)
 

@@ -20,7 +20,7 @@ from . import daylight, panel_emitters, plates, rounded, variant, walked
 from .darkroom import Scene, air, develop
 from .denoised import Denoiser
 from .figures import Figures, fill, mesh_of
-from .glimpses import Glimpse, Outlook
+from .glimpses import Around, Glimpse, Outlook, glimpses_apart
 from .half_room import Face, Walls
 from .plates import Plate, Sight
 from .shutter import FINEST, Shutter, sensor
@@ -39,8 +39,6 @@ DEPTH, CLEAR_DEPTH = 4, 8
 """The longest paths, and those where light goes through glass."""
 SEEDS_APART = 1 << 16
 """Moments have chances of their own."""
-GLIMPSES_BYTES = 1 << 30
-"""Of the room that the moments of one picture may take: places, directions, what is seen and what lies behind, 44 bytes a pixel."""
 LEAST_ALBEDO = 0.2
 """Darker surfaces show light as it comes: of what they hardly reflect no draft can tell what fell on them."""
 BRIGHTEST = 12.0
@@ -106,10 +104,9 @@ class Tracing:
 
     def _relight(self) -> None:
         """Take over the light of the setting."""
-        self._shown = daylight.seen(self.setting, self._treatment)
-        self._around = daylight.lighting(self.setting, self._treatment, self._shown)
+        disk = daylight.key_disk(self.setting, self._centre, max(self._radius, 1.0))
+        self._around = Around(self.setting, self._treatment, self.width, self.height, disk)
         self._scenes.clear()
-        self._looked: Any = None
 
     def treat(self, treatment: Treatment) -> bool:
         """Apply this light, haze, focus and grading from now on."""
@@ -129,7 +126,7 @@ class Tracing:
 
             reach = max(self._radius, 1.0)
             parts: dict[str, Any] = {
-                "type": "scene", "around": daylight.environment(self._around),
+                "type": "scene", "around": daylight.environment(self._around.lighting),
                 "key": daylight.key_light(self.setting, self._centre, reach),
                 **daylight.lamps(self.model, data, self._lights), **panel_emitters.emitters(self._lit, data),
             }  # fmt: skip
@@ -173,20 +170,6 @@ class Tracing:
         """The camera, with the lens that the film asks for."""
         return sensor(view, self._treatment, self.width // coarser, self.height // coarser, channels)
 
-    def _outlook(self, view: View) -> Outlook:
-        """What a view needs of the surroundings; that of the last one is kept, as most cameras stand still."""
-        key = (view.eye.tobytes(), view.axes.tobytes(), view.tangents)
-        if key != self._looked:
-            x = ((np.arange(self.width) + 0.5) / self.width * 2 - 1) * view.tangents[0]
-            y = (1 - (np.arange(self.height) + 0.5) / self.height * 2) * view.tangents[1]
-            ways = x[None, :, None] * view.axes[:, 0] + y[:, None, None] * view.axes[:, 1] - view.axes[:, 2]
-            ways = (ways / np.linalg.norm(ways, axis=-1, keepdims=True)).astype(np.float32)
-            behind = None
-            if self._around is not self._shown:
-                behind = daylight.looked_up(self._shown, ways) - daylight.looked_up(self._around, ways)
-            self._last, self._looked = Outlook(ways, behind), key
-        return self._last
-
     def _placed(self, data: mujoco.MjData, view: View, faces: frozenset[Face]) -> Any:
         """The scene with these walls at the poses of `data`, as it is seen from here."""
         if self.figures.place(data, self._treatment.breeze) | self._strands.place(data):
@@ -209,7 +192,13 @@ class Tracing:
         """Trace the picture of `data`, with these walls, or some of it; its light `coarser` times smaller each way."""
         scene, eye = self._placed(data, view, faces), self._sensor(view, "rgb", coarser)
         light = walked.light(scene, eye, self._depth, samples, seed, where, self._absorbing)
-        return walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
+        rays = walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
+
+        def again() -> tuple[np.ndarray, np.ndarray]:
+            covered = walked.covered(scene, self._sensor(view, "rgba", coarser), samples, seed, where)
+            return covered, walked.light(self._around.alone(), eye, 1, samples, seed, where)
+
+        return self._around.uncovered(rays, view, again, where)
 
     def image(self, data: mujoco.MjData, camera: int, quality: Quality) -> np.ndarray:
         """The picture: uint8 (height, width, 3)."""
@@ -248,7 +237,7 @@ class Tracing:
     def _seen(self, data: mujoco.MjData, camera: int) -> tuple[View, Outlook, frozenset[Face], frozenset[Face]]:
         """What a camera looks at, with the walls that are drawn and those that are painted in."""
         view = of_camera(self.model, data, camera, self.width, self.height)
-        outlook = self._outlook(view)
+        outlook = self._around.outlook(view)
         if self._walls is None:
             return view, outlook, frozenset(), frozenset()
         some = outlook.ways[:: max(self.height // 24, 1), :: max(self.width // 40, 1)].reshape(-1, 3)
@@ -256,6 +245,8 @@ class Tracing:
 
     def _developed(self, clean: np.ndarray, glimpses: list[Glimpse]) -> np.ndarray:
         """The picture of light without noise, and of what is around it."""
+        if len(glimpses) == 1:
+            clean = glimpses[0].cleared(clean)
         light = sum((self._around_it(clean, one) for one in glimpses), np.float32(0)) / np.float32(len(glimpses))
         return develop(light, self.setting, self._treatment)
 
@@ -328,17 +319,15 @@ class Tracing:
     def _around_it(self, light: np.ndarray, one: Glimpse) -> np.ndarray:
         """Light (H, W, 3) with the surroundings, the painted walls and the air of one glimpse."""
         view, outlook = one.view, one.outlook
-        if outlook.behind is not None and one.seen.min() < 1:
-            light = light + (1.0 - one.seen)[..., None] * outlook.behind
         if one.painted:
             assert self._walls is not None
             away = np.linalg.norm(one.places - view.eye, axis=-1)
             reach = np.where(one.seen > 0.5, away, np.inf)
-            light = self._walls.paint_in(light, one.painted, view.eye, outlook.ways, reach, self._around)
+            light = self._walls.paint_in(light, one.painted, view.eye, outlook.ways, reach, self._around.lighting)
         span = max(self._radius, 0.55 * float(np.linalg.norm(view.eye - self._centre)))
-        horizon = self._shown[self._shown.shape[0] // 2 - 2]
+        horizon = self._around.shown[len(self._around.shown) // 2 - 2]
         scene = Scene(self.setting, self._centre, self._radius, self._floor_z, span, horizon)
-        return air(np.maximum(light, 0.0), one.places, one.seen, view.eye, outlook.ways, scene, self._treatment)
+        return air(light, outlook.sky, one.places, one.seen, view.eye, outlook.ways, scene, self._treatment)
 
     def _cleaned(self, rays: Rays, shutter: Shutter) -> np.ndarray:
         """Light without noise (H, W, 3); that of a draft is spread over the colours of the surfaces, which are as fine as ever."""
@@ -355,7 +344,7 @@ class Tracing:
         def smaller(picture: np.ndarray) -> np.ndarray:
             return cv2.resize(picture, (width, height), interpolation=cv2.INTER_AREA)
 
-        albedo = np.maximum(np.where(rays.seen[..., None] > 0.01, rays.albedo, 1.0), LEAST_ALBEDO).astype(np.float32)
+        albedo = np.maximum(rays.albedo, LEAST_ALBEDO).astype(np.float32)
         clean = denoiser.clean(rays.light, smaller(rays.albedo), smaller(rays.normals))
         fallen = clean / smaller(albedo)
         return cv2.resize(fallen, (self.width, self.height), interpolation=cv2.INTER_LINEAR) * albedo
@@ -382,8 +371,3 @@ class Tracing:
         if self._denoiser is not None:
             self._denoiser[1].close()
             self._denoiser = None
-
-
-def glimpses_apart(count: int, pixels: int) -> int:
-    """Of so many moments of a moving camera every how many-th is kept for what lies around things, so that they fit into memory."""
-    return -(-count // max(1, GLIMPSES_BYTES // (44 * pixels)))

@@ -18,7 +18,8 @@ Absorbing = Sequence[tuple[Any, tuple[float, float, float]]]
 
 
 class Rays(NamedTuple):
-    """One picture as it was traced: scene light, surface colours, normals, places (H, W, 3), and the share of things (H, W)."""
+    """One picture as it was traced: scene light, colours of surfaces and sky, normals, places (H, W, 3), and the share of things
+    (H, W)."""
 
     light: np.ndarray
     albedo: np.ndarray
@@ -98,6 +99,31 @@ def guides(scene: Any, sensor: Any, samples: int, where: np.ndarray | None = Non
     if where is not None:
         return _some(scene, sensor, guide, samples, 0, where)[..., 3:]
     return np.array(mi.render(scene, sensor=sensor, integrator=guide, spp=samples, seed=0))
+
+
+def covered(scene: Any, sensor: Any, samples: int, seed: int, where: np.ndarray | None = None) -> np.ndarray:
+    """The share of things (H, W) in the very samples that `light` takes with this seed; a fiftieth of its work.
+
+    Args:
+        scene, sensor: Mitsuba's; the film is of red, green, blue and alpha.
+        samples: a pixel.
+        seed: of their chances.
+        where: (h, w) of the pixels that are walked, a mask of any size; elsewhere nothing is there.
+    """
+    import mitsuba as mi
+
+    depth = {"type": "aov", "aovs": "p:position", "any": {"type": "depth"}}
+    total: Any = np.float32(0)
+    for first in range(0, samples, AT_ONCE):
+        some = min(AT_ONCE, samples - first)
+        if where is None:
+            drawn = np.array(
+                mi.render(scene, sensor=sensor, integrator=mi.load_dict(depth), spp=some, seed=seed + first)
+            )
+        else:
+            drawn = _some(scene, sensor, mi.load_dict(depth), some, seed + first, where)[..., 3:]
+        total = total + drawn[..., 3] * np.float32(some / samples)
+    return np.clip(total, 0.0, 1.0)
 
 
 def ordered(light: np.ndarray, said: np.ndarray) -> Rays:

@@ -133,6 +133,10 @@ float glint(float nl, float nv, float nh, float roughness) {
     return 0.25 * a2 / (d * d) * visible;
 }
 
+#if WORN
+#include "worn.glsl"
+#endif
+
 float fifth(float x) { float y = x * x; return y * y * x; }
 
 // The four nearest texels, each as far as it lies at the same distance: coarse shade without halos around things.
@@ -195,6 +199,9 @@ void main() {
     vec2 spot = (abs(nl.z) > 0.5 ? local.xy : abs(nl.x) > 0.5 ? local.yz : local.xz) + 7.0 * weave.w;
     float patches = textureLod(noise_map, spot * 0.031, 0.0).r + textureLod(noise_map, spot * 0.0067, 0.0).r - 1.0;
     albedo *= 1.0 + more.x * 2.4 * patches;
+#endif
+#if WORN
+    albedo = rubbed(albedo);
 #endif
 #if MARK
     vec3 toward_pole = normalize(local);
