@@ -18,3 +18,13 @@ def next_move(state: State, target: RepairTarget | None) -> str:
     if target == "camera_placement":
         return f"correct the cameras of {place}/plan.md, one patch, or the shots of film.py, where it is the film"
     return f"correct {place}/simulation.py, one patch"
+
+
+def of_anomaly(state: State, code: str) -> str:
+    """The file to patch for a blocking anomaly: the plan first where what it claims is wrong as often as what the world does."""
+    from ..scan.tools import of_claim
+
+    place = state.place
+    if of_claim(code):
+        return f"correct what {place}/plan.md claims, if that is wrong, and have it approved anew; or simulation.py"
+    return f"correct {place}/simulation.py, one patch; or the plan, if it is wrong"

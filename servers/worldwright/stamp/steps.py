@@ -167,7 +167,7 @@ def _scan(state: State) -> Answer:
         return (
             "fails",
             f"{len(blocking)} blocking anomaly(ies), first: {blocking[0]}",
-            (f"correct {state.place}/simulation.py, one patch"),
+            mending.of_anomaly(state, blocking[0].code),
         )
     others = f", {len(report.anomalies)} not blocking" if report.anomalies else ""
     return "holds", f"{len(report.checks)} checks{others}", ""

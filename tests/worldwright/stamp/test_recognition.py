@@ -121,3 +121,9 @@ def test_copies_of_one_object_are_wanted_once(small_plan, tmp_path):
     (tmp_path / "plan.md").write_text(small_plan.replace("name: ball,", "name: ball, count: 3,", 1))
     wanted = recognition.wanted(State(Run(tmp_path)))
     assert wanted == ("ball",)
+
+
+def test_a_claim_of_rest_that_fails_sends_to_the_plan_first(tmp_path):
+    state = State(Run(tmp_path))
+    assert "plan.md claims" in mending.of_anomaly(state, "WS107")
+    assert mending.of_anomaly(state, "WS110").startswith(f"correct {state.place}/simulation.py")
