@@ -14,6 +14,7 @@ from . import suppression
 from .harm import KINDS
 from .problem import Problem
 from .program_view import Program
+from .report import NOT_TRIED
 
 if TYPE_CHECKING:
     from .compiled.fetch import Outcome
@@ -308,7 +309,8 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
 
     failure = try_film(path.parent)
     if failure is None:
-        return [], f"{path.name}: not tried: nothing is recorded of its program and plan yet"
+        first = f"`worldwright go {path.parent} --until expect`, then ask again"
+        return [], f"{path.name}: {NOT_TRIED}: nothing is recorded of its program and plan yet; {first}"
     if not failure:
         return [], f"{path.name}: described and drawn"
     line = int(failure.get("line") or 1)

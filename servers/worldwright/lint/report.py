@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
 MAX_FINDINGS = 80
 """A tool's answer stays below 20 KB."""
+NOT_TRIED = "not tried"
+"""Said of a file that nothing but reading has judged, although it would have to be tried."""
 
 
 class ShownReport(LintReport):
@@ -59,7 +61,10 @@ class ShownReport(LintReport):
         warnings = sum(f.severity == "warning" for f in self.findings)
         files = f"{self.files} file{'s' * (self.files != 1)}"
         verdict = f"{errors} error{'s' * (errors != 1)}, {warnings} warning{'s' * (warnings != 1)}"
+        untried = [line.partition(":")[0] for line in self.worlds if NOT_TRIED in line]
         clean = "clean" if not self.findings else verdict
+        if untried:  # reading alone finds little of what may be wrong with it
+            clean = f"{'nothing found' if not self.findings else verdict} by reading; NOT TRIED: {', '.join(untried)}"
         parts += [*self.fixed, *self.worlds]
         parts.append(f"{files}, {self.rules} rules: {clean}" + (f" (kept as {self.kept})" if self.kept else ""))
         return "\n".join(parts)

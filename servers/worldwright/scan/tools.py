@@ -349,6 +349,13 @@ def repair_target(code: str) -> str:
     return str(CHECKS[code].REPAIR)
 
 
+def of_claim(code: str) -> bool:
+    """Whether the anomaly check of this code finds fault with what the plan claims as often as with the world; no tool."""
+    from .anomalies.engine import CHECKS
+
+    return code in CHECKS and bool(CHECKS[code].OF_CLAIM)
+
+
 def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Trajectory]":
     """The named recording, with the run, key and plan that it belongs to, if any."""
     from ..model.recording.trajectory_files import read_trajectory

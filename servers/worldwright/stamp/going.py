@@ -18,7 +18,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding
 from ..model.progress import Progress, silent
-from . import audited, gates, picture_claims
+from . import audited, gates, mending, picture_claims
 from .gone import Gone, Wrong
 from .state import State
 from .steps import Step, one
@@ -279,8 +279,8 @@ class Going:
             scan(self.name)
         report = State(self.run).scan.value
         anomalies = report.anomalies if report else ()
-        if blocking := [str(a) for a in anomalies if a.severity == "blocking"]:
-            raise WrongError(*((said, self.patch()) for said in blocking))
+        if blocking := [a for a in anomalies if a.severity == "blocking"]:
+            raise WrongError(*((str(a), mending.of_anomaly(State(self.run), a.code)) for a in blocking))
         remarks = [str(a) for a in anomalies if a.severity == "warn"]
         said = [self.step("scan").detail]
         with suppress(WorldwrightError):  # without the recording there is nothing to add

@@ -1,10 +1,14 @@
 """Every rule proves itself: its GOOD cases are clean, its BAD cases are found, its page is complete."""
 
 import json
+import math
 import re
 from functools import cache
+from types import SimpleNamespace
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from worldwright.lint import engine, source
 from worldwright.lint.case import SOUND_PLAN, Case, plan_with
@@ -132,3 +136,15 @@ def test_codes_are_unique_and_names_do_not_repeat():
     assert len({rule.code for rule in rules}) == len(rules)
     assert len({rule.name for rule in rules}) == len(rules)
     assert len(rules) >= 60
+
+
+@given(step=st.floats(1e-5, 0.02), steps_a_period=st.floats(3.2, 10.4))
+def test_the_step_that_a_stiff_spring_asks_for_is_shorter_than_the_worlds(step, steps_a_period):
+    from worldwright.lint.rules.model import spring_faster_than_step as rule
+
+    view = SimpleNamespace(time_step=step, name=lambda *_: "root", at=lambda *told: told)
+    phase = 2 * math.pi / steps_a_period
+    ((_, _, message, fix, severity),) = rule._problems(view, "joint", 0, phase)
+    asked = float(re.search(r"to (\S+) s or less", fix).group(1))
+    assert severity == "warning" and f"{steps_a_period:.1f} steps" in message
+    assert 0 < asked < step and asked * phase / step <= rule.UNRESOLVED * (1 + 1e-9)

@@ -178,3 +178,15 @@ def test_a_plan_given_from_elsewhere_is_not_evidence(tmp_path):
     report = tools.check_program([program], plan=EXAMPLES / "bouncing-basketball" / "plan.md")
     assert not report.kept and not (tmp_path / "evidence").exists()
     assert {"WL121", "WL123"} <= {f.code for f in report.findings}
+
+
+def test_a_film_that_nothing_was_recorded_for_is_not_called_clean(small_plan, tmp_path):
+    (tmp_path / "plan.md").write_text(small_plan)
+    (tmp_path / "simulation.py").write_text("from worldkit import program\n")
+    (tmp_path / "film.py").write_text(
+        "from worldkit.filming import Film, wide\n\n\ndef film(film: Film) -> None:\n    film.shot(wide(), until=1.0)\n"
+    )
+    report = tools.check_program([tmp_path / "film.py"])
+    assert report.findings == ()
+    assert f"worldwright go {tmp_path} --until expect" in report.worlds[0]
+    assert report.text().endswith("nothing found by reading; NOT TRIED: film.py")

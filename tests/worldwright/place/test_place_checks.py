@@ -93,6 +93,27 @@ def test_a_row_that_lets_copies_overlap_too_far_is_told_once(between):
     ]
 
 
+def test_what_is_welded_may_lie_in_each_other_and_every_other_pair_is_told_at_once():
+    leaf = [box(name, 0.07, 0.025, 0.001) for name in ("leaf", "lee", "tip")]
+    twig = [box(name, 0.01, 0.01, 0.13) for name in ("one", "two", "three")]
+    pairs = [("leaf", "lee"), ("leaf", "tip"), ("one", "two"), ("two", "three")]
+    found = report(
+        [*leaf, *twig], [],
+        topology={
+            "body_positions": {row["name"]: {"x": 0.1 * k, "y": 1, "z": 0.5} for k, row in enumerate((*leaf, *twig))},
+            "joints": [
+                {"name": "midrib", "type": "weld", "parent": "leaf", "child": "lee"},
+                {"name": "stalk", "type": "weld", "parent": "lee", "child": "tip"},
+                {"name": "bend", "type": "hinge", "parent": "one", "child": "two", "axis": [0, 1, 0]},
+            ],
+            "overlaps": [{"between": list(pair), "up_to_m": 0.02, "why": "one grown thing"} for pair in pairs],
+        },
+    )  # fmt: skip
+    told = [finding for finding in found.findings if finding.code == "WP327"]
+    assert [finding.message.split(" lets ")[1].split(" overlap")[0] for finding in told] == ["one and two", "two and three"]
+    assert "what joint `bend` joins does not collide" in told[0].fix and "weld them" in told[1].fix
+
+
 def test_many_things_are_not_all_measured_in_every_picture(monkeypatch):
     layout = SimpleNamespace(
         plan=SimpleNamespace(
@@ -114,7 +135,7 @@ def test_an_overlap_with_what_has_no_place_says_that_its_size_is_unknown():
     row = SimpleNamespace(between=("jar", "cloth"), up_to_m=0.01, why="it lies on it")
     told = []
     layout = SimpleNamespace(
-        plan=SimpleNamespace(topology=SimpleNamespace(overlaps=(row,)), families={}),
+        plan=SimpleNamespace(topology=SimpleNamespace(overlaps=(row,), joints=()), families={}),
         placed={"jar": SimpleNamespace(size=(0.1, 0.1, 0.1))},
         problems=SimpleNamespace(add=lambda *said, severity: told.append((said[0], said[2], severity))),
     )

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from worldwright.model.plan.committed import Plan
@@ -64,3 +65,14 @@ def test_what_turns_on_the_spot_stays_and_is_not_said_to_move():
 
 def test_a_body_that_the_recording_does_not_hold_is_proved_by_nothing():
     assert judged(LATE, {"comes_to_rest": {"body": "ghost", "before_s": 3.75}})[2] == frozenset()
+
+
+def test_what_still_moves_is_told_with_the_words_that_ask_it_to_rest_and_with_all_else_that_moves():
+    two = analytic.rolling()
+    both = {name: np.repeat(getattr(two, name), 2, axis=1) for name in ("pos", "quat", "linvel", "angvel")}
+    two = replace(two, names=("ball", "tuft"), mechanics=type(two.mechanics)(), contacts=None, contact_force_sum=None, **both)
+    for claim, advised in (("stays", True), ("comes_to_rest", False)):
+        context = Context(planned=True, rests=("ball",), rest_claims=((claim, {"body": "ball"}),))
+        (told,) = [a for a in engine.scan(two, context).anomalies if a.code == "WS107" and a.severity == "blocking"]
+        assert f"although `{claim}` in the plan's objectives asks it to rest; so do tuft (" in told.message
+        assert ("`stays_within`" in told.message) is advised

@@ -6,7 +6,7 @@ from worldwright.model.errors import GateError
 from worldwright.model.evidence.reports import Sighting, VisualDescription
 from worldwright.model.evidence.run import Run
 from worldwright.model.evidence.verdict import CrossCheck, ObjectiveVerdict, Recognition, Verdict
-from worldwright.stamp import recognition
+from worldwright.stamp import mending, recognition
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
@@ -95,12 +95,35 @@ def test_a_world_that_nobody_believes_gets_one_repair_of_its_look(reviewed, copy
     stamp.describe(str(run), seen(belief=4))
     with pytest.raises(GateError, match="belief is 4 of 10: an empty floor"):
         stamp.review(str(run), passed(BALL, EVENT))
-    stamp.review(str(run), passed(BALL, EVENT, outcome="repair", repair_target="look", repair="give it a ground"))
+    ordered = passed(BALL, EVENT, outcome="repair", repair_target="look", repair="give it a ground")
+    assert "film.py, one patch" in stamp.review(str(run), ordered).next_move
     stamp.review(str(run), passed(BALL, EVENT))
     assert State(Run(run)).review.value.outcome == "pass"
+
+
+@pytest.mark.parametrize(
+    ("target", "first"),
+    [
+        ("look", "film.py"),
+        ("not_recognised", "film.py"),
+        ("camera_placement", "plan.md"),
+        ("plan", "plan.md"),
+        ("scale", "simulation.py"),
+    ],
+)
+def test_the_move_after_a_repair_names_the_file_that_its_target_is_in(tmp_path, target, first):
+    told = mending.next_move(State(Run(tmp_path)), target)
+    named = [name for name in ("plan.md", "film.py", "simulation.py") if name in told]
+    assert min(named, key=told.index) == first
 
 
 def test_copies_of_one_object_are_wanted_once(small_plan, tmp_path):
     (tmp_path / "plan.md").write_text(small_plan.replace("name: ball,", "name: ball, count: 3,", 1))
     wanted = recognition.wanted(State(Run(tmp_path)))
     assert wanted == ("ball",)
+
+
+def test_a_claim_of_rest_that_fails_sends_to_the_plan_first(tmp_path):
+    state = State(Run(tmp_path))
+    assert "plan.md claims" in mending.of_anomaly(state, "WS107")
+    assert mending.of_anomaly(state, "WS110").startswith(f"correct {state.place}/simulation.py")

@@ -26,6 +26,21 @@ class Belonging:
         return self.up_to.get(frozenset(owner(name, self.parents, self.objects) for name in (one, other)), 0.0)
 
 
+def welded(plan: Plan) -> dict[str, str]:
+    """Each object that a plan welds to another (`topology.joints`, `type: weld`), and one name for all that hold together so."""
+    head: dict[str, str] = {}
+
+    def first(name: str) -> str:
+        while name != head.setdefault(name, name):
+            name = head[name]
+        return name
+
+    for joint in plan.topology.joints:
+        if joint.type == "weld":
+            head[first(joint.child)] = first(joint.parent)
+    return {name: first(name) for name in list(head)}
+
+
 def owner(body: str, parents: Mapping[str, str], objects: Collection[str]) -> str:
     """The object that a body belongs to: the nearest one that carries it; the outermost body where none does."""
     seen = body

@@ -3,6 +3,7 @@
 import math
 from itertools import groupby
 
+from ...model.plan.belonging import welded
 from ..anchors import shown
 from ..asking import RefusedLayoutError, simulate
 from .checked_layout import OVERLAP_M, CheckedLayout
@@ -53,12 +54,20 @@ def check(layout: CheckedLayout) -> None:
 
 
 def _too_much(layout: CheckedLayout) -> None:
-    """Report each row of `topology.overlaps`, as it is written, that would hide that one thing is half inside the other."""
+    """Report each row of `topology.overlaps`, as it is written, that would hide that one thing is half inside the other.
+
+    What is welded together is one thing, whose parts may lie in each other as they like; what a joint joins does not collide.
+    """
+    one_thing = welded(layout.plan)
+    joined = {frozenset((joint.parent, joint.child)): joint.name for joint in layout.plan.topology.joints}
     whole = {copy: name for name, copies in layout.plan.families.items() for copy in copies}
     rows = groupby(layout.plan.topology.overlaps, lambda r: (*(whole.get(n, n) for n in r.between), r.up_to_m, r.why))
     for index, ((one, other, up_to_m, _), copied) in enumerate(rows):
+        pairs = [row.between for row in copied]
+        if all(a in one_thing and one_thing[a] == one_thing.get(b) for a, b in pairs):
+            continue
         sizes: dict[str, float] = {}
-        for name in (name for row in copied for name in row.between if name in layout.placed):
+        for name in (name for pair in pairs for name in pair if name in layout.placed):
             said = whole.get(name, name)
             sizes[said] = min(sizes.get(said, math.inf), *layout.placed[name].size)
         if unknown := [name for name in (one, other) if name not in sizes]:
@@ -73,11 +82,14 @@ def _too_much(layout: CheckedLayout) -> None:
             continue
         thinner = min(sizes, key=lambda name: sizes[name])
         if up_to_m > sizes[thinner] / 2:
+            joint = next((joined[pair] for pair in map(frozenset, pairs) if pair in joined), "")
+            without = f"leave the row out (what joint `{joint}` joins does not collide)" if joint else ""
+            without = without or "weld them (`type: weld`), or make room for one in the other"
             layout.problems.add(
                 "WP327",
                 "overlap_too_large",
                 f"`topology.overlaps` lets {one} and {other} overlap by {shown(up_to_m)} m, more than half of "
                 f"`{thinner}` ({shown(sizes[thinner])} m)",
-                f"let it be {shown(sizes[thinner] / 2)} m at most, weld them (`type: weld`), or make room for one in the other",
+                f"let it be {shown(sizes[thinner] / 2)} m at most, or {without}",
                 ("topology", "overlaps", index),
             )

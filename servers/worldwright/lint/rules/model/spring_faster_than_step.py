@@ -46,11 +46,17 @@ def check(view: ModelView) -> Iterator[Problem]:
             yield from _problems(view, "tendon", tendon, step * float(np.sqrt(stiffness * weight)))
 
 
+def _rounded_down(step: float) -> float:
+    """The largest step of two digits that is enough: rounded to the nearest, it could be the one that the world has."""
+    unit = 10.0 ** (np.floor(np.log10(step)) - 1)
+    return float(np.floor(step / unit * (1 + 1e-12)) * unit)
+
+
 def _problems(view: ModelView, kind: str, index: int, phase: float) -> Iterator[Problem]:
     if phase <= UNRESOLVED:
         return
     step = view.time_step * UNRESOLVED / phase
     what = "blows up" if phase > UNSTABLE else "is not resolved"
     message = f"the spring of {view.name(kind, index)} {what}: {2 * np.pi / phase:.1f} steps a period"
-    fix = f"shorten the step to {step:.1g} s, or use integrator discrete"
+    fix = f"shorten the step to {_rounded_down(step):g} s or less, or use integrator discrete"
     yield view.at(kind, index, message, fix, "error" if phase > UNSTABLE else "warning")

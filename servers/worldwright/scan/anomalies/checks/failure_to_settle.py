@@ -12,7 +12,7 @@ remark without a plan, since a recording may end before its motion does.
 Source: the reference paper's scanner.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -29,7 +29,9 @@ REPAIR = "object_settlement"
 SHOWN_AS = "speed"
 NEEDS = ("linvel",)
 WHOLE = True
+OF_CLAIM = True
 SPEED_FRACTION = 0.02
+MOST_OTHERS = 8
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -43,12 +45,14 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     half = len(u) // 2
     first, second = _rms(u[:half]), _rms(u[half:])
     at_rest = resting.proved(trajectory, context)
-    for b in np.flatnonzero((second > limit) & trajectory.moves_freely):
+    unsettled = np.flatnonzero((second > limit) & trajectory.moves_freely)
+    for b in unsettled:
         name = trajectory.names[b]
         if name in at_rest:
             continue
         if name in context.rests:
-            severity, why = "blocking", "although the plan says it rests"
+            others = [f"{trajectory.names[o]} ({second[o]:.2g} m/s)" for o in unsettled if o != b]
+            severity, why = "blocking", _asked(context, name, others)
         elif context.planned and name not in context.movers and trajectory.mechanics.free is not None:
             if not trajectory.mechanics.free[b]:
                 continue
@@ -60,6 +64,23 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         window = (trajectory.t[end.start], trajectory.t[-1])
         message = f"{name} still moves at {second[b]:.3g} m/s at the end, {why}"
         yield Sign(name, window, second[b], limit[b], "m/s", severity, message)
+
+
+def _asked(context: Context, name: str, others: Sequence[str]) -> str:
+    """From which words of the plan it follows that a body rests, what else still moves, and what to claim of one that does."""
+    claims = [(claim, given) for claim, given in context.rest_claims if name in _bodies(given)]
+    claim = claims[0][0] if claims else "a claim"
+    said = f"although `{claim}` in the plan's objectives asks it to rest"
+    if others:
+        more = f" and {len(others) - MOST_OTHERS} more" if len(others) > MOST_OTHERS else ""
+        said += f"; so do {', '.join(others[:MOST_OTHERS])}{more}"
+    if claim == "stays":
+        said += "; of what something still moves, as a wind does, claim `stays_within`, or give `stays` an earlier `window_s`"
+    return said
+
+
+def _bodies(given: Mapping[str, Any]) -> tuple[str, ...]:
+    return (str(given.get("body") or ""), *map(str, given.get("bodies") or ()))
 
 
 def _rms(values: np.ndarray) -> np.ndarray:
