@@ -99,6 +99,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame, sheet)")
     parser.add_argument("--eye", type=_point, help="where an unplanned camera stands: X,Y,Z in m (frame)")
     parser.add_argument("--target", type=_point, default=(0.0, 0.0, 0.0), help="what it looks at: X,Y,Z in m")
+    parser.add_argument("--plain", action="store_true", help="one picture without its camera's name (sheet)")
     parser.add_argument("--fovy", type=float, default=45.0, help="height of what it sees, degrees")
     parser.add_argument("--format", choices=("gltf", "usd"), default="gltf", help="how the scene is written (scene)")
     parser.add_argument("--camera", dest="cameras", action="append", default=[])

@@ -41,3 +41,11 @@ class SeamError(WorldkitError):
     """There is no such entry of a seam (a renderer, a solver, a source of assets), or it lacks what its protocol names."""
 
     code = "seam"
+
+
+class IntakeError(WorldkitError):
+    """A file cannot become an asset; its `code` says why (`truncated`, `zero_volume`, `too_many_faces`, …)."""
+
+    def __init__(self, code: str, cause: str, place: str = "", next_move: str = "") -> None:
+        super().__init__(cause, place, next_move)
+        self.code = code

@@ -31,6 +31,10 @@ COMMANDS = {
     ),
     "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
     "sculpt": ("worldwright.sculpting", "See something sculpted from four sides: `sculpt sheet FILE.py[:NAME]`."),
+    "asset": (
+        "worldwright.intake.command",
+        "Make an asset of a mesh file of yours; list the assets of every source; show one.",
+    ),
     "watch": ("worldwright.kept_open", "Look at a run and leave it open: redrawn when a file of it is saved."),
     "hand-in": (
         "worldwright.handing_in",

@@ -46,7 +46,7 @@ SERVERS = {
 }
 
 
-LENT = {"stage": "worldwright.rehearsing"}
+LENT = {"stage": "worldwright.rehearsing", "retrieve": "worldwright.adding_assets"}
 """Modules with more tools of a server: such as need servers that stand on it, and which it may therefore not import."""
 BEAT_S = 10.0
 """A call is silent for at most twice so long, s: a client that counts its patience anew at each word waits 30 s."""

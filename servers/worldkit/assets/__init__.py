@@ -11,11 +11,11 @@ plane at `z`, put its centre at `z + h / 2`. To rest something inside or on anot
 the supporting plane is at `other_z - other_h / 2 + other.support(name, height=other_h).z`.
 """
 
-from .catalog import UnknownAssetError, files, find, fingerprint, keys
+from .catalog import UnknownAssetError, entries, files, find, keys
 from .entry import Asset, Piece, Support
 from .instance import add
 from .reading import AssetError
-from .root import catalog_root
+from .root import catalog_root, own_root, relative
 
 __all__ = [
     "Asset",
@@ -25,8 +25,10 @@ __all__ = [
     "UnknownAssetError",
     "add",
     "catalog_root",
+    "entries",
     "files",
     "find",
-    "fingerprint",
     "keys",
+    "own_root",
+    "relative",
 ]

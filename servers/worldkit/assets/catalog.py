@@ -1,7 +1,7 @@
-"""Which assets there are, from whatever source, which of them this process used, and one hash over them all."""
+"""Which assets there are, from whatever source, and which of them this process used."""
 
 import difflib
-import hashlib
+from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 
@@ -57,6 +57,18 @@ def find(key: str) -> Asset:
     return _read(known[key], key, stats)
 
 
+def entries() -> Iterator[Asset]:
+    """Every entry that can be read, in the order of the keys, none of which is used by that; a broken one hides no other."""
+    for key, source in sources().items():
+        try:
+            stats = tuple(
+                (path, s.st_mtime_ns, s.st_size) for path in SEAM.find(source).files(key) for s in (path.stat(),)
+            )
+            yield _read(source, key, stats)
+        except (AssetError, OSError):
+            continue
+
+
 def files(key: str) -> tuple[Path, ...]:
     """Every file that decides what an asset is; none where there is no such key."""
     source = sources().get(key)
@@ -76,15 +88,3 @@ def taken() -> tuple[str, ...]:
 @lru_cache(maxsize=512)
 def _read(source: str, key: str, _stats: tuple[tuple[Path, int, int], ...]) -> Asset:
     return SEAM.find(source).find(key)
-
-
-def fingerprint() -> str:
-    """SHA-256 (hex) over every file of every asset by relative path and content, thumbnails excepted."""
-    root = catalog_root()
-    digest = hashlib.sha256()
-    for key in keys():
-        for path in files(key):
-            content = path.read_bytes()
-            digest.update(f"{path.relative_to(root).as_posix()}\0{len(content)}\0".encode())
-            digest.update(content)
-    return digest.hexdigest()

@@ -88,6 +88,10 @@ class Asset:
     supports: tuple[Support, ...]
     """At native size; `support()` scales them."""
     thumbnail: Path
+    creator: str = ""
+    """Who made it, as its licence wants to be named."""
+    mended: tuple[str, ...] = ()
+    """What was mended and what was assumed when it was taken in."""
     visual_pos: Vec3 = (0.0, 0.0, 0.0)
     """Where the drawn meshes' own origin lies, from the centre of the bounding box, at native size."""
 

@@ -30,6 +30,10 @@ OPTIONAL = [
     "collision",
     "supports",
     "thumbnail",
+    "creator",
+    "mended",
+    "assumed",
+    "measured",
 ]
 CONTACT = ("friction", "restitution", "torsional", "rolling")
 MATERIAL = ("texture", "rgba", "specular", "shininess", "reflectance", "metallic", "roughness", "emission")
@@ -106,6 +110,8 @@ def read_asset(folder: Path) -> Asset:
         collision=tuple(_piece(item, folder, n) for n, item in enumerate(row.items("collision"))),
         supports=tuple(_support(item, native) for item in row.items("supports")),
         thumbnail=folder / row.text("thumbnail", "thumbnail.png"),
+        creator=row.text("creator", ""),
+        mended=tuple(map(str, (*row.get("mended", ()), *row.get("assumed", ())))),
     )
 
 

@@ -1,4 +1,4 @@
-"""Where the assets are."""
+"""Where the assets are: the catalog of the project, and the folder of whoever works on this machine."""
 
 import os
 from pathlib import Path
@@ -19,3 +19,25 @@ def catalog_root() -> Path:
     raise FileNotFoundError(
         f"no asset catalog at {' or '.join(map(str, places))}; point WORLDWRIGHT_CATALOG at a folder of assets"
     )
+
+
+def own_root() -> Path:
+    """The user's own assets, seen from every project: `$WORLDWRIGHT_ASSETS`, else `assets` in the user's data folder.
+
+    It need not exist. A confined process is told where it is, since its home is another.
+    """
+    named = os.environ.get("WORLDWRIGHT_ASSETS")
+    if named:
+        return Path(named)
+    data = os.environ.get("WORLDWRIGHT_DATA")
+    if data:
+        return Path(data) / "assets"
+    return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "worldwright" / "assets"
+
+
+def relative(path: Path) -> str:
+    """An asset's file by its path below the root that it lies in, with slashes; the user's own begin with `own/`."""
+    for root, before in ((own_root(), "own/"), (catalog_root(), "")):
+        if path.is_relative_to(root):
+            return before + path.relative_to(root).as_posix()
+    return path.name

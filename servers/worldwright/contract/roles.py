@@ -52,6 +52,7 @@ PLAN = Role(
         "retrieve.search",
         "retrieve.read",
         "retrieve.find_asset",
+        "retrieve.add_asset",
         "retrieve.symbol",
         "retrieve.begin",
         "lint.check_plan",

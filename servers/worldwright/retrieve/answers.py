@@ -149,6 +149,10 @@ class AssetHit(Frozen):
     mass_kg: float
     thumbnail: str = ""
     score: float = 0.0
+    source: str = ""
+    """Which source delivers it: `recipes`, `own_folder`, `mesh_files` …"""
+    licence: str = ""
+    creator: str = ""
 
 
 class LookHit(Frozen):

@@ -1,11 +1,18 @@
-"""Catalog assets by what they are, and the looks that fit: a small match of word stems over names and descriptions."""
+"""Assets of every source by what they are: by words, then by meaning, and by size; and the looks that fit."""
 
+import os
 import re
+from collections import defaultdict
 from difflib import SequenceMatcher
-from typing import Any
+from functools import lru_cache
+from math import log10
+from typing import TYPE_CHECKING, Any
 
 from . import words
 from .answers import AssetHit, AssetList, LookHit
+
+if TYPE_CHECKING:
+    import numpy as np
 
 SAME = {
     "boulder": "stone",
@@ -21,46 +28,169 @@ SAME = {
 MOST_LOOKS = 4
 TYPO = 0.8
 """Similarity from which on a word counts as an asset's name with a typing error."""
+MEANT, LIKELY, AHEAD = 0.5, 0.35, 0.1
+"""Cosine from which on a text means an asset; or, where no word fits, from which on the first does that is so far ahead."""
+LEAST_OF_MEANING = 0.01
+"""The score of what fits by meaning alone is its cosine times this, so that any word comes first."""
 
 
-def find(query: str, limit: int) -> AssetList:
-    """The assets whose words fit, best first; every key when none does."""
-    known = _catalog()
+def find(query: str, limit: int, height_m: float | None = None) -> AssetList:
+    """The assets that fit, best first; every key when none does.
+
+    Args:
+        query: what the thing is, in words.
+        limit: how many.
+        height_m: about how high it is to stand; of two that fit alike, the one nearer to it comes first.
+    """
+    known = _known()
     asked = _stems(" ".join(words.terms(query)))
-    scored = sorted(((_score(asset, asked), key) for key, asset in known.items()), key=lambda row: (-row[0], row[1]))
-    hits = tuple(_hit(known[key], score) for score, key in scored[:limit] if score > 0)
-    return AssetList(query=query, assets=hits, known=() if hits else tuple(known), looks=_looks(asked))
+    scores = known.by_words(asked)
+    for number, near in known.by_meaning(query, bool(scores)):
+        scores.setdefault(number, LEAST_OF_MEANING * near)
+    if height_m:
+        for number in scores:
+            apart = abs(log10(float(known.assets[number].metric_height) / height_m))
+            scores[number] = scores[number] / (1 + apart)
+    order = sorted(scores, key=lambda number: (-scores[number], known.assets[number].key))[:limit]
+    hits = tuple(_hit(known.assets[number], round(scores[number], 4), known.sources[number]) for number in order)
+    everything = () if hits else tuple(sorted(asset.key for asset in known.assets)[:MOST_KNOWN])
+    return AssetList(query=query, assets=hits, known=everything, looks=_looks(asked))
+
+
+MOST_KNOWN = 200
+"""Keys that are told when nothing fits."""
 
 
 def count() -> int:
-    """How many assets the catalog has."""
-    return len(_catalog())
+    """How many assets all sources have."""
+    return len(_known().assets)
 
 
-def _catalog() -> dict[str, Any]:
-    """Every readable asset by key, from whatever source; one broken entry must not hide the others."""
-    from worldkit import assets
+class _Known:
+    """Every readable asset of every source, by number, with the words that each is found by."""
 
-    found = {}
-    for key in assets.keys():  # noqa: SIM118 - a function of the catalog, not a mapping
+    def __init__(self, sources: dict[str, str]) -> None:
+        from worldkit import assets
+
+        self.assets: list[Any] = list(assets.entries())
+        self.sources = [sources.get(asset.key, "") for asset in self.assets]
+        self.wanted = tuple(sources.items())
+        self.stamps = self._stamps()
+        self._own: dict[str, set[int]] = defaultdict(set)
+        self._other: dict[str, set[int]] = defaultdict(set)
+        self._names: list[tuple[str, ...]] = []
+        for number, asset in enumerate(self.assets):
+            self._names.append(tuple(_stems(asset.key)))
+            for word in self._names[-1]:
+                self._own[word].add(number)
+            for word in _stems(f"{asset.category} {asset.description}"):
+                self._other[word].add(number)
+        self._near = lru_cache(maxsize=4096)(self._nearly)
+
+    def stands(self, sources: dict[str, str]) -> bool:
+        """Whether nothing was added, removed or written anew since it was read."""
+        return self.wanted == tuple(sources.items()) and self.stamps == self._stamps()
+
+    def _stamps(self) -> tuple[int, ...]:
+        """When the text that describes each asset was written last; 0 where it is gone."""
+        return tuple(
+            _changed(f"{asset.folder}/asset.yaml", f"{asset.folder}/{asset.key}.yaml") for asset in self.assets
+        )
+
+    def by_words(self, asked: list[str]) -> dict[int, float]:
+        """Scores, above 0, of the assets whose name or description has a word of these."""
+        totals: dict[int, float] = defaultdict(float)
+        for term in asked:
+            close: dict[int, float] = {}
+            for word, ratio in self._near(term):
+                for number in self._own[word]:
+                    close[number] = max(close.get(number, 0.0), ratio)
+            for number, ratio in close.items():
+                totals[number] += 3 * ratio
+            for number in self._other.get(term, ()):
+                if number not in close:
+                    totals[number] += 1.0
+        found = {}
+        for number, total in totals.items():
+            spare = sum(word not in asked for word in self._names[number])  # of two tables the plain one comes first
+            if (score := round(total - 0.1 * spare, 3)) > 0:
+                found[number] = score
+        return found
+
+    def _nearly(self, term: str) -> tuple[tuple[str, float], ...]:
+        """Words of names that a term is, or is but for a typing error, each with the likeness."""
+        if term in self._own:
+            return ((term, 1.0),)
+        alike = [word for word in self._own if abs(len(word) - len(term)) <= 2]
+        rated = [(word, SequenceMatcher(None, term, word).ratio()) for word in alike]
+        return tuple((word, ratio) for word, ratio in rated if ratio > TYPO)
+
+    def by_meaning(self, query: str, named: bool) -> list[tuple[int, float]]:
+        """Assets that a text means, each with its cosine; none where the model of meaning is not installed."""
+        from . import semantic
+
+        if not self.assets or not query.strip() or not semantic.installed():
+            return []
+        from .semantic.model import encode_plainly
+
+        near = _vectors(tuple(_said(asset) for asset in self.assets)) @ encode_plainly([query])[0]
+        order = near.argsort()[::-1][:MOST_KNOWN]
+        found = [(int(number), float(near[number])) for number in order if near[number] >= MEANT]
+        if not found and not named and near[order[0]] >= LIKELY:
+            second = float(near[order[1]]) if len(order) > 1 else 0.0
+            found = [(int(order[0]), float(near[order[0]]))] if near[order[0]] - second >= AHEAD else []
+        return found
+
+
+_HELD: list[_Known] = []
+
+
+def _known() -> _Known:
+    from worldkit.assets import catalog
+
+    sources = catalog.sources()
+    if not (_HELD and _HELD[0].stands(sources)):
+        _HELD[:] = [_Known(sources)]
+    return _HELD[0]
+
+
+def _changed(*paths: str) -> int:
+    for path in paths:
         try:
-            found[key] = assets.find(key)
-        except (assets.AssetError, OSError):
+            return os.stat(path).st_mtime_ns  # noqa: PTH116 (ten thousand of them at each question)
+        except OSError:
             continue
+    return 0
+
+
+def _said(asset: Any) -> str:
+    return f"{asset.key.replace('_', ' ')}: {asset.description}, {asset.category}"
+
+
+@lru_cache(maxsize=2)
+def _vectors(texts: tuple[str, ...]) -> "np.ndarray":
+    """The vectors (N, 384) of texts; what was embedded once, by whichever process, is not embedded again."""
+    import hashlib
+
+    import numpy as np
+
+    from .semantic import store
+    from .semantic.model import encode_plainly
+
+    digests = [hashlib.sha256(f"asset {text}".encode()).hexdigest() for text in texts]
+    names, kept = store.everything()
+    row = {name: number for number, name in enumerate(names)}
+    missing = [number for number, digest in enumerate(digests) if digest not in row]
+    fresh = encode_plainly([texts[number] for number in missing]) if missing else np.zeros((0, 384), dtype=np.float32)
+    if missing:
+        store.append([digests[number] for number in missing], fresh)
+    found = np.zeros((len(texts), 384), dtype=np.float32)
+    for place, number in enumerate(missing):
+        found[number] = fresh[place]
+    for number, digest in enumerate(digests):
+        if digest in row:
+            found[number] = kept[row[digest]]
     return found
-
-
-def _score(asset: Any, asked: list[str]) -> float:
-    own, other = _stems(asset.key), _stems(f"{asset.category} {asset.description}")
-    total = 0.0
-    for term in asked:
-        close = max((SequenceMatcher(None, term, word).ratio() for word in own), default=0.0)
-        if close > TYPO:
-            total += 3 * close
-        elif term in other:
-            total += 1.0
-    spare = sum(word not in asked for word in own)  # of two tables the plain one comes first
-    return round(max(total - 0.1 * spare, 0.0), 3)
 
 
 def _looks(asked: list[str]) -> tuple[LookHit, ...]:
@@ -93,9 +223,10 @@ def _singular(word: str) -> str:
     return word[:-1] if len(word) > 3 and word.endswith("s") and not word.endswith("ss") else word
 
 
-def _hit(asset: Any, score: float) -> AssetHit:
+def _hit(asset: Any, score: float, source: str) -> AssetHit:
     height = float(asset.metric_height)
     picture = asset.thumbnail if asset.thumbnail.is_file() else None
+    place = "catalog" if source == "recipes" else str(asset.folder.parent)
     return AssetHit(
         key=asset.key,
         category=asset.category,
@@ -103,6 +234,9 @@ def _hit(asset: Any, score: float) -> AssetHit:
         extents_m=tuple(round(float(v), 4) for v in asset.extents(height)),
         height_m=height,
         mass_kg=round(float(asset.mass_at(height)), 4),
-        thumbnail=f"catalog/{picture.parent.name}/{picture.name}" if picture else "",
+        thumbnail=f"{place}/{picture.parent.name}/{picture.name}" if picture else "",
         score=score,
+        source=source,
+        licence=asset.licence,
+        creator=asset.creator,
     )

@@ -150,11 +150,15 @@ def breaking_changes(
 def find_asset(
     query: Annotated[str, Field(description="What the object is, e.g. `coffee cup` or `something to sit on`")],
     k: Annotated[int, Field(description="How many", ge=1, le=25)] = 5,
+    height_m: Annotated[float | None, Field(description="About how high, m: nearer ones come first", gt=0)] = None,
 ) -> AssetList:
-    """Find a catalog asset by what it is; gives keys, real sizes and masses for the plan's `assets`; and looks."""
+    """Find an asset of any source by what it is and how high; gives keys, sizes and masses for the plan's `assets`; and looks.
+
+    A mesh file of yours becomes one by `worldwright asset add FILE` (`retrieve.add_asset`).
+    """
     from .assets import find
 
-    return find(query[:300], max(1, min(k, 25)))
+    return find(query[:300], max(1, min(k, 25)), height_m)
 
 
 def begin(

@@ -88,6 +88,19 @@ def test_assets_are_found_by_what_they_are():
     assert tools.find_asset("wooden tables").assets[0].key == "table"
 
 
+@pytest.mark.parametrize(
+    ("asked", "key"), [("novel", "book"), ("something to sit on", "chair"), ("notebook computer", "laptop")]
+)
+def test_assets_are_found_by_what_they_mean(asked, key):
+    assert tools.find_asset(asked).assets[0].key == key
+
+
+def test_of_assets_that_fit_alike_the_one_of_the_size_comes_first():
+    small, large = (tools.find_asset("ball", height_m=height).assets for height in (0.057, 0.22))
+    assert (small[0].key, large[0].key) == ("billiard_ball", "bowling_ball")
+    assert small[0].source == "recipes" and small[0].licence
+
+
 @pytest.mark.parametrize("asked", ["stone pebble rock", "fist hand paddle", "bowls player's hat"])
 def test_a_word_that_only_begins_alike_finds_nothing(asked):
     found = tools.find_asset(asked)

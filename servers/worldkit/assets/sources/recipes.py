@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from .. import folders
 from ..entry import Asset
 from ..reading import read_asset
 from ..root import catalog_root
@@ -29,7 +30,7 @@ materials: {wood: {rgba: [0.6, 0.4, 0.2, 1.0]}}
 
 def keys() -> tuple[str, ...]:
     """The folders of the catalog that hold an `asset.yaml`."""
-    return tuple(sorted(path.parent.name for path in catalog_root().glob("*/asset.yaml")))
+    return folders.keys(catalog_root())
 
 
 def find(key: str) -> Asset:
@@ -39,14 +40,17 @@ def find(key: str) -> Asset:
 
 def example(catalog: Path) -> str:
     """A cube of wood, of one triangulated box."""
-    folder = catalog / "cube"
-    folder.mkdir()
+    return cube(catalog / "cube")
+
+
+def cube(folder: Path) -> str:
+    """Lay out that cube as a new folder; returns its key."""
+    folder.mkdir(parents=True)
     (folder / "cube.obj").write_text(CUBE, encoding="utf-8")
     (folder / "asset.yaml").write_text(SAID, encoding="utf-8")
-    return "cube"
+    return folder.name
 
 
 def files(key: str) -> tuple[Path, ...]:
     """All files below its folder, except the thumbnail, which decides nothing."""
-    found = (catalog_root() / key).rglob("*")
-    return tuple(sorted(path for path in found if path.is_file() and path.name != "thumbnail.png"))
+    return folders.files(catalog_root(), key)

@@ -42,7 +42,7 @@ def sha256(source: Path, program: Path) -> str:
     digest = hashlib.sha256()
     for name in names:
         path = root / name
-        own = tuple((file, file.relative_to(root).as_posix()) for file in assets.files(name))
+        own = tuple((file, assets.relative(file)) for file in assets.files(name))
         files = own or (below(path) if path.is_dir() else ((path, name),))
         digest.update(f"{name} {sha256_of(f'asset-{name}', files)}\n".encode())
     return digest.hexdigest()

@@ -27,6 +27,8 @@ SOURCES = ("*.py", "*.vert", "*.frag", "*.glsl")
 SERVERS = Path(__file__).parents[3]
 FILM = ("worldengine/film/", "worldkit/filming/")
 """What only pictures depend on."""
+BESIDE = ("worldkit/intake/",)
+"""What no world runs: an asset's own files are part of the key of each world that uses it."""
 
 
 def current() -> Environment:
@@ -45,7 +47,7 @@ def physics_code(servers: Path) -> Named:
     found = (
         (path, f"{name}/{own}") for name in ("worldkit", "worldengine") for path, own in below(servers / name, SOURCES)
     )
-    return tuple((path, name) for path, name in found if not name.startswith(FILM))
+    return tuple((path, name) for path, name in found if not name.startswith((*FILM, *BESIDE)))
 
 
 def film(renderer: str = "") -> Film:

@@ -62,7 +62,7 @@ class Confinement:
 
 
 def runtime_paths() -> tuple[Path, ...]:
-    """Paths that any program reads: the interpreter, the environment's packages, worldkit, worldengine and the catalog."""
+    """Paths that any program reads: the interpreter, the environment's packages, worldkit, worldengine, the catalog and the user's own assets."""
     import worldengine
     import worldkit
     from worldkit import assets
@@ -72,7 +72,7 @@ def runtime_paths() -> tuple[Path, ...]:
     # An environment may borrow another's packages (a .pth file, or the system's).
     paths += [path for path in map(Path, sys.path) if path.name in ("site-packages", "dist-packages")]
     paths += [Path(next(iter(package.__path__))) for package in (worldkit, worldengine)]
-    paths += [Path(assets.catalog_root())]
+    paths += [Path(assets.catalog_root()), assets.own_root()]
     own = (
         Path("/"),
         Path.home(),
@@ -89,6 +89,8 @@ def devices() -> list[Path]:
 
 def environment(scratch: str, lock: str = "") -> dict[str, str]:
     """The environment variables of a job: of the user's own only the choice of renderer, and the lock."""
+    from worldkit.assets.root import own_root
+
     # One thread for linear algebra: a sum split between threads is not the same sum.
     keep = {
         k: v
@@ -97,6 +99,7 @@ def environment(scratch: str, lock: str = "") -> dict[str, str]:
     }
     return {
         **keep,
+        "WORLDWRIGHT_ASSETS": str(own_root().absolute()),
         "PATH": os.defpath,
         "HOME": scratch,
         "TMPDIR": scratch,

@@ -1,0 +1,74 @@
+"""The confined process of an intake: `python -m worldkit.intake.confined_intake REQUEST.json OUT`.
+
+It leaves in OUT the files of the asset's folder, and of a world to draw it in (`world.mjz`, `program.json`); or `error.json`
+and status 1. REQUEST has the keys of `taken_in.take_in`, and `file`.
+"""
+
+import json
+import os
+import shutil
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from ..errors import IntakeError
+from ..files import write_json
+from . import stillness, taken_in
+
+ON = "name another --up if it is another side that is down"
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Take in one file; returns the exit status."""
+    request, out = (Path(word) for word in (sys.argv[1:] if argv is None else argv))
+    asked: dict[str, Any] = json.loads(request.read_text(encoding="utf-8"))
+    file = request.parent / asked["file"]
+    try:
+        with tempfile.TemporaryDirectory() as scratch:
+            _take_in(file, asked, Path(scratch), out)
+        write_json(out / "result.json", {"ok": True, "pass": "intake"})
+    except IntakeError as error:
+        told = {"code": error.code, "cause": error.cause, "place": error.place, "next": error.next_move}
+        write_json(out / "error.json", told)
+        return 1
+    except MemoryError:
+        cause = "it needs more memory than an intake may use"
+        write_json(
+            out / "error.json", {"code": "out_of_memory", "cause": cause, "place": file.name, "next": "reduce it first"}
+        )
+        return 1
+    return 0
+
+
+def _take_in(file: Path, asked: dict[str, Any], scratch: Path, out: Path) -> None:
+    files, facts = taken_in.take_in(file, asked)
+    key = asked["key"]
+    # What is measured from here on is measured of the files as they will lie in the catalog.
+    os.environ["WORLDWRIGHT_CATALOG"], os.environ["WORLDWRIGHT_ASSETS"] = str(scratch), str(scratch / "none")
+    taken_in.write(scratch / key, files, facts)
+    facts["measured"] |= stillness.stood(key)
+    if not facts["measured"]["stands"]:
+        facts["mended"].append(f"it does not stand still as it is: {ON}")
+    if (found := stillness.cavity(key)) is not None:
+        facts["measured"]["cavity"] = found
+        share = found["z"] / facts["metric_height"]
+        side = round(0.5 * found["width"], 6)
+        facts["supports"] = [
+            {
+                "name": "inside",
+                "default": True,
+                "z_fraction": round(share, 6),
+                "extents": [side, side],
+                "shape": "ellipse",
+            }
+        ]
+    taken_in.write(scratch / key, files, facts)
+    stillness.picture(key, out)
+    for path in sorted((scratch / key).iterdir()):
+        shutil.copyfile(path, out / path.name)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

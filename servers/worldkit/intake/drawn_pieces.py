@@ -1,0 +1,158 @@
+"""What a mesh file draws: pieces of triangles, each with one material, in the file's own axes and unit.
+
+The file is parsed by trimesh, after `declared_sizes` has looked at it.
+"""
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..errors import IntakeError
+
+Array = np.ndarray
+MOST_PIECES = 200
+TEXTURE_PIXELS = 1024
+"""Along the longer side of a texture that is kept."""
+GREY = (0.7, 0.7, 0.7, 1.0)
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """One material's triangles.
+
+    vertices: (V, 3). faces: (F, 3) into them, counter-clockwise from outside. uv: (V, 2), v up, or None. picture: (H, W, 3)
+    sRGB uint8, or None. rgba: a factor on it, 0 to 1.
+    """
+
+    vertices: Array
+    faces: Array
+    uv: Array | None = None
+    picture: Array | None = None
+    rgba: tuple[float, float, float, float] = GREY
+    roughness: float = 0.6
+    metallic: float = 0.0
+
+    def moved(self, turn: Array, shift: Array) -> "Drawn":
+        """Every vertex turned by a matrix (3, 3) and then shifted (3,)."""
+        return replace(self, vertices=self.vertices @ turn.T + shift)
+
+
+def read(path: Path) -> tuple[list[Drawn], list[str]]:
+    """The pieces of a file, and what is worth saying of them.
+
+    Raises:
+        IntakeError: it cannot be read as a mesh, or one of its numbers is none.
+    """
+    import trimesh
+
+    try:
+        scene: Any = trimesh.load_scene(path, process=False)
+        found = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
+    except MemoryError:
+        raise
+    except Exception as error:  # a parser may raise anything on a stranger's file
+        said = str(error).strip().splitlines()
+        cause = f"it cannot be read: {said[0][:200] if said else type(error).__name__}"
+        raise IntakeError(
+            "unreadable", cause, path.name, "open it in a modelling program, and export it anew"
+        ) from error
+    if not found:
+        raise IntakeError("no_mesh", "there is no triangle in it", path.name, "export the object itself")
+    pieces = [_piece(mesh, path.name, number) for number, mesh in enumerate(found)]
+    said = []
+    if len(pieces) > MOST_PIECES:
+        said.append(f"of {len(pieces)} pieces those with one colour became one")
+        pieces = _by_colour(pieces)
+    if any(getattr(mesh.visual, "kind", "") == "vertex" for mesh in found):
+        said.append("colours by vertex became one colour a piece")
+    return pieces, said
+
+
+def _piece(mesh: Any, name: str, number: int) -> Drawn:
+    vertices, faces = np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int64)
+    bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(bad):
+        place = f"{name}, piece {number}, vertex {bad[0]}"
+        raise IntakeError(
+            "not_finite", f"{len(bad)} of {len(vertices)} vertices are no numbers", place, "export it anew without them"
+        )
+    if faces.min() < 0 or faces.max() >= len(vertices):
+        place = f"{name}, piece {number}"
+        raise IntakeError(
+            "truncated", f"a face names vertex {faces.max()} of {len(vertices)}", place, "get the file once more"
+        )
+    uv, picture, rgba, rough, metal = _look(mesh)
+    return Drawn(vertices, faces, uv, picture, rgba, rough, metal)
+
+
+def _look(mesh: Any) -> tuple[Array | None, Array | None, tuple[float, float, float, float], float, float]:
+    """uv, picture, colour, roughness and metalness of a piece; whatever of them cannot be read is left out."""
+    visual = mesh.visual
+    if visual.kind == "vertex" or visual.kind == "face":
+        colours = np.asarray(visual.vertex_colors if visual.kind == "vertex" else visual.face_colors, float) / 255
+        return None, None, _colour(colours.mean(axis=0)), 0.6, 0.0
+    material = getattr(visual, "material", None)
+    if material is None:
+        return None, None, GREY, 0.6, 0.0
+    uv = getattr(visual, "uv", None)
+    uv = None if uv is None else np.asarray(uv, float)
+    if uv is not None and (uv.shape != (len(mesh.vertices), 2) or not np.isfinite(uv).all()):
+        uv = None
+    image = getattr(material, "baseColorTexture", None)
+    image = getattr(material, "image", None) if image is None else image
+    picture = _picture(image) if uv is not None and image is not None else None
+    factor = getattr(material, "baseColorFactor", None)
+    if factor is None and picture is None:
+        factor = getattr(material, "diffuse", None)
+    rough, metal = getattr(material, "roughnessFactor", None), getattr(material, "metallicFactor", None)
+    pbr = hasattr(material, "baseColorFactor")
+    return (
+        uv if picture is not None else None, picture,
+        (1.0, 1.0, 1.0, 1.0) if factor is None else _colour(np.asarray(factor, float).ravel() / (255 if np.max(factor) > 1 else 1)),
+        float(np.clip(rough if rough is not None else (1.0 if pbr else 0.6), 0.05, 1.0)),
+        float(np.clip(metal if metal is not None else 0.0, 0.0, 1.0)),
+    )  # fmt: skip
+
+
+def _colour(values: Array) -> tuple[float, float, float, float]:
+    full = np.clip(np.nan_to_num([*values[:4], *(1.0,) * max(0, 4 - len(values))]), 0.0, 1.0)
+    return (float(full[0]), float(full[1]), float(full[2]), float(max(full[3], 0.05)))
+
+
+def _picture(image: Any) -> Array | None:
+    """A texture's pixels (H, W, 3), shrunk to what is kept; None where it cannot be decoded."""
+    import cv2
+
+    try:
+        pixels = np.asarray(image.convert("RGB"), np.uint8)
+    except MemoryError:
+        raise
+    except Exception:  # a decoder may raise anything on a stranger's picture
+        return None
+    longer = max(pixels.shape[:2])
+    if longer > TEXTURE_PIXELS:
+        share = TEXTURE_PIXELS / longer
+        size = max(1, round(pixels.shape[1] * share)), max(1, round(pixels.shape[0] * share))
+        pixels = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), np.uint8)
+    return pixels
+
+
+def _by_colour(pieces: list[Drawn]) -> list[Drawn]:
+    """Pieces without a picture joined by colour; those with one stay."""
+    groups: dict[tuple[float, ...], list[Drawn]] = {}
+    for piece in pieces:
+        key = (id(piece.picture),) if piece.picture is not None else (*(round(c, 1) for c in piece.rgba), 0.0)
+        groups.setdefault(key, []).append(piece)
+    return [_joined(group) for group in groups.values()]
+
+
+def _joined(group: list[Drawn]) -> Drawn:
+    starts = np.cumsum([0, *(len(piece.vertices) for piece in group[:-1])])
+    return replace(
+        group[0],
+        vertices=np.concatenate([piece.vertices for piece in group]),
+        faces=np.concatenate([piece.faces + start for piece, start in zip(group, starts, strict=True)]),
+        uv=None if group[0].uv is None else np.concatenate([piece.uv for piece in group if piece.uv is not None]),
+    )

@@ -1,0 +1,74 @@
+"""An asset's folder appears in its destination whole, in one step, or not at all."""
+
+import contextlib
+import secrets
+import shutil
+from collections.abc import Mapping
+from pathlib import Path
+
+from worldkit import assets
+from worldkit.assets.reading import AssetError, read_asset
+from worldkit.files import write_atomic
+
+from ..model.errors import WorldwrightError
+from ..model.storage import writing
+
+
+class RegisterError(WorldwrightError):
+    """An asset cannot be registered; what was there before still is."""
+
+    code = "asset"
+
+
+def root_of(to: str) -> Path:
+    """The folder of a destination: `own` or `catalog`."""
+    return assets.own_root() if to == "own" else assets.catalog_root()
+
+
+def free(key: str, root: Path, replace: bool) -> None:
+    """Refuse a key that is taken, unless it is by the same destination and may be replaced.
+
+    Raises:
+        RegisterError: the key is taken.
+    """
+    here = (root / key).exists()
+    if here and replace:
+        return
+    if here or key in assets.keys():  # noqa: SIM118 - a function of the catalog, not a mapping
+        raise RegisterError(
+            f"there is an asset {key} already",
+            place=str(root / key) if here else "another source",
+            next_move="give it another --key" + (", or --replace it" if here else ""),
+        )
+
+
+def register(key: str, files: Mapping[str, bytes], root: Path, *, replace: bool = False) -> Path:
+    """Write an asset's files beside its place, see that they are an asset, and put them there in one step; returns the folder.
+
+    Raises:
+        RegisterError: they are no asset, or the key was taken meanwhile.
+        StorageError: the destination cannot be written.
+    """
+    beside = root / f".incoming-{secrets.token_hex(6)}"
+    try:
+        with writing(f"the asset {key}", root):
+            for name, content in files.items():
+                write_atomic(beside / key / name, content)
+            try:
+                read_asset(beside / key)
+            except AssetError as error:
+                raise RegisterError(
+                    f"what was made of it is no asset: {error}", place=key, next_move="report it, with the file"
+                ) from error
+            free(key, root, replace)
+            if (root / key).exists():
+                (root / key).rename(beside / "earlier")
+            try:
+                (beside / key).rename(root / key)
+            except OSError:
+                with contextlib.suppress(OSError):
+                    (beside / "earlier").rename(root / key)
+                raise
+    finally:
+        shutil.rmtree(beside, ignore_errors=True)
+    return root / key

@@ -1,0 +1,271 @@
+"""A mesh file is copied into a folder of its own, taken in by a confined process, drawn by another, and registered.
+
+Nothing of a stranger's file is parsed in this process: what comes back is an `asset.yaml`, meshes and pictures of bounded size.
+"""
+
+import re
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+from typing import Any, Literal
+
+from worldkit.files import write_json
+from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, SUFFIXES
+
+from ..model.errors import JobError, NotFoundError, WorldwrightError
+from ..model.frozen import Frozen
+from ..model.picture import Illustrated, Picture
+from ..model.progress import Progress, silent
+from ..place import categories
+from ..stage import confined, plain, short_runs
+from . import registering, substances
+
+Destination = Literal["own", "catalog"]
+MEMORY_MB = 6144
+LEAST_S, MOST_S, S_A_MB = 120.0, 900.0, 20.0
+MOST_BESIDE, BESIDE_BYTES = 200, 256 << 20
+KEY = re.compile(r"[a-z][a-z0-9_]{0,59}")
+FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png")
+WORLD = ("world.mjz", "program.json")
+AGAIN = "worldwright asset add FILE"
+
+
+class IntakeFailedError(WorldwrightError):
+    """A file cannot become an asset; `code` says why, and nothing was registered."""
+
+    code = "intake"
+
+    def __init__(self, cause: str, *, code: str = "intake", place: str = "", next_move: str = "") -> None:
+        super().__init__(cause, place=place, next_move=next_move)
+        self.code = code
+
+
+class Added(Frozen):
+    """An asset that was taken in."""
+
+    key: str
+    folder: str
+    extents_m: tuple[float, float, float]
+    mass_kg: float
+    collides_as: str
+    stands: bool
+    holds: bool | None = None
+    """Whether a ball dropped into its cavity rests inside; None without a cavity."""
+    licence: str
+    creator: str = ""
+    mended: tuple[str, ...] = ()
+    """What was mended, and what was assumed."""
+    next_move: str = ""
+
+    @property
+    def ok(self) -> bool:
+        """Whether it stands still as it is."""
+        return self.stands
+
+    def text(self) -> str:
+        """What it is, what was done for it, and how a plan names it."""
+        size = " x ".join(f"{side:g}" for side in self.extents_m)
+        lines = [f"{self.key}: {size} m, {self.mass_kg:.3g} kg, collides as {self.collides_as}"]
+        lines.append(f"  {'stands still on a floor for 5 s' if self.stands else 'does not stand still on a floor'}")
+        if self.holds is not None:
+            lines.append(f"  a ball dropped into it {'rests inside' if self.holds else 'does not stay inside'}")
+        lines += [f"  {line}" for line in self.mended]
+        lines.append(f"  licence: {self.licence}" + (f", by {self.creator}" if self.creator else ""))
+        return "\n".join([*lines, f"  {self.folder}", f"  next: {self.next_move}"])
+
+
+def add(
+    file: Path, asked: dict[str, Any], to: Destination = "own", *, replace: bool = False, progress: Progress = silent
+) -> Illustrated:
+    """Take in a mesh file as an asset.
+
+    Args:
+        file: GLB, OBJ, STL, PLY or OFF; an OBJ's materials and pictures are looked for beside it.
+        asked: any of `key`, `category`, `description`, `licence`, `creator`, `source`, `material`, `height`, `units`, `up`,
+            `front`, `mass`.
+        to: whose folder it goes into.
+        replace: whether it may take the place of an asset of the same key there.
+        progress: hears how far it is.
+
+    Raises:
+        NotFoundError: there is no such file, or no such material.
+        IntakeFailedError: the file cannot become an asset; its `code` says why.
+        RegisterError: the key is taken.
+        StorageError: the destination cannot be written.
+    """
+    file = file.absolute()
+    if not file.is_file():
+        raise NotFoundError(
+            f"there is no file {file.name}", place=str(file), next_move=f"name one of {', '.join(SUFFIXES)}"
+        )
+    request = _request(file, asked)
+    root = registering.root_of(to)
+    registering.free(request["key"], root, replace)
+    progress(0, 3, "reading and mending")
+    with tempfile.TemporaryDirectory(prefix="worldwright-intake-") as folder:
+        given = Path(folder) / "given"
+        _lay(file, given)
+        write_json(given / "request.json", request)
+        ended = _confined(file, given)
+        progress(1, 3, "drawing")
+        files = {name: data for name, data in ended.items() if name not in WORLD}
+        picture, why = _drawn({name: ended[name] for name in WORLD if name in ended}, Path(folder) / "laid")
+    progress(2, 3, "registering")
+    if picture:
+        files["thumbnail.png"] = picture
+    placed = registering.register(request["key"], files, root, replace=replace)
+    progress(3, 3, "registered")
+    return _told(placed, picture, why)
+
+
+def _request(file: Path, asked: dict[str, Any]) -> dict[str, Any]:
+    key = asked.get("key") or re.sub(r"[^a-z0-9]+", "_", file.stem.lower()).strip("_")[:60]
+    if not KEY.fullmatch(key):
+        raise IntakeFailedError(
+            f"{key!r} is no key of an asset: lower-case letters, digits and _, a letter first", code="no_key", place=file.name,
+            next_move="give it a --key, such as garden_chair",
+        )  # fmt: skip
+    unknown = [name for name in ("height", "mass") if asked.get(name) is not None and not 0 < float(asked[name]) < 1e6]
+    if unknown:
+        raise IntakeFailedError(
+            f"{unknown[0]} is {asked[unknown[0]]!r}",
+            code="no_number",
+            place=unknown[0],
+            next_move="give a positive number of m or kg",
+        )
+    if asked.get("units") and asked["units"] not in ("m", "cm", "mm", "in", "ft"):
+        raise IntakeFailedError(
+            f"{asked['units']!r} is no unit of length",
+            code="no_unit",
+            place="units",
+            next_move="give m, cm, mm, in or ft",
+        )
+    material = asked.get("material") or ""
+    found = categories.named((asked.get("category") or key).replace("_", " "))
+    assumed = (
+        []
+        if material or asked.get("mass")
+        else [f"it is of {substances.UNSTATED}: give its --material, or its --mass in kg"]
+    )
+    if not asked.get("licence"):
+        assumed.append("its licence is not stated: give it as --licence")
+    return {
+        "file": file.name,
+        "key": key,
+        "category": asked.get("category") or (found.name if found else "thing"),
+        "description": asked.get("description") or key.replace("_", " "),
+        "licence": asked.get("licence") or "not stated",
+        "creator": asked.get("creator") or "",
+        "source": asked.get("source") or f"the file {file.name}",
+        "material": substances.named(material or substances.UNSTATED),
+        "reference": {"name": found.name, "low": found.low_m, "high": found.high_m} if found else None,
+        "assumed": assumed,
+        **{name: asked[name] for name in ("height", "units", "up", "front", "mass") if asked.get(name)},
+    }
+
+
+def _lay(file: Path, given: Path) -> None:
+    """Copy the mesh, and for an OBJ the materials and pictures beside it and one folder deeper, as far as they are bounded."""
+    given.mkdir()
+    size = file.stat().st_size
+    if size > MOST_BYTES:
+        raise IntakeFailedError(
+            f"it is larger than {MOST_BYTES >> 20} MB", code="too_large", place=str(file),
+            next_move="reduce it to fewer faces in a modelling program, then add it again",
+        )  # fmt: skip
+    shutil.copyfile(file, given / file.name)
+    if file.suffix.lower() != ".obj":
+        return
+    left, folder = BESIDE_BYTES, file.parent
+    beside = sorted(
+        path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix.lower() in (".mtl", *PICTURES)
+    )
+    for path in beside[:MOST_BESIDE]:
+        if path.is_symlink() or not path.is_file() or path.stat().st_size > left:
+            continue
+        left -= path.stat().st_size
+        target = given / path.relative_to(folder)
+        target.parent.mkdir(exist_ok=True)
+        shutil.copyfile(path, target)
+
+
+def _confined(file: Path, given: Path) -> dict[str, bytes]:
+    """What the confined process leaves, by name."""
+    own = min(MOST_S, LEAST_S + S_A_MB * file.stat().st_size / (1 << 20))
+    call = [sys.executable, "-s", "-m", "worldkit.intake.confined_intake", str(given / "request.json"), "{out}"]
+    ended = confined.run(
+        call, reads=(given,), wanted=(*FILES, *WORLD, "error.json"), wall_s=own, memory_mb=MEMORY_MB, file_mb=256
+    )
+    if ended.status == "ended" and ended.exit_code == 0 and "asset.yaml" in ended.files:
+        return ended.files
+    told = plain.as_object(ended.files.get("error.json", b""))
+    if told.get("code"):
+        raise IntakeFailedError(
+            str(told.get("cause", ""))[:500], code=str(told["code"])[:40], place=str(told.get("place") or file.name)[:200],
+            next_move=str(told.get("next") or AGAIN)[:300],
+        )  # fmt: skip
+    why = {
+        "timed_out": f"it took more than {own:g} s of processor time",
+        "out_of_memory": f"it took more than {MEMORY_MB / 1024:g} GB of memory",
+        "refused": "this machine has no sandbox in which a stranger's file may be read",
+    }
+    code = ended.status if ended.status != "ended" else "crashed"
+    last = (ended.log.strip().splitlines() or [f"it ended with status {ended.exit_code}"])[-1][:300]
+    raise IntakeFailedError(
+        why.get(ended.status, f"its reader ended within it: {last}"), code=code, place=str(file),
+        next_move="worldwright doctor" if code == "refused" else "open it in a modelling program, reduce it, and export it anew as GLB",
+    )  # fmt: skip
+
+
+def _drawn(world: dict[str, bytes], laid: Path) -> tuple[bytes, str]:
+    """The thumbnail, drawn by the engine in the sandbox; without one, why."""
+    if len(world) < len(WORLD):
+        return b"", "there was no world to draw"
+    laid.mkdir()
+    for name, content in world.items():
+        (laid / name).write_bytes(content)
+    words = [
+        "sheet",
+        "--plain",
+        f"--world={laid / WORLD[0]}",
+        f"--program={laid / WORLD[1]}",
+        "--camera=thumbnail",
+        "--size=512x512",
+    ]
+    try:
+        made: bytes = short_runs.engine(words, (laid,), ("thumbnail.png",), again=AGAIN)["thumbnail.png"]
+    except JobError as error:
+        return b"", error.cause
+    return made, ""
+
+
+def _told(folder: Path, picture: bytes, why: str) -> Illustrated:
+    import yaml
+
+    from worldkit.assets.reading import read_asset
+
+    asset = read_asset(folder)
+    facts = yaml.safe_load((folder / "asset.yaml").read_text(encoding="utf-8"))
+    measured = facts.get("measured") or {}
+    cavity = measured.get("cavity") or {}
+    mended = (*asset.mended, *([f"it has no thumbnail: {why}"] if why else []))
+    size = asset.extents()
+    stands = bool(measured.get("stands"))
+    row = f"{{name: {asset.key}, filename: {asset.key}}}"
+    told = Added(
+        key=asset.key,
+        folder=str(folder),
+        extents_m=(round(size[0], 4), round(size[1], 4), round(size[2], 4)),
+        mass_kg=round(asset.mass_at(), 5),
+        collides_as=str(measured.get("collides_as", "")),
+        stands=stands,
+        holds=cavity.get("holds"),
+        licence=asset.licence,
+        creator=asset.creator,
+        mended=mended,
+        next_move=f"a plan names it in `assets`: {row}, and its height, {size[2]:g}, in `asset_dimensions`"
+        if stands
+        else f"add it again with --replace and another --up, or place it so that it lies: `worldwright asset show {asset.key}`",
+    )
+    return Illustrated(told, (Picture(picture, f"{asset.key}: seen from three quarters"),) if picture else ())
