@@ -5,8 +5,6 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from .entry import Asset, Piece, Support
 
 REQUIRED = ("category", "description", "source", "licence", "native_extents", "metric_height", "friction", "visual")
@@ -56,6 +54,8 @@ def read_asset(folder: Path) -> Asset:
     Raises:
         AssetError: the file is missing, not YAML, or not an asset; the message names file, key and remedy.
     """
+    import yaml
+
     path = folder / "asset.yaml"
     try:
         data = yaml.safe_load(path.read_text(encoding="utf-8"))

@@ -50,6 +50,12 @@ def broadside_deg(points: np.ndarray, azimuth_deg: float) -> float:
     return float(np.clip(0.6 * away, -28.0, 28.0))
 
 
+def _middle(values: np.ndarray) -> float:
+    """The median of (N,) numbers. Numpy's own brings its masked arrays in, a tenth of what it costs to start a process."""
+    ordered = np.sort(values)
+    return float((ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2)
+
+
 def _context(
     model: mujoco.MjModel, data: mujoco.MjData, crossing: Crossing, view: View
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -61,7 +67,7 @@ def _context(
         near = touch[:, 2] > crossing.points[:, 2].min() - 2.0 * max(float(crossing.radii.max()), 1e-3) - np.ptp(
             crossing.points[:, 2]
         )
-        around = 0.8 * float(np.median(crossing.radii))
+        around = 0.8 * _middle(crossing.radii)
         for dx, dy in ((around, 0), (-around, 0), (0, around), (0, -around)):
             must.append(touch[near] + np.array([dx, dy, 0.0]))
     want = corners(model, data, np.array(sorted(geoms), dtype=int)) if geoms and view.support else np.zeros((0, 3))
@@ -143,7 +149,7 @@ def choose(
     points, want = _context(model, data, crossing, view)
     marks = samples(crossing)
     follows = (False, False, False)
-    widest_m = float(np.median(crossing.radii)) / LEGIBLE
+    widest_m = _middle(crossing.radii) / LEGIBLE
     if view.wall:
         return Shot(_settle_wall(_at_wall(model, data, view, points, fovy_deg, aspect), points, view, aspect, floor_z))
     whole = fit(points, view.backward(), fovy_deg, aspect, view.margin)

@@ -94,7 +94,7 @@ def _moments(places: np.ndarray) -> np.ndarray:
     count = len(places)
     even = np.linspace(0, count - 1, min(count, MOMENTS)).astype(int)
     flat = places.reshape(count, -1)
-    return np.unique(np.concatenate([even, flat.argmin(axis=0), flat.argmax(axis=0)]))
+    return np.array(sorted({*even.tolist(), *flat.argmin(axis=0).tolist(), *flat.argmax(axis=0).tolist()}))
 
 
 def _own_box(model: mujoco.MjModel, data: mujoco.MjData, body: int) -> np.ndarray:

@@ -17,8 +17,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from ..entry import Asset, Piece
 from ..reading import CONTACT, AssetError
 from ..root import catalog_root
@@ -94,6 +92,8 @@ def _folder() -> Path:
 
 
 def _facts(path: Path) -> dict[str, Any]:
+    import yaml
+
     try:
         facts = yaml.safe_load(path.read_text(encoding="utf-8"))
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
