@@ -158,6 +158,7 @@ KEPT = {
     "prompt.md", "plan.md", "simulation.py", "journal.jsonl", "motion.json", "poster.webp",
     "stamp.json", "stamp.dsse.json", "stamp.pub", "SHA256SUMS",
     "world.mjz", "world/program.json", "world/inputs.json", "world/inputs.arrows", "world/edits.arrows",
+    "world/media.arrows", "world/balances.arrows",
 }  # fmt: skip
 MEDIA = (
     ".png", ".jpg", ".jpeg", ".webp", ".gif", ".mp4", ".webm", ".npz", ".npy", ".mjz", ".mjb", ".rrd", ".arrow", ".parquet",

@@ -8,11 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import ProgramError
 
+from .inputs.declared_media import Medium
 from .solvers import Row
 
 if TYPE_CHECKING:
     import mujoco
 
+OWN = {"solver", "law"}
+"""What a declared row has that opens nothing to `control`."""
 REMEDY = "let worldkit.program write it"
 
 
@@ -35,6 +38,8 @@ class Given:
     """The inputs that an author may write, as declared (kind, names); None opens everything."""
     solvers: tuple[Row, ...] = ()
     """Solvers beside the engine, as declared."""
+    laws: tuple[Medium, ...] = ()
+    """The author's own laws: as declared, or where nothing is, as the program has them."""
 
     @classmethod
     def read(cls, world: Path, program: Path, inputs: Path | None) -> "Given":
@@ -61,8 +66,9 @@ class Given:
                 latency=int(facts["latency"]),
                 inputs=None
                 if rows is None
-                else tuple((str(r["kind"]), frozenset(_names(r["bodies"]))) for r in rows if "solver" not in r),
+                else tuple((str(r["kind"]), frozenset(_names(r["bodies"]))) for r in rows if not OWN.intersection(r)),
                 solvers=tuple(Row.read(r) for r in rows or () if "solver" in r),
+                laws=_laws(facts, rows),
             )
         except (KeyError, TypeError, ValueError, OverflowError) as cause:
             raise ProgramError(f"the facts of the program are damaged: {cause!r}", str(program), REMEDY) from cause
@@ -72,6 +78,11 @@ class Given:
         if not (good and found.control_every >= 1 and found.latency in (0, 1) and found.seed >= 0):
             raise ProgramError("the facts of the program make no sense", str(program), REMEDY)
         return found
+
+    @property
+    def answers(self) -> bool:
+        """Whether the program answers anything while its world runs."""
+        return bool(self.control or self.laws)
 
     def model(self, camera: str = "") -> "mujoco.MjModel":
         """The world, compiled; one without any camera gets a `camera` of this name, to be stood anywhere."""
@@ -84,6 +95,12 @@ class Given:
             return spec.compile()
         except (ValueError, RuntimeError) as failure:
             raise ProgramError(f"the world does not compile: {failure}", self.world.name, "build it again") from failure
+
+
+def _laws(facts: Any, rows: Any) -> tuple[Medium, ...]:
+    if rows is not None:
+        return tuple(Medium.read(row) for row in rows if "law" in row)
+    return tuple(Medium.read({"bodies": row["bodies"], "law": row}) for row in facts.get("laws", ()))
 
 
 def _names(value: Any) -> tuple[str, ...]:

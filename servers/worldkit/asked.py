@@ -5,11 +5,13 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from . import laws
 from .errors import ProgramError
 
 if TYPE_CHECKING:
     import mujoco
 
+    from .laws import Law
     from .speaking import Control
 
 
@@ -36,6 +38,7 @@ class Asked:
         control_every: int,
         latency: int,
         inputs: Sequence[str] | None,
+        given_laws: Any,
         other_seed: int | None,
         other_duration: float | None,
     ) -> None:
@@ -43,6 +46,9 @@ class Asked:
         self.duration = duration if other_duration is None else other_duration
         self.movers, self.visual_only, self.inputs = movers, visual_only, inputs
         self.control_every, self.latency = control_every, latency
+        self._given_laws = given_laws
+        self.laws: tuple[Law, ...] = ()
+        """The program's own laws, once they are checked."""
         self.seed = seed if other_seed is None else other_seed
         self._seed_given = other_seed is not None
         self._rng: Any = None
@@ -72,6 +78,11 @@ class Asked:
         if self.latency not in (0, 1):
             raise ProgramError(
                 f"latency is {self.latency!r}", "program.main", "give 0 (the world waits) or 1 (one question later)"
+            )
+        self.laws = laws.check(self._given_laws)
+        if self.laws and self.latency:
+            raise ProgramError(
+                "a law acts on the state that it is shown, and latency is 1", "program.main", "leave latency at 0"
             )
         for text in self.inputs or ():
             if ":" not in text:
@@ -120,20 +131,26 @@ class Asked:
                 "world_sha256": facts["sha256"],
                 "rounded": facts["rounded"],
                 "assets": list(catalog.taken()),
+                **({"laws": laws.rows(self.laws)} if self.laws else {}),
             },
         )
         if self.inputs is not None:
             rows = [text.partition(":") for text in self.inputs]
-            write_json(out / self.INPUTS, [{"kind": kind, "bodies": [target]} for kind, _, target in rows])
+            written: list[dict[str, Any]] = [{"kind": kind, "bodies": [target]} for kind, _, target in rows]
+            written += [{"kind": "solver", "bodies": row["bodies"], "law": row} for row in laws.rows(self.laws)]
+            write_json(out / self.INPUTS, written)
         return facts
 
-    def controller(self) -> "Control":
-        """`control(model, data)`; the world must have been made."""
+    @property
+    def answers(self) -> bool:
+        """Whether the program answers anything while its world runs."""
+        return bool(self.control is not None or self.laws)
+
+    def controller(self) -> "Control | None":
+        """`control(model, data)`, where the program has one; the world must have been made."""
         from . import world
 
-        found = world.controller(self.control, self._rng)
-        assert found is not None
-        return found
+        return world.controller(self.control, self._rng)
 
     def stray(self, array: str, of_model: bool) -> None:
         """Remember that something was written that is no declared input."""

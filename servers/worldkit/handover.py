@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from . import channel
 
 if TYPE_CHECKING:
+    from .laws import Law
     from .speaking import Control
 
 
@@ -22,8 +23,13 @@ def run(words: Sequence[str]) -> int:
     return subprocess.run(_call(words), env=_environment(), check=False).returncode
 
 
-def converse(words: Sequence[str], control: "Control", stray: Callable[[str, bool], object]) -> int:
-    """Run the engine's process and answer its questions; returns its exit status. What `control` raises is raised here."""
+def converse(
+    words: Sequence[str], control: "Control | None", stray: Callable[[str, bool], object], laws: "Sequence[Law]" = ()
+) -> int:
+    """Run the engine's process and answer its questions; returns its exit status.
+
+    What `control` or a law raises is raised here.
+    """
     from .speaking import serve
 
     theirs, ours = channel.pair()
@@ -33,7 +39,7 @@ def converse(words: Sequence[str], control: "Control", stray: Callable[[str, boo
         os.close(descriptor)
     end = channel.Channel(ours, channel.AUTHOR)
     try:
-        serve(control, end, stray)
+        serve(control, end, stray, laws)
     finally:
         end.close()  # the engine notices, keeps what is recorded and ends
         process.wait()

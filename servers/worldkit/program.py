@@ -23,10 +23,13 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .asked import Asked
 from .errors import ProgramError
+
+if TYPE_CHECKING:
+    from .laws import Law
 
 PASSES = ("build", "physics", "control", "still", "video", "view", "bundle")
 TRAJECTORY = "trajectory"
@@ -45,6 +48,7 @@ def main(
     control_every: int = 1,
     latency: int = 0,
     inputs: Sequence[str] | None = None,
+    laws: "Sequence[Law]" = (),
     argv: Sequence[str] | None = None,
 ) -> int:
     """Run the pass that the command line asks for; returns the exit status.
@@ -61,12 +65,13 @@ def main(
         size: width and height of pictures in pixels, both even.
         movers: names of bodies that are expected to move.
         seed: of every random draw.
-        visual_only: names of bodies or geoms that are drawn but not simulated, as the plan declares.
+        visual_only: names of bodies, geoms or flexes that are drawn but not simulated, as the plan declares.
         control_every: steps from one question to the next; inputs stay as they are in between.
         latency: 0: the world waits for the answer to the state it shows; 1: the answer to a question takes effect at the
             next one, and both processes work at once.
         inputs: what `control` may write, as `KIND:TARGET` (`control:motor`, `force:ball`, …), where no plan says so;
             None opens everything.
+        laws: the author's own (`worldkit.laws.Law`), stepped at every question before `control` is asked.
         argv: the command line; None takes the process's own.
     """
     from .reporting import report_failure
@@ -75,8 +80,8 @@ def main(
     line = sys._getframe(1).f_lineno
     options = _parse(sys.argv[1:] if argv is None else list(argv), Path(program).name)
     asked = Asked(
-        build, control, duration, fps, size, movers, seed, visual_only, control_every, latency, inputs, options.seed,
-        options.duration,
+        build, control, duration, fps, size, movers, seed, visual_only, control_every, latency, inputs, laws,
+        options.seed, options.duration,
     )  # fmt: skip
     status, out = 0, None
     try:
@@ -168,10 +173,10 @@ def _physics(asked: Asked, options: argparse.Namespace, out: Path, program: str,
         given = getattr(options, name)
         for value in given if isinstance(given, list) else [given] if given else []:
             words += [f"--{name.replace('_', '-')}", str(value)]
-    if asked.control is None:
+    if not asked.answers:
         status = handover.run(words)
     else:
-        status = handover.converse(words, asked.controller(), asked.stray)
+        status = handover.converse(words, asked.controller(), asked.stray, asked.laws)
         asked.tell_strays()
     if status:
         _blame(out, program, line)
@@ -189,7 +194,7 @@ def _control(asked: Asked, options: argparse.Namespace, out: Path, program: str,
     end = Channel(descriptors(options.channel), AUTHOR)
     try:
         asked.make()  # `control` may use what `build` has stored in the program's own names
-        serve(asked.controller(), end, asked.stray)
+        serve(asked.controller(), end, asked.stray, asked.laws)
     finally:
         end.close()
     write_json(out / "result.json", {"ok": True, "pass": "control", "went_nowhere": asked.strays})
@@ -231,9 +236,9 @@ def _view(asked: Asked, options: argparse.Namespace, out: Path | None, program: 
         words = ["view", *_world(Path(folder)), "--out", folder]
         if options.recording is not None:
             return handover.run([*words, "--from", str(options.recording)])
-        if asked.control is None:
+        if not asked.answers:
             return handover.run(words)
-        return handover.converse(words, asked.controller(), asked.stray)
+        return handover.converse(words, asked.controller(), asked.stray, asked.laws)
 
 
 def _world(folder: Path) -> list[str]:

@@ -9,11 +9,12 @@ A vector holds, in this order, the entries of `ARRAYS` that are declared, each a
 """
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from .channel import Channel, PeerError
 from .errors import ProgramError
+from .laws import TOTALS, Law, Stepped
 from .mirror import Mirror, words
 
 if TYPE_CHECKING:
@@ -33,7 +34,16 @@ Control = Callable[["mujoco.MjModel", "mujoco.MjData"], object]
 
 def message_bytes(width: int, edits: bool) -> int:
     """Size of an answer: how many parameter values it has, the vector, and those values."""
-    return 64 * -(-(8 + 8 * width + (16 * MOST_EDITS if edits else 0)) // 64)
+    return _lines(8 + 8 * width + (16 * MOST_EDITS if edits else 0))
+
+
+def media_bytes(media: "dict[str, Any] | None") -> int:
+    """Size of what laws tell beside an answer, after it: sums and points of each (`laws.Stepped`)."""
+    return _lines(sum(8 * (TOTALS + 3 * int(row["points"])) for row in media["rows"])) if media else 0
+
+
+def _lines(size: int) -> int:
+    return 64 * -(-size // 64)
 
 
 class Speaker:
@@ -44,6 +54,7 @@ class Speaker:
         control: the program's, with two arguments.
         ports: declared entries by array (flat indices), and under `parameters` those of the model's arrays.
         message: address of the answer.
+        laws: the program's, whose media the ports list.
         stray: called with (name of an array, whether it is the model's) for what was written outside the ports.
     """
 
@@ -51,10 +62,11 @@ class Speaker:
         self,
         model: "mujoco.MjModel",
         data: "mujoco.MjData",
-        control: Control,
+        control: Control | None,
         ports: dict[str, Any],
         message: int,
         stray: Callable[[str, bool], object],
+        laws: Sequence[Law] = (),
     ) -> None:
         import numpy as np
 
@@ -71,13 +83,19 @@ class Speaker:
         )
         from .strays import Strays
 
+        media = ports.get("media") or {}
+        at = message + message_bytes(second, bool(ports.get("parameters")))
+        self._laws = Stepped(laws, model, media, at) if laws or media else None
         edits = self._parameters is None
         self._strays = Strays(model, data, self.mirror, self._index, self._switches, edits, stray, control)
 
     def answer(self, slot: int) -> None:
-        """Read the state at this address, let `control` act on it, and write the answer."""
+        """Read the state at this address, let laws and `control` act on it, and write the answer."""
         self.mirror.receive(slot)
-        self._control(self._model, self._data)
+        if self._laws is not None:
+            self._laws.step(self._model, self._data)
+        if self._control is not None:
+            self._control(self._model, self._data)
         # `clip` because the default checks every index again; they were checked when they were made.
         self._numbers.take(self._index, out=self._vector, mode="clip")
         if len(self._switches):
@@ -139,7 +157,9 @@ class _Parameters:
         self._count.value = count
 
 
-def serve(control: Control, channel: Channel, stray: Callable[[str, bool], object]) -> None:
+def serve(
+    control: Control | None, channel: Channel, stray: Callable[[str, bool], object], laws: Sequence[Law] = ()
+) -> None:
     """Answer the engine at the other end of a channel until it hangs up.
 
     The engine's greeting holds `ports`, where in the memory the compiled model stands (`model_at`, `model` bytes), the answer
@@ -156,7 +176,7 @@ def serve(control: Control, channel: Channel, stray: Callable[[str, bool], objec
     model = mujoco.MjModel.from_binary_path("world.mjb", {"world.mjb": binary})
     del binary
     data = mujoco.MjData(model)
-    speaker = Speaker(model, data, control, hello["ports"], channel.base + hello["message_at"], stray)
+    speaker = Speaker(model, data, control, hello["ports"], channel.base + hello["message_at"], stray, laws)
     slots = [channel.base + at for at in hello["slots_at"]]
     if speaker.mirror.size != hello["slot"]:
         raise ProgramError("the engine's data has another size than this one's", "control", "use one mujoco build")

@@ -153,8 +153,8 @@ def check_cast(model: "mujoco.MjModel", movers: Iterable[str], visual_only: Iter
     from .naming import names
 
     bodies = names(model, "body", model.nbody)[1:]
-    geoms = names(model, "geom", model.ngeom)
-    for role, wanted, known in (("movers", movers, bodies), ("visual_only", visual_only, [*bodies, *geoms])):
+    drawn = [*bodies, *names(model, "geom", model.ngeom), *names(model, "flex", model.nflex)]
+    for role, wanted, known in (("movers", movers, bodies), ("visual_only", visual_only, drawn)):
         if isinstance(wanted, str):
             raise ProgramError(f"{role} is the text {wanted!r}", "program.main", f'write {role}=("{wanted}",)')
         if unknown := [name for name in wanted if name not in known]:

@@ -14,6 +14,7 @@ from ..given import Given
 if TYPE_CHECKING:
     import mujoco
 
+    from ..inputs.declared_media import Media
     from ..inputs.replayed_inputs import Drive
 
 TRAJECTORY = "trajectory"
@@ -45,7 +46,11 @@ def run(given: Given, options: argparse.Namespace) -> None:
     # At a finer step the recorded instants stay the same, so that expectations measure the same thing.
     every = world.record_every(model, world.steps_of(model, given.duration)) * variant.steps_per_step
     hold = altered.alter(model, variant) if variant else None
-    asked = bool(options.replay or (given.control and options.channel)) and not (hold and hold.silent)
+    silent = bool(hold and hold.silent)
+    asked = bool(options.replay or (given.answers and options.channel)) and not silent
+    if given.laws and not (asked or silent):
+        what = f"the plan declares the law {given.laws[0].name}, and nobody is there who steps it"
+        raise ProgramError(what, "interventions", "give it to program.main in `laws=` (skill media)")
     steps = world.steps_of(model, given.duration)
     meta = _meta(model, given, variant, every, asked)
     meta["motion_key"] = _motion_key(model, given, options, variant, steps, every, asked)
@@ -64,6 +69,8 @@ def run(given: Given, options: argparse.Namespace) -> None:
     inputs = _inputs(model, data, given, options, variant, hold) if asked else None
     if inputs is not None:
         meta["inputs"] = inputs.ports.as_meta()
+        if inputs.ports.media is not None:
+            meta["laws"] = [row.written() for row in given.laws]
     beside = Beside(model, data, given.solvers, inputs.ports if inputs else None, hold) if given.solvers else None
     progress = Progress(out, steps, "steps")
     started = time.perf_counter()
@@ -114,16 +121,25 @@ def _inputs(
     from ..inputs.replayed_inputs import Asked, Replayed
     from ..recording.stored import Replayable
 
-    ports = Ports(model, given.inputs)
+    # A rate that was asked for stays the same in time; a law that is asked at every step is asked at every finer one.
+    every = given.control_every * (variant.steps_per_step if given.control_every > 1 else 1)
+    ports = Ports(model, given.inputs, _media(model, given, every))
     if options.replay:
         if variant:
             raise ProgramError("a variant is another world", "--replay", "ask its author anew")
         steps = world.steps_of(model, given.duration)
         return Replayed(model, data, ports, Replayable(options.replay), steps, given.control_every)
     voice = Distant(model, data, ports, Channel(descriptors(options.channel), ENGINE))
-    # A rate that was asked for stays the same in time; a law that is asked at every step is asked at every finer one.
-    every = given.control_every * (variant.steps_per_step if given.control_every > 1 else 1)
     return Asked(model, data, ports, voice, every, given.latency, hold.shares() if hold else None)
+
+
+def _media(model: "mujoco.MjModel", given: Given, every: int) -> "Media | None":
+    """What the author's laws move; None without any."""
+    from ..inputs.declared_media import Media
+
+    if not given.laws:
+        return None
+    return Media(model, given.laws, every * float(model.opt.timestep), given.inputs)
 
 
 def _meta(model: "mujoco.MjModel", given: Given, variant: Any, every: int, asked: bool) -> dict[str, Any]:
@@ -167,6 +183,8 @@ def _motion_key(
         source = options.source.read_text(encoding="utf-8") if options.source else None
     except (OSError, ValueError):
         source = None
+    if given.laws:
+        decided["laws"] = [row.written() for row in given.laws]
     return motion_key(model, decided, given.control, source)
 
 

@@ -31,15 +31,17 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         return
     world.steps_of(model, given.duration)
     data = world.start(model)
-    voice = answers = None
-    if given.control and options.channel:
+    voice = answers = media = None
+    if given.answers and options.channel:
         from worldkit.channel import ENGINE, Channel, descriptors
 
         from ..inputs.author_link import Distant
+        from ..inputs.declared_media import Media
         from ..inputs.ports import Ports
         from ..inputs.replies import Answers
 
-        ports = Ports(model, given.inputs)
+        media = Media(model, given.laws, float(model.opt.timestep), given.inputs) if given.laws else None
+        ports = Ports(model, given.inputs, media)
         voice, answers = (
             Distant(model, data, ports, Channel(descriptors(options.channel), ENGINE)),
             Answers(model, data, ports),
@@ -56,6 +58,9 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         if answers.changes:
             answers.change()
             refresh(model, data)
+        if media is not None:
+            for place, (_, points) in zip(media.places, media.parts(media.read(voice.media)), strict=True):
+                place.show(data, points)
 
     live(model, data, None if voice is None else control, given.duration)
 

@@ -9,12 +9,16 @@ from typing import TYPE_CHECKING, Protocol
 
 from worldkit.channel import HEAD, Channel, PeerError
 from worldkit.mirror import Mirror
-from worldkit.speaking import Control, Speaker, message_bytes
+from worldkit.speaking import Control, Speaker, media_bytes, message_bytes
 
 from .ports import Ports
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import mujoco
+
+    from worldkit.laws import Law
 
 BEGIN_S = 120.0
 """The author's process may take so long, s, to be ready."""
@@ -27,6 +31,8 @@ class Voice(Protocol):
 
     message: int
     """Address of the latest answer."""
+    media: int
+    """Address of what the laws tell beside it (`declared_media.Media.read`)."""
 
     def ask(self) -> int:
         """Copy the state for the author; returns the address of the copy, with which `go` lets the author begin."""
@@ -56,14 +62,16 @@ class Distant:
 
         self._data, self._channel = data, channel
         self._mirror = mirror = Mirror(model, data)
-        slots = [HEAD + message_bytes(ports.width, bool(ports.parameters)) + n * mirror.size for n in (0, 1)]
+        told = ports.as_meta()
+        media = HEAD + message_bytes(ports.width, bool(ports.parameters))
+        slots = [media + media_bytes(told.get("media")) + n * mirror.size for n in (0, 1)]
         at, size = slots[-1] + mirror.size, mujoco.mj_sizeModel(model)
         channel.size(at + size)
         mujoco.mj_saveModel(model, None, np.ctypeslib.as_array((ctypes.c_uint8 * size).from_address(channel.base + at)))
-        self.message = channel.base + HEAD
+        self.message, self.media = channel.base + HEAD, channel.base + media
         self._slots = [channel.base + slot for slot in slots]
         self._turn = 0
-        hello = {"ports": ports.as_meta(), "message_at": HEAD, "slots_at": slots, "slot": mirror.size}
+        hello = {"ports": told, "message_at": HEAD, "slots_at": slots, "slot": mirror.size}
         channel.greet({**hello, "model_at": at, "model": size})
         with self:
             channel.greeting(BEGIN_S)
@@ -104,20 +112,31 @@ class Distant:
 class Local:
     """A function of this process, with an MjData of its own; `strays` lists what it wrote outside its ports."""
 
-    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: Ports, control: Control) -> None:
+    def __init__(
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        ports: Ports,
+        control: Control | None,
+        laws: "Sequence[Law]" = (),
+    ) -> None:
         import copy
 
         import mujoco
 
         self._mirror = Mirror(model, data)
         mine = copy.copy(model)
+        told = ports.as_meta()
         size = message_bytes(ports.width, bool(ports.parameters))
+        media = size
+        size += media_bytes(told.get("media"))
         self._memory = ctypes.create_string_buffer(size + self._mirror.size)
         self.message = ctypes.addressof(self._memory)
+        self.media = self.message + media
         self._slot = self.message + size
         self.strays: list[str] = []
         stray = lambda name, of_model: self.strays.append(f"{'model' if of_model else 'data'}.{name}")  # noqa: E731
-        self._speaker = Speaker(mine, mujoco.MjData(mine), control, ports.as_meta(), self.message, stray)
+        self._speaker = Speaker(mine, mujoco.MjData(mine), control, told, self.message, stray, laws)
 
     def ask(self) -> int:
         """Copy the state into the only slot."""

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..given import Given
+    from .declared_media import Media
 
 FREE, BALL, SLIDE, HINGE = range(4)
 """mjtJoint."""
@@ -29,9 +30,19 @@ class Ports:
     Args:
         model: the world.
         rows: declared (kind, names); None opens everything. A flex' name stands for its points too.
+        media: of the author's laws, which open force and torque on their bodies.
     """
 
-    def __init__(self, model: "mujoco.MjModel", rows: "tuple[tuple[str, frozenset[str]], ...] | None") -> None:
+    def __init__(
+        self,
+        model: "mujoco.MjModel",
+        rows: "tuple[tuple[str, frozenset[str]], ...] | None",
+        media: "Media | None" = None,
+    ) -> None:
+        self.media = media
+        if rows is not None and media is not None:
+            pushed = frozenset(body for row in media.rows for body in row.bodies)
+            rows = (*rows, ("force", pushed), ("torque", pushed))
         points = {} if rows is None else flex_points.of_model(model)
         self._model = model
         self._rows = None if rows is None else [(kind, frozenset(flex_points.covered(of, points))) for kind, of in rows]
@@ -50,11 +61,12 @@ class Ports:
         return sum(map(len, self.entries.values()))
 
     def __bool__(self) -> bool:
-        return bool(self.entries or self.parameters)
+        return bool(self.entries or self.parameters or self.media)
 
     def as_meta(self) -> dict[str, Any]:
         """The ports for the author's process and the recording: entries by array, and parameters in their order."""
-        return {**self.entries, "parameters": [[name, index] for name, index in self.parameters]}
+        told = {**self.entries, "parameters": [[name, index] for name, index in self.parameters]}
+        return told if self.media is None else {**told, "media": self.media.as_meta()}
 
     def _open(self, kind: str, target: str) -> bool:
         """Whether a row opens a target; a solver's row opens nothing, as the solver writes in the engine's own process."""

@@ -14,6 +14,7 @@ from .strict_stream import Recorded
 
 if TYPE_CHECKING:
     import mujoco
+    import numpy as np
 
     from ..recording.record import Recorder
     from ..recording.stored import Recording, Replayable
@@ -66,6 +67,11 @@ class Drive:
         """Note the forces, which are computed now, before the step ends."""
         self._ledger.reacted()
 
+    def _tell(self, step: int, numbers: "np.ndarray | None") -> None:
+        """Record what the author's laws told at a step."""
+        if numbers is not None and self.ports.media is not None:
+            self.ports.media.keep(self._recorder, step, numbers)
+
     def finish(self) -> None:
         """Finish the ledger once the velocities of the last state are computed."""
         self._ledger.pushes.measure()
@@ -117,6 +123,7 @@ class Asked(Drive):
             row()
         if asks and not self._latency:
             heard = self._hear()
+            self._told(step)
         if heard and self._apply(step) and row is not None:
             row()
         elif heard and row is not None:
@@ -127,6 +134,12 @@ class Asked(Drive):
         self._voice.hear()
         self.answers.read(self._voice.message)
         return True
+
+    def _told(self, step: int) -> None:
+        """Take what the laws tell beside an answer, at the questions at which they do."""
+        media = self.ports.media
+        if media is not None and step // self._every % media.every == 0:
+            self._tell(step, media.read(self._voice.media))
 
     def close(self) -> None:
         """Nobody will be asked again."""
@@ -154,6 +167,7 @@ class Replayed(Drive):
         if self._recorded.speaks(step):
             self.answers.replay(*self._recorded.answer(step))
             self._apply(step)
+        self._tell(step, self._recorded.told(step))
         if row is not None:
             row()
         self._ledger.pushes.note()

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import RecordingError
+from worldkit.laws import HUGE
 from worldkit.speaking import HELD
 from worldkit.watch import LOOKS, Edit
 
-from ..recording.columns import TABLES, arrow_schema
+from ..recording.columns import OF_MEDIA, TABLES, arrow_schema
 from .ports import Ports, flat
 
 if TYPE_CHECKING:
@@ -21,7 +22,10 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..recording.stored import Recording, Replayable
+    from .declared_media import Media
 
+SUMS = ("mass", "momentum", "energy", "volume", "held")
+"""The columns of `balances` in the order in which a law tells them."""
 REMEDY = "restore it as it was recorded, or record the world anew"
 
 
@@ -44,7 +48,7 @@ class Recorded:
     ) -> None:
         import numpy as np
 
-        for name in ("inputs", "edits"):
+        for name in ("inputs", "edits", *(OF_MEDIA if ports.media else ())):
             _whole(recording.folder / f"{name}.arrows", name)
         self._lasting = sum(len(ports.entries.get(name, ())) for name in HELD)
         self._at = self._edit_at = 0
@@ -55,6 +59,12 @@ class Recorded:
         self._edits = [np.asarray(edits[name]) for name in ("step", "array", "index", "value")]
         self._check_inputs(Rows(recording.folder / "inputs.arrows", self._step), steps, every)
         self._check_edits(Rows(recording.folder / "edits.arrows", self._edits[0]), model, ports, steps, every)
+        self._media = ports.media
+        self._told = _told(recording, ports.media, steps, every) if ports.media else {}
+
+    def told(self, step: int) -> "np.ndarray | None":
+        """What the laws told at this step, as `declared_media.Media.read` gives it; None when nothing."""
+        return self._told.get(step)
 
     def _check_inputs(self, rows: "Rows", steps: int, every: int) -> None:
         import numpy as np
@@ -140,6 +150,41 @@ class Rows:
             row = int(bad.argmax())
             where = f"{self._path.name}, row {row} (step {self.steps[row]})"
             raise RecordingError(f"{where}: {cause}: {told[row]}", str(self._path), REMEDY)
+
+
+def _told(recording: "Recording | Replayable", media: "Media", steps: int, every: int) -> "dict[int, np.ndarray]":
+    """What the laws told, by step: at each step that is due all points of all media in their order, and their sums."""
+    import numpy as np
+
+    due = np.arange(0, steps, every * media.every)
+    points, sums = recording.media, recording.balances
+    count, mediums = sum(media.counts), len(media.counts)
+    for name, table, each in (("media", points, count), ("balances", sums, mediums)):
+        rows = Rows(recording.folder / f"{name}.arrows", np.asarray(table["step"]))
+        which = np.repeat(np.arange(mediums), media.counts) if name == "media" else np.arange(mediums)
+        if len(table) != each * len(due):
+            cause = f"{name}.arrows has {len(table)} rows, and {len(due)} steps at which {each} are due"
+            raise RecordingError(cause, str(recording.folder), REMEDY)
+        rows.refuse(rows.steps != np.repeat(due, each), "it is of a step at which nothing is due", rows.steps)
+        kinds = np.asarray(table["medium"])
+        rows.refuse(kinds != np.tile(which, len(due)), "it is of another medium than is due", kinds)
+    rows = Rows(recording.folder / "media.arrows", np.asarray(points["step"]))
+    order = np.concatenate([np.arange(n) for n in media.counts])
+    rows.refuse(points["point"] != np.tile(order, len(due)), "it is of another point than is due", points["point"])
+    place = np.asarray(points["place"], float)
+    rows.refuse(~(np.abs(place) < HUGE).all(axis=1), "it lies nowhere", place)
+    rows = Rows(recording.folder / "balances.arrows", np.asarray(sums["step"]))
+    columns = [np.asarray(sums[name], float).reshape(len(sums), -1) for name in SUMS]
+    totals = np.concatenate(columns, axis=1)
+    rows.refuse(~np.isfinite(totals).all(axis=1), "a sum is not finite", totals)
+    place, totals = place.reshape(len(due), count, 3), totals.reshape(len(due), mediums, -1)
+    ends = np.cumsum([0, *media.counts])
+    return {
+        int(step): np.concatenate(
+            [part for m in range(mediums) for part in (totals[n, m], place[n, ends[m] : ends[m + 1]].ravel())]
+        )
+        for n, step in enumerate(due)
+    }
 
 
 def _whole(path: Path, name: str) -> None:

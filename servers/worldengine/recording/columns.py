@@ -122,14 +122,33 @@ INPUT_COLUMNS = (
     Column("entry", (), "1", "entry of the answer, counted through meta.inputs", "int32"),
     Column("value", (), "the input's", "value"),
 )
+MEDIUM_COLUMNS = (
+    Column("step", (), "1", "step at which the points lay there", "int32"),
+    Column("medium", (), "1", "which of meta.laws", "int32"),
+    Column("point", (), "1", "which of its points", "int32"),
+    Column("place", (3,), "m", "where it lay", "float32"),
+)
+BALANCE_COLUMNS = (
+    Column("step", (), "1", "step at which the sums held", "int32"),
+    Column("medium", (), "1", "which of meta.laws", "int32"),
+    Column("mass", (), "kg", "of its points"),
+    Column("momentum", (3,), "kg m/s", "of its points"),
+    Column("energy", (), "J", "of motion, by weight, and what its law says is stored"),
+    Column("volume", (), "m^3", "as its law says; 0 where it says none"),
+    Column("held", (3,), "N s", "impulse that it gave to what stands fast, since the start"),
+)
 TABLES: Mapping[str, tuple[Column, ...]] = {
     "contacts": CONTACT_COLUMNS,
     "interventions": INTERVENTION_COLUMNS,
     "warnings": WARNING_COLUMNS,
     "edits": EDIT_COLUMNS,
     "inputs": INPUT_COLUMNS,
+    "media": MEDIUM_COLUMNS,
+    "balances": BALANCE_COLUMNS,
 }
 """The tables beside the state, each in `<name>.arrows`."""
+OF_MEDIA = ("media", "balances")
+"""Those that only a world with an author's law has (`worldengine.inputs.declared_media`)."""
 
 
 def arrow_schema(columns: tuple[Column, ...]) -> Any:

@@ -26,7 +26,7 @@ from worldkit.files import write_json
 from . import derive
 from .batch import PLAIN, Batch
 from .coded_words import Words
-from .columns import SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
+from .columns import OF_MEDIA, SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
 
 if TYPE_CHECKING:
     import mujoco
@@ -36,7 +36,7 @@ BATCH_BYTES = 3 << 20
 """The raw size of a batch, bytes, which sets its number of rows."""
 FLUSH_S = 0.5
 """A batch is flushed at the latest so long after its first row, s of wall-clock time."""
-PACKED = ("interventions", "inputs", "edits")
+PACKED = ("interventions", "inputs", "edits", "media", "balances")
 """Tables whose rows repeat each other; the state, contacts and warnings are read from the disk as they lie there."""
 HASHED = ("time", "qpos", "qvel", "pos", "quat")
 """Columns that identify a trajectory."""
@@ -94,7 +94,8 @@ class Recorder:
         self.counts: dict[str, int] = {}
         self.warnings: dict[str, int] = {}
         self._hashes = {name: hashlib.sha256() for name in HASHED}
-        tables = {name: as_meta(columns) for name, columns in TABLES.items()}
+        told = {name: columns for name, columns in TABLES.items() if meta.get("laws") or name not in OF_MEDIA}
+        tables = {name: as_meta(columns) for name, columns in told.items()}
         self._folder.mkdir(parents=True, exist_ok=True)
         write_json(
             self._folder / "meta.json",
@@ -102,7 +103,7 @@ class Recorder:
         )
         self._streams = {
             name: _Stream(self._folder / f"{name}.arrows", columns, packed=name in PACKED)
-            for name, columns in {"state": self.columns, **TABLES}.items()
+            for name, columns in {"state": self.columns, **told}.items()
         }
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()

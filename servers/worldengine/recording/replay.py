@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from worldkit.errors import RecordingError
 
+from .lain import Lain
+
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
@@ -49,6 +51,7 @@ class Replay:
         ]
         self._applied: list[tuple[np.ndarray, int, float]] = []
         self._shown = list(_shown(model, recording))
+        self._media = Lain(model, recording) if recording.meta.get("laws") else None
 
     def show(self, row: int) -> "mujoco.MjData":
         """The data at a recorded row, ready to be drawn."""
@@ -62,6 +65,8 @@ class Replay:
         mujoco.mj_fwdKinematics(self.model, data)
         for solver, geom, channels in self._shown:
             solver.show(self.model, data, geom, {name: values[row] for name, values in channels.items()})
+        if self._media is not None:
+            self._media.show(data)
         return data
 
     def _apply_edits(self, row: int) -> None:

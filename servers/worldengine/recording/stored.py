@@ -4,7 +4,7 @@
 >>> recording.pos[-1, recording.body("cue_ball")]  # doctest: +SKIP
 
 The folder holds `meta.json`, `state.arrows` and the tables `contacts`, `interventions`, `warnings`, `edits`, `inputs`
-(Arrow IPC streams; `columns` says what is in them), and `complete.json` once the run ended well. The streams are mapped into
+(Arrow IPC streams; `columns` says what is in them), with an author's law also `media` and `balances`, and `complete.json` once the run ended well. The streams are mapped into
 memory; of those that are packed (`record.PACKED`) the rows are unpacked when the table is opened.
 """
 
@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import RecordingError
 
-from .columns import CAMERAS_FILE, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
+from .columns import CAMERAS_FILE, OF_MEDIA, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
 from .record import HASHED, combine
 
 if TYPE_CHECKING:
@@ -160,6 +160,16 @@ class Recording:
         """What was sent to the world: of each answer, the difference from the one before."""
         return self._table("inputs")
 
+    @cached_property
+    def media(self) -> Table:
+        """The points of the author's laws, now and then."""
+        return self._table("media")
+
+    @cached_property
+    def balances(self) -> Table:
+        """The sums of the author's laws, as often."""
+        return self._table("balances")
+
     def channels(self, solver: str) -> "dict[str, np.ndarray]":
         """(T, …) columns of a solver by their own names; `solver` is its name in `meta` (`solvers.called`)."""
         own = (name for name in self._state.columns if name.startswith(f"{solver}."))
@@ -225,27 +235,32 @@ class Recording:
 
 
 class Replayable:
-    """The part of a recording that drives its world again: the tables `inputs` and `edits`; the rest may be missing."""
+    """The part of a recording that drives its world again: the tables `inputs` and `edits`, and what a law told beside them
+    (`media`, `balances`); the rest may be missing.
+    """
 
     def __init__(self, folder: Path | str) -> None:
         self.folder = Path(folder)
-        self.inputs, self.edits = (Table(self.folder / f"{name}.arrows", TABLES[name]) for name in ("inputs", "edits"))
+        self.inputs, self.edits, self.media, self.balances = (
+            Table(self.folder / f"{name}.arrows", TABLES[name]) for name in ("inputs", "edits", *OF_MEDIA)
+        )
 
 
 def inputs_digest(folder: Path) -> str:
-    """SHA-256 of what was sent to a world, the rows of `inputs` and `edits`; empty when nothing was sent."""
+    """SHA-256 of what was sent to a world, the rows of `inputs`, `edits` and a law's tables; empty when nothing was sent."""
     import numpy as np
 
     found = Replayable(folder)
     digest = hashlib.sha256()
-    for name, table in (("inputs", found.inputs), ("edits", found.edits)):
+    told = tuple((name, table) for name in OF_MEDIA if len(table := getattr(found, name)))
+    for name, table in (("inputs", found.inputs), ("edits", found.edits), *told):
         for column in (c for c in TABLES[name] if c.name not in ("time", "row")):
             values = table[column.name]
             data = (
                 "\0".join(values.tolist()).encode() if column.dtype == "string" else np.ascontiguousarray(values).data
             )
             digest.update(f"\n{name}.{column.name} {len(table)} ".encode() + bytes(data))
-    return digest.hexdigest() if len(found.inputs) or len(found.edits) else ""
+    return digest.hexdigest() if told or len(found.inputs) or len(found.edits) else ""
 
 
 def open(folder: Path | str) -> Recording:

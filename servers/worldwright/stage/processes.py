@@ -25,7 +25,7 @@ from .limits import failed
 
 WORLD, FACTS, INPUTS = "world.mjz", "program.json", "inputs.json"
 """The engine's files: the built world, the program's facts, the plan's declared inputs."""
-DRIVEN = ("inputs.arrows", "edits.arrows")
+DRIVEN = ("inputs.arrows", "edits.arrows", "media.arrows", "balances.arrows")
 """The files of a recording that drove it."""
 PASS = {
     "bundle": "bundle",
@@ -297,8 +297,9 @@ class Acting:
         return self.controls() and any("solver" not in row for row in rows)
 
     def controls(self) -> bool:
-        """Whether the program has a control."""
-        return bool(plain.read_json(self.job.inputs / FACTS).get("control"))
+        """Whether the program has a control, or a law of its own."""
+        said = plain.read_json(self.job.inputs / FACTS)
+        return bool(said.get("control") or said.get("laws"))
 
     def farewell(self, author: Member) -> None:
         """Let the author's process end by itself, as it does when the engine hangs up."""

@@ -47,9 +47,11 @@ def concerns(folder: Path) -> bool:
     facts, program = folder / bundle.WORLD, folder / "simulation.py"
     try:
         controlled = bool(json.loads((facts / FACTS[0]).read_bytes()).get("control"))
-        unsaid = lint.stated_facts(program).get("control", "unknown") is not None or not lint.states_alone(program)
+        stated = lint.stated_facts(program)
+        unsaid = stated.get("control", "unknown") is not None or bool(stated.get("laws", "unknown"))
         open_to_it = any("solver" not in row for row in stage.declared_inputs(folder / "plan.md"))
-        return controlled or unsaid or open_to_it or bool(stored.inputs_digest(facts))
+        unshown = unsaid or not lint.states_alone(program)
+        return controlled or unshown or open_to_it or bool(stored.inputs_digest(facts))
     except (OSError, ValueError, AttributeError, WorldwrightError, stored.RecordingError):
         return True
 

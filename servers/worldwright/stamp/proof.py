@@ -69,7 +69,7 @@ class Proved:
 
 
 FACTS = ("program.json", "inputs.json")
-DRIVEN = ("inputs.arrows", "edits.arrows")
+DRIVEN = ("inputs.arrows", "edits.arrows", "media.arrows", "balances.arrows")
 """Files with the inputs that drove a world, as `worldengine.recording` names them."""
 
 
@@ -125,7 +125,8 @@ def beside(folder: Path) -> dict[str, bytes]:
 def driven_by(proved: Proved) -> list[Path]:
     """The facts of the program, and the inputs that drove the world, where there are any."""
     facts = [proved.recording.parent / name for name in FACTS]
-    return [*facts, *(proved.recording / name for name in DRIVEN if proved.inputs_sha256)]
+    driven = (proved.recording / name for name in DRIVEN if proved.inputs_sha256)
+    return [*facts, *(path for path in driven if path.is_file())]
 
 
 def prove(

@@ -17,13 +17,15 @@ class Constant(Frozen):
 
 
 class Beside(Frozen):
-    """A solver that steps beside the engine (`worldengine.solvers`)."""
+    """What steps beside the engine: a solver of the suite (`worldengine.solvers`), or with a `file` the author's own law."""
 
     name: str
+    file: str = ""
+    """The author's, beside the program: `laws/rubber.py` (`worldkit.laws`)."""
     constants: dict[str, str] = {}
     """What it reads, by its own names: each the name of a row of `constants`."""
     shown_by: str = ""
-    """An object that is `visual_only` and shows it: the water's surface."""
+    """An object that is `visual_only` and shows it: the water's surface, the flex or the geoms that a law moves."""
 
 
 class Intervention(Frozen):
@@ -49,6 +51,8 @@ class Intervention(Frozen):
         """What the engine is told of its solver, with the values of its constants; empty where it has none."""
         if self.solver is None:
             return {}
+        if self.solver.file:
+            return {"law": {"name": self.solver.name, "shown_by": self.solver.shown_by}}
         named = {own: constants[name].value for own, name in self.solver.constants.items() if name in constants}
         values = {own: value for own, value in named.items() if not isinstance(value, tuple)}
         return {"solver": {"name": self.solver.name, "constants": values, "shown_by": self.solver.shown_by}}

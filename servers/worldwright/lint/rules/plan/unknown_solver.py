@@ -2,7 +2,8 @@
 
 What it does: for each row of `interventions` with a `solver`: compares its name with the solvers that are installed, its
 `constants` with what that solver reads, each with the plan's constant of that name and its unit, its `bodies` with the
-plan's moving objects, and `shown_by` with the objects that are only drawn.
+plan's moving objects, and `shown_by` with the objects that are only drawn. A row with a `file` is the author's own law: the file
+is called after it, it has no `constants` (they stand in the file), its `bodies` are objects of the plan, and something shows it.
 
 Why is this bad: the physics pass refuses the world when it starts; and a constant in another unit gives another world,
 without a word.
@@ -13,7 +14,7 @@ Use instead: the solver's own names, each with the name of a row of `simulation_
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from ....model.plan.declared_inputs import Constant, Intervention
+from ....model.plan.declared_inputs import Beside, Constant, Intervention
 from ...case import Changes
 from ...harm import Measured
 from ...plan_view import Place, PlanView
@@ -31,6 +32,12 @@ def _with(bodies: tuple[str, ...] = ("crate",), **solver: Any) -> dict[str, Any]
     return {"simulation_parameters": {"constants": constants, "interventions": [row]}}
 
 
+def _law(**solver: Any) -> dict[str, Any]:
+    said = {"name": "rubber", "file": "laws/rubber.py", **solver}
+    row = {"kind": "solver", "bodies": ["crate"], "law": "Hooke", "source": "the prompt's band", "solver": said}
+    return {"simulation_parameters": {"interventions": [row]}}
+
+
 NAMELESS = {"kind": "solver", "bodies": ["crate"], "law": "3 N of air", "source": "a table"}
 GOOD: Changes = ({}, _with())
 BAD: Changes = (
@@ -42,6 +49,9 @@ BAD: Changes = (
     _with(shown_by="crate"),
     _with(bodies=("whale",)),
     {"simulation_parameters": {"interventions": [NAMELESS]}},
+    _law(),  # nothing shows it
+    _law(name="honey", shown_by="crate"),
+    _law(file="/tmp/rubber.py"),
 )
 
 
@@ -82,6 +92,10 @@ def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[P
 
     said, rows = row.solver, view.rows
     assert said is not None
+    drawn = {name for name, thing in rows.items() if getattr(thing, "visual_only", None) is not None}
+    if said.file:
+        yield from _law_problems(view, row, said, drawn, place)
+        return
     if said.name not in SEAM.names():
         yield view.at(place, f"there is no solver `{said.name}`", f"name one of: {', '.join(SEAM.names())}")
         return
@@ -101,7 +115,24 @@ def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[P
     for body in row.bodies:
         if body not in rows or not view.moves(rows[body]):
             yield view.at(place, f"`{said.name}` acts on `{body}`, which does not move", "name objects that can move")
-    drawn = {name for name, thing in rows.items() if getattr(thing, "visual_only", None) is not None}
     if said.shown_by and said.shown_by not in drawn:
         what = f"`{said.name}` is shown by `{said.shown_by}`, which is no object that is only drawn"
         yield view.at(place, what, "name one with `visual_only`: what is simulated is not moved by a picture")
+
+
+def _law_problems(view: PlanView, row: Intervention, said: Beside, drawn: set[str], place: Place) -> Iterator[Problem]:
+    parts = said.file.split("/")
+    if parts[-1] != f"{said.name}.py" or ".." in parts or not parts[0]:
+        what = f"the law `{said.name}` has the file `{said.file}`"
+        yield view.at(place, what, f"name a file beside the program that is called after it: `laws/{said.name}.py`")
+    if said.constants:
+        what = f"the law `{said.name}` is told constants, which nobody reads to it"
+        yield view.at(place, what, "write them into its file, and their origin into `source`")
+    for body in row.bodies:
+        if body not in view.rows:
+            yield view.at(place, f"`{said.name}` acts on `{body}`, which the plan does not have", "name its objects")
+    if said.shown_by not in drawn:
+        what = f"the law `{said.name}` is shown by `{said.shown_by}`, which is no object that is only drawn"
+        yield view.at(
+            place, what, "name one with `visual_only`: the flex, or the body with geoms, whose points it moves"
+        )

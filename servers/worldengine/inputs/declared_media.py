@@ -1,0 +1,194 @@
+"""Media: what an author's laws move beside the engine, as points that are recorded, driven again, and drawn.
+
+A law runs in the author's process (`worldkit.laws`). Its forces are inputs like any other. Its points cross beside the answers a
+hundred times a second, or less often where they are many, with their sums; they are part of what was sent to the world, so a
+replay hands them on, and asking the law again must give the same. Nothing of a medium is taken for granted: its bodies, what
+shows it and its size are checked against the compiled world, every number when it crosses.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from worldkit.channel import PeerError
+from worldkit.errors import ProgramError
+from worldkit.laws import HUGE, TOTALS
+from worldkit.mirror import words
+from worldkit.naming import names
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from ..recording.record import Recorder
+
+MOST_POINTS = 20_000
+"""Points of all media of one world."""
+MOST_HZ, LEAST_HZ = 100.0, 25.0
+"""Points are recorded so often, 1/s of simulated time."""
+POINTS_A_SECOND = 150_000
+"""Recorded points, which is at most 2 MB packed."""
+PUSHES = ("force", "torque", "solver")
+
+
+@dataclass(frozen=True)
+class Medium:
+    """A declared law."""
+
+    name: str
+    bodies: tuple[str, ...]
+    shown_by: str
+
+    @classmethod
+    def read(cls, row: Mapping[str, Any]) -> "Medium":
+        """Read a row of `inputs.json` or of a recording's `meta.json`; raises KeyError or TypeError when it makes no sense."""
+        said = row["law"]
+        return cls(str(said["name"]), tuple(map(str, row["bodies"])), str(said["shown_by"]))
+
+    def written(self) -> dict[str, Any]:
+        """The row as `inputs.json` and `meta.json` have it."""
+        said = {"name": self.name, "shown_by": self.shown_by}
+        return {"kind": "solver", "bodies": list(self.bodies), "law": said}
+
+
+class Media:
+    """The media of one world.
+
+    Args:
+        model: the world.
+        rows: the declared laws, at least one.
+        seconds: from one question to the next.
+        others: declared (kind, names) of inputs besides; None where everything is open.
+
+    Raises:
+        ProgramError: a body or what shows a law is not there, is simulated, has too many points, or is pushed by two.
+    """
+
+    def __init__(
+        self,
+        model: "mujoco.MjModel",
+        rows: Sequence[Medium],
+        seconds: float,
+        others: "Sequence[tuple[str, frozenset[str]]] | None" = None,
+    ) -> None:
+        self.rows, self._seconds = tuple(rows), seconds
+        bodies = names(model, "body", model.nbody)
+        taken = {name: "another input" for kind, found in others or () if kind in PUSHES for name in found}
+        for row in rows:
+            for body in row.bodies:
+                if body not in bodies[1:]:
+                    cause = f"the law {row.name} acts on {body!r}, which is not in the world"
+                    raise ProgramError(cause, "interventions", f"name some of: {', '.join(bodies[1:])}")
+                if body in taken:
+                    cause = f"{body!r} would be pushed by the law {row.name} and by {taken[body]}"
+                    move = "let one of them push it: of two forces on one body, nobody could tell whose work is whose"
+                    raise ProgramError(cause, "interventions", move)
+            taken |= dict.fromkeys(row.bodies, f"the law {row.name}")
+        self.places = [Place(model, row) for row in rows]
+        self.counts = [place.count for place in self.places]
+        if (total := sum(self.counts)) > MOST_POINTS:
+            cause = f"the laws move {total} points, more than {MOST_POINTS}"
+            raise ProgramError(cause, "interventions", f"make each larger: {MOST_POINTS} points in all")
+        rate = min(MOST_HZ, max(LEAST_HZ, POINTS_A_SECOND / max(1, total)))
+        self.every = max(1, round(1.0 / (rate * seconds)))
+        """So many questions lie between two that take the points."""
+
+    @property
+    def width(self) -> int:
+        """How many numbers the laws tell beside an answer."""
+        return sum(TOTALS + 3 * count for count in self.counts)
+
+    def as_meta(self) -> dict[str, Any]:
+        """The media for the author's process: see `worldkit.laws.Stepped`."""
+        rows = [
+            {"name": row.name, "bodies": list(row.bodies), "shown_by": row.shown_by, "points": count}
+            for row, count in zip(self.rows, self.counts, strict=True)
+        ]
+        return {"rows": rows, "seconds": self._seconds, "every": self.every}
+
+    def read(self, at: int) -> "np.ndarray":
+        """(width,) the numbers at this address, checked.
+
+        Raises:
+            PeerError: one is not finite, or too large.
+        """
+        import numpy as np
+
+        numbers = words(at, self.width).copy()
+        for row, (_, points) in zip(self.rows, self.parts(numbers), strict=True):
+            if not float(np.abs(points).max(initial=0.0)) < HUGE:
+                raise PeerError(f"the law {row.name} sends points that are no places", "control", "send numbers")
+        if not np.isfinite(numbers).all():
+            raise PeerError("a law sends sums that are not finite", "control", "send numbers")
+        return numbers
+
+    def parts(self, numbers: "np.ndarray") -> "list[tuple[np.ndarray, np.ndarray]]":
+        """((TOTALS,) sums, (n, 3) points, m) of each medium."""
+        found, at = [], 0
+        for count in self.counts:
+            end = at + TOTALS + 3 * count
+            found.append((numbers[at : at + TOTALS], numbers[at + TOTALS : end].reshape(-1, 3)))
+            at = end
+        return found
+
+    def keep(self, recorder: "Recorder", step: int, numbers: "np.ndarray") -> None:
+        """Record the numbers told at a step."""
+        recorder.later("media", lambda: self._points(step, numbers))
+        recorder.later("balances", lambda: self._sums(step, numbers))
+
+    def _points(self, step: int, numbers: "np.ndarray") -> dict[str, Any]:
+        import numpy as np
+
+        return {
+            "step": np.full(sum(self.counts), step, np.int32),
+            "medium": np.repeat(np.arange(len(self.counts), dtype=np.int32), self.counts),
+            "point": np.concatenate([np.arange(count, dtype=np.int32) for count in self.counts]),
+            "place": np.concatenate([points for _, points in self.parts(numbers)]).astype(np.float32),
+        }
+
+    def _sums(self, step: int, numbers: "np.ndarray") -> dict[str, Any]:
+        import numpy as np
+
+        sums = np.array([totals for totals, _ in self.parts(numbers)])
+        columns = {"mass": sums[:, 0], "momentum": sums[:, 1:4], "energy": sums[:, 4], "volume": sums[:, 5]}
+        count = len(self.counts)
+        steps, which = np.full(count, step, np.int32), np.arange(count, dtype=np.int32)
+        return {"step": steps, "medium": which, **columns, "held": sums[:, 6:9]}
+
+
+class Place:
+    """What shows one medium in a world: the points of a flex, or the geoms of a body, in their order.
+
+    Raises:
+        ProgramError: there is neither of this name, or the engine simulates it.
+    """
+
+    def __init__(self, model: "mujoco.MjModel", row: Medium) -> None:
+        import numpy as np
+
+        flexes, bodies = names(model, "flex", model.nflex), names(model, "body", model.nbody)
+        if row.shown_by in flexes:
+            flex = flexes.index(row.shown_by)
+            first, self.count = int(model.flex_vertadr[flex]), int(model.flex_vertnum[flex])
+            self._array, self._at = "flexvert_xpos", np.arange(first, first + self.count)
+            owners = model.flex_vertbodyid[first : first + self.count]
+            solid = bool(model.flex_contype[flex] or model.flex_conaffinity[flex])
+        elif row.shown_by in bodies[1:]:
+            body = bodies.index(row.shown_by)
+            self._array, self._at = "geom_xpos", np.flatnonzero(model.geom_bodyid == body)
+            self.count, owners = len(self._at), np.array([body])
+            solid = bool((model.geom_contype[self._at] | model.geom_conaffinity[self._at]).any())
+        else:
+            known = ", ".join([*flexes, *bodies[1:]]) or "(none)"
+            cause = f"the law {row.name} is shown by {row.shown_by!r}, which is no flex and no body of the world"
+            raise ProgramError(cause, "interventions", f"name one of: {known}")
+        if solid or bool((model.body_weldid[owners] != 0).any()) or not self.count:
+            what = "collides" if solid else "moves" if self.count else "has no geoms"
+            cause = f"{row.shown_by}, which shows the law {row.name}, {what}"
+            raise ProgramError(
+                cause, "interventions", "give it contype=0, conaffinity=0, no joints, and a point for each"
+            )
+
+    def show(self, data: "mujoco.MjData", points: "np.ndarray") -> None:
+        """Lay what is drawn at the points (n, 3), m, in data whose kinematics are done."""
+        getattr(data, self._array)[self._at] = points

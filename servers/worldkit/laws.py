@@ -1,0 +1,218 @@
+"""An author's own law: matter that the engine does not know (rubber, drops, paint), stepped beside it in the program's process.
+
+A law is an object in a file beside the program (`laws/rubber.py`). It keeps points with masses, exchanges forces with bodies, and
+advances itself by the time from one question to the next. Its forces cross to the engine as inputs of the bodies it names; its
+points and sums cross with them, are recorded as a medium of its name, and move what it is shown by: the points of a flex, or
+the geoms of one body, in their order.
+
+What the sums are is not the author's word: momentum, energy of motion and weight are computed here from the points.
+"""
+
+import traceback
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+
+from .errors import ProgramError, WorldkitError
+from .mirror import words
+from .naming import names
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+_T = TypeVar("_T")
+
+WORLD = "world"
+"""As a body of a law: what stands fast. What pushes it is summed, and goes nowhere."""
+TOTALS = 9
+"""Numbers before the points: mass, momentum (3), energy, volume, impulse taken by the world (3)."""
+HUGE = 1e6
+"""A point or force beyond it, m or N, is a blow-up."""
+
+
+class Law(Protocol):
+    """The protocol of a law; n points, k bodies, everything in the world frame.
+
+    It may have `volume() -> float`, m^3, too, where its matter keeps one. Where it steps more finely than it is asked, the force
+    that it returns is the mean one.
+    """
+
+    name: str
+    """Of the medium, which is the name of its file: `rubber` of `laws/rubber.py`."""
+    bodies: Sequence[str]
+    """Those that it pushes and is pushed by; `world` for what is fixed to nothing."""
+    shown_by: str
+    """The flex, or the body with geoms, whose points it moves: n of them. Nothing of it is simulated by the engine."""
+    mass: "np.ndarray"
+    """(n,) kg, of the points."""
+    points: "np.ndarray"
+    """(n, 3) m."""
+    velocities: "np.ndarray"
+    """(n, 3) m/s."""
+
+    def start(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
+        """Take the initial state of the world and make that of the points."""
+
+    def step(self, model: "mujoco.MjModel", data: "mujoco.MjData", seconds: float) -> "np.ndarray":
+        """Advance the points by `seconds`, with the bodies as `data` shows them.
+
+        Returns:
+            (k, 3) force, N, or (k, 6) force and torque, N m, on each body at its centre of mass, held for `seconds`. What pushes
+            a body pushes the points back.
+        """
+
+    def energy(self) -> float:
+        """What is stored in the points besides their motion and weight, J: stretch, surface."""
+
+
+def check(laws: Any) -> tuple[Law, ...]:
+    """The laws of a program, each with what the protocol names, and each name once.
+
+    Raises:
+        ProgramError: one lacks something, or two have one name.
+    """
+    found = tuple(laws) if isinstance(laws, list | tuple) else (laws,)
+    for law in found:
+        lacking = [word for word in ("name", "bodies", "shown_by", "start", "step", "energy") if not hasattr(law, word)]
+        if lacking or isinstance(law, type):
+            what = "is a class: give an object of it" if isinstance(law, type) else f"has no {', no '.join(lacking)}"
+            raise ProgramError(
+                f"the law {law!r:.60} {what}", "program.main", "see worldkit.laws.Law for what a law has"
+            )
+        if isinstance(law.bodies, str):
+            raise ProgramError(
+                f"the bodies of the law {law.name} are a text", "program.main", f'write bodies = ("{law.bodies}",)'
+            )
+    if twice := [law.name for law in found if sum(other.name == law.name for other in found) > 1]:
+        raise ProgramError(f"two laws are called {twice[0]}", "program.main", "give each a name of its own")
+    return found
+
+
+def rows(laws: Sequence[Law]) -> list[dict[str, Any]]:
+    """The laws as `program.json` lists them: name, bodies without the world, and what shows it."""
+    return [
+        {"name": str(law.name), "bodies": [str(body) for body in law.bodies if body != WORLD], "shown_by": str(law.shown_by)}
+        for law in laws
+    ]  # fmt: skip
+
+
+class Stepped:
+    """The laws of a program at work, at the author's end.
+
+    Args:
+        laws: the program's.
+        model: the author's own.
+        declared: `media` of the engine's greeting: `rows` with the number of `points` of each, `seconds` from one question to the
+            next, and `every`: so many questions lie between two that take the points.
+        at: address of the numbers for the engine: `TOTALS` and the points of each, one after another.
+
+    Raises:
+        ProgramError: the laws are not those that the plan declares.
+    """
+
+    def __init__(self, laws: Sequence[Law], model: "mujoco.MjModel", declared: Mapping[str, Any], at: int) -> None:
+        import numpy as np
+
+        known = {row["name"]: row for row in declared.get("rows", ())}
+        if odd := sorted({law.name for law in laws} ^ set(known)):
+            ours = odd[0] in {law.name for law in laws}
+            cause = (
+                "is not declared in the plan"
+                if ours
+                else "is declared in the plan, and the program has none of this name"
+            )
+            move = "write a row of `interventions` of the kind `solver`, with its `file` (skill media)"
+            raise ProgramError(f"the law {odd[0]} {cause}", "program.main", move if ours else "give it in `laws=`")
+        self._seconds, self._every = float(declared.get("seconds", 0.0)), int(declared.get("every", 1))
+        self._asked, self._laws = 0, []
+        bodies = names(model, "body", model.nbody)
+        for law in sorted(laws, key=lambda law: list(known).index(law.name)):
+            row = known[law.name]
+            if {*law.bodies} - {WORLD} != {*row["bodies"]} or law.shown_by != row["shown_by"]:
+                says = f"{', '.join(law.bodies)}, shown by {law.shown_by}"
+                plan = f"{', '.join(row['bodies'])}, shown by {row['shown_by']}"
+                cause = f"the law {law.name} acts on {says}; the plan declares {plan}"
+                raise ProgramError(cause, "program.main", "say the same in both")
+            numbers = words(at, TOTALS + 3 * row["points"])
+            at += 8 * len(numbers)
+            of = np.array([bodies.index(body) for body in law.bodies], np.intp)
+            self._laws.append((law, of, numbers[:TOTALS], numbers[TOTALS:].reshape(-1, 3), np.zeros(3)))
+
+    def step(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
+        """Tell the points as they are, advance each law, and write its forces into `data`.
+
+        Raises:
+            ProgramError: a law raises, or returns what cannot be.
+        """
+        for law, bodies, totals, points, held in self._laws:
+            if not self._asked:
+                self._of(law, data, "start", partial(law.start, model, data))
+                self._fits(law, len(points), data)
+            if self._asked % self._every == 0:
+                points[:] = law.points
+                totals[:] = self._totals(law, model, data, held)
+            forces = self._of(law, data, "step", partial(law.step, model, data, self._seconds))
+            wrench = self._wrench(law, forces, len(bodies), data)
+            held += self._seconds * wrench[bodies == 0, :3].sum(axis=0)
+            data.xfrc_applied[bodies[bodies > 0]] = wrench[bodies > 0]
+            self._sane(law, data)
+        self._asked += 1
+
+    def _of(self, law: Law, data: "mujoco.MjData", what: str, call: Callable[[], _T]) -> _T:
+        """What a law's own code gives; what it raises names its file and line."""
+        try:
+            return call()
+        except WorldkitError:
+            raise
+        except Exception as error:  # author code may raise anything
+            frames = [f for f in traceback.extract_tb(error.__traceback__) if f.filename != __file__]
+            own = [f for f in frames if Path(f.filename).stem == law.name] or frames
+            place = f"{Path(own[-1].filename).name}:{own[-1].lineno}" if own else law.name
+            said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+            cause = f"{what} of the law {law.name} failed at t = {data.time:.4f} s: {said}"
+            raise ProgramError(cause, place, "correct it there; what was recorded until then is kept") from error
+
+    def _fits(self, law: Law, count: int, data: "mujoco.MjData") -> None:
+        import numpy as np
+
+        for name, shape in (("points", (count, 3)), ("velocities", (count, 3)), ("mass", (count,))):
+            has = np.shape(getattr(law, name, ()))
+            if has != shape:
+                cause = f"the law {law.name} has {name} of the shape {has}, and {law.shown_by} shows {count} points"
+                raise ProgramError(cause, law.name, f"make it {shape}, or give {law.shown_by} as many points")
+        self._sane(law, data)
+
+    def _sane(self, law: Law, data: "mujoco.MjData") -> None:
+        """Refuse points that are no numbers, or far away; a sum finds them without looking at each."""
+        import numpy as np
+
+        far = float(np.abs(law.points).max(initial=0.0) + np.abs(law.velocities).max(initial=0.0))
+        if not far < HUGE:
+            cause = f"the points of the law {law.name} blew up at t = {data.time:.4f} s"
+            raise ProgramError(cause, law.name, "step it more finely (several steps within one), soften it, or damp it")
+
+    def _wrench(self, law: Law, forces: Any, count: int, data: "mujoco.MjData") -> "np.ndarray":
+        """(k, 6) force and torque."""
+        import numpy as np
+
+        found = np.asarray(forces, float) if forces is not None else np.zeros(0)
+        if found.shape not in ((count, 3), (count, 6)):
+            cause = f"step of the law {law.name} returned forces of the shape {found.shape}"
+            raise ProgramError(
+                cause, law.name, f"return ({count}, 3), or ({count}, 6) with torques: one row for each body"
+            )
+        if not float(np.abs(found).max(initial=0.0)) < HUGE:
+            cause = f"the law {law.name} pushes with what is no number, or beyond {HUGE:g} N, at t = {data.time:.4f} s"
+            raise ProgramError(cause, law.name, "step it more finely (several steps within one), soften it, or damp it")
+        return np.pad(found, ((0, 0), (0, 6 - found.shape[1])))
+
+    def _totals(self, law: Law, model: "mujoco.MjModel", data: "mujoco.MjData", held: "np.ndarray") -> "list[float]":
+        mass, points, velocities = law.mass, law.points, law.velocities
+        motion = 0.5 * float((mass[:, None] * velocities**2).sum())
+        weight = -float((mass[:, None] * points).sum(axis=0) @ model.opt.gravity)
+        stored = float(self._of(law, data, "energy", law.energy))
+        volume = float(self._of(law, data, "volume", getattr(law, "volume", float)))
+        momentum = (mass[:, None] * velocities).sum(axis=0)
+        return [float(mass.sum()), *momentum, motion + weight + stored, volume, *held]

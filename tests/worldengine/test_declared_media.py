@@ -1,0 +1,285 @@
+"""An author's law beside the engine: its forces are inputs, its points a medium that is recorded, driven again and drawn."""
+
+import json
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pyarrow as pa
+import pytest
+
+from small_worlds import ball, empty
+from worldengine.clock.simulate import prepare, simulate
+from worldengine.inputs import declared_media as media_of
+from worldengine.inputs.author_link import Local
+from worldengine.inputs.declared_media import Media, Medium
+from worldengine.inputs.ports import Ports
+from worldengine.inputs.replayed_inputs import Asked, Replayed
+from worldengine.recording import describing, stored
+from worldengine.recording.lain import between
+from worldengine.recording.record import Recorder
+from worldengine.recording.replay import Replay
+from worldkit import program
+from worldkit.errors import ProgramError, RecordingError
+from worldkit.world import start
+
+ROW = Medium("springs", ("weight",), "net")
+STEPS = 150
+
+
+class Springs:
+    """Three points in a row, hung from a fixed place, the last of which carries a weight."""
+
+    name, bodies, shown_by = "springs", ("weight", "world"), "net"
+    stiffness, length = 200.0, 0.1
+
+    def start(self, model, data):
+        self.points = np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 0.9], [0.0, 0.0, 0.8]])
+        self.velocities, self.mass = np.zeros((3, 3)), np.full(3, 0.1)
+        self.gravity, self.carried = model.opt.gravity, data.xpos[1].copy()
+
+    def step(self, model, data, seconds):
+        self.carried = data.xpos[1].copy()
+        away = np.diff(np.concatenate([[[0.0, 0.0, 1.1]], self.points, [self.carried]]), axis=0)
+        apart = np.linalg.norm(away, axis=1, keepdims=True)
+        pull = self.stiffness * (apart - self.length) * away / apart
+        force = self.mass[:, None] * self.gravity + pull[1:] - pull[:-1]
+        self.velocities = self.velocities + seconds * force / self.mass[:, None]
+        self.points = self.points + seconds * self.velocities
+        return np.array([-pull[-1], pull[0]])
+
+    def energy(self):
+        chain = np.concatenate([[[0.0, 0.0, 1.1]], self.points, [self.carried]])
+        stretch = np.linalg.norm(np.diff(chain, axis=0), axis=1) - self.length
+        return self.stiffness / 2 * float((stretch**2).sum())
+
+
+def world(points: int = 3, **flex) -> mujoco.MjSpec:
+    spec = empty(time_step=0.001)
+    ball(spec, "weight", (0, 0, 0.7), radius=0.03, mass=0.2)
+    net = spec.add_flex(name="net")
+    net.dim, net.vertbody, net.elem = 1, ["world"], [n for k in range(points - 1) for n in (k, k + 1)]
+    net.vert = [x for k in range(points) for x in (0.0, 0.0, 1.0 - 0.1 * k)]
+    net.radius, net.contype, net.conaffinity = 0.005, flex.get("contype", 0), 0
+    return spec
+
+
+def run(folder: Path, law=None, spec=None, rows=(ROW,), others=(), drive=None, steps: int = STEPS) -> stored.Recording:
+    model = (spec or world()).compile()
+    prepare(model)
+    data = start(model)
+    ports = Ports(model, tuple(others), Media(model, rows, model.opt.timestep, others))
+    inputs = (
+        Asked(model, data, ports, Local(model, data, ports, None, [law or Springs()]))
+        if drive is None
+        else Replayed(model, data, ports, drive, steps)
+    )
+    meta = {**describing.describe(model), "inputs": ports.as_meta(), "laws": [row.written() for row in rows]}
+    with Recorder(model, data, folder, meta) as recorder:
+        simulate(model, data, recorder, steps, inputs)
+    return stored.open(folder)
+
+
+@pytest.fixture(scope="module")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> stored.Recording:
+    return run(tmp_path_factory.mktemp("media") / "out")
+
+
+def test_its_forces_stand_in_the_ledger_and_move_the_body(recorded: stored.Recording) -> None:
+    ledger = recorded.interventions
+    assert set(ledger.kind) == {"force"} and set(ledger.target) == {"weight"}
+    assert len(ledger) >= STEPS - 1
+    fallen = 0.7 - recorded.pos[-1, 0, 2]
+    assert 0 < fallen < 0.5 * 9.81 * recorded.time[-1] ** 2, "it falls more slowly than without a spring"
+
+
+def test_momentum_goes_from_points_to_bodies_and_none_is_lost(recorded: stored.Recording) -> None:
+    sums, ledger, step = recorded.balances, recorded.interventions, recorded.time_step
+    weight = np.array([0, 0, -9.81]) * sums.mass[:, None] * sums.step[:, None] * step
+    given = np.array([ledger.value[ledger.time < n * step - 1e-9][:, :3].sum(axis=0) * step for n in sums.step])
+    assert sums.momentum - sums.momentum[0] + given + sums.held == pytest.approx(weight, abs=1e-12)
+    assert abs(sums.held[-1, 2]) > 0.01
+    work = np.array([ledger.work_j[ledger.time < n * step - 1e-9].sum() for n in sums.step])
+    assert sums.energy + work == pytest.approx(np.full(len(sums), sums.energy[0]), rel=2e-3)
+
+
+def test_points_are_recorded_a_hundred_times_a_second_and_drawn_in_between(recorded: stored.Recording) -> None:
+    assert list(recorded.balances.step) == list(range(0, STEPS, 10))
+    place = recorded.media.place.reshape(15, 3, 3)
+    assert place.dtype == np.float32 and place[0, :, 2] == pytest.approx([1.0, 0.9, 0.8])
+    shown = Replay(world().compile(), recorded)
+    assert shown.show(25).flexvert_xpos == pytest.approx((place[2] + place[3]) / 2, abs=1e-6)
+    assert shown.show(STEPS).flexvert_xpos == pytest.approx(place[-1])
+    assert between(np.array([0.0]), place[:1], 3.0) == pytest.approx(place[0])
+
+
+def test_geoms_of_a_body_can_show_it(tmp_path: Path) -> None:
+    spec = world()
+    drops = spec.worldbody.add_body(name="drops")
+    for _ in range(3):
+        drops.add_geom(size=(0.02, 0, 0), contype=0, conaffinity=0)
+    law = Springs()
+    law.shown_by = "drops"
+    recording = run(tmp_path / "out", law, spec, (Medium("springs", ("weight",), "drops"),))
+    data = Replay(spec.compile(), recording).show(0)
+    assert data.geom_xpos[-3:, 2] == pytest.approx([1.0, 0.9, 0.8])
+
+
+def test_a_replay_needs_no_law_and_gives_the_same_bits(tmp_path: Path, recorded: stored.Recording) -> None:
+    again = run(tmp_path / "out", drive=recorded)
+    assert again.sha256 == recorded.sha256
+    assert stored.inputs_digest(again.folder) == stored.inputs_digest(recorded.folder)
+    assert (again.media.place == recorded.media.place).all()
+    asked = run(tmp_path / "asked")
+    assert stored.inputs_digest(asked.folder) == stored.inputs_digest(recorded.folder), "the law asked again"
+    softer = Springs()
+    softer.stiffness = 199.0
+    other = run(tmp_path / "softer", softer)
+    assert stored.inputs_digest(other.folder) != stored.inputs_digest(recorded.folder)
+
+
+def rewrite(folder: Path, name: str, **changes) -> None:
+    """A table with some columns' numbers written otherwise."""
+    path = folder / f"{name}.arrows"
+    table = pa.ipc.open_stream(path.read_bytes()).read_all()
+    for column, change in changes.items():
+        at = table.schema.get_field_index(column)
+        values = table.column(column).combine_chunks()
+        flat = np.array(values.values if pa.types.is_fixed_size_list(values.type) else values)
+        flat = pa.array(change(flat))
+        size = getattr(values.type, "list_size", 0)
+        made = pa.FixedSizeListArray.from_arrays(flat, type=values.type) if size else flat
+        table = table.set_column(at, table.schema.field(at), made)
+    with pa.OSFile(str(path), "wb") as sink, pa.ipc.new_stream(sink, table.schema) as writer:
+        writer.write_table(table)
+
+
+def _at(row: int, value: float):
+    def change(numbers: np.ndarray) -> np.ndarray:
+        numbers[row] = value
+        return numbers
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "says"),
+    [
+        ("media", {"step": _at(4, 11)}, "row 4 .* nothing is due"),
+        ("media", {"medium": _at(2, 1)}, "another medium"),
+        ("media", {"point": _at(7, 0)}, "another point"),
+        ("media", {"place": _at(5, np.nan)}, "it lies nowhere"),
+        ("balances", {"energy": _at(3, np.inf)}, "row 3 .* not finite"),
+    ],
+)
+def test_a_forged_medium_is_refused(tmp_path: Path, recorded: stored.Recording, name: str, changes, says: str) -> None:
+    for path in recorded.folder.iterdir():
+        (tmp_path / path.name).write_bytes(path.read_bytes())
+    rewrite(tmp_path, name, **changes)
+    with pytest.raises(RecordingError, match=says):
+        run(tmp_path / "out", drive=stored.Replayable(tmp_path))
+
+
+def test_a_medium_that_is_taken_away_is_missed(tmp_path: Path, recorded: stored.Recording) -> None:
+    for name in ("inputs", "balances"):
+        (tmp_path / f"{name}.arrows").write_bytes((recorded.folder / f"{name}.arrows").read_bytes())
+    with pytest.raises(RecordingError, match=r"media.arrows has 0 rows, and 15 steps"):
+        run(tmp_path / "out", drive=stored.Replayable(tmp_path))
+
+
+class Raising(Springs):
+    def step(self, model, data, seconds):
+        if data.time > 0.0215:
+            raise ZeroDivisionError("a spring without length")
+        return super().step(model, data, seconds)
+
+
+class Exploding(Springs):
+    stiffness = 1e9
+
+
+class Misshapen(Springs):
+    def step(self, model, data, seconds):
+        return super().step(model, data, seconds)[0]
+
+
+class TooFew(Springs):
+    def start(self, model, data):
+        super().start(model, data)
+        self.points = self.points[:2]
+
+
+class Greedy(Springs):
+    bodies = ("weight", "net", "world")
+
+
+@pytest.mark.parametrize(
+    ("law", "says"),
+    [
+        (Raising, r"step of the law springs failed at t = 0.0220 s: ZeroDivisionError: a spring without length"),
+        (Exploding, r"law springs (blew up|pushes with what is no number)"),
+        (Misshapen, r"returned forces of the shape \(3,\)"),
+        (TooFew, r"points of the shape \(2, 3\), and net shows 3 points"),
+        (Greedy, r"acts on weight, net, world.*the plan declares weight"),
+    ],
+)
+def test_a_law_that_fails_says_where_and_leaves_what_was_recorded(tmp_path: Path, law, says: str) -> None:
+    with pytest.raises(ProgramError, match=says) as caught:
+        run(tmp_path / "out", law())
+    assert caught.value.next_move
+    if law is Raising:
+        assert caught.value.place.startswith("test_declared_media.py:")
+        kept = stored.open(tmp_path / "out")
+        assert not kept.complete and len(kept) == 22
+        assert Replay(world().compile(), kept).show(21).flexvert_xpos[0, 2] < 1.0
+
+
+@pytest.mark.parametrize(
+    ("rows", "others", "flex", "says"),
+    [
+        ((Medium("springs", ("whale",), "net"),), (), {}, "'whale', which is not in the world"),
+        ((Medium("springs", ("weight",), "sea"),), (), {}, "'sea', which is no flex and no body"),
+        ((Medium("springs", ("weight",), "weight"),), (), {}, "weight, which shows the law springs, collides"),
+        ((ROW,), (), {"contype": 1}, "net, which shows the law springs, collides"),
+        ((ROW,), (("force", frozenset({"weight"})),), {}, "pushed by the law springs and by another input"),
+        ((ROW, Medium("gum", ("weight",), "net")), (), {}, "pushed by the law gum and by the law springs"),
+    ],
+)
+def test_what_a_law_may_not_be_is_refused_before_the_first_step(tmp_path: Path, rows, others, flex, says: str) -> None:
+    with pytest.raises(ProgramError, match=says):
+        run(tmp_path / "out", spec=world(**flex), rows=rows, others=others)
+
+
+def test_too_many_points_are_refused_with_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(media_of, "MOST_POINTS", 2)
+    with pytest.raises(ProgramError, match="move 3 points, more than 2"):
+        Media(world().compile(), [ROW], 0.001)
+
+
+def test_many_points_are_recorded_less_often() -> None:
+    model = world(points=3000).compile()
+    assert Media(model, [ROW], 0.001).every == 20
+    assert Media(model, [ROW], 0.05).every == 1
+
+
+def test_a_program_has_its_law_stepped_in_its_own_process(tmp_path: Path) -> None:
+    words = ["--pass", "physics", "--out", str(tmp_path)]
+    assert program.main(lambda: world(), duration=0.05, laws=[Springs()], argv=words) == 0
+    recording = stored.open(tmp_path / "trajectory")
+    assert [row["law"]["name"] for row in recording.meta["laws"]] == ["springs"] and len(recording.balances) == 5
+    assert json.loads((tmp_path / "program.json").read_text())["laws"][0]["bodies"] == ["weight"]
+
+
+@pytest.mark.parametrize(
+    ("laws", "settings", "says"),
+    [
+        ([Springs], {}, "is a class"),
+        ([object()], {}, "has no name"),
+        ([Springs(), Springs()], {}, "two laws are called springs"),
+        ([Springs()], {"latency": 1}, "latency is 1"),
+    ],
+)
+def test_laws_that_cannot_be_stepped_are_refused(tmp_path: Path, laws, settings, says: str) -> None:
+    words = ["--pass", "build", "--out", str(tmp_path)]
+    assert program.main(lambda: world(), duration=0.05, laws=laws, argv=words, **settings) == 1
+    assert says in json.loads((tmp_path / "error.json").read_text())["message"]
