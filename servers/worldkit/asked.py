@@ -38,9 +38,9 @@ class Asked:
         control_every: int,
         latency: int,
         inputs: Sequence[str] | None,
-        given_laws: Any,
-        other_seed: int | None,
-        other_duration: float | None,
+        given_laws: Any = (),
+        other_seed: int | None = None,
+        other_duration: float | None = None,
     ) -> None:
         self.build, self.control, self.fps, self.size = build, control, fps, size
         self.duration = duration if other_duration is None else other_duration

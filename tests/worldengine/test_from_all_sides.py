@@ -43,7 +43,7 @@ def sheet(folder, *words, camera=True):
     spec.add_key(name="start", qpos=[AWAY, 0, 0.5, 1, 0, 0, 0])
     if camera:
         cameras.add(spec, "overview", subjects=("ball",), follow=True)
-    asked.Asked(lambda: spec, None, 0.01, 24, (960, 720), (), 0, (), 1, 0, None, None, None).write(folder)
+    asked.Asked(lambda: spec, None, 0.01, 24, (960, 720), (), 0, (), 1, 0, None).write(folder)
     words = ["sheet", *(f"--{word}={folder / file}" for word, file in FILES.items()), f"--out={folder}", *words]
     return main(words)
 

@@ -127,4 +127,4 @@ def picture(key: str, out: Path) -> None:
     height = assets.find(key).metric_height
     assets.add(spec, key, name="thing", height=height, pos=(0, 0, height / 2), fixed=True)
     cameras.add(spec, "thumbnail", view="perspective", subjects=("thing",), fovy=28)
-    asked.Asked(lambda: spec, None, 0.01, 24, (256, 256), (), 0, (), 1, 0, None, None, None).write(out)
+    asked.Asked(lambda: spec, None, 0.01, 24, (256, 256), (), 0, (), 1, 0, None).write(out)

@@ -176,7 +176,7 @@ def _write(spec: "mujoco.MjSpec", out: Path) -> None:
     from .. import asked
 
     build: Callable[[], Any] = lambda: spec  # noqa: E731
-    asked.Asked(build, None, 0.01, 24, (960, 720), (), 0, (), 1, 0, None, (), None, None).write(out)
+    asked.Asked(build, None, 0.01, 24, (960, 720), (), 0, (), 1, 0, None).write(out)
 
 
 if __name__ == "__main__":
