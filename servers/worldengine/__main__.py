@@ -8,6 +8,7 @@ in DIR, or `error.json` with exit status 1, and `progress.json` on the way.
 """
 
 import argparse
+import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -119,4 +120,15 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
 
 if __name__ == "__main__":
     assert worldkit
-    sys.exit(main())
+    if sys.argv[1:2] in (
+        ["bundle"],
+        ["physics"],
+    ):  # the simulator's package would bring in the graphics library it names
+        os.environ["MUJOCO_GL"] = "disable"
+    status = main()
+    if sys.argv[1:2] == ["view"]:
+        sys.exit(status)
+    # All is written and closed. Taking modules and the graphics driver apart costs as much as many a simulation or still.
+    sys.stdout.flush()
+    sys.stderr.flush()
+    os._exit(status)

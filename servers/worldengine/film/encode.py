@@ -3,7 +3,6 @@
 import os
 import queue
 import threading
-from fractions import Fraction
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING
@@ -17,16 +16,18 @@ QUALITY = "19"
 """Constant rate factor, visually lossless at the sizes that we film."""
 PRESET = "veryfast"
 
+PNG_LEVEL = 5
+"""How hard a still is packed, of 9."""
+
 
 def write_png(path: Path, image: "np.ndarray") -> None:
     """Atomically write an RGB picture, uint8 (height, width, 3)."""
-    import av
+    import cv2  # a tenth of a second sooner there than what writes films
 
-    height, width, _ = image.shape
-    codec = av.CodecContext.create("png", "w")
-    codec.width, codec.height, codec.pix_fmt, codec.time_base = width, height, "rgb24", Fraction(1, 1)
-    packets = [*codec.encode(av.VideoFrame.from_ndarray(image, format="rgb24")), *codec.encode(None)]
-    write_atomic(path, b"".join(bytes(packet) for packet in packets))
+    good, coded = cv2.imencode(".png", image[:, :, ::-1], (cv2.IMWRITE_PNG_COMPRESSION, PNG_LEVEL))
+    if not good:
+        raise OSError(f"{path.name} cannot be written as PNG")
+    write_atomic(path, coded.tobytes())
 
 
 class Video:

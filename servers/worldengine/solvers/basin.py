@@ -124,10 +124,10 @@ class Basin:
         wrench = np.zeros((len(self._bodies), 6))
         lift = -self._density * self._model.opt.gravity * under[:, None]
         arm = place - data.xipos[self._bodies][self._owner]
+        turning = np.cross(arm, lift)
         for axis in range(3):
             wrench[:, axis] = np.bincount(self._owner, lift[:, axis], minlength=len(self._bodies))
-            turning = np.cross(arm, lift)[:, axis]
-            wrench[:, 3 + axis] = np.bincount(self._owner, turning, minlength=len(self._bodies))
+            wrench[:, 3 + axis] = np.bincount(self._owner, turning[:, axis], minlength=len(self._bodies))
         speed = np.array([twist(self._model, data, int(body))[:3] for body in self._bodies])
         wrench[:, :3] -= self._density * self._damping * self._immersed[:, None] * speed
         return wrench

@@ -279,7 +279,8 @@ def test_unknown_runs_jobs_and_levels_list_the_known(make, monkeypatch):
     sandbox.level.cache_clear()
 
 
-def test_a_supervisor_starts_without_what_reads_plans():
-    """Every pass pays for its start, and most of them never ask what the plan says."""
-    code = "import sys, worldwright.stage.supervisor; print([m for m in sys.modules if 'worldwright.model.plan' in m])"
+def test_a_supervisor_starts_without_what_reads_plans_and_assets():
+    """Every pass pays for its start, and most of them never ask what the plan or an asset says."""
+    unused = ("worldwright.model.plan", "worldkit.assets", "yaml", "numpy")
+    code = f"import sys, worldwright.stage.supervisor; print([m for m in sys.modules if m.startswith({unused})])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"

@@ -11,8 +11,6 @@ from collections.abc import Iterable
 from functools import lru_cache
 from pathlib import Path
 
-from worldkit import assets
-
 from .. import companions
 from .file_hashes import below, sha256_of
 
@@ -39,6 +37,8 @@ def sha256(source: Path, program: Path) -> str:
     root, names = _root(), named(source, program)
     if root is None or not names:
         return ""
+    from worldkit import assets
+
     digest = hashlib.sha256()
     for name in names:
         path = root / name
@@ -50,7 +50,8 @@ def sha256(source: Path, program: Path) -> str:
 
 def unnamed(taken: Iterable[str], source: Path, program: Path) -> tuple[str, ...]:
     """The names of what a build took from the catalog although no text names it."""
-    return tuple(sorted(set(taken) - set(named(source, program))))
+    found = set(taken)
+    return tuple(sorted(found - set(named(source, program)))) if found else ()
 
 
 @lru_cache(maxsize=64)
@@ -64,11 +65,15 @@ def _known() -> list[str]:
     root = _root()
     if root is None:
         return []
+    from worldkit import assets
+
     return sorted({*assets.keys(), *(path.name for path in root.iterdir() if path.name not in OURS)})
 
 
 def _root() -> Path | None:
+    from worldkit.assets.root import catalog_root
+
     try:
-        return assets.catalog_root()
+        return catalog_root()
     except FileNotFoundError:
         return None

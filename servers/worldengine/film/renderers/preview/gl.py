@@ -6,7 +6,7 @@ Not moderngl (5.13): it has neither `glClipControl` nor buffer textures, and doe
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import cache
 from pathlib import Path
 
@@ -149,15 +149,56 @@ def texture(
     return handle
 
 
+def coarser(pixels: np.ndarray) -> Iterator[np.ndarray]:
+    """A picture and its halves down to one pixel, averaged as light; itself alone where its sides are no powers of two.
+
+    Args:
+        pixels: uint8 (H, W, 4), sRGB and a linear fourth channel.
+
+    A driver for the processor compiles a shader in each process before it halves its first texture, for as long as a small still
+    takes to draw.
+    """
+    yield pixels
+    if not _halves(*pixels.shape[:2]):
+        return
+    light, coded = _light()
+    sums = np.concatenate([light[pixels[..., :3]], pixels[..., 3:] * np.uint32(257)], axis=2)
+    while max(sums.shape[:2]) > 1:
+        many = 1
+        if sums.shape[0] > 1:
+            sums, many = sums[0::2] + sums[1::2], 2 * many
+        if sums.shape[1] > 1:
+            sums, many = sums[:, 0::2] + sums[:, 1::2], 2 * many
+        sums = (sums + np.uint32(many // 2)) // np.uint32(many)
+        yield np.concatenate([coded[sums[..., :3]], ((sums[..., 3:] + 128) // 257).astype(np.uint8)], axis=2)
+
+
+def _halves(*sides: int) -> bool:
+    """Whether all sides can be halved down to one pixel."""
+    return all(side & (side - 1) == 0 for side in sides)
+
+
+@cache
+def _light() -> tuple[np.ndarray, np.ndarray]:
+    """The light, in 65535ths, of each of 256 sRGB values, and the nearest value of each light. Source: IEC 61966-2-1."""
+    value = np.arange(256) / 255.0
+    light = np.where(value <= 0.04045, value / 12.92, ((value + 0.055) / 1.055) ** 2.4)
+    share = np.arange(65536) / 65535.0
+    coded = np.where(share <= 0.0031308, 12.92 * share, 1.055 * share ** (1 / 2.4) - 0.055)
+    return np.rint(65535 * light).astype(np.uint32), np.rint(255 * coded).astype(np.uint8)
+
+
 def picture(pixels: np.ndarray) -> int:
     """Make a repeating, mipmapped texture from uint8 (H, W, 4): sRGB and a linear fourth channel; row 0 is the top."""
     height, width = pixels.shape[:2]
     levels = int(np.log2(max(width, height))) + 1
     handle = texture(GL.GL_SRGB8_ALPHA8, width, height, repeat=True, levels=levels)
     GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
-    data = np.ascontiguousarray(pixels[::-1])
-    GL.glTexSubImage2D(GL.GL_TEXTURE_2D, 0, 0, 0, width, height, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, data)
-    GL.glGenerateMipmap(GL.GL_TEXTURE_2D)
+    for level, data in enumerate(coarser(np.ascontiguousarray(pixels[::-1]))):
+        side = data.shape[1], data.shape[0]
+        GL.glTexSubImage2D(GL.GL_TEXTURE_2D, level, 0, 0, *side, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, data)
+    if not _halves(height, width):
+        GL.glGenerateMipmap(GL.GL_TEXTURE_2D)
     return handle
 
 
@@ -170,11 +211,11 @@ def cube_picture(faces: np.ndarray) -> int:
     GL.glTexStorage2D(GL.GL_TEXTURE_CUBE_MAP, int(np.log2(size)) + 1, GL.GL_SRGB8_ALPHA8, size, size)
     GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
     for i in range(6):
-        GL.glTexSubImage2D(
-            GL.GL_TEXTURE_CUBE_MAP_POSITIVE_X + i, 0, 0, 0, size, size, GL.GL_RGBA, GL.GL_UNSIGNED_BYTE,
-            np.ascontiguousarray(faces[i]),
-        )  # fmt: skip
-    GL.glGenerateMipmap(GL.GL_TEXTURE_CUBE_MAP)
+        face = GL.GL_TEXTURE_CUBE_MAP_POSITIVE_X + i
+        for level, data in enumerate(coarser(np.ascontiguousarray(faces[i]))):
+            GL.glTexSubImage2D(face, level, 0, 0, len(data), len(data), GL.GL_RGBA, GL.GL_UNSIGNED_BYTE, data)
+    if not _halves(size, size):
+        GL.glGenerateMipmap(GL.GL_TEXTURE_CUBE_MAP)
     for name, value in (
         (GL.GL_TEXTURE_MIN_FILTER, GL.GL_LINEAR_MIPMAP_LINEAR),
         (GL.GL_TEXTURE_MAG_FILTER, GL.GL_LINEAR),
