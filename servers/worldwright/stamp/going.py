@@ -18,7 +18,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding
 from ..model.progress import Progress, silent
-from . import audited, gates, mending, picture_claims
+from . import audited, gates, next_repair, picture_claims
 from .gone import Gone, Wrong
 from .state import State
 from .steps import Step, one
@@ -280,7 +280,7 @@ class Going:
         report = State(self.run).scan.value
         anomalies = report.anomalies if report else ()
         if blocking := [a for a in anomalies if a.severity == "blocking"]:
-            raise WrongError(*((str(a), mending.of_anomaly(State(self.run), a.code)) for a in blocking))
+            raise WrongError(*((str(a), next_repair.of_anomaly(State(self.run), a.code)) for a in blocking))
         remarks = [str(a) for a in anomalies if a.severity == "warn"]
         said = [self.step("scan").detail]
         with suppress(WorldwrightError):  # without the recording there is nothing to add

@@ -6,7 +6,7 @@ from typing import Literal
 from ..model.evidence import approval, came, handed_in, pictures_of
 from ..model.evidence.build_steps import STEPS, StepName
 from ..model.frozen import Frozen
-from . import audited, descriptions, mending, signing
+from . import audited, descriptions, next_repair, signing
 from .bundle import STAMP, damage
 from .state import State
 
@@ -167,7 +167,7 @@ def _scan(state: State) -> Answer:
         return (
             "fails",
             f"{len(blocking)} blocking anomaly(ies), first: {blocking[0]}",
-            mending.of_anomaly(state, blocking[0].code),
+            next_repair.of_anomaly(state, blocking[0].code),
         )
     others = f", {len(report.anomalies)} not blocking" if report.anomalies else ""
     return "holds", f"{len(report.checks)} checks{others}", ""
@@ -237,7 +237,7 @@ def _review(state: State) -> Answer:
         return (
             "fails",
             f"repair {verdict.repair_target}: {verdict.repair}",
-            mending.next_move(state, verdict.repair_target),
+            next_repair.next_move(state, verdict.repair_target),
         )
     return "fails", "the reviewer calls it blocked", f'worldwright stamp block {state.place} "CAUSE"'
 

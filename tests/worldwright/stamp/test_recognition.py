@@ -6,7 +6,7 @@ from worldwright.model.errors import GateError
 from worldwright.model.evidence.reports import Sighting, VisualDescription
 from worldwright.model.evidence.run import Run
 from worldwright.model.evidence.verdict import CrossCheck, ObjectiveVerdict, Recognition, Verdict
-from worldwright.stamp import mending, recognition
+from worldwright.stamp import next_repair, recognition
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
@@ -112,7 +112,7 @@ def test_a_world_that_nobody_believes_gets_one_repair_of_its_look(reviewed, copy
     ],
 )
 def test_the_move_after_a_repair_names_the_file_that_its_target_is_in(tmp_path, target, first):
-    told = mending.next_move(State(Run(tmp_path)), target)
+    told = next_repair.next_move(State(Run(tmp_path)), target)
     named = [name for name in ("plan.md", "film.py", "simulation.py") if name in told]
     assert min(named, key=told.index) == first
 
@@ -125,5 +125,5 @@ def test_copies_of_one_object_are_wanted_once(small_plan, tmp_path):
 
 def test_a_claim_of_rest_that_fails_sends_to_the_plan_first(tmp_path):
     state = State(Run(tmp_path))
-    assert "plan.md claims" in mending.of_anomaly(state, "WS107")
-    assert mending.of_anomaly(state, "WS110").startswith(f"correct {state.place}/simulation.py")
+    assert "plan.md claims" in next_repair.of_anomaly(state, "WS107")
+    assert next_repair.of_anomaly(state, "WS110").startswith(f"correct {state.place}/simulation.py")
