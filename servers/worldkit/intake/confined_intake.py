@@ -15,7 +15,7 @@ from typing import Any
 
 from ..errors import IntakeError
 from ..files import write_json
-from . import stillness, taken_in
+from . import stillness, taken_in, unpacked
 
 ON = "name another --up if it is another side that is down"
 
@@ -43,11 +43,19 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _take_in(file: Path, asked: dict[str, Any], scratch: Path, out: Path) -> None:
+    if file.is_dir():
+        file = unpacked.the_mesh(file, file.name)
+    elif file.suffix.lower() in unpacked.ARCHIVES:
+        file = unpacked.unpack(file, scratch / "unpacked")
     files, facts = taken_in.take_in(file, asked)
     key = asked["key"]
     # What is measured from here on is measured of the files as they will lie in the catalog.
-    os.environ["WORLDWRIGHT_CATALOG"], os.environ["WORLDWRIGHT_ASSETS"] = str(scratch), str(scratch / "none")
-    taken_in.write(scratch / key, files, facts)
+    os.environ["WORLDWRIGHT_CATALOG"], os.environ["WORLDWRIGHT_ASSETS"] = (
+        str(scratch / "catalog"),
+        str(scratch / "none"),
+    )
+    catalog = scratch / "catalog"
+    taken_in.write(catalog / key, files, facts)
     facts["measured"] |= stillness.stood(key)
     if not facts["measured"]["stands"]:
         facts["mended"].append(f"it does not stand still as it is: {ON}")
@@ -64,9 +72,9 @@ def _take_in(file: Path, asked: dict[str, Any], scratch: Path, out: Path) -> Non
                 "shape": "ellipse",
             }
         ]
-    taken_in.write(scratch / key, files, facts)
+    taken_in.write(catalog / key, files, facts)
     stillness.picture(key, out)
-    for path in sorted((scratch / key).iterdir()):
+    for path in sorted((catalog / key).iterdir()):
         shutil.copyfile(path, out / path.name)
 
 

@@ -108,12 +108,29 @@ def _look(mesh: Any) -> tuple[Array | None, Array | None, tuple[float, float, fl
         factor = getattr(material, "diffuse", None)
     rough, metal = getattr(material, "roughnessFactor", None), getattr(material, "metallicFactor", None)
     pbr = hasattr(material, "baseColorFactor")
+    colour = (1.0, 1.0, 1.0, 1.0)
+    if factor is not None:
+        colour = _colour(np.asarray(factor, float).ravel() / (255 if np.max(factor) > 1 else 1))
+    said = getattr(material, "kwargs", {})  # of an OBJ: how opaque it is, and how sharply it mirrors
+    opaque, sharp = _number(said.get("d")), _number(getattr(material, "glossiness", None))
+    if opaque is not None and 0 < opaque < 1:
+        colour = (*colour[:3], max(opaque, 0.15))
+    if sharp is not None and sharp >= 0 and not pbr:
+        rough = (2 / (sharp + 2)) ** 0.25  # B. Karis, "Specular BRDF reference" (2013): from Blinn's exponent
     return (
-        uv if picture is not None else None, picture,
-        (1.0, 1.0, 1.0, 1.0) if factor is None else _colour(np.asarray(factor, float).ravel() / (255 if np.max(factor) > 1 else 1)),
+        uv if picture is not None else None, picture, colour,
         float(np.clip(rough if rough is not None else (1.0 if pbr else 0.6), 0.05, 1.0)),
         float(np.clip(metal if metal is not None else 0.0, 0.0, 1.0)),
     )  # fmt: skip
+
+
+def _number(said: Any) -> float | None:
+    """A number that a material says, alone or as a row of one."""
+    try:
+        found = float(np.ravel(np.asarray(said, float))[0])
+    except (TypeError, ValueError, IndexError):
+        return None
+    return found if np.isfinite(found) else None
 
 
 def _colour(values: Array) -> tuple[float, float, float, float]:

@@ -65,7 +65,8 @@ def cavity(key: str) -> dict[str, Any] | None:
         return 2 * height - far if far >= 0 and model.geom_bodyid[hit[0]] == body else 0.0
 
     tops = np.array([[floor(x, y) for x in spread] for y in spread])
-    middle = floor(0.0, 0.0)
+    near = 0.02 * half  # several, since one may fall between two pieces
+    middle = max(floor(x * near, y * near) for x, y in ((0, 0), (1, 0.6), (-0.6, 1), (-1, -0.6), (0.6, -1)))
     rim = float(tops.max())
     if not 0 < middle < rim - DEEP * height:
         return None

@@ -12,6 +12,9 @@ from . import declared_sizes, drawn_pieces, mending, shown_meshes, touchable, up
 from .drawn_pieces import Array
 from .mending import Solid
 
+LARGE, FULL, HOLLOW = 0.02, 0.2, 120.0
+"""A built-up thing larger than so many m^3 that fills so much of its box is hollow, and has this density, kg/m^3, on the whole."""
+HOLLOW_SOURCE = "between a refrigerator (70 kg in 0.65 m^3), a sofa and a car, our judgement"
 HEAVIEST, LIGHTEST = 30_000.0, 0.5
 """kg/m^3: no thing's mean density is higher, or lower."""
 
@@ -22,7 +25,9 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
     Args:
         file: the mesh; what belongs to it lies beside it.
         asked: `key`, `category`, `description`, `licence`, `creator`, `source`, `material` (a row of density, friction …
-            with its `name` and `source`), and optionally `height`, `units`, `reference`, `up`, `front`, `mass`.
+            with its `name` and `source`), and optionally `height`, `units`, `reference`, `up`, `front`, `mass`; of a library's
+            offer also `extents`, m, to which each axis is scaled, `rotation` (3, 3) in the file's axes, and `built_up`:
+            what is large and full is hollow inside.
 
     Raises:
         IntakeError: it cannot become an asset.
@@ -31,6 +36,7 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
     declared_sizes.check(file)
     pieces, said = drawn_pieces.read(file)
     turn, assumed = upright.turn(suffix, asked.get("up", ""), asked.get("front", ""))
+    turn = turn @ np.asarray(asked.get("rotation") or np.eye(3), float)
     pieces = [piece.moved(turn, np.zeros(3)) for piece in pieces]
     low, high = _box([piece.vertices[np.unique(piece.faces)] for piece in pieces])
     if not high[2] > low[2]:
@@ -38,7 +44,7 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
             "zero_volume", "it is flat: it has no height", file.name, "give it thickness, or name another --up"
         )
     factor, height_source, more = upright.scale(suffix, high - low, asked)
-    pieces = [piece.moved(np.eye(3) * factor, -factor * (low + high) / 2) for piece in pieces]
+    pieces = [piece.moved(np.diag(factor), -factor * (low + high) / 2) for piece in pieces]
     solid = mending.solid_of(pieces, file.name)
     rows, hulls, how = touchable.pieces(solid)
     files, visual, materials, shown = shown_meshes.files(pieces)
@@ -115,7 +121,11 @@ def _weight(solid: Solid, hulls: list[Array], size: Array, asked: dict[str, Any]
     six = inertia[[0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]] / volume
     material = asked["material"]
     weight: dict[str, Any] = {"density": float(material["density"])}
+    box = float(np.prod(size))
     source = f"{material['name']}, {material['density']:g} kg/m^3: {material['source']}"
+    if asked.get("built_up") and box > LARGE and volume > FULL * box:
+        weight, source = {"density": HOLLOW}, f"{HOLLOW:g} kg/m^3 of its outside: {HOLLOW_SOURCE}"
+        assumed.append(f"it is hollow inside, {HOLLOW:g} kg/m^3 on the whole: give its --mass in kg where it is known")
     if asked.get("mass"):
         weight, source = {"mass": float(asked["mass"])}, "stated by whoever added it"
         mean = float(asked["mass"]) / volume

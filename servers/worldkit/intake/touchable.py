@@ -1,9 +1,11 @@
 """What a thing collides as: a primitive where it is one, else one hull, else several that leave its cavities open, else its box."""
 
+import importlib.util
 from typing import Any
 
 import numpy as np
 
+from . import cutting
 from .drawn_pieces import Array
 from .mending import Solid
 
@@ -13,8 +15,8 @@ FULL = 0.93
 """A solid that fills this share of its hull collides as that."""
 TRIANGLES = 3_000
 """Of what is cut into hulls."""
-CONCAVITY = 0.05
-MOST_HULLS, CORNERS = 32, 40
+WIDE = 1.8
+"""Where CoACD's hulls are together so many times as large as the solid, it is cut by planes too, and the tighter ones count."""
 LOOSE = 2.0
 """Hulls that are so many times as large as the solid have lost it."""
 
@@ -40,6 +42,10 @@ def pieces(solid: Solid) -> tuple[list[dict[str, Any]], list[Array], str]:
             )
     try:
         found, how = _cut(solid)
+        if solid.closed and _together(found) > WIDE * solid.volume:  # thin things want straight cuts
+            straight = _cut_by_planes(solid, *thinned(solid.vertices, solid.faces, TRIANGLES))
+            if straight and _together(straight) < _together(found):
+                found, how = straight, "cut by planes"
     except Exception as error:  # a decomposition of a stranger's mesh may raise anything, and then a box stands in
         said = str(error).strip().splitlines()
         return (
@@ -47,7 +53,7 @@ def pieces(solid: Solid) -> tuple[list[dict[str, Any]], list[Array], str]:
             [],
             f"its box, since it could not be cut into hulls: {said[0][:120] if said else type(error).__name__}",
         )
-    together = sum(volume_of(corners) for corners in found)
+    together = _together(found)
     if not found or (solid.closed and together > LOOSE * solid.volume and together > 0.9 * volume_of(whole)):
         return [_box(solid)], [], "its box, since its hulls lost its shape"
     rows = [{"type": "hull", "hull": number} for number in range(len(found))]
@@ -82,32 +88,38 @@ def _box(solid: Solid) -> dict[str, Any]:
     return {"type": "box", "pos": [float(v) for v in (low + high) / 2], "extents": [float(v) for v in high - low]}
 
 
-def _cut(solid: Solid) -> tuple[list[Array], str]:
-    """Convex pieces (N, 3) of a solid, by CoACD where it is installed, else by planes.
+def _together(hulls: list[Array]) -> float:
+    return sum(volume_of(corners) for corners in hulls)
 
-    Source: X. Wei et al., "Approximate convex decomposition for 3D meshes with collision-aware concavity" (2022), CoACD.
+
+def _cut(solid: Solid) -> tuple[list[Array], str]:
+    """Convex pieces (N, 3) of a solid, by CoACD where it is installed and comes to an end, else by planes; and by which.
+
+    Raises:
+        ValueError: neither cuts it.
     """
     from ..sculpt.hulls import corners_of
 
     vertices, faces = thinned(solid.vertices, solid.faces, TRIANGLES)
-    try:
-        import coacd
-    except ImportError:
-        return _cut_by_planes(solid, vertices, faces), "cut by planes (install the extra `hulls` for CoACD)"
-    coacd.set_log_level("error")
-    parts = coacd.run_coacd(
-        coacd.Mesh(vertices, faces.astype(np.int32)), threshold=CONCAVITY, max_convex_hull=MOST_HULLS, max_ch_vertex=CORNERS,
-        preprocess_mode="auto" if solid.closed else "on", mcts_iterations=100, seed=7,
-    )  # fmt: skip
-    found = [corners_of(np.asarray(points, float)) for points, _ in parts]
-    return [corners for corners in found if len(corners) >= 4], "by CoACD"
+    why = "install the extra `hulls` for CoACD"
+    if importlib.util.find_spec("coacd") is not None:
+        try:
+            found = [corners_of(points) for points in cutting.cut(vertices, faces, solid.closed)]
+            return [corners for corners in found if len(corners) >= 4], "by CoACD"
+        except ValueError as error:
+            if not solid.closed:
+                raise
+            why = f"CoACD: {error}"
+    return _cut_by_planes(solid, vertices, faces), f"cut by planes ({why})"
 
 
 def _cut_by_planes(solid: Solid, vertices: Array, faces: Array) -> list[Array]:
     from ..sculpt.hulls import hulls
     from ..sculpt.marching import Skin
 
-    return list(hulls(None, Skin(vertices, np.zeros_like(vertices), faces), max(solid.volume, 1e-300), MOST_HULLS))
+    return list(
+        hulls(None, Skin(vertices, np.zeros_like(vertices), faces), max(solid.volume, 1e-300), cutting.MOST_HULLS)
+    )
 
 
 def thinned(vertices: Array, faces: Array, most: int) -> tuple[Array, Array]:

@@ -43,32 +43,43 @@ def turn(suffix: str, up: str, front: str) -> tuple[Array, list[str]]:
     return np.stack([x, np.cross(z, x), z]), assumed
 
 
-def scale(suffix: str, extents: Array, asked: dict[str, Any]) -> tuple[float, str, list[str]]:
-    """The factor that makes it metric, who says so, and what was assumed.
+def scale(suffix: str, extents: Array, asked: dict[str, Any]) -> tuple[Array, str, list[str]]:
+    """The factors (3,) that make it metric, who says so, and what was assumed.
 
     Args:
         suffix: the file's.
         extents: along x, y, z once it is upright, in the file's unit.
-        asked: `height` in m, or `units`, or `reference` with low and high of the category's heights in m, and its `name`.
+        asked: `extents` in m, or `height` in m, or `units`, or `reference` with low and high of the category's heights in m, and its `name`.
 
     Raises:
         IntakeError: nothing tells its size, or it is of no size that a thing has.
     """
     tall = float(extents[2])
     assumed: list[str] = []
+    if asked.get("extents") and not asked.get("height"):
+        return (
+            _checked(np.asarray(asked["extents"], float) / np.maximum(extents, 1e-12), extents),
+            "its library's",
+            assumed,
+        )
     if asked.get("height"):
         factor, source = float(asked["height"]) / tall, "stated by whoever added it"
     elif asked.get("units"):
         factor, source = UNITS[asked["units"]], f"the file's, in {asked['units']}"
     else:
         factor, source, assumed = _unstated(suffix, tall, asked.get("reference"))
+    return _checked(np.full(3, factor), extents), source, assumed
+
+
+def _checked(factor: Array, extents: Array) -> Array:
+    """Factors that give a size that a thing has."""
     size = extents * factor
-    if not (size >= LEAST_M / 10).all() or not (size <= MOST_M).all() or not tall * factor >= LEAST_M:
+    if not (size >= LEAST_M / 10).all() or not (size <= MOST_M).all() or not size[2] >= LEAST_M:
         told = " x ".join(f"{side:.3g}" for side in size)
         raise IntakeError(
             "implausible_size", f"it would measure {told} m", "", "give its --height in metres, or its --units"
         )
-    return factor, source, assumed
+    return factor
 
 
 def _unstated(suffix: str, tall: float, reference: dict[str, Any] | None) -> tuple[float, str, list[str]]:

@@ -11,15 +11,17 @@ from pathlib import Path
 from typing import Any, Literal
 
 from worldkit.files import write_json
+from worldkit.intake import unpacked
 from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, SUFFIXES
 
-from ..model.errors import JobError, NotFoundError, WorldwrightError
+from ..model.errors import JobError, NotFoundError
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
 from ..model.progress import Progress, silent
 from ..place import categories
 from ..stage import confined, plain, short_runs
-from . import registering, substances
+from . import libraries, registering, substances
+from .refusing import IntakeFailedError
 
 Destination = Literal["own", "catalog"]
 MEMORY_MB = 6144
@@ -28,17 +30,9 @@ MOST_BESIDE, BESIDE_BYTES = 200, 256 << 20
 KEY = re.compile(r"[a-z][a-z0-9_]{0,59}")
 FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png")
 WORLD = ("world.mjz", "program.json")
+PASSED = ("height", "units", "up", "front", "mass", "extents", "rotation", "built_up")
+"""What the confined process is asked as it stands."""
 AGAIN = "worldwright asset add FILE"
-
-
-class IntakeFailedError(WorldwrightError):
-    """A file cannot become an asset; `code` says why, and nothing was registered."""
-
-    code = "intake"
-
-    def __init__(self, cause: str, *, code: str = "intake", place: str = "", next_move: str = "") -> None:
-        super().__init__(cause, place=place, next_move=next_move)
-        self.code = code
 
 
 class Added(Frozen):
@@ -81,7 +75,8 @@ def add(
     """Take in a mesh file as an asset.
 
     Args:
-        file: GLB, OBJ, STL, PLY or OFF; an OBJ's materials and pictures are looked for beside it.
+        file: GLB, OBJ, STL, PLY or OFF; an OBJ's materials and pictures are looked for beside it. Or a folder or a .zip
+            with one such mesh, or the key of an offer of a packaged library.
         asked: any of `key`, `category`, `description`, `licence`, `creator`, `source`, `material`, `height`, `units`, `up`,
             `front`, `mass`.
         to: whose folder it goes into.
@@ -94,11 +89,21 @@ def add(
         RegisterError: the key is taken.
         StorageError: the destination cannot be written.
     """
+    offer = libraries.offers().get(str(file)) if not file.exists() else None
+    if offer is not None:
+        with tempfile.TemporaryDirectory(prefix="worldwright-offer-") as folder:
+            laid, told = libraries.SEAM.find(offer.library).lay(offer.key, Path(folder))
+            return _added(laid, {**told, **asked}, to, replace, progress)
     file = file.absolute()
-    if not file.is_file():
+    if not file.is_file() and not file.is_dir():
         raise NotFoundError(
-            f"there is no file {file.name}", place=str(file), next_move=f"name one of {', '.join(SUFFIXES)}"
-        )
+            f"there is no file {file.name}, and no library offers it", place=str(file),
+            next_move=f"name one of {', '.join(SUFFIXES)}, or a key that `worldwright retrieve find-asset WORDS` tells",
+        )  # fmt: skip
+    return _added(file, asked, to, replace, progress)
+
+
+def _added(file: Path, asked: dict[str, Any], to: Destination, replace: bool, progress: Progress) -> Illustrated:
     request = _request(file, asked)
     root = registering.root_of(to)
     registering.free(request["key"], root, replace)
@@ -161,13 +166,17 @@ def _request(file: Path, asked: dict[str, Any]) -> dict[str, Any]:
         "material": substances.named(material or substances.UNSTATED),
         "reference": {"name": found.name, "low": found.low_m, "high": found.high_m} if found else None,
         "assumed": assumed,
-        **{name: asked[name] for name in ("height", "units", "up", "front", "mass") if asked.get(name)},
+        **{name: asked[name] for name in PASSED if asked.get(name)},
     }
 
 
 def _lay(file: Path, given: Path) -> None:
     """Copy the mesh, and for an OBJ the materials and pictures beside it and one folder deeper, as far as they are bounded."""
     given.mkdir()
+    if file.is_dir():
+        beside = [path for path in file.rglob("*") if path.suffix.lower() in unpacked.WANTED]
+        _copied(beside, file, given / file.name, MOST_BYTES)
+        return
     size = file.stat().st_size
     if size > MOST_BYTES:
         raise IntakeFailedError(
@@ -177,22 +186,29 @@ def _lay(file: Path, given: Path) -> None:
     shutil.copyfile(file, given / file.name)
     if file.suffix.lower() != ".obj":
         return
-    left, folder = BESIDE_BYTES, file.parent
+    folder = file.parent
     beside = sorted(
         path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix.lower() in (".mtl", *PICTURES)
     )
-    for path in beside[:MOST_BESIDE]:
+    _copied(beside, folder, given, BESIDE_BYTES)
+
+
+def _copied(paths: list[Path], folder: Path, given: Path, left: int) -> None:
+    """Copy files to where they lie below a folder, as far as they are bounded; no links."""
+    given.mkdir(exist_ok=True)
+    for path in sorted(paths)[:MOST_BESIDE]:
         if path.is_symlink() or not path.is_file() or path.stat().st_size > left:
             continue
         left -= path.stat().st_size
         target = given / path.relative_to(folder)
-        target.parent.mkdir(exist_ok=True)
+        target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, target)
 
 
 def _confined(file: Path, given: Path) -> dict[str, bytes]:
     """What the confined process leaves, by name."""
-    own = min(MOST_S, LEAST_S + S_A_MB * file.stat().st_size / (1 << 20))
+    size = sum(path.stat().st_size for path in given.rglob("*") if path.is_file())
+    own = min(MOST_S, LEAST_S + S_A_MB * size / (1 << 20))
     call = [sys.executable, "-s", "-m", "worldkit.intake.confined_intake", str(given / "request.json"), "{out}"]
     ended = confined.run(
         call, reads=(given,), wanted=(*FILES, *WORLD, "error.json"), wall_s=own, memory_mb=MEMORY_MB, file_mb=256

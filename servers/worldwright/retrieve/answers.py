@@ -146,13 +146,23 @@ class AssetHit(Frozen):
     extents_m: tuple[float, float, float]
     """Full extents, m, at its usual height."""
     height_m: float
-    mass_kg: float
+    mass_kg: float | None = None
+    """None of an offer, which is weighed when it is taken in."""
     thumbnail: str = ""
     score: float = 0.0
     source: str = ""
     """Which source delivers it: `recipes`, `own_folder`, `mesh_files` …"""
     licence: str = ""
     creator: str = ""
+    taken_in: bool = True
+    """False of what a packaged library offers: `next_move` makes it an asset, which a plan can name."""
+    next_move: str = ""
+
+    def text(self) -> str:
+        """One line."""
+        weight = "" if self.mass_kg is None else f", {self.mass_kg:.3g} kg"
+        more = f"; an offer, take it in: {self.next_move}" if self.next_move else ""
+        return f"{self.key:16} {self.height_m:g} m high{weight}  {self.category}: {self.description}{more}"
 
 
 class LookHit(Frozen):
@@ -179,9 +189,7 @@ class AssetList(Frozen):
 
     def text(self) -> str:
         """One asset a line, then the looks."""
-        lines = [
-            f"{a.key:16} {a.height_m:g} m high, {a.mass_kg:.3g} kg  {a.category}: {a.description}" for a in self.assets
-        ]
+        lines = [asset.text() for asset in self.assets]
         if not lines:
             known = ", ".join(self.known) or "(none)"
             lines = [f"no asset fits '{self.query}': build it of primitives (known: {known})"]

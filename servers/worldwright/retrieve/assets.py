@@ -14,6 +14,8 @@ from .answers import AssetHit, AssetList, LookHit
 if TYPE_CHECKING:
     import numpy as np
 
+    from ..intake.libraries import Offer
+
 SAME = {
     "boulder": "stone",
     "metal": "steel",
@@ -32,6 +34,10 @@ MEANT, LIKELY, AHEAD = 0.5, 0.35, 0.1
 """Cosine from which on a text means an asset; or, where no word fits, from which on the first does that is so far ahead."""
 LEAST_OF_MEANING = 0.01
 """The score of what fits by meaning alone is its cosine times this, so that any word comes first."""
+LATER = 0.5
+"""Words that an offer of a library is put behind an asset that is there."""
+MOST_KNOWN = 200
+"""Keys that are told when nothing fits, and assets that are told by meaning."""
 
 
 def find(query: str, limit: int, height_m: float | None = None) -> AssetList:
@@ -49,53 +55,58 @@ def find(query: str, limit: int, height_m: float | None = None) -> AssetList:
         scores.setdefault(number, LEAST_OF_MEANING * near)
     if height_m:
         for number in scores:
-            apart = abs(log10(float(known.assets[number].metric_height) / height_m))
+            apart = abs(log10(known.rows[number].height_m / height_m))
             scores[number] = scores[number] / (1 + apart)
-    order = sorted(scores, key=lambda number: (-scores[number], known.assets[number].key))[:limit]
-    hits = tuple(_hit(known.assets[number], round(scores[number], 4), known.sources[number]) for number in order)
-    everything = () if hits else tuple(sorted(asset.key for asset in known.assets)[:MOST_KNOWN])
+    order = sorted(scores, key=lambda number: (-scores[number], known.rows[number].key))[:limit]
+    hits = tuple(known.rows[number].model_copy(update={"score": round(scores[number], 4)}) for number in order)
+    everything = () if hits else tuple(sorted(row.key for row in known.rows if row.taken_in))[:MOST_KNOWN]
     return AssetList(query=query, assets=hits, known=everything, looks=_looks(asked))
 
 
-MOST_KNOWN = 200
-"""Keys that are told when nothing fits."""
-
-
 def count() -> int:
-    """How many assets all sources have."""
-    return len(_known().assets)
+    """How many assets all sources have, those that libraries offer left out."""
+    return sum(row.taken_in for row in _known().rows)
 
 
 class _Known:
-    """Every readable asset of every source, by number, with the words that each is found by."""
+    """Every readable asset of every source and every offer of a library, by number, with the words that each is found by."""
 
-    def __init__(self, sources: dict[str, str]) -> None:
+    def __init__(self, sources: dict[str, str], offers: "dict[str, Offer]") -> None:
         from worldkit import assets
 
-        self.assets: list[Any] = list(assets.entries())
-        self.sources = [sources.get(asset.key, "") for asset in self.assets]
-        self.wanted = tuple(sources.items())
+        self.wanted = (tuple(sources.items()), tuple(offers))
+        held = list(assets.entries())
+        self._paths = tuple((f"{asset.folder}/asset.yaml", f"{asset.folder}/{asset.key}.yaml") for asset in held)
         self.stamps = self._stamps()
+        self.rows: list[AssetHit] = []
+        self.texts: list[str] = []
         self._own: dict[str, set[int]] = defaultdict(set)
         self._other: dict[str, set[int]] = defaultdict(set)
         self._names: list[tuple[str, ...]] = []
-        for number, asset in enumerate(self.assets):
-            self._names.append(tuple(_stems(asset.key)))
-            for word in self._names[-1]:
-                self._own[word].add(number)
-            for word in _stems(f"{asset.category} {asset.description}"):
-                self._other[word].add(number)
+        for asset in held:
+            self._add(_hit(asset, sources.get(asset.key, "")), asset.key, f"{asset.category} {asset.description}")
+        for offer in offers.values():
+            if offer.key not in sources:
+                self._add(_offered(offer), offer.name, f"{offer.category} {offer.words}")
         self._near = lru_cache(maxsize=4096)(self._nearly)
 
-    def stands(self, sources: dict[str, str]) -> bool:
+    def _add(self, row: AssetHit, name: str, other: str) -> None:
+        number = len(self.rows)
+        self.rows.append(row)
+        self.texts.append(f"{name.replace('_', ' ')}: {row.description}, {row.category}")
+        self._names.append(tuple(_stems(name)))
+        for word in self._names[-1]:
+            self._own[word].add(number)
+        for word in _stems(other):
+            self._other[word].add(number)
+
+    def stands(self, sources: dict[str, str], offers: "dict[str, Offer]") -> bool:
         """Whether nothing was added, removed or written anew since it was read."""
-        return self.wanted == tuple(sources.items()) and self.stamps == self._stamps()
+        return self.wanted == (tuple(sources.items()), tuple(offers)) and self.stamps == self._stamps()
 
     def _stamps(self) -> tuple[int, ...]:
         """When the text that describes each asset was written last; 0 where it is gone."""
-        return tuple(
-            _changed(f"{asset.folder}/asset.yaml", f"{asset.folder}/{asset.key}.yaml") for asset in self.assets
-        )
+        return tuple(_changed(*paths) for paths in self._paths)
 
     def by_words(self, asked: list[str]) -> dict[int, float]:
         """Scores, above 0, of the assets whose name or description has a word of these."""
@@ -113,7 +124,8 @@ class _Known:
         found = {}
         for number, total in totals.items():
             spare = sum(word not in asked for word in self._names[number])  # of two tables the plain one comes first
-            if (score := round(total - 0.1 * spare, 3)) > 0:
+            later = 0.0 if self.rows[number].taken_in else LATER
+            if (score := round(total - 0.1 * (spare + later), 3)) > 0:
                 found[number] = score
         return found
 
@@ -129,11 +141,11 @@ class _Known:
         """Assets that a text means, each with its cosine; none where the model of meaning is not installed."""
         from . import semantic
 
-        if not self.assets or not query.strip() or not semantic.installed():
+        if not self.rows or not query.strip() or not semantic.installed():
             return []
         from .semantic.model import encode_plainly
 
-        near = _vectors(tuple(_said(asset) for asset in self.assets)) @ encode_plainly([query])[0]
+        near = _vectors(tuple(self.texts)) @ encode_plainly([query])[0]
         order = near.argsort()[::-1][:MOST_KNOWN]
         found = [(int(number), float(near[number])) for number in order if near[number] >= MEANT]
         if not found and not named and near[order[0]] >= LIKELY:
@@ -148,9 +160,11 @@ _HELD: list[_Known] = []
 def _known() -> _Known:
     from worldkit.assets import catalog
 
-    sources = catalog.sources()
-    if not (_HELD and _HELD[0].stands(sources)):
-        _HELD[:] = [_Known(sources)]
+    from ..intake import libraries
+
+    sources, offers = catalog.sources(), libraries.offers()
+    if not (_HELD and _HELD[0].stands(sources, offers)):
+        _HELD[:] = [_Known(sources, offers)]
     return _HELD[0]
 
 
@@ -161,10 +175,6 @@ def _changed(*paths: str) -> int:
         except OSError:
             continue
     return 0
-
-
-def _said(asset: Any) -> str:
-    return f"{asset.key.replace('_', ' ')}: {asset.description}, {asset.category}"
 
 
 @lru_cache(maxsize=2)
@@ -223,7 +233,7 @@ def _singular(word: str) -> str:
     return word[:-1] if len(word) > 3 and word.endswith("s") and not word.endswith("ss") else word
 
 
-def _hit(asset: Any, score: float, source: str) -> AssetHit:
+def _hit(asset: Any, source: str) -> AssetHit:
     height = float(asset.metric_height)
     picture = asset.thumbnail if asset.thumbnail.is_file() else None
     place = "catalog" if source == "recipes" else str(asset.folder.parent)
@@ -235,8 +245,22 @@ def _hit(asset: Any, score: float, source: str) -> AssetHit:
         height_m=height,
         mass_kg=round(float(asset.mass_at(height)), 4),
         thumbnail=f"{place}/{picture.parent.name}/{picture.name}" if picture else "",
-        score=score,
         source=source,
         licence=asset.licence,
         creator=asset.creator,
+    )
+
+
+def _offered(offer: "Offer") -> AssetHit:
+    return AssetHit(
+        key=offer.key,
+        category=offer.category,
+        description=f"{offer.name} ({offer.words})" if offer.words else offer.name,
+        extents_m=tuple(round(side, 4) for side in offer.extents),
+        height_m=round(offer.extents[2], 4),
+        source=offer.library,
+        licence=offer.licence,
+        creator=offer.creator,
+        taken_in=False,
+        next_move=f"worldwright asset add {offer.key} --material wood",
     )

@@ -152,9 +152,34 @@ def test_a_wedge_is_one_hull() -> None:
 
 
 def test_what_cannot_be_cut_collides_as_its_box_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fails(_):
+    def fails(*_):
         raise RuntimeError("no pieces")
 
     monkeypatch.setattr(touchable, "_cut", fails)
     rows, hulls, how = touchable.pieces(solid(box(), box((0.2, 0.2, 3), (2, 0, 0))))
     assert rows[0]["type"] == "box" and not hulls and "could not be cut into hulls: no pieces" in how
+
+
+def test_what_is_cut_too_loosely_is_cut_by_planes_and_so_is_everything_without_coacd(monkeypatch) -> None:
+    cross = solid(box((3, 0.1, 0.1), (-1.5, 0, 0)), box((0.1, 3, 0.1), (0, -1.5, 0)))
+    with monkeypatch.context() as patch:
+        patch.setattr(touchable, "_cut", lambda _: ([cross.vertices], "loosely"))
+        _, tight, how = touchable.pieces(cross)
+    assert "hulls cut by planes" in how
+    monkeypatch.setattr(touchable.importlib.util, "find_spec", lambda _: None)
+    _, hulls, how = touchable.pieces(cross)
+    assert 2 <= len(hulls) == len(tight) <= touchable.cutting.MOST_HULLS and "install the extra `hulls`" in how
+    assert sum(map(touchable.volume_of, hulls)) < 1.3 * cross.volume
+
+
+def test_a_cut_without_end_is_ended_and_planes_cut_instead(monkeypatch) -> None:
+    cross = solid(box((3, 0.4, 0.4), (-1.5, 0, 0)), box((0.4, 3, 0.4), (0, -1.5, 0)))
+    with pytest.raises(ValueError, match="it took more than 0 s"):
+        touchable.cutting.cut(cross.vertices, cross.faces, True, limit_s=0)
+
+    def endless(*_):
+        raise ValueError("it took more than 60 s")
+
+    monkeypatch.setattr(touchable.cutting, "cut", endless)
+    _, hulls, how = touchable.pieces(cross)
+    assert len(hulls) > 1 and "cut by planes (CoACD: it took more than 60 s)" in how

@@ -55,7 +55,9 @@ def test_every_format_gives_the_same_crate(suffix: str, tmp_path: Path) -> None:
 
 def test_a_picture_and_a_colour_come_along(tmp_path: Path) -> None:
     cv2.imwrite(str(tmp_path / "grain.png"), np.full((8, 4, 3), (10, 20, 200), np.uint8))
-    (tmp_path / "a.mtl").write_text("newmtl paint\nKd 0.1 0.5 0.9\nnewmtl grain\nKd 1 1 1\nmap_Kd grain.png\n")
+    (tmp_path / "a.mtl").write_text(
+        "newmtl paint\nKd 0.1 0.5 0.9\nd 0.5\nNs 30\nnewmtl grain\nKd 1 1 1\nmap_Kd grain.png\n"
+    )
     corners = [f"v {x} {y} {z}" for x in (0, 1) for y in (0, 1) for z in (0, 1)]
     faces = [(1, 2, 4, 3), (5, 7, 8, 6), (1, 5, 6, 2), (3, 4, 8, 7), (1, 3, 7, 5), (2, 6, 8, 4)]
     rows = ["mtllib a.mtl", *corners, "vt 0 0", "vt 1 1", "usemtl paint"]
@@ -66,7 +68,7 @@ def test_a_picture_and_a_colour_come_along(tmp_path: Path) -> None:
     assert facts["measured"]["closed"], "a skin of two materials is closed"
     worn = {row["material"]: row["mesh"] for row in facts["visual"]}
     plain, grained = sorted(facts["materials"].items(), key=lambda row: "texture" in row[1])
-    assert plain[1]["rgba"][:3] == pytest.approx([0.1, 0.5, 0.9], abs=0.01)
+    assert plain[1]["rgba"] == pytest.approx([0.1, 0.5, 0.9, 0.5], abs=0.01) and plain[1]["roughness"] == 0.5
     picture = cv2.imdecode(np.frombuffer(files[grained[1]["texture"]], np.uint8), cv2.IMREAD_COLOR)
     assert picture.shape == (8, 4, 3) and picture[0, 0].tolist() == [10, 20, 200]
     assert b"vt 1 1" in files[worn[grained[0]]]

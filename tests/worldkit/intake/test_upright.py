@@ -46,14 +46,20 @@ def test_what_nobody_says_is_that_of_the_format_and_is_said() -> None:
     ],
 )
 def test_a_height_a_unit_or_a_category_gives_the_scale(suffix: str, asked: dict, factor: float) -> None:
-    assert upright.scale(suffix, np.array([1.0, 1.0, 60.0]), asked)[0] == pytest.approx(factor)
+    assert upright.scale(suffix, np.array([1.0, 1.0, 60.0]), asked)[0] == pytest.approx([factor] * 3)
+
+
+def test_a_librarys_extents_scale_each_axis() -> None:
+    size = np.array([2.0, 4.0, 5.0])
+    assert size * upright.scale(".obj", size, {"extents": [0.2, 0.5, 0.4]})[0] == pytest.approx([0.2, 0.5, 0.4])
+    assert upright.scale(".obj", size, {"extents": [1, 1, 1], "height": 10})[0] == pytest.approx([2, 2, 2])
 
 
 def test_glb_is_metric_unless_its_category_says_that_it_cannot_be() -> None:
     size = np.array([0.16, 0.16, 0.07])
-    assert upright.scale(".glb", size, {"reference": BOWL})[0] == 1
+    assert upright.scale(".glb", size, {"reference": BOWL})[0] == pytest.approx([1, 1, 1])
     factor, source, assumed = upright.scale(".glb", 100 * size, {"reference": BOWL})
-    assert factor == pytest.approx(0.08 / 7) and "0.04 to 0.16 m" in source and assumed
+    assert factor == pytest.approx([0.08 / 7] * 3) and "0.04 to 0.16 m" in source and assumed
 
 
 @pytest.mark.parametrize(("suffix", "asked"), [(".stl", {}), (".obj", {"reference": None})])

@@ -48,7 +48,7 @@ def test_a_bowl_keeps_its_cavity_and_says_what_was_done(own) -> None:
     assert told.extents_m == pytest.approx((0.16, 0.16, 0.06), abs=1e-3)
     volume = bowl().volume * 1e-9
     assert told.mass_kg == pytest.approx(2400 * volume, rel=1e-3)
-    assert re.match(r"\d+ hulls", told.collides_as) and "corners became" in " ".join(told.mended)
+    assert re.match(r"\d+ hulls by CoACD", told.collides_as) and "corners became" in " ".join(told.mended)
     assert "licence: CC0-1.0, by somebody" in told.text() and "filename: soup_bowl" in told.text()
     assert answer.pictures[0].data[:8] == b"\x89PNG\r\n\x1a\n"
     assert sorted(path.name for path in folder.iterdir()) == ["soup_bowl"], "nothing half written is left"
