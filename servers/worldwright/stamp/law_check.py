@@ -44,7 +44,8 @@ def concerns(folder: Path) -> bool:
 
     facts = folder / bundle.WORLD
     try:
-        controlled = bool(json.loads((facts / FACTS[0]).read_bytes()).get("control"))
+        said = json.loads((facts / FACTS[0]).read_bytes())
+        controlled = bool(said.get("control") or said.get("laws"))
         stated = lint.stated_facts(folder / "simulation.py")
         unsaid = stated.get("control", "unknown") is not None or bool(stated.get("laws", "unknown"))
         return controlled or unsaid or bool(stored.inputs_digest(facts))
