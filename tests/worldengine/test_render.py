@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from worldengine.film.drawn_frames import Frames
 from worldengine.film.film_curve import film_curve
+from worldengine.film.passes import visible
 from worldkit import cameras, materials, scene
 
 pytestmark = pytest.mark.gl
@@ -251,9 +252,11 @@ def test_a_cloth_is_drawn_where_it_hangs():
     model = mujoco.MjModel.from_xml_string(xml)
     with Frames(model, *SIZE) as frames:
         image = frames.image(posed(model), "eye").astype(int)
+        seen = visible(model, frames.segmentation(posed(model), "eye"))["cloth"]
         assert frames.renderer == "preview", frames.reason
     red = (image[..., 0] > image[..., 1] + 50) & (image[..., 0] > image[..., 2] + 50)
     rows, columns = np.nonzero(red)
+    assert seen["pixels"] == pytest.approx(red.sum(), rel=0.05)
     assert 2000 < red.sum() < 20000
     assert abs(rows.mean() - 90) < 12 and abs(columns.mean() - 160) < 12
 

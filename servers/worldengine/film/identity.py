@@ -17,7 +17,7 @@ DRAWN_FROM = (
     "cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "lights.py", "model_text.py", "turning.py", "forms/lattice.py",
 )  # fmt: skip
 """What of `worldkit` decides how a recorded world looks when it is drawn, and from where."""
-REPLAYED_BY = ("seen.py", "replay.py")
+REPLAYED_BY = ("seen.py", "replay.py", "lain.py")
 """What of `recording` decides what is shown at which time."""
 
 

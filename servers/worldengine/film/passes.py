@@ -17,6 +17,7 @@ from worldkit.program import has_display
 
 from ..recording.replay import Replay, frame_rows
 from .encode import Video, write_png
+from .renderers.preview.soft_shapes import FLEX
 
 if TYPE_CHECKING:
     import mujoco
@@ -320,20 +321,22 @@ def choose_cameras(model: "mujoco.MjModel", wanted: Sequence[str]) -> list[str]:
 
 
 def visible(model: "mujoco.MjModel", geoms: "np.ndarray") -> dict[str, dict[str, Any]]:
-    """Measure what a segmentation (height, width) of geom ids, or -1, shows of each body.
+    """Measure what a segmentation (height, width) of geom ids, or less, shows of each body and flex.
 
-    Each body with at least one pixel has `pixels`, `fraction` of the picture, `box` (x0, y0, x1, y1 in pixels, inclusive).
+    Each with at least one pixel has `pixels`, `fraction` of the picture, `box` (x0, y0, x1, y1 in pixels, inclusive).
     """
     import numpy as np
 
     from worldkit.naming import names
 
-    bodies = names(model, "body", model.nbody)
-    owner = np.where(geoms >= 0, model.geom_bodyid[np.maximum(geoms, 0)], -1)
+    called = [*names(model, "body", model.nbody), *names(model, "flex", model.nflex)]
+    owner = np.full(geoms.shape, -1)
+    owner[geoms >= 0] = model.geom_bodyid[geoms[geoms >= 0]]
+    owner = np.where(geoms <= FLEX, model.nbody + FLEX - geoms, owner)
     found = {}
-    for body in np.unique(owner[owner >= 0]):
-        rows, columns = np.nonzero(owner == body)
-        found[bodies[body]] = {
+    for thing in np.unique(owner[owner >= 0]):
+        rows, columns = np.nonzero(owner == thing)
+        found[called[thing]] = {
             "pixels": len(rows),
             "fraction": len(rows) / owner.size,
             "box": [int(columns.min()), int(rows.min()), int(columns.max()), int(rows.max())],

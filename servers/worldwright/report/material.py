@@ -18,6 +18,8 @@ from ..model.evidence.reports import ExpectReport, LintReport, PassResult, ScanR
 from ..model.evidence.run import Run
 from ..model.evidence.verdict import Verdict
 from ..model.plan.committed import Plan
+from ..model.recording.law_balances import LawBalance
+from ..model.recording.trajectory_files import read_trajectory
 from ..stamp import signing
 from ..stamp.interventions import Acted, acted
 from ..stamp.kept import Kept
@@ -64,6 +66,8 @@ class Material:
     motion: series.Motion | None = None
     ledger: tuple[Acted, ...] | None = None
     """What acted according to the recording itself; used until a scan has written its report."""
+    laws: tuple[LawBalance, ...] = ()
+    """What the author's own laws give and take."""
     layout: bytes | None = None
     """Top-down drawing, PNG."""
     journal: tuple[dict[str, Any], ...] = ()
@@ -163,6 +167,8 @@ def _motion(found: Material, state: State) -> None:
         try:
             found.motion = series.read(recording, movers)
             found.ledger = acted(recording, declared)
+            if (recording / "balances.arrows").is_file():
+                found.laws = read_trajectory(recording).balances
         except WorldwrightError as error:
             found.missing["motion"] = error.cause
         except Exception as cause:  # a report must come out whatever a recording holds

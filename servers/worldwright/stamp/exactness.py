@@ -11,6 +11,8 @@ from .proof import Proved
 
 Kind = Literal["exact", "law re-run", "tolerance"]
 MOTION, INPUTS, PICTURES = "motion", "inputs", "pictures"
+MEDIUM = "medium by the author's law "
+"""Begins the channel of what a law of the author's moves; its name follows."""
 DRAWN = ("stills/", "video/")
 LIMITS = {
     "sleep": "bodies may sleep: who sleeps is stored nowhere, so the motion repeats from its start only",
@@ -29,6 +31,8 @@ def channels(proved: Proved, names: Iterable[str]) -> dict[str, Kind]:
         found[INPUTS] = "law re-run"
     for row in _meta(proved).get("solvers") or ():
         found[f"solver {row['solver']['name']}"] = "law re-run"
+    for row in _meta(proved).get("laws") or ():
+        found[f"{MEDIUM}{row['law']['name']}"] = "law re-run"
     return found | ({PICTURES: "tolerance"} if any(name.startswith(DRAWN) for name in names) else {})
 
 
@@ -42,6 +46,7 @@ def told(found: Mapping[str, str], limits: Iterable[str], *, exact: bool, asked:
         asked: the program was run, and asked again for its inputs.
     """
     here = {MOTION: found[MOTION] if exact else "tolerance", INPUTS: found.get(INPUTS) if asked else "as recorded"}
+    here |= {} if asked else {channel: "as recorded" for channel in found if channel.startswith(MEDIUM)}
     kinds = ", ".join(f"{channel} {here.get(channel, kind)}" for channel, kind in found.items())
     return "; ".join((kinds, *(LIMITS[mark] for mark in limits)))
 

@@ -46,7 +46,8 @@ def concerns(folder: Path) -> bool:
 
     facts, program = folder / bundle.WORLD, folder / "simulation.py"
     try:
-        controlled = bool(json.loads((facts / FACTS[0]).read_bytes()).get("control"))
+        said = json.loads((facts / FACTS[0]).read_bytes())
+        controlled = bool(said.get("control") or said.get("laws"))
         stated = lint.stated_facts(program)
         unsaid = stated.get("control", "unknown") is not None or bool(stated.get("laws", "unknown"))
         open_to_it = any("solver" not in row for row in stage.declared_inputs(folder / "plan.md"))

@@ -145,7 +145,7 @@ def prove(
     """Build, lint and simulate `program` against `plan` in `folder`; None when a job needs more than `timeout_s`.
 
     With `kept`, a folder that `lay_out` filled, the program must build the world that lies there (`rebuilt.compare`). That
-    file is then what is simulated, unless the program has a `control`, which is asked again.
+    file is then what is simulated, unless the program has a `control` or a law of its own, which is asked again.
 
     Args:
         folder: where, a new one.
@@ -222,9 +222,10 @@ def _rebuilt(run: Run, kept: Path, *, elsewhere: bool) -> str:
 
 
 def _controlled(kept: Path) -> bool:
-    """Whether a world's program has a control, by the facts beside its file."""
+    """Whether a world's program has a control or a law of its own, by the facts beside its file."""
     try:
-        return bool(json.loads((kept / FACTS[0]).read_bytes()).get("control"))
+        facts = json.loads((kept / FACTS[0]).read_bytes())
+        return bool(facts.get("control") or facts.get("laws"))
     except (OSError, ValueError, AttributeError):
         return True  # what cannot be read is asked again
 

@@ -53,7 +53,9 @@ class Drawing(Protocol):
         """
 
     def segmentation(self, data: "mujoco.MjData", camera: int) -> "np.ndarray":
-        """Geom number behind each pixel, -1 where there is none: int32 (height, width), row 0 the top."""
+        """Geom number behind each pixel, -1 where there is none, -2 the first flex, -3 the second: int32 (height, width), row 0 the
+        top.
+        """
 
     def treat(self, treatment: "Treatment") -> bool:
         """Apply this light, haze, focus and grading from now on; False says that this renderer cannot."""

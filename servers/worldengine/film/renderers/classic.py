@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from . import Drawing, Quality
-from .preview.soft_shapes import geom_of
+from .preview.soft_shapes import FLEX, geom_of
 
 if TYPE_CHECKING:
     import mujoco
@@ -28,7 +28,8 @@ class Classic:
         model.vis.global_.offwidth = max(int(model.vis.global_.offwidth), width)
         model.vis.global_.offheight = max(int(model.vis.global_.offheight), height)
         self._renderer = mujoco.Renderer(model, height, width)
-        self._kinds = int(mujoco.mjtObj.mjOBJ_GEOM), int(mujoco.mjtObj.mjOBJ_SKIN)
+        kinds = mujoco.mjtObj
+        self._kinds = tuple(map(int, (kinds.mjOBJ_GEOM, kinds.mjOBJ_SKIN, kinds.mjOBJ_FLEX)))
         first = model.skin_bonebodyid[model.skin_boneadr] if model.nskin else ()
         self._skinned = [geom_of(model, int(body)) for body in first]
 
@@ -39,7 +40,9 @@ class Classic:
         return self._renderer.render().copy()
 
     def segmentation(self, data: "mujoco.MjData", camera: int) -> "np.ndarray":
-        """Geom number of each pixel, or -1: int32 (height, width); of a skin one of the first body that it follows."""
+        """Geom number of each pixel, -1 for none, flexes from -2 down: int32 (height, width); of a skin one of the first body that
+        it follows.
+        """
         import numpy as np
 
         self._renderer.enable_segmentation_rendering()
@@ -49,6 +52,7 @@ class Classic:
         found = np.where(kind == self._kinds[0], number, -1)
         for skin, geom in enumerate(self._skinned):
             found[(kind == self._kinds[1]) & (number == skin)] = geom
+        found[kind == self._kinds[2]] = FLEX - number[kind == self._kinds[2]]
         return found.astype(np.int32)
 
     def treat(self, treatment: "Treatment") -> bool:

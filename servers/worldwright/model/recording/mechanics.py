@@ -256,6 +256,13 @@ def _vector(meta: Mapping[str, Any], key: str, option: Mapping[str, Any] | None 
     return None if value is None else np.asarray(value, dtype=float)
 
 
+def _only_drawn(meta: Mapping[str, Any]) -> bool:
+    """Whether all flexes of a recording only show where the points of an author's law are."""
+    moved = {str((row.get("law") or {}).get("shown_by")) for row in _rows(meta.get("laws"))}
+    flexes = [row.get("name") for row in _rows(meta.get("flexes"))]
+    return bool(flexes) and moved.issuperset(flexes)
+
+
 def _visual_only(meta: Mapping[str, Any], bodies: list[dict[str, Any]], names: Sequence[str]) -> Array:
     listed = meta.get("visual_only") or ()
     listed = listed if isinstance(listed, (list, tuple)) else ()
@@ -299,6 +306,6 @@ def _drives(meta: Mapping[str, Any], option: Mapping[str, Any]) -> tuple[str, ..
         "mocap": any(row.get("mocap") for row in bodies),
         "gravity compensation": any(row.get("gravcomp") for row in bodies),
         "plugins": bool(meta.get("has_plugin")),
-        "flexes": bool(meta.get("has_flex")),
+        "flexes": bool(meta.get("has_flex")) and not _only_drawn(meta),
     }
     return tuple(name for name, there in present.items() if there)

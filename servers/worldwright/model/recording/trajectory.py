@@ -25,6 +25,7 @@ from worldkit.turning import cross, turned
 from ..errors import NotFoundError, RecordingError
 from . import assemblies
 from .coordinates import Coordinates
+from .law_balances import LawBalance
 from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
@@ -80,6 +81,8 @@ class Trajectory:
     """What constraints, tendons and actuators exert."""
     coordinates: Coordinates | None = None
     """Joint positions, tendon lengths, constraint violations."""
+    balances: tuple[LawBalance, ...] = ()
+    """What each of the author's own laws gives and takes."""
     mechanics: Mechanics = field(default_factory=Mechanics)
     meta: Mapping[str, Any] = field(default_factory=dict)
     model: Any = None

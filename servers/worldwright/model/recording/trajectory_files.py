@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import RecordingError
+from . import law_balances
 from .coordinates import Coordinates
 from .loads import Loads
 from .mechanics import Mechanics
@@ -140,6 +141,13 @@ def _from_recording(recording: Any) -> Trajectory:
         geom2=touches.geom2,
     )
     acts = recording.interventions
+    ledger = Interventions(
+        time=acts.time,
+        kind=[str(kind) for kind in acts.kind],
+        target=[str(target) for target in acts.target],
+        value=acts.value,
+        work_j=acts.work_j,
+    )
     warned = recording.warnings
     found = Trajectory(
         t=recording.time,
@@ -153,13 +161,8 @@ def _from_recording(recording: Any) -> Trajectory:
         angmom=recording.angmom,
         ncon=recording.ncon,
         contacts=contacts,
-        interventions=Interventions(
-            time=acts.time,
-            kind=[str(kind) for kind in acts.kind],
-            target=[str(target) for target in acts.target],
-            value=acts.value,
-            work_j=acts.work_j,
-        ),
+        interventions=ledger,
+        balances=law_balances.read(recording, ledger, np.asarray(mechanics.gravity)),
         warnings=tuple(
             (float(time), str(name), int(count))
             for time, name, count in zip(warned.time, warned.warning, warned.count, strict=True)

@@ -339,7 +339,7 @@ class Pipeline:
         stage.picture.bind()
 
     def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
-        """Geom number of each pixel, or -1: int32 (H, W), row 0 the top."""
+        """Geom number of each pixel, -1 for none, flexes from -2 down: int32 (H, W), row 0 the top."""
         if self._number is None:
             self._number = gl.Target(self.width, self.height, GL.GL_R32I, depth=True, linear=False)
             self._ident = gl.Program("thing.vert", "ident.frag", FULL=0)

@@ -10,6 +10,8 @@ import numpy as np
 if TYPE_CHECKING:
     import mujoco
 
+FLEX = -2
+"""In a segmentation the first flex has this number, the next one less."""
 SMOOTH = 0.8
 """Cosine between the normals of two corners in one place up to which they are one, parted by the edge of a picture only."""
 
@@ -42,7 +44,7 @@ class Patch(NamedTuple):
     material: int
     rgba: np.ndarray
     geom: int
-    """A geom of the body that it belongs to, or -1."""
+    """A geom of the body that it belongs to, or -1; of a flex `FLEX` less its number."""
 
 
 @dataclass(frozen=True)
@@ -99,7 +101,7 @@ class SoftShapes:
                 )
                 if material < 0:  # MuJoCo 4 keeps one for each element, and its scene names none; the first one counts
                     material = int(model.flex_matid[model.flex_elemadr[number]])
-                patches.append(Patch(("flex", number, 0), points, normals, None, material, rgba, -1))
+                patches.append(Patch(("flex", number, 0), points, normals, None, material, rgba, FLEX - number))
             elif geom.type == kinds.mjGEOM_SKIN:
                 first, count = int(scene.skinvertadr[number]), int(scene.skinvertnum[number])
                 points, normals = (
