@@ -110,7 +110,10 @@ def test_what_is_welded_may_lie_in_each_other_and_every_other_pair_is_told_at_on
         },
     )  # fmt: skip
     told = [finding for finding in found.findings if finding.code == "WP327"]
-    assert [finding.message.split(" lets ")[1].split(" overlap")[0] for finding in told] == ["one and two", "two and three"]
+    assert [finding.message.split(" lets ")[1].split(" overlap")[0] for finding in told] == [
+        "one and two",
+        "two and three",
+    ]
     assert "what joint `bend` joins does not collide" in told[0].fix and "weld them" in told[1].fix
 
 

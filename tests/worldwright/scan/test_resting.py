@@ -70,7 +70,9 @@ def test_a_body_that_the_recording_does_not_hold_is_proved_by_nothing():
 def test_what_still_moves_is_told_with_the_words_that_ask_it_to_rest_and_with_all_else_that_moves():
     two = analytic.rolling()
     both = {name: np.repeat(getattr(two, name), 2, axis=1) for name in ("pos", "quat", "linvel", "angvel")}
-    two = replace(two, names=("ball", "tuft"), mechanics=type(two.mechanics)(), contacts=None, contact_force_sum=None, **both)
+    two = replace(
+        two, names=("ball", "tuft"), mechanics=type(two.mechanics)(), contacts=None, contact_force_sum=None, **both
+    )
     for claim, advised in (("stays", True), ("comes_to_rest", False)):
         context = Context(planned=True, rests=("ball",), rest_claims=((claim, {"body": "ball"}),))
         (told,) = [a for a in engine.scan(two, context).anomalies if a.code == "WS107" and a.severity == "blocking"]

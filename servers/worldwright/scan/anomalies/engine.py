@@ -24,7 +24,9 @@ CHECKS = Shelf(
         "FROM_THE_START": Attribute(bool, "its threshold counts from where a body was at the start", False),
         "RELATIVE": Attribute(bool, "it blocks only where a claim rests on it or a viewer can see it", False),
         "REPAIR": Attribute(str, "what a repair changes where it finds something", "solver_or_time_step"),
-        "OF_CLAIM": Attribute(bool, "what it finds fault with is as often what the plan claims as what the world does", False),
+        "OF_CLAIM": Attribute(
+            bool, "what it finds fault with is as often what the plan claims as what the world does", False
+        ),
         "STAGING": Attribute(bool, "it tells of staging: the tables of what acted repeat it", False),
         "ABOVE_GROUND": Attribute(bool, "its threshold is a depth below the ground", False),
     },
