@@ -96,7 +96,8 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--source", type=Path, help="text of the program, never run: tells whether a motion is known")
     parser.add_argument("--film", type=Path, help="folder with a film's description (still, video, final, frame)")
     parser.add_argument("--minutes", type=float, default=5.0, help="time for drawing (final)")
-    parser.add_argument("--at", type=float, default=0.0, help="seconds of the film, or of the recording (frame)")
+    parser.add_argument("--at", type=float, action="append", help="seconds of the film, or of the recording (frame)")
+    parser.add_argument("--shots", action="store_true", help="three moments of every shot of the film (frame)")
     parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame, sheet)")
     parser.add_argument("--eye", type=_point, help="where an unplanned camera stands: X,Y,Z in m (frame)")
     parser.add_argument("--target", type=_point, default=(0.0, 0.0, 0.0), help="what it looks at: X,Y,Z in m")
@@ -113,6 +114,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
         "--reuse", action="append", default=[], type=Path, help="an earlier pass that may hold the same"
     )
     options = parser.parse_args(argv)
+    options.at = options.at or [0.0]
     if options.run == "final" and options.film is None:
         parser.error("the final pass draws a film: name the folder of its description with --film")
     return options

@@ -32,8 +32,9 @@ def run(given: "Given", options: argparse.Namespace) -> None:
 
     from worldkit import cameras, world
 
+    from .film.chosen_frames import FREE, free
     from .film.drawn_frames import Frames
-    from .film.passes import FREE, choose_cameras, free, headless_gl
+    from .film.passes import choose_cameras, headless_gl
 
     headless_gl()
     started = time.perf_counter()

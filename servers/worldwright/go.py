@@ -102,6 +102,8 @@ def go(run: Run, options: Options, say: Say) -> bool:
             gone = walk(
                 run, refine=options.refine, until=options.until, approve=allowed, say=say, progress=progress
             ).go()
+        if gone.ok and options.until:
+            say("next", "waiting", gone.next_move)
         return gone.ok and (options.until or walk.groups[-1][-1]) in gone.held
     finally:
         from .report import write

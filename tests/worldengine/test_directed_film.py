@@ -1,13 +1,17 @@
 """A film shows the recording: its bodies stand where they stood, and what it may not do it is refused."""
 
+import shutil
+from argparse import Namespace
 from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
 
 import mujoco
 import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, lay_film, record
-from worldengine.film import described, motion_facts
+from worldengine.film import chosen_frames, described, motion_facts, passes
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening, axes
 from worldengine.film.dressed import DressedReplay, dress
@@ -62,6 +66,57 @@ class Made:
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):
     return Made(tmp_path_factory.mktemp("film"))
+
+
+def two_shots(film):
+    film.shot(wide(), until=0.2)
+    film.shot(still((0, -2, 0.5), "first"), until=0.4)
+
+
+@pytest.mark.gl
+def test_the_film_is_drawn_before_the_plans_cameras_under_one_progress(made, tmp_path, monkeypatch):
+    film = made.film(two_shots)
+    told = tmp_path / "told"
+    told.mkdir()
+    for name in ("film.json", "film.npz"):
+        shutil.copyfile(made.folder / name, told / name)
+    seen = []
+
+    class Progress:
+        def __init__(self, out: Path, total: int, unit: str) -> None:
+            self.out, self.unit = out, unit
+
+        def __call__(self, done: int, total: int) -> None:
+            seen.append((done, total, sorted(path.name for path in self.out.glob("*.mp4"))))
+
+    monkeypatch.setattr("worldkit.reporting.Progress", Progress)
+    given = SimpleNamespace(world=made.folder / "world.mjz", size=SIZE, fps=24, movers=("first", "second"))
+    options = Namespace(film=told, out=tmp_path / "out", reuse=[], cameras=[])
+    options.out.mkdir()
+    summary = passes.film_first((made.plain, made.recording, [], options.out), film, given, options)
+    assert summary["cameras"] == ["side"] and summary["drawn"] == film.frames + summary["frames"]
+    assert set(summary["pictures"]) == {"film.mp4", "side.mp4"} and len(summary["film"]["shots"]) == 2
+    done, totals, files = zip(*seen, strict=True)
+    assert list(done) == sorted(done) and len(set(totals)) == 1 and done[-1] == totals[0]
+    assert not any("side.mp4" in names for names in files[: film.frames]) and "film.mp4" in files[-1]
+
+
+@pytest.mark.gl
+def test_every_shot_is_seen_on_one_sheet_and_several_moments_in_one_call(made, tmp_path):
+    film = made.film(two_shots)
+    given = SimpleNamespace(world=made.folder / "world.mjz", size=SIZE, fps=24, movers=("first", "second"))
+    options = Namespace(out=tmp_path, size=None, shots=True, at=[0.0])
+    told = chosen_frames.of_film(made.plain, made.recording, film, given, options)
+    assert [(row["shot"], row["word"]) for row in told["moments"]] == [
+        (shot, word) for shot in (1, 2) for word in ("first", "middle", "last")
+    ]
+    assert told["moments"][2]["film_s"] < told["moments"][3]["film_s"] and (tmp_path / "shots-1.jpg").is_file()
+    assert told["moments"][0]["reading"]["subjects"]["first"] > 0
+    chosen = chosen_frames.of_film(
+        made.plain, made.recording, film, given, Namespace(out=tmp_path, size=None, shots=False, at=[0.3, 0.1])
+    )
+    assert [row["film_s"] for row in chosen["moments"]] == pytest.approx([7 / 24, 2 / 24])
+    assert {"frame.png", "frame-2.png"} <= {path.name for path in tmp_path.iterdir()}
 
 
 def looking(film, until=0.4):

@@ -1,7 +1,6 @@
 """The still and the video pass: pictures of recorded states, through every camera."""
 
 import argparse
-import math
 import os
 import sys
 import time
@@ -16,6 +15,7 @@ from worldkit.files import write_json
 from worldkit.program import has_display
 
 from ..recording.replay import Replay, frame_rows
+from .chosen_frames import FILM, FREE
 from .encode import Video, write_png
 from .renderers.preview.soft_shapes import FLEX
 
@@ -27,10 +27,8 @@ if TYPE_CHECKING:
     from ..recording.stored import Recording
     from .described import Described
 
-FILM = "film"
-"""Name of the file of an author's film, beside those of the plan's cameras."""
-FREE = "free"
-"""Name of a camera that is not planned."""
+WORTH = 1 / 8
+"""A frame of the plan's cameras, beside a film, takes about so many of the film's in time."""
 Ticker = Callable[[int, int], object]
 """It is called with the frames done and the frames in all."""
 
@@ -59,16 +57,53 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         tick = Progress(out, 0, "cameras")
         summary = stills(model, recording, options.cameras, out, given.size, tick, options.reuse)
     else:
-        rest = model, recording, options.cameras, out, Progress(out, 0, "frames"), options.reuse
-        whole = given.size, given.fps
-        found = video(*rest, *whole, only_known=True) if film is not None else None
-        summary = found or video(*rest, *(whole if film is None else beside_a_film(*whole))) or {}
-        if film is not None:
-            directed(model, recording, film, given, options, summary)
+        rest = model, recording, options.cameras, out
+        if film is None:
+            tick = Progress(out, 0, "frames")
+            summary = video(*rest, tick, options.reuse, given.size, given.fps) or {}
+        else:
+            summary = film_first(rest, film, given, options)
     result = {"ok": True, "pass": options.run, **summary, "trajectory_sha256": recording.sha256, "same_model": same}
     write_json(out / "result.json", {**result, "wall_s": round(time.perf_counter() - started, 3)})
     made = [*summary["cameras"], *([FILM] if "film" in summary else [])]
     sys.stdout.write(f"{', '.join(made)} in {out}\n")
+
+
+def film_first(
+    rest: "tuple[mujoco.MjModel, Recording, Sequence[str], Path]",
+    film: "Described",
+    given: "Given",
+    options: argparse.Namespace,
+) -> dict[str, Any]:
+    """Draw the author's film, which is what a person sees, then the plan's cameras, small beside it; one progress over all of it.
+
+    What an earlier pass drew of the same is taken over: a changed `film.py` costs its own frames alone.
+    """
+    from worldkit.reporting import Progress
+
+    model, recording, names, out = rest
+    aside = beside_a_film(given.size, given.fps)
+    sizes = ((given.size, given.fps), aside)
+    kept = next(
+        filter(None, (video(*rest, lambda *_: None, options.reuse, *size, only_known=True) for size in sizes)), None
+    )
+    frames = 0 if kept else len(frame_rows(recording.time, aside[1])) * len(choose_cameras(model, names))
+    tick = Progress(out, film.frames + round(frames * WORTH), "frames")
+    found = directed(
+        model, recording, film, given, options, lambda done: tick(done, film.frames + round(frames * WORTH))
+    )
+    before = found["drawn"]
+
+    def small(done: int, total: int) -> None:
+        tick(before + round(done * WORTH), before + round(total * WORTH))
+
+    summary = kept or video(*rest, small, options.reuse, *aside) or {}
+    for field, told in found.items():
+        if field == "drawn":
+            summary["drawn"] += told
+        else:
+            summary[field] = {**summary.get(field, {}), **told}
+    return summary
 
 
 def beside_a_film(size: tuple[int, int], fps: int) -> tuple[tuple[int, int], int]:
@@ -194,28 +229,25 @@ def directed(
     film: "Described",
     given: "Given",
     options: argparse.Namespace,
-    summary: dict[str, Any],
-) -> None:
-    """Draw the author's film, or take it over where an earlier pass drew the same; enter it in the summary."""
-    from worldkit.reporting import Progress
-
+    tick: Callable[[int], object],
+) -> dict[str, Any]:
+    """Draw the author's film, or take it over where an earlier pass drew the same; returns what the summary says of it."""
     from .known_pictures import Known
 
     name = f"{FILM}.mp4"
     known = Known(model, recording, {"quality": "film", "size": given.size, "fps": given.fps}, options.reuse)
     earlier = known.film(options.film, name, options.out)
-    if earlier is None:
-        tick = Progress(options.out, 0, "frames of the film")
-        summary["film"] = screen(model, recording, film, given, options.out, tick)
-        summary["drawn"] += film.frames
-    else:
-        summary["film"] = earlier["film"]
-    for field, told in known.told(summary["film"]["renderer"]).items():
-        summary[field] = {**summary.get(field, {}), **told}
+    told = earlier["film"] if earlier else screen(model, recording, film, given, options.out, tick)
+    return {"film": told, "drawn": 0 if earlier else film.frames, **known.told(told["renderer"])}
 
 
 def screen(
-    model: "mujoco.MjModel", recording: "Recording", film: "Described", given: "Given", out: Path, tick: Ticker
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    film: "Described",
+    given: "Given",
+    out: Path,
+    tick: Callable[[int], object],
 ) -> dict[str, Any]:
     """Draw `film.mp4`, the recording as the film's author shows it; returns its entry for the result."""
     from .directed import Screening
@@ -228,7 +260,7 @@ def screen(
         for number in range(film.frames):
             film_file.add(screening.picture(number))
             hidden.update(screening.hidden())
-            tick(number + 1, film.frames)
+            tick(number + 1)
         renderer = screening.frames.told()
     said = {"frames": film.frames, "seconds": film.frames / given.fps, "renderer": renderer, **film.told(given.fps)}
     return said | {"hidden": {what: round(count / given.fps, 3) for what, count in sorted(hidden.items())}}
@@ -241,64 +273,13 @@ def frame(
     given: "Given",
     options: argparse.Namespace,
 ) -> dict[str, Any]:
-    """Draw `frame.png` with its `reading`: the moment `options.at`, s, of the film, or of the recording.
+    """Draw the moments `options.at`, s, of the film, or of the recording through a camera; see `chosen_frames`."""
+    from . import chosen_frames
 
-    The recording is seen through a camera of the plan, or from `options.eye` to `options.target`.
-    """
-    from worldkit import cameras
-
-    from .drawn_frames import Frames
-    from .light_meter import reading
-
-    size = options.size or given.size
     if film is not None and not options.cameras and options.eye is None:
-        from .directed import Screening
-
-        number = min(max(round(options.at * given.fps), 0), film.frames - 1)
-        with Screening(given.world, model, recording, film, size, given.fps) as screening:
-            screening.picture(number)  # the first one also sets the stage, which takes longer
-            started = time.perf_counter()
-            image = screening.picture(number)
-            write_png(options.out / "frame.png", image)
-            larger = math.prod(given.size) / math.prod(size)
-            cost = (time.perf_counter() - started) * larger**0.5  # corners do not become more with the pixels
-            said = screening.frames.told()
-            read = reading(screening.model, image, screening.segmentation(), given.movers)
-        shown = {"film_s": number / given.fps, "recorded_s": float(film.arrays["time"][number])}
-        shown |= {"frames": film.frames, "frame_s": round(cost, 3)}
-        return {
-            "cameras": [FILM],
-            "size": list(size),
-            "renderer": said,
-            **shown,
-            "film": film.told(given.fps),
-            "reading": read,
-        }
+        return chosen_frames.of_film(model, recording, film, given, options)
     name = choose_cameras(model, options.cameras)[0]
-    replay = Replay(model, recording)
-    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
-    row = int(abs(recording.time - recording.time[0] - options.at).argmin())
-    with Frames(model, *size) as frames:
-        data = replay.show(row)
-        cameras.track(model, data)
-        if options.eye is not None:
-            free(model, data, name, options)
-        image = frames.image(data, name, quality="video")
-        write_png(options.out / "frame.png", image)
-        said, read = frames.told(), reading(model, image, frames.segmentation(data, name), given.movers)
-    seen_by = name if options.eye is None else FREE
-    at = float(recording.time[row] - recording.time[0])
-    return {"cameras": [seen_by], "size": list(size), "renderer": said, "recorded_s": at, "reading": read}
-
-
-def free(model: "mujoco.MjModel", data: "mujoco.MjData", name: str, options: argparse.Namespace) -> None:
-    """Let a camera of the model stand at `options.eye`, look at `options.target`, and see `options.fovy` degrees of height."""
-    from .directed import axes
-
-    index = model.camera(name).id
-    data.cam_xpos[index] = options.eye
-    data.cam_xmat[index] = axes(options.eye, options.target, 0.0).ravel()
-    model.cam_fovy[index] = options.fovy
+    return chosen_frames.through_a_camera(model, recording, name, given, options)
 
 
 def choose_cameras(model: "mujoco.MjModel", wanted: Sequence[str]) -> list[str]:

@@ -128,7 +128,7 @@ alone: read the descriptions of steps and objects, the laws of interventions, an
 your memory. Never edit the plan; if it cannot be built as it stands, say which line and why. A coordinate that it rounds by less
 than 0.2 mm you may write exactly, with a comment. Then `stamp.go` until it waits for the description: it lints, simulates, measures and films, and tells all that is wrong
 together. Mend what it names first, where the program and not the plan is wrong; after three patches that did not help,
-leave it. Once the claims hold (`until`), write `film.py` (skill `film`): three shots, light, a set, dressing; look at each by `stage.frames`.
+leave it. Once the claims hold (`until`), write `film.py` (skill `film`): three shots, light, a set, dressing; look at all by `stage.frames` (`show: shots`).
 Modules and data may lie beside the program (`*.py`, `sculpt/`, `laws/`, `data/`): what it imports or names by its path belongs to it. A file that the plan names was approved with
 it: change it only if told to. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
@@ -185,8 +185,8 @@ REVIEW = Role(
 Call `scan.scan` with `refine` (and `causes` when objectives name a cause) and `scan.expect`, look at `stage.frames` (with a
 reference image also `show: reference`), read the visual description in the evidence. Bind each objective to the evidence that decides it. A claim of one channel ("the scene is
 frozen", "it went through the wall") is tested in another (`scan.query`) before it may order a repair. `recognised` holds what the
-description names blindly, word for word, against each subject and the event: a synonym or a kind of it is the same. If all objectives
-are met and nothing blocks: outcome `pass`. Otherwise one repair: the one target, and the one change that most likely mends
+description names blindly, word for word, against each subject and the event: a synonym or a kind of it is the same. One row stands for all that
+welds or hinges join or a number alone tells apart (`branch_1`, `branch_2`). If all objectives are met and nothing blocks: outcome `pass`. Otherwise one repair: the one target, and the one change that most likely mends
 the most. `blocked` only when no change of plan or program can help. Then call `stamp.review` once:
 `{"reviewer": "world-review", "outcome": "repair", "numeric": "…", "visual": "…", "plan": "…",
 "objectives": [{"index": 0, "met": true, "evidence": ["expect:moves", "still:side"]}, …],

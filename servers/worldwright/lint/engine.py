@@ -311,7 +311,7 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
         first = f"`worldwright go {path.parent} --until expect`, then ask again"
         return [], f"{path.name}: {NOT_TRIED}: nothing is recorded of its program and plan yet; {first}"
     if not failure:
-        return [], f"{path.name}: described and drawn"
+        return [], f"{path.name}: described and drawn; next: `worldwright stage frames {path.parent} --show shots`"
     line = int(failure.get("line") or 1)
     seen = Observation("failed", (), failure["code"], failure["message"], (line,))
     found = [f for rule in run_rules() for f in findings(rule, Run(seen, len(program.lines)), program.path)]

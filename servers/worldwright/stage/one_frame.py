@@ -1,4 +1,4 @@
-"""Draw one moment of a run at once, from its author's film or through any camera; the picture is not kept."""
+"""Draw moments of a run at once, of its author's film or through any camera, or three of every shot; no picture is kept."""
 
 import tempfile
 from collections.abc import Sequence
@@ -8,25 +8,27 @@ from typing import Any
 from worldkit.files import write_atomic
 from worldkit.film_files import ARRAYS, DESCRIPTION
 
-from ..model.errors import GateError
+from ..model.errors import GateError, NotFoundError
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
 from ..model.picture import Illustrated, Picture
-from . import authoring, gates
+from . import authoring, gates, plain
 from .kept_sculpts import given
-from .pictures import Shown
+from .pictures import BUDGET_BYTES, Shown, jpeg
 from .short_runs import engine, run_process
 
-SIZE = (640, 360)
+SIZE, SHOT_WIDTH = (640, 360), 432
+"""Of a moment, and across each on a sheet of shots, pixels."""
+MOST_MOMENTS = 12
 FILM = "film"
 FRAME = "frame.png"
 
 
 def draw(
-    run: Run, key: EvidenceKey, at_s: float, camera: str | None = None, size: tuple[int, int] = SIZE
+    run: Run, key: EvidenceKey, at_s: float | Sequence[float], camera: str | None = None, size: tuple[int, int] = SIZE
 ) -> Illustrated:
-    """Draw the picture of one moment, and say what a whole film of it costs.
+    """Draw the pictures of some moments in one process, and say what a whole film of them costs.
 
     Args:
         run: the run with its program and plan, and its film if it has one.
@@ -38,28 +40,99 @@ def draw(
     Raises:
         GateError: nothing is recorded of this program and plan.
         JobError: `film.py` does not run, or asks for what may not be shown; the error has its line.
+        NotFoundError: too many moments, or one before the start.
     """
+    moments = [at_s] if isinstance(at_s, int | float) else list(at_s)
+    if not (0 < len(moments) <= MOST_MOMENTS and all(0 <= at < 1e5 for at in moments)):
+        raise NotFoundError(
+            f"{len(moments)} moments, or one before the start, cannot be drawn at once",
+            next_move=f"name 1 to {MOST_MOMENTS} in seconds from 0, or ask for every shot: `--show shots`",
+        )
     filmed = camera == FILM or (camera is None and (run.folder / pictures_of.FILM).is_file())
     through = ["--camera", camera] if camera else []
-    found = draw_frame(run, recorded(run, key), at_s, size, filmed, through)
+    found = draw_frame(run, recorded(run, key), moments, size, filmed, through)
     said = found["result.json"]
-    shown = f"{said['recorded_s']:.3f} s of the recording"
-    caption = f"film at {said['film_s']:.2f} s: {shown}" if filmed else f"{', '.join(said['cameras'])}: {shown}"
-    lines = [caption]
-    if filmed:
-        lines += [
-            f"all {said['frames']} frames like this one take about {minutes(said['frames'] * said['frame_s'])} to draw"
+    captions = []
+    for row in said["moments"]:
+        shown = f"{row['recorded_s']:.3f} s of the recording"
+        captions.append(
+            f"film at {row['film_s']:.2f} s: {shown}" if filmed else f"{', '.join(said['cameras'])}: {shown}"
+        )
+    lines = [*captions, *(_of_film(said) if filmed else ())]
+    names = [FRAME, *(f"frame-{number}.png" for number in range(2, len(moments) + 1))]
+    pictures = [Picture(found[name], caption) for name, caption in zip(names, captions, strict=True)]
+    if len(pictures) > 1:  # one picture is sent as it was drawn, several only as far as they fit
+        share = BUDGET_BYTES // len(pictures)
+        pictures = [Picture(_smaller(one.data, share), one.caption, "jpeg") for one in pictures]
+    return Illustrated(Shown(cameras=tuple(said["cameras"]), captions=tuple(lines)), tuple(pictures))
+
+
+def shots(run: Run, key: EvidenceKey) -> Illustrated:
+    """Draw every shot's first, middle and last frame on sheets, in one process, and read each: what to look at before a video pass.
+
+    Raises:
+        GateError: nothing is recorded of this program and plan.
+        JobError: `film.py` does not run, or asks for what may not be shown; the error has its line.
+    """
+    physics = recorded(run, key)
+    width, height = plain.read_json(physics / "program.json")["size"]
+    size = SHOT_WIDTH, max(16, round(SHOT_WIDTH * height / width / 2) * 2)
+    found = draw_frame(run, physics, (), size, True, (), ("--shots",), ("shots-*.jpg",))
+    said = found["result.json"]
+    lines = []
+    for number, told in enumerate(said["film"]["shots"], 1):
+        three = [row for row in said["moments"] if row["shot"] == number]
+        sizes = [
+            f"{name} {', '.join(str(row['reading']['subjects'].get(name, 0)) for row in three)} px"
+            for name in three[0]["reading"]["subjects"]
         ]
-        lines += [f"drawn only: {', '.join(said['film']['drawn_only']) or 'nothing'}"]
-        lines += [f"{name} looks like {look}" for name, look in said["film"]["looks"].items()]
-    picture = Picture(found[FRAME], caption)
-    return Illustrated(Shown(cameras=tuple(said["cameras"]), captions=tuple(lines)), (picture,))
+        luma = ", ".join(f"{row['reading']['luma']:.2f}" for row in three)
+        until = told["film_s"] + told["seconds"]
+        times = f"{told['film_s']:.2f} to {until:.2f} s, recorded {told['from_s']:.2f} to {told['to_s']:.2f} s"
+        lines.append(f"shot {number}: {times}, speed {told['speed']:g}; luma {luma}; {'; '.join(sizes)}")
+    lines += _of_film(said)
+    sheets = sorted((name for name in found if name.startswith("shots-")), key=lambda n: int(n[6:-4]))
+    share = BUDGET_BYTES // max(len(sheets), 1)
+    pictures = tuple(
+        Picture(
+            _smaller(found[name], share), f"shots, sheet {number}: first, middle and last of each, row by row", "jpeg"
+        )
+        for number, name in enumerate(sheets, 1)
+    )
+    return Illustrated(Shown(cameras=(FILM,), captions=tuple(lines)), pictures)
+
+
+def _of_film(said: dict[str, Any]) -> list[str]:
+    """What all of a film costs, what it only draws, and which looks it changes."""
+    cost = minutes(said["frames"] * said["frame_s"])
+    return [
+        f"all {said['frames']} frames like {'this one' if len(said['moments']) == 1 else 'these'} take about {cost} to draw",
+        f"drawn only: {', '.join(said['film']['drawn_only']) or 'nothing'}",
+        *(f"{name} looks like {look}" for name, look in said["film"]["looks"].items()),
+    ]
+
+
+def _smaller(data: bytes, budget: int) -> bytes:
+    """An encoded picture of ours as a JPEG of at most `budget` bytes."""
+    import cv2
+    import numpy as np
+
+    image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)
+    assert image is not None  # the engine has just encoded it
+    return jpeg(cv2.cvtColor(image, cv2.COLOR_BGR2RGB), budget)
 
 
 def draw_frame(
-    run: Run, physics: Path, at_s: float, size: tuple[int, int], filmed: bool, through: Sequence[str]
+    run: Run,
+    physics: Path,
+    at_s: float | Sequence[float],
+    size: tuple[int, int],
+    filmed: bool,
+    through: Sequence[str],
+    more: Sequence[str] = (),
+    wanted: Sequence[str] = (FRAME, "frame-*.png"),
 ) -> dict[str, Any]:
-    """What the engine tells and leaves (`FRAME`) of one moment, of the film where it is `filmed`, else seen `through` a camera.
+    """What the engine tells and leaves (`FRAME`, `frame-2.png` …) of moments of the film where it is `filmed`, else `through` a camera.
 
     Args:
         run: the run.
@@ -68,12 +141,16 @@ def draw_frame(
         size: pixels.
         filmed: by the film's own camera: that of `film.py`, else of the house's film.
         through: the engine's words for a camera; the first of the plan when empty.
+        more: further words for the engine, of a film.
+        wanted: names of what the engine must leave, or patterns of what it may.
     """
+    moments = [at_s] if isinstance(at_s, int | float) else at_s
     with tempfile.TemporaryDirectory(prefix="worldwright-frame-") as folder:
         told = [describe(run, physics, Path(folder))] if filmed else []
-        words = ["frame", *given_words(physics), "--at", str(at_s), "--size", f"{size[0]}x{size[1]}"]
-        words += ["--film", str(told[0])] if told else through
-        return engine(words, (physics, *told), (FRAME,))
+        words = ["frame", *given_words(physics), "--size", f"{size[0]}x{size[1]}"]
+        words += [word for at in moments for word in ("--at", str(float(at)))]
+        words += ["--film", str(told[0]), *more] if told else through
+        return engine(words, (physics, *told), wanted)
 
 
 def recorded(run: Run, key: EvidenceKey) -> Path:

@@ -234,17 +234,18 @@ def frames(
     camera: Annotated[str | None, Field(description="One camera; all of them when left out.")] = None,
     count: Annotated[int, Field(description="Pictures on a contact sheet.", ge=1, le=24)] = 8,
     show: Annotated[
-        Literal["all", "storyboard", "stills", "sheet", "key", "reference"],
+        Literal["all", "storyboard", "stills", "sheet", "key", "reference", "shots"],
         Field(
             description="Stills, contact sheets, key frames (setup, midway, event, aftermath), or all of them; `storyboard`: five "
-            "moments a camera, there before all others; `reference`: the given image beside the first camera's still."
+            "moments a camera, there before all others; `reference`: the given image beside the first camera's still; "
+            "`shots`: film.py's, first, middle and last of each, drawn now."
         ),
     ] = "all",
     start_s: Annotated[float, Field(description="Contact sheets begin at this time.", ge=0)] = 0.0,
     end_s: Annotated[float | None, Field(description="And end at this one; None is the film's end.", ge=0)] = None,
     at: Annotated[
-        float | None,
-        Field(description="Draw this moment now: s of film.py's film, or of the recording with a `camera`.", ge=0),
+        list[float] | float | None,
+        Field(description="Draw these moments now: s of film.py's film, or of the recording with a `camera`."),
     ] = None,
 ) -> Illustrated:
     """Show the current program's pictures: stills, a contact sheet of each film with the times, and key frames.
@@ -259,10 +260,14 @@ def frames(
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
-    if at is not None:
+    if at is not None and at != []:
         from .one_frame import draw
 
         return draw(folder, key, at, camera)
+    if show == "shots":
+        from .one_frame import shots
+
+        return shots(folder, key)
     evidence = folder.evidence(key)
     if show == "storyboard":
         return storyboards.shown(evidence, camera)

@@ -134,6 +134,8 @@ class Going:
         elif not turn:
             now = status(State(self.run))
             state, turn = "accepted" if now.state == "accepted" else "waiting", now.next_move
+            if state == "waiting" and self.until == "expect" and self.step("video").status == "missing":
+                turn = next_repair.film_first(State(self.run))
         return Gone(
             run=self.run.name,
             state=state,

@@ -1,4 +1,4 @@
-"""Which file a repair changes: the next move of a verdict names it, by the target that the review gave."""
+"""The next move when something is to be written: which file a repair changes, by its target; the film, before it is drawn."""
 
 from ..model.evidence.verdict import RepairTarget
 from .state import State
@@ -28,3 +28,9 @@ def of_anomaly(state: State, code: str) -> str:
     if of_claim(code):
         return f"correct what {place}/plan.md claims, if that is wrong, and have it approved anew; or simulation.py"
     return f"correct {place}/simulation.py, one patch; or the plan, if it is wrong"
+
+
+def film_first(state: State) -> str:
+    """The move once the claims hold and nothing is filmed yet: every shot is looked at before minutes go into a video pass."""
+    write = "" if (state.run.folder / "film.py").is_file() else f"write {state.place}/film.py (skill `film`), then "
+    return f"{write}`worldwright stage frames {state.place} --show shots --save FOLDER`, then `worldwright go {state.place}`"

@@ -5,6 +5,7 @@ of real things. The review compares. A world in which nobody recognises what was
 numbers are; one that is not believed gets one repair of its look first.
 """
 
+import re
 from collections import Counter
 from collections.abc import Iterator
 
@@ -19,6 +20,8 @@ EVENT = "event"
 BELIEVED = 7
 """Of 10: below it, one repair of the look is due."""
 DETAILS = 3
+JOINED = ("weld", "hinge", "ball")
+NUMBER = re.compile(r"[_-]?\d+$")
 LOOKS = ("look", "not_recognised", "visual_mismatch")
 
 
@@ -63,6 +66,38 @@ def wanted(state: State) -> tuple[str, ...]:
     return tuple(dict.fromkeys(family.get(name, name) for name in names if name in drawn or name in family))
 
 
+def together(state: State) -> tuple[tuple[str, ...], ...]:
+    """What is wanted, in groups of which one name stands for all: what welds and hinges join, or what is told apart by a number alone.
+
+    To somebody who was told nothing a chain of capsules is one branch, and a torso with its arms one figure.
+    """
+    names = wanted(state)
+    if state.plan is None:
+        return ()
+    head = {name: name for name in (*state.plan.object_names(), *names)}
+
+    def first(name: str) -> str:
+        while name != head[name]:
+            name = head[name]
+        return name
+
+    family = {name: base for base, copies in state.plan.families.items() for name in copies}
+    pairs = [(row.parent, row.child) for row in state.plan.topology.joints if row.type in JOINED]
+    stems: dict[str, str] = {}
+    for name in names:
+        stem = NUMBER.sub("", name)
+        if stem != name:
+            pairs.append((stems.setdefault(stem, name), name))
+    for ends in pairs:
+        one, other = (family.get(end, end) for end in ends)
+        if one in head and other in head:
+            head[first(other)] = first(one)
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        groups.setdefault(first(name), []).append(name)
+    return tuple(map(tuple, groups.values()))
+
+
 def problems(state: State, verdict: Verdict) -> Iterator[Refusal]:
     """Why a verdict cannot stand on what was named blindly; nothing where nobody named anything."""
     visual = state.visual.value
@@ -78,7 +113,7 @@ def problems(state: State, verdict: Verdict) -> Iterator[Refusal]:
     for row in verdict.recognised:
         # What happens is no thing, and a sentence about what happens names none.
         known = {visual.event} if row.wanted == EVENT else things
-        if row.seen_as and row.seen_as not in known:
+        if row.seen_as and _plain(row.seen_as) not in map(_plain, known):
             yield Refusal(
                 cause=f"the description names {'no event' if row.wanted == EVENT else 'nothing'} `{row.seen_as}`",
                 next_move=f"copy `seen_as` from it: {'; '.join(sorted(known))}",
@@ -86,22 +121,40 @@ def problems(state: State, verdict: Verdict) -> Iterator[Refusal]:
     if verdict.outcome != "pass":
         return
     given = {row.wanted: row for row in verdict.recognised}
-    for name in (*wanted(state), EVENT):
-        if (found := given.get(name)) is None:
-            yield Refusal(
-                cause=f"nothing is said of whether `{name}` was recognised",
-                next_move=f'add to `recognised`: {{"wanted": "{name}", "seen_as": "…", "same": true or false}}',
-            )
-        elif not found.same:
-            yield Refusal(
-                cause=f"`{name}` was not recognised: seen as `{found.seen_as or 'nothing'}`",
-                next_move="review it as `repair`, target `not_recognised`, and say what it was taken for",
-            )
+    missing = []
+    for group in (*together(state), (EVENT,)):
+        rows = [given[name] for name in group if name in given]
+        if not rows:
+            missing.append(group)
+        for found in rows:
+            if not found.same:
+                yield Refusal(
+                    cause=f"`{found.wanted}` was not recognised: seen as `{found.seen_as or 'nothing'}`",
+                    next_move="review it as `repair`, target `not_recognised`, and say what it was taken for",
+                )
+    if missing:
+        said = [f"`{group[0]}`{f' (or {_some(group[1:])}, one with it)' if group[1:] else ''}" for group in missing]
+        rows_wanted = ", ".join(
+            f'{{"wanted": "{group[0]}", "seen_as": "…", "same": true or false}}' for group in missing
+        )
+        yield Refusal(
+            cause=f"nothing is said of whether {', '.join(said)} {'was' if len(missing) == 1 else 'were'} recognised",
+            next_move=f"add to `recognised`: {rows_wanted}; the description names {'; '.join(sorted(things))}",
+        )
     if visual.belief is not None and visual.belief < BELIEVED and not _mended(state):
         yield Refusal(
             cause=f"belief is {visual.belief} of 10: {'; '.join(visual.betrays[:DETAILS])}",
             next_move="review it as `repair`, target `look`: the one change that most of these ask for",
         )
+
+
+def _plain(words: str) -> str:
+    """The words without what does not tell one thing from another: case, and blanks around and between."""
+    return " ".join(words.casefold().split())
+
+
+def _some(names: tuple[str, ...]) -> str:
+    return ", ".join(names[:4]) + (f" and {len(names) - 4} more" if len(names) > 4 else "")
 
 
 def _mended(state: State) -> bool:

@@ -5,6 +5,8 @@ import uuid
 from collections.abc import Callable
 from pathlib import Path
 
+import cv2
+import numpy as np
 import pytest
 
 from worldwright.lint import tools as lint
@@ -65,6 +67,13 @@ def test_a_film_costs_no_physics_and_is_stamped(reviewed: Path, copy: Copy) -> N
     assert "film at" in shown.data.text()
     assert "drawn only: kerb" in shown.data.text()
     assert shown.pictures[0].data.startswith(b"\x89PNG")
+    several = stage.frames(str(run.folder), at=[0.35, 0.0])
+    assert [picture.caption[:14] for picture in several.pictures] == ["film at 0.33 s", "film at 0.00 s"]
+    sheet = stage.frames(str(run.folder), show="shots")
+    assert [line[:6] for line in sheet.data.captions[:3]] == ["shot 1", "shot 2", "all 6 "]
+    assert "ball 0, " not in sheet.data.captions[0] and "speed 0.5" in sheet.data.captions[1]
+    (page,) = [cv2.imdecode(np.frombuffer(p.data, np.uint8), cv2.IMREAD_COLOR) for p in sheet.pictures]
+    assert page.shape[1] > 2 * page.shape[0]  # two rows of three
 
     assert video(run).state == "succeeded"
     assert passed(run) == {"physics", "stills", "video"}

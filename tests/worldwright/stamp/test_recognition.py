@@ -1,5 +1,7 @@
 """What a stranger names blindly decides whether a world is recognised and believed."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from worldwright.model.errors import GateError
@@ -121,6 +123,38 @@ def test_copies_of_one_object_are_wanted_once(small_plan, tmp_path):
     (tmp_path / "plan.md").write_text(small_plan.replace("name: ball,", "name: ball, count: 3,", 1))
     wanted = recognition.wanted(State(Run(tmp_path)))
     assert wanted == ("ball",)
+
+
+def of_plan(objects, joints=(), families=None):
+    """A state whose plan wants all of these objects, as far as recognition asks."""
+    rows = [SimpleNamespace(type=kind, parent=parent, child=child) for kind, parent, child in joints]
+    plan = SimpleNamespace(
+        cameras=lambda: (SimpleNamespace(subjects=objects),),
+        implementation_steps=(),
+        object_names=lambda: objects,
+        families=families or {},
+        topology=SimpleNamespace(joints=rows),
+    )
+    return SimpleNamespace(plan=plan)
+
+
+def test_what_is_joined_or_only_numbered_is_recognised_together():
+    objects = ("stump", "leaf", "leaf_lee", "branch_1", "branch_2", "branch_3", "tuft_1")
+    joints = [("weld", "leaf", "leaf_lee"), ("weld", "branch_3", "tuft_1"), ("slide", "stump", "leaf")]
+    groups = recognition.together(of_plan(objects, joints))
+    assert groups == (("stump",), ("leaf", "leaf_lee"), ("branch_1", "branch_2", "branch_3", "tuft_1"))
+    figure = recognition.together(of_plan(("torso", "arm", "ball"), [("hinge", "torso", "arm")]))
+    assert figure == (("torso", "arm"), ("ball",))
+
+
+def test_all_that_is_not_told_is_told_at_once(reviewed, copy):
+    run = copy(reviewed)
+    stamp.describe(str(run), seen())
+    with pytest.raises(GateError, match="whether `ball`, `event` were recognised") as refused:
+        stamp.review(str(run), passed())
+    assert "a red ball" in refused.value.next_move
+    loud = Recognition(wanted="ball", seen_as="A red  ball", same=True)
+    stamp.review(str(run), passed(loud, EVENT))
 
 
 def test_a_claim_of_rest_that_fails_sends_to_the_plan_first(tmp_path):

@@ -1,7 +1,8 @@
 """A body stays where it is.
 
 Measures the largest distance of its origin from its first position in the window, metres. A body that turns on the
-spot stays; ask `stays_upright` about its tilt. Source: kinematics, displacement.
+spot stays; ask `stays_upright` about its tilt. Up to the end it also asks for rest (`WS107`): of what a wind still moves
+then, claim `stays_within`. Source: kinematics, displacement.
 """
 
 import numpy as np

@@ -1,0 +1,128 @@
+"""Draw chosen moments at once: of a recording through any camera, or of a film, where each shot's first, middle and last can be asked
+for on one sheet. The stage is set once for all of them, which takes longer than a picture."""
+
+import argparse
+import math
+import time
+from typing import TYPE_CHECKING, Any
+
+from worldkit.files import write_atomic
+
+from ..recording.replay import Replay
+from ..storyboard import labelled, laid_out
+from .encode import write_png
+from .light_meter import reading
+
+if TYPE_CHECKING:
+    import mujoco
+
+    from ..given import Given
+    from ..recording.stored import Recording
+    from .described import Described
+
+FILM, FREE = "film", "free"
+"""Names of the cameras that no plan has: the film's own, and one that stands anywhere."""
+SHOTS_A_SHEET = 6
+WORDS = ("first", "middle", "last")
+"""What is drawn of each shot; a row of a sheet."""
+
+
+def picture_name(number: int) -> str:
+    """The file of the moment with this number, from 0: `frame.png`, then `frame-2.png`."""
+    return f"frame-{number + 1}.png" if number else "frame.png"
+
+
+def of_film(
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    film: "Described",
+    given: "Given",
+    options: argparse.Namespace,
+) -> dict[str, Any]:
+    """Draw the film's frames at `options.at`, s, or with `options.shots` three of every shot on sheets (`shots-1.jpg`)."""
+    from .directed import Screening
+
+    size = options.size or given.size
+    chosen = _of_shots(film) if options.shots else [(_frame(at, film, given.fps), "") for at in options.at]
+    rows, cells = [], []
+    with Screening(given.world, model, recording, film, size, given.fps) as screening:
+        screening.picture(chosen[0][0])  # the first one also sets the stage, which takes longer
+        spent = 0.0
+        for done, (number, word) in enumerate(chosen):
+            started = time.perf_counter()
+            image = screening.picture(number)
+            spent += time.perf_counter() - started
+            read = reading(screening.model, image, screening.segmentation(), given.movers)
+            shown = {"film_s": number / given.fps, "recorded_s": float(film.arrays["time"][number])}
+            rows.append(shown | {"shot": film.shot(number) + 1, "word": word, "reading": read})
+            if options.shots:
+                cells.append(labelled(image, f"shot {rows[-1]['shot']} {word} {shown['film_s']:.2f} s"))
+            else:
+                write_png(options.out / picture_name(done), image)
+        said = screening.frames.told()
+    step = SHOTS_A_SHEET * len(WORDS)
+    for sheet, start in enumerate(range(0, len(cells), step), 1):
+        write_atomic(options.out / f"shots-{sheet}.jpg", laid_out(cells[start : start + step], len(WORDS)))
+    # Corners do not become more with the pixels.
+    cost = spent / len(chosen) * (math.prod(given.size) / math.prod(size)) ** 0.5
+    return {
+        "cameras": [FILM],
+        "size": list(size),
+        "renderer": said,
+        **{key: rows[0][key] for key in ("film_s", "recorded_s", "reading")},
+        "moments": rows,
+        "frames": film.frames,
+        "frame_s": round(cost, 3),
+        "film": film.told(given.fps),
+    }
+
+
+def through_a_camera(
+    model: "mujoco.MjModel", recording: "Recording", name: str, given: "Given", options: argparse.Namespace
+) -> dict[str, Any]:
+    """Draw the recorded moments `options.at`, s, through a camera of the plan, or from `options.eye` to `options.target`."""
+    from worldkit import cameras
+
+    from .drawn_frames import Frames
+
+    size = options.size or given.size
+    replay = Replay(model, recording)
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
+    rows = []
+    with Frames(model, *size) as frames:
+        for done, at in enumerate(options.at):
+            row = int(abs(recording.time - recording.time[0] - at).argmin())
+            data = replay.show(row)
+            cameras.track(model, data)
+            if options.eye is not None:
+                free(model, data, name, options)
+            image = frames.image(data, name, quality="video")
+            write_png(options.out / picture_name(done), image)
+            read = reading(model, image, frames.segmentation(data, name), given.movers)
+            rows.append({"recorded_s": float(recording.time[row] - recording.time[0]), "reading": read})
+        said = frames.told()
+    seen_by = name if options.eye is None else FREE
+    return {"cameras": [seen_by], "size": list(size), "renderer": said, **rows[0], "moments": rows}
+
+
+def free(model: "mujoco.MjModel", data: "mujoco.MjData", name: str, options: argparse.Namespace) -> None:
+    """Let a camera of the model stand at `options.eye`, look at `options.target`, and see `options.fovy` degrees of height."""
+    from .directed import axes
+
+    index = model.camera(name).id
+    data.cam_xpos[index] = options.eye
+    data.cam_xmat[index] = axes(options.eye, options.target, 0.0).ravel()
+    model.cam_fovy[index] = options.fovy
+
+
+def _frame(at_s: float, film: "Described", fps: int) -> int:
+    return min(max(round(at_s * fps), 0), film.frames - 1)
+
+
+def _of_shots(film: "Described") -> list[tuple[int, str]]:
+    """(frame, word) of every shot's first, middle and last; a shot of one frame shows it three times."""
+    return [
+        (shot["first"] + part * (shot["frames"] - 1) // (len(WORDS) - 1), word)
+        for shot in film.shots
+        for part, word in enumerate(WORDS)
+    ]
