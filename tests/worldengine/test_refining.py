@@ -12,6 +12,7 @@ import pytest
 
 from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, motion_facts, refining
+from worldengine.film.between import neighbours
 from worldengine.film.refining import Refined, encode, refine, rounds, traced_levels
 from worldkit import materials, portable
 from worldkit.filming import Film, Recorded
@@ -39,6 +40,30 @@ class Drawn:
     def told(self) -> dict:
         return {}
 
+    lacking = None
+
+    def reckoned(self, number: int, drawn: list[float], read) -> np.ndarray | None:
+        return None
+
+    def lettered(self, number: int, image: np.ndarray) -> np.ndarray:
+        return image
+
+
+class Halfway(Drawn):
+    """Frames between two drawn ones, of the same shot, have the mean of their brightness."""
+
+    def __init__(self, shots: list[range]) -> None:
+        super().__init__(shots[-1].stop)
+        self.shots, self.questions = shots, []
+
+    def lacking(self, frame: int, before: int, after: int) -> bool:
+        self.questions.append((frame, before, after))
+        return False
+
+    def reckoned(self, number: int, drawn: list[float], read) -> np.ndarray | None:
+        sides = neighbours(number, drawn, next(shot for shot in self.shots if number in shot))
+        return np.mean([read(side) for side in sides], axis=0).astype(np.uint8) if len(sides) == 2 else None
+
 
 class Traced(Drawn):
     renderer = "traced"
@@ -56,6 +81,26 @@ def test_each_round_draws_every_frame_once_the_far_apart_ones_first():
     assert [n for n, s in order if s == LEVELS[1]][12:15] == [12, 16, 14]
     for samples in LEVELS:
         assert sorted(n for n, s in order if s == samples) == list(range(20))
+    assert [s for _, s in order] == sorted(s for _, s in order)
+
+
+def test_what_can_be_reckoned_is_drawn_after_the_first_round_of_the_others():
+    shots = [range(12), range(12, 32)]
+    asked = []
+
+    def lacking(frame: int, before: int, after: int) -> bool:
+        asked.append((frame, before, after))
+        return frame in (4, 16, 18, 17)
+
+    order = list(rounds(shots, LEVELS, lacking))
+    drafts = [n for n, s in order if s == LEVELS[0]]
+    assert drafts == [0, 12, 8, 20, 11, 28, 31, 4, 16, 18, 17]
+    first = [n for n, s in order if s == LEVELS[1]]
+    assert first[:11] == [0, 8, 4, 11, 12, 20, 28, 16, 18, 17, 31] and sorted(first) == list(range(32))
+    assert all(any(before in shot and after in shot for shot in shots) for _, before, after in asked), (
+        "never across a cut"
+    )
+    assert (10, 8, 11) not in asked and (9, 8, 11) in asked and (22, 20, 24) not in asked
     assert [s for _, s in order] == sorted(s for _, s in order)
 
 
@@ -154,8 +199,8 @@ def test_what_an_earlier_process_found_does_not_stop_a_film_for_good(tmp_path, m
 
 @pytest.mark.parametrize("count", [24, 5000])
 def test_at_least_half_of_the_minutes_is_for_drawing(count):
-    assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.06 * count)
-    assert refining.drawing_s(60.0, 100, (640, 360)) == 60.0 - 1.5
+    assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.16 * count)
+    assert refining.drawing_s(60.0, 100, (640, 360)) == 60.0 - 4.0
 
 
 def test_where_the_renderer_gives_up_the_plainer_one_has_frames_of_its_own(tmp_path):
@@ -234,18 +279,49 @@ def test_with_no_time_at_all_there_is_still_a_whole_film(tmp_path):
     assert not refine(film, state, time.perf_counter() - 1.0, lambda: None)
     assert film.asked == [(0, LEVELS[0])]
     written = []
-    encode(state, tmp_path / "final.mp4", SIZE, 24, written.append)
+    encode(film, state, tmp_path / "final.mp4", SIZE, 24, written.append)
     assert len(shown(tmp_path / "final.mp4")) == 12
     assert written == list(range(1, 13)), "who watches is told that it goes on"
-    assert state.told() == {"samples": {"least": 0, "most": LEVELS[0]}, "drawn": 1, "taken_over": 0}
+    told = state.told()
+    assert told.pop("rest_s") >= 0
+    assert told == {"samples": {"least": LEVELS[0], "most": LEVELS[0]}, "drawn": 1, "taken_over": 0, "reckoned": 0}
 
 
 def test_what_is_missing_is_shown_by_the_frame_before_it(tmp_path):
     film, state = Drawn(12), Refined(tmp_path / "frames", 12, "it")
     for number in (0, 4, 8):
         state.keep(number, film.picture(number, 2), 2)
-    encode(state, tmp_path / "final.mp4", SIZE, 24, lambda number: None)
+    encode(film, state, tmp_path / "final.mp4", SIZE, 24, lambda number: None)
     assert np.allclose(shown(tmp_path / "final.mp4"), [0] * 4 + [4] * 4 + [8] * 4, atol=0.3)
+
+
+def test_what_is_missing_is_reckoned_between_the_drawn_frames_of_its_shot_unless_it_is_late(tmp_path):
+    film, state = Halfway([range(6), range(6, 12)]), Refined(tmp_path / "frames", 12, "it")
+    for number in (0, 4, 6, 10):
+        state.keep(number, film.picture(number, 2), 2)
+    encode(film, state, tmp_path / "final.mp4", SIZE, 24, lambda number: None)
+    assert state.told()["reckoned"] == 6 and "6 reckoned between them" in state.text()
+    means = [0, 2, 2, 2, 4, 4, 6, 8, 8, 8, 10, 10]
+    assert np.allclose(shown(tmp_path / "final.mp4"), means, atol=0.3)
+    encode(film, state, tmp_path / "late.mp4", SIZE, 24, lambda number: None, until=0.0)
+    assert state.told()["reckoned"] == 0
+    assert np.allclose(shown(tmp_path / "late.mp4"), [0] * 4 + [4] * 2 + [6] * 4 + [10] * 2, atol=0.3)
+
+
+def test_the_frames_that_others_are_reckoned_from_become_better_first(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+
+    class Slow(Halfway):
+        def picture(self, number: int, samples: float) -> np.ndarray:
+            clock[0] += samples
+            return super().picture(number, samples)
+
+    film, state = Slow([range(17)]), Refined(tmp_path / "frames", 17, "it")
+    assert not refine(film, state, 3 * 0.5 + 3 * 2.0 + 2.5, lambda: None)
+    assert state.samples == [{0: 2, 8: 2, 16: 2, 4: 2}.get(k, 0) for k in range(17)]
+    assert film.questions == [(4, 0, 8), (12, 8, 16)]
+    assert state.told()["rest_s"] == pytest.approx(13 * 2.0), "for the first round of the others"
 
 
 def test_it_goes_on_where_it_was_cut_and_ends_when_all_is_drawn(tmp_path):

@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..recording.stored import Recording
+    from .carrying import Surfaces
     from .renderers import Moment, Quality
+    from .renderers.preview.shaded import Shaded
 
 HELD = ("eye", "target", "roll_deg", "fovy_deg", "focus_m", "aperture")
 """What does not change while a camera stands still."""
@@ -89,14 +91,36 @@ class Screening:
         self.tick: Callable[[], object] = lambda: None
         """Called whenever a moment is set up, since a picture may take minutes."""
         self.frames = Frames(self.model, *size, renderer)
+        self._seen: Shaded | None = None
 
     def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame, words and all: uint8 (height, width, 3)."""
-        film, moments = self.film, self._moments(quality)
+        return self.lettered(frame, self.wordless(frame, quality))
+
+    def wordless(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
+        """One frame without its words: uint8 (height, width, 3)."""
+        moments = self._moments(quality)
         before = [Before(number, self._parts(number, moments)) for number in self.standing(frame, quality)]
-        image = self.frames.over(before, self._parts(frame, moments), self._camera, quality)
+        return self.frames.over(before, self._parts(frame, moments), self._camera, quality)
+
+    def lettered(self, frame: int, image: "np.ndarray") -> "np.ndarray":
+        """A picture with the words of a frame, which none can leave out: uint8 (height, width, 3)."""
+        film = self.film
         speed = film.speed(frame, self.fps)
         return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)])
+
+    def surfaces(self, frame: int, coarser: int = 1) -> "Surfaces":
+        """What a frame shows, pixel by pixel, in the middle of the time that its shutter is open, `coarser` times smaller each way.
+
+        Raises:
+            RuntimeError: the graphics driver refuses; other exceptions of its own, too.
+        """
+        from .renderers.preview.shaded import Shaded
+
+        if self._seen is None:
+            self._seen = Shaded(self.model, self.frames.width, self.frames.height)
+        data = self._moment(frame + self.film.shutter / 2)
+        return self._seen.surfaces(data, self._camera, coarser)
 
     def _moments(self, quality: "Quality") -> int:
         """How many moments the shutter is open for: each takes one sample at least, and a draft is sharp."""
@@ -234,8 +258,11 @@ class Screening:
         return self.frames.segmentation(self._replay.data, self._camera)
 
     def close(self) -> None:
-        """Free the graphics context."""
+        """Free the graphics contexts."""
         self.frames.close()
+        if self._seen is not None:
+            self._seen.close()
+            self._seen = None
 
     def __enter__(self) -> "Screening":
         return self

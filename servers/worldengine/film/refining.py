@@ -1,10 +1,11 @@
 """The final pass: a film that is whole after its first minute and becomes better until its minutes are over.
 
-All frames are drafted first, at half the size with their surfaces' colours at the whole, every eighth, then those between, so
-that a film stands whenever it is cut: a frame that is missing is shown by the one before it. Then they are drawn again in
-place, shot by shot, with three times the samples each round, as long as the minutes last. Of a shot whose camera and light stand still, the last
-frame and the first are traced as a whole, the others only where they differ from both. What is drawn lies in `frames/`, a folder
-for each film, and is gone on with later.
+Frames far apart are drafted first, at half the size with their surfaces' colours at the whole: every eighth, then those between
+that cannot be reckoned from them (`between.py`), so that a film stands whenever it is cut. Then these are drawn again in place,
+shot by shot, with more samples, before any other is traced; and so on with three times the samples each round, as long as the
+minutes last. What is not traced by then is reckoned from the traced frames before and after it while the file is written. Of a
+shot whose camera and light stand still, the last frame and the first are traced as a whole, the others only where they differ
+from both. What is drawn lies in `frames/`, a folder for each film, without its words, and is gone on with later.
 """
 
 import argparse
@@ -21,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 from worldkit.files import write_json
 
 from . import renderers
+from .drawing_order import rounds
 from .encode import Video, write_png
 from .identity import identity
 
@@ -37,9 +39,12 @@ DRAFT, FIRST, FACTOR = 0.5, 2, 3
 """Samples a pixel of the draft, of the first round after it, and how many times more each further round takes."""
 PLAIN_LEVELS = (1, 4)
 """The same of the preview: its still is drawn twice as large each way."""
-STRIDES = (8, 4, 2, 1)
 ENCODE_S = 0.06
 """Kept back for each frame of the film, s: reading it again and encoding it took 54 ms of a processor's time at 1280x720."""
+RECKON_S = 0.10
+"""Kept back besides for each frame of the film, s at 1280x720, since many may have to be reckoned."""
+LATE = 1.25
+"""Once so many times the minutes are over no frame is reckoned any more: the nearest traced one is shown."""
 
 CALMER = 0.8
 """After a dear frame the next ones are expected to take this share of it, and this share of that, …"""
@@ -56,8 +61,17 @@ class Shown(Protocol):
     def levels(self) -> Iterable[float]:
         """Samples a pixel, round by round; without end where more always make it better."""
 
+    lacking: Callable[[int, int, int], bool] | None
+    """Whether a frame cannot well be reckoned from two others; None where every frame has to be drawn."""
+
     def picture(self, number: int, samples: float) -> "np.ndarray":
-        """One frame with so many samples a pixel: uint8 (height, width, 3)."""
+        """One frame with so many samples a pixel, without its words: uint8 (height, width, 3)."""
+
+    def reckoned(self, number: int, drawn: Sequence[float], read: "Callable[[int], np.ndarray]") -> "np.ndarray | None":
+        """A frame by the drawn ones of its shot, those with samples; None where they show too little of it."""
+
+    def lettered(self, number: int, image: "np.ndarray") -> "np.ndarray":
+        """A picture with the words of a frame."""
 
     def stills(self, number: int, samples: float) -> int:
         """How many other frames are drawn with this one, if it is the first of its shot with so many samples."""
@@ -82,6 +96,7 @@ class OfTheAuthor:
         stack: ExitStack,
         tick: Callable[[], object] | None = None,
     ) -> None:
+        from .between import Geometry
         from .directed import Screening
 
         self._film, self._fps, self.count = film, given.fps, film.frames
@@ -91,6 +106,8 @@ class OfTheAuthor:
         if tick is not None:
             screening.tick = tick
         self.renderer = screening.frames.renderer
+        self._geometry: Geometry | None = Geometry(screening.surfaces) if self._traced else None
+        self.lacking = self._lacking if self._traced else None
 
     @property
     def _traced(self) -> bool:
@@ -101,17 +118,44 @@ class OfTheAuthor:
         return traced_levels() if self._traced else PLAIN_LEVELS
 
     def picture(self, number: int, samples: float) -> "np.ndarray":
-        """One frame, words and all.
+        """One frame without its words.
 
         Raises:
             FellBackError: the renderer gave up meanwhile.
         """
         plain: renderers.Quality = "still" if samples >= PLAIN_LEVELS[-1] else "video"
-        image = self._screening.picture(number, samples if self._traced else plain)
+        image = self._screening.wordless(number, samples if self._traced else plain)
         if self._screening.frames.renderer != self.renderer:
-            self.renderer = self._screening.frames.renderer
+            self.renderer, self.lacking = self._screening.frames.renderer, None
             raise FellBackError
         return image
+
+    def _lacking(self, frame: int, before: int, after: int) -> bool:
+        """Any is traced where the driver cannot draw what they show."""
+        if self._geometry is not None:
+            try:
+                return self._geometry.lacking(frame, before, after)
+            except Exception:  # drivers fail in ways of their own, and a traced film needs none
+                self._geometry = None
+        return True
+
+    def reckoned(self, number: int, drawn: Sequence[float], read: "Callable[[int], np.ndarray]") -> "np.ndarray | None":
+        """By where what is seen stands in the nearest traced frames before and after it."""
+        from .between import neighbours, reckoned
+
+        shot = next(shot for shot in self.shots if number in shot)
+        sides = neighbours(number, drawn, shot)
+        if self._geometry is None or not sides:
+            return None
+        try:
+            return reckoned(number, sides, self._geometry, read, self._film.shutter)
+        except Exception:  # as above
+            self._geometry = None
+            return None
+
+    def lettered(self, number: int, image: "np.ndarray") -> "np.ndarray":
+        """With its captions, and how fast it runs."""
+        return self._screening.lettered(number, image)
 
     def stills(self, number: int, samples: float) -> int:
         """The frames that stand in for what does not change in its shot, as far as the renderer draws any."""
@@ -152,8 +196,9 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         shown = OfTheAuthor(given, model, recording, film, stack, tick)
         end = started + drawing_s(seconds, shown.count, given.size)
         complete, state = refined(shown, out / FRAMES / name, about, end, tick)
+        tell = Progress(out, shown.count, "frames in the file")
+        encode(shown, state, out / f"{NAME}.mp4", given.size, given.fps, tell, started + LATE * seconds)
         told = shown.told()
-    encode(state, out / f"{NAME}.mp4", given.size, given.fps, Progress(out, shown.count, "frames in the file"))
     result = {"ok": True, "pass": NAME, **told, "frames": shown.count, "fps": given.fps, "size": list(given.size)}
     result |= {
         "seconds": shown.count / given.fps,
@@ -167,7 +212,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
 
 def drawing_s(seconds: float, count: int, size: Sequence[int]) -> float:
     """Seconds of those given in which frames are drawn; the rest is for the file, but never more than half."""
-    return max(seconds / 2, seconds - ENCODE_S * count * size[0] * size[1] / (1280 * 720))
+    return max(seconds / 2, seconds - (ENCODE_S + RECKON_S) * count * size[0] * size[1] / (1280 * 720))
 
 
 def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick: Any) -> "tuple[bool, Refined]":
@@ -233,6 +278,8 @@ class Refined:
         self.samples = [n if self.path(k).is_file() else 0.0 for k, n in enumerate(self.samples)]
         self.taken_over = sum(n > 0 for n in self.samples)
         """So many frames stood already."""
+        self.reckoned = 0
+        """So many frames of the file were reckoned between drawn ones."""
 
     def path(self, number: int) -> Path:
         """The file of a frame."""
@@ -250,17 +297,33 @@ class Refined:
         drawn = [k for k, n in enumerate(self.samples) if n > 0]
         return max((k for k in drawn if k <= number), default=drawn[0])
 
+    def read(self, number: int) -> "np.ndarray":
+        """A frame that is drawn: uint8 (H, W, 3)."""
+        import cv2
+
+        image = cv2.imread(str(self.path(number)), cv2.IMREAD_COLOR)
+        assert image is not None  # it was written by us
+        return cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
+
     def told(self) -> dict[str, Any]:
-        """How far it has come: `samples` a pixel, least and most; the number `drawn`; of these, those `taken_over`."""
-        least, most = min(self.samples), max(self.samples)
+        """How far it has come: `samples` a pixel of the drawn frames, least and most; the number `drawn`; of these, those
+        `taken_over`; those `reckoned` between them; and about how many seconds the rest would take, `rest_s`."""
+        taken = [n for n in self.samples if n > 0] or [0.0]
         drawn = sum(n > 0 for n in self.samples)
-        return {"samples": {"least": least, "most": most}, "drawn": drawn, "taken_over": self.taken_over}
+        rest = (len(self.samples) - drawn) * self.pace.recent * FIRST
+        return {
+            "samples": {"least": min(taken), "most": max(taken)},
+            "drawn": drawn,
+            "taken_over": self.taken_over,
+            "reckoned": self.reckoned,
+            "rest_s": round(rest, 1),
+        }
 
     def text(self) -> str:
         """The same in words."""
-        said = self.told()
-        head = f"{said['drawn']} of {len(self.samples)} frames"
-        return f"{head}, {said['samples']['least']:g} to {said['samples']['most']:g} samples a pixel"
+        said, count = self.told(), len(self.samples)
+        text = f"{said['drawn']} of {count} frames, {said['samples']['least']:g} to {said['samples']['most']:g} samples a pixel"
+        return f"{text}; {self.reckoned} reckoned between them" if self.reckoned else text
 
 
 def traced_levels() -> Iterator[float]:
@@ -268,21 +331,6 @@ def traced_levels() -> Iterator[float]:
     yield DRAFT
     for number in itertools.count():
         yield FIRST * FACTOR**number
-
-
-def rounds(shots: Sequence[range], levels: Iterable[float]) -> Iterator[tuple[int, float]]:
-    """(frame, samples) in the order of drawing: of the film, and after its draft of each shot, every eighth frame first, then
-    those between. What stands still in a shot is drawn once for it, and need not be kept for another."""
-    parts: Sequence[range] = [range(shots[-1].stop)]
-    for samples in levels:
-        for part in parts:
-            done: set[int] = set()
-            for stride in STRIDES:
-                for number in part[::stride]:
-                    if number not in done:
-                        done.add(number)
-                        yield number, samples
-        parts = shots
 
 
 def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
@@ -295,7 +343,7 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     """
     begun: set[tuple[int, float]] = set()
     draft, now = next(iter(shown.levels())), time.perf_counter()
-    for number, samples in rounds(shown.shots, shown.levels()):
+    for number, samples in rounds(shown.shots, shown.levels(), shown.lacking):
         if state.samples[number] >= samples:
             continue
         shot = 0 if samples == draft else max(k for k, shot in enumerate(shown.shots) if shot.start <= number)
@@ -313,19 +361,26 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     return True
 
 
-def encode(state: Refined, path: Path, size: tuple[int, int], fps: int, tick: Callable[[int], object]) -> None:
-    """Write the film out of the frames that there are; `tick` is called with the number written."""
-    import cv2
-    import numpy as np
+def encode(
+    shown: Shown,
+    state: Refined,
+    path: Path,
+    size: tuple[int, int],
+    fps: int,
+    tick: Callable[[int], object],
+    until: float = float("inf"),
+) -> None:
+    """Write the film out of the frames that there are, and of those reckoned between them before the clock reaches `until`, s;
+    `tick` is called with the number written."""
+    from functools import lru_cache
 
+    read = lru_cache(maxsize=2)(state.read)
+    state.reckoned = 0
     with Video(path, *size, fps) as film:
-        last = -1
-        image: np.ndarray = np.zeros(1)
-        for number in range(len(state.samples)):
-            nearest = state.nearest(number)
-            if nearest != last:
-                read = cv2.imread(str(state.path(nearest)), cv2.IMREAD_COLOR)
-                assert read is not None  # it was written by us
-                last, image = nearest, cv2.cvtColor(read, cv2.COLOR_BGR2RGB)
-            film.add(image)
+        for number, samples in enumerate(state.samples):
+            image = None
+            if samples <= 0 and time.perf_counter() < until:
+                image = shown.reckoned(number, state.samples, read)
+                state.reckoned += image is not None
+            film.add(shown.lettered(number, read(state.nearest(number)) if image is None else image))
             tick(number + 1)

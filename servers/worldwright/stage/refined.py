@@ -4,6 +4,7 @@ Each film has a set of its own, by the hash of its description: a slip in `film.
 meanwhile, cost none of the author's frames.
 """
 
+import math
 import shutil
 from contextlib import suppress
 from pathlib import Path
@@ -66,7 +67,24 @@ def _drawn_at(path: Path) -> float:
 
 
 def said(summary: dict[str, Any]) -> str:
-    """What a final pass says of the frames that it went on with; empty of any other pass."""
+    """What a final pass says of its frames; empty of any other pass."""
     if "taken_over" not in summary:
         return ""
-    return f"{summary['taken_over'] or 'none'} of its {summary['frames']} frames stood already, from an earlier pass of this very film"
+    count, drawn, reckoned, samples = (summary[name] for name in ("frames", "drawn", "reckoned", "samples"))
+    held = count - drawn - reckoned
+    parts = [
+        f"{drawn} of its {count} frames are drawn, with {samples['least']:g} to {samples['most']:g} samples a pixel"
+    ]
+    parts += [f"{reckoned} are reckoned between them by how all that is seen moves"] if reckoned else []
+    parts += [f"{held} show the nearest drawn one"] if held else []
+    parts += (
+        [f"{summary['taken_over']} stood already, from an earlier pass of this very film"]
+        if summary["taken_over"]
+        else []
+    )
+    if count > drawn:
+        more = max(1, math.ceil(summary["rest_s"] / 60))
+        parts.append(f"about {more} more minute{'s' if more > 1 else ''} (minutes={more}) would draw the rest")
+    elif not summary["complete"]:
+        parts.append("more minutes give each more samples")
+    return "; ".join(parts)

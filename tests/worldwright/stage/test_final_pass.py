@@ -53,12 +53,13 @@ def test_a_film_is_whole_after_a_blink_and_goes_on_with_the_same_frames(reviewed
         assert sum(1 for _ in film.decode(video=0)) == told["frames"] > told["drawn"]
     assert set(first["files"]) == {"final.mp4", "environment.json"}, "its frames are no evidence"
 
-    assert told["taken_over"] == 0 and "none of its" in first["message"]
+    assert told["taken_over"] == 0 and f"{told['drawn']} of its {told['frames']} frames are drawn" in first["message"]
+    assert "stood already" not in first["message"] and "would draw the rest" in first["message"]
     (before_it,) = stood(run, job)
 
     again, second = drawn(run, minutes=BLINK)
     assert not again.cached and again.job != job.job
-    assert second["summary"]["taken_over"] == told["drawn"] and f"{told['drawn']} of its" in second["message"]
+    assert second["summary"]["taken_over"] == told["drawn"] and f"{told['drawn']} stood already" in second["message"]
     assert stood(run, job) == [] and stood(run, again) == [before_it], "the very file, not another like it"
     assert status(str(folder)).text().splitlines()[:3] == before.text().splitlines()[:3], "no other step minds it"
 

@@ -73,6 +73,22 @@ class Painter:
         GL.glBindTexture(GL.GL_TEXTURE_BUFFER, self._rows_texture)
         GL.glTexBuffer(GL.GL_TEXTURE_BUFFER, GL.GL_RGBA32F, self._buffer)
 
+    def poses(self) -> np.ndarray:
+        """How each thing turns and scales, and where it is, m: (N, 3, 4)."""
+        poses = self._rows[:, :12].reshape(-1, 3, 4).astype(float)
+        size = np.abs(self._rows[:, 12:15].astype(float))
+        size[:, 2] += np.abs(self._rows[:, 15])
+        poses[:, :, :3] *= np.where(size > 0, size, 1.0)[:, None]
+        return poses
+
+    def numbers(self) -> np.ndarray:
+        """The number of each thing, -1 of what has no shape of its own, and at last -1 of none: int32 (N + 1,)."""
+        numbers = np.append(np.arange(len(self._rows), dtype=np.int32), np.int32(-1))
+        for shape, batch, count in self._soft(None):
+            if shape is not None:
+                numbers[batch.first : batch.first + count] = -1
+        return numbers
+
     def batches(self, *, clear: bool | None = False, ground: bool = True, walls: bool = True) -> Iterator[Batch]:
         """Batches to draw: opaque (`clear` False), see-through (True) or all (None)."""
         for batch in self.things.batches:

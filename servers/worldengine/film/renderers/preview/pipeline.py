@@ -16,6 +16,7 @@ from OpenGL import GL
 from worldkit.materials import look
 from worldkit.settings import STUDIO, Light
 
+from ...carrying import RIM_PX, Surfaces
 from ...panel_lights import of_model
 from ...treatment import PLAIN, Treatment
 from . import gl, room
@@ -111,6 +112,8 @@ class Pipeline:
         self._skies: dict[int, gl.Program] = {}
         self._depth_program = gl.Program("thing.vert", "shadow.frag", FULL=0)
         self._number: gl.Target | None = None
+        self._surfaces: dict[int, gl.Target] = {}
+        self._surface_at: gl.Program | None = None
 
     def _weigh(self) -> None:
         """Compute the direction of the key light, and the light on level ground."""
@@ -343,18 +346,40 @@ class Pipeline:
         if self._number is None:
             self._number = gl.Target(self.width, self.height, GL.GL_R32I, depth=True, linear=False)
             self._ident = gl.Program("thing.vert", "ident.frag", FULL=0)
-        view = of_camera(self.model, data, camera, self.width, self.height)
         self.painter.upload(data)
         self._number.bind()
+        GL.glClearBufferiv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.int32))
+        self._first_seen(self._ident.use(), of_camera(self.model, data, camera, self.width, self.height))
+        raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RED_INTEGER, GL.GL_INT)
+        return np.frombuffer(raw, dtype=np.int32).reshape(self.height, self.width)[::-1].copy()
+
+    def surfaces(self, data: mujoco.MjData, camera: int, coarser: int = 1) -> Surfaces:
+        """What each pixel shows first, be it glass, and how far away; `coarser` times smaller each way."""
+        if coarser not in self._surfaces:
+            size = max(self.width // coarser, 1), max(self.height // coarser, 1)
+            self._surfaces[coarser] = gl.Target(*size, GL.GL_RG32F, depth=True, linear=False)
+            self._surface_at = self._surface_at or gl.Program("thing.vert", "surface_at.frag", FULL=0)
+        target, program = self._surfaces[coarser], self._surface_at
+        view = of_camera(self.model, data, camera, self.width, self.height)
+        self.painter.upload(data)
+        target.bind()
+        GL.glClearBufferfv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.float32))
+        assert program is not None
+        self._first_seen(program.use().set(forward=view.forward), view)
+        both = np.empty((target.height, target.width, 2), np.float32)
+        GL.glReadPixels(0, 0, target.width, target.height, GL.GL_RG, GL.GL_FLOAT, both)
+        things = self.painter.numbers()[np.rint(both[::-1, :, 0]).astype(np.int32)]
+        rim = RIM_PX if coarser == 1 else 0
+        return Surfaces(things, np.ascontiguousarray(both[::-1, :, 1]), self.painter.poses(), view, rim)
+
+    def _first_seen(self, program: gl.Program, view: View) -> None:
+        """Draw all things with a program into the bound target, whose colour is clear, and let it be read."""
         GL.glEnable(GL.GL_DEPTH_TEST)
         GL.glDepthMask(GL.GL_TRUE)
         GL.glDepthFunc(GL.GL_GEQUAL)
         GL.glDisable(GL.GL_BLEND)
         GL.glClearDepth(0.0)
         GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
-        GL.glClearBufferiv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.int32))
-        self._ident.use().set(view_projection=view.matrix(), eye=view.eye, rank_step=RANK_STEP, mirrored=0)
-        self.painter.draw(self._ident, view, self.height, clear=None)
+        program.set(view_projection=view.matrix(), eye=view.eye, rank_step=RANK_STEP, mirrored=0)
+        self.painter.draw(program, view, self.height, clear=None)
         GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
-        raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RED_INTEGER, GL.GL_INT)
-        return np.frombuffer(raw, dtype=np.int32).reshape(self.height, self.width)[::-1].copy()

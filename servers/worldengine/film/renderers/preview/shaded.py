@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     import mujoco
     import numpy as np
 
+    from ...carrying import Surfaces
     from ...treatment import Treatment
 
 
@@ -50,6 +51,11 @@ class Shaded:
         """Geom number of each pixel, or -1: int32 (height, width)."""
         self._context.make_current()
         return self._pipeline.segmentation(data, camera)
+
+    def surfaces(self, data: "mujoco.MjData", camera: int, coarser: int = 1) -> "Surfaces":
+        """What each pixel shows and how far away, `coarser` times smaller each way."""
+        self._context.make_current()
+        return self._pipeline.surfaces(data, camera, coarser)
 
     def treat(self, treatment: "Treatment") -> bool:
         """Apply this light, haze, focus and grading from now on."""
