@@ -1,11 +1,12 @@
 """What a film's author says becomes a description of every frame, or is refused with what to do instead."""
 
+import itertools
 import json
 
 import numpy as np
 import pytest
 
-from worldkit import turning
+from worldkit import sculpt, turning
 from worldkit.errors import ProgramError
 from worldkit.filming import (
     MOODS,
@@ -325,3 +326,29 @@ def test_trees_keep_their_budget_stand_on_the_ground_and_are_the_same_again(on_h
         on_hill.tree("more", kind, at=[(5, 0)], z="hill")
     with pytest.raises(ProgramError, match="conifer or broadleaf"):
         on_hill.tree("more", "palm", at=[(0, 0)])
+
+
+def test_a_limb_is_one_tapered_skin_over_a_chain_each_piece_fixed_to_its_body():
+    slant = np.array([-0.5, 0.0, 0.8])
+    ways = {f"branch_{k + 1}": np.tile([1.0, 2.0, 0.5] + 0.12 * k * slant, (8, 1)) for k in range(3)}
+    film = Film(Recorded.rehearsal(ways, duration=1.0, radius=0.06))
+    film.limb("branch", list(ways), (0.02, 0.008), twigs=2, leaf=sculpt.leaf(0.05, 0.03, veins=0))
+    facts, arrays = film.description()
+    things = {thing["name"]: thing for thing in facts["things"]}
+    assert [thing["to"] for name, thing in things.items() if name[-1].isdigit()] == list(ways)
+    assert {f"branch 2 {part}" for part in ("twigs", "leaves")} <= set(things) and not things["branch 2 twigs"][
+        "instead"
+    ]
+    placed = [arrays[things[f"branch {k + 1}"]["vertices"]] + ways[f"branch_{k + 1}"][0] for k in range(3)]
+    for one, other in itertools.pairwise(placed):  # at the start the pieces share the rings around each joint
+        shared = sum(np.isclose(one, point, atol=1e-6).all(axis=1).any() for point in other)
+        assert shared == 3 * 14
+    thick = [np.linalg.norm(np.ptp(points, axis=0)[1]) for points in placed]
+    assert 0.02 + 1e-6 >= thick[0] > thick[1] > thick[2] >= 0.008 - 1e-6
+    for bodies, sizes in (
+        (["branch_1"], (0.02, 0.01)),
+        (["branch_1", "branch_1"], (0.02, 0.01)),
+        (list(ways), (0.02, 0)),
+    ):
+        with pytest.raises(ProgramError, match="is no chain"):
+            film.limb("bad", bodies, sizes)

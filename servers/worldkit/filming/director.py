@@ -8,9 +8,9 @@ import numpy as np
 from ..errors import ProgramError
 from . import hero, sets
 from .drawn_only import look_facts
-from .dressing import Dressing
 from .film_bounds import MOST_FRAMES, PLACES
 from .frame_by_frame import grown, sampled
+from .limbs import Limbs
 from .recorded import Recorded
 from .viewpoints import Viewpoint
 
@@ -18,7 +18,7 @@ SLOWEST, FASTEST = 1 / 200, 50.0
 Speed = float | tuple[float, float]
 
 
-class Film(Dressing):
+class Film(Limbs):
     """A film in the making; `recorded` is what happened.
 
     Shots follow each other; what is not said has good defaults: without any shot the film tells the event by itself, without

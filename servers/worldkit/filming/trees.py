@@ -28,9 +28,7 @@ def tree(kind: str, height: float, seed: int) -> Tree:
 
 def _conifer(height: float, random: np.random.Generator) -> Tree:
     """A spruce: whorls of boughs that hang at the foot and rise at the top, with twigs of needles on both sides."""
-    wood = [
-        _limb(np.array([[0, 0, 0], [0, 0, 0.55 * height], [0, 0, height]]), [0.018 * height, 0.011 * height, 0.001])
-    ]
+    wood = [limb(np.array([[0, 0, 0], [0, 0, 0.55 * height], [0, 0, height]]), [0.018 * height, 0.011 * height, 0.001])]
     cards, levels = [], 30
     for level in range(levels):
         share = (level + 0.5 * random.random()) / levels
@@ -44,7 +42,7 @@ def _conifer(height: float, random: np.random.Generator) -> Tree:
             base = np.array([0, 0, z])
             way = [base, base + 0.5 * long * out - [0, 0, 0.65 * sag], base + long * out - [0, 0, 0.75 * sag]]
             if share < 0.8:
-                wood.append(_limb(np.array(way), [0.004 * height * (1 - share) + 0.002, 0.003, 0.001], sides=3))
+                wood.append(limb(np.array(way), [0.004 * height * (1 - share) + 0.002, 0.003, 0.001], sides=3))
             cards += _twigs(np.array(way), yaw, long, random)
     return _whole(wood, cards)
 
@@ -76,7 +74,7 @@ def _broadleaf(height: float, random: np.random.Generator) -> Tree:
         middle = foot + 0.5 * long * (ahead + bend)
         end = foot + long * (ahead + 0.5 * bend)
         wood.append(
-            _limb(np.array([foot, middle, end]), [thick, 0.8 * thick, 0.6 * thick], sides=SIDES if level < 2 else 3)
+            limb(np.array([foot, middle, end]), [thick, 0.8 * thick, 0.6 * thick], sides=SIDES if level < 2 else 3)
         )
         if level >= 2:
             tips.append(end)
@@ -118,7 +116,7 @@ def _broadleaf(height: float, random: np.random.Generator) -> Tree:
     return made._replace(wood=made.wood * (height / top), leaves=made.leaves * (height / top))
 
 
-def _limb(way: np.ndarray, radii: list[float], sides: int = SIDES) -> tuple[np.ndarray, np.ndarray]:
+def limb(way: np.ndarray, radii: list[float], sides: int = SIDES) -> tuple[np.ndarray, np.ndarray]:
     """A tube through some points (N, 3), with a radius at each, m; open at its ends."""
     ahead = way[-1] - way[0]
     one = np.cross(ahead, [0.3, 0.9, 0.1] if abs(ahead[0]) > abs(ahead[1]) else [0.9, 0.3, 0.1])
