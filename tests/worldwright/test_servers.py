@@ -34,6 +34,7 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
     planned.mkdir()
     (planned / "plan.md").write_text((copy / "plan.md").read_text(encoding="utf-8") + "\n", encoding="utf-8")
     (copy / "pebble.py").write_text("from worldkit import sculpt\n\npebble = sculpt.sphere(0.05)\n", encoding="utf-8")
+    (copy / "block.obj").write_text(BLOCK, encoding="utf-8")
     return {
         "retrieve": {
             "search": {"question": "how does restitution follow from solref", "k": 3},
@@ -41,6 +42,7 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "symbol": {"name": "mujoco.mj_step"},
             "breaking_changes": {"name": "composite"},
             "find_asset": {"query": "mug"},
+            "add_asset": {"file": str(copy / "block.obj"), "height": 0.2, "material": "wood"},
             "begin": {"sentence": "a ball falls beside a block", "run": f"{copy}-begun"},
             "status": {},
         },
@@ -91,8 +93,14 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
     }[server]
 
 
+BLOCK = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 1)) + "".join(
+    f"f {row}\n" for row in ("1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4")
+)
+"""A cube as a mesh file."""
+
+
 def serve(server: str) -> StdioServerParameters:
-    """How a client starts a server that has the tests' own key and cache, since a client passes on next to nothing."""
+    """How a client starts a server that has the tests' own key, cache and assets, since a client passes on next to nothing."""
     return StdioServerParameters(
         command=sys.executable, args=["-m", "worldwright.cli", "serve", server], env=dict(os.environ)
     )
@@ -119,7 +127,8 @@ async def talk(server: str, table: dict[str, dict]) -> dict:
 
 
 @pytest.mark.parametrize("server", expose.SERVERS)
-def test_every_tool_answers(server, world, tmp_path):
+def test_every_tool_answers(server, world, tmp_path, monkeypatch):
+    monkeypatch.setenv("WORLDWRIGHT_ASSETS", str(tmp_path / "own"))
     copy = tmp_path / "copy"
     shutil.copytree(world, copy, symlinks=True)
     shutil.rmtree(copy / "accepted")

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.files import write_atomic
 
 from ..recording.replay import Replay
-from ..storyboard import labelled, laid_out
+from .contact_sheet import labelled, laid_out
 from .encode import write_png
 from .light_meter import reading
 
