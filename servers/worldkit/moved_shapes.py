@@ -1,7 +1,7 @@
 """What an author's law moves: points that are only drawn, as a surface of triangles or as grains.
 
 The engine simulates nothing of them. In a picture they lie where the law's points lay (`worldkit.laws`); grains that touch can be
-drawn as one skin (`film.one_surface`).
+drawn as one skin (`film.surface`).
 """
 
 from typing import TYPE_CHECKING, Any
