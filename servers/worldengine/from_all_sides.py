@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from worldkit.files import write_atomic, write_json
 
-from .storyboard import labelled, laid_out
+from .film.picture_grid import labelled, laid_out
 
 if TYPE_CHECKING:
     import numpy as np

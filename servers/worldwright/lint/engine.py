@@ -12,9 +12,8 @@ from ..shelf import Attribute, Entry, Function, Shelf, failed
 from . import source as sources
 from . import suppression
 from .harm import KINDS
-from .problem import Problem
+from .problem import NOT_TRIED, Problem
 from .program_view import Program
-from .report import NOT_TRIED
 
 if TYPE_CHECKING:
     from .compiled.fetch import Outcome

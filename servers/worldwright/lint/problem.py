@@ -5,6 +5,9 @@ from dataclasses import dataclass
 
 from ..model.finding import Severity
 
+NOT_TRIED = "not tried"
+"""Said of a file that nothing but reading has judged, although it would have to be tried."""
+
 
 @dataclass(frozen=True)
 class Edit:

@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING
 from ..model.evidence.reports import LintReport
 from ..model.finding import Finding
 from ..model.frozen import Frozen
+from .problem import NOT_TRIED
 
 if TYPE_CHECKING:
     from rich.text import Text
 
 MAX_FINDINGS = 80
 """A tool's answer stays below 20 KB."""
-NOT_TRIED = "not tried"
-"""Said of a file that nothing but reading has judged, although it would have to be tried."""
 
 
 class ShownReport(LintReport):
