@@ -1,7 +1,4 @@
-"""Draw a world as it starts through every camera it has, or one that stands anywhere, small, on one sheet: `sheet.jpg`.
-
-Or, plainly, through the first camera alone and at half the size, so that its edges are smooth: `thumbnail.png`.
-"""
+"""Draw a world as it starts through every camera it has, or one that stands anywhere, small, on one sheet: `sheet.jpg`."""
 
 import argparse
 import sys
@@ -10,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from worldkit.files import write_atomic, write_json
 
-from .film.contact_sheet import labelled, laid_out
+from .film.picture_grid import labelled, laid_out
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,7 +16,7 @@ if TYPE_CHECKING:
 
 SIZE = 448, 336
 COLUMNS = 2
-SHEET, THUMBNAIL = "sheet.jpg", "thumbnail.png"
+SHEET = "sheet.jpg"
 
 
 def run(given: "Given", options: argparse.Namespace) -> None:
@@ -53,24 +50,10 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         chosen, names = chosen[:1], [FREE]
     with Frames(model, width, height) as frames:
         for camera, name in zip(chosen, names, strict=True):
-            image = frames.image(data, camera, quality="still" if options.plain else "video")
-            pictures.append(image if options.plain else labelled(image, name))
+            pictures.append(labelled(frames.image(data, camera, quality="video"), name))
         renderer = frames.told()
-    if options.plain:
-        write_atomic(options.out / THUMBNAIL, _halved(pictures[0]))
-    else:
-        write_atomic(options.out / SHEET, laid_out(pictures, COLUMNS))
+    write_atomic(options.out / SHEET, laid_out(pictures, COLUMNS))
     wall = round(time.perf_counter() - started, 3)
     told = {"cameras": names, "size": [width, height], "renderer": renderer, "wall_s": wall}
     write_json(options.out / "result.json", {"ok": True, "pass": "sheet", **told})
     sys.stdout.write(f"{len(names)} cameras in {wall:.1f} s\n")
-
-
-def _halved(image: "np.ndarray") -> bytes:
-    """A picture (H, W, 3) at half its size, as PNG."""
-    import cv2
-
-    size = image.shape[1] // 2, image.shape[0] // 2
-    small = cv2.resize(image, size, interpolation=cv2.INTER_AREA)
-    data: bytes = cv2.imencode(".png", small[..., ::-1])[1].tobytes()
-    return data

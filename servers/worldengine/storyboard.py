@@ -28,10 +28,10 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     from worldkit import cameras
     from worldkit.reporting import Progress
 
-    from .film.contact_sheet import labelled, laid_out
     from .film.drawn_frames import Frames
     from .film.light_meter import reading
     from .film.passes import choose_cameras, headless_gl
+    from .film.picture_grid import labelled, laid_out
     from .recording import stored
     from .recording.replay import Replay
 

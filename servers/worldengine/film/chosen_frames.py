@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Any
 from worldkit.files import write_atomic
 
 from ..recording.replay import Replay
-from .contact_sheet import labelled, laid_out
 from .encode import write_png
 from .light_meter import reading
+from .picture_grid import labelled, laid_out
 
 if TYPE_CHECKING:
     import mujoco

@@ -1,4 +1,4 @@
-"""Lay small pictures with their labels on one sheet."""
+"""Several pictures of one size on one sheet, each with its words in a corner."""
 
 from typing import TYPE_CHECKING
 
