@@ -98,9 +98,9 @@ def drafted(plan: Plan, program: str) -> bool:
 
 
 MACHINES = frozenset(
-    ("disk_full", "not_writable", "too_many_processes", "out_of_memory", "timed_out", "killed", "refused", "cancelled")
+    ("disk_full", "not_writable", "too_many_processes", "out_of_memory", "killed", "refused", "cancelled")
 )
-"""Codes of errors that say nothing of a plan."""
+"""Codes of errors that say nothing of a plan. What took all its processor time does: that is counted, however loaded the machine is."""
 MISSING = re.compile(r"No module named '[^']+'")
 _KEPT: dict[str, fetch.Outcome] = {}
 """The last plan's world: a program is linted many times against one plan."""
