@@ -122,12 +122,29 @@ def between(
     return (filled(image, unseen, now.things) if missing else image), missing
 
 
-def unseen(now: Surfaces, sides: "list[Surfaces]", smear: float = 0.0) -> float:
-    """The share of a picture that none of these shows."""
-    hidden = np.ones(now.depth.shape, bool)
+class Fit(NamedTuple):
+    """How well a picture can be reckoned from others."""
+
+    unseen: float
+    """The share of it that none of them shows."""
+    way: float
+    """How far, pixels, half of what is seen goes at least from the first of them to the last, by the camera's motion too."""
+    melts: float
+    """The share of it that shows what bends."""
+
+
+def fit(now: Surfaces, sides: "list[Surfaces]") -> Fit:
+    """How well the picture of a moment can be reckoned from those of others."""
+    hidden, way = np.ones(now.depth.shape, bool), 0.0
+    column, row = grid(*now.depth.shape[::-1])
+    bends = np.zeros(now.depth.shape, bool)
     for then in sides:
-        hidden &= ~carry(now, then, smear).seen
-    return float(hidden.mean())
+        found = carry(now, then)
+        hidden &= ~found.seen
+        way += float(np.median(np.hypot(found.x - column, found.y - row)))
+        soft = (now.things < 0) | (then.things < 0)
+        bends |= soft & (np.abs(now.depth - then.depth) > SLACK * now.depth)
+    return Fit(float(hidden.mean()), way, float(bends.mean()))
 
 
 def filled(image: np.ndarray, holes: np.ndarray, things: np.ndarray) -> np.ndarray:
@@ -243,9 +260,8 @@ def _place(
     height, width = now.depth.shape
     rows, columns, things, depth = pixels
     kinds, which = np.unique(things, return_inverse=True)
-    lenses = [pinhole(now.view, then.view, *motion(now.poses[k], then.poses[k]), width, height) for k in kinds]
-    turns = np.array([turn for turn, _ in lenses], np.float32)[which]
-    steps = np.array([step for _, step in lenses], np.float32)[which]
+    lenses = pinhole(now.view, then.view, *motion(now.poses[kinds], then.poses[kinds]), width, height)
+    turns, steps = (part.astype(np.float32)[which] for part in lenses)
     point = np.stack([columns, rows, np.ones(len(rows))], axis=1).astype(np.float32)
     h = np.einsum("nij,nj->ni", turns, point) + steps / depth[:, None]
     ahead = h[:, 2] > 1e-9
@@ -264,24 +280,25 @@ def _place(
 
 
 def motion(now: np.ndarray, then: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """How points of a thing at one pose (3, 4) come to where they are at another: turn (3, 3) and step (3,), m."""
-    turn = then[:, :3] @ np.linalg.pinv(now[:, :3])
-    return turn, then[:, 3] - turn @ now[:, 3]
+    """How points of things at one pose (..., 3, 4) come to where they are at another: turns (..., 3, 3), steps (..., 3), m."""
+    turn = then[..., :3] @ np.linalg.pinv(now[..., :3])
+    return turn, then[..., 3] - (turn @ now[..., 3:])[..., 0]
 
 
 def pinhole(
     now: "View", then: "View", turn: np.ndarray, step: np.ndarray, width: int, height: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """From pixels (column, row, 1) now, and the inverse of their distance, m, to those then: (3, 3) and (3,).
+    """From pixels (column, row, 1) now, and the inverse of their distance, m, to those then: (..., 3, 3) and (..., 3).
 
-    Their third number is by how much a distance grows.
+    What moves so meanwhile (..., 3, 3) and (..., 3), m, is at the sum of both; its third number is by how much the distance grows.
     """
     lens = np.array([[2 * now.tangents[0] / width, 0.0, (1.0 / width - 1.0) * now.tangents[0]],
                      [0.0, -2 * now.tangents[1] / height, (1.0 - 1.0 / height) * now.tangents[1]],
                      [0.0, 0.0, -1.0]])  # fmt: skip
     half_x, half_y = 0.5 * width / then.tangents[0], 0.5 * height / then.tangents[1]
     back = np.array([[half_x, 0.0, -(0.5 * width - 0.5)], [0.0, -half_y, -(0.5 * height - 0.5)], [0.0, 0.0, -1.0]])
-    return back @ then.axes.T @ turn @ now.axes @ lens, back @ then.axes.T @ (turn @ now.eye + step - then.eye)
+    look = back @ then.axes.T
+    return look @ turn @ now.axes @ lens, (turn @ now.eye + step - then.eye) @ look.T
 
 
 def _from_elsewhere(

@@ -131,7 +131,9 @@ class OfTheAuthor:
         return image
 
     def _lacking(self, frame: int, before: int, after: int) -> bool:
-        """Any is traced where the driver cannot draw what they show."""
+        """Any is traced where the driver cannot draw what they show; so are those across wide gaps where the breeze moves things."""
+        if after - before > 2 and self._screening.sways:
+            return True
         if self._geometry is not None:
             try:
                 return self._geometry.lacking(frame, before, after)
