@@ -201,8 +201,8 @@ def test_what_an_earlier_process_found_does_not_stop_a_film_for_good(tmp_path, m
 
 @pytest.mark.parametrize("count", [24, 5000])
 def test_at_least_half_of_the_minutes_is_for_drawing(count):
-    assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.16 * count)
-    assert refining.drawing_s(60.0, 100, (640, 360)) == 60.0 - 4.0
+    assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.22 * count)
+    assert refining.drawing_s(60.0, 100, (640, 360)) == 60.0 - 5.5
 
 
 def test_where_the_renderer_gives_up_the_plainer_one_has_frames_of_its_own(tmp_path):

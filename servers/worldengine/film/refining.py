@@ -41,9 +41,10 @@ PLAIN_LEVELS = (1, 4)
 """The same of the preview: its still is drawn twice as large each way."""
 ENCODE_S = 0.06
 """Kept back for each frame of the film, s: reading it again and encoding it took 54 ms of a processor's time at 1280x720."""
-RECKON_S = 0.10
-"""Kept back besides for each frame of the film, s at 1280x720, since many may have to be reckoned."""
-LATE = 1.25
+RECKON_S = 0.16
+"""Kept back besides for each frame of the film, s at 1280x720: two in three may have to be reckoned, and at 960x540 one took 0.14 s
+of a processor's time."""
+LATE = 1.5
 """Once so many times the minutes are over no frame is reckoned any more: the nearest traced one is shown."""
 
 CHEAPER = 0.5
