@@ -14,8 +14,9 @@ COARSER = 4
 """Whether a frame can be reckoned is told by pictures so many times smaller each way."""
 UNSEEN, MOST_UNSEEN = 0.01, 0.03
 """Of a frame so much may be seen in neither neighbour: of one between wide gaps, and of every second one, which shows for 1/24 s."""
-STRAYS = 0.06
-"""Across wide gaps what goes farther than this share of the picture's height has shadows that would be seen twice."""
+STRAYS, SWIMS = 0.06, 0.15
+"""Across wide gaps a thing that goes farther than this share of the picture's height has a shadow that would be seen twice; and
+where the camera carries everything so far, so would be what is mirrored."""
 TOO_MUCH = 0.15
 """Of a frame of which more is unknown the nearest traced one is shown instead."""
 KEPT = 24
@@ -47,10 +48,12 @@ class Geometry:
     def lacking(self, frame: int, before: int, after: int) -> bool:
         """Whether a frame cannot well be reckoned from these two."""
         now, sides = self.of(frame, COARSER), [self.of(side, COARSER) for side in (before, after)]
-        wide = after - before > 2
-        if carrying.unseen(now, sides) > (UNSEEN if wide else MOST_UNSEEN):
+        found, height = carrying.fit(now, sides), now.depth.shape[0]
+        if after - before <= 2:
+            return found.unseen > MOST_UNSEEN
+        if found.unseen > UNSEEN or found.melts > UNSEEN:
             return True
-        return wide and carrying.strayed(*sides) > STRAYS * now.depth.shape[0]
+        return carrying.strayed(*sides) > STRAYS * height or found.way > SWIMS * height
 
 
 def neighbours(frame: int, drawn: Sequence[float], shot: range) -> list[int]:

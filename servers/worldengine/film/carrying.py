@@ -27,6 +27,8 @@ SLACK = 0.004
 """A point is seen where it is as far away as what is seen there or beside it, but for this share."""
 EDGE, BORDER = 0.03, 0.05
 """What is nearer by more than the first share stands in front, and is the same at another moment but for the second."""
+MIXED = 1e-3
+"""What is mixed with something nearer weighs so little: it is better than nothing, as among leaves."""
 FEATHER_PX = 5
 """Over so many pixels the one picture gives way to the other where only that one shows what is seen."""
 
@@ -78,6 +80,8 @@ class Carried(NamedTuple):
     """Place in that picture, pixels, float32 (H, W)."""
     seen: np.ndarray
     """Whether it is seen there: bool (H, W)."""
+    clear: np.ndarray
+    """Whether that is not mixed there with something nearer: bool (H, W)."""
     still: bool
     """All of it stands where it stood."""
 
@@ -109,8 +113,8 @@ def between(
         moved = (
             picture if one.still else cv2.remap(picture, one.x, one.y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
         )
-        weight = one.seen.astype(np.float32)
-        if not one.seen.all():
+        weight = np.where(one.clear, np.float32(1.0), np.float32(MIXED) * one.seen)
+        if not one.clear.all():
             weight *= cv2.blur(weight, (FEATHER_PX, FEATHER_PX)) + np.float32(1e-3)
         weight *= np.float32(part)
         total += moved * weight[..., None]
@@ -122,12 +126,29 @@ def between(
     return (filled(image, unseen, now.things) if missing else image), missing
 
 
-def unseen(now: Surfaces, sides: "list[Surfaces]", smear: float = 0.0) -> float:
-    """The share of a picture that none of these shows."""
-    hidden = np.ones(now.depth.shape, bool)
+class Fit(NamedTuple):
+    """How well a picture can be reckoned from others."""
+
+    unseen: float
+    """The share of it that none of them shows."""
+    way: float
+    """How far, pixels, half of what is seen goes at least from the first of them to the last, by the camera's motion too."""
+    melts: float
+    """The share of it that shows what bends."""
+
+
+def fit(now: Surfaces, sides: "list[Surfaces]") -> Fit:
+    """How well the picture of a moment can be reckoned from those of others."""
+    hidden, way = np.ones(now.depth.shape, bool), 0.0
+    column, row = grid(*now.depth.shape[::-1])
+    bends = np.zeros(now.depth.shape, bool)
     for then in sides:
-        hidden &= ~carry(now, then, smear).seen
-    return float(hidden.mean())
+        found = carry(now, then)
+        hidden &= ~found.seen
+        way += float(np.median(np.hypot(found.x - column, found.y - row)))
+        soft = (now.things < 0) | (then.things < 0)
+        bends |= soft & (np.abs(now.depth - then.depth) > SLACK * now.depth)
+    return Fit(float(hidden.mean()), way, float(bends.mean()))
 
 
 def filled(image: np.ndarray, holes: np.ndarray, things: np.ndarray) -> np.ndarray:
@@ -179,16 +200,19 @@ def carry(now: Surfaces, then: Surfaces, smear: float = 0.0) -> Carried:
     turn, step = pinhole(now.view, then.view, np.eye(3), np.zeros(3), width, height)
     fixed = np.allclose(turn, np.eye(3) * turn[2, 2], atol=1e-9) and np.abs(step).max() < 1e-9
     if fixed and not here.any() and not there.any():
-        return Carried(*grid(width, height), np.ones((height, width), bool), True)
+        everywhere = np.ones((height, width), bool)
+        return Carried(*grid(width, height), everywhere, everywhere, True)
     if fixed:
         x, y = (part.copy() for part in grid(width, height))
         seen = np.abs(now.depth - then.depth) <= SLACK * now.depth
+        clear = seen.copy()
     else:
-        x, y, seen = _from_elsewhere(now, then, turn, step)
+        x, y, seen, clear = _from_elsewhere(now, then, turn, step)
     soft = (now.depth > 0) & (now.things < 0)  # how it bends is not known, so it melts where it stands
-    seen |= soft & (cv2.remap((then.things < 0).astype(np.uint8), x, y, cv2.INTER_NEAREST) > 0)
+    soft &= cv2.remap((then.things < 0).astype(np.uint8), x, y, cv2.INTER_NEAREST) > 0
+    seen, clear = seen | soft, clear | soft
     if not here.any() and not there.any():
-        return Carried(x, y, seen, False)
+        return Carried(x, y, seen, clear, False)
     rim = now.rim_px
     if smear > 0:
         rim = min(MOST_RIM_PX, rim + round(smear * farthest(now, then, shift)))
@@ -199,9 +223,11 @@ def carry(now: Surfaces, then: Surfaces, smear: float = 0.0) -> Carried:
     else:
         seen &= cv2.remap(wide, x, y, cv2.INTER_NEAREST, borderValue=0) == 0
     rows, columns, things, depth = _rimmed(now, here, brush, rim)
+    clear &= seen
     if len(rows):
-        _place(x, y, seen, now, then, (rows, columns, things, depth), wide)
-    return Carried(x, y, seen, False)
+        to_x, to_y, good = _placed(now, then, (rows, columns, things, depth), wide)
+        x[rows, columns], y[rows, columns], seen[rows, columns], clear[rows, columns] = to_x, to_y, good, good
+    return Carried(x, y, seen, clear, False)
 
 
 def _rimmed(
@@ -214,8 +240,8 @@ def _rimmed(
         none = np.zeros(0, int)
         return none, none, none, np.zeros(0, np.float32)
     mask = here.astype(np.uint8)
-    top, bottom = _span(here.any(axis=1), rim + 1)
-    left, right = _span(here.any(axis=0), rim + 1)
+    top, bottom = _span(mask.max(axis=1), rim + 1)
+    left, right = _span(mask.max(axis=0), rim + 1)
     inner = mask[top:bottom, left:right]
     _, labels = cv2.distanceTransformWithLabels(1 - inner, cv2.DIST_L2, 3, labelType=cv2.DIST_LABEL_PIXEL)
     ys, xs = np.nonzero(inner)
@@ -235,17 +261,15 @@ def _span(taken: np.ndarray, more: int) -> tuple[int, int]:
     return max(int(found[0]) - more, 0), min(int(found[-1]) + more + 1, len(taken))
 
 
-def _place(
-    x: np.ndarray, y: np.ndarray, seen: np.ndarray, now: Surfaces, then: Surfaces,
-    pixels: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray], wide: np.ndarray,
-) -> None:  # fmt: skip
-    """Carry the pixels of things that move, and of their rims, by how these move."""
+def _placed(
+    now: Surfaces, then: Surfaces, pixels: tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray], wide: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where pixels of things that move, and of their rims, are by how these move, and whether they are seen there."""
     height, width = now.depth.shape
     rows, columns, things, depth = pixels
     kinds, which = np.unique(things, return_inverse=True)
-    lenses = [pinhole(now.view, then.view, *motion(now.poses[k], then.poses[k]), width, height) for k in kinds]
-    turns = np.array([turn for turn, _ in lenses], np.float32)[which]
-    steps = np.array([step for _, step in lenses], np.float32)[which]
+    lenses = pinhole(now.view, then.view, *motion(now.poses[kinds], then.poses[kinds]), width, height)
+    turns, steps = (part.astype(np.float32)[which] for part in lenses)
     point = np.stack([columns, rows, np.ones(len(rows))], axis=1).astype(np.float32)
     h = np.einsum("nij,nj->ni", turns, point) + steps / depth[:, None]
     ahead = h[:, 2] > 1e-9
@@ -260,36 +284,38 @@ def _place(
     apart = np.abs(there - far)
     rim = (wide[row, column] > 0) & ((there <= 0) | (there >= far * (1 - SLACK)))
     good = inside & np.where(own, (same & (apart <= 0.05 * far)) | (rim & ~same), rim | same)
-    x[rows, columns], y[rows, columns], seen[rows, columns] = to_x, to_y, good
+    return to_x, to_y, good
 
 
 def motion(now: np.ndarray, then: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """How points of a thing at one pose (3, 4) come to where they are at another: turn (3, 3) and step (3,), m."""
-    turn = then[:, :3] @ np.linalg.pinv(now[:, :3])
-    return turn, then[:, 3] - turn @ now[:, 3]
+    """How points of things at one pose (..., 3, 4) come to where they are at another: turns (..., 3, 3), steps (..., 3), m."""
+    turn = then[..., :3] @ np.linalg.pinv(now[..., :3])
+    return turn, then[..., 3] - (turn @ now[..., 3:])[..., 0]
 
 
 def pinhole(
     now: "View", then: "View", turn: np.ndarray, step: np.ndarray, width: int, height: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """From pixels (column, row, 1) now, and the inverse of their distance, m, to those then: (3, 3) and (3,).
+    """From pixels (column, row, 1) now, and the inverse of their distance, m, to those then: (..., 3, 3) and (..., 3).
 
-    Their third number is by how much a distance grows.
+    What moves so meanwhile (..., 3, 3) and (..., 3), m, is at the sum of both; its third number is by how much the distance grows.
     """
     lens = np.array([[2 * now.tangents[0] / width, 0.0, (1.0 / width - 1.0) * now.tangents[0]],
                      [0.0, -2 * now.tangents[1] / height, (1.0 - 1.0 / height) * now.tangents[1]],
                      [0.0, 0.0, -1.0]])  # fmt: skip
     half_x, half_y = 0.5 * width / then.tangents[0], 0.5 * height / then.tangents[1]
     back = np.array([[half_x, 0.0, -(0.5 * width - 0.5)], [0.0, -half_y, -(0.5 * height - 0.5)], [0.0, 0.0, -1.0]])
-    return back @ then.axes.T @ turn @ now.axes @ lens, back @ then.axes.T @ (turn @ now.eye + step - then.eye)
+    look = back @ then.axes.T
+    return look @ turn @ now.axes @ lens, (turn @ now.eye + step - then.eye) @ look.T
 
 
 def _from_elsewhere(
     now: Surfaces, then: Surfaces, turn: np.ndarray, step: np.ndarray
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Where a picture from another place, of what stands still, shows what is seen now: columns, rows, and whether it does.
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Where a picture from another place, of what stands still, shows what is seen now: columns, rows, whether, and if clearly.
 
-    What borders on something nearer is mixed with it, so it goes where that goes, and nothing else is taken from such a border.
+    What borders on something nearer is mixed with it, so it goes where that goes, and nothing else is taken from such a border
+    if it can be had elsewhere.
     """
     import cv2
 
@@ -302,11 +328,13 @@ def _from_elsewhere(
     ahead = h[2] > 1e-6
     deep = np.where(ahead, h[2], np.float32(1.0))
     x, y, expected = h[0] / deep, h[1] / deep, near / deep
-    outside = {"borderMode": cv2.BORDER_CONSTANT, "borderValue": (9e9, -1.0, -1.0, 1.0)}
-    far, close, beside, mixed = cv2.split(cv2.remap(then.known, x, y, cv2.INTER_NEAREST, **outside))
-    plain = (mixed == 0) & (expected >= far * (1 - SLACK) - 1e-7) & (expected <= close * (1 + SLACK) + 1e-7)
+    none = (9e9, -1.0, -1.0, 1.0)
+    found = cv2.remap(then.known, x, y, cv2.INTER_NEAREST, borderMode=cv2.BORDER_CONSTANT, borderValue=none)
+    far, close, beside, mixed = cv2.split(found)
+    plain = (expected >= far * (1 - SLACK) - 1e-7) & (expected <= close * (1 + SLACK) + 1e-7)
     along = np.abs(beside - expected) <= BORDER * expected
-    return x, y, ahead & np.where(border, along, plain)
+    seen = ahead & np.where(border, along, plain)
+    return x, y, seen, seen & (border | (mixed == 0))
 
 
 def _beside_nearer(near: np.ndarray, reach: int) -> tuple[np.ndarray, np.ndarray]:

@@ -93,6 +93,11 @@ class Screening:
         self.frames = Frames(self.model, *size, renderer)
         self._seen: Shaded | None = None
 
+    @property
+    def sways(self) -> bool:
+        """Whether a breeze moves anything."""
+        return self.film.breeze is not None and len(self._swaying.geoms) > 0
+
     def picture(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame, words and all: uint8 (height, width, 3)."""
         return self.lettered(frame, self.wordless(frame, quality))
@@ -189,7 +194,7 @@ class Screening:
             surface.place(data)
         self._look(data, shot, row, told)
         treatment = film.treatments.at(at / self.fps, float(told("focus_m")), float(told("aperture")))
-        if film.breeze is not None and len(self._swaying.geoms):  # else what stands would be drawn anew for nothing
+        if film.breeze is not None and self.sways:  # else what stands would be drawn anew for nothing
             self._blown = (*film.breeze, time)
             treatment = replace(treatment, breeze=self._blown)
         self.frames.treat(treatment)

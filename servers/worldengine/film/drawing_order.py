@@ -13,15 +13,16 @@ def rounds(
     """(frame, samples) in the order of drawing: of the film, and after its draft of each shot, every eighth frame first, then
     those between. What stands still in a shot is drawn once for it, and need not be kept for another.
 
-    Where frames can be reckoned, only those that are `lacking` are drafted, and each round draws these in all shots before others.
+    Where frames can be reckoned, only those that are `lacking` are drafted. Each round draws these first, and from the second
+    round on the others too: reckoned between good frames they look better than drawn with few samples.
     """
     rest = iter(levels)
     draft, first = next(rest), set[int]()
     for number in far_first(range(shots[-1].stop)) if lacking is None else drafted(shots, lacking):
         first.add(number)
         yield number, draft
-    for samples in rest:
-        for early in (True, False):
+    for number, samples in enumerate(rest):
+        for early in (True, False) if number or lacking is None else (True,):
             yield from ((n, samples) for shot in shots for n in far_first(shot) if (n in first) == early)
 
 

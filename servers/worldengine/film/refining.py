@@ -2,8 +2,8 @@
 
 Frames far apart are drafted first, at half the size with their surfaces' colours at the whole: every eighth, then those between
 that cannot be reckoned from them (`between.py`), so that a film stands whenever it is cut. Then these are drawn again in place,
-shot by shot, with more samples, before any other is traced; and so on with three times the samples each round, as long as the
-minutes last. What is not traced by then is reckoned from the traced frames before and after it while the file is written. Of a
+shot by shot, with more samples, twice before any other is traced; and so on with three times the samples each round, as long as
+the minutes last. What is not traced by then is reckoned from the traced frames before and after it while the file is written. Of a
 shot whose camera and light stand still, the last frame and the first are traced as a whole, the others only where they differ
 from both. What is drawn lies in `frames/`, a folder for each film, without its words, and is gone on with later.
 """
@@ -41,11 +41,14 @@ PLAIN_LEVELS = (1, 4)
 """The same of the preview: its still is drawn twice as large each way."""
 ENCODE_S = 0.06
 """Kept back for each frame of the film, s: reading it again and encoding it took 54 ms of a processor's time at 1280x720."""
-RECKON_S = 0.10
-"""Kept back besides for each frame of the film, s at 1280x720, since many may have to be reckoned."""
-LATE = 1.25
+RECKON_S = 0.16
+"""Kept back besides for each frame of the film, s at 1280x720: two in three may have to be reckoned, and at 960x540 one took 0.14 s
+of a processor's time."""
+LATE = 1.5
 """Once so many times the minutes are over no frame is reckoned any more: the nearest traced one is shown."""
 
+CHEAPER = 0.5
+"""A sample of a finer picture takes this share of one of a draft: 1.2 s of a processor for half a sample, and 2.9 s for two."""
 CALMER = 0.8
 """After a dear frame the next ones are expected to take this share of it, and this share of that, …"""
 
@@ -107,7 +110,7 @@ class OfTheAuthor:
             screening.tick = tick
         self.renderer = screening.frames.renderer
         self._geometry: Geometry | None = Geometry(screening.surfaces) if self._traced else None
-        self.lacking = self._lacking if self._traced else None
+        self.lacking: Callable[[int, int, int], bool] | None = self._lacking if self._traced else None
 
     @property
     def _traced(self) -> bool:
@@ -131,7 +134,9 @@ class OfTheAuthor:
         return image
 
     def _lacking(self, frame: int, before: int, after: int) -> bool:
-        """Any is traced where the driver cannot draw what they show."""
+        """Any is traced where the driver cannot draw what they show; so are those across wide gaps where the breeze moves things."""
+        if after - before > 2 and self._screening.sways:
+            return True
         if self._geometry is not None:
             try:
                 return self._geometry.lacking(frame, before, after)
@@ -310,7 +315,8 @@ class Refined:
         `taken_over`; those `reckoned` between them; and about how many seconds the rest would take, `rest_s`."""
         taken = [n for n in self.samples if n > 0] or [0.0]
         drawn = sum(n > 0 for n in self.samples)
-        rest = (len(self.samples) - drawn) * self.pace.recent * FIRST
+        each = self.pace.recent * (CHEAPER if self.pace.level < 1 else 1.0)
+        rest = (len(self.samples) - drawn) * each * FIRST * FACTOR
         return {
             "samples": {"least": min(taken), "most": max(taken)},
             "drawn": drawn,
