@@ -1,4 +1,7 @@
-"""Draw a world as it starts through every camera it has, or one that stands anywhere, small, on one sheet: `sheet.jpg`."""
+"""Draw a world as it starts through every camera it has, or one that stands anywhere, small, on one sheet: `sheet.jpg`.
+
+Or, plainly, through the first camera alone and at half the size, so that its edges are smooth: `thumbnail.png`.
+"""
 
 import argparse
 import sys
@@ -16,7 +19,7 @@ if TYPE_CHECKING:
 
 SIZE = 448, 336
 COLUMNS = 2
-SHEET = "sheet.jpg"
+SHEET, THUMBNAIL = "sheet.jpg", "thumbnail.png"
 
 
 def run(given: "Given", options: argparse.Namespace) -> None:
@@ -50,10 +53,24 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         chosen, names = chosen[:1], [FREE]
     with Frames(model, width, height) as frames:
         for camera, name in zip(chosen, names, strict=True):
-            pictures.append(labelled(frames.image(data, camera, quality="video"), name))
+            image = frames.image(data, camera, quality="still" if options.plain else "video")
+            pictures.append(image if options.plain else labelled(image, name))
         renderer = frames.told()
-    write_atomic(options.out / SHEET, laid_out(pictures, COLUMNS))
+    if options.plain:
+        write_atomic(options.out / THUMBNAIL, _halved(pictures[0]))
+    else:
+        write_atomic(options.out / SHEET, laid_out(pictures, COLUMNS))
     wall = round(time.perf_counter() - started, 3)
     told = {"cameras": names, "size": [width, height], "renderer": renderer, "wall_s": wall}
     write_json(options.out / "result.json", {"ok": True, "pass": "sheet", **told})
     sys.stdout.write(f"{len(names)} cameras in {wall:.1f} s\n")
+
+
+def _halved(image: "np.ndarray") -> bytes:
+    """A picture (H, W, 3) at half its size, as PNG."""
+    import cv2
+
+    size = image.shape[1] // 2, image.shape[0] // 2
+    small = cv2.resize(image, size, interpolation=cv2.INTER_AREA)
+    data: bytes = cv2.imencode(".png", small[..., ::-1])[1].tobytes()
+    return data
