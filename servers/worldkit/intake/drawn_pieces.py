@@ -3,6 +3,7 @@
 The file is parsed by trimesh, after `declared_sizes` has looked at it.
 """
 
+import hashlib
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,10 @@ import numpy as np
 from ..errors import IntakeError
 
 Array = np.ndarray
-MOST_PIECES = 200
+MOST_PIECES = 60
+"""Of a file; each becomes a file, of which the confined process hands over at most 64 of a kind."""
+MOST_PICTURED = 40
+"""Of them those that keep a picture, where there are too many."""
 TEXTURE_PIXELS = 1024
 """Along the longer side of a texture that is kept."""
 GREY = (0.7, 0.7, 0.7, 1.0)
@@ -63,8 +67,13 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
     pieces = [_piece(mesh, path.name, number) for number, mesh in enumerate(found)]
     said = []
     if len(pieces) > MOST_PIECES:
-        said.append(f"of {len(pieces)} pieces those with one colour became one")
-        pieces = _by_colour(pieces)
+        before, pieces = len(pieces), _by_look(pieces)
+        said.append(f"of {before} pieces those of one look became one")
+        if len(pieces) > MOST_PIECES:
+            said.append(
+                f"of {len(pieces)} looks the smaller ones took on the nearest colour of the {MOST_PIECES} largest"
+            )
+            pieces = _few(pieces)
     if any(getattr(mesh.visual, "kind", "") == "vertex" for mesh in found):
         said.append("colours by vertex became one colour a piece")
     return pieces, said
@@ -156,13 +165,40 @@ def _picture(image: Any) -> Array | None:
     return pixels
 
 
-def _by_colour(pieces: list[Drawn]) -> list[Drawn]:
-    """Pieces without a picture joined by colour; those with one stay."""
-    groups: dict[tuple[float, ...], list[Drawn]] = {}
+def _by_look(pieces: list[Drawn]) -> list[Drawn]:
+    """Pieces of one picture and colour joined; a picture is the same where its pixels are."""
+    groups: dict[tuple[Any, ...], list[Drawn]] = {}
+    digests: dict[int, bytes] = {}  # a picture that several pieces share is looked at once
     for piece in pieces:
-        key = (id(piece.picture),) if piece.picture is not None else (*(round(c, 1) for c in piece.rgba), 0.0)
-        groups.setdefault(key, []).append(piece)
+        picture = piece.picture
+        if picture is not None and id(picture) not in digests:
+            digests[id(picture)] = hashlib.sha256(repr(picture.shape).encode() + picture.tobytes()).digest()
+        look = digests[id(picture)] if picture is not None else b""
+        groups.setdefault((look, *(round(c, 2) for c in piece.rgba)), []).append(piece)
     return [_joined(group) for group in groups.values()]
+
+
+def _few(pieces: list[Drawn]) -> list[Drawn]:
+    """At most so many pieces: those of most triangles stay, the others join the plain one whose colour is nearest."""
+    order = sorted(pieces, key=lambda piece: -len(piece.faces))
+    pictured = [piece for piece in order if piece.picture is not None]
+    plain = [piece for piece in order if piece.picture is None] + [_plain(piece) for piece in pictured[MOST_PICTURED:]]
+    pictured = pictured[:MOST_PICTURED]
+    plain.sort(key=lambda piece: -len(piece.faces))
+    stay = MOST_PIECES - len(pictured)
+    groups = [[piece] for piece in plain[:stay]]
+    colours = np.array([piece.rgba for piece in plain[:stay]])
+    for piece in plain[stay:]:
+        groups[int(np.linalg.norm(colours - piece.rgba, axis=1).argmin())].append(piece)
+    return [*pictured, *(_joined(group) for group in groups)]
+
+
+def _plain(piece: Drawn) -> Drawn:
+    """A piece in the mean colour of its picture instead of it."""
+    if piece.picture is None:
+        return piece
+    mean = piece.picture.reshape(-1, 3).mean(axis=0) / 255 * piece.rgba[:3]
+    return replace(piece, uv=None, picture=None, rgba=_colour(np.array([*mean, piece.rgba[3]])))
 
 
 def _joined(group: list[Drawn]) -> Drawn:

@@ -13,7 +13,7 @@ import trimesh
 from worldkit.assets.reading import read_asset
 from worldkit.errors import IntakeError
 from worldkit.intake import confined_intake as process
-from worldkit.intake import shown_meshes, taken_in
+from worldkit.intake import drawn_pieces, shown_meshes, taken_in
 from worldkit.intake.drawn_pieces import Drawn
 
 OAK = {"name": "oak", "density": 690.0, "friction": 0.4, "restitution": 0.4, "source": "a table"}
@@ -112,6 +112,36 @@ def test_many_triangles_are_drawn_as_few_with_their_picture_in_place(monkeypatch
     few = shown_meshes._fewer(sheet, len(faces))
     assert len(few.faces) <= 600 and few.uv is not None
     assert few.uv == pytest.approx(few.vertices[:, :2], abs=0.03), "the picture lies where it lay"
+
+
+def test_a_hundred_pieces_become_as_many_as_are_handed_over(tmp_path: Path) -> None:
+    from PIL import Image
+
+    from worldwright.stage.confined import MOST_MATCHING
+
+    def scene(looks: int, pictures: int) -> Path:
+        made = trimesh.Scene()
+        for number in range(100):
+            box = trimesh.creation.box((1, 1, 1))
+            if number < pictures:
+                picture = Image.new("RGB", (2, 2), (number % looks, 40, 200))
+                material = trimesh.visual.material.PBRMaterial(baseColorTexture=picture)
+                box.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=material)
+            else:
+                colour = trimesh.visual.material.PBRMaterial(baseColorFactor=[number % looks, 200, 40, 255])
+                box.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=colour)
+            box.apply_translation((2 * number, 0, 0))
+            made.add_geometry(box, node_name=f"n{number}", geom_name=f"g{number}")
+        made.export(tmp_path / f"{looks}.glb")
+        return tmp_path / f"{looks}.glb"
+
+    pieces, said = drawn_pieces.read(scene(1, 90))
+    assert len(pieces) == 2 and "one look" in " ".join(said), "equal pictures and equal colours are one"
+    pieces, said = drawn_pieces.read(scene(100, 90))
+    assert len(pieces) == drawn_pieces.MOST_PIECES < MOST_MATCHING and "nearest colour" in " ".join(said)
+    assert sum(len(piece.faces) for piece in pieces) == 1200 and all(
+        (piece.uv is None) == (piece.picture is None) for piece in pieces
+    )
 
 
 @pytest.fixture
