@@ -34,7 +34,7 @@ def stood(key: str) -> dict[str, Any]:
         mujoco.mj_step(model, data)
         if step >= steps - last:
             low, high = np.minimum(low, data.xpos[body]), np.maximum(high, data.xpos[body])
-    if not np.isfinite(data.qpos).all():
+    if _diverged(data):
         return {"stands": False, "why": "its motion diverged"}
     size = float(max(height, 2 * model.geom_rbound[model.geom_bodyid == body].max()))
     tilt = float(np.degrees(np.arccos(np.clip(data.xmat[body].reshape(3, 3)[2, 2], -1, 1))))
@@ -92,12 +92,22 @@ def _dropped(key: str, floor: float, width: float, rim: float) -> dict[str, Any]
     ball, thing = model.body("ball").id, model.body("thing").id
     for _ in range(round(3.0 / STEP_S)):
         mujoco.mj_step(model, data)
+    if _diverged(data):
+        return {"holds": False, "ball_m": round(diameter, 5), "why": "its motion diverged"}
     bodies = {frozenset(int(model.geom_bodyid[g]) for g in pair) for pair in data.contact.geom[: data.ncon]}
     where = data.xpos[ball] - data.xpos[thing]
     low = float(where[2]) - diameter / 2 + float(data.xpos[thing][2])
     inside = float(np.linalg.norm(where[:2])) < width / 2 and floor - 0.1 * diameter < low < rim
     touches = frozenset((ball, thing)) in bodies
     return {"holds": bool(inside and touches), "ball_m": round(diameter, 5), "rests_at_m": round(low, 5)}
+
+
+def _diverged(data: "mujoco.MjData") -> bool:
+    """Whether a position, a velocity or an acceleration became no number, or a huge one."""
+    import mujoco
+
+    kinds = mujoco.mjtWarning.mjWARN_BADQPOS, mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC
+    return any(data.warning[int(kind)].number for kind in kinds) or not np.isfinite(data.qpos).all()
 
 
 def _world(key: str, ball: float = 0.0, above: float = 0.0) -> "tuple[mujoco.MjModel, mujoco.MjData, float]":
@@ -114,6 +124,8 @@ def _world(key: str, ball: float = 0.0, above: float = 0.0) -> "tuple[mujoco.MjM
         body.add_freejoint()
         given = contacts.surface(friction=0.5, rolling=0.02 * ball, restitution=0.1, density=700)
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(ball / 2, 0, 0), **given)
+    # Else MuJoCo puts what diverged back to where it began, where it would stand.
+    spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)

@@ -178,3 +178,18 @@ def test_what_stands_and_what_falls_is_measured(intake) -> None:
 def test_a_refusal_is_left_as_an_error_with_cause_place_and_next_move(intake) -> None:
     told = intake(crate(), height=None, units=None)
     assert told["code"] == "unknown_size" and told["cause"] and "--height" in told["next"]
+
+
+def test_what_diverges_does_not_stand(intake, monkeypatch: pytest.MonkeyPatch) -> None:
+    import mujoco
+
+    real, steps = mujoco.mj_step, iter(range(10**9))
+
+    def step(model, data) -> None:
+        if next(steps) == 100:
+            data.qvel[:] = 1e12
+        real(model, data)
+
+    monkeypatch.setattr(mujoco, "mj_step", step)
+    facts = intake(crate(), key="wild")
+    assert facts["measured"]["stands"] is False and facts["measured"]["why"] == "its motion diverged"
