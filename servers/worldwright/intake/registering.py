@@ -11,6 +11,7 @@ from worldkit.assets.reading import AssetError, read_asset
 from worldkit.files import write_atomic
 
 from ..model.errors import WorldwrightError
+from ..model.evidence.assets_used import OURS
 from ..model.storage import writing
 
 
@@ -26,12 +27,22 @@ def root_of(to: str) -> Path:
 
 
 def free(key: str, root: Path, replace: bool) -> None:
-    """Refuse a key that is taken, unless it is by the same destination and may be replaced.
+    """Refuse a key that is taken, unless it is by an asset of the same destination that may be replaced.
 
     Raises:
-        RegisterError: the key is taken.
+        RegisterError: the key is taken, by an asset or by something else.
     """
+    if key in OURS:
+        raise RegisterError(
+            f"the catalog keeps a folder {key} that is no asset's", place="key", next_move="give it another --key"
+        )
     here = (root / key).exists()
+    if here and not (root / key / "asset.yaml").is_file():  # somebody's folder, which nothing may delete
+        raise RegisterError(
+            f"a folder of the name {key} is there, which is no asset",
+            place=str(root / key),
+            next_move="give it another --key",
+        )
     if here and replace:
         return
     if here or key in assets.keys():  # noqa: SIM118 - a function of the catalog, not a mapping

@@ -180,6 +180,17 @@ def test_what_is_no_asset_is_not_registered_and_what_was_there_stays(own, tmp_pa
     assert (placed / "asset.yaml").read_bytes().endswith(b"# again\n")
 
 
+def test_replacing_deletes_no_folder_that_is_no_asset(tmp_path: Path) -> None:
+    (tmp_path / "notes").mkdir()
+    (tmp_path / "notes" / "kept.txt").write_text("kept")
+    with pytest.raises(registering.RegisterError, match="which is no asset") as told:
+        registering.free("notes", tmp_path, True)
+    assert "--key" in told.value.next_move and told.value.place == str(tmp_path / "notes")
+    for key in ("make", "meshes"):
+        with pytest.raises(registering.RegisterError, match="no asset's"):
+            registering.free(key, tmp_path, True)
+
+
 def test_every_substance_can_be_one_and_says_who_says_so() -> None:
     for row in substances.table().values():
         assert (
