@@ -61,6 +61,7 @@ def register(key: str, files: Mapping[str, bytes], root: Path, *, replace: bool 
         StorageError: the destination cannot be written.
     """
     beside = root / f".incoming-{secrets.token_hex(6)}"
+    earlier = beside / "earlier"
     try:
         with writing(f"the asset {key}", root):
             for name, content in files.items():
@@ -72,14 +73,18 @@ def register(key: str, files: Mapping[str, bytes], root: Path, *, replace: bool 
                     f"what was made of it is no asset: {error}", place=key, next_move="report it, with the file"
                 ) from error
             free(key, root, replace)
-            if (root / key).exists():
-                (root / key).rename(beside / "earlier")
             try:
-                (beside / key).rename(root / key)
-            except OSError:
-                with contextlib.suppress(OSError):
-                    (beside / "earlier").rename(root / key)
+                if replace and (root / key).exists():
+                    (root / key).rename(earlier)
+                (beside / key).rename(root / key)  # fails where another add was there first: its folder is not empty
+            except BaseException as error:  # an interruption between the two would else lose the earlier one
+                if earlier.exists() and not (root / key).exists():
+                    with contextlib.suppress(OSError):
+                        earlier.rename(root / key)
+                if isinstance(error, OSError):
+                    free(key, root, replace)
                 raise
     finally:
-        shutil.rmtree(beside, ignore_errors=True)
+        if not earlier.exists() or (root / key).exists():
+            shutil.rmtree(beside, ignore_errors=True)
     return root / key

@@ -191,6 +191,34 @@ def test_replacing_deletes_no_folder_that_is_no_asset(tmp_path: Path) -> None:
             registering.free(key, tmp_path, True)
 
 
+def test_an_interruption_or_an_add_beside_it_loses_no_asset(own, tmp_path: Path, monkeypatch) -> None:
+    good = {name: data.replace(b"key: soup_bowl", b"key: second") for name, data in files(own).items()}
+    registering.register("second", good, tmp_path)
+    real, free = Path.rename, registering.free
+
+    def interrupted(self, target):
+        if Path(target) == tmp_path / "second" and "earlier" not in self.name:
+            raise KeyboardInterrupt
+        return real(self, target)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Path, "rename", interrupted)
+        with pytest.raises(KeyboardInterrupt):
+            registering.register("second", good, tmp_path, replace=True)
+    assert [path.name for path in tmp_path.iterdir()] == ["second"] and len(list((tmp_path / "second").iterdir())) > 2
+
+    asked = iter((False, True))
+
+    def late(key, root, replace):  # the other add comes in between the question and the renaming
+        return free(key, root, replace) if next(asked) else None
+
+    monkeypatch.setattr(registering, "free", late)
+    before = (tmp_path / "second" / "asset.yaml").stat().st_ino
+    with pytest.raises(registering.RegisterError, match="already"):
+        registering.register("second", good, tmp_path)
+    assert (tmp_path / "second" / "asset.yaml").stat().st_ino == before
+
+
 def test_every_substance_can_be_one_and_says_who_says_so() -> None:
     for row in substances.table().values():
         assert (
