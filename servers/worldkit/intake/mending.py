@@ -247,11 +247,7 @@ def _joined(parts: list[_Part], name: str, said: list[str]) -> Solid:
         inner.append(part) if inside else outer.append(_inverted(part))
         if not inside:
             said.append("a part was inside out: its faces turned")
-    total = sum(part.volume for part in outer) + sum(part.volume for part in inner)
-    box = float(np.prod(np.ptp(vertices, axis=0)))
-    if not total > 1e-9 * box:
-        raise IntakeError("zero_volume", "what it encloses has no volume", name, "give it thickness, and add it again")
-    made = _union(outer, inner)
+    made = _union(outer, inner, said)
     if made is None:
         every = [*outer, *inner]
         made = _together([(part.vertices, part.faces) for part in every])
@@ -259,6 +255,10 @@ def _joined(parts: list[_Part], name: str, said: list[str]) -> Solid:
             said.append(f"its {len(every)} parts are summed up, overlaps counted twice")
     elif len(outer) > 1:
         said.append(f"{len(outer)} parts joined, overlaps counted once")
+    box = float(np.prod(np.ptp(vertices, axis=0)))
+    a, b, c = (made[0][made[1][:, k]] - vertices.mean(axis=0) for k in range(3))
+    if not float(np.einsum("fi,fi->", a, np.cross(b, c))) / 6 > 1e-9 * box:
+        raise IntakeError("zero_volume", "what it encloses has no volume", name, "give it thickness, and add it again")
     volume, com, inertia = properties(*made)
     return Solid(*made, True, volume, com, inertia, said)
 
@@ -272,7 +272,7 @@ def _holds(outer: _Part, inner: _Part) -> bool:
     return bool((inner.vertices.min(axis=0) >= low).all() and (inner.vertices.max(axis=0) <= high).all())
 
 
-def _union(outer: list[_Part], inner: list[_Part]) -> tuple[Array, Array] | None:
+def _union(outer: list[_Part], inner: list[_Part], said: list[str]) -> tuple[Array, Array] | None:
     """The exact union of parts less their cavities; None where they cannot be joined."""
     import manifold3d
 
@@ -289,7 +289,12 @@ def _union(outer: list[_Part], inner: list[_Part]) -> tuple[Array, Array] | None
         return None
     whole = manifold3d.Manifold.batch_boolean(solids, manifold3d.OpType.Add)
     for hole in holes:
-        whole = whole - hole
+        cut = whole - hole
+        if whole.volume() - cut.volume() < 0.5 * hole.volume():  # it lies in the box of a part, not in its substance
+            whole = whole + hole
+            said.append("a part was inside out: its faces turned")
+        else:
+            whole = cut
     mesh = whole.to_mesh64()
     faces = np.asarray(mesh.tri_verts, np.int64)
     return (np.asarray(mesh.vert_properties, float)[:, :3], faces) if len(faces) and whole.volume() > 0 else None

@@ -49,6 +49,15 @@ def test_parts_that_overlap_count_once_and_one_inside_out_within_another_is_its_
     assert hollow.volume == pytest.approx(1 - 0.125)
 
 
+def test_a_part_inside_out_in_the_gap_of_a_frame_is_no_cavity() -> None:
+    frame = [box((3, 1, 1)), box((3, 1, 1), (0, 0, 2)), box((1, 1, 1), (0, 0, 1)), box((1, 1, 1), (2, 0, 1))]
+    one = Drawn(np.concatenate([b.vertices for b in frame]), np.concatenate([FACES + 8 * n for n in range(4)]))
+    joined = solid(one)
+    around = Drawn(joined.vertices, joined.faces)
+    found = solid(around, box((0.5, 0.5, 0.5), (1.25, 0.25, 1.25), FACES[:, ::-1]))
+    assert found.volume == pytest.approx(8.125) and "a part was inside out: its faces turned" in found.said
+
+
 def test_parts_that_touch_are_whole_however_the_file_numbers_their_corners() -> None:
     two = [box(), box(at=(1, 0, 0))]
     assert solid(*two).volume == pytest.approx(2)
