@@ -168,6 +168,20 @@ def test_two_sources_of_one_key_are_refused(meshes: Path) -> None:
         assets.find("mug")
 
 
+def test_a_key_of_the_users_own_gives_way_to_the_catalogs(meshes: Path, tmp_path: Path, monkeypatch) -> None:
+    from click.testing import CliRunner
+
+    from worldwright.intake.command import command
+
+    monkeypatch.setenv("WORLDWRIGHT_ASSETS", str(tmp_path / "own"))
+    recipes.cube(tmp_path / "own" / "mug")
+    recipes.cube(tmp_path / "own" / "die")
+    assert catalog.sources() == {"boulder": "mesh_files", "die": "own_folder", "mug": "recipes"}
+    assert catalog.hidden() == ("mug",) and assets.find("mug").folder.parent == tmp_path
+    listed = CliRunner().invoke(command, ["list"])
+    assert listed.exit_code == 0 and "mug: the catalog's is used; rename yours" in listed.output
+
+
 def test_a_look_of_ours_may_cover_it(meshes: Path) -> None:
     spec = scene.new("painted", time_step=0.002)
     assets.add(spec, "boulder", name="rock", height=0.4, pos=(0, 0, 0.2), look="#336699")

@@ -10,6 +10,9 @@ from .reading import AssetError
 from .root import catalog_root
 from .sources import SEAM
 
+OWN = "own_folder"
+"""The source whose keys give way to those of the catalog, so that no asset of a user's own changes or breaks a project."""
+
 _TAKEN: set[str] = set()
 
 
@@ -21,18 +24,25 @@ class UnknownAssetError(KeyError):
 
 
 def sources() -> dict[str, str]:
-    """The source of each key, by key, sorted.
+    """The source of each key, by key, sorted; of a key that the user's own folder has too, the catalog's.
 
     Raises:
-        AssetError: two sources deliver one key.
+        AssetError: two sources of the catalog deliver one key.
     """
     found: dict[str, str] = {}
-    for name in SEAM.names():
+    for name in sorted(SEAM.names(), key=OWN.__eq__):
         for key in SEAM.find(name).keys():  # noqa: SIM118 - a function of the source, not a mapping
-            if key in found:
+            if key not in found:
+                found[key] = name
+            elif name != OWN:
                 raise AssetError(f"{catalog_root()}: both {found[key]} and {name} deliver {key!r}: rename one of them")
-            found[key] = name
     return dict(sorted(found.items()))
+
+
+def hidden() -> tuple[str, ...]:
+    """Keys of the user's own folder that are not reached, since the catalog has them too: a project comes before a user."""
+    known = sources()
+    return tuple(key for key in SEAM.find(OWN).keys() if known[key] != OWN)  # noqa: SIM118
 
 
 def keys() -> tuple[str, ...]:

@@ -5,6 +5,8 @@ from typing import Annotated
 import click
 from pydantic import Field
 
+from worldkit.assets.root import own_root
+
 from ..adding_assets import add_asset
 from ..cli import verb
 from ..model.errors import NotFoundError
@@ -25,10 +27,16 @@ class AssetLines(Frozen):
     """Assets by key."""
 
     assets: tuple[AssetLine, ...] = ()
+    hidden: tuple[str, ...] = ()
+    """Keys of the user's own folder that the catalog has too, whose asset is the one that is used."""
 
     def text(self) -> str:
         """One asset a line."""
         rows = [f"{a.key:24} {a.source:12} {a.height_m:g} m, {a.mass_kg:.3g} kg  {a.description}" for a in self.assets]
+        rows += [
+            f"{key}: the catalog's is used; rename yours, its folder in {own_root()} and its `key`"
+            for key in self.hidden
+        ]
         return "\n".join(rows) or "no asset"
 
 
@@ -87,7 +95,8 @@ def list_assets(
                 description=asset.description,
             )
             for asset in rows
-        )
+        ),
+        hidden=catalog.hidden(),
     )
 
 
