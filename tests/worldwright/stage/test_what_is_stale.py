@@ -217,6 +217,22 @@ def test_a_file_beside_the_program_names_assets_too(tmp_path: Path, catalog: Pat
     assert assets_used.named(tmp_path / "plan.md", tmp_path / "simulation.py") == ("bowl",)
 
 
+def test_an_own_asset_counts_only_where_it_is_meant(tmp_path: Path, catalog: Path, monkeypatch) -> None:
+    monkeypatch.setenv("WORLDWRIGHT_ASSETS", str(tmp_path / "own"))
+    shutil.copytree(catalog / "bowl", tmp_path / "own" / "ball")
+    plan, program = tmp_path / "plan.md", tmp_path / "simulation.py"
+    plan.write_text("a ball falls into the bowl\n")
+    program.write_text("ball = 1\n")
+    assert assets_used.named(plan, program) == ("bowl",)
+    for text in ("- {name: toy, filename: ball}", '{"filename": "ball"}', "filename: 'ball'"):
+        plan.write_text(text)
+        assert assets_used.named(plan, program) == ("ball",)
+    plan.write_text("")
+    program.write_text('assets.add(spec, "ball", name="toy")\n')
+    assert assets_used.named(plan, program) == ("ball",) == assets_used.named(plan, program)
+    assert assets_used.unnamed(["ball"], plan, program) == () and assets_used.sha256(plan, program)
+
+
 def test_what_lint_said_of_a_run_stands_whatever_draws_it(reviewed: Path, copy: Copy, monkeypatch) -> None:
     folder = copy(reviewed)
     monkeypatch.setenv("WORLDKIT_RENDERER", "classic")

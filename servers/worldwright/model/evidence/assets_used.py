@@ -21,15 +21,21 @@ OURS = ("make", "meshes", "__pycache__")
 def named(source: Path, program: Path) -> tuple[str, ...]:
     """The assets, and what else of the catalog's top level, that are whole words of the plan or of the program.
 
+    An asset of the user's own counts only where a `filename` of the plan or a quoted string of the program is its key, since a
+    word such as "ball" would else make a world depend on what somebody took in for another.
+
     Args:
         source: `plan.md`, or `model.json`.
         program: `simulation.py`; the files beside it that belong to it count too.
     """
     known = _known()
-    texts = [path.read_bytes() for path in (source, program) if path.is_file()]
-    texts += companions.of(program).values() if program.is_file() else ()
-    words = [_words(text) for text in texts]
-    return tuple(name for name in known if any(name.encode() in found for found in words))
+    plan = source.read_bytes() if source.is_file() else b""
+    texts = [program.read_bytes(), *companions.of(program).values()] if program.is_file() else []
+    words = [_words(text) for text in (plan, *texts)]
+    said = [_filenames(plan), *(_quoted(text) for text in texts)]
+    return tuple(
+        name for name, own in known.items() if any(name.encode() in found for found in (said if own else words))
+    )
 
 
 def sha256(source: Path, program: Path) -> str:
@@ -61,13 +67,28 @@ def _words(text: bytes) -> frozenset[bytes]:
     return frozenset(words | {part for word in words for part in re.split(rb"[.-]", word)})
 
 
-def _known() -> list[str]:
+@lru_cache(maxsize=64)
+def _filenames(text: bytes) -> frozenset[bytes]:
+    """What a plan or a model says as a `filename`."""
+    return frozenset(re.findall(rb"""\bfilename["']?\s*:\s*["']?([\w.-]*\w)""", text))
+
+
+@lru_cache(maxsize=64)
+def _quoted(text: bytes) -> frozenset[bytes]:
+    """The words that stand alone in quotes."""
+    return frozenset(re.findall(rb"""["'](\w+)(?=["'])""", text))
+
+
+def _known() -> dict[str, bool]:
+    """Every name, sorted, and whether it is the key of an asset of the user's own."""
     root = _root()
     if root is None:
-        return []
-    from worldkit import assets
+        return {}
+    from worldkit.assets import catalog
 
-    return sorted({*assets.keys(), *(path.name for path in root.iterdir() if path.name not in OURS)})
+    found = {path.name: False for path in root.iterdir() if path.name not in OURS}
+    found |= {key: source == catalog.OWN for key, source in catalog.sources().items()}
+    return dict(sorted(found.items()))
 
 
 def _root() -> Path | None:
