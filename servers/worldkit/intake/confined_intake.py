@@ -61,21 +61,19 @@ def _take_in(file: Path, asked: dict[str, Any], scratch: Path, out: Path) -> Non
         facts["mended"].append(f"it does not stand still as it is: {ON}")
     if (found := stillness.cavity(key)) is not None:
         facts["measured"]["cavity"] = found
-        share = found["z"] / facts["metric_height"]
-        side = round(0.5 * found["width"], 6)
-        facts["supports"] = [
-            {
-                "name": "inside",
-                "default": True,
-                "z_fraction": round(share, 6),
-                "extents": [side, side],
-                "shape": "ellipse",
-            }
-        ]
+        if found["holds"]:  # what is put upon a thing would else be put where nothing stays
+            facts["supports"] = [_inside(found, facts["metric_height"])]
     taken_in.write(catalog / key, files, facts)
     stillness.picture(key, out)
     for path in sorted((catalog / key).iterdir()):
         shutil.copyfile(path, out / path.name)
+
+
+def _inside(found: dict[str, Any], height: float) -> dict[str, Any]:
+    """The support that is the floor of a cavity."""
+    side = round(0.5 * found["width"], 6)
+    share = round(found["z"] / height, 6)
+    return {"name": "inside", "default": True, "z_fraction": share, "extents": [side, side], "shape": "ellipse"}
 
 
 if __name__ == "__main__":

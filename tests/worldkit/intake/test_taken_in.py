@@ -193,3 +193,15 @@ def test_what_diverges_does_not_stand(intake, monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(mujoco, "mj_step", step)
     facts = intake(crate(), key="wild")
     assert facts["measured"]["stands"] is False and facts["measured"]["why"] == "its motion diverged"
+
+
+@pytest.mark.parametrize("holds", [True, False])
+def test_only_a_cavity_that_holds_is_what_things_are_put_into(
+    intake, monkeypatch: pytest.MonkeyPatch, holds: bool
+) -> None:
+    found = {"z": 0.1, "width": 0.2, "holds": holds}
+    monkeypatch.setattr(process.stillness, "stood", lambda key: {"stands": True})
+    monkeypatch.setattr(process.stillness, "cavity", lambda key: found)
+    facts = intake(crate(), key="tray")
+    assert [row["name"] for row in facts.get("supports", [])] == ["inside"] * holds
+    assert facts["measured"]["cavity"] == found
