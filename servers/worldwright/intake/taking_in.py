@@ -153,6 +153,8 @@ def _request(file: Path, asked: dict[str, Any]) -> dict[str, Any]:
         if material or asked.get("mass")
         else [f"it is of {substances.UNSTATED}: give its --material, or its --mass in kg"]
     )
+    if asked.get("mass") and not material:
+        assumed.append(f"it rubs and bounces as {substances.UNSTATED} does: give its --material")
     if not asked.get("licence"):
         assumed.append("its licence is not stated: give it as --licence")
     return {

@@ -262,5 +262,5 @@ def _offered(offer: "Offer") -> AssetHit:
         licence=offer.licence,
         creator=offer.creator,
         taken_in=False,
-        next_move=f"worldwright asset add {offer.key} --material wood",
+        next_move=f"worldwright asset add {offer.key}",
     )

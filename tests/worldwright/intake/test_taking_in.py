@@ -219,6 +219,15 @@ def test_an_interruption_or_an_add_beside_it_loses_no_asset(own, tmp_path: Path,
     assert (tmp_path / "second" / "asset.yaml").stat().st_ino == before
 
 
+def test_a_mass_without_a_material_says_whose_friction_it_takes(tmp_path: Path) -> None:
+    told = taking_in._request(tmp_path / "thing.stl", {"mass": 2.0, "licence": "CC0-1.0"})["assumed"]
+    assert len(told) == 1 and substances.UNSTATED in told[0] and "--material" in told[0]
+    assert (
+        taking_in._request(tmp_path / "thing.stl", {"mass": 2.0, "material": "oak", "licence": "CC0-1.0"})["assumed"]
+        == []
+    )
+
+
 def test_every_substance_can_be_one_and_says_who_says_so() -> None:
     for row in substances.table().values():
         assert (
