@@ -11,6 +11,7 @@ import pytest
 
 from worldkit import assets, scene
 from worldkit.assets import catalog, folders, instance
+from worldkit.assets.reading import read_asset
 from worldkit.assets.sources import SEAM, recipes
 
 SAID = """
@@ -180,6 +181,15 @@ def test_a_key_of_the_users_own_gives_way_to_the_catalogs(meshes: Path, tmp_path
     assert catalog.hidden() == ("mug",) and assets.find("mug").folder.parent == tmp_path
     listed = CliRunner().invoke(command, ["list"])
     assert listed.exit_code == 0 and "mug: the catalog's is used; rename yours" in listed.output
+
+
+def test_what_was_mended_is_a_list(tmp_path: Path) -> None:
+    recipes.cube(tmp_path / "die")
+    said = (tmp_path / "die" / "asset.yaml").read_text()
+    for words in ("mended: 3", "assumed: null", "mended: a word"):
+        (tmp_path / "die" / "asset.yaml").write_text(f"{said}\n{words}\n")
+        with pytest.raises(assets.AssetError, match="must be a list of texts"):
+            read_asset(tmp_path / "die")
 
 
 def test_a_look_of_ours_may_cover_it(meshes: Path) -> None:

@@ -111,7 +111,7 @@ def read_asset(folder: Path) -> Asset:
         supports=tuple(_support(item, native) for item in row.items("supports")),
         thumbnail=folder / row.text("thumbnail", "thumbnail.png"),
         creator=row.text("creator", ""),
-        mended=tuple(map(str, (*row.get("mended", ()), *row.get("assumed", ())))),
+        mended=(*row.lines("mended"), *row.lines("assumed")),
     )
 
 
@@ -167,6 +167,12 @@ class _Row:
         if not isinstance(values, list):
             self.fail(key, f"must be a list, got {values!r}")
         return [_Row(self.path, f"{key}[{n}]", value) for n, value in enumerate(values)]
+
+    def lines(self, key: str) -> tuple[str, ...]:
+        values = self.get(key, [])
+        if not isinstance(values, list):
+            self.fail(key, f"must be a list of texts, got {values!r}")
+        return tuple(map(str, values))
 
     def file(self, key: str, folder: Path) -> Path:
         path = (folder / self.text(key)).resolve()
