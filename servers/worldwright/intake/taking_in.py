@@ -110,7 +110,7 @@ def _added(file: Path, asked: dict[str, Any], to: Destination, replace: bool, pr
     progress(0, 3, "reading and mending")
     with tempfile.TemporaryDirectory(prefix="worldwright-intake-") as folder:
         given = Path(folder) / "given"
-        _lay(file, given)
+        request["assumed"] += _lay(file, given)
         write_json(given / "request.json", request)
         ended = _confined(file, given)
         progress(1, 3, "drawing")
@@ -172,13 +172,15 @@ def _request(file: Path, asked: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def _lay(file: Path, given: Path) -> None:
-    """Copy the mesh, and for an OBJ the materials and pictures beside it and one folder deeper, as far as they are bounded."""
+def _lay(file: Path, given: Path) -> list[str]:
+    """Copy the mesh, and for an OBJ the materials and pictures beside it and one folder deeper, as far as they are bounded.
+
+    Returns what was left out, to be said.
+    """
     given.mkdir()
     if file.is_dir():
         beside = [path for path in file.rglob("*") if path.suffix.lower() in unpacked.WANTED]
-        _copied(beside, file, given / file.name, MOST_BYTES)
-        return
+        return _copied(beside, file, given / file.name, MOST_BYTES)
     size = file.stat().st_size
     if size > MOST_BYTES:
         raise IntakeFailedError(
@@ -187,24 +189,39 @@ def _lay(file: Path, given: Path) -> None:
         )  # fmt: skip
     shutil.copyfile(file, given / file.name)
     if file.suffix.lower() != ".obj":
-        return
+        return []
     folder = file.parent
     beside = sorted(
         path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix.lower() in (".mtl", *PICTURES)
     )
-    _copied(beside, folder, given, BESIDE_BYTES)
+    return _copied(beside, folder, given, BESIDE_BYTES)
 
 
-def _copied(paths: list[Path], folder: Path, given: Path, left: int) -> None:
-    """Copy files to where they lie below a folder, as far as they are bounded; no links."""
+def _copied(paths: list[Path], folder: Path, given: Path, left: int) -> list[str]:
+    """Copy files to where they lie below a folder, meshes and materials first, as far as they are bounded; no links.
+
+    Returns what was left out, to be said.
+    """
     given.mkdir(exist_ok=True)
-    for path in sorted(paths)[:MOST_BESIDE]:
-        if path.is_symlink() or not path.is_file() or path.stat().st_size > left:
+    real = folder.resolve()
+    # A folder that is a link may lead anywhere, and what lies there is not what was given.
+    own = [path for path in paths if path.resolve().is_relative_to(real) and not path.is_symlink() and path.is_file()]
+    own.sort(key=lambda path: (path.suffix.lower() in PICTURES, path))
+    lost = own[MOST_BESIDE:]
+    for path in own[:MOST_BESIDE]:
+        size = path.stat().st_size
+        if size > left:
+            lost.append(path)
             continue
-        left -= path.stat().st_size
+        left -= size
         target = given / path.relative_to(folder)
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(path, target)
+    return (
+        [f"{len(lost)} files beside it were left out, such as {lost[0].name[:80]}: too many or too large"]
+        if lost
+        else []
+    )
 
 
 def _confined(file: Path, given: Path) -> dict[str, bytes]:

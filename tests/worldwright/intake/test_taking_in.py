@@ -228,6 +228,21 @@ def test_a_mass_without_a_material_says_whose_friction_it_takes(tmp_path: Path) 
     )
 
 
+def test_what_lies_beside_is_copied_meshes_first_no_link_followed_and_the_rest_said(
+    tmp_path: Path, monkeypatch
+) -> None:
+    monkeypatch.setattr(taking_in, "MOST_BESIDE", 2)
+    folder, elsewhere = tmp_path / "here", tmp_path / "elsewhere"
+    folder.mkdir()
+    elsewhere.mkdir()
+    for path in (folder / "a.obj", folder / "z.mtl", folder / "a.png", folder / "b.png", elsewhere / "secret.png"):
+        path.write_text("v 0 0 0")
+    (folder / "linked").symlink_to(elsewhere)
+    said = taking_in._lay(folder / "a.obj", tmp_path / "given")
+    assert sorted(path.name for path in (tmp_path / "given").rglob("*")) == ["a.obj", "a.png", "z.mtl"]
+    assert len(said) == 1 and said[0].startswith("1 files beside it were left out, such as b.png")
+
+
 def test_every_substance_can_be_one_and_says_who_says_so() -> None:
     for row in substances.table().values():
         assert (
