@@ -1,7 +1,9 @@
 """An archive or a folder with a mesh in it: unpacked bounded and in its place, and the one mesh found."""
 
+import lzma
 import stat
 import zipfile
+import zlib
 from pathlib import Path, PurePosixPath
 
 from ..errors import IntakeError
@@ -42,7 +44,16 @@ def unpack(archive: Path, folder: Path) -> Path:
                         if left < 0:
                             raise _too_large(archive.name, f"it unpacks to more than {MOST_BYTES >> 20} MB")
                         file.write(block)
-    except (zipfile.BadZipFile, RuntimeError, NotImplementedError, EOFError, ValueError) as error:
+    except (
+        zipfile.BadZipFile,
+        zlib.error,
+        lzma.LZMAError,
+        OSError,
+        RuntimeError,
+        NotImplementedError,
+        EOFError,
+        ValueError,
+    ) as error:
         raise IntakeError(
             "truncated",
             f"the archive cannot be unpacked: {error}",

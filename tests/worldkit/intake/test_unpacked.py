@@ -83,3 +83,15 @@ def test_an_archive_that_is_cut_off_is_told(tmp_path: Path) -> None:
         path.write_bytes(content)
         with pytest.raises(IntakeError, match="cannot be unpacked"):
             unpacked.unpack(path, tmp_path / "out")
+
+
+@pytest.mark.parametrize("kind", [zipfile.ZIP_DEFLATED, zipfile.ZIP_LZMA])
+def test_an_archive_whose_middle_is_broken_is_refused(tmp_path: Path, kind: int) -> None:
+    with zipfile.ZipFile(tmp_path / "a.zip", "w", kind) as held:
+        held.writestr("a.obj", "".join(f"v {n} {n * n} 1\n" for n in range(500)))
+    content = bytearray((tmp_path / "a.zip").read_bytes())
+    content[44:300] = bytes([255]) * 256
+    (tmp_path / "a.zip").write_bytes(content)
+    with pytest.raises(IntakeError, match="cannot be unpacked") as told:
+        unpacked.unpack(tmp_path / "a.zip", tmp_path / "out")
+    assert told.value.code == "truncated"

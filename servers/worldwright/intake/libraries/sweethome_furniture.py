@@ -4,9 +4,11 @@ Five archives, each with a text of properties: name, category, size in cm, creat
 is the archive's own, the creator the model's.
 """
 
+import lzma
 import os
 import re
 import zipfile
+import zlib
 from collections import defaultdict
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
@@ -27,6 +29,8 @@ LICENCES = {
 TEXT = "PluginFurnitureCatalog.properties"
 ROW = re.compile(r"(\w+)#(\d+)\s*=\s*(.*)")
 MOST_TEXT, MOST_MEMBER, MOST_LAID, MOST_FILES = 4 << 20, 64 << 20, 128 << 20, 64
+BROKEN = (OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
+"""What reading a broken archive raises."""
 WANTED = (".obj", ".mtl", ".png", ".jpg", ".jpeg")
 
 
@@ -65,7 +69,7 @@ def _rows(archive: Path, _changed: int) -> dict[str, tuple[Offer, dict[str, str]
     try:
         with zipfile.ZipFile(archive) as held:
             text = _read(held, TEXT, MOST_TEXT).decode("latin-1")
-    except (OSError, zipfile.BadZipFile, IntakeFailedError):
+    except (*BROKEN, IntakeFailedError):
         return {}
     said: dict[int, dict[str, str]] = defaultdict(dict)
     for line in text.splitlines():
@@ -110,7 +114,7 @@ def _extracted(archive: Path, offer: Offer, row: dict[str, str], folder: Path) -
                 content = _read(held, name, min(left, MOST_MEMBER))
                 left -= len(content)
                 (folder / PurePosixPath(name).name).write_bytes(content)  # a bare name climbs nowhere
-    except (OSError, zipfile.BadZipFile) as error:
+    except BROKEN as error:
         raise IntakeFailedError(
             f"{archive.name} is not whole: {error}", code="truncated", place=str(archive), next_move=installing()
         ) from error
@@ -139,7 +143,7 @@ def _read(held: zipfile.ZipFile, name: str, most: int) -> bytes:
     try:
         with held.open(name) as member:
             content = member.read(most + 1)
-    except (KeyError, RuntimeError, NotImplementedError, EOFError, OSError) as error:
+    except (KeyError, RuntimeError, NotImplementedError, EOFError, *BROKEN) as error:
         raise IntakeFailedError(
             f"{name} cannot be read: {error}", code="truncated", place=str(held.filename), next_move=installing()
         ) from error
