@@ -270,6 +270,20 @@ def test_a_program_has_its_law_stepped_in_its_own_process(tmp_path: Path) -> Non
     assert json.loads((tmp_path / "program.json").read_text())["laws"][0]["bodies"] == ["weight"]
 
 
+class Stiffer(Springs):
+    stiffness = 400.0
+
+
+def test_the_motion_of_another_law_is_not_taken_over(tmp_path: Path) -> None:
+    told = []
+    for name, law in (("old", Springs()), ("new", Stiffer())):
+        words = ["--pass", "physics", "--out", str(tmp_path / name), "--reuse", str(tmp_path / "old")]
+        assert program.main(lambda: world(), duration=0.05, laws=[law], argv=words) == 0
+        told.append(json.loads((tmp_path / name / "result.json").read_text()))
+    assert "reused_from" not in told[1] and told[0]["inputs_sha256"] != told[1]["inputs_sha256"]
+    assert not any(said["motion_key"] for said in told)
+
+
 @pytest.mark.parametrize(
     ("laws", "settings", "says"),
     [

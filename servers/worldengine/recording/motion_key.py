@@ -9,7 +9,8 @@ seen pays for no physics. What goes in:
 - when the program controls the simulation: its source, less what only places a camera (`drive_source`).
 
 There is no hash (an empty text, and the physics is run) where a look may decide the motion: a sensor that sees (rays
-stop at what is drawn, camera sensors), or control code that might read cameras or colours. What a
+stop at what is drawn, camera sensors), or control code that might read cameras or colours; nor where the author's laws are
+stepped, whose code may lie in any module (`clock.physics`). What a
 hash claims is checked once more at acceptance, which always simulates anew and compares the trajectories.
 """
 
