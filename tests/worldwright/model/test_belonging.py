@@ -10,7 +10,7 @@ from worldwright.lint.case import plan_with
 from worldwright.lint.problem import Problem
 from worldwright.lint.rules.model import overlaps_at_start
 from worldwright.model.errors import PlanError
-from worldwright.model.plan.belonging import Belonging
+from worldwright.model.plan.belonging import Belonging, welded
 from worldwright.model.plan.plan_references import reference_problems
 from worldwright.model.plan.plan_text import parse_plan
 
@@ -75,3 +75,9 @@ def test_who_overlaps_is_an_object_of_the_plan(small_plan):
     with pytest.raises(PlanError) as refused:
         parse_plan(text)
     assert any("nobody" in str(finding) for finding in refused.value.findings)
+
+
+def test_things_that_are_welded_to_the_world_are_not_one() -> None:
+    weld = [SimpleNamespace(type="weld", parent=p, child=c) for p, c in (("world", "a"), ("world", "b"), ("a", "c"))]
+    found = welded(SimpleNamespace(topology=SimpleNamespace(joints=weld)))
+    assert "b" not in found and found["a"] == found["c"]

@@ -27,7 +27,10 @@ class Belonging:
 
 
 def welded(plan: Plan) -> dict[str, str]:
-    """Each object that a plan welds to another (`topology.joints`, `type: weld`), and one name for all that hold together so."""
+    """Each object that a plan welds to another (`topology.joints`, `type: weld`), and one name for all that hold together so.
+
+    A weld to the world joins nothing: two things that stand fast are still two.
+    """
     head: dict[str, str] = {}
 
     def first(name: str) -> str:
@@ -36,7 +39,7 @@ def welded(plan: Plan) -> dict[str, str]:
         return name
 
     for joint in plan.topology.joints:
-        if joint.type == "weld":
+        if joint.type == "weld" and joint.parent != "world":
             head[first(joint.child)] = first(joint.parent)
     return {name: first(name) for name in list(head)}
 
