@@ -47,7 +47,7 @@ def converse(
 
 
 def _call(words: Sequence[str]) -> list[str]:
-    return [sys.executable, "-s", "-m", "worldengine", *words]
+    return [sys.executable, "-s", "-P", "-m", "worldengine", *words]
 
 
 def _environment() -> dict[str, str]:

@@ -5,9 +5,12 @@ advances itself by the time from one question to the next. Its forces cross to t
 points and sums cross with them, are recorded as a medium of its name, and move what it is shown by: the points of a flex, or
 the geoms of one body, in their order.
 
-What the sums are is not the author's word: momentum, energy of motion and weight are computed here from the points.
+Of the sums, momentum, energy of motion and energy by weight are computed here, from masses, points and velocities as the law tells
+them; what is stored, its volume, and what it gives to the world are the law's word. It runs in the author's process: the sums catch
+a mistake, and a cheat only where it does not make up points to match. What bodies were given is the engine's own record.
 """
 
+import inspect
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -25,9 +28,9 @@ if TYPE_CHECKING:
 _T = TypeVar("_T")
 
 WORLD = "world"
-"""As a body of a law: what stands fast. What pushes it is summed, and goes nowhere."""
-TOTALS = 9
-"""Numbers before the points: mass, momentum (3), energy, volume, impulse taken by the world (3)."""
+"""As a body of a law, which the plan's row names too: what stands fast. What pushes it is summed, and goes nowhere."""
+TOTALS = 11
+"""Numbers before the points: mass, momentum (3), energy, of that by weight and stored, volume, impulse taken by the world (3)."""
 HUGE = 1e6
 """A point or force beyond it, m or N, is a blow-up."""
 
@@ -91,11 +94,23 @@ def check(laws: Any) -> tuple[Law, ...]:
 
 
 def rows(laws: Sequence[Law]) -> list[dict[str, Any]]:
-    """The laws as `program.json` lists them: name, bodies without the world, and what shows it."""
+    """The laws as `program.json` lists them: name, bodies, and what shows it."""
     return [
-        {"name": str(law.name), "bodies": [str(body) for body in law.bodies if body != WORLD], "shown_by": str(law.shown_by)}
+        {"name": str(law.name), "bodies": [str(body) for body in law.bodies], "shown_by": str(law.shown_by)}
         for law in laws
     ]  # fmt: skip
+
+
+def _stands_in(law: Law, declared: str) -> None:
+    """Refuse a law whose class stands in another file than the one that the plan declares; an empty one declares none."""
+    try:
+        found = Path(inspect.getfile(type(law)))
+    except (TypeError, OSError):
+        found = Path()
+    parts = Path(declared).parts
+    if found.parts[len(found.parts) - len(parts) :] != parts:
+        cause = f"the law {law.name} stands in {found.name or 'no file'}, and the plan declares {declared}"
+        raise ProgramError(cause, "program.main", "move its class into that file, and import it from there")
 
 
 class Stepped:
@@ -105,7 +120,8 @@ class Stepped:
         laws: the program's.
         model: the author's own.
         declared: `media` of the engine's greeting: `rows` with the number of `points` of each, `seconds` from one question to the
-            next, and `every`: so many questions lie between two that take the points.
+            next, `every`: so many questions lie between two that take the points, and `end`: the number of that which only takes
+            them, after the last step; None where there is none.
         at: address of the numbers for the engine: `TOTALS` and the points of each, one after another.
 
     Raises:
@@ -126,39 +142,60 @@ class Stepped:
             move = "write a row of `interventions` of the kind `solver`, with its `file` (skill media)"
             raise ProgramError(f"the law {odd[0]} {cause}", "program.main", move if ours else "give it in `laws=`")
         self._seconds, self._every = float(declared.get("seconds", 0.0)), int(declared.get("every", 1))
-        self._asked, self._laws = 0, []
+        self._asked, self._end, self._laws, pushed = 0, declared.get("end"), [], []
         bodies = names(model, "body", model.nbody)
         for law in sorted(laws, key=lambda law: list(known).index(law.name)):
             row = known[law.name]
-            if {*law.bodies} - {WORLD} != {*row["bodies"]} or law.shown_by != row["shown_by"]:
+            if {*law.bodies} != {*row["bodies"]} or law.shown_by != row["shown_by"]:
                 says = f"{', '.join(law.bodies)}, shown by {law.shown_by}"
                 plan = f"{', '.join(row['bodies'])}, shown by {row['shown_by']}"
                 cause = f"the law {law.name} acts on {says}; the plan declares {plan}"
-                raise ProgramError(cause, "program.main", "say the same in both")
+                move = "say the same in both, `world` too where the law pushes on it"
+                raise ProgramError(cause, "program.main", move)
+            _stands_in(law, row.get("file", ""))
             numbers = words(at, TOTALS + 3 * row["points"])
             at += 8 * len(numbers)
             of = np.array([bodies.index(body) for body in law.bodies], np.intp)
             self._laws.append((law, of, numbers[:TOTALS], numbers[TOTALS:].reshape(-1, 3), np.zeros(3)))
+            pushed.append(of[of > 0])
+        self._pushed = np.concatenate([np.zeros(0, np.intp), *pushed])
+        self._wrench = np.zeros((len(self._pushed), 6))
+
+    @property
+    def ended(self) -> bool:
+        """Whether the question that came last was that at the end, to which no answer acts."""
+        return self._end is not None and self._asked > self._end
 
     def step(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
-        """Tell the points as they are, advance each law, and write its forces into `data`.
+        """Tell the points as they are, and advance each law; its forces wait for `push`. At the end only tell.
 
         Raises:
             ProgramError: a law raises, or returns what cannot be.
         """
+        first = 0
         for law, bodies, totals, points, held in self._laws:
             if not self._asked:
                 self._of(law, data, "start", partial(law.start, model, data))
                 self._fits(law, len(points), data)
-            if self._asked % self._every == 0:
+            if self._asked % self._every == 0 or self._asked == self._end:
                 points[:] = law.points
                 totals[:] = self._totals(law, model, data, held)
+            if self._asked == self._end:
+                continue
             forces = self._of(law, data, "step", partial(law.step, model, data, self._seconds))
-            wrench = self._wrench(law, forces, len(bodies), data)
+            wrench = self._checked(law, forces, len(bodies), data)
             held += self._seconds * wrench[bodies == 0, :3].sum(axis=0)
-            data.xfrc_applied[bodies[bodies > 0]] = wrench[bodies > 0]
+            loose = wrench[bodies > 0]
+            self._wrench[first : first + len(loose)] = loose
+            first += len(loose)
             self._sane(law, data)
         self._asked += 1
+
+    def push(self, data: "mujoco.MjData") -> bool:
+        """Write the forces of the last step into `data`; says whether others stood there."""
+        other = bool((data.xfrc_applied[self._pushed] != self._wrench).any())
+        data.xfrc_applied[self._pushed] = self._wrench
+        return other
 
     def _of(self, law: Law, data: "mujoco.MjData", what: str, call: Callable[[], _T]) -> _T:
         """What a law's own code gives; what it raises names its file and line."""
@@ -193,7 +230,7 @@ class Stepped:
             cause = f"the points of the law {law.name} blew up at t = {data.time:.4f} s"
             raise ProgramError(cause, law.name, "step it more finely (several steps within one), soften it, or damp it")
 
-    def _wrench(self, law: Law, forces: Any, count: int, data: "mujoco.MjData") -> "np.ndarray":
+    def _checked(self, law: Law, forces: Any, count: int, data: "mujoco.MjData") -> "np.ndarray":
         """(k, 6) force and torque."""
         import numpy as np
 
@@ -215,4 +252,4 @@ class Stepped:
         stored = float(self._of(law, data, "energy", law.energy))
         volume = float(self._of(law, data, "volume", getattr(law, "volume", float)))
         momentum = (mass[:, None] * velocities).sum(axis=0)
-        return [float(mass.sum()), *momentum, motion + weight + stored, volume, *held]
+        return [float(mass.sum()), *momentum, motion + weight + stored, weight, stored, volume, *held]

@@ -86,6 +86,7 @@ class Speaker:
         media = ports.get("media") or {}
         at = message + message_bytes(second, bool(ports.get("parameters")))
         self._laws = Stepped(laws, model, media, at) if laws or media else None
+        self._shown = np.zeros(first)
         edits = self._parameters is None
         self._strays = Strays(model, data, self.mirror, self._index, self._switches, edits, stray, control)
 
@@ -93,15 +94,31 @@ class Speaker:
         """Read the state at this address, let laws and `control` act on it, and write the answer."""
         self.mirror.receive(slot)
         if self._laws is not None:
-            self._laws.step(self._model, self._data)
+            self._step_laws(self._laws)
+            if self._laws.ended:  # nothing acts any more
+                return
         if self._control is not None:
             self._control(self._model, self._data)
+            # The law's word about its bodies is the last: what pushes them besides would stand in the ledger as the law's.
+            if self._laws is not None and self._laws.push(self._data):
+                self._strays.once("xfrc_applied", of_model=False)
         # `clip` because the default checks every index again; they were checked when they were made.
         self._numbers.take(self._index, out=self._vector, mode="clip")
         if len(self._switches):
             self._switched[:] = self._data.eq_active[self._switches]
         if self._parameters is not None:
             self._parameters.write()
+
+    def _step_laws(self, laws: Stepped) -> None:
+        """Advance the laws; of what they do to data and model, only the forces that they return reach the inputs."""
+        self._numbers.take(self._index, out=self._shown, mode="clip")
+        switched = self._data.eq_active[self._switches]
+        laws.step(self._model, self._data)
+        self._numbers[self._index] = self._shown
+        self._data.eq_active[self._switches] = switched
+        if self._parameters is not None:
+            self._parameters.refuse("a law")
+        laws.push(self._data)
 
     def look_around(self, slot: int) -> None:
         """Report what was written outside the ports; called after the answer was given."""
@@ -135,6 +152,13 @@ class _Parameters:
         if array not in self._told:
             self._told.add(array)
             self._tell(array, of_model)
+
+    def refuse(self, by: str) -> None:
+        """Raises ProgramError where the model was changed since the last answer: by what may not."""
+        for edit in (edit for watch in self._watches for edit in watch.changes()):
+            raise ProgramError(
+                f"{by} writes model.{edit.array}", "step", "leave the model: what a law does is its forces"
+            )
 
     def write(self) -> None:
         """Write the changed parameters into the message."""

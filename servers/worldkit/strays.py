@@ -96,10 +96,10 @@ class Strays:
                 self._name(start, live.view("u1") != shown)
         sample = self._looks % SAMPLE == 0
         for name in self._derived.written(slot, shown_at, sample=sample):
-            self._once(name, of_model=False)
+            self.once(name, of_model=False)
         if sample and self._watch is not None:
             for edit in self._watch.changes():
-                self._once(edit.array, of_model=True)
+                self.once(edit.array, of_model=True)
         self._looks += 1
 
     def _name(self, start: int, different: "np.ndarray") -> None:
@@ -108,9 +108,10 @@ class Strays:
             array = getattr(self._data, name)
             at = self._mirror.at(name) - start
             if 0 <= at < len(different) and array.size and different[at : at + array.nbytes].any():
-                self._once(name, of_model=False)
+                self.once(name, of_model=False)
 
-    def _once(self, name: str, *, of_model: bool) -> None:
+    def once(self, name: str, *, of_model: bool) -> None:
+        """Tell of an array, the first time."""
         if name not in self._told:
             self._told.add(name)
             self._tell(name, of_model)

@@ -1,5 +1,7 @@
 """What is drawn of where things are carries pictures over to other moments."""
 
+from types import SimpleNamespace
+
 import mujoco
 import numpy as np
 import pytest
@@ -7,8 +9,10 @@ import pytest
 from small_worlds import ball, empty, floor
 from worldengine.film import between, carrying
 from worldengine.film.carrying import Surfaces
+from worldengine.film.fitting import uneven
 from worldengine.film.renderers.preview.eye import View
-from worldkit import cameras
+from worldengine.film.treatment import Treatments
+from worldkit import cameras, materials
 
 SIZE = (192, 108)
 
@@ -37,6 +41,20 @@ def test_neighbours_are_of_the_same_shot():
     assert between.neighbours(1, drawn, range(4)) == [0, 3]
     assert between.neighbours(6, drawn, range(4, 8)) == [4]
     assert between.neighbours(5, drawn, range(5, 8)) == []
+
+
+@pytest.mark.parametrize("what", ["light", "focus"])
+def test_what_changes_otherwise_than_evenly_within_a_gap_is_traced(what):
+    told = [{"at_s": 0.0, "light_strength": 1.0}, {"at_s": 8.0, "light_strength": 3.0}]
+    flash = [{"at_s": at, "light_strength": 3.0 if at == 2.0 else 1.0} for at in (0.0, 1.0, 2.0, 3.0)]
+    focus = np.ones(9)
+    if what == "focus":
+        focus[2] = 2.0
+    film = SimpleNamespace(
+        treatments=Treatments(flash if what == "light" else told), arrays={"focus_m": focus, "aperture": np.zeros(9)}
+    )
+    assert uneven(film, 0, 4, 1.0)
+    assert not uneven(film, 3, 8, 1.0)
 
 
 @pytest.mark.gl
@@ -75,3 +93,80 @@ def test_a_rolling_ball_seen_by_a_moving_camera_is_where_it_would_be_drawn():
     off, held = (np.abs(one.astype(int) - wanted.astype(int)).max(axis=-1) for one in (image, first))
     assert missing < 0.05  # outlines are wide in so small a picture
     assert off.mean() < 3 and off.mean() < held.mean() / 3
+
+
+@pytest.mark.parametrize("told", [False, True], ids=["drawn", "by poses first"])
+def test_a_thing_that_is_seen_only_within_a_gap_is_traced_there(told):
+    def frame(k: int) -> Surfaces:
+        """A ball that passes the picture within the frames 1 to 3 of 0 to 8; it takes 0.3 % of it."""
+        wall = level(2.0)
+        poses = np.repeat(wall.poses, 2, axis=0)
+        poses[1, :, 3] = 2.0 * (k - 2), 0.0, -1.5
+        things, depth = wall.things.copy(), wall.depth.copy()
+        if k == 2:
+            things[13:15, 23:25], depth[13:15, 23:25] = 1, 1.5
+        return Surfaces(things, depth, poses, wall.view)
+
+    drawn = []
+
+    def surfaces(k: int, coarser: int) -> Surfaces:
+        drawn.append(k)
+        return frame(k)
+
+    geometry = between.Geometry(surfaces, (lambda k: (frame(k).poses, frame(k).view)) if told else None)
+    assert geometry.lacking(4, 0, 8)
+    assert not told or drawn == [4, 0, 8, 2], "only what may come is drawn"
+    assert geometry.lacking(2, 0, 4) and not geometry.lacking(6, 4, 8)
+    black = np.zeros((27, 48, 3), np.uint8)
+    assert between.reckoned(2, [0, 4], geometry, lambda k: black, 0.0) is None, "rather held than without it"
+    assert between.reckoned(3, [0, 4], geometry, lambda k: black, 0.0) is not None
+
+
+def glazed(ball: float, pane: float = 0.0) -> Surfaces:
+    """A see-through pane, which fills the picture, and a ball behind it, each at a place."""
+    wall = level(2.0)
+    poses = np.repeat(wall.poses, 3, axis=0)
+    poses[1, :, 3], poses[2, :, 3] = (ball, 0.0, -1.5), (pane, 0.0, -1.0)
+    things, depth = wall.things.copy(), wall.depth.copy()
+    things[10:16, 20:28], depth[10:16, 20:28] = 1, 1.5
+    behind = Surfaces(things, depth, poses, wall.view, 0)
+    return Surfaces(np.full_like(things, 2), np.ones_like(depth), poses, wall.view, 0, behind)
+
+
+@pytest.mark.parametrize("after", [2, 8])
+def test_what_goes_behind_glass_or_with_it_is_traced(after):
+    def lacking(*frames: Surfaces) -> bool:
+        geometry = between.Geometry(lambda frame, coarser: frames[min(2 * frame // after, 2)])
+        return geometry.lacking(after // 2, 0, after)
+
+    still = glazed(0.0)
+    assert not lacking(still, still, still)
+    assert not lacking(glazed(-0.002), still, glazed(0.002)), "a quarter of a pixel"
+    assert lacking(glazed(-0.04), still, glazed(0.04)), "it would be seen at two places"
+    assert lacking(glazed(0.0, -0.04), still, glazed(0.0, 0.04)), "the pane would take the ball along"
+
+
+@pytest.mark.gl
+def test_coarse_surfaces_also_tell_what_is_behind_glass_and_poses_need_no_drawing():
+    from worldengine.film.renderers.preview.shaded import Shaded
+
+    spec = empty()
+    floor(spec)
+    ball(spec, "ball", (0, 0, 0.15), radius=0.15)
+    pane = spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.5, 0.01, 0.5), pos=(0, -0.5, 0.5))
+    materials.add(spec, "glass_clear")
+    pane.material = "glass_clear"
+    cameras.add(spec, "eye", view="side_minus_y")
+    model = spec.compile()
+    data, camera = mujoco.MjData(model), model.camera("eye").id
+    mujoco.mj_forward(model, data)
+    data.cam_xpos[camera], data.cam_xmat[camera] = (0.0, -2.0, 0.3), np.array([1.0, 0, 0, 0, 0, -1, 0, 1, 0])
+    drawing = Shaded(model, *SIZE)
+    try:
+        coarse, fine = drawing.surfaces(data, camera, 4), drawing.surfaces(data, camera)
+        poses, view = drawing.placed(data, camera)
+    finally:
+        drawing.close()
+    assert fine.behind is None and coarse.behind is not None
+    assert (coarse.things != coarse.behind.things).mean() > 0.01, "the pane"
+    assert np.array_equal(poses, coarse.poses) and np.array_equal(view.eye, coarse.view.eye)

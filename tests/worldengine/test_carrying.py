@@ -89,6 +89,18 @@ def test_where_nothing_moves_the_pictures_are_blended_as_they_are():
     assert np.array_equal(alone, picture)
 
 
+def test_while_a_film_fades_what_only_one_picture_shows_is_as_bright_as_the_rest():
+    (now, wanted), (before, first), (after, last) = seen((0.0, 0.0)), seen((-1.2, 0.0)), seen((1.2, 0.0))
+    for dark in (0.0, 0.4):
+        faded = (dark * first).astype(np.uint8)
+        image, _ = carrying.between(now, [(before, faded), (after, last)], 0.5)
+        off = apart(image, ((0.5 + 0.5 * dark) * wanted).astype(np.uint8))
+        assert off.mean() < 4, dark
+        if dark:
+            for hiding in (before, after):
+                assert off[(hiding.things == BALL) & (now.things == WALL)].mean() < 8
+
+
 def test_a_place_in_one_picture_is_found_in_the_other_and_back():
     rng = np.random.default_rng(3)
     for _ in range(20):

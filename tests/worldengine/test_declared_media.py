@@ -23,7 +23,7 @@ from worldkit import program
 from worldkit.errors import ProgramError, RecordingError
 from worldkit.world import start
 
-ROW = Medium("springs", ("weight",), "net")
+ROW = Medium("springs", ("weight",), "net", world=True)
 STEPS = 150
 
 
@@ -64,13 +64,15 @@ def world(points: int = 3, **flex) -> mujoco.MjSpec:
     return spec
 
 
-def run(folder: Path, law=None, spec=None, rows=(ROW,), others=(), drive=None, steps: int = STEPS) -> stored.Recording:
+def run(
+    folder: Path, law=None, spec=None, rows=(ROW,), others=(), drive=None, steps: int = STEPS, control=None
+) -> stored.Recording:
     model = (spec or world()).compile()
     prepare(model)
     data = start(model)
-    ports = Ports(model, tuple(others), Media(model, rows, model.opt.timestep, others))
+    ports = Ports(model, tuple(others), Media(model, rows, model.opt.timestep, others, steps))
     inputs = (
-        Asked(model, data, ports, Local(model, data, ports, None, [law or Springs()]))
+        Asked(model, data, ports, Local(model, data, ports, control, [law or Springs()]))
         if drive is None
         else Replayed(model, data, ports, drive, steps)
     )
@@ -104,8 +106,8 @@ def test_momentum_goes_from_points_to_bodies_and_none_is_lost(recorded: stored.R
 
 
 def test_points_are_recorded_a_hundred_times_a_second_and_drawn_in_between(recorded: stored.Recording) -> None:
-    assert list(recorded.balances.step) == list(range(0, STEPS, 10))
-    place = recorded.media.place.reshape(15, 3, 3)
+    assert list(recorded.balances.step) == list(range(0, STEPS + 1, 10))
+    place = recorded.media.place.reshape(16, 3, 3)
     assert place.dtype == np.float32 and place[0, :, 2] == pytest.approx([1.0, 0.9, 0.8])
     shown = Replay(world().compile(), recorded)
     assert shown.show(25).flexvert_xpos == pytest.approx((place[2] + place[3]) / 2, abs=1e-6)
@@ -120,7 +122,7 @@ def test_geoms_of_a_body_can_show_it(tmp_path: Path) -> None:
         drops.add_geom(size=(0.02, 0, 0), contype=0, conaffinity=0)
     law = Springs()
     law.shown_by = "drops"
-    recording = run(tmp_path / "out", law, spec, (Medium("springs", ("weight",), "drops"),))
+    recording = run(tmp_path / "out", law, spec, (Medium("springs", ("weight",), "drops", world=True),))
     data = Replay(spec.compile(), recording).show(0)
     assert data.geom_xpos[-3:, 2] == pytest.approx([1.0, 0.9, 0.8])
 
@@ -183,8 +185,60 @@ def test_a_forged_medium_is_refused(tmp_path: Path, recorded: stored.Recording, 
 def test_a_medium_that_is_taken_away_is_missed(tmp_path: Path, recorded: stored.Recording) -> None:
     for name in ("inputs", "balances"):
         (tmp_path / f"{name}.arrows").write_bytes((recorded.folder / f"{name}.arrows").read_bytes())
-    with pytest.raises(RecordingError, match=r"media.arrows has 0 rows, and 15 steps"):
+    with pytest.raises(RecordingError, match=r"media.arrows has 0 rows, and 16 steps"):
         run(tmp_path / "out", drive=stored.Replayable(tmp_path))
+
+
+class Meddling(Springs):
+    def step(self, model, data, seconds):
+        forces = super().step(model, data, seconds)
+        data.xfrc_applied[1, 0] = data.qfrc_applied[0] = data.ctrl[0] = 3.0
+        return forces
+
+
+def motor() -> mujoco.MjSpec:
+    spec = world()
+    cart = spec.worldbody.add_body(name="cart", pos=(1, 0, 0))
+    cart.add_joint(name="x", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=(1, 0, 0))
+    cart.add_joint(name="y", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=(0, 1, 0))
+    cart.add_geom(size=(0.05, 0, 0))
+    spec.add_actuator(name="pull", target="x", trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    return spec
+
+
+def test_nothing_but_a_laws_forces_reaches_the_world_and_nobody_else_pushes_its_bodies(tmp_path: Path) -> None:
+    def control(model, data):
+        data.xfrc_applied[1] = 7.0
+        data.qfrc_applied[:] = 7.0
+
+    drive = (("control", frozenset({"pull"})),)
+    plain = run(tmp_path / "plain", Springs(), motor(), others=drive, steps=20)
+    for name, law, by in (("meddling", Meddling(), None), ("pushed", Springs(), control)):
+        other = run(tmp_path / name, law, motor(), others=drive, steps=20, control=by)
+        assert other.sha256 == plain.sha256, name
+
+
+def test_a_law_that_writes_the_model_is_refused_where_control_may(tmp_path: Path) -> None:
+    class Lightening(Springs):
+        def step(self, model, data, seconds):
+            model.body_mass[1] *= 0.9
+            return super().step(model, data, seconds)
+
+    def control(model, data):
+        model.body_mass[1] *= 0.9
+
+    opened = (("parameter", frozenset({"weight.body_mass"})),)
+    assert run(tmp_path / "control", others=opened, steps=5, control=control).complete
+    with pytest.raises(ProgramError, match=r"a law writes model.body_mass"):
+        run(tmp_path / "law", Lightening(), others=opened, steps=5)
+
+
+@pytest.mark.parametrize("name", ["x", "cart/x", "cart"])
+def test_a_joint_of_a_laws_body_is_no_way_to_push_it(name: str) -> None:
+    model, row = motor().compile(), Medium("springs", ("cart",), "net")
+    assert "qfrc_applied" not in Ports(model, (), Media(model, [row], 0.001)).entries
+    with pytest.raises(ProgramError, match="pushed by the law springs and by another input"):
+        Ports(model, (("force", frozenset({name})),), Media(model, [row], 0.001))
 
 
 class Raising(Springs):
@@ -250,6 +304,15 @@ def test_what_a_law_may_not_be_is_refused_before_the_first_step(tmp_path: Path, 
         run(tmp_path / "out", spec=world(**flex), rows=rows, others=others)
 
 
+def test_a_law_of_another_file_than_the_plans_is_refused(tmp_path: Path) -> None:
+    here = Medium("springs", ("weight",), "net", "worldengine/test_declared_media.py", world=True)
+    kept = run(tmp_path / "here", rows=(here,), steps=3)
+    assert kept.meta["laws"][0]["law"]["file"] == here.file and Medium.read(kept.meta["laws"][0]) == here
+    for file in ("laws/springs.py", "elsewhere/test_declared_media.py"):
+        with pytest.raises(ProgramError, match=rf"springs stands in test_declared_media.py, .* declares {file}"):
+            run(tmp_path / "other", rows=(Medium("springs", ("weight",), "net", file, world=True),), steps=3)
+
+
 def test_too_many_points_are_refused_with_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(media_of, "MOST_POINTS", 2)
     with pytest.raises(ProgramError, match="move 3 points, more than 2"):
@@ -259,15 +322,35 @@ def test_too_many_points_are_refused_with_their_number(monkeypatch: pytest.Monke
 def test_many_points_are_recorded_less_often() -> None:
     model = world(points=3000).compile()
     assert Media(model, [ROW], 0.001).every == 20
-    assert Media(model, [ROW], 0.05).every == 1
+    assert Media(model, [ROW], 0.04).every == 1
+
+
+def test_a_law_is_summed_at_the_end_too_and_asked_often_enough(tmp_path: Path) -> None:
+    once = run(tmp_path / "once", steps=7)
+    assert list(once.balances.step) == [0, 7], "one question takes the points, and the end"
+    assert list(run(tmp_path / "again", drive=once, steps=7).balances.step) == [0, 7]
+    model = world().compile()
+    with pytest.raises(ProgramError, match=r"asked every 0\.05 s, and its sums are due 25 times"):
+        Media(model, [ROW], 0.05)
+    with pytest.raises(ProgramError, match="has 150 steps, and the law springs is asked every 20"):
+        Media(model, [ROW], 0.02, (), 150, 20)
 
 
 def test_a_program_has_its_law_stepped_in_its_own_process(tmp_path: Path) -> None:
     words = ["--pass", "physics", "--out", str(tmp_path)]
     assert program.main(lambda: world(), duration=0.05, laws=[Springs()], argv=words) == 0
     recording = stored.open(tmp_path / "trajectory")
-    assert [row["law"]["name"] for row in recording.meta["laws"]] == ["springs"] and len(recording.balances) == 5
-    assert json.loads((tmp_path / "program.json").read_text())["laws"][0]["bodies"] == ["weight"]
+    assert [row["law"]["name"] for row in recording.meta["laws"]] == ["springs"] and len(recording.balances) == 6
+    assert json.loads((tmp_path / "program.json").read_text())["laws"][0]["bodies"] == ["weight", "world"]
+
+
+def test_a_law_pushes_on_the_world_only_where_its_row_says_so(tmp_path: Path) -> None:
+    row = Medium.read({"bodies": ["weight"], "law": {"name": "springs", "shown_by": "net"}})
+    with pytest.raises(ProgramError, match=r"acts on weight, world.*the plan declares weight, shown by net"):
+        run(tmp_path / "silent", rows=(row,), steps=5)
+    said = Medium.read({"bodies": ["world", "weight"], "law": {"name": "springs", "shown_by": "net"}})
+    told = run(tmp_path / "said", rows=(said,), steps=5)
+    assert told.meta["laws"][0]["bodies"] == ["weight", "world"] and set(told.interventions.target) == {"weight"}
 
 
 class Stiffer(Springs):
@@ -282,6 +365,24 @@ def test_the_motion_of_another_law_is_not_taken_over(tmp_path: Path) -> None:
         told.append(json.loads((tmp_path / name / "result.json").read_text()))
     assert "reused_from" not in told[1] and told[0]["inputs_sha256"] != told[1]["inputs_sha256"]
     assert not any(said["motion_key"] for said in told)
+
+
+def test_pictures_of_other_points_are_not_those_of_this_recording(tmp_path: Path) -> None:
+    class Aside(Springs):
+        def start(self, model, data):
+            super().start(model, data)
+            self.points = self.points + np.array([0.0, 0.3, 0.0])
+
+        def step(self, model, data, seconds):
+            return np.zeros((2, 3))
+
+    class Still(Aside):
+        def start(self, model, data):
+            Springs.start(self, model, data)
+
+    one, same, other = (run(tmp_path / f"{n}", law, steps=20) for n, law in enumerate((Still(), Still(), Aside())))
+    assert one.sha256 == other.sha256  # the body moves alike
+    assert one.shown_sha256 == same.shown_sha256 != other.shown_sha256
 
 
 @pytest.mark.parametrize(

@@ -450,6 +450,22 @@ def test_an_open_shutter_smears_what_moves(made):
     assert edge(1.0) < 0.7 * edge()
 
 
+def test_an_open_shutter_takes_one_picture_where_nothing_moves_and_more_where_much_does(made, monkeypatch):
+    drawn = []
+
+    def tell(film):
+        film.hold(still((0.0, -1.2, 0.3), (0, 0, 0.3)), 0.5, at=0.1)
+        film.shot(still((0.0, -1.2, 0.3), (0, 0, 0.3)), until=0.4)
+        film.shutter(1.0, samples=6)
+
+    with made.screening(tell) as screening:
+        whole = screening.frames.blurred
+        monkeypatch.setattr(screening.frames, "blurred", lambda m, *more: drawn.append(len(m)) or whole(m, *more))
+        pictures = [screening.picture(number) for number in (3, 15, 18)]
+        assert len(drawn) == 2 and all(1 < n <= 6 for n in drawn), "one that is held is one picture"
+        assert np.array_equal(pictures[1], screening.picture(15)), "the same frame, the same moments"
+
+
 def counted(monkeypatch, place, name, calls):
     there = getattr(place, name)
 

@@ -42,3 +42,9 @@ def test_all_that_films_import_of_worldkit_is_part_of_their_identity() -> None:
     assert {"lights.py", "settings.py", "materials/__init__.py"} <= used
     assert used - covered - NOT_SEEN == set()
     assert not NOT_SEEN & covered
+
+
+def test_what_lays_the_laws_of_an_author_is_part_of_it() -> None:
+    assert "inputs/declared_media.py" in identity.REPLAYED_BY
+    engine = Path(worldengine.film.__file__).parents[1]
+    assert all((engine / name).is_file() for name in identity.REPLAYED_BY)

@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from worldengine.film.drawn_frames import Frames
-from worldengine.film.renderers.traced import darkroom, daylight, variant
+from worldengine.film.renderers.traced import darkroom, daylight, glimpses, variant
+from worldengine.film.renderers.traced.walked import Rays
 from worldengine.film.treatment import Treatment
 from worldkit import scene
 from worldkit.settings import OUTDOOR, STUDIO
@@ -45,6 +46,18 @@ def test_far_ground_that_covers_half_a_pixel_lets_no_light_of_its_own_through(se
     ]
     left = 0.05 * 1.01 if setting is OUTDOOR else 1e-6  # a tenth of it comes through the haze
     assert np.abs(found[1] - found[0]).max() <= left
+
+
+def test_only_what_lies_in_the_plane_of_the_key_light_is_taken_for_it() -> None:
+    way = np.array(STUDIO.key.direction)
+    beside = np.cross(way, (0, 0, 1.0))
+    beside /= np.linalg.norm(beside)
+    middle, radius = 30.0 * way, 9.0
+    around = glimpses.Around(STUDIO, Treatment(), 4, 1, (middle, radius))
+    places = np.array([[middle, middle + 8.9 * beside, middle - 8.0 * way, middle + 0.2 * way]], np.float32)
+    blank = np.zeros((1, 4, 3), np.float32)
+    _, hidden = around._without_key(Rays(blank, blank, blank, places, np.ones((1, 4), np.float32)))
+    assert hidden.tolist() == [[1, 1, 0, 0]], "the ground before it and behind it stays"
 
 
 @pytest.mark.gl

@@ -11,11 +11,12 @@ import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, lay_film, record
-from worldengine.film import described, motion_facts, refining
+from worldengine.film import described, kept_frames, motion_facts, refining
 from worldengine.film.between import neighbours
 from worldengine.film.refining import Refined, encode, refine, rounds, traced_levels
 from worldkit import materials, portable
 from worldkit.filming import Film, Recorded
+from worldwright.stage import refined
 
 SIZE = (64, 36)
 LEVELS = (0.5, 2, 6)
@@ -203,6 +204,9 @@ def test_what_an_earlier_process_found_does_not_stop_a_film_for_good(tmp_path, m
 def test_at_least_half_of_the_minutes_is_for_drawing(count):
     assert refining.drawing_s(60.0, count, (1280, 720)) == max(30.0, 60.0 - 0.22 * count)
     assert refining.drawing_s(60.0, 100, (640, 360)) == 60.0 - 5.5
+    for seconds in (1.0, 60.0, 9000.0):
+        drawing = refining.drawing_s(seconds, count, (1280, 720))
+        assert refining.given_s(drawing, count, (1280, 720)) == pytest.approx(seconds)
 
 
 def test_where_the_renderer_gives_up_the_plainer_one_has_frames_of_its_own(tmp_path):
@@ -289,12 +293,47 @@ def test_with_no_time_at_all_there_is_still_a_whole_film(tmp_path):
     assert told == {"samples": {"least": LEVELS[0], "most": LEVELS[0]}, "drawn": 1, "taken_over": 0, "reckoned": 0}
 
 
-def test_what_is_missing_is_shown_by_the_frame_before_it(tmp_path):
+def test_what_is_missing_is_shown_by_the_nearest_drawn_frame(tmp_path):
     film, state = Drawn(12), Refined(tmp_path / "frames", 12, "it")
     for number in (0, 4, 8):
         state.keep(number, film.picture(number, 2), 2)
     encode(film, state, tmp_path / "final.mp4", SIZE, 24, lambda number: None)
-    assert np.allclose(shown(tmp_path / "final.mp4"), [0] * 4 + [4] * 4 + [8] * 4, atol=0.3)
+    assert np.allclose(shown(tmp_path / "final.mp4"), [0] * 3 + [4] * 4 + [8] * 5, atol=0.3)
+
+
+def test_a_held_frame_is_of_its_own_shot_where_that_has_any_and_else_has_the_words_of_what_is_shown(tmp_path):
+    lettered = []
+
+    class Titled(Halfway):
+        def lettered(self, number: int, image: np.ndarray) -> np.ndarray:
+            lettered.append(number)
+            return image
+
+    film, state = Titled([range(4), range(4, 8), range(8, 12)]), Refined(tmp_path / "frames", 12, "it")
+    for number in (3, 7):
+        state.keep(number, film.picture(number, 2), 2)
+    encode(film, state, tmp_path / "final.mp4", SIZE, 24, lambda number: None)
+    assert np.allclose(shown(tmp_path / "final.mp4"), [3] * 4 + [7] * 8, atol=0.3)
+    assert lettered == [*range(8), *[7] * 4]
+
+
+def test_why_no_frame_is_reckoned_any_more_is_told():
+    film = refining.OfTheAuthor.__new__(refining.OfTheAuthor)
+    film.shots, film._unreckoned, film._fps, film.renderer = [range(3)], "", 24, "traced"
+    frames = SimpleNamespace(told=lambda: "traced 1")
+    film._screening = SimpleNamespace(frames=frames)
+    film._film = SimpleNamespace(told=lambda fps: {}, shutter=0.0)
+
+    class Broken:
+        def __getattr__(self, name: str):
+            raise RuntimeError("no context")
+
+    film._geometry = Broken()
+    assert "unreckoned" not in film.told()
+    assert film.reckoned(1, [2.0, 0.0, 2.0], lambda number: None) is None
+    assert film.told()["unreckoned"] == "RuntimeError: no context"
+    told = {"frames": 3, "drawn": 2, "reckoned": 0, "samples": {"least": 2, "most": 2}, "taken_over": 0, "rest_s": 1}
+    assert "(RuntimeError: no context)" in refined.said(told | film.told())
 
 
 def test_what_is_missing_is_reckoned_between_the_drawn_frames_of_its_shot_unless_it_is_late(tmp_path):
@@ -307,7 +346,7 @@ def test_what_is_missing_is_reckoned_between_the_drawn_frames_of_its_shot_unless
     assert np.allclose(shown(tmp_path / "final.mp4"), means, atol=0.3)
     encode(film, state, tmp_path / "late.mp4", SIZE, 24, lambda number: None, until=0.0)
     assert state.told()["reckoned"] == 0
-    assert np.allclose(shown(tmp_path / "late.mp4"), [0] * 4 + [4] * 2 + [6] * 4 + [10] * 2, atol=0.3)
+    assert np.allclose(shown(tmp_path / "late.mp4"), [0] * 3 + [4] * 3 + [6] * 3 + [10] * 3, atol=0.3)
 
 
 def test_the_frames_that_others_are_reckoned_from_become_better_first(tmp_path, monkeypatch):
@@ -323,7 +362,7 @@ def test_the_frames_that_others_are_reckoned_from_become_better_first(tmp_path, 
     assert not refine(film, state, 3 * 0.5 + 3 * 2.0 + 2.5, lambda: None)
     assert state.samples == [2 if k in (0, 8, 16) else 0 for k in range(17)]
     assert film.questions == [(4, 0, 8), (12, 8, 16)], "what lies between is not asked again"
-    assert state.told()["rest_s"] == pytest.approx(14 * 6.0), "for the first round of the others"
+    assert state.told()["rest_s"] == pytest.approx(17 * 6.0), "the three come first once more"
 
 
 def test_it_goes_on_where_it_was_cut_and_ends_when_all_is_drawn(tmp_path):
@@ -338,12 +377,40 @@ def test_it_goes_on_where_it_was_cut_and_ends_when_all_is_drawn(tmp_path):
     assert again.samples == [LEVELS[-1]] * 10
 
 
+def test_asking_what_is_lacking_takes_time_of_the_film_and_of_no_frame(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+
+    class Asks(Halfway):
+        def lacking(self, frame: int, before: int, after: int) -> bool:
+            clock[0] += 10.0
+            return super().lacking(frame, before, after)
+
+        def picture(self, number: int, samples: float) -> np.ndarray:
+            clock[0] += samples
+            return super().picture(number % 20, samples)
+
+    film, state = Asks([range(81)]), Refined(tmp_path / "frames", 81, "it")
+    assert not refine(film, state, 11 * 0.5 + 35.0, lambda: None)
+    assert len(film.questions) == 4, "past the end nothing is asked"
+    assert state.pace.dearest == 1.0 and len(film.asked) == 11
+
+
+def test_a_set_that_is_finished_for_ever_is_begun_anew(tmp_path):
+    state = Refined(tmp_path / "frames", 2, "it")
+    for number in range(2):
+        state.keep(number, Drawn(2).picture(number, 2), 2)
+    path = tmp_path / "frames" / kept_frames.STATE
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"samples": [float("inf")] * 2}))
+    assert Refined(tmp_path / "frames", 2, "it").samples == [0.0, 0.0]
+
+
 @pytest.mark.parametrize("change", ["about", "count", "damaged"])
 def test_frames_of_something_else_are_forgotten(tmp_path, change):
     state = Refined(tmp_path / "frames", 4, "it")
     state.keep(0, Drawn(4).picture(0, 2), 2)
     if change == "damaged":
-        (tmp_path / "frames" / refining.STATE).write_text("{")
+        (tmp_path / "frames" / kept_frames.STATE).write_text("{")
     other = Refined(tmp_path / "frames", 5 if change == "count" else 4, "that" if change == "about" else "it")
     assert not any(other.samples)
 

@@ -78,6 +78,22 @@ def decode(path):
         return frames, stream.codec_context.name, stream.codec_context.pix_fmt, float(stream.average_rate)
 
 
+@pytest.mark.parametrize(("joined", "shown"), [(True, {"cloth": 5}), (False, {"cloth": 2, "cloth (flex)": 3})])
+def test_a_flex_of_a_bodys_name_takes_none_of_its_pixels(joined, shown):
+    cloth = (
+        """<flexcomp name="cloth" type="grid" count="3 3 1" spacing="0.1 0.1 0.1" dim="2" mass="1" radius="0.01"/>"""
+    )
+    inside, outside = (cloth, "") if joined else ("", cloth)
+    model = mujoco.MjModel.from_xml_string(
+        f"""<mujoco><worldbody><body name="cloth"><geom size="0.1"/>{inside}</body>{outside}</worldbody></mujoco>"""
+    )
+    geoms = np.full((4, 4), -1)
+    geoms[0, :2], geoms[1, :3] = 0, -2
+    found = visible(model, geoms)
+    assert {name: facts["pixels"] for name, facts in found.items()} == shown
+    assert found["cloth"]["box"] == ([0, 0, 2, 1] if joined else [0, 0, 1, 0])
+
+
 def test_a_video_is_what_was_drawn(tmp_path):
     colours = [(200, 30, 30), (30, 160, 40), (40, 60, 200), (240, 240, 240), (10, 10, 10)]
     with Video(tmp_path / "film.mp4", 64, 48, 24) as film:

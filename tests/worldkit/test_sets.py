@@ -71,6 +71,30 @@ def test_what_is_too_large_for_a_room_is_told_with_wider_sets():
     assert "gym" in refused.value.next_move and "kitchen_counter" not in refused.value.next_move
 
 
+def test_the_wall_of_a_still_life_has_the_colour_that_is_asked_for_and_others_have_none():
+    facts, arrays, _ = described("still_life", 0.4, colour="#884422")
+    painted = arrays[next(t for t in facts["things"] if t["name"] == "wall")["look"]["picture"]]
+    assert np.allclose(painted.mean(axis=(0, 1)), (0x88, 0x44, 0x22), atol=3) and 1 < painted[..., 0].std() < 12
+    assert facts["gobo"]["kind"] == "window" and facts["air"][-1]["light_softness_deg"] < 2
+    with pytest.raises(ProgramError, match="no wall whose colour") as refused:
+        described("beach", 1.0, colour="#884422")
+    assert "still_life" in refused.value.next_move
+
+
+def test_a_still_life_s_wall_is_behind_all_that_moves_or_stands_there():
+    facts, arrays, _ = described("still_life", 0.4, facing_deg=-90.0)
+    wall = next(t for t in facts["things"] if t["name"] == "back board")
+    front = arrays[wall["vertices"]][:, 1].min()
+    assert 0.03 < front < 0.4, "close behind a ball that moves along it"
+
+
+@pytest.mark.parametrize("name", ["laboratory", "kitchen_counter", "living_room", "workshop"])
+def test_a_room_has_light_from_one_side_whose_shadows_are_seen(name):
+    facts, _, _ = described(name, 0.4)
+    lit = facts["air"][0]
+    assert lit["light_softness_deg"] <= 3 and lit["sky_strength"] < 0.7 and lit["light_elevation_deg"] < 40
+
+
 def test_what_is_said_afterwards_changes_it():
     film = Film(recorded(1.0))
     film.set("street")

@@ -123,23 +123,23 @@ def _inputs(
 
     # A rate that was asked for stays the same in time; a law that is asked at every step is asked at every finer one.
     every = given.control_every * (variant.steps_per_step if given.control_every > 1 else 1)
-    ports = Ports(model, given.inputs, _media(model, given, every))
+    steps = world.steps_of(model, given.duration)
+    ports = Ports(model, given.inputs, _media(model, given, every, steps))
     if options.replay:
         if variant:
             raise ProgramError("a variant is another world", "--replay", "ask its author anew")
-        steps = world.steps_of(model, given.duration)
         return Replayed(model, data, ports, Replayable(options.replay), steps, given.control_every)
     voice = Distant(model, data, ports, Channel(descriptors(options.channel), ENGINE))
     return Asked(model, data, ports, voice, every, given.latency, hold.shares() if hold else None)
 
 
-def _media(model: "mujoco.MjModel", given: Given, every: int) -> "Media | None":
+def _media(model: "mujoco.MjModel", given: Given, every: int, steps: int) -> "Media | None":
     """What the author's laws move; None without any."""
     from ..inputs.declared_media import Media
 
     if not given.laws:
         return None
-    return Media(model, given.laws, every * float(model.opt.timestep), given.inputs)
+    return Media(model, given.laws, every * float(model.opt.timestep), given.inputs, steps, every)
 
 
 def _meta(model: "mujoco.MjModel", given: Given, variant: Any, every: int, asked: bool) -> dict[str, Any]:

@@ -107,7 +107,7 @@ def simulate(
             tick(step + 1)
     mujoco.mj_forward(model, data)
     if inputs is not None:
-        inputs.finish()
+        inputs.finish(steps)
     if beside is not None:
         beside.finish()
     before()

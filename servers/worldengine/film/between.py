@@ -4,11 +4,13 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from . import carrying
+from .fitting import fit, parts
 
 if TYPE_CHECKING:
     import numpy as np
 
     from .carrying import Surfaces
+    from .renderers.preview.eye import View
 
 COARSER = 4
 """Whether a frame can be reckoned is told by pictures so many times smaller each way."""
@@ -17,6 +19,8 @@ UNSEEN, MOST_UNSEEN = 0.01, 0.03
 STRAYS, SWIMS = 0.06, 0.15
 """Across wide gaps a thing that goes farther than this share of the picture's height has a shadow that would be seen twice; and
 where the camera carries everything so far, so would be what is mirrored."""
+APART_PX = 1.0
+"""What is seen through something may go so far beside it from a traced frame to one that is reckoned."""
 TOO_MUCH = 0.15
 """Of a frame of which more is unknown the nearest traced one is shown instead."""
 KEPT = 24
@@ -28,10 +32,15 @@ class Geometry:
 
     Args:
         surfaces: draws what a frame shows, so many times smaller each way; any exception says that it cannot be drawn here.
+        placed: tells where things are in a frame (N, 3, 4), and its view, which takes less than to draw it.
     """
 
-    def __init__(self, surfaces: "Callable[[int, int], Surfaces]") -> None:
-        self._surfaces = surfaces
+    def __init__(
+        self,
+        surfaces: "Callable[[int, int], Surfaces]",
+        placed: "Callable[[int], tuple[np.ndarray, View]] | None" = None,
+    ) -> None:
+        self._surfaces, self._placed = surfaces, placed
         self._known: dict[tuple[int, int], Surfaces] = {}
 
     def of(self, frame: int, coarser: int = 1) -> "Surfaces":
@@ -48,12 +57,40 @@ class Geometry:
     def lacking(self, frame: int, before: int, after: int) -> bool:
         """Whether a frame cannot well be reckoned from these two."""
         now, sides = self.of(frame, COARSER), [self.of(side, COARSER) for side in (before, after)]
-        found, height = carrying.fit(now, sides), now.depth.shape[0]
+        found, height = fit(now, sides), now.depth.shape[0]
+        if found.lost or any(parts(now, side, APART_PX / COARSER) for side in sides):
+            return True
         if after - before <= 2:
             return found.unseen > MOST_UNSEEN
         if found.unseen > UNSEEN or found.melts > UNSEEN:
             return True
-        return carrying.strayed(*sides) > STRAYS * height or found.way > SWIMS * height
+        if carrying.strayed(*sides) > STRAYS * height or found.way > SWIMS * height:
+            return True
+        others = (k for k in range(before + 1, after) if k != frame and self._comes(k, sides))
+        return any(fit(self.of(k, COARSER), sides).lost for k in others)
+
+    def _comes(self, frame: int, sides: "list[Surfaces]") -> bool:
+        """Whether a frame may show a thing that neither side does: it moves there, or is in the picture only meanwhile."""
+        import numpy as np
+
+        if self._placed is None:
+            return True
+        poses, view = self._placed(frame)
+        if any(len(side.poses) != len(poses) for side in sides):
+            return True
+        at_sides = [within(side.poses, side.view) for side in sides]
+        shown = np.isin(np.arange(len(poses)), np.concatenate([side.things.ravel() for side in sides]))
+        moves = np.any([np.abs(side.poses - poses).max(axis=(1, 2)) > carrying.LEAST_M for side in sides], axis=0)
+        return bool((~shown & within(poses, view) & (moves | ~np.any(at_sides, axis=0))).any())
+
+
+def within(poses: "np.ndarray", view: "View") -> "np.ndarray":
+    """Whether the middle of each thing (N, 3, 4) is in the picture: bool (N,)."""
+    import numpy as np
+
+    place = (poses[:, :, 3] - view.eye) @ view.axes
+    inside: np.ndarray = (place[:, 2] < 0) & (np.abs(place[:, :2]) <= -place[:, 2:] * view.tangents).all(axis=1)
+    return inside
 
 
 def neighbours(frame: int, drawn: Sequence[float], shot: range) -> list[int]:

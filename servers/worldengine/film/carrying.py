@@ -29,8 +29,12 @@ EDGE, BORDER = 0.03, 0.05
 """What is nearer by more than the first share stands in front, and is the same at another moment but for the second."""
 MIXED = 1e-3
 """What is mixed with something nearer weighs so little: it is better than nothing, as among leaves."""
+FADED, MOST_GAIN = 1.1, 3.0
+"""A film fades where one picture is so many times as bright as the other; one that is too dark by the latter tells nothing."""
 FEATHER_PX = 5
 """Over so many pixels the one picture gives way to the other where only that one shows what is seen."""
+LEAST_GONE, LEAST_STILL = 4e-5, 1e-3
+"""A thing is missed from so much of a picture on; one that stands still only from more on: a leaf or a stone is one of many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +50,8 @@ class Surfaces:
     view: "View"
     rim_px: int = RIM_PX
     """How wide outlines are mixed with what is behind them; 0 where that is not asked for."""
+    behind: "Surfaces | None" = None
+    """The same without all that is see-through; None where nothing is, or where that is not asked for."""
 
     @cached_property
     def near(self) -> np.ndarray:
@@ -92,7 +98,7 @@ def between(
     share: float,
     smear: float = 0.0,
 ) -> tuple[np.ndarray, float]:
-    """Reckon the picture of a moment: uint8 (H, W, 3), and the share of it that no picture shows.
+    """Reckon the picture of a moment: uint8 (H, W, 3), and the share of it that no picture shows, 1 where a thing would be missed.
 
     Args:
         now: what is seen at the moment.
@@ -109,10 +115,14 @@ def between(
         return np.rint(mixed).astype(np.uint8), 0.0
     total = np.zeros((*now.depth.shape, 3), np.float32)
     weights = np.zeros(now.depth.shape, np.float32)
-    for part, (one, picture) in zip(parts, found, strict=True):
+    for part, gain, (one, picture) in zip(parts, exposures(parts, [p for _, p in found]), found, strict=True):
+        if gain > MOST_GAIN:
+            continue
         moved = (
             picture if one.still else cv2.remap(picture, one.x, one.y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
         )
+        if gain != 1.0:
+            moved = np.float32(gain) * moved
         weight = np.where(one.clear, np.float32(1.0), np.float32(MIXED) * one.seen)
         if not one.clear.all():
             weight *= cv2.blur(weight, (FEATHER_PX, FEATHER_PX)) + np.float32(1e-3)
@@ -120,35 +130,32 @@ def between(
         total += moved * weight[..., None]
         weights += weight
     unseen = weights <= 0
-    missing = float(unseen.mean())
+    missing = 1.0 if gone(now, [then for then, _ in sides], unseen) else float(unseen.mean())
     total /= np.maximum(weights, np.float32(1e-9))[..., None]
     image = np.clip(np.rint(total), 0, 255).astype(np.uint8)
     return (filled(image, unseen, now.things) if missing else image), missing
 
 
-class Fit(NamedTuple):
-    """How well a picture can be reckoned from others."""
-
-    unseen: float
-    """The share of it that none of them shows."""
-    way: float
-    """How far, pixels, half of what is seen goes at least from the first of them to the last, by the camera's motion too."""
-    melts: float
-    """The share of it that shows what bends."""
+def exposures(parts: list[float], pictures: list[np.ndarray]) -> list[float]:
+    """By how much each picture has to be brighter so that what only one shows looks as lit as what is taken from all of them."""
+    lit = [max(float(picture[::4, ::4].mean()), 1e-3) for picture in pictures]
+    wanted = sum(part * one for part, one in zip(parts, lit, strict=True))
+    gains = [wanted / one for one in lit]
+    return gains if max(gains) > FADED * min(gains) else [1.0] * len(gains)
 
 
-def fit(now: Surfaces, sides: "list[Surfaces]") -> Fit:
-    """How well the picture of a moment can be reckoned from those of others."""
-    hidden, way = np.ones(now.depth.shape, bool), 0.0
-    column, row = grid(*now.depth.shape[::-1])
-    bends = np.zeros(now.depth.shape, bool)
-    for then in sides:
-        found = carry(now, then)
-        hidden &= ~found.seen
-        way += float(np.median(np.hypot(found.x - column, found.y - row)))
-        soft = (now.things < 0) | (then.things < 0)
-        bends |= soft & (np.abs(now.depth - then.depth) > SLACK * now.depth)
-    return Fit(float(hidden.mean()), way, float(bends.mean()))
+def gone(now: Surfaces, sides: "list[Surfaces]", hidden: np.ndarray) -> bool:
+    """Whether a thing would be missed that others do not show: most of it is `hidden`, and it would not be filled in by itself."""
+    for thing in np.unique(now.things[hidden]):
+        mine = now.things == thing
+        moves = any(
+            thing >= len(side.poses) or np.abs(now.poses[thing] - side.poses[thing]).max() > LEAST_M for side in sides
+        )
+        if thing < 0 or mine.mean() < (LEAST_GONE if moves else LEAST_STILL) or hidden[mine].mean() <= 0.5:
+            continue
+        if not any((side.things == thing).any() for side in sides):
+            return True
+    return False
 
 
 def filled(image: np.ndarray, holes: np.ndarray, things: np.ndarray) -> np.ndarray:

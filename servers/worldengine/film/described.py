@@ -11,7 +11,7 @@ from worldkit.filming.drawn_only import SHAPES
 from worldkit.filming.film_bounds import MOST_COPIES, MOST_FRAMES, MOST_LAMPS, MOST_PANELS, PANEL_M, PLACES, STORM_M_S
 from worldkit.scene import GROUND
 
-from . import ground_skins
+from . import gobos, ground_skins
 from .treatment import LIMITS, Treatments
 
 if TYPE_CHECKING:
@@ -94,6 +94,8 @@ class Described:
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
+        if gobo := self.treatments.at(0.0).light_gobo:
+            said.append(f"shadow of {gobo.kind} (a pattern before the light)")
         if otherwise := self.treatments.departs():
             said.append(f"light otherwise than the world states: {', '.join(otherwise)}")
         treated = self.treatments.at(0.0)
@@ -210,7 +212,7 @@ def _checked(
     return Described(
         tuple(shots),
         captions,
-        Treatments(air, stated),
+        Treatments(air, stated, gobos.told(told)),
         things,
         surfaces,
         lamps,

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 from worldkit import cameras, turning
 
 from ..recording.replay import Replay
+from . import smear
 from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
 from .lettering import letter
 from .renderers import Before
+from .renderers.preview.eye import of_camera
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from ..recording.stored import Recording
     from .carrying import Surfaces
     from .renderers import Moment, Quality
+    from .renderers.preview.eye import View
     from .renderers.preview.shaded import Shaded
 
 HELD = ("eye", "target", "roll_deg", "fovy_deg", "focus_m", "aperture")
@@ -104,7 +107,7 @@ class Screening:
 
     def wordless(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame without its words: uint8 (height, width, 3)."""
-        moments = self._moments(quality)
+        moments = self._moments(quality, frame)
         before = [Before(number, self._parts(number, moments)) for number in self.standing(frame, quality)]
         return self.frames.over(before, self._parts(frame, moments), self._camera, quality)
 
@@ -120,17 +123,43 @@ class Screening:
         Raises:
             RuntimeError: the graphics driver refuses; other exceptions of its own, too.
         """
+        data = self._moment(frame + self.film.shutter / 2)
+        return self._looking().surfaces(data, self._camera, coarser)
+
+    def placed(self, frame: int) -> "tuple[np.ndarray, View]":
+        """Where each thing of `surfaces` is (N, 3, 4), and the view, without drawing anything."""
+        return self._looking().placed(self._moment(frame + self.film.shutter / 2), self._camera)
+
+    def _looking(self) -> "Shaded":
         from .renderers.preview.shaded import Shaded
 
         if self._seen is None:
             self._seen = Shaded(self.model, self.frames.width, self.frames.height)
-        data = self._moment(frame + self.film.shutter / 2)
-        return self._seen.surfaces(data, self._camera, coarser)
+        return self._seen
 
-    def _moments(self, quality: "Quality") -> int:
-        """How many moments the shutter is open for: each takes one sample at least, and a draft is sharp."""
-        moments = self.film.samples if self.film.shutter > 0 else 1
-        return moments if isinstance(quality, str) else min(moments, max(1, int(quality)))
+    def _moments(self, quality: "Quality", frame: int) -> int:
+        """How many moments the shutter is open for: as many as what goes furthest in the picture takes, and no more.
+
+        Where samples are shared out among them they cost next to nothing: then each takes one at least, and a draft is sharp.
+        """
+        most = self.film.samples if self.film.shutter > 0 else 1
+        if not isinstance(quality, str):
+            return min(most, max(1, int(quality)))
+        return most if most == 1 else smear.moments(self._travel_px(frame), most)
+
+    def _travel_px(self, frame: int) -> float:
+        """How far anything goes in the picture while the shutter is open for a frame."""
+        import numpy as np
+
+        views, places = [], []
+        for at in (float(frame), frame + self.film.shutter * (1 - 1e-6)):
+            data = self._moment(at)
+            views.append(of_camera(self.model, data, self._camera, self.frames.width, self.frames.height))
+            places.append(smear.points(self.model, data))
+        opened, closed = views
+        before, after = places
+        still = np.array_equal(opened.matrix(), closed.matrix())
+        return smear.travel_px(opened, opened if still else closed, before, after, self.frames.height)
 
     def _parts(self, frame: int, moments: int) -> "list[Moment]":
         """The moments while the shutter is open for a frame."""
@@ -156,7 +185,7 @@ class Screening:
         if not standing:
             return 0
         self._moment(frame)  # what stands out of focus depends on how it is treated
-        return sum(still != frame for still in standing[: self.frames.beside(self._moments(quality), quality)])
+        return sum(still != frame for still in standing[: self.frames.beside(self._moments(quality, frame), quality)])
 
     def _moment(self, at: float) -> "mujoco.MjData":
         """Set up what is shown between two frames of one shot."""

@@ -17,8 +17,8 @@ DRAWN_FROM = (
     "cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "lights.py", "model_text.py", "turning.py", "forms/lattice.py",
 )  # fmt: skip
 """What of `worldkit` decides how a recorded world looks when it is drawn, and from where."""
-REPLAYED_BY = ("seen.py", "replay.py", "lain.py")
-"""What of `recording` decides what is shown at which time."""
+REPLAYED_BY = ("recording/seen.py", "recording/replay.py", "recording/lain.py", "inputs/declared_media.py")
+"""What of the engine decides what is shown at which time, and where an author's laws are drawn."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def _code(name: str) -> str:
     it draws on, and which may take over from it."""
     film, kit = Path(__file__).parent, Path(worldkit.__file__ or "").parent
     own = [*film.glob("*.py"), Path(renderers.__file__ or "")]
-    own += [film.parent / "recording" / name for name in REPLAYED_BY]
+    own += [film.parent / name for name in REPLAYED_BY]
     own += [path for pattern in DRAWN_FROM for path in kit.glob(pattern)]
     drawn: list[Path] = []
     while name:

@@ -59,7 +59,7 @@ class Known:
         from .identity import identity
 
         self._model, self._earlier = model, tuple(earlier)
-        told = [facts, identity(renderers.wanted()).sha256, recording.sha256]
+        told = [facts, identity(renderers.wanted()).sha256, recording.shown_sha256]
         self._common = hashlib.sha256(json.dumps(told, sort_keys=True).encode() + drawn(model) + shared)
         self.keys: dict[str, str] = {}
         """The hash of each picture or film asked for, by the name of its file; goes into the result."""

@@ -304,7 +304,8 @@ def choose_cameras(model: "mujoco.MjModel", wanted: Sequence[str]) -> list[str]:
 def visible(model: "mujoco.MjModel", geoms: "np.ndarray") -> dict[str, dict[str, Any]]:
     """Measure what a segmentation (height, width) of geom ids, or less, shows of each body and flex.
 
-    Each with at least one pixel has `pixels`, `fraction` of the picture, `box` (x0, y0, x1, y1 in pixels, inclusive).
+    Each with at least one pixel has `pixels`, `fraction` of the picture, `box` (x0, y0, x1, y1 in pixels, inclusive). A flex of
+    a body's name is a part of that body where it hangs on it; else it is called `NAME (flex)`.
     """
     import numpy as np
 
@@ -314,6 +315,14 @@ def visible(model: "mujoco.MjModel", geoms: "np.ndarray") -> dict[str, dict[str,
     owner = np.full(geoms.shape, -1)
     owner[geoms >= 0] = model.geom_bodyid[geoms[geoms >= 0]]
     owner = np.where(geoms <= FLEX, model.nbody + FLEX - geoms, owner)
+    for flex, name in enumerate(called[model.nbody :]):
+        if name not in called[: model.nbody]:
+            continue
+        body = called.index(name)
+        if _hangs_on(model, flex, body):
+            owner[owner == model.nbody + flex] = body
+        else:
+            called[model.nbody + flex] = f"{name} (flex)"
     found = {}
     for thing in np.unique(owner[owner >= 0]):
         rows, columns = np.nonzero(owner == thing)
@@ -323,3 +332,16 @@ def visible(model: "mujoco.MjModel", geoms: "np.ndarray") -> dict[str, dict[str,
             "box": [int(columns.min()), int(rows.min()), int(columns.max()), int(rows.max())],
         }
     return found
+
+
+def _hangs_on(model: "mujoco.MjModel", flex: int, body: int) -> bool:
+    """Whether a flex has a vertex or a node on a body, or on what that carries."""
+    points, node = int(model.flex_vertadr[flex]), int(model.flex_nodeadr[flex])
+    carriers = {*model.flex_vertbodyid[points : points + int(model.flex_vertnum[flex])].tolist()}
+    carriers |= {*model.flex_nodebodyid[node : node + int(model.flex_nodenum[flex])].tolist()} if node >= 0 else set()
+    for carrier in carriers:
+        while carrier > 0 and carrier != body:
+            carrier = int(model.body_parentid[carrier])
+        if carrier == body:
+            return True
+    return False

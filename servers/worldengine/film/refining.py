@@ -23,8 +23,9 @@ from worldkit.files import write_json
 
 from . import renderers
 from .drawing_order import rounds
-from .encode import Video, write_png
+from .encode import Video
 from .identity import identity
+from .kept_frames import DRAFT, FACTOR, FIRST, Refined
 
 if TYPE_CHECKING:
     import mujoco
@@ -34,9 +35,7 @@ if TYPE_CHECKING:
     from ..recording.stored import Recording
     from .described import Described
 
-NAME, FRAMES, STATE = "final", "frames", "state.json"
-DRAFT, FIRST, FACTOR = 0.5, 2, 3
-"""Samples a pixel of the draft, of the first round after it, and how many times more each further round takes."""
+NAME, FRAMES = "final", "frames"
 PLAIN_LEVELS = (1, 4)
 """The same of the preview: its still is drawn twice as large each way."""
 ENCODE_S = 0.06
@@ -46,11 +45,6 @@ RECKON_S = 0.16
 of a processor's time."""
 LATE = 1.5
 """Once so many times the minutes are over no frame is reckoned any more: the nearest traced one is shown."""
-
-CHEAPER = 0.5
-"""A sample of a finer picture takes this share of one of a draft: 1.2 s of a processor for half a sample, and 2.9 s for two."""
-CALMER = 0.8
-"""After a dear frame the next ones are expected to take this share of it, and this share of that, …"""
 
 
 class Shown(Protocol):
@@ -109,8 +103,9 @@ class OfTheAuthor:
         if tick is not None:
             screening.tick = tick
         self.renderer = screening.frames.renderer
-        self._geometry: Geometry | None = Geometry(screening.surfaces) if self._traced else None
+        self._geometry: Geometry | None = Geometry(screening.surfaces, screening.placed) if self._traced else None
         self.lacking: Callable[[int, int, int], bool] | None = self._lacking if self._traced else None
+        self._unreckoned = ""
 
     @property
     def _traced(self) -> bool:
@@ -134,14 +129,17 @@ class OfTheAuthor:
         return image
 
     def _lacking(self, frame: int, before: int, after: int) -> bool:
-        """Any is traced where the driver cannot draw what they show; so are those across wide gaps where the breeze moves things."""
-        if after - before > 2 and self._screening.sways:
+        """Any is traced where the driver cannot draw what they show; so are those across wide gaps where the breeze moves things, and
+        where light, developing or focus change otherwise than evenly."""
+        from .fitting import uneven
+
+        if (after - before > 2 and self._screening.sways) or uneven(self._film, before, after, self._fps):
             return True
         if self._geometry is not None:
             try:
                 return self._geometry.lacking(frame, before, after)
-            except Exception:  # drivers fail in ways of their own, and a traced film needs none
-                self._geometry = None
+            except Exception as error:  # drivers fail in ways of their own, and a traced film needs none
+                self._give_up(error)
         return True
 
     def reckoned(self, number: int, drawn: Sequence[float], read: "Callable[[int], np.ndarray]") -> "np.ndarray | None":
@@ -154,9 +152,13 @@ class OfTheAuthor:
             return None
         try:
             return reckoned(number, sides, self._geometry, read, self._film.shutter)
-        except Exception:  # as above
-            self._geometry = None
+        except Exception as error:  # as above
+            self._give_up(error)
             return None
+
+    def _give_up(self, error: Exception) -> None:
+        """No frame is asked about or reckoned from now on."""
+        self._geometry, self._unreckoned = None, f"{type(error).__name__}: {error}"[:300]
 
     def lettered(self, number: int, image: "np.ndarray") -> "np.ndarray":
         """With its captions, and how fast it runs."""
@@ -167,8 +169,10 @@ class OfTheAuthor:
         return self._screening.stills(number, samples) if self._traced else 0
 
     def told(self) -> dict[str, Any]:
-        """The renderer, and what the film tells of itself."""
-        return {"cameras": ["film"], "renderer": self._screening.frames.told(), "film": self._film.told(self._fps)}
+        """The renderer, what the film tells of itself, and, as `unreckoned`, why frames were reckoned no more."""
+        failed = {"unreckoned": self._unreckoned} if self._unreckoned else {}
+        told = {"cameras": ["film"], "renderer": self._screening.frames.told(), "film": self._film.told(self._fps)}
+        return told | failed
 
 
 def run(given: "Given", options: argparse.Namespace) -> None:
@@ -189,7 +193,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     started = time.perf_counter()
     recording, model, out = stored.open(options.recording), given.model(), options.out
     film = described.read(options.film, recording, lights.of(model))
-    name = named(options.film, recording.sha256, given.world)
+    name = named(options.film, recording.shown_sha256, given.world)
     about = [given.size, given.fps, drawn(model).hex()]
     seconds = options.minutes * 60.0
     progress = Progress(out, round(seconds), "s")
@@ -208,6 +212,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     result |= {
         "seconds": shown.count / given.fps,
         **state.told(),
+        "rest_s": round(given_s(state.told()["rest_s"], shown.count, given.size), 1),
         "complete": complete,
         "trajectory_sha256": recording.sha256,
     }
@@ -217,7 +222,16 @@ def run(given: "Given", options: argparse.Namespace) -> None:
 
 def drawing_s(seconds: float, count: int, size: Sequence[int]) -> float:
     """Seconds of those given in which frames are drawn; the rest is for the file, but never more than half."""
-    return max(seconds / 2, seconds - (ENCODE_S + RECKON_S) * count * size[0] * size[1] / (1280 * 720))
+    return max(seconds / 2, seconds - _file_s(count, size))
+
+
+def given_s(drawing: float, count: int, size: Sequence[int]) -> float:
+    """Seconds to give so that frames are drawn for so many, s: the inverse of `drawing_s`; none for none."""
+    return min(2 * drawing, drawing + _file_s(count, size)) if drawing > 0 else 0.0
+
+
+def _file_s(count: int, size: Sequence[int]) -> float:
+    return (ENCODE_S + RECKON_S) * count * size[0] * size[1] / (1280 * 720)
 
 
 def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick: Any) -> "tuple[bool, Refined]":
@@ -231,105 +245,12 @@ def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick
             return refine(shown, state, end, tick), state
 
 
-def named(described: Path, recording_sha256: str, world: Path) -> str:
-    """The name of the set of frames of a film: a hash of its description, in this folder, and of what it shows: the motion, and
-    the world's file, which also has all looks, lights and planned cameras."""
+def named(described: Path, shown_sha256: str, world: Path) -> str:
+    """The name of the set of frames of a film: a hash of its description, in this folder, and of what it shows: the motion and
+    the laws' points (`Recording.shown_sha256`), and the world's file, which also has all looks, lights and planned cameras."""
     files = [world, *sorted(described.iterdir())]
-    said = [recording_sha256, *(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)]
+    said = [shown_sha256, *(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)]
     return hashlib.sha256("\n".join(said).encode()).hexdigest()[:16]
-
-
-class Pace:
-    """What frames take for each sample a pixel, s: the `dearest` of a level, and the `recent` ones, by which the next is judged."""
-
-    def __init__(self, level: float = 0.0, dearest: float = 0.0, recent: float = 0.0) -> None:
-        self.level, self.dearest, self.recent = level, dearest, recent
-
-    def expected(self, samples: float, first: bool, stills: int) -> float:
-        """Seconds of a frame; if it is the `first` of its shot at this level, as many as the dearest, or as it and its `stills`."""
-        return samples * (max(self.dearest, (1 + stills) * self.recent) if first else self.recent)
-
-    def doubt(self, samples: float, took: float, stills: int) -> None:
-        """Learn from a frame with which the renderer got ready: others take no longer, whatever an earlier process found."""
-        each = took / samples
-        self.dearest, self.recent = min(self.dearest, each), min(self.recent, each / (1 + stills))
-
-    def add(self, samples: float, took: float, stills: int) -> None:
-        """Learn what a frame and its `stills`, which were drawn with it, took, s."""
-        each = took / samples
-        self.dearest = max(each, self.dearest) if samples == self.level else each
-        self.level, self.recent = samples, max(each / (1 + stills), CALMER * self.recent)
-
-
-class Refined:
-    """The frames drawn so far, with how many samples each.
-
-    Args:
-        folder: where they lie; those of another film, recording or renderer are forgotten.
-        count: frames of the film.
-        about: what they depend on, in one text.
-    """
-
-    def __init__(self, folder: Path, count: int, about: str) -> None:
-        self._folder, self._about = folder, hashlib.sha256(about.encode()).hexdigest()
-        folder.mkdir(parents=True, exist_ok=True)
-        try:
-            said = json.loads((folder / STATE).read_text(encoding="utf-8"))
-            samples = [float(n) for n in said["samples"]] if said["about"] == self._about else []
-            self.pace = Pace(*(float(n) for n in said["pace"])) if samples else Pace()
-        except (OSError, ValueError, KeyError, TypeError):
-            samples, self.pace = [], Pace()
-        self.samples = samples if len(samples) == count else [0.0] * count
-        self.samples = [n if self.path(k).is_file() else 0.0 for k, n in enumerate(self.samples)]
-        self.taken_over = sum(n > 0 for n in self.samples)
-        """So many frames stood already."""
-        self.reckoned = 0
-        """So many frames of the file were reckoned between drawn ones."""
-
-    def path(self, number: int) -> Path:
-        """The file of a frame."""
-        return self._folder / f"{number:05d}.png"
-
-    def keep(self, number: int, image: "np.ndarray", samples: float) -> None:
-        """Replace a frame by a better one."""
-        write_png(self.path(number), image)
-        self.samples[number] = samples
-        pace = [self.pace.level, self.pace.dearest, self.pace.recent]
-        write_json(self._folder / STATE, {"about": self._about, "samples": self.samples, "pace": pace})
-
-    def nearest(self, number: int) -> int:
-        """The frame that is shown at this place: itself, or the last drawn before it, or the first of all."""
-        drawn = [k for k, n in enumerate(self.samples) if n > 0]
-        return max((k for k in drawn if k <= number), default=drawn[0])
-
-    def read(self, number: int) -> "np.ndarray":
-        """A frame that is drawn: uint8 (H, W, 3)."""
-        import cv2
-
-        image = cv2.imread(str(self.path(number)), cv2.IMREAD_COLOR)
-        assert image is not None  # it was written by us
-        return cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
-
-    def told(self) -> dict[str, Any]:
-        """How far it has come: `samples` a pixel of the drawn frames, least and most; the number `drawn`; of these, those
-        `taken_over`; those `reckoned` between them; and about how many seconds the rest would take, `rest_s`."""
-        taken = [n for n in self.samples if n > 0] or [0.0]
-        drawn = sum(n > 0 for n in self.samples)
-        each = self.pace.recent * (CHEAPER if self.pace.level < 1 else 1.0)
-        rest = (len(self.samples) - drawn) * each * FIRST * FACTOR
-        return {
-            "samples": {"least": min(taken), "most": max(taken)},
-            "drawn": drawn,
-            "taken_over": self.taken_over,
-            "reckoned": self.reckoned,
-            "rest_s": round(rest, 1),
-        }
-
-    def text(self) -> str:
-        """The same in words."""
-        said, count = self.told(), len(self.samples)
-        text = f"{said['drawn']} of {count} frames, {said['samples']['least']:g} to {said['samples']['most']:g} samples a pixel"
-        return f"{text}; {self.reckoned} reckoned between them" if self.reckoned else text
 
 
 def traced_levels() -> Iterator[float]:
@@ -348,8 +269,15 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     gets ready, which tells of those after it only that they take no longer.
     """
     begun: set[tuple[int, float]] = set()
-    draft, now = next(iter(shown.levels())), time.perf_counter()
-    for number, samples in rounds(shown.shots, shown.levels(), shown.lacking):
+    draft, keeping, asked = next(iter(shown.levels())), 0.0, shown.lacking
+
+    def lacking(frame: int, before: int, after: int) -> bool:
+        return asked is None or time.perf_counter() > end or asked(frame, before, after)
+
+    for number, samples in rounds(shown.shots, shown.levels(), asked and lacking):
+        now = time.perf_counter()  # to ask what is lacking takes time that is not this frame's own
+        if now > end and any(state.samples):
+            return False
         if state.samples[number] >= samples:
             continue
         shot = 0 if samples == draft else max(k for k, shot in enumerate(shown.shots) if shot.start <= number)
@@ -360,9 +288,10 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
         image = shown.picture(number, samples)
         learn = state.pace.add if begun else state.pace.doubt
         begun.add((shot, samples))
-        since, now = now, time.perf_counter()  # what keeping the frame before it took is counted, too
-        learn(samples, now - since, stills)
+        since = time.perf_counter()
+        learn(samples, since - now + keeping, stills)  # what keeping the frame before it took is counted, too
         state.keep(number, image, samples)
+        keeping = time.perf_counter() - since
         tick()
     return True
 
@@ -388,5 +317,11 @@ def encode(
             if samples <= 0 and time.perf_counter() < until:
                 image = shown.reckoned(number, state.samples, read)
                 state.reckoned += image is not None
-            film.add(shown.lettered(number, read(state.nearest(number)) if image is None else image))
+            if image is None:
+                held = state.nearest(number, shown.shots)
+                alike = any(number in shot and held in shot for shot in shown.shots)
+                image = shown.lettered(number if alike else held, read(held))  # of another shot with the words of that
+            else:
+                image = shown.lettered(number, image)
+            film.add(image)
             tick(number + 1)

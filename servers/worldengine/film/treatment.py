@@ -1,7 +1,12 @@
 """The light, haze, focus and grading of one picture as a film asks for them: a value that every renderer may use."""
 
 from dataclasses import asdict, dataclass, fields, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from .gobos import Gobo
 
 Rgb = tuple[float, float, float]
 
@@ -16,6 +21,8 @@ class Treatment:
     light_strength: float | None = None
     """1: a white surface that faces the light has radiance 3."""
     light_softness_deg: float | None = None
+    light_gobo: "Gobo | None" = None
+    """The slide before the light."""
     sky_zenith: Rgb | None = None
     """If it is given, the surroundings are a sky from `sky_horizon` up to it, over `sky_ground`."""
     sky_horizon: Rgb = (0.8, 0.8, 0.8)
@@ -69,8 +76,10 @@ LIMITS: dict[str, tuple[float, float]] = {
 class Treatments:
     """The moments of a film at which its light or grading is told, and the values between them."""
 
-    def __init__(self, told: list[dict[str, Any]], stated: dict[str, Any] | None = None) -> None:
-        """Take `[{"at_s": film time, name: value, …}, …]`, checked already, and what the world states (`worldkit.lights`)."""
+    def __init__(
+        self, told: list[dict[str, Any]], stated: dict[str, Any] | None = None, gobo: "Gobo | None" = None
+    ) -> None:
+        """Take `[{"at_s": film time, name: value, …}, …]`, checked already, what the world states (`worldkit.lights`), and a slide."""
         import numpy as np
 
         self.stated = dict(stated or {})
@@ -78,7 +87,7 @@ class Treatments:
             "sky_zenith" in one for one in told
         )  # a sky of the film's own comes with its own air and developing
         kept = {n: v for n, v in self.stated.items() if not own_sky or n.startswith("light_")}
-        self._begun = asdict(PLAIN.started_from(kept))
+        self._begun = asdict(PLAIN.started_from(kept)) | {"light_gobo": gobo}
         self._tracks: dict[str, tuple[Any, Any]] = {}
         for name in LIMITS:
             moments: dict[float, Any] = {float(one["at_s"]): one[name] for one in told if name in one}
@@ -98,6 +107,14 @@ class Treatments:
                 values[name] = float(np.interp(film_s, at, told))
         return Treatment(**values)
 
+    def bends(self, begin_s: float, end_s: float, frames: int) -> bool:
+        """Whether what is told changes within so many frames otherwise than evenly from the first film time to the last, s."""
+        import numpy as np
+
+        at = np.linspace(begin_s, end_s, frames + 1)
+        return any(bent(np.array([np.interp(at, when, row) for row in np.atleast_2d(told.T)]).T)
+                   for when, told in self._tracks.values())  # fmt: skip
+
     def departs(self) -> list[str]:
         """What of the light and the sky that the world states is otherwise in the film, in words: `its elevation`, `its sky`."""
         import numpy as np
@@ -115,3 +132,12 @@ class Treatments:
     def told(self) -> bool:
         """Whether the film tells anything of it."""
         return bool(self._tracks)
+
+
+def bent(values: "np.ndarray") -> bool:
+    """Whether rows (N, …) depart from the even way from the first to the last by over a hundredth of what they are."""
+    import numpy as np
+
+    share = np.linspace(0.0, 1.0, len(values)).reshape(-1, *[1] * (values.ndim - 1))
+    even = values[0] * (1 - share) + values[-1] * share
+    return bool((np.abs(values - even) > 0.01 * np.abs(values).max(initial=0.0) + 1e-6).any())

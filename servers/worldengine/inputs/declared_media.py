@@ -1,9 +1,10 @@
 """Media: what an author's laws move beside the engine, as points that are recorded, driven again, and drawn.
 
 A law runs in the author's process (`worldkit.laws`). Its forces are inputs like any other. Its points cross beside the answers a
-hundred times a second, or less often where they are many, with their sums; they are part of what was sent to the world, so a
-replay hands them on, and asking the law again must give the same. Nothing of a medium is taken for granted: its bodies, what
-shows it and its size are checked against the compiled world, every number when it crosses.
+hundred times a second, or less often where they are many, with their sums, and once more at the
+end, so that no push goes uncounted. They are part of what was sent to the world, so a replay hands them on, and asking the law
+again must give the same. Nothing of a medium is taken for granted: its bodies, what shows it and its size are checked against the
+compiled world, every number when it crosses.
 """
 
 from collections.abc import Mapping, Sequence
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.channel import PeerError
 from worldkit.errors import ProgramError
-from worldkit.laws import HUGE, TOTALS
+from worldkit.laws import HUGE, TOTALS, WORLD
 from worldkit.mirror import words
 from worldkit.naming import names
 
@@ -38,17 +39,28 @@ class Medium:
     name: str
     bodies: tuple[str, ...]
     shown_by: str
+    file: str = ""
+    """In which the plan says that it stands, beside the program: the author's end refuses a law of another."""
+    world: bool = False
+    """Whether it pushes on what stands fast too: `world` among its bodies. What goes there is summed, and acts on nothing."""
 
     @classmethod
     def read(cls, row: Mapping[str, Any]) -> "Medium":
         """Read a row of `inputs.json` or of a recording's `meta.json`; raises KeyError or TypeError when it makes no sense."""
         said = row["law"]
-        return cls(str(said["name"]), tuple(map(str, row["bodies"])), str(said["shown_by"]))
+        bodies = tuple(map(str, row["bodies"]))
+        own = tuple(body for body in bodies if body != WORLD)
+        return cls(str(said["name"]), own, str(said["shown_by"]), str(said.get("file", "")), WORLD in bodies)
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """Its bodies, and `world` last where it pushes on that."""
+        return (*self.bodies, WORLD) if self.world else self.bodies
 
     def written(self) -> dict[str, Any]:
         """The row as `inputs.json` and `meta.json` have it."""
-        said = {"name": self.name, "shown_by": self.shown_by}
-        return {"kind": "solver", "bodies": list(self.bodies), "law": said}
+        said = {"name": self.name, "shown_by": self.shown_by} | ({"file": self.file} if self.file else {})
+        return {"kind": "solver", "bodies": list(self.named), "law": said}
 
 
 class Media:
@@ -59,9 +71,12 @@ class Media:
         rows: the declared laws, at least one.
         seconds: from one question to the next.
         others: declared (kind, names) of inputs besides; None where everything is open.
+        steps: of the run, at whose end the laws tell once more; None where nothing is recorded.
+        every: steps from one question to the next.
 
     Raises:
-        ProgramError: a body or what shows a law is not there, is simulated, has too many points, or is pushed by two.
+        ProgramError: a body or what shows a law is not there, is simulated, has too many points, or is pushed by two; the laws
+            are asked too seldom, or not at the end.
     """
 
     def __init__(
@@ -70,6 +85,8 @@ class Media:
         rows: Sequence[Medium],
         seconds: float,
         others: "Sequence[tuple[str, frozenset[str]]] | None" = None,
+        steps: int | None = None,
+        every: int = 1,
     ) -> None:
         self.rows, self._seconds = tuple(rows), seconds
         bodies = names(model, "body", model.nbody)
@@ -92,6 +109,23 @@ class Media:
         rate = min(MOST_HZ, max(LEAST_HZ, POINTS_A_SECOND / max(1, total)))
         self.every = max(1, round(1.0 / (rate * seconds)))
         """So many questions lie between two that take the points."""
+        self.end = self._end(steps, every)
+        """The number of the question at the end of the run, which only takes the points; None where there is none."""
+
+    def _end(self, steps: int | None, every: int) -> int | None:
+        if self._seconds > (1.0 + 1e-9) / LEAST_HZ:  # between two questions nobody sees what a law does
+            cause = f"the law {self.rows[0].name} is asked every {self._seconds:g} s, and its sums are due {LEAST_HZ:g} times a second"
+            raise ProgramError(
+                cause, "program.main", f"make control_every times the time step {1 / LEAST_HZ:g} s at most"
+            )
+        if steps is not None and steps % every:
+            cause = f"the run has {steps} steps, and the law {self.rows[0].name} is asked every {every}: its last ends after it"
+            raise ProgramError(cause, "program.main", "let control_every divide the number of steps")
+        return None if steps is None else steps // every
+
+    def due(self, question: int) -> bool:
+        """Whether the points are taken at this question."""
+        return question % self.every == 0 or question == self.end
 
     @property
     def width(self) -> int:
@@ -101,10 +135,10 @@ class Media:
     def as_meta(self) -> dict[str, Any]:
         """The media for the author's process: see `worldkit.laws.Stepped`."""
         rows = [
-            {"name": row.name, "bodies": list(row.bodies), "shown_by": row.shown_by, "points": count}
+            {"name": row.name, "bodies": list(row.named), "shown_by": row.shown_by, "file": row.file, "points": count}
             for row, count in zip(self.rows, self.counts, strict=True)
         ]
-        return {"rows": rows, "seconds": self._seconds, "every": self.every}
+        return {"rows": rows, "seconds": self._seconds, "every": self.every, "end": self.end}
 
     def read(self, at: int) -> "np.ndarray":
         """(width,) the numbers at this address, checked.
@@ -150,10 +184,11 @@ class Media:
         import numpy as np
 
         sums = np.array([totals for totals, _ in self.parts(numbers)])
-        columns = {"mass": sums[:, 0], "momentum": sums[:, 1:4], "energy": sums[:, 4], "volume": sums[:, 5]}
+        columns = {"mass": sums[:, 0], "momentum": sums[:, 1:4], "energy": sums[:, 4], "weight": sums[:, 5]}
+        columns |= {"stored": sums[:, 6], "volume": sums[:, 7], "held": sums[:, 8:11]}
         count = len(self.counts)
         steps, which = np.full(count, step, np.int32), np.arange(count, dtype=np.int32)
-        return {"step": steps, "medium": which, **columns, "held": sums[:, 6:9]}
+        return {"step": steps, "medium": which, **columns}
 
 
 class Place:

@@ -6,6 +6,7 @@ flat indices by array, in the order of `worldkit.speaking.ARRAYS`: that is the l
 
 from typing import TYPE_CHECKING, Any
 
+from worldkit.errors import ProgramError
 from worldkit.naming import names
 from worldkit.speaking import ARRAYS
 from worldkit.watch import BULKY, SHAPES, owner_of
@@ -30,7 +31,10 @@ class Ports:
     Args:
         model: the world.
         rows: declared (kind, names); None opens everything. A flex' name stands for its points too.
-        media: of the author's laws, which open force and torque on their bodies.
+        media: of the author's laws, which open the wrench (`xfrc_applied`) of their bodies, and nothing of their joints.
+
+    Raises:
+        ProgramError: a row opens a push on a body of a law, by its name or by a joint's.
     """
 
     def __init__(
@@ -40,9 +44,7 @@ class Ports:
         media: "Media | None" = None,
     ) -> None:
         self.media = media
-        if rows is not None and media is not None:
-            pushed = frozenset(body for row in media.rows for body in row.bodies)
-            rows = (*rows, ("force", pushed), ("torque", pushed))
+        laws = {body: row.name for row in media.rows for body in row.bodies} if media is not None else {}
         points = {} if rows is None else flex_points.of_model(model)
         self._model = model
         self._rows = None if rows is None else [(kind, frozenset(flex_points.covered(of, points))) for kind, of in rows]
@@ -50,7 +52,13 @@ class Ports:
         self._joints = names(model, "joint", model.njnt)
         self.entries: dict[str, list[int]] = {name: [] for name in ARRAYS}
         for kind, target, array, indices in self._candidates():
-            if self._open(kind, target):
+            law = laws.get(self._pushed(array, indices[0]))
+            if law and self._rows is not None:
+                _refuse_second(law, target, self._open(kind, target))
+                opened = array == "xfrc_applied"
+            else:
+                opened = self._open(kind, target)
+            if opened:
                 self.entries[array] += indices
         self.entries = {name: sorted(set(found)) for name, found in self.entries.items() if found}
         self.parameters = self._parameters()
@@ -72,6 +80,12 @@ class Ports:
         """Whether a row opens a target; a solver's row opens nothing, as the solver writes in the engine's own process."""
         rows = self._rows
         return rows is None or any(row != "solver" and opens(row, called, kind, target) for row, called in rows)
+
+    def _pushed(self, array: str, index: int) -> str:
+        """The body that an entry of an array pushes; empty where it pushes none."""
+        if array == "xfrc_applied":
+            return self._bodies[index // 6]
+        return self._bodies[int(self._model.dof_bodyid[index])] if array == "qfrc_applied" else ""
 
     def _candidates(self) -> "list[tuple[str, str, str, list[int]]]":
         """(kind, target in the ledger's words, array, flat indices) of everything in an MjData that can be written."""
@@ -159,6 +173,13 @@ def _safe(name: str, value: "np.ndarray", unplanned: bool) -> bool:
     if name.startswith("opt."):
         return unplanned or name.removeprefix("opt.") in LAWS
     return value.dtype.kind in "fb" or name in CHOICES
+
+
+def _refuse_second(law: str, target: str, opened: bool) -> None:
+    if opened:
+        cause = f"{target!r} would be pushed by the law {law} and by another input"
+        move = "let one of them push it: of two forces on one body, nobody could tell whose work is whose"
+        raise ProgramError(cause, "interventions", move)
 
 
 def of(model: "mujoco.MjModel", given: "Given") -> Ports:

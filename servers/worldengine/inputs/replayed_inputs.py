@@ -72,10 +72,17 @@ class Drive:
         if numbers is not None and self.ports.media is not None:
             self.ports.media.keep(self._recorder, step, numbers)
 
-    def finish(self) -> None:
-        """Finish the ledger once the velocities of the last state are computed."""
+    def finish(self, steps: int) -> None:
+        """Finish the ledger once the velocities of the last state, after so many steps, are computed."""
         self._ledger.pushes.measure()
         self._ledger.finish()
+        media = self.ports.media
+        if media is not None and media.end is not None:
+            self._tell(steps, self._last(steps))
+
+    def _last(self, steps: int) -> "np.ndarray | None":
+        """What the laws tell once nothing acts any more: what acted after their last sums would be counted nowhere."""
+        raise NotImplementedError
 
     def close(self) -> None:
         """Nobody will be asked again."""
@@ -138,8 +145,15 @@ class Asked(Drive):
     def _told(self, step: int) -> None:
         """Take what the laws tell beside an answer, at the questions at which they do."""
         media = self.ports.media
-        if media is not None and step // self._every % media.every == 0:
+        if media is not None and media.due(step // self._every):
             self._tell(step, media.read(self._voice.media))
+
+    def _last(self, steps: int) -> "np.ndarray | None":  # noqa: ARG002 (the protocol's)
+        """Ask once more, for the sums alone."""
+        self.answers.shown(self._voice.ask())
+        self._voice.go()
+        self._voice.hear()
+        return self.ports.media.read(self._voice.media) if self.ports.media else None
 
     def close(self) -> None:
         """Nobody will be asked again."""
@@ -171,3 +185,7 @@ class Replayed(Drive):
         if row is not None:
             row()
         self._ledger.pushes.note()
+
+    def _last(self, steps: int) -> "np.ndarray | None":
+        """What was recorded of the end."""
+        return self._recorded.told(steps)

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..recording.stored import Recording, Replayable
     from .declared_media import Media
 
-SUMS = ("mass", "momentum", "energy", "volume", "held")
+SUMS = ("mass", "momentum", "energy", "weight", "stored", "volume", "held")
 """The columns of `balances` in the order in which a law tells them."""
 REMEDY = "restore it as it was recorded, or record the world anew"
 
@@ -157,6 +157,8 @@ def _told(recording: "Recording | Replayable", media: "Media", steps: int, every
     import numpy as np
 
     due = np.arange(0, steps, every * media.every)
+    if media.end is not None:
+        due = np.append(due, steps)
     points, sums = recording.media, recording.balances
     count, mediums = sum(media.counts), len(media.counts)
     for name, table, each in (("media", points, count), ("balances", sums, mediums)):

@@ -134,6 +134,8 @@ BALANCE_COLUMNS = (
     Column("mass", (), "kg", "of its points"),
     Column("momentum", (3,), "kg m/s", "of its points"),
     Column("energy", (), "J", "of motion, by weight, and what its law says is stored"),
+    Column("weight", (), "J", "of that, by weight"),
+    Column("stored", (), "J", "of that, stored, as its law says"),
     Column("volume", (), "m^3", "as its law says; 0 where it says none"),
     Column("held", (3,), "N s", "impulse that it gave to what stands fast, since the start"),
 )

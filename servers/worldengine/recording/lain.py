@@ -25,9 +25,10 @@ class Lain:
     def __init__(self, model: "mujoco.MjModel", recording: "Recording") -> None:
         import numpy as np
 
-        from ..inputs.declared_media import Medium, Place
+        from ..inputs.declared_media import Place
+        from ..inputs.told_laws import told
 
-        rows, media = [Medium.read(row) for row in recording.meta["laws"]], recording.media
+        rows, media = told(recording.meta, str(recording.folder)), recording.media
         try:
             self._places = [Place(model, row) for row in rows]
         except ProgramError as error:

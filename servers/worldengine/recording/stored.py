@@ -213,6 +213,20 @@ class Recording:
         """The hash of the trajectory, as recorded; it is computed from the rows when the run did not end well."""
         return str(self.ending.get("sha256") or digest(self))
 
+    @cached_property
+    def shown_sha256(self) -> str:
+        """The hash of all that pictures can show of it: the trajectory, and the points of the author's laws, which move beside it."""
+        import numpy as np
+
+        laws = self.meta.get("laws")
+        if not laws:
+            return self.sha256
+        shown = hashlib.sha256(f"{self.sha256}\n{json.dumps(laws, sort_keys=True)}".encode())
+        for column in TABLES["media"]:
+            values = self.media[column.name]
+            shown.update(f"\n{column.name} {len(self.media)} ".encode() + np.ascontiguousarray(values).tobytes())
+        return shown.hexdigest()
+
     @property
     def time_step(self) -> float:
         """The time step of the simulation, s."""

@@ -29,10 +29,15 @@ def own_root() -> Path:
     named = os.environ.get("WORLDWRIGHT_ASSETS")
     if named:
         return Path(named)
-    data = os.environ.get("WORLDWRIGHT_DATA")
-    if data:
-        return Path(data) / "assets"
-    return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "worldwright" / "assets"
+    return data_root() / "assets"
+
+
+def data_root() -> Path:
+    """The user's data folder, which also holds the signing key: `$WORLDWRIGHT_DATA`, or `worldwright` where the system keeps such."""
+    named = os.environ.get("WORLDWRIGHT_DATA")
+    if named:
+        return Path(named)
+    return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "worldwright"
 
 
 def relative(path: Path) -> str:

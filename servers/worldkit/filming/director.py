@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
-from . import hero, sets
+from . import free_edge, hero, sets
 from .drawn_only import look_facts
 from .film_bounds import MOST_FRAMES, PLACES
 from .frame_by_frame import grown, sampled
+from .lettered_plates import Labelled
 from .limbs import Limbs
 from .recorded import Recorded
 from .viewpoints import Viewpoint
@@ -18,7 +19,7 @@ SLOWEST, FASTEST = 1 / 200, 50.0
 Speed = float | tuple[float, float]
 
 
-class Film(Limbs):
+class Film(Labelled, Limbs):
     """A film in the making; `recorded` is what happened.
 
     Shots follow each other; what is not said has good defaults: without any shot the film tells the event by itself, without
@@ -99,12 +100,14 @@ class Film(Limbs):
 
     # -- words ---------------------------------------------------------------------------------------------------------
 
-    def caption(self, text: str, *, seconds: float = 3.0, start: float | None = None, place: str = "bottom") -> None:
+    def caption(self, text: str, *, seconds: float = 3.0, start: float | None = None, place: str = "") -> None:
         """Words on the picture from where the next shot begins (or film time `start`): `bottom`, `top`, `left` or `title`.
+
+        Without a place they stand at the bottom, or at the top where movers are in their way at the bottom.
 
         They come and go softly, in at most a quarter of their time each; spaces and line ends stay as they are written.
         """
-        if place not in PLACES or not text.strip() or len(text) > 200 or not seconds > 0:
+        if place not in ("", *PLACES) or not text.strip() or len(text) > 200 or not seconds > 0:
             raise ProgramError(
                 f"a caption has words (at most 200 letters), a time, and a place of {', '.join(PLACES)}", "film.py", ""
             )
@@ -112,22 +115,25 @@ class Film(Limbs):
         self._captions.append({"text": text, "start_s": begin, "end_s": begin + float(seconds), "place": place})
 
     def shutter(self, share: float = 0.5, *, samples: int = 8) -> None:
-        """Motion blur: the shutter is open for `share` of each frame's time, drawn as the mean of so many pictures."""
+        """Motion blur: the shutter is open for `share` of each frame's time, drawn as the mean of at most `samples` pictures.
+
+        A frame takes as many as it needs for its fastest part, one each two pixels, and one where nothing goes a pixel far.
+        """
         if not (0 <= share <= 1 and 1 <= samples <= 32):
             raise ProgramError("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples", "film.py", "shutter(0.5)")
         self._shutter, self._samples = float(share), int(samples)
 
-    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1) -> None:
+    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1, colour: str = "") -> None:
         """Surroundings in one line: `film.set("meadow")`, drawn only, with light, sky and air that suit them.
 
         `facing_deg` is the side from which the camera looks (an azimuth; `wide()` looks from -57) and which is kept free;
-        another `seed` makes another of the same kind. Light and sky that the plan states stay as they are; what is said
+        another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`. Light and sky that the plan states stay as they are; what is said
         afterwards (light, mood, grade) changes it.
 
         Raises:
-            ProgramError: there is no such set, or what happens is too large for it.
+            ProgramError: there is no such set, what happens is too large for it, or it has no such wall.
         """
-        sets.build(self, name, facing_deg, seed)
+        sets.build(self, name, facing_deg, seed, colour)
         self.as_planned()
 
     # -- the description -----------------------------------------------------------------------------------------------
@@ -152,7 +158,7 @@ class Film(Limbs):
         self.line = 1
         things = [*self._things, *(grown(thing, at, times) for thing, at in self._grown)]
         facts = {
-            "schema": 1, "shots": shots, "captions": self._captions, "air": self._air,
+            "schema": 1, "shots": shots, "captions": self._words(arrays), "air": self._air,
             "things": [thing.facts(arrays, number, self._breeze is not None) for number, thing in enumerate(things)],
             "lamps": self._lamps, "panels": self._panels,
             "surfaces": [
@@ -162,7 +168,24 @@ class Film(Limbs):
             "ground": None if self._ground_look is None else look_facts(self._ground_look, arrays, "look_ground"),
             "shutter": self._shutter, "samples": self._samples,
         }  # fmt: skip
-        return facts | ({"breeze": self._breeze} if self._breeze else {}), arrays
+        facts |= {"breeze": self._breeze} if self._breeze else {}
+        return facts | ({"gobo": self._gobo} if self._gobo else {}), arrays
+
+    def _words(self, arrays: dict[str, np.ndarray]) -> list[dict[str, Any]]:
+        """The captions, each with its place."""
+        names = self.recorded.movers
+        radii, (wide, high) = np.array([self.recorded.radius(name) for name in names]), self.recorded.size
+        found = []
+        for one in self._captions:
+            first, last = (round(one[name] * self.recorded.fps) for name in ("start_s", "end_s"))
+            some, place = slice(first, max(last, first + 1)), one["place"]
+            shown = arrays["time"][some]
+            if not place and names and len(shown):
+                places = np.stack([self.recorded.position(name, shown) for name in names], axis=1)
+                eye, target, lens = arrays["eye"][some], arrays["target"][some], arrays["fovy_deg"][some]
+                place = free_edge.chosen(eye, target, lens, places, radii, wide / high)
+            found.append(one | {"place": place or "bottom"})
+        return found
 
 
 def _line() -> int:

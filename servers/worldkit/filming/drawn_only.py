@@ -18,7 +18,8 @@ MOST_PIXELS = 4096
 class Surface:
     """A look of the film's own, where none of `worldkit.materials` fits.
 
-    `picture`, uint8 (H, W, 3), row 0 the top, repeats every `tile_m` metres, or lies on a mesh by its own coordinates.
+    `picture`, uint8 (H, W, 3), repeats every `tile_m` metres, row 0 the top, or lies on a mesh by its own `uv`: row 0 at v = 0 and
+    the last row at v = 1, so that for a picture to stand upright v runs downwards.
     """
 
     colour: str = "#ffffff"

@@ -11,16 +11,15 @@ from . import swaying_weights, trees
 from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
 from .film_bounds import MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
+from .patterned_light import PatternedLight
 from .recorded import Recorded
-from .weather import Weather
 
 
-class Dressing(Weather):
+class Dressing(PatternedLight):
     """The things and looks of a film; `recorded` is what happened."""
 
     def __init__(self, recorded: Recorded) -> None:
-        super().__init__()
-        self.recorded = recorded
+        super().__init__(recorded)
         self._things: list[Thing] = []
         self._grown: list[tuple[Thing, Callable[[np.ndarray], Any]]] = []
         self._surfaces: list[dict[str, Any]] = []

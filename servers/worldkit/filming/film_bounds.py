@@ -7,3 +7,7 @@ STORM_M_S = 40.0
 """The strongest wind that is drawn, m/s."""
 PANEL_M = (0.005, 100.0)
 """The least and the most that a panel of light measures, m."""
+GOBOS = ("window", "blinds", "leaves", "branches", "bars")
+"""Patterns that may be held before the key light."""
+GOBO_M = (0.01, 1000.0)
+"""The least and the most that such a pattern measures, m."""

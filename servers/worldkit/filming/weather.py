@@ -30,16 +30,19 @@ class Weather:
         colour: str | None = None,
         strength: float | None = None,
         softness_deg: float | None = None,
+        fill: float | None = None,
         at: float | None = None,
     ) -> None:
         """The key light: where it comes from, its colour, its strength (1: bright sun) and how wide it is (sun 0.5).
+
+        `fill` is how much the surroundings and other lights of the setting give: 1 as they are, less for darker shadows.
 
         With `at`, a film time, every such call is a moment that the film goes through; in between it changes evenly. What is
         left out stays as the setting has it.
         """
         self._told(
             at, light_azimuth_deg=azimuth_deg, light_elevation_deg=elevation_deg,
-            light_rgb=None if colour is None else rgb(colour), light_strength=strength, light_softness_deg=softness_deg,
+            light_rgb=None if colour is None else rgb(colour), light_strength=strength, light_softness_deg=softness_deg, sky_strength=fill,
         )  # fmt: skip
 
     def sky(

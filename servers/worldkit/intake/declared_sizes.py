@@ -6,6 +6,7 @@ not bear out is a file that was cut off.
 
 import json
 import struct
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -189,11 +190,16 @@ def _sides(head: bytes) -> tuple[int, int]:
 # -- STL, PLY, OFF -----------------------------------------------------------------------------------------------------
 
 
+def stl_bytes(head: bytes) -> int:
+    """How long a binary STL of these first 84 bytes is, by what it claims."""
+    return 84 + 50 * struct.unpack("<I", head[80:84])[0]
+
+
 def _stl(path: Path, size: int) -> int:
     with path.open("rb") as file:
         head = file.read(84)
         count = struct.unpack("<I", head[80:84])[0] if len(head) == 84 else 0
-        if len(head) == 84 and size == 84 + 50 * count:
+        if len(head) == 84 and size >= stl_bytes(head):  # some programs write a little more behind the triangles
             return _few(count, path.name)
         if head.lstrip()[:5].lower() != b"solid":
             _few(count, path.name)
@@ -268,10 +274,10 @@ def _obj(path: Path, _size: int) -> int:
     points = faces = highest = where = 0
     libraries: list[str] = []
     with path.open("rb") as file:
-        for number, line in enumerate(file, 1):
-            if line[:2] == b"v ":
+        for number, line in _lines(file):
+            if line[:2] in (b"v ", b"v\t"):
                 points += 1
-            elif line[:2] == b"f ":
+            elif line[:2] in (b"f ", b"f\t"):
                 corners = line.split()[1:]
                 faces += max(len(corners) - 2, 0)
                 try:
@@ -295,6 +301,23 @@ def _obj(path: Path, _size: int) -> int:
     for name in libraries[:8]:
         _library(path.parent / name)
     return faces
+
+
+def _lines(file: Iterable[bytes]) -> Iterator[tuple[int, bytes]]:
+    """Lines with their number from 1; one that ends in a backslash goes on in the next."""
+    held: list[bytes] = []
+    number = 0
+    for number, line in enumerate(file, 1):
+        text = line.rstrip(b"\r\n")
+        if text.endswith(b"\\"):
+            held.append(text[:-1])
+        elif held:
+            yield number - len(held), b" ".join([*held, text])
+            held.clear()
+        else:
+            yield number, line
+    if held:
+        yield number - len(held) + 1, b" ".join(held)
 
 
 def _library(path: Path) -> None:

@@ -4,21 +4,28 @@ The file is parsed by trimesh, after `declared_sizes` has looked at it.
 """
 
 import hashlib
+import re
 from dataclasses import dataclass, replace
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ..errors import IntakeError
+from . import declared_sizes
 
 Array = np.ndarray
 MOST_PIECES = 60
 """Of a file; each becomes a file, of which the confined process hands over at most 64 of a kind."""
 MOST_PICTURED = 40
 """Of them those that keep a picture, where there are too many."""
+LEAST_CORNERS = 4
+"""MuJoCo takes no mesh of fewer."""
 TEXTURE_PIXELS = 1024
 """Along the longer side of a texture that is kept."""
+GAMMA = 2.2
+"""sRGB's curve as a power, so that it goes for a factor on a picture, too."""
 GREY = (0.7, 0.7, 0.7, 1.0)
 
 
@@ -52,7 +59,7 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
     import trimesh
 
     try:
-        scene: Any = trimesh.load_scene(path, process=False)
+        scene: Any = trimesh.load_scene(**_source(path), process=False)
         found = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
     except MemoryError:
         raise
@@ -65,7 +72,7 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
     if not found:
         raise IntakeError("no_mesh", "there is no triangle in it", path.name, "export the object itself")
     pieces = [_piece(mesh, path.name, number) for number, mesh in enumerate(found)]
-    said = []
+    pieces, said = _corners(pieces)
     if len(pieces) > MOST_PIECES:
         before, pieces = len(pieces), _by_look(pieces)
         said.append(f"of {before} pieces those of one look became one")
@@ -77,6 +84,26 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
     if any(getattr(mesh.visual, "kind", "") == "vertex" for mesh in found):
         said.append("colours by vertex became one colour a piece")
     return pieces, said
+
+
+def _source(path: Path) -> dict[str, Any]:
+    """What trimesh is to read: the file, or its bytes in the plain form that trimesh knows of its format."""
+    import trimesh
+
+    kind = path.suffix.lower()
+    if kind == ".stl":
+        with path.open("rb") as file:
+            head = file.read(84)
+            most = declared_sizes.stl_bytes(head) if len(head) == 84 else 0
+            if 84 <= most < path.stat().st_size:  # without what lies behind the triangles
+                return {"file_obj": BytesIO(head + file.read(most - 84)), "file_type": "stl"}
+    if kind == ".obj":
+        data = path.read_bytes()
+        if b"\t" in data or b"\\" in data:
+            plain = re.sub(rb"\\\r?\n", b" ", data).replace(b"\t", b" ")
+            beside = trimesh.visual.resolvers.FilePathResolver(str(path))
+            return {"file_obj": BytesIO(plain), "file_type": "obj", "resolver": beside}
+    return {"file_obj": path}
 
 
 def _piece(mesh: Any, name: str, number: int) -> Drawn:
@@ -120,6 +147,8 @@ def _look(mesh: Any) -> tuple[Array | None, Array | None, tuple[float, float, fl
     colour = (1.0, 1.0, 1.0, 1.0)
     if factor is not None:
         colour = _colour(np.asarray(factor, float).ravel() / (255 if np.max(factor) > 1 else 1))
+        if pbr:  # glTF's factors are of light, ours of an sRGB value
+            colour = _colour(np.array([*(share ** (1 / GAMMA) for share in colour[:3]), colour[3]]))
     said = getattr(material, "kwargs", {})  # of an OBJ: how opaque it is, and how sharply it mirrors
     opaque, sharp = _number(said.get("d")), _number(getattr(material, "glossiness", None))
     if opaque is not None and 0 < opaque < 1:
@@ -176,6 +205,32 @@ def _by_look(pieces: list[Drawn]) -> list[Drawn]:
         look = digests[id(picture)] if picture is not None else b""
         groups.setdefault((look, *(round(c, 2) for c in piece.rgba)), []).append(piece)
     return [_joined(group) for group in groups.values()]
+
+
+def _corners(pieces: list[Drawn]) -> tuple[list[Drawn], list[str]]:
+    """The pieces without single triangles, which join those of their look, else the plain one whose colour is nearest; and what to
+    say of it."""
+    single = [piece for piece in pieces if len(piece.vertices) < LEAST_CORNERS]
+    if not single:
+        return pieces, []
+    looks = _by_look(single)
+    groups = [[piece] for piece in pieces if len(piece.vertices) >= LEAST_CORNERS]
+    groups += [[piece] for piece in looks if len(piece.vertices) >= LEAST_CORNERS]
+    alone = [_plain(piece) for piece in looks if len(piece.vertices) < LEAST_CORNERS]
+    plain = [group for group in groups if group[0].picture is None]
+    if plain:
+        colours = np.array([group[0].rgba for group in plain])
+        for piece in alone:
+            plain[int(np.linalg.norm(colours - piece.rgba, axis=1).argmin())].append(piece)
+        said = f"{len(single)} pieces of one triangle each joined those of their look, or of the nearest colour"
+    elif len(alone) > 1:
+        groups.append(alone)
+        said = f"{len(single)} pieces of one triangle each joined, in one colour where their looks differ"
+    elif groups:
+        said = f"{len(single)} pieces of one triangle each joined those of their look; one of a look of its own is left out"
+    else:
+        return pieces, []  # nothing but a triangle: it has no volume, which is told
+    return [_joined(group) for group in groups], [said]
 
 
 def _few(pieces: list[Drawn]) -> list[Drawn]:

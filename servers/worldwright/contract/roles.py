@@ -186,7 +186,7 @@ Call `scan.scan` with `refine` (and `causes` when objectives name a cause) and `
 reference image also `show: reference`), read the visual description in the evidence. Bind each objective to the evidence that decides it. A claim of one channel ("the scene is
 frozen", "it went through the wall") is tested in another (`scan.query`) before it may order a repair. `recognised` holds what the
 description names blindly, word for word, against each subject and the event: a synonym or a kind of it is the same. One row stands for all that
-welds or hinges join or a number alone tells apart (`branch_1`, `branch_2`). If all objectives are met and nothing blocks: outcome `pass`. Otherwise one repair: the one target, and the one change that most likely mends
+welds or hinges join directly or a number alone tells apart (`branch_1`, `branch_2`). If all objectives are met and nothing blocks: outcome `pass`. Otherwise one repair: the one target, and the one change that most likely mends
 the most. `blocked` only when no change of plan or program can help. Then call `stamp.review` once:
 `{"reviewer": "world-review", "outcome": "repair", "numeric": "…", "visual": "…", "plan": "…",
 "objectives": [{"index": 0, "met": true, "evidence": ["expect:moves", "still:side"]}, …],

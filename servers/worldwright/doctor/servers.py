@@ -42,7 +42,7 @@ def _command(name: str) -> tuple[list[str], Path]:
     if config.is_file():
         entry = json.loads(config.read_text(encoding="utf-8"))["mcpServers"][name]
         return [entry["command"], *entry["args"]], project()
-    return [sys.executable, "-m", "worldwright.cli", "serve", name], Path.cwd()
+    return [sys.executable, "-P", "-m", "worldwright.cli", "serve", name], Path.cwd()
 
 
 async def _ask(name: str, answers: dict[str, str | int]) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from worldkit import assets
 from worldkit.assets.reading import AssetError, read_asset
+from worldkit.assets.root import data_root
 from worldkit.files import write_atomic
 
 from ..model.errors import WorldwrightError
@@ -30,8 +31,14 @@ def free(key: str, root: Path, replace: bool) -> None:
     """Refuse a key that is taken, unless it is by an asset of the same destination that may be replaced.
 
     Raises:
-        RegisterError: the key is taken, by an asset or by something else.
+        RegisterError: the key is taken, by an asset or by something else; or no pass may read what lies there.
     """
+    if root == assets.own_root() and data_root().resolve().is_relative_to(root.resolve()):
+        raise RegisterError(
+            "the folder of your own assets holds your signing key, too, so that no pass may read it",
+            place=str(root),
+            next_move="point WORLDWRIGHT_ASSETS at a folder of assets alone",
+        )
     if key in OURS:
         raise RegisterError(
             f"the catalog keeps a folder {key} that is no asset's", place="key", next_move="give it another --key"

@@ -111,7 +111,7 @@ def simulate(
         asked.write_text(json.dumps(request | {"out": str(out)}), encoding="utf-8")
         with asked.open("rb") as question, told.open("wb") as errors:
             process = subprocess.Popen(
-                [sys.executable, "-m", "worldwright.place.preroll"],
+                [sys.executable, "-P", "-m", "worldwright.place.preroll"],
                 stdin=question,
                 stdout=subprocess.DEVNULL,
                 stderr=errors,

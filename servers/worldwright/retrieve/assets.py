@@ -3,6 +3,7 @@
 import os
 import re
 from collections import defaultdict
+from contextlib import suppress
 from difflib import SequenceMatcher
 from functools import lru_cache
 from math import log10
@@ -181,6 +182,7 @@ def _changed(*paths: str) -> int:
 def _vectors(texts: tuple[str, ...]) -> "np.ndarray":
     """The vectors (N, 384) of texts; what was embedded once, by whichever process, is not embedded again."""
     import hashlib
+    import sqlite3
 
     import numpy as np
 
@@ -193,7 +195,8 @@ def _vectors(texts: tuple[str, ...]) -> "np.ndarray":
     missing = [number for number, digest in enumerate(digests) if digest not in row]
     fresh = encode_plainly([texts[number] for number in missing]) if missing else np.zeros((0, 384), dtype=np.float32)
     if missing:
-        store.append([digests[number] for number in missing], fresh)
+        with suppress(OSError, sqlite3.Error):  # where nothing can be kept they are made anew each time
+            store.append([digests[number] for number in missing], fresh)
     found = np.zeros((len(texts), 384), dtype=np.float32)
     for place, number in enumerate(missing):
         found[number] = fresh[place]

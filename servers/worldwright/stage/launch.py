@@ -173,7 +173,7 @@ def _detach(job: Job) -> None:
     with (job.folder / "supervisor.log").open("wb") as errors, (job.folder / "lock").open("wb") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         subprocess.Popen(
-            [sys.executable, "-m", "worldwright.stage.supervisor", str(job.folder), str(lock.fileno())],
+            [sys.executable, "-P", "-m", "worldwright.stage.supervisor", str(job.folder), str(lock.fileno())],
             stdin=subprocess.DEVNULL,
             stdout=errors,
             stderr=errors,

@@ -185,7 +185,7 @@ class Acting:
         inputs = self.job.inputs
         given = [inputs / WORLD, inputs / FACTS, inputs / INPUTS]
         words = [PASS[self.spec.stage], "--world", str(given[0]), "--program", str(given[1]), "--inputs", str(given[2])]
-        call = [sys.executable, "-s", "-m", "worldengine", *words, "--out", str(self.job.out), *more]
+        call = [sys.executable, "-s", "-P", "-m", "worldengine", *words, "--out", str(self.job.out), *more]
         return self.crew.start("engine", call, self.job.out, (*given, self.job.lock, *reads), descriptors)
 
     def film(self) -> Ended:

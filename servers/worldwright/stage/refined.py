@@ -42,7 +42,7 @@ def carry_over(run: Run, job: Job, described: Path, recording: Path, world: Path
     from worldengine.film import refining
     from worldengine.recording import stored
 
-    name = refining.named(described, stored.open(recording).sha256, world)
+    name = refining.named(described, stored.open(recording).shown_sha256, world)
     past = [other for other in Job.all(run) if other.spec.stage == "final" and other.folder != job.folder]
     sets = [path for other in past if other.read().ended for path in (other.folder / FOLDER).glob("*") if path.is_dir()]
     others: set[str] = set()
@@ -77,6 +77,7 @@ def said(summary: dict[str, Any]) -> str:
     ]
     parts += [f"{reckoned} are reckoned between them by how all that is seen moves"] if reckoned else []
     parts += [f"{held} show the nearest drawn one"] if held else []
+    parts += [f"none could be reckoned any more ({summary['unreckoned']})"] if summary.get("unreckoned") else []
     parts += (
         [f"{summary['taken_over']} stood already, from an earlier pass of this very film"]
         if summary["taken_over"]
@@ -84,7 +85,7 @@ def said(summary: dict[str, Any]) -> str:
     )
     if count > drawn:
         more = max(1, math.ceil(summary["rest_s"] / 60))
-        parts.append(f"about {more} more minute{'s' if more > 1 else ''} (minutes={more}) would draw the rest")
+        parts.append(f"about {more} more minute{'s' if more > 1 else ''} would draw the rest")
     elif not summary["complete"]:
         parts.append("more minutes give each more samples")
     return "; ".join(parts)

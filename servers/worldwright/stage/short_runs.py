@@ -82,5 +82,5 @@ def run_process(
 
 def engine(words: Sequence[str], reads: Sequence[Path], wanted: Sequence[str], **limits: Any) -> dict[str, Any]:
     """`run_process` for the engine, which draws with the shaders that are compiled already; `{out}` is told to it here."""
-    call = [sys.executable, "-s", "-m", "worldengine", *words, "--out", "{out}"]
+    call = [sys.executable, "-s", "-P", "-m", "worldengine", *words, "--out", "{out}"]
     return run_process(call, reads, wanted, home=compiled_shaders.lay, **limits)

@@ -7,6 +7,7 @@ was run again on the same states and gave the same. `tolerance`: it is compared 
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Literal
 
+from ..model.recording import laws_told
 from .proof import Proved
 
 Kind = Literal["exact", "law re-run", "tolerance"]
@@ -31,8 +32,8 @@ def channels(proved: Proved, names: Iterable[str]) -> dict[str, Kind]:
         found[INPUTS] = "law re-run"
     for row in _meta(proved).get("solvers") or ():
         found[f"solver {row['solver']['name']}"] = "law re-run"
-    for row in _meta(proved).get("laws") or ():
-        found[f"{MEDIUM}{row['law']['name']}"] = "law re-run"
+    for law in laws_told.of(_meta(proved), str(proved.recording)):
+        found[f"{MEDIUM}{law.name}"] = "law re-run"
     return found | ({PICTURES: "tolerance"} if any(name.startswith(DRAWN) for name in names) else {})
 
 

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
+from worldkit.assets.root import data_root
 from worldkit.files import write_atomic
 
 from ..model.storage import writing
@@ -38,10 +39,7 @@ class Known:
 
 def folder() -> Path:
     """The user's data folder: WORLDWRIGHT_DATA, or `worldwright` where the system keeps such data."""
-    named = os.environ.get("WORLDWRIGHT_DATA")
-    if named:
-        return Path(named)
-    return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "worldwright"
+    return data_root()
 
 
 def own() -> "Ed25519PrivateKey":

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from ..model.errors import GateError, WorldwrightError
 from ..model.progress import Progress
-from . import bundle, digest, measured_again
+from . import bundle, digest, measured_again, media_apart
 from .as_stamped import Check
 from .proof import FACTS, WORLD, Proved, beside, lay_out, prove
 from .statement import Statement
@@ -127,6 +127,8 @@ def compared(folder: Path, statement: Statement, recorded: Proved, asked: Proved
     told = f"{built}; asked again, it sends other inputs than were recorded; {apart.message}"
     if not (differences and apart.within):
         return Law(_refused(told, differences))
+    if strayed := media_apart.apart(recorded.recording, asked.recording):
+        return Law(_refused(f"{told}; {strayed}", differences))
     wrong = [c for c in measured_again.checks(folder, statement, asked, exact=False) if not c.ok]
     if wrong:
         return Law(_refused(f"{told}; driven by those, {wrong[0].name}: {wrong[0].detail}", differences))

@@ -82,7 +82,7 @@ def _apart(kept: Path, built: Path) -> tuple[float, str]:
     """(largest relative difference, field) of the compiled models."""
     from ..stage import tools as stage
 
-    call = [sys.executable, "-s", "-m", "worldkit.two_worlds", str(kept), str(built), "{out}/apart.json"]
+    call = [sys.executable, "-s", "-P", "-m", "worldkit.two_worlds", str(kept), str(built), "{out}/apart.json"]
     done = stage.run_confined(call, reads=(kept, built), wanted=("apart.json",), wall_s=WALL_S, memory_mb=MEMORY_MB)
     if done.status != "ended":
         raise JobError(

@@ -67,14 +67,15 @@ def wanted(state: State) -> tuple[str, ...]:
 
 
 def together(state: State) -> tuple[tuple[str, ...], ...]:
-    """What is wanted, in groups of which one name stands for all: what welds and hinges join, or what is told apart by a number alone.
+    """What is wanted, in groups of which one name stands for all: what a weld or a hinge joins directly, or what is told apart by a number alone.
 
-    To somebody who was told nothing a chain of capsules is one branch, and a torso with its arms one figure.
+    To somebody who was told nothing a chain of capsules is one branch, and a torso with its arms one figure. What hangs on a third
+    thing that nobody asked for, a ceiling or a table, is no one thing by that.
     """
     names = wanted(state)
     if state.plan is None:
         return ()
-    head = {name: name for name in (*state.plan.object_names(), *names)}
+    head = {name: name for name in names}  # a joint to any other joins nothing
 
     def first(name: str) -> str:
         while name != head[name]:

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ..model.evidence.journal import Journal
+from ..model.evidence.journal import Journal, reports
 from ..model.evidence.run import SOURCE, sha256_file
 from .refusal import Refusal
 from .state import State
@@ -84,13 +84,10 @@ def _legalise(state: State, name: str) -> str:
 def _reports(state: State) -> Iterator[Refusal]:
     """Reports and results of this key whose bytes no line of the journal vouches for."""
     key = state.key.key if state.key else ""
-    vouched: dict[str, str] = {}
+    vouched = reports(state.journal, key)
     for entry in state.journal:
-        if entry.get("key") == key:
-            reports = entry.get("reports")
-            vouched |= reports if isinstance(reports, dict) else {}
-            if entry.get("action") == "stage" and entry.get("result_sha256"):
-                vouched[str(entry.get("stage"))] = str(entry["result_sha256"])
+        if entry.get("key") == key and entry.get("action") == "stage" and entry.get("result_sha256"):
+            vouched[str(entry.get("stage"))] = str(entry["result_sha256"])
     for name, command in AGAIN.items():
         yield from _vouched(state.folder / f"{name}.json", vouched.get(name), command.format(place=state.place))
     for stage in state.passes:

@@ -13,7 +13,7 @@ import trimesh
 from worldkit.assets.reading import read_asset
 from worldkit.errors import IntakeError
 from worldkit.intake import confined_intake as process
-from worldkit.intake import drawn_pieces, shown_meshes, taken_in
+from worldkit.intake import declared_sizes, drawn_pieces, shown_meshes, taken_in
 from worldkit.intake.drawn_pieces import Drawn
 
 OAK = {"name": "oak", "density": 690.0, "friction": 0.4, "restitution": 0.4, "source": "a table"}
@@ -72,6 +72,42 @@ def test_a_picture_and_a_colour_come_along(tmp_path: Path) -> None:
     picture = cv2.imdecode(np.frombuffer(files[grained[1]["texture"]], np.uint8), cv2.IMREAD_COLOR)
     assert picture.shape == (8, 4, 3) and picture[0, 0].tolist() == [10, 20, 200]
     assert b"vt 1 1" in files[worn[grained[0]]]
+
+
+def test_the_colour_of_a_gltf_is_of_light_and_ours_is_as_it_is_seen(tmp_path: Path) -> None:
+    mesh = crate()
+    colour = trimesh.visual.material.PBRMaterial(baseColorFactor=[55, 255, 0, 128])
+    mesh.visual = trimesh.visual.TextureVisuals(uv=np.zeros((8, 2)), material=colour)
+    mesh.export(tmp_path / "a.glb")
+    (piece,), _ = drawn_pieces.read(tmp_path / "a.glb")
+    assert piece.rgba == pytest.approx((0.5, 1.0, 0.0, 0.5), abs=0.01)
+
+
+def test_a_binary_stl_with_more_behind_its_triangles_is_read(tmp_path: Path) -> None:
+    path = tmp_path / "a.stl"
+    crate().export(path)
+    path.write_bytes(path.read_bytes() + b"colour table\n")
+    assert declared_sizes.check(path) == 12
+    (piece,), _ = drawn_pieces.read(path)
+    assert len(piece.faces) == 12
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_an_obj_with_tabs_and_rows_that_go_on_is_read(tmp_path: Path, end: str) -> None:
+    (tmp_path / "a.mtl").write_text("newmtl paint\nKd 1 0 0\n")
+    rows = ["mtllib\ta.mtl", "v\t0 0\t0", "v 1 0 0", "v 0 1 \\", "0", "v 1\t1 1", "usemtl paint", "f 1 2\\", "4 3"]
+    (tmp_path / "a.obj").write_bytes(end.join(rows).encode())
+    assert declared_sizes.check(tmp_path / "a.obj") == 2
+    (piece,), _ = drawn_pieces.read(tmp_path / "a.obj")
+    assert len(piece.faces) == 2 and np.ptp(piece.vertices, axis=0).tolist() == [1, 1, 1]
+    assert piece.rgba == pytest.approx((1, 0, 0, 1))
+
+
+def test_a_row_without_an_end_is_counted_where_it_begins(tmp_path: Path) -> None:
+    (tmp_path / "a.obj").write_bytes(b"v 0 0 0\nv 1 0 0\nf 1 \\\n2 7 \\")
+    with pytest.raises(IntakeError, match="corner 7 of 2") as told:
+        declared_sizes.check(tmp_path / "a.obj")
+    assert told.value.place == "a.obj:3"
 
 
 def test_numbers_that_are_none_are_refused_with_their_place(tmp_path: Path) -> None:
@@ -142,6 +178,22 @@ def test_a_hundred_pieces_become_as_many_as_are_handed_over(tmp_path: Path) -> N
     assert sum(len(piece.faces) for piece in pieces) == 1200 and all(
         (piece.uv is None) == (piece.picture is None) for piece in pieces
     )
+
+
+@pytest.mark.parametrize(
+    ("plain", "triangles", "left", "why"),
+    [(1, 1, 13, "nearest colour"), (1, 3, 15, "nearest colour"), (0, 1, 12, "left out"), (0, 2, 14, "in one colour")],
+)
+def test_a_single_triangle_is_no_mesh_of_its_own(plain: int, triangles: int, left: int, why: str) -> None:
+    box = trimesh.creation.box((1, 1, 1))
+    picture = None if plain else np.zeros((2, 2, 3), np.uint8)
+    whole = Drawn(np.array(box.vertices), np.array(box.faces), None if plain else np.zeros((8, 2)), picture)
+    one = np.eye(3), np.array([[0, 1, 2]])
+    single = [Drawn(*one, rgba=(n / 4, 0.0, 0.0, 1.0)) for n in range(triangles)]
+    pieces, (said,) = drawn_pieces._corners([whole, *single])
+    assert all(len(piece.vertices) >= 4 for piece in pieces) and sum(len(piece.faces) for piece in pieces) == left
+    assert why in said
+    assert drawn_pieces._corners([whole]) == ([whole], [])
 
 
 @pytest.fixture

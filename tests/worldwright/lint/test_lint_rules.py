@@ -148,3 +148,16 @@ def test_the_step_that_a_stiff_spring_asks_for_is_shorter_than_the_worlds(step, 
     asked = float(re.search(r"to (\S+) s or less", fix).group(1))
     assert severity == "warning" and f"{steps_a_period:.1f} steps" in message
     assert 0 < asked < step and asked * phase / step <= rule.UNRESOLVED * (1 + 1e-9)
+
+
+def test_a_law_whose_file_does_not_lie_beside_the_program_is_found(tmp_path):
+    rule = engine.find("WL128")
+    case = rule.GOOD[0]
+    path = tmp_path / "simulation.py"
+    path.write_text(case.source)
+    program = Program(source.read(path), plan_with(case.plan))
+    (problem,) = rule.check(program)
+    assert "laws/rubber.py, which does not belong to the program" in problem.message
+    (tmp_path / "laws").mkdir()
+    (tmp_path / "laws" / "rubber.py").write_text("class Rubber:\n    pass\n")
+    assert list(rule.check(Program(source.read(path), plan_with(case.plan)))) == []

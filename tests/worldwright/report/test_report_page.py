@@ -87,6 +87,22 @@ def test_a_half_finished_run_says_what_is_missing(planned: Path, copy: Copy) -> 
     assert "The motion has not been scanned yet." in text
 
 
+def test_a_law_of_the_authors_is_shown_with_what_it_gives_the_world_and_draws_from_store(
+    planned: Path, copy: Copy
+) -> None:
+    from worldwright.report.material import gather
+    from worldwright.report.page import render
+    from worldwright.scan.known.own_laws import spring
+
+    found = gather(Run(copy(planned)))
+    found.laws = (spring(ballast=10.0),)
+    text = " ".join(" ".join(Page(render(found)).text).split())
+    assert "Impulse to the world" in text and "Drawn from its store" in text
+    given, drawn = 11.0 * 9.81 * 2.0, found.laws[0].drawn_j
+    assert found.laws[0].to_world == pytest.approx(given) and drawn == pytest.approx(2.0, rel=0.01)
+    assert "216 N·s" in text and "2 J" in text
+
+
 def test_a_plan_that_is_none_still_gets_a_page(tmp_path: Path) -> None:
     folder = tmp_path / "broken"
     folder.mkdir()

@@ -6,15 +6,17 @@ import signal
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from worldwright import robust_beside
+from worldwright.model.errors import GateError
 from worldwright.model.evidence import environment
 from worldwright.model.evidence.audits import RobustReport
 from worldwright.model.evidence.run import Run
 from worldwright.scan import tools as scan
-from worldwright.scan.audits import robustness, unasked_audit
+from worldwright.scan.audits import robustness, trials, unasked_audit
 from worldwright.stage import tools as stage
 from worldwright.stamp import scope
 from worldwright.stamp.state import State
@@ -120,6 +122,49 @@ def test_without_a_claim_that_holds_or_where_nothing_is_done_unasked_nothing_beg
     monkeypatch.delenv(unasked_audit.SWITCH)
     kept(measured).with_name("expect.json").unlink()
     assert scan.begin_robust(measured) == "" and processes(measured) == []
+
+
+@pytest.fixture
+def small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Run:
+    """A run whose recording has the hash `now`."""
+    (tmp_path / "plan.md").write_text("a plan", encoding="utf-8")
+    (tmp_path / "simulation.py").write_text("one = 1\n", encoding="utf-8")
+    monkeypatch.setattr(unasked_audit, "read_trajectory", lambda _: SimpleNamespace(sha256="now"))
+    return Run(tmp_path)
+
+
+def test_a_report_of_another_recording_or_for_which_nobody_vouches_is_none(small: Run) -> None:
+    key, report = small.evidence_key("here"), RobustReport(trajectory_sha256="now")
+    Run(small.folder).keep(key, "robust", report)
+    assert unasked_audit._kept(small, key) is None, "no line of the journal tells of it"
+    small.keep_vouched(key, "robust", RobustReport(trajectory_sha256="before"), "scan")
+    assert unasked_audit._kept(small, key) is None
+    small.keep_vouched(key, "robust", report, "scan")
+    assert unasked_audit._kept(small, key) == report
+
+
+@pytest.mark.parametrize("changed_in", [1, 2])
+def test_a_world_that_is_changed_meanwhile_ends_the_audit(
+    small: Run, monkeypatch: pytest.MonkeyPatch, changed_in: int
+) -> None:
+    started = []
+
+    def run_variant(run: Run, variant: str, *_: object, **__: object) -> SimpleNamespace:
+        started.append(variant)
+        if len(started) == changed_in:
+            run.program.write_text("one = 2\n", encoding="utf-8")
+        return SimpleNamespace(ended=True, state="succeeded")
+
+    monkeypatch.setattr(robustness, "WORLDS", (("--vary", "start=1.01"), ("--vary", "start=0.99")))
+    monkeypatch.setattr(robustness, "report", lambda *_: RobustReport(trajectory_sha256="now"))
+    monkeypatch.setattr(os, "nice", lambda _: 0)
+    monkeypatch.setattr(stage, "run_variant", run_variant)
+    monkeypatch.setattr(stage, "variant_folder", lambda *_: small.folder)
+    monkeypatch.setattr(trials, "read_trajectory", lambda _: None)
+    key = small.evidence_key("here")
+    with pytest.raises(GateError, match="changed while"):
+        unasked_audit.finish(small, key, None, None)
+    assert len(started) == changed_in and not (small.evidence(key) / "robust.json").exists()
 
 
 def test_what_keeps_it_from_its_end_stands_in_the_journal(measured: Run) -> None:

@@ -96,7 +96,7 @@ def test_a_slip_and_a_variant_taken_back_cost_no_frame(reviewed, tmp_path):
 
 @pytest.mark.parametrize("renderers", [("",), ("-preview",), ("", "-preview")])
 def test_frames_of_the_last_films_are_kept_whatever_drew_them(tmp_path, monkeypatch, renderers):
-    monkeypatch.setattr("worldengine.recording.stored.open", lambda path: SimpleNamespace(sha256=path.name))
+    monkeypatch.setattr("worldengine.recording.stored.open", lambda path: SimpleNamespace(shown_sha256=path.name))
     told, jobs = tmp_path / "told", []
     told.mkdir()
     world = tmp_path / "world.mjz"

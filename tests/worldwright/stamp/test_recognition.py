@@ -125,13 +125,13 @@ def test_copies_of_one_object_are_wanted_once(small_plan, tmp_path):
     assert wanted == ("ball",)
 
 
-def of_plan(objects, joints=(), families=None):
-    """A state whose plan wants all of these objects, as far as recognition asks."""
+def of_plan(objects, joints=(), families=None, unwanted=()):
+    """A state whose plan wants all of these objects but the unwanted ones, as far as recognition asks."""
     rows = [SimpleNamespace(type=kind, parent=parent, child=child) for kind, parent, child in joints]
     plan = SimpleNamespace(
         cameras=lambda: (SimpleNamespace(subjects=objects),),
         implementation_steps=(),
-        object_names=lambda: objects,
+        object_names=lambda: (*objects, *unwanted),
         families=families or {},
         topology=SimpleNamespace(joints=rows),
     )
@@ -145,6 +145,12 @@ def test_what_is_joined_or_only_numbered_is_recognised_together():
     assert groups == (("stump",), ("leaf", "leaf_lee"), ("branch_1", "branch_2", "branch_3", "tuft_1"))
     figure = recognition.together(of_plan(("torso", "arm", "ball"), [("hinge", "torso", "arm")]))
     assert figure == (("torso", "arm"), ("ball",))
+
+
+def test_what_hangs_on_one_thing_that_nobody_asked_for_is_not_one_thing():
+    joints = [("weld", "ceiling", "lamp"), ("hinge", "ceiling", "fan")]
+    hung = of_plan(("lamp", "fan"), joints, unwanted=("ceiling",))
+    assert recognition.together(hung) == (("lamp",), ("fan",))
 
 
 def test_all_that_is_not_told_is_told_at_once(reviewed, copy):

@@ -56,6 +56,8 @@ class Place:
     ways: np.ndarray
     """(N, 3): x, y and radius of discs, m, that the movers pass: nothing grows there."""
     random: np.random.Generator
+    colour: str = ""
+    """Of the wall, where the film names one."""
     standing: float = 0.0
     """The radius, m, with the things of the world that stand near what moves; a room leaves them their place."""
 
@@ -116,11 +118,11 @@ def _furniture(recorded: Recorded, middle: np.ndarray) -> list[float]:
     return [far for far in found if far < 2 * LAND_M]
 
 
-def build(film: "Dressing", name: str, facing_deg: float, seed: int) -> None:
+def build(film: "Dressing", name: str, facing_deg: float, seed: int, colour: str = "") -> None:
     """Draw a set around what is recorded.
 
     Raises:
-        ProgramError: there is no such set, or what happens is too large for it.
+        ProgramError: there is no such set, what happens is too large for it, or it has no wall of a colour of choice.
     """
     names = [known for known in SETS.names() if known not in NO_SETS]
     if name not in names:
@@ -133,4 +135,8 @@ def build(film: "Dressing", name: str, facing_deg: float, seed: int) -> None:
             "film.py",
             f"use a wider one: {', '.join(larger) or 'none is wider'}",
         )
+    if colour and not hasattr(found, "COLOUR"):
+        choice = ", ".join(known for known in names if hasattr(SETS.find(known), "COLOUR"))
+        raise ProgramError(f"the set {name!r} has no wall whose colour is chosen", "film.py", f"use {choice}")
+    place = replace(place, colour=colour)
     found.build(film, replace(place, radius=place.standing) if name in ROOMS else place)

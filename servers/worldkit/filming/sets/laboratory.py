@@ -15,7 +15,9 @@ WIDEST = 1.2
 
 def build(film: "Dressing", place: Place) -> None:
     """Draw a laboratory bench: the ground is its top, pale and clean; glassware, a stand, a rack of tubes, cupboards behind."""
-    film.light(azimuth_deg=place.facing_deg - 60, elevation_deg=52, colour="#f6faff", strength=0.9, softness_deg=7)
+    film.light(
+        azimuth_deg=place.facing_deg - 58, elevation_deg=33, colour="#fff4e4", strength=0.95, softness_deg=2, fill=0.5
+    )
     film.grade(contrast=1.04, saturation=0.96, temperature=-0.04, vignette=0.14)
     film.ground("plastic_white")
     back = place.radius + 0.45

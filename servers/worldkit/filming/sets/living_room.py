@@ -12,7 +12,9 @@ WIDEST = 2.2
 
 def build(film: "Dressing", place: Place) -> None:
     """Draw a living room: a sofa, a rug, books, a lamp that is lit, pictures, a plant, daylight from a window."""
-    film.light(azimuth_deg=place.facing_deg - 75, elevation_deg=38, colour="#fff0dc", strength=0.8, softness_deg=7)
+    film.light(
+        azimuth_deg=place.facing_deg - 75, elevation_deg=34, colour="#fff0dc", strength=0.95, softness_deg=2.5, fill=0.6
+    )
     film.grade(contrast=1.04, temperature=0.05, vignette=0.18)
     film.ground("wood_planks")
     away = max(2.4, place.radius + 1.9)

@@ -13,7 +13,7 @@ import fcntl
 import hashlib
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -90,6 +90,10 @@ class Journal:
         """Every head the journal ever had, as far as its chain holds."""
         yield from (line.chain for line in _lines(self._bytes()) if line.chain)
 
+    def vouched(self, key: str) -> dict[str, str]:
+        """The hashes of the reports of an evidence key, by name, as the last line about each says."""
+        return reports(self.entries(), key)
+
     def breaks(self) -> list[str]:
         """Where lines were edited, taken out or slipped in; empty when the chain holds."""
         if self.path.is_dir():
@@ -115,6 +119,16 @@ class Journal:
             return self.path.read_bytes()
         except (FileNotFoundError, IsADirectoryError):  # `breaks` names a folder in its place
             return b""
+
+
+def reports(entries: Iterable[dict[str, Any]], key: str) -> dict[str, str]:
+    """See `Journal.vouched`, of entries that were read already."""
+    found: dict[str, str] = {}
+    for entry in entries:
+        said = entry.get("reports")
+        if entry.get("key") == key and isinstance(said, dict):
+            found |= said
+    return found
 
 
 def _next(previous: str, body: str) -> str:

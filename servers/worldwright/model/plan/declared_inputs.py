@@ -52,7 +52,7 @@ class Intervention(Frozen):
         if self.solver is None:
             return {}
         if self.solver.file:
-            return {"law": {"name": self.solver.name, "shown_by": self.solver.shown_by}}
+            return {"law": {"name": self.solver.name, "file": self.solver.file, "shown_by": self.solver.shown_by}}
         named = {own: constants[name].value for own, name in self.solver.constants.items() if name in constants}
         values = {own: value for own, value in named.items() if not isinstance(value, tuple)}
         return {"solver": {"name": self.solver.name, "constants": values, "shown_by": self.solver.shown_by}}

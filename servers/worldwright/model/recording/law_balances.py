@@ -1,19 +1,25 @@
 """What an author's law gives and takes, held against the ledger: momentum, energy, mass and volume of its points.
 
-The sums are computed from the points while the law runs (`worldkit.laws`); what its bodies were given is the engine's own ledger,
-in which nobody else may push them. So a law that pushes without being pushed back shows here, and one that makes energy.
+What its bodies were given is the engine's own ledger, in which nobody else may push them. The rest is the word of the author's
+process (`worldkit.laws`): points, masses, what is stored, and what the world was given, which nothing else shows. So a law that by
+mistake pushes without being pushed back shows here, and one that makes energy; a reader sees what went to the world, and what came
+out of store.
 """
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
+from ..errors import RecordingError
+from . import laws_told
 from .records import Interventions
 
 Array = np.ndarray
+COLUMNS = ("mass", "momentum", "energy", "weight", "stored", "volume", "held")
+ROUNDING = 1e-6
+"""A share of all that gravity gave: what is off by less than a few percent of it is rounding, where nothing else acted."""
 
 
 @dataclass(frozen=True)
@@ -30,25 +36,49 @@ class LawBalance:
     """(F, 3) kg m/s."""
     energy: Array
     """(F,) J: of motion, by weight, and stored."""
+    weight: Array
+    """(F,) J: of that, by weight."""
+    stored: Array
+    """(F,) J: of that, stored, as the law says."""
     volume: Array
     """(F,) m^3; 0 where the law says none."""
     given: Array
-    """(F, 3) N s: the impulse that bodies and what stands fast were given since the start."""
+    """(F, 3) N s: the impulse that bodies were given since the start."""
+    held: Array
+    """(F, 3) N s: the impulse that what stands fast was given since the start, as the law says."""
     work: Array
     """(F,) J: the work that it did on bodies since the start."""
-    exchanged: float
-    """N s: all impulses between points, bodies and gravity, as magnitudes."""
+    pushed: float
+    """N s: all impulses that bodies were given, as magnitudes."""
     gravity: Array
     """(3,) m/s^2."""
 
     @cached_property
     def from_nowhere(self) -> float:
         """The largest momentum that no force accounts for, as a share of what was exchanged."""
-        weight = np.concatenate(
-            [np.zeros((1, 3)), np.cumsum(self.mass[:-1, None] * self.gravity * np.diff(self.t)[:, None], axis=0)]
-        )
-        off = np.sqrt((((self.momentum - self.momentum[0]) + self.given - weight) ** 2).sum(axis=1))
-        return float(off.max() / max(self.exchanged, 1e-12))
+        pulled = np.concatenate([np.zeros((1, 3)), np.cumsum(self._pulls, axis=0)])
+        given = self.given + self.held - self.held[0]
+        off = _size((self.momentum - self.momentum[0]) + given - pulled)
+        return float(off.max() / max(self.exchanged, ROUNDING * float(_size(self._pulls).sum()), 1e-12))
+
+    @property
+    def _pulls(self) -> Array:
+        """(F - 1, 3) N s: what gravity gave from one instant to the next."""
+        return np.asarray(self.mass[:-1, None] * self.gravity * np.diff(self.t)[:, None])
+
+    @property
+    def exchanged(self) -> float:
+        """N s: all impulses between points, bodies and what stands fast, as magnitudes.
+
+        Mere weight is none: points that only lie, or only fall, would else make every other impulse small beside theirs.
+        """
+        changes = (np.diff(self.momentum, axis=0), np.diff(self.held, axis=0))
+        return self.pushed + sum(float(np.minimum(_size(d), _size(d - self._pulls)).sum()) for d in changes)
+
+    @property
+    def to_world(self) -> float:
+        """N s: all impulses that what stands fast was given, as magnitudes; nobody sees what becomes of them."""
+        return float(_size(np.diff(self.held, axis=0)).sum())
 
     @cached_property
     def total(self) -> Array:
@@ -57,8 +87,13 @@ class LawBalance:
 
     @property
     def scale_j(self) -> float:
-        """How far its energy and its work reach, J."""
-        return float(max(np.ptp(self.energy), np.ptp(self.work), 1e-12))
+        """How far its energy without that by weight, and its work, reach, J: ballast that is let down makes nothing small."""
+        return float(max(np.ptp(self.energy - self.weight), np.ptp(self.work), 1e-12))
+
+    @property
+    def drawn_j(self) -> float:
+        """Energy that it took from what it began with in store, J, at most."""
+        return float(self.stored[0] - self.stored.min())
 
     @property
     def made_j(self) -> float:
@@ -85,42 +120,48 @@ def _change(values: Array) -> float:
     return float(np.abs(values - values[0]).max() / max(abs(float(values[0])), 1e-300))
 
 
-def read(recording: Any, ledger: Interventions, gravity: Array) -> tuple[LawBalance, ...]:
-    """The balances of a recording's laws; none where it has none, or where too little was recorded."""
-    rows: Sequence[Mapping[str, Any]] = recording.meta.get("laws") or ()
+def _size(vectors: Array) -> Array:
+    return np.sqrt((np.asarray(vectors) ** 2).sum(axis=1))
+
+
+def read(recording: Any, ledger: Interventions, gravity: Array | None) -> tuple[LawBalance, ...]:
+    """The balances of a recording's laws; none where it has none, or where fewer than two instants were recorded.
+
+    Raises:
+        RecordingError: what it says of its laws or their sums makes no sense.
+    """
+    rows = laws_told.of(recording.meta, str(recording.folder))
     if not rows or len(recording.balances) < 2 * len(rows):
         return ()
+    if gravity is None:
+        raise _damaged(recording, "it has an author's law, and says no gravity")
+    return tuple(_of(recording, number, law, ledger, np.asarray(gravity)) for number, law in enumerate(rows))
+
+
+def _of(recording: Any, number: int, law: Any, ledger: Interventions, gravity: Array) -> LawBalance:
+    from worldengine.inputs.openings import owner
+
     sums, step = recording.balances, float(recording.time_step)
-    kinds, targets = np.asarray(ledger.kind, dtype=str), np.asarray(ledger.target, dtype=str)
-    found = []
-    for number, row in enumerate(rows):
-        mine = np.asarray(sums.medium) == number
-        t, bodies = np.asarray(sums.step)[mine] * step, tuple(map(str, row["bodies"]))
-        acted = np.isin(kinds, ("force", "torque")) & np.isin(targets, bodies)
-        when, force = (
-            np.asarray(ledger.time)[acted],
-            np.asarray(ledger.value)[acted][:, :3] * (kinds[acted] == "force")[:, None],
-        )
-        order = np.argsort(when, kind="stable")
-        upto = np.searchsorted(when[order], t - 1e-9)
-        impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[order] * step, axis=0)])
-        work = np.concatenate([[0.0], np.cumsum(np.asarray(ledger.work_j)[acted][order])])
-        mass, held = np.asarray(sums.mass)[mine], np.asarray(sums.held)[mine]
-        pushed = float(np.sqrt((force**2).sum(axis=1)).sum() * step)
-        weight = float(mass.max() * np.sqrt((gravity**2).sum()) * (t[-1] - t[0]))
-        found.append(
-            LawBalance(
-                name=str(row["law"]["name"]),
-                bodies=bodies,
-                t=t,
-                mass=mass,
-                momentum=np.asarray(sums.momentum)[mine],
-                energy=np.asarray(sums.energy)[mine],
-                volume=np.asarray(sums.volume)[mine],
-                given=impulse[upto] + held - held[0],
-                work=work[upto],
-                exchanged=pushed + weight + float(np.sqrt((np.diff(held, axis=0) ** 2).sum(axis=1)).sum()),
-                gravity=gravity,
-            )
-        )
-    return tuple(found)
+    mine = np.asarray(sums.medium) == number
+    t = np.asarray(sums.step)[mine] * step
+    columns = {name: np.asarray(getattr(sums, name))[mine] for name in COLUMNS}
+    if len(t) < 2 or not (np.diff(t) > 0).all() or not all(np.isfinite(column).all() for column in columns.values()):
+        cause = f"the sums of the law {law.name} are no numbers at two instants or more, one after another"
+        raise _damaged(recording, cause)
+    kinds, owners = np.asarray(ledger.kind, dtype=str), [owner(str(target)) for target in ledger.target]
+    acted = np.isin(kinds, ("force", "torque")) & np.isin(np.array(owners, dtype=str), law.bodies)
+    when = np.asarray(ledger.time)[acted]
+    force = np.asarray(ledger.value).reshape(len(kinds), -1)[acted][:, :3] * (kinds[acted] == "force")[:, None]
+    order = np.argsort(when, kind="stable")
+    upto = np.searchsorted(when[order], t - 1e-9)
+    impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[order] * step, axis=0)])
+    work = np.concatenate([[0.0], np.cumsum(np.asarray(ledger.work_j)[acted][order])])
+    pushed = float(_size(force).sum() * step)
+    return LawBalance(
+        law.name, law.named, t, given=impulse[upto], work=work[upto], pushed=pushed, gravity=gravity, **columns
+    )
+
+
+def _damaged(recording: Any, cause: str) -> RecordingError:
+    move = "restore it as it was recorded, or run the physics pass again"
+    return RecordingError(cause, place=str(recording.folder), next_move=move)

@@ -12,7 +12,7 @@ import numpy as np
 
 from worldkit.turning import matrices
 
-from . import assemblies, linkage
+from . import assemblies, laws_told, linkage
 from .linkage import Joint, Rope, Tie
 
 Array = np.ndarray
@@ -258,7 +258,7 @@ def _vector(meta: Mapping[str, Any], key: str, option: Mapping[str, Any] | None 
 
 def _only_drawn(meta: Mapping[str, Any]) -> bool:
     """Whether all flexes of a recording only show where the points of an author's law are."""
-    moved = {str((row.get("law") or {}).get("shown_by")) for row in _rows(meta.get("laws"))}
+    moved = {law.shown_by for law in laws_told.of(meta)}
     flexes = [row.get("name") for row in _rows(meta.get("flexes"))]
     return bool(flexes) and moved.issuperset(flexes)
 

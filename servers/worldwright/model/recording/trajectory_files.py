@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import RecordingError
-from . import law_balances
+from . import law_balances, laws_told
 from .coordinates import Coordinates
 from .loads import Loads
 from .mechanics import Mechanics
@@ -162,7 +162,7 @@ def _from_recording(recording: Any) -> Trajectory:
         ncon=recording.ncon,
         contacts=contacts,
         interventions=ledger,
-        balances=law_balances.read(recording, ledger, np.asarray(mechanics.gravity)),
+        balances=law_balances.read(recording, ledger, _gravity(recording, mechanics)),
         warnings=tuple(
             (float(time), str(name), int(count))
             for time, name, count in zip(warned.time, warned.warning, warned.count, strict=True)
@@ -183,6 +183,17 @@ def _from_recording(recording: Any) -> Trajectory:
     )
     found.verify(str(recording.folder))
     return found
+
+
+def _gravity(recording: Any, mechanics: Mechanics) -> Array:
+    """(3,) m/s^2: what weighs the points of an author's laws, which a recording with laws has to tell."""
+    found = mechanics.gravity
+    if found is not None and found.shape == (3,) and np.isfinite(found).all():
+        return found
+    if not laws_told.of(recording.meta, str(recording.folder)):
+        return np.zeros(3)
+    cause = "the recording has an author's law, and no gravity that weighs its points"
+    raise RecordingError(cause, place=str(recording.folder), next_move="run the physics pass again")
 
 
 def _cameras(recording: Any) -> dict[str, Lens] | None:

@@ -47,7 +47,7 @@ def _workers() -> int:
 @cache
 def prepare_beside() -> None:
     """Start `worldwright index` once, at low priority and outliving us: a server goes on answering by full text."""
-    command = [sys.executable, "-m", "worldwright.cli", "index"]
+    command = [sys.executable, "-P", "-m", "worldwright.cli", "index"]
     if os.name == "posix":
         command = ["nice", "-n", "15", *command]
     subprocess.Popen(

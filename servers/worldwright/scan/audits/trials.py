@@ -4,6 +4,7 @@ import hashlib
 import json
 import re
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -41,6 +42,8 @@ class Trials:
     at_once: int = AT_ONCE
     still_s: float | None = None
     """A repetition ends when nothing advances for so long, s; None: as any pass does."""
+    before_start: Callable[[], object] | None = None
+    """Is called before each repetition is started; what it raises ends the collecting."""
 
     def __post_init__(self) -> None:
         if self.memory is not None and self.memory.is_file():
@@ -107,6 +110,8 @@ class Trials:
                 return wait(str(self.run.folder), job=self.jobs[label], timeout_s=0)
             except NotFoundError:  # its folder was cleared away
                 self._forget(label)
+        if self.before_start is not None:
+            self.before_start()
         status = run_variant(self.run, variant_name(label), self.words[label], still_s=self.still_s, timeout_s=0)
         if not status.ended:
             self.jobs[label] = status.job

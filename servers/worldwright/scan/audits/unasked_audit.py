@@ -5,6 +5,7 @@ lowest priority; what a claim rests on (the causes, acceptance's own proof) is n
 there already costs nothing: `robust.json` is not made twice, and a walk that is taken up again joins what is under way.
 """
 
+import hashlib
 import os
 import subprocess
 import sys
@@ -13,11 +14,14 @@ from contextlib import suppress
 from pydantic import ValidationError
 
 from ...model import try_lock
+from ...model.errors import GateError, RecordingError
 from ...model.evidence.audits import RobustReport
+from ...model.evidence.journal import Journal
 from ...model.evidence.reports import EvidenceKey, ExpectReport
 from ...model.evidence.run import Run
 from ...model.plan.committed import Plan
 from ...model.recording.trajectory import Trajectory
+from ...model.recording.trajectory_files import read_trajectory
 from ...model.storage import writing
 from . import robustness, running
 from .trials import Trials
@@ -47,7 +51,7 @@ def begin(run: Run, key: EvidenceKey) -> str:
         try:
             if try_lock.taken(handle):
                 subprocess.Popen(
-                    [sys.executable, "-m", MODULE, str(run.folder), str(handle)],
+                    [sys.executable, "-P", "-m", MODULE, str(run.folder), str(handle)],
                     stdin=subprocess.DEVNULL,
                     stdout=subprocess.DEVNULL,
                     stderr=subprocess.DEVNULL,
@@ -60,23 +64,45 @@ def begin(run: Run, key: EvidenceKey) -> str:
 
 
 def finish(run: Run, key: EvidenceKey, plan: Plan, trajectory: Trajectory) -> RobustReport | None:
-    """Make the audit to its end; None where it is there already. Lowers the priority of the calling process for good."""
+    """Make the audit to its end; None where it is there already. Lowers the priority of the calling process for good.
+
+    Raises:
+        GateError: the program, the plan, or what they use was changed meanwhile: what was simulated is of no one world.
+    """
+
+    def unchanged() -> None:
+        with suppress(OSError):  # a file that is gone is a change, too
+            if run.evidence_key(key.environment_sha256) == key:
+                return
+        raise GateError(
+            "the world was changed while the audit of robustness was made beside",
+            place=str(run.folder),
+            next_move="nothing needs doing: it begins anew with the next walk",
+        )
+
     if _kept(run, key) is not None:
         return None
     with suppress(OSError):
         os.nice(LOWEST)
-    trials = Trials(run, at_once=1, still_s=STILL_S)
+    trials = Trials(run, at_once=1, still_s=STILL_S, before_start=unchanged)
     robustness.ask(trials)
     trials.collect(float("inf"))
     report = robustness.report(trajectory, plan, trials)
+    unchanged()
     running.keep_robust(run, key, report)
     return report
 
 
 def _kept(run: Run, key: EvidenceKey) -> RobustReport | None:
-    """The report of this key; None where there is none that can be read."""
-    with suppress(OSError, ValidationError):
-        return RobustReport.model_validate_json((run.evidence(key) / "robust.json").read_bytes())
+    """The report of this key; None where there is none that can be read, that the journal vouches for, and that is of the
+    recording that there is now."""
+    folder = run.evidence(key)
+    with suppress(OSError, ValidationError, RecordingError):
+        said = (folder / "robust.json").read_bytes()
+        report = RobustReport.model_validate_json(said)
+        vouched = Journal(run.journal).vouched(key.key).get("robust") == hashlib.sha256(said).hexdigest()
+        if vouched and report.trajectory_sha256 == read_trajectory(folder / "physics" / "trajectory").sha256:
+            return report
     return None
 
 

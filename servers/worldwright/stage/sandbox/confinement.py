@@ -62,17 +62,21 @@ class Confinement:
 
 
 def runtime_paths() -> tuple[Path, ...]:
-    """Paths that any program reads: the interpreter, the environment's packages, worldkit, worldengine, the catalog and the user's own assets."""
+    """Paths that any program reads: the interpreter, the environment's packages, worldkit, worldengine, the catalog and,
+    where they do not hold the user's data folder, the user's own assets."""
     import worldengine
     import worldkit
     from worldkit import assets
+    from worldkit.assets.root import data_root
 
     paths = [Path(sys.prefix), Path(sys.base_prefix), Path(sysconfig.get_path("purelib"))]
     paths += [Path(sys.executable).resolve().parent.parent]
     # An environment may borrow another's packages (a .pth file, or the system's).
     paths += [path for path in map(Path, sys.path) if path.name in ("site-packages", "dist-packages")]
     paths += [Path(next(iter(package.__path__))) for package in (worldkit, worldengine)]
-    paths += [Path(assets.catalog_root()), assets.own_root()]
+    paths += [Path(assets.catalog_root())]
+    if not data_root().resolve().is_relative_to(assets.own_root().resolve()):  # the signing key lies in there
+        paths += [assets.own_root()]
     own = (
         Path("/"),
         Path.home(),

@@ -152,8 +152,9 @@ class Painter:
         kind = self.supplies.paint_kind(batch.finish, float(self._rows[batch.first, 26]))
         reflecting, panels = "reflection" in self._textures, bool(self._uniforms["panel_count"])
         wanted = features(
-            batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind, panels=panels
-        )
+            batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind, panels=panels,
+            gobo="gobo" in self._textures,
+        )  # fmt: skip
         program = self._variants.get(wanted).use()
         if wanted not in self._prepared:
             self._prepared.add(wanted)

@@ -16,20 +16,22 @@ from OpenGL import GL
 from worldkit.materials import look
 from worldkit.settings import STUDIO, Light
 
-from ...carrying import RIM_PX, Surfaces
+from ...carrying import Surfaces
+from ...gobos import slide
 from ...panel_lights import of_model
 from ...treatment import PLAIN, Treatment
 from . import gl, room
 from .develop import Developer
 from .eye import View, of_camera
 from .finish import Finish, linear
+from .first_seen import FirstSeen
 from .focus import Focus
 from .lighting import relight, sky_uniforms
 from .occlusion import Occlusion
 from .painter import Painter
 from .scenery import light_rows, own_lights, panel_rows, setting_of, space_of
 from .shadows import ShadowMap
-from .surroundings import Surroundings, irradiance, noise_map
+from .surroundings import Surroundings, irradiance, noise_map, slide_map
 from .things import FLOATS, SIDE_MODE, Batch, Things
 
 if TYPE_CHECKING:
@@ -104,6 +106,8 @@ class Pipeline:
         self._stages: dict[str, Stage] = {}
         self._noise = noise_map()
         self._sky_uniforms = sky_uniforms(self.setting, PLAIN)
+        self._slides: dict[tuple[str, int, float], int] = {}
+        """Textures of the slides that were before the key light, by kind, seed and its spread."""
         self._around = Surroundings(self.setting, self._noise, self._sky_uniforms)
         self._weigh()
         self.room_extent: tuple[np.ndarray, np.ndarray] | None = None
@@ -111,9 +115,7 @@ class Pipeline:
         self.painter = Painter(model, self.setting.index, self.things, walls, wall_rows.astype(np.float32), height)
         self._skies: dict[int, gl.Program] = {}
         self._depth_program = gl.Program("thing.vert", "shadow.frag", FULL=0)
-        self._number: gl.Target | None = None
-        self._surfaces: dict[int, gl.Target] = {}
-        self._surface_at: gl.Program | None = None
+        self._first_seen = FirstSeen(model, self.painter, width, height, RANK_STEP)
 
     def _weigh(self) -> None:
         """Compute the direction of the key light, and the light on level ground."""
@@ -197,8 +199,27 @@ class Pipeline:
             "fade": (self.centre[0], self.centre[1], setting.fade[0] * span, setting.fade[1] * span),
             "pool": (self.centre[0], self.centre[1], setting.pool[0] * self.radius, setting.pool[1] * self.radius),
             "near_m": view.near_m, "march": stage.quality.march, "stride": 1.0 + 4.4 / stage.quality.march,
-            "blockers": stage.quality.blockers, "filters": stage.quality.filters,
+            "blockers": stage.quality.blockers, "filters": stage.quality.filters, "to_gobo": self._to_slide(),
         }  # fmt: skip
+
+    def _to_slide(self) -> np.ndarray:
+        """(4, 4): of a point of the world, where it lies on the slide."""
+        gobo, found = self._treatment.light_gobo, np.eye(4)
+        if gobo is not None:
+            found[:3] = gobo.across(self._key)
+        return found
+
+    def _slide(self) -> dict[str, tuple[int, int]]:
+        """Unit and texture of the slide, if there is one."""
+        gobo = self._treatment.light_gobo
+        if gobo is None:
+            return {}
+        key = (gobo.kind, gobo.seed, self.setting.key_spread)
+        if key not in self._slides:
+            while len(self._slides) > 3:  # a light that softens slowly has one for each frame
+                GL.glDeleteTextures(1, [self._slides.pop(next(iter(self._slides)))])
+            self._slides[key] = slide_map(slide(*key))
+        return {"gobo": (13, self._slides[key])}
 
     def _air(self) -> dict[str, object]:
         """Uniforms of the fog."""
@@ -306,6 +327,7 @@ class Pipeline:
             "guide": (11, stage.occlusion.guide.colour),
             "behind_depth": (12, behind.depth if behind else black),
         }
+        out |= self._slide()
         return out | {"reflection": (10, stage.mirror.colour)} if reflecting and stage.mirror else out
 
     def _reflect(self, stage: Stage, view: View, data: mujoco.MjData) -> None:
@@ -343,43 +365,8 @@ class Pipeline:
 
     def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
         """Geom number of each pixel, -1 for none, flexes from -2 down: int32 (H, W), row 0 the top."""
-        if self._number is None:
-            self._number = gl.Target(self.width, self.height, GL.GL_R32I, depth=True, linear=False)
-            self._ident = gl.Program("thing.vert", "ident.frag", FULL=0)
-        self.painter.upload(data)
-        self._number.bind()
-        GL.glClearBufferiv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.int32))
-        self._first_seen(self._ident.use(), of_camera(self.model, data, camera, self.width, self.height))
-        raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RED_INTEGER, GL.GL_INT)
-        return np.frombuffer(raw, dtype=np.int32).reshape(self.height, self.width)[::-1].copy()
+        return self._first_seen.numbers(data, camera)
 
     def surfaces(self, data: mujoco.MjData, camera: int, coarser: int = 1) -> Surfaces:
-        """What each pixel shows first, be it glass, and how far away; `coarser` times smaller each way."""
-        if coarser not in self._surfaces:
-            size = max(self.width // coarser, 1), max(self.height // coarser, 1)
-            self._surfaces[coarser] = gl.Target(*size, GL.GL_RG32F, depth=True, linear=False)
-            self._surface_at = self._surface_at or gl.Program("thing.vert", "surface_at.frag", FULL=0)
-        target, program = self._surfaces[coarser], self._surface_at
-        view = of_camera(self.model, data, camera, self.width, self.height)
-        self.painter.upload(data)
-        target.bind()
-        GL.glClearBufferfv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.float32))
-        assert program is not None
-        self._first_seen(program.use().set(forward=view.forward), view)
-        both = np.empty((target.height, target.width, 2), np.float32)
-        GL.glReadPixels(0, 0, target.width, target.height, GL.GL_RG, GL.GL_FLOAT, both)
-        things = self.painter.numbers()[np.rint(both[::-1, :, 0]).astype(np.int32)]
-        rim = RIM_PX if coarser == 1 else 0
-        return Surfaces(things, np.ascontiguousarray(both[::-1, :, 1]), self.painter.poses(), view, rim)
-
-    def _first_seen(self, program: gl.Program, view: View) -> None:
-        """Draw all things with a program into the bound target, whose colour is clear, and let it be read."""
-        GL.glEnable(GL.GL_DEPTH_TEST)
-        GL.glDepthMask(GL.GL_TRUE)
-        GL.glDepthFunc(GL.GL_GEQUAL)
-        GL.glDisable(GL.GL_BLEND)
-        GL.glClearDepth(0.0)
-        GL.glClear(GL.GL_DEPTH_BUFFER_BIT)
-        program.set(view_projection=view.matrix(), eye=view.eye, rank_step=RANK_STEP, mirrored=0)
-        self.painter.draw(program, view, self.height, clear=None)
-        GL.glPixelStorei(GL.GL_PACK_ALIGNMENT, 1)
+        """What each pixel shows first, be it glass, and how far away; `coarser` times smaller each way, and then also behind it."""
+        return self._first_seen.surfaces(data, camera, coarser)

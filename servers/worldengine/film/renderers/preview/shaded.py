@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from ...carrying import Surfaces
     from ...treatment import Treatment
+    from .eye import View
 
 
 MANY = 6
@@ -56,6 +57,15 @@ class Shaded:
         """What each pixel shows and how far away, `coarser` times smaller each way."""
         self._context.make_current()
         return self._pipeline.surfaces(data, camera, coarser)
+
+    def placed(self, data: "mujoco.MjData", camera: int) -> "tuple[np.ndarray, View]":
+        """Where each thing of `surfaces` is (N, 3, 4), and the view, without drawing anything."""
+        self._context.make_current()
+        from .eye import of_camera
+
+        painter = self._pipeline.painter
+        painter.upload(data)
+        return painter.poses(), of_camera(self._pipeline.model, data, camera, *self._size)
 
     def treat(self, treatment: "Treatment") -> bool:
         """Apply this light, haze, focus and grading from now on."""

@@ -31,6 +31,8 @@ class Features:
     """0: not the ground; 1: ground; 2: ground that mirrors the world."""
     clear: bool
     panels: bool
+    gobo: bool
+    """A slide is before the key light."""
     mirror: bool
     """It reflects the picture itself."""
     simple: bool
@@ -38,7 +40,7 @@ class Features:
 
 
 def features(
-    batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirror: bool, paint: int, panels: bool
+    batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirror: bool, paint: int, panels: bool, gobo: bool
 ) -> Features:
     """The features that a batch needs."""
     look, kind = batch.finish.look, batch.shape[0]
@@ -59,6 +61,7 @@ def features(
         ground=ground,
         clear=batch.clear,
         panels=panels,
+        gobo=gobo,
         mirror=mirror,
         simple=simple,
     )

@@ -31,6 +31,18 @@ def noise_map() -> int:
     return handle
 
 
+def slide_map(share: np.ndarray) -> int:
+    """A slide before the key light: float (N, N), row 0 the top, clear at its edges."""
+    size = len(share)
+    handle = gl.texture(GL.GL_R16F, size, size, levels=6)
+    GL.glPixelStorei(GL.GL_UNPACK_ALIGNMENT, 1)
+    GL.glTexSubImage2D(
+        GL.GL_TEXTURE_2D, 0, 0, 0, size, size, GL.GL_RED, GL.GL_FLOAT, np.ascontiguousarray(share[::-1], np.float32)
+    )
+    GL.glGenerateMipmap(GL.GL_TEXTURE_2D)
+    return handle
+
+
 def _directions(size: int) -> tuple[np.ndarray, np.ndarray]:
     """Unit directions (size, size, 3) of the folded-out upper hemisphere, and the solid angle of each texel, sr."""
     axis = (np.arange(size) + 0.5) / size * 2.0 - 1.0

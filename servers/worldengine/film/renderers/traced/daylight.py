@@ -9,6 +9,7 @@ import numpy as np
 from worldkit.lights import LIGHT_GAIN
 from worldkit.settings import Setting
 
+from ...gobos import REACH, Gobo, slide
 from ...treatment import Treatment
 from ..preview import sky_maps
 
@@ -25,6 +26,10 @@ SHARE = {"studio": 1.0, "room": 0.97, "outdoor": 1.0, "dark": 1.0}
 """What is left to the surroundings where light that comes back from floor and walls is traced."""
 AWAY = 60.0
 """The key light is so many radii of the scene away."""
+POINTS, GOLDEN_ANGLE = 12, 2.3999632
+"""Through a slide the key light shines from so many points of its disk, each turned by this angle from the one before."""
+BESIDE = 16
+"""What shines beside a slide reaches so many times further than it."""
 
 
 def directions(width: int) -> np.ndarray:
@@ -92,6 +97,43 @@ def key_light(setting: Setting, centre: np.ndarray, radius: float) -> dict[str, 
         "type": "disk", "to_world": move @ mi.ScalarTransform4f().scale(wide),
         "emitter": {"type": "area", "radiance": {"type": "rgb", "value": radiance}},
     }  # fmt: skip
+
+
+def key_lights(setting: Setting, centre: np.ndarray, radius: float, gobo: Gobo | None) -> dict[str, dict[str, Any]]:
+    """The key light, or what shines in its stead through a slide: points all over its disk, each of which throws the slide
+    onto the scene, and what goes by beside it."""
+    if gobo is None:
+        return {"key": key_light(setting, centre, radius)}
+    import mitsuba as mi
+
+    spread, across = max(setting.key_spread, 0.008), gobo.across(np.array(setting.key.direction))
+    half = REACH * gobo.size_m
+    turn = across[:, :3] * np.array([[half], [half], [1.0]])
+    middle, away = np.array(gobo.at), AWAY * max(radius, half)
+    colour = np.array(setting.key.colour)
+    share = slide(gobo.kind, gobo.seed, setting.key_spread)
+    through = mi.load_dict(_thrown(share[..., None] * colour, "bilinear"))
+    around = np.ones((2 * BESIDE, 2 * BESIDE, 1))
+    around[BESIDE - 1 : BESIDE + 1, BESIDE - 1 : BESIDE + 1] = 0.0
+    beside = mi.load_dict(_thrown(around * colour, "nearest"))
+    found: dict[str, dict[str, Any]] = {}
+    for number in range(POINTS):
+        out, angle = np.sqrt((number + 0.5) / POINTS) * spread * away, number * GOLDEN_ANGLE
+        place = middle - away * turn[2] + out * (np.cos(angle) * turn[0] + np.sin(angle) * turn[1])
+        move = mi.ScalarTransform4f().look_at(origin=place.tolist(), target=middle.tolist(), up=turn[1].tolist())
+        for name, image, wide, often in (("key", through, half, 1.0), ("beside", beside, BESIDE * half, 0.25)):
+            found[f"{name}{number}"] = {
+                "type": "projector", "to_world": move, "irradiance": image, "scale": float(away**2 / POINTS),
+                "fov": float(2 * np.degrees(np.arctan(wide / away))), "sampling_weight": often / POINTS,
+            }  # fmt: skip
+    return found
+
+
+def _thrown(picture: np.ndarray, filtering: str) -> dict[str, Any]:
+    import mitsuba as mi
+
+    bitmap = mi.Bitmap(np.ascontiguousarray(picture, np.float32))
+    return {"type": "bitmap", "bitmap": bitmap, "raw": True, "filter_type": filtering, "wrap_mode": "clamp"}
 
 
 def lamps(model: mujoco.MjModel, data: mujoco.MjData, chosen: list[int]) -> dict[str, dict[str, Any]]:

@@ -18,6 +18,8 @@ from .walked import Rays, spread
 GLIMPSES_BYTES = 1 << 30
 """Of the room that the moments of one picture may take: places, directions, what is seen and what lies behind, 44 bytes a pixel."""
 
+FLAT = 0.01
+"""What lies so near the plane of the key light's disk, of its radius, is the disk."""
 SUN = 0.055
 """A key light of a larger tangent of its angular radius is no sun: cameras do not see it."""
 
@@ -69,6 +71,7 @@ class Around:
     ) -> None:
         self._size = width, height
         self._key_disk = key if setting.key_spread > SUN else None
+        self._key_way = np.array(setting.key.direction, np.float32)
         self.shown = daylight.seen(setting, told)
         """Radiance (N, 2 N, 3) as it is seen."""
         self.lighting = daylight.lighting(setting, told, self.shown)
@@ -137,7 +140,10 @@ class Around:
         if self._key_disk is None:
             return rays, hidden
         middle, radius = self._key_disk
-        hidden[(rays.seen > 0) & (np.linalg.norm(rays.places - middle, axis=-1) < 1.01 * radius)] = 1
+        apart = rays.places - middle
+        near = (rays.seen > 0) & (np.linalg.norm(apart, axis=-1) < 1.01 * radius)
+        # Far ground, too, may come as near the middle of the disk, but lies before or behind it.
+        hidden[near & (np.abs(apart @ self._key_way) < FLAT * radius)] = 1
         if not hidden.any():
             return rays, hidden
         around = cv2.dilate(hidden, np.ones((3, 3), np.uint8)) & (rays.seen == 0)  # some samples of its edge

@@ -127,7 +127,7 @@ class Tracing:
             reach = max(self._radius, 1.0)
             parts: dict[str, Any] = {
                 "type": "scene", "around": daylight.environment(self._around.lighting),
-                "key": daylight.key_light(self.setting, self._centre, reach),
+                **daylight.key_lights(self.setting, self._centre, reach, self._treatment.light_gobo),
                 **daylight.lamps(self.model, data, self._lights), **panel_emitters.emitters(self._lit, data),
             }  # fmt: skip
             shapes = [figure.shape for figure in self.figures.all] + self._strands.shapes + self._ground

@@ -3,7 +3,7 @@
 What it does: for each row of `interventions` with a `solver`: compares its name with the solvers that are installed, its
 `constants` with what that solver reads, each with the plan's constant of that name and its unit, its `bodies` with the
 plan's moving objects, and `shown_by` with the objects that are only drawn. A row with a `file` is the author's own law: the file
-is called after it, it has no `constants` (they stand in the file), its `bodies` are objects of the plan, and something shows it.
+is called after it, it has no `constants` (they stand in the file), its `bodies` are objects of the plan or `world`, and something shows it.
 
 Why is this bad: the physics pass refuses the world when it starts; and a constant in another unit gives another world,
 without a word.
@@ -13,6 +13,8 @@ Use instead: the solver's own names, each with the name of a row of `simulation_
 
 from collections.abc import Iterator, Mapping
 from typing import Any
+
+from worldkit.laws import WORLD
 
 from ....model.plan.declared_inputs import Beside, Constant, Intervention
 from ...case import Changes
@@ -32,14 +34,22 @@ def _with(bodies: tuple[str, ...] = ("crate",), **solver: Any) -> dict[str, Any]
     return {"simulation_parameters": {"constants": constants, "interventions": [row]}}
 
 
-def _law(**solver: Any) -> dict[str, Any]:
+def _law(bodies: tuple[str, ...] = ("crate",), **solver: Any) -> dict[str, Any]:
     said = {"name": "rubber", "file": "laws/rubber.py", **solver}
-    row = {"kind": "solver", "bodies": ["crate"], "law": "Hooke", "source": "the prompt's band", "solver": said}
+    row = {"kind": "solver", "bodies": bodies, "law": "Hooke", "source": "the prompt's band", "solver": said}
     return {"simulation_parameters": {"interventions": [row]}}
 
 
+def _banded(*bodies: str) -> dict[str, Any]:
+    """A law that is shown."""
+    ramp = {"name": "ramp", "primitive": "box", "size": [2, 1, 0.2], "fixed": True, "dynamic": False}
+    crate = {"name": "crate", "primitive": "box", "size": [0.4, 0.3, 0.2], "material": "wood"}
+    band = {**ramp, "name": "band", "visual_only": "what the law moves"}
+    return {"scene_objects": [ramp, crate, band], **_law(bodies, shown_by="band")}
+
+
 NAMELESS = {"kind": "solver", "bodies": ["crate"], "law": "3 N of air", "source": "a table"}
-GOOD: Changes = ({}, _with())
+GOOD: Changes = ({}, _with(), _banded("crate"), _banded("crate", "world"))
 BAD: Changes = (
     _with(name="tide"),
     _with(constants={}),
@@ -50,6 +60,7 @@ BAD: Changes = (
     _with(bodies=("whale",)),
     {"simulation_parameters": {"interventions": [NAMELESS]}},
     _law(),  # nothing shows it
+    _banded("crate", "whale"),
     _law(name="honey", shown_by="crate"),
     _law(file="/tmp/rubber.py"),
 )
@@ -129,8 +140,10 @@ def _law_problems(view: PlanView, row: Intervention, said: Beside, drawn: set[st
         what = f"the law `{said.name}` is told constants, which nobody reads to it"
         yield view.at(place, what, "write them into its file, and their origin into `source`")
     for body in row.bodies:
-        if body not in view.rows:
-            yield view.at(place, f"`{said.name}` acts on `{body}`, which the plan does not have", "name its objects")
+        if body != WORLD and body not in view.rows:
+            yield view.at(
+                place, f"`{said.name}` acts on `{body}`, which the plan does not have", "name its objects, or `world`"
+            )
     if said.shown_by not in drawn:
         what = f"the law `{said.name}` is shown by `{said.shown_by}`, which is no object that is only drawn"
         yield view.at(

@@ -6,9 +6,10 @@ declaration; what is done must be what they read.
 Formula: for a declared force, torque or velocity whose law states a number in that kind's unit, the largest magnitude in
 the ledger against the first number stated, or the greater end of a range (kN and mN·m converted); velocities that are
 given again and again are added up over a second. A law `along +X` against the direction of all that acts, summed; a law
-that brakes or resists against the work done. A control that the plan gives as a number against the controls sent. For a
-trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the earliest time stated and, where two are
-stated, the last act against the latest. The recording's gravity, and gravity written while it runs, against the plan's or
+that brakes or resists against the work done. The forces and torques of an author's own law (`solver` with a `file`) are
+held to its row in the same way; of several bodies, one must go along its axis. A control that the plan gives as a number
+against the controls sent. For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
+earliest time stated and, where two are stated, the last act against the latest. The recording's gravity, and gravity written while it runs, against the plan's or
 the law's m/s^2.
 Threshold: 5 % and 1e-6 of the number; 20 ms, or three recorded rows, of time; a cosine of 0.7; 0.02 m/s^2 of gravity
 (9.80665 or 9.81). Blocking.
@@ -23,6 +24,8 @@ import numpy as np
 
 from ....model.plan import law_words
 from ....model.plan.committed import Intervention, Plan, SimulationParameters
+from ....model.plan.declaration import owner
+from ....model.plan.declared_inputs import Beside
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ..declared import when
@@ -70,7 +73,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     if ledger is None:
         return
     kinds, targets = np.asarray(ledger.kind, dtype=str), np.asarray(ledger.target, dtype=str)
-    for row in context.interventions:
+    for row in (part for whole in context.interventions for part in _parts(whole)):
         mine = np.array(
             [
                 kind == row.kind and Context(interventions=(row,)).declares(str(kind), str(target))
@@ -84,6 +87,13 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             yield from _other_time(trajectory, row, mine)
             yield from _other_law(trajectory, row, mine)
     yield from _other_control(trajectory, context)
+
+
+def _parts(row: Intervention) -> tuple[Intervention, ...]:
+    """A row by the kinds under which its acts stand in the ledger: an author's own law gives forces and torques."""
+    if row.solver is None or not row.solver.file:
+        return (row,)
+    return tuple(row.model_copy(update={"kind": kind}) for kind in ("force", "torque"))
 
 
 def _acting(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> np.ndarray:
@@ -108,8 +118,9 @@ def _stronger(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> It
     if size[worst] <= most * (1 + SHARE) + 1e-6:
         return
     unit, time = UNIT[row.kind], float(times_s[worst])
-    message = f"the {row.kind} on {row.bodies[0]} reaches {size[worst]:.3g} {unit}; its declared law says {most:.3g}"
-    yield Sign(row.bodies[0], (time, time), size[worst], most, unit, "blocking", message)
+    body = row.bodies[0] if row.solver is None else owner(str(np.asarray(ledger.target, dtype=str)[mine][worst]))
+    message = f"the {row.kind} on {body} reaches {size[worst]:.3g} {unit}; its declared law says {most:.3g}"
+    yield Sign(body, (time, time), size[worst], most, unit, "blocking", message)
 
 
 def _astray(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
@@ -119,10 +130,10 @@ def _astray(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iter
     if row.kind not in UNIT:
         return
     acting, work = _acting(trajectory, row, mine), np.asarray(ledger.work_j)[mine]
-    times_s, total = np.asarray(ledger.time)[mine], acting.sum(axis=0)
-    whole, size = (float(times_s.min()), float(times_s.max())), float(np.sqrt((total**2).sum()))
-    if axis is not None and size > 0 and "wind" not in row.bodies:
-        cosine = float(total @ np.asarray(axis)) / size
+    times_s = np.asarray(ledger.time)[mine]
+    whole = (float(times_s.min()), float(times_s.max()))
+    if axis is not None and "wind" not in row.bodies and (row.solver is None or row.kind == "force"):
+        cosine = _along(acting, np.asarray(axis), _by_body(trajectory, row, mine))
         if cosine < ASTRAY:
             message = f"the {row.kind} on {row.bodies[0]} acts another way than its declared law says: {row.law}"
             yield Sign(row.bodies[0], whole, cosine, ASTRAY, "cosine", "blocking", message)
@@ -130,6 +141,21 @@ def _astray(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iter
     if law_words.BRAKES.search(row.law) and gained > max(spent, 1e-6):
         message = f"the {row.kind} on {row.bodies[0]} drives it by {gained:.3g} J; its declared law brakes: {row.law}"
         yield Sign(row.bodies[0], whole, gained, spent, "J", "blocking", message)
+
+
+def _by_body(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> np.ndarray:
+    """(N,) whose each act is: what a law's points take from one body they may give to another; else all are of one."""
+    ledger = trajectory.interventions
+    assert ledger is not None
+    targets = np.asarray(ledger.target, dtype=str)[mine]
+    return targets if row.solver is not None else np.zeros(len(targets), int)
+
+
+def _along(acting: np.ndarray, axis: np.ndarray, whose: np.ndarray) -> float:
+    """The best cosine of the sums of what acts on each with an axis; 1 where nothing is left of any."""
+    totals = np.array([acting[whose == one].sum(axis=0) for one in np.unique(whose)])
+    sizes = np.sqrt((totals**2).sum(axis=1))
+    return float((totals[sizes > 0] @ axis / sizes[sizes > 0]).max()) if (sizes > 0).any() else 1.0
 
 
 def _other_law(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
@@ -197,6 +223,13 @@ def _pushed(value: float, law: str = "5 N along +x", trigger: str = "always") ->
     return Case(f"{value:g} N declared as {law}, {trigger}", push, Context(planned=True, interventions=(row,)))
 
 
+def _own_law(value: float, law: str = "a band of 200 N/m, at most 5 N", kind: str = "force") -> Case:
+    beside = Beside(name="band", file="laws/band.py", shown_by="band")
+    row = Intervention(kind="solver", bodies=("body", "post"), law=law, source="its catalogue", solver=beside)
+    push = replace(analytic.resting(), interventions=analytic.pushed(kind, value=value))
+    return Case(f"an own law: {value:g} of {kind} under {law}", push, Context(planned=True, interventions=(row,)))
+
+
 def _gravity(z: float) -> Case:
     plan = Plan.model_construct(
         plan_type="scene",
@@ -216,6 +249,8 @@ GOOD = (
     lambda: _pushed(5.0, trigger="t in 0.1..0.11 s"),
     lambda: _pushed(5.0, trigger="until 0.8 s"),
     lambda: _gravity(-analytic.G),
+    lambda: _own_law(5.0),
+    lambda: _own_law(5.0, "at most 5 N along +X"),
 )
 BAD = (
     lambda: replace(_pushed(40.0, "a breeze of 1 N, far below its weight of 49 N"), severity="blocking"),
@@ -225,4 +260,8 @@ BAD = (
     lambda: replace(_pushed(5.0, trigger="at t = 2 s"), severity="blocking"),
     lambda: replace(_pushed(5.0, trigger="from 0.02 s to 0.05 s"), severity="blocking"),
     lambda: replace(_gravity(-1.62), severity="blocking"),
+    lambda: replace(_own_law(40.0), severity="blocking"),
+    lambda: replace(_own_law(40.0, "at most 2 N m", "torque"), severity="blocking"),
+    lambda: replace(_own_law(5.0, "at most 5 N along -X"), severity="blocking"),
+    lambda: replace(_own_law(5.0, "brakes with 5 N against the motion"), severity="blocking"),
 )

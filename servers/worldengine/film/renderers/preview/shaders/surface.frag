@@ -4,6 +4,10 @@
 #include "fog.glsl"
 #include "texture.glsl"
 #include "shadow.glsl"
+#if GOBO
+uniform sampler2D gobo;    // the share of the key light that goes through
+uniform mat4 to_gobo;      // world to the slide, -1 to 1 across it
+#endif
 #if PANELS
 #include "panels.glsl"
 #endif
@@ -252,6 +256,9 @@ void main() {
     // Key light.
     float direct = max(dot(n, key_direction), 0.0);
     float visible = lit(world, flat_normal, key_direction, gl_FragCoord.xy);
+#if GOBO
+    visible *= texture(gobo, 0.5 + 0.5 * (to_gobo * vec4(world, 1.0)).xy).r;
+#endif
     visible *= mix(1.0, 0.30, smoothstep(pool.z, pool.w, length(world.xy - pool.xy)));
     vec3 h = normalize(v + key_direction);
     vec3 fresnel = f0 + (1.0 - f0) * fifth(1.0 - max(dot(v, h), 0.0));

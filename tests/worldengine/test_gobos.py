@@ -1,0 +1,105 @@
+"""Slides before the key light: their pictures, where they lie, and that both renderers throw the same shadow."""
+
+import numpy as np
+import pytest
+
+from worldengine.film import gobos
+from worldengine.film.gobos import Gobo
+from worldkit.errors import ProgramError
+from worldkit.filming import Film, Recorded
+from worldkit.filming.film_bounds import GOBOS
+from worldkit.settings import ROOM
+
+WAY = np.array(ROOM.key.direction)
+
+
+@pytest.mark.parametrize("kind", GOBOS)
+def test_a_slide_lets_some_light_through_and_all_at_its_edges(kind):
+    share = gobos.slide(kind, 3, 0.02)
+    assert share.shape == (gobos.PIXELS, gobos.PIXELS) and share.min() >= 0 and share.max() <= 1
+    middle = share[256:-256, 256:-256]
+    assert 0.1 < (middle < 0.3).mean() < 0.7 and 0.15 < (middle > 0.7).mean() < 0.9
+    assert min(share[0].min(), share[-1].min(), share[:, 0].min(), share[:, -1].min()) == 1.0
+    gobos.slide.cache_clear()
+    assert np.array_equal(share, gobos.slide(kind, 3, 0.02)), "one seed, one picture"
+
+
+def test_softer_light_softens_the_pattern():
+    steep = [np.abs(np.diff(gobos.slide("window", 1, spread), axis=1)).max() for spread in (0.005, 0.05, 0.15)]
+    assert steep[0] > 2 * steep[1] > 4 * steep[2]
+
+
+def test_the_middle_of_the_pattern_lies_on_the_light_s_way_to_its_point():
+    gobo = Gobo("window", 0.5, 20.0, 1, (0.3, -0.2, 0.7))
+    across = gobo.across(WAY)
+
+    def at(point):
+        return across[:, :3] @ point + across[:, 3]
+
+    for away in (-2.0, 0.0, 1.0):
+        assert np.allclose(at(np.array(gobo.at) + away * WAY), (0, 0, -away), atol=1e-9)
+    axes = across[:, :3] * np.array([[2.0], [2.0], [1.0]])  # its reach is two metres
+    assert np.allclose(axes @ axes.T, np.eye(3), atol=1e-9)
+
+
+def rehearsed() -> Film:
+    t = np.linspace(0.0, 1.0, 30)[:, None]
+    return Film(Recorded.rehearsal({"ball": np.hstack([t - 0.5, 0 * t, 0.3 + 0 * t])}, duration=1.0, radius=0.1))
+
+
+def test_it_finds_its_place_and_size_by_the_action():
+    film = rehearsed()
+    film.gobo("blinds", softness_deg=0.8)
+    facts, _ = film.description()
+    told = facts["gobo"]
+    assert told["kind"] == "blinds" and 1.0 < told["size_m"] < 1.6 and np.allclose(told["at"][:2], 0, atol=0.05)
+    assert 0.1 < told["at"][2] < 0.3 and facts["air"][-1]["light_softness_deg"] == 0.8
+    assert "gobo" not in rehearsed().description()[0], "a film without one is the film that it was"
+
+
+@pytest.mark.parametrize(
+    "words", [{"kind": "moon"}, {"size": 0.0}, {"size": np.nan}, {"at": (0.0, 1.0)}, {"turn_deg": np.inf}, {"seed": -1}]
+)
+def test_what_no_slide_can_be_is_refused(words):
+    with pytest.raises(ProgramError):
+        rehearsed().gobo(**({"kind": "window"} | words))
+
+
+def test_traced_light_through_a_slide_is_as_strong_as_its_picture_and_the_light_beside_it_is_whole():
+    mi = pytest.importorskip("mitsuba")
+    from worldengine.film.renderers.traced import daylight, variant
+
+    variant.choose()
+    gobo = Gobo("bars", 0.5, 0.0, 1, (0.0, 0.0, 0.0))
+    lights = daylight.key_lights(ROOM, np.zeros(3), 2.0, gobo)
+    # A white board that faces the light, seen from there.
+    origin, aim = (5 * WAY).tolist(), mi.ScalarTransform4f().look_at
+    face = aim(origin=[0, 0, 0], target=WAY.tolist(), up=[0, 0, 1])
+    wide = 3.0
+    white = {"type": "diffuse", "reflectance": {"type": "rgb", "value": [1.0, 1.0, 1.0]}}
+    board = {"type": "rectangle", "to_world": face @ mi.ScalarTransform4f().scale(8.0), "bsdf": white}
+    scene = mi.load_dict({"type": "scene", **lights, "board": board})
+    film = {"type": "hdrfilm", "width": 48, "height": 48, "rfilter": {"type": "box"}}
+    eye = aim(origin=origin, target=[0, 0, 0], up=[0, 0, 1]) @ mi.ScalarTransform4f().scale([wide, wide, 1])
+    sensor = mi.load_dict({"type": "orthographic", "to_world": eye, "film": film})
+    seen = np.array(mi.render(scene, sensor=sensor, integrator=mi.load_dict({"type": "direct"}), spp=64))
+    got = seen[..., 1] / ROOM.key.colour[1]
+    share = gobos.slide("bars", 1, ROOM.key_spread)
+    inner = share.reshape(32, gobos.PIXELS // 32, 32, gobos.PIXELS // 32).mean(
+        axis=(1, 3)
+    )  # 4 m of the 6 that are seen
+    assert (
+        np.abs(got[8:40, 8:40] - inner).mean() < 0.08
+        and np.corrcoef(got[8:40, 8:40].ravel(), inner.ravel())[0, 1] > 0.9
+    )
+    assert got[:6].mean() == pytest.approx(1.0, abs=0.06), "beside the slide"
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"kind": "moon"}, {"size_m": float("nan")}, {"at": [0, 0]}, {"seed": -1}, {"turn_deg": 1e9}]
+)
+def test_a_description_of_no_slide_is_refused(wrong):
+    good = {"kind": "window", "size_m": 1.0, "turn_deg": 0.0, "seed": 1, "at": [0, 0, 0]}
+    assert gobos.told({"gobo": good}) == Gobo("window", 1.0, 0.0, 1, (0.0, 0.0, 0.0)) and gobos.told({}) is None
+    with pytest.raises(ValueError, match=r"pattern|unpack"):
+        gobos.told({"gobo": good | wrong})

@@ -1,0 +1,39 @@
+"""Words stand where no mover is in their way."""
+
+import numpy as np
+import pytest
+
+from worldkit.filming import Film, Recorded, free_edge, still
+
+
+def seen(*heights: float) -> str:
+    frames = len(heights)
+    eye, target = np.tile([0.0, -2.0, 0.0], (frames, 1)), np.zeros((frames, 3))
+    places = np.array([[[0.0, 0.0, height]] for height in heights])
+    return free_edge.chosen(eye, target, np.full(frames, 53.13), places, np.array([0.1]), 16 / 9)  # 1 m up to the edge
+
+
+@pytest.mark.parametrize(
+    ("heights", "place"),
+    [((0.0, 0.0), "bottom"), ((-0.9, -0.9), "top"), ((0.9, 0.9), "bottom"), ((-0.9, 0.9), "bottom"),
+     ((-0.9, *[0.0] * 19), "bottom"), ((-3.0, -3.0), "bottom")],
+)  # fmt: skip
+def test_words_go_up_only_where_movers_are_at_the_bottom_more_often(heights, place):
+    assert seen(*heights) == place
+
+
+def told(film: Film) -> list[str]:
+    return [one["place"] for one in film.description()[0]["captions"]]
+
+
+def test_a_caption_without_a_place_finds_its_own_and_one_with_a_place_keeps_it():
+    t = np.linspace(0.0, 1.0, 30)[:, None]
+    film = Film(Recorded.rehearsal({"ball": np.hstack([0.2 * t, 0 * t, 0.1 + 0 * t])}, duration=2.0, radius=0.1))
+    film.caption("Here it goes", seconds=1.0)
+    film.caption("Here, too", seconds=1.0, place="bottom")
+    film.caption("Later", seconds=1.0, start=1.2)
+    film.caption("After the end", seconds=1.0, start=60.0)
+    film.shot(still((0, -2, 0.75), (0, 0, 0.75), lens_mm=35), until=1.0)
+    film.shot(still((0, -4, 0.1), (0.2, 0, 0.1)), until=2.0)
+    assert told(film)[:2] == ["top", "bottom"] and told(film)[3] == "bottom"
+    assert told(film)[2] == "bottom", "held in the middle"
