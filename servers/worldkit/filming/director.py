@@ -94,7 +94,7 @@ class Film(Labelled, Limbs):
         self.reached, self.now = reached, (first + len(times)) / self.recorded.fps
 
     def usual(self) -> None:
-        """The shots of a film that nobody has thought about: the whole event, then its heart again, close and slowly."""
+        """The shots of a film that nobody has thought about: the whole event in one, from its side."""
         for camera, how in hero.shots(self.recorded):
             self.shot(camera, **how)
 
