@@ -28,6 +28,10 @@ def rolling(length: float, points: int = 60) -> np.ndarray:
         ("room", "a hammer drives a nail", 1.0, "workshop"),
         ("studio", "a basketball bounces on the court", 2.0, "gym"),
         ("studio", "a ball is let go", 2.0, ""),
+        ("studio", "a magnet turns a pendulum", 0.3, "still_life"),
+        ("room", "a pendulum swings", 0.3, "still_life"),
+        ("room", "something moves", 0.3, "still_life"),
+        ("room", "something moves", 2.0, "living_room"),
         ("dark", "a candle in the kitchen beside a bowl of apples", 0.5, ""),
         ("outdoor", "a sledge goes down the snow", 10.0, "snow_field"),
         ("outdoor", "something moves", 10.0, "meadow"),
@@ -124,6 +128,19 @@ def test_a_camera_that_stands_still_has_its_focus_and_all_far_behind_is_soft() -
     assert np.ptp(arrays["eye"], axis=0).max() == 0 == np.ptp(arrays["focus_m"])
     disc_mm = hero.LENS_MM**2 / arrays["aperture"][0] / (1000 * arrays["focus_m"][0])
     assert disc_mm == pytest.approx(hero.SOFT)
+
+
+def test_a_stand_is_in_the_picture_with_what_hangs_on_it_and_land_is_not() -> None:
+    found = told(
+        {"bob": rolling(0.3), "stand": np.tile([0.0, 0.1, 0.2], (60, 1)), "table": np.tile([0, 0, -0.5], (60, 1))}
+    )
+    found._half = np.array([[0.03] * 3, [0.02, 0.02, 0.2], [1.5, 1.0, 0.5]])
+    assert hero.beside(found) == ("stand",)
+    eyes = []
+    for bodies in ((), ("bob", "stand")):
+        course = viewpoints.Course(found, np.zeros(1), np.zeros(1))
+        eyes.append(np.linalg.norm(viewpoints.wide(*bodies).eye(course)))
+    assert eyes[1] > eyes[0]
 
 
 def test_a_crowd_is_held_whole() -> None:

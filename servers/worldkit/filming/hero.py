@@ -28,6 +28,8 @@ SOFT = 0.25
 """Of what is far behind, a point becomes a disc of so many millimetres on the film: 0.7 % of the picture's width."""
 REST_S = 0.8
 """What lies still is shown for so long."""
+BESIDE = 1.6
+"""What stands still belongs into the picture if it is at most so many times as large as the movers' way, and as near to its middle."""
 CROWD = 8
 """Of more movers than this the camera follows none."""
 
@@ -38,7 +40,9 @@ def shots(recorded: Recorded) -> list[Told]:
     azimuth, elevation = view(recorded)
     heroes, end = leads(recorded), settled(recorded)
     speed = np.clip(end / LONGEST_S, 1.0, 50.0) * np.clip(end / SHORTEST_S, 0.2, 1.0)
-    camera = viewpoints.wide(azimuth_deg=azimuth, elevation_deg=elevation, room=1.08, lens_mm=LENS_MM)
+    speed = 1.0 if abs(speed - 1.0) < 0.2 else speed
+    held = recorded.movers + beside(recorded)
+    camera = viewpoints.wide(*held, azimuth_deg=azimuth, elevation_deg=elevation, room=1.08, lens_mm=LENS_MM)
     if heroes and len(recorded.movers) <= CROWD:
         away, focus = distance(recorded, camera), None
         if share(recorded, camera, heroes) < LEAST:
@@ -50,6 +54,19 @@ def shots(recorded: Recorded) -> list[Told]:
         aperture = float(np.clip(LENS_MM**2 / (SOFT * 1000.0 * away), 1.4, 64.0))
         camera = replace(camera, focus=focus or away, aperture=aperture)
     return [(camera, {"until": end, "speed": float(speed)})]
+
+
+def beside(recorded: Recorded) -> tuple[str, ...]:
+    """What stands still among the movers and is about as large as their way: a stand, a ramp, a bowl, which a picture should not cut."""
+    names = recorded.movers
+    if not names:
+        return ()
+    times = np.linspace(0.0, recorded.duration, 30)
+    ways = np.concatenate([recorded.position(name, times) for name in names[:40]])
+    middle, reach = 0.5 * (ways.min(axis=0) + ways.max(axis=0)), float(np.ptp(ways, axis=0).max()) / 2
+    reach += recorded.radius(*names)
+    others = (name for name in recorded.bodies if name not in names and recorded.radius(name) < BESIDE * reach)
+    return tuple(name for name in others if np.linalg.norm(recorded.position(name, 0.0) - middle) < BESIDE * reach)
 
 
 def settled(recorded: Recorded) -> float:

@@ -14,8 +14,8 @@ from .sets import Place, land
 INDOORS: dict[str, str] = {
     "kitchen_counter": "kitchen breakfast honey egg bread toast pan cup mug plate bowl spoon fork coffee tea milk cook fruit "
     "apple lemon soup cake dough jar counter dish butter pasta bottle glass straw",
-    "laboratory": "laborator experiment pendulum spring magnet prism lens beaker flask laser gyroscope oscillat newton "
-    "incline candle burner balance torsion",
+    "laboratory": "laborator experiment beaker flask laser burner prism lens",
+    "still_life": "pendulum spring magnet gyroscope oscillat newton incline candle balance torsion cork coin top",
     "workshop": "workshop hammer nail saw drill wrench tool gear crate ladder garage screw engine bench plank pulley rope "
     "chain brick wedge lever hinge",
     "gym": "basketball court gym dumbbell barbell trampoline hoop gymnast volleyball sport racket badminton tennis",
@@ -35,6 +35,8 @@ OUTDOORS: dict[str, str] = {
     "night_sky": "night star moon firework comet",
 }
 FALLBACK = {"room": "living_room", "outdoor": "meadow"}
+SMALL_M = 0.4
+"""What happens within this radius, in a room of no kind, is a still life: a room would be out of focus behind it."""
 ON_A_TOP = ("kitchen_counter", "laboratory")
 """Sets whose ground is a table's top."""
 LEAST_WORDS = {"studio": 2, "dark": 99}
@@ -55,12 +57,16 @@ def choose(recorded: Recorded) -> str:
     fit = [
         name
         for name in wanted
-        if place.radius <= sets.SETS.find(name).WIDEST and (name not in ON_A_TOP or (low and not recorded.floor))
+        if place.radius <= sets.SETS.find(name).WIDEST
+        and (name not in ON_A_TOP or (low and not recorded.floor))
+        and (name != "still_life" or not recorded.floor)
     ]
     best = max(fit, key=lambda name: scores[name], default="")
     if best and scores[best] >= least:
         return best
     usual = FALLBACK.get(recorded.setting, "")
+    if recorded.setting == "room" and "still_life" in fit and place.radius <= SMALL_M:
+        return "still_life"
     if usual in fit or recorded.setting not in FALLBACK:
         return usual
     return next((name for name in ("gym", "meadow") if name in fit), "")
