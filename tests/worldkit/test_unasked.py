@@ -136,11 +136,13 @@ def test_a_stand_is_in_the_picture_with_what_hangs_on_it_and_land_is_not() -> No
     )
     found._half = np.array([[0.03] * 3, [0.02, 0.02, 0.2], [1.5, 1.0, 0.5]])
     assert hero.beside(found) == ("stand",)
-    eyes = []
-    for bodies in ((), ("bob", "stand")):
-        course = viewpoints.Course(found, np.zeros(1), np.zeros(1))
-        eyes.append(np.linalg.norm(viewpoints.wide(*bodies).eye(course)))
-    assert eyes[1] > eyes[0]
+    camera, away = hero.whole(found, 0.0, 0.0)
+    course = viewpoints.Course(found, np.zeros(1), np.zeros(1))
+    eye, target = camera.eye(course)[0], camera.target(course)[0]
+    assert np.allclose(eye - target, (away, 0.0, 0.0))
+    tangent = np.tan(np.radians(viewpoints.fovy_deg(hero.LENS_MM)) / 2)
+    nearest = (eye[0] - 0.02) * tangent / hero.ROOM  # half the height that is left for it
+    assert target[2] + nearest == pytest.approx(0.4, abs=0.01), "the stand's top is as near to the edge as it may be"
 
 
 def test_a_crowd_is_held_whole() -> None:
@@ -150,4 +152,5 @@ def test_a_crowd_is_held_whole() -> None:
     film.usual()
     _, arrays = film.description()
     assert np.ptp(arrays["target"][:20], axis=0).max() < 1e-6  # nothing is followed
-    assert hero.share(found, viewpoints.wide(), ("bead1",)) < hero.LEAST
+    away = np.linalg.norm(arrays["eye"] - arrays["target"], axis=1) * np.tan(np.radians(arrays["fovy_deg"]) / 2)
+    assert found.radius("bead1") / away[0] < hero.LEAST

@@ -5,6 +5,7 @@ Judges who saw our films beside others named, in what they liked less, the wide 
 
 from collections import Counter
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -28,6 +29,8 @@ SOFT = 0.25
 """Of what is far behind, a point becomes a disc of so many millimetres on the film: 0.7 % of the picture's width."""
 REST_S = 0.8
 """What lies still is shown for so long."""
+ROOM = 1.2
+"""So many times as wide and as high as what happens is the picture at least."""
 BESIDE = 1.6
 """What stands still belongs into the picture if it is at most so many times as large as the movers' way, and as near to its middle."""
 CROWD = 8
@@ -37,23 +40,51 @@ CROWD = 8
 def shots(recorded: Recorded) -> list[Told]:
     """The whole recording from one side by a camera that stands still, or that goes along with whom it happens to where that is
     small."""
-    azimuth, elevation = view(recorded)
     heroes, end = leads(recorded), settled(recorded)
     speed = np.clip(end / LONGEST_S, 1.0, 50.0) * np.clip(end / SHORTEST_S, 0.2, 1.0)
     speed = 1.0 if abs(speed - 1.0) < 0.2 else speed
-    held = recorded.movers + beside(recorded)
-    camera = viewpoints.wide(*held, azimuth_deg=azimuth, elevation_deg=elevation, room=1.08, lens_mm=LENS_MM)
+    camera, away = whole(recorded, *view(recorded))
     if heroes and len(recorded.movers) <= CROWD:
-        away, focus = distance(recorded, camera), None
-        if share(recorded, camera, heroes) < LEAST:
-            focus, around = heroes[0], (azimuth - 4.0, azimuth + 4.0)
+        tangent = float(np.tan(np.radians(viewpoints.fovy_deg(LENS_MM)) / 2))
+        focus: str | float = away
+        if recorded.radius(*heroes) < LEAST * away * tangent:
+            focus, away = heroes[0], recorded.radius(*heroes) / (NEAR * LEAST * tangent)
+            azimuth, elevation = view(recorded, away)
             camera = viewpoints.follow(
-                heroes, azimuth_deg=around, elevation_deg=elevation, fill=NEAR * LEAST, lens_mm=LENS_MM, lag_s=0.18
-            )
-            away = distance(recorded, camera)
+                heroes, azimuth_deg=(azimuth - 4.0, azimuth + 4.0), elevation_deg=elevation,
+                fill=NEAR * LEAST, lens_mm=LENS_MM, lag_s=0.18,
+            )  # fmt: skip
         aperture = float(np.clip(LENS_MM**2 / (SOFT * 1000.0 * away), 1.4, 64.0))
-        camera = replace(camera, focus=focus or away, aperture=aperture)
+        camera = replace(camera, focus=focus, aperture=aperture)
     return [(camera, {"until": end, "speed": float(speed)})]
+
+
+def whole(recorded: Recorded, azimuth_deg: float, elevation_deg: float) -> tuple[viewpoints.Viewpoint, float]:
+    """A camera that stands still, as near as the whole way of all that moves allows with what stands among it; and how far it is, m."""
+    times = np.linspace(0.0, recorded.duration, 60)
+    names = recorded.movers or recorded.bodies
+    corners = [np.zeros((0, 3))]
+    signs = np.array(list(product((-1.0, 1.0), repeat=3)))
+    for name in names:
+        corners.append(
+            (recorded.position(name, times)[:, None] + recorded.radius(name) * signs / 3**0.5).reshape(-1, 3)
+        )
+    for name in beside(recorded):
+        middle, half = recorded.box(name)
+        corners.append(recorded.position(name, 0.0) + (middle + signs * half) @ recorded.orientation(name, 0.0).T)
+    points = np.concatenate(corners)
+    a, e = np.radians((azimuth_deg, elevation_deg))
+    way = np.array([np.cos(e) * np.cos(a), np.cos(e) * np.sin(a), np.sin(e)])
+    across = np.array([-np.sin(a), np.cos(a), 0.0])
+    axes = np.stack([across, np.cross(way, across), way])
+    seen = points @ axes.T
+    middle = 0.5 * (seen.min(axis=0) + seen.max(axis=0)) if len(seen) else np.zeros(3)
+    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(LENS_MM)) / 2))
+    halves = np.array([tangent * recorded.size[0] / recorded.size[1], tangent])
+    needed = (seen[:, 2] - middle[2])[:, None] + ROOM * np.abs(seen - middle)[:, :2] / halves
+    away = max(float(needed.max(initial=0.0)), 0.05)
+    target = middle @ axes
+    return viewpoints.still(tuple(target + away * way), tuple(target), lens_mm=LENS_MM), away
 
 
 def beside(recorded: Recorded) -> tuple[str, ...]:
@@ -92,22 +123,9 @@ def leads(recorded: Recorded) -> tuple[str, ...]:
     return (max(recorded.movers, key=lambda name: float(recorded.speed(name, event))),)
 
 
-def distance(recorded: Recorded, camera: viewpoints.Viewpoint) -> float:
-    """Metres from a camera to what it looks at, as a shot begins."""
-    assert camera.eye is not None
-    assert camera.target is not None
-    course = viewpoints.Course(recorded, np.zeros(1), np.zeros(1))
-    return float(np.linalg.norm(camera.eye(course) - camera.target(course)))
-
-
-def share(recorded: Recorded, camera: viewpoints.Viewpoint, bodies: tuple[str, ...]) -> float:
-    """The share of the picture's height that the largest of some bodies takes through a camera, as a shot begins."""
-    tangent = float(np.tan(np.radians(viewpoints.fovy_deg(LENS_MM)) / 2))
-    return recorded.radius(*bodies) / (distance(recorded, camera) * tangent)
-
-
-def view(recorded: Recorded) -> tuple[float, float]:
-    """Azimuth and elevation, degrees, from which the motion is seen from the side and nothing stands before it."""
+def view(recorded: Recorded, away: float = 0.0) -> tuple[float, float]:
+    """Azimuth and elevation, degrees, from which the motion is seen from the side and nothing stands before it, from so far away, m;
+    without it from where the whole way is seen."""
     names = recorded.movers or recorded.bodies
     if not names:
         return USUAL_AZIMUTH, USUAL_ELEVATION
@@ -118,9 +136,9 @@ def view(recorded: Recorded) -> tuple[float, float]:
     strength, axes = np.linalg.eigh(spread)
     level = strength[1] > 0.02 * float(np.square(steps[:, 2]).sum()) + 1e-12
     along = axes[:, 1] if level else None
-    boxes = _obstacles(recorded, names)
+    still = tuple(name for name in recorded.bodies if name not in names)
     points = ways[:, ::4].reshape(-1, 3)
-    far = 4.0 * max(float(np.ptp(points, axis=0).max()), 2 * recorded.radius(*names))
+    far = away or 4.0 * max(float(np.ptp(points, axis=0).max()), 2 * recorded.radius(*names))
     best, found = np.inf, (USUAL_AZIMUTH, USUAL_ELEVATION)
     for azimuth in np.arange(-177.0, 183.0, 15.0):
         a = np.radians(azimuth)
@@ -130,33 +148,23 @@ def view(recorded: Recorded) -> tuple[float, float]:
         for elevation in (USUAL_ELEVATION, 28.0, 46.0):
             e = np.radians(elevation)
             eye = points + far * np.array([np.cos(e) * away[0], np.cos(e) * away[1], np.sin(e)])
-            cost = side + usual + 0.004 * (elevation - USUAL_ELEVATION) + 3.0 * _hidden(points, eye, boxes)
+            cost = side + usual + 0.004 * (elevation - USUAL_ELEVATION) + 3.0 * _hidden(recorded, points, eye, still)
             if cost < best - 1e-9:
                 best, found = cost, (float(azimuth), float(elevation))
     return found
 
 
-def _obstacles(recorded: Recorded, movers: tuple[str, ...]) -> np.ndarray:
-    """Corners (N, 2, 3), m, of the boxes around what does not move."""
-    found = []
-    for name in recorded.bodies:
-        if name in movers:
-            continue
-        _, half = recorded.box(name)
-        centre = recorded.position(name, 0.0)
-        reach = np.abs(recorded.orientation(name, 0.0)) @ half
-        found.append((centre - reach, centre + reach))
-    return np.array(found).reshape(-1, 2, 3)
-
-
-def _hidden(points: np.ndarray, eyes: np.ndarray, boxes: np.ndarray) -> float:
-    """The share of some points (P, 3) that a box between them and the eyes (P, 3) hides; boxes around a point do not."""
-    if not len(boxes):
-        return 0.0
-    way = eyes - points
-    safe = np.where(np.abs(way) < 1e-9, 1e-9, way)
-    low = (boxes[:, None, 0] - points) / safe
-    high = (boxes[:, None, 1] - points) / safe
-    enter, leave = np.minimum(low, high).max(axis=-1), np.maximum(low, high).min(axis=-1)
-    inside = ((points >= boxes[:, None, 0] - 0.02) & (points <= boxes[:, None, 1] + 0.02)).all(axis=-1)
-    return float(((enter < leave) & (leave > 0) & (enter < 1) & ~inside).any(axis=0).mean())
+def _hidden(recorded: Recorded, points: np.ndarray, eyes: np.ndarray, still: tuple[str, ...]) -> float:
+    """The share of some points (P, 3) that the box of something between them and the eyes (P, 3) hides; boxes around a point do not."""
+    hidden = np.zeros(len(points), bool)
+    for name in still:
+        middle, half = recorded.box(name)
+        turn = recorded.orientation(name, 0.0)
+        local = (points - recorded.position(name, 0.0)) @ turn - middle
+        way = (eyes - points) @ turn
+        safe = np.where(np.abs(way) < 1e-9, 1e-9, way)
+        low, high = (-half - local) / safe, (half - local) / safe
+        enter, leave = np.minimum(low, high).max(axis=-1), np.maximum(low, high).min(axis=-1)
+        inside = (np.abs(local) <= half + 0.02).all(axis=-1)
+        hidden |= (enter < leave) & (leave > 0) & (enter < 1) & ~inside
+    return float(hidden.mean())
