@@ -13,6 +13,7 @@ import pytest
 from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, kept_frames, motion_facts, refining
 from worldengine.film.between import neighbours
+from worldengine.film.expected_time import Pace
 from worldengine.film.refining import Refined, encode, refine, rounds, traced_levels
 from worldkit import materials, portable
 from worldkit.filming import Film, Recorded
@@ -192,12 +193,20 @@ def test_what_an_earlier_process_found_does_not_stop_a_film_for_good(tmp_path, m
             return super().picture(number, samples)
 
     slow = Refined(tmp_path / "a", 8, "it")
-    slow.pace = refining.Pace(LEVELS[0], 500.0, 500.0)  # beside much else
+    slow.pace = Pace(LEVELS[0], 500.0, 500.0)  # beside much else
     slow.keep(0, Drawn(8).picture(0, LEVELS[0]), LEVELS[0])
     film = Quick(8)
     film.shots = [range(4), range(4, 8)]
     assert refine(film, Refined(tmp_path / "a", 8, "it"), 20.0, lambda: None)
     assert len(film.asked) == 8 * len(LEVELS) - 1
+
+
+def test_after_a_draft_the_rest_is_told_by_what_finer_frames_take(tmp_path):
+    state = Refined(tmp_path / "frames", 2, "it")
+    state.pace.add(0.5, 1.2, 0)
+    state.keep(0, Drawn(2).picture(0, 0.5), 0.5)
+    pairs_of_samples = (1 + 3) + 3  # of the drawn frame and of the other, whose first two are not counted
+    assert state.told()["rest_s"] == pytest.approx(2.9 * pairs_of_samples, rel=0.02)
 
 
 @pytest.mark.parametrize("count", [24, 5000])
