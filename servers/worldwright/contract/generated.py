@@ -6,8 +6,9 @@ Each harness's own forms are in `harnesses/`. Nothing is written here: `worldwri
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
+
+from worldkit.files import json_text
 
 from . import harnesses
 from .roles import ROLES, RUNS, SERVERS, Role
@@ -53,11 +54,6 @@ def instructions(role: Role) -> str:
 def server(name: str) -> dict[str, object]:
     """The entry with which an MCP client starts one of our servers."""
     return {"command": COMMAND, "args": ["serve", name]}
-
-
-def json_text(value: object) -> str:
-    """A value as the text of a JSON file."""
-    return json.dumps(value, indent=2, ensure_ascii=False) + "\n"
 
 
 def mcp_names(tools: tuple[str, ...]) -> Iterator[str]:

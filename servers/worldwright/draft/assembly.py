@@ -11,6 +11,7 @@ from ..model.errors import PlanError
 from ..model.plan.committed import Plan
 from ..model.plan.layout import Scene
 from . import driving
+from .crowds import Crowds
 from .objects import Objects
 from .python_text import Raw, bullet, call, comment, constant_name, exact, literal, plain, slug
 from .requirements import Needs
@@ -67,6 +68,7 @@ class _Writer:
         self.scene = scene
         self.name = slug(plan.title) or "world"
         self.needs = Needs({"program", "scene"})
+        self.crowds = Crowds(plan)
         self.parameters = plan.simulation_parameters
         solvers = [row.solver for row in self.parameters.interventions if row.solver]
         read = {name for solver in solvers for name in solver.constants.values()}
@@ -98,6 +100,7 @@ class _Writer:
                 f"from worldkit import {', '.join(sorted(self.needs.modules))}\n",
                 self.constants(),
                 surfaces,
+                self.crowds.written(),
                 self.build_head(),
                 body,
                 "\n    return spec\n",
@@ -251,7 +254,7 @@ class _Writer:
                 keywords["view"] = row.view
             subjects = row.subjects or self.plan.movers()
             if subjects:
-                keywords["subjects"] = tuple(subjects)
+                keywords["subjects"] = self.crowds.listed(subjects)
             if row.fovy != type(row).model_fields["fovy"].default:
                 keywords["fovy"] = row.fovy
             if row.follow:
@@ -285,11 +288,11 @@ class _Writer:
         recording = self.plan.recording_mode
         keywords: dict = {"duration": Raw("DURATION"), "fps": recording.fps, "size": recording.size}
         if movers := self.plan.movers():
-            keywords["movers"] = tuple(movers)
+            keywords["movers"] = self.crowds.listed(movers)
         if self.parameters.seed:
             keywords["seed"] = self.parameters.seed
         if drawn := tuple(o.name for o in self.plan.scene_objects if o.visual_only):
-            keywords["visual_only"] = drawn
+            keywords["visual_only"] = self.crowds.listed(drawn)
         handed = (Raw("build"), Raw("control")) if control else (Raw("build"),)
         return '\nif __name__ == "__main__":\n' + call("program.main", *handed, **keywords) + "\n"
 

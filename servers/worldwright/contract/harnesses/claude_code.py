@@ -13,7 +13,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..generated import GENERATED, PERSONAL, hook, instructions, json_text, mcp_names
+from worldkit.files import json_text
+
+from ..generated import GENERATED, PERSONAL, hook, instructions, mcp_names
 from ..roles import RUNS, SUITE, Role
 from ..tool_names import ToolNames
 

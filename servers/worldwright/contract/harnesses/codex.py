@@ -14,7 +14,9 @@ import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..generated import GENERATED, PERSONAL, hook, instructions, json_text, server
+from worldkit.files import json_text
+
+from ..generated import GENERATED, PERSONAL, hook, instructions, server
 from ..roles import ROLES, SERVERS, SUITE, Role
 from ..tool_names import ToolNames
 

@@ -10,7 +10,9 @@ import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..generated import COMMAND, GENERATED, GUARD, PERSONAL, instructions, json_text
+from worldkit.files import json_text
+
+from ..generated import COMMAND, GENERATED, GUARD, PERSONAL, instructions
 from ..roles import COMMANDS, MAIN_TOOLS, RUNS, SERVERS, Role
 from ..tool_names import ToolNames
 
