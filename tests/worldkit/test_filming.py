@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import runpy
 
 import numpy as np
 import pytest
@@ -244,6 +245,35 @@ REFUSED = {
 def test_what_cannot_be_shown_is_refused(film, words):
     with pytest.raises(ProgramError, match=words):
         REFUSED[words](film)
+
+
+MISUSED = [
+    ("label", {"text": 3, "pos": (0, 0, 0)}), ("label", {"text": "a", "pos": (0, 0, 0), "height": "x"}),
+    ("label", {"text": "a", "pos": (0, 0, 0), "facing_deg": None}), ("label", {"text": "a", "pos": (0, 0, 0), "to": None}),
+    ("label", {"text": "a", "pos": (0, 0, 0), "name": 3}), ("draw", {"name": "a", "shape": "box", "size": None}),
+    ("draw", {"name": "a", "shape": "box", "size": 1.0, "to": 3}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "look": 3}),
+    ("caption", {"text": 3}), ("caption", {"text": "a", "seconds": "x"}), ("shutter", {"share": "x"}), ("light", {"fill": "x"}),
+    ("set", {"name": "park", "seed": np.nan}), ("set", {"name": "park", "seed": None}), ("set", {"name": "park", "facing_deg": None}),
+    ("grass", {"area": (0, 0, 1, 1), "seed": 1.5}), ("mood", {"name": []}), ("shot", {"camera": wide(), "until": None}),
+    ("light", {"hue": 3}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("word", "given"), MISUSED, ids=lambda one: one if isinstance(one, str) else str(list(one.items())[-1])
+)
+def test_what_is_given_wrongly_is_refused_where_it_is_said(film, word, given):
+    with pytest.raises(ProgramError) as refused:
+        getattr(film, word)(**given)
+    assert refused.value.place == "film.py"
+
+
+def test_what_an_author_s_own_function_does_wrong_stays_its_own(tmp_path):
+    program = tmp_path / "film.py"
+    program.write_text("def height(x, y):\n    raise ValueError('no ground')\n")
+    height = runpy.run_path(str(program))["height"]
+    with pytest.raises(ValueError, match="no ground"):
+        Film(rehearsal()).grass(area=(0, 0, 1, 1), z=height)
 
 
 def motion_file(tmp_path):

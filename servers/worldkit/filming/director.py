@@ -12,6 +12,7 @@ from .film_bounds import MOST_FRAMES, PLACES
 from .frame_by_frame import grown, sampled
 from .lettered_plates import Labelled
 from .limbs import Limbs
+from .plain_refusals import refusing
 from .recorded import Recorded
 from .viewpoints import Viewpoint
 
@@ -19,6 +20,7 @@ SLOWEST, FASTEST = 1 / 200, 50.0
 Speed = float | tuple[float, float]
 
 
+@refusing
 class Film(Labelled, Limbs):
     """A film in the making; `recorded` is what happened.
 
@@ -107,7 +109,13 @@ class Film(Labelled, Limbs):
 
         They come and go softly, in at most a quarter of their time each; spaces and line ends stay as they are written.
         """
-        if place not in ("", *PLACES) or not text.strip() or len(text) > 200 or not seconds > 0:
+        if (
+            place not in ("", *PLACES)
+            or not isinstance(text, str)
+            or not text.strip()
+            or len(text) > 200
+            or not seconds > 0
+        ):
             raise ProgramError(
                 f"a caption has words (at most 200 letters), a time, and a place of {', '.join(PLACES)}", "film.py", ""
             )

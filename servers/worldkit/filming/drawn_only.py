@@ -125,6 +125,8 @@ def known(look: str | Surface) -> None:
             raise ProgramError(
                 str(unknown).split(" Use one of")[0], "film.py", "name a look, '#rrggbb', or a Surface"
             ) from None
+    elif not isinstance(look, Surface):
+        raise ProgramError(f"{look!r} is no look", "film.py", "name a look, '#rrggbb', or a Surface")
 
 
 def look_facts(look: str | Surface, arrays: dict[str, np.ndarray], key: str) -> Any:

@@ -12,6 +12,7 @@ from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
 from .film_bounds import MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
 from .patterned_light import PatternedLight
+from .plain_refusals import whole
 from .recorded import Recorded
 
 
@@ -125,7 +126,7 @@ class Dressing(PatternedLight):
         """
         if not 1 <= count <= 60_000:
             raise ProgramError(f"grass has 1 to 60000 blades, got {count}", "film.py", "cover less of the ground")
-        points, faces = blades(area, height, count, self._ground(z), clear_of, seed)
+        points, faces = blades(area, height, count, self._ground(z), clear_of, whole(seed))
         if not len(points):
             raise ProgramError(
                 f"no blade of {name!r} stands on the ground that it is given", "film.py", "move its area"
@@ -165,7 +166,7 @@ class Dressing(PatternedLight):
         if not np.isfinite(levels).all():
             where = places[~np.isfinite(levels)][0].tolist()
             raise ProgramError(f"a tree of {name!r} at {where} stands beside its ground", "film.py", "move it")
-        random = np.random.default_rng(seed)
+        random = np.random.default_rng(whole(seed))
         parts: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {"wood": [], "leaves": []}
         sways: dict[str, list[np.ndarray]] = {"wood": [], "leaves": []}
         for place, level in zip(places, levels, strict=True):
@@ -300,8 +301,7 @@ class Dressing(PatternedLight):
                 "film.py",
                 "check its numbers",
             )
-        if to:
-            self.recorded.index(to)
+        self._carrier(to)
         if radius > 0:
             self.draw(
                 name, "sphere", 2 * radius, pos=pos, look=Surface(colour=colour, glow=min(6.0, 2 + strength)), to=to
@@ -352,8 +352,7 @@ class Dressing(PatternedLight):
                 "film.py",
                 f"give it a width and height of {PANEL_M[0]} to {PANEL_M[1]} m",
             )
-        if to:
-            self.recorded.index(to)
+        self._carrier(to)
         self._named(name)
         self._panels.append(
             {
@@ -375,15 +374,19 @@ class Dressing(PatternedLight):
     def _add(self, thing: Thing) -> None:
         known(thing.look)
         self._named(thing.name)
-        if thing.to:
-            self.recorded.index(thing.to)
+        self._carrier(thing.to)
         self._things.append(thing)
+
+    def _carrier(self, to: str) -> None:
+        """Refuse to fix anything to what is no body; empty is the world."""
+        if to != "":
+            self.recorded.index(to)
 
     def _named(self, name: str) -> None:
         """Refuse a name that something else has, or none."""
         taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
         taken |= {one["name"] for one in (*self._surfaces, *self._lamps, *self._panels)}
-        if not name or len(name) > 60 or name in taken:
+        if not isinstance(name, str) or not 0 < len(name) <= 60 or name in taken:
             raise ProgramError(f"what is drawn needs a name of its own, not {name!r}", "film.py", "name it anew")
 
 

@@ -122,7 +122,7 @@ class Recorded:
     def index(self, body: str) -> int:
         """Number of a body; a `ProgramError` names the nearest where there is none."""
         if body not in self.bodies:
-            near = get_close_matches(body, self.bodies, n=3) or list(self.bodies[:6])
+            near = get_close_matches(str(body), self.bodies, n=3) or list(self.bodies[:6])
             raise ProgramError(f"no body is called {body!r}", "film.py", f"name one of: {', '.join(near) or '(none)'}")
         return self.bodies.index(body)
 
