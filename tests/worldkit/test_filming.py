@@ -241,6 +241,34 @@ REFUSED = {
 }
 
 
+NAN, INF = float("nan"), float("inf")
+NO_NUMBERS = [
+    ("light", {"softness_deg": NAN}), ("light", {"fill": INF}), ("light", {"elevation_deg": 40, "at": NAN}), ("light", {"strength": -1}),
+    ("light", {"elevation_deg": 40, "at": -1.0}), ("sky", {"zenith": "#000000", "horizon": "#000000", "glow": NAN}), ("fog", {"visibility_m": NAN}),
+    ("fog", {"visibility_m": 1e-3}), ("grade", {"fade": 2.0}), ("gobo", {"softness_deg": NAN}), ("label", {"text": "a", "pos": (NAN, 0, 0)}),
+    ("label", {"text": "a", "pos": (0, 0, 0), "facing_deg": INF}), ("label", {"text": "a", "pos": (0, 0, 0), "height": 1e300}),
+    ("label", {"text": "a", "pos": None}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "pos": NAN}),
+    ("draw", {"name": "a", "shape": "box", "size": -1.0}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "quat": (0, 0, 0, 0)}),
+    ("lamp", {"name": "a", "pos": (0, 0, 1e9)}), ("panel", {"name": "a", "pos": (0, 0, 1e9), "size": (1, 1), "towards": (0, 0, 0)}),
+    ("breeze", {"speed": 3.0, "towards_deg": NAN}), ("mesh", {"name": "a", "vertices": np.eye(4)[:, :3], "faces": [[0, 1, 2]], "uv": np.full((4, 2), NAN)}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("word", "given"), NO_NUMBERS, ids=lambda one: one if isinstance(one, str) else str(list(one.items())[-1])[:40]
+)
+def test_a_number_that_nothing_can_have_is_refused_where_it_is_said(film, word, given):
+    with pytest.raises(ProgramError) as refused:
+        getattr(film, word)(**given)
+    assert refused.value.place == "film.py"
+
+
+@pytest.mark.parametrize("odd", [{"glow": NAN}, {"glow": -1.0}, {"tile_m": 0.0}, {"tile_m": NAN}])
+def test_a_surface_glows_and_repeats_with_numbers(odd):
+    with pytest.raises(ProgramError, match="a surface glows"):
+        Surface(**odd)
+
+
 @pytest.mark.parametrize("words", REFUSED)
 def test_what_cannot_be_shown_is_refused(film, words):
     with pytest.raises(ProgramError, match=words):
