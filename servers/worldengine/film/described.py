@@ -208,19 +208,9 @@ def _checked(
         raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")
     air = [_air(one) for one in told["air"]]
     return Described(
-        tuple(shots),
-        captions,
-        Treatments(air, stated, gobos.told(told)),
-        things,
-        surfaces,
-        lamps,
-        panels,
-        looks,
-        share,
-        samples,
-        arrays,
-        _breeze(told),
-    )
+        tuple(shots), captions, Treatments(air, stated, gobos.told(told)), things, surfaces, lamps, panels, looks, share, samples,
+        arrays, _breeze(told),
+    )  # fmt: skip
 
 
 def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[str]) -> dict[str, Any]:
@@ -283,7 +273,10 @@ def _caption(told: dict[str, Any]) -> dict[str, Any]:
     text, place = str(told["text"]), str(told["place"])
     if place not in bounds.PLACES or not 0 < len(text) <= 200:
         raise _refuse(f"no caption can be put at {place!r}")
-    return {"text": text, "place": place, "start_s": float(told["start_s"]), "end_s": float(told["end_s"])}
+    begin, end = float(told["start_s"]), float(told["end_s"])
+    if not 0 <= begin <= end <= 2 * bounds.FAR_M:
+        raise _refuse(f"the caption {text!r} stands from {begin} s to {end} s of the film")
+    return {"text": text, "place": place, "start_s": begin, "end_s": end}
 
 
 def _air(told: dict[str, Any]) -> dict[str, Any]:
