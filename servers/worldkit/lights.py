@@ -58,7 +58,9 @@ DARKEST = 0.01
 """What is left of the surroundings, which no light of a setting's own would show at all."""
 NEUTRAL = {
     "grade_exposure_stops": 0.0, "grade_contrast": 1.0, "grade_saturation": 1.0, "grade_temperature": 0.0,
+    "sky_glow": 0.0, "sky_clouds": 0.0, "sky_stars": 0.0, "sky_strength": 1.0,
 }  # fmt: skip
+"""What a stated sky does not say, which no set or mood around it may say in its stead."""
 MOST_LAMP = 1000.0
 
 
@@ -171,7 +173,7 @@ def of(model: mujoco.MjModel) -> dict[str, Any]:
 
 
 def _flat(mood: dict[str, dict[str, Any]]) -> dict[str, Any]:
-    """A mood as numbers of a treatment; what it does not develop is developed plainly."""
+    """A mood as numbers of a treatment; what it leaves out of its sky and its developing is `NEUTRAL`."""
     found: dict[str, Any] = dict(NEUTRAL)
     for part, values in mood.items():
         if part == "fog":

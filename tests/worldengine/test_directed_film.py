@@ -274,6 +274,10 @@ def setting(name, value):
 REFUSED = {
     "nothing of the light": lambda f, a: f["air"].append({"at_s": 0.0, "body_rgb": [1, 0, 0]}),
     "light elevation_deg must lie": lambda f, a: f["air"].append({"at_s": 0.0, "light_elevation_deg": -5}),
+    "told for nan s": lambda f, a: f["air"].append({"at_s": "nan", "light_elevation_deg": 5}),
+    "told for -1.0 s": lambda f, a: f["air"].append({"at_s": -1.0, "light_elevation_deg": 5}),
+    "stands from": lambda f, a: f["captions"].append({"text": "a", "place": "top", "start_s": -1.0, "end_s": 1.0}),
+    "to inf s": lambda f, a: f["captions"].append({"text": "a", "place": "top", "start_s": 0.0, "end_s": "inf"}),
     "no body": lambda f, a: f["things"][0].update(to="third"),
     "neither|is no body and no geom": setting("looks", {"third": "gold"}),
     "no look is called": setting("looks", {"first": "gould"}),

@@ -109,9 +109,15 @@ def test_a_film_that_says_nothing_of_light_is_lit_as_stated(filmed):
     assert film.treatments.at(0.1).lit == PLAIN.started_from(lights.treated(**STATED)).lit
 
 
-def test_a_set_brings_its_own_light_only_where_none_is_stated(filmed):
-    film = filmed.film(lambda film: film.set("meadow"))
-    assert film.treatments.at(0.1).light_elevation_deg == 12.0 and not departs(film)
+@pytest.mark.parametrize("name", ["meadow", "living_room", "workshop", "still_life", "night_sky"])
+def test_a_set_brings_its_own_light_only_where_none_is_stated(filmed, name):
+    film = filmed.film(lambda film: film.set(name))
+    stated = PLAIN.started_from(lights.treated(**STATED))
+    assert lit(film.treatments.at(0.1)) == lit(stated) and not departs(film)
+
+
+def lit(treatment):
+    return {name: getattr(treatment, name) for name in lights.treated(**STATED)}
 
 
 @pytest.mark.parametrize(
@@ -120,9 +126,10 @@ def test_a_set_brings_its_own_light_only_where_none_is_stated(filmed):
         (lambda film: film.light(elevation_deg=40), "elevation"),
         (lambda film: film.light(elevation_deg=40, colour="#00ff00", at=0.1), "colour, elevation"),
         (lambda film: film.sky(zenith="#000000", horizon="#000000"), "sky"),
+        (lambda film: film.light(fill=0.5), "sky"),
         (lambda film: (film.set("meadow"), film.mood("night")), "sky"),
     ],
-    ids=["height", "height and colour", "sky", "mood"],
+    ids=["height", "height and colour", "sky", "fill", "mood"],
 )
 def test_a_film_may_light_it_otherwise_and_that_is_listed(filmed, tell, listed):
     said = departs(filmed.film(tell))

@@ -2,6 +2,7 @@
 
 import itertools
 import json
+import runpy
 
 import numpy as np
 import pytest
@@ -222,6 +223,10 @@ REFUSED = {
     "there is no shape": lambda f: f.draw("a", "cone", 1.0),
     "belongs to no body": lambda f: f.mesh("a", np.eye(4)[:, :3], [[0, 1, 2]], instead=True),
     "a caption has words": lambda f: f.caption(" "),
+    "from -1 s on": lambda f: f.caption("a", start=-1.0),
+    "from nan s on": lambda f: f.caption("a", start=NAN),
+    "for inf s": lambda f: f.caption("a", seconds=INF),
+    "for 0 s": lambda f: f.caption("a", seconds=0.0),
     "fog needs a visibility": lambda f: f.fog(visibility_m=0),
     "lens_mm must lie": lambda f: f.shot(wide(lens_mm=2), until=1.0),
     "stands where it looks": lambda f: f.shot(still((1, 1, 1), (1, 1, 1)), until=1.0) or f.description(),
@@ -240,10 +245,67 @@ REFUSED = {
 }
 
 
+NAN, INF = float("nan"), float("inf")
+NO_NUMBERS = [
+    ("light", {"softness_deg": NAN}), ("light", {"fill": INF}), ("light", {"elevation_deg": 40, "at": NAN}), ("light", {"strength": -1}),
+    ("light", {"elevation_deg": 40, "at": -1.0}), ("sky", {"zenith": "#000000", "horizon": "#000000", "glow": NAN}), ("fog", {"visibility_m": NAN}),
+    ("fog", {"visibility_m": 1e-3}), ("grade", {"fade": 2.0}), ("gobo", {"softness_deg": NAN}), ("label", {"text": "a", "pos": (NAN, 0, 0)}),
+    ("label", {"text": "a", "pos": (0, 0, 0), "facing_deg": INF}), ("label", {"text": "a", "pos": (0, 0, 0), "height": 1e300}),
+    ("label", {"text": "a", "pos": None}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "pos": NAN}),
+    ("draw", {"name": "a", "shape": "box", "size": -1.0}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "quat": (0, 0, 0, 0)}),
+    ("lamp", {"name": "a", "pos": (0, 0, 1e9)}), ("panel", {"name": "a", "pos": (0, 0, 1e9), "size": (1, 1), "towards": (0, 0, 0)}),
+    ("breeze", {"speed": 3.0, "towards_deg": NAN}), ("mesh", {"name": "a", "vertices": np.eye(4)[:, :3], "faces": [[0, 1, 2]], "uv": np.full((4, 2), NAN)}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("word", "given"), NO_NUMBERS, ids=lambda one: one if isinstance(one, str) else str(list(one.items())[-1])[:40]
+)
+def test_a_number_that_nothing_can_have_is_refused_where_it_is_said(film, word, given):
+    with pytest.raises(ProgramError) as refused:
+        getattr(film, word)(**given)
+    assert refused.value.place == "film.py"
+
+
+@pytest.mark.parametrize("odd", [{"glow": NAN}, {"glow": -1.0}, {"tile_m": 0.0}, {"tile_m": NAN}])
+def test_a_surface_glows_and_repeats_with_numbers(odd):
+    with pytest.raises(ProgramError, match="a surface glows"):
+        Surface(**odd)
+
+
 @pytest.mark.parametrize("words", REFUSED)
 def test_what_cannot_be_shown_is_refused(film, words):
     with pytest.raises(ProgramError, match=words):
         REFUSED[words](film)
+
+
+MISUSED = [
+    ("label", {"text": 3, "pos": (0, 0, 0)}), ("label", {"text": "a", "pos": (0, 0, 0), "height": "x"}),
+    ("label", {"text": "a", "pos": (0, 0, 0), "facing_deg": None}), ("label", {"text": "a", "pos": (0, 0, 0), "to": None}),
+    ("label", {"text": "a", "pos": (0, 0, 0), "name": 3}), ("draw", {"name": "a", "shape": "box", "size": None}),
+    ("draw", {"name": "a", "shape": "box", "size": 1.0, "to": 3}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "look": 3}),
+    ("caption", {"text": 3}), ("caption", {"text": "a", "seconds": "x"}), ("shutter", {"share": "x"}), ("light", {"fill": "x"}),
+    ("set", {"name": "park", "seed": np.nan}), ("set", {"name": "park", "seed": None}), ("set", {"name": "park", "facing_deg": None}),
+    ("grass", {"area": (0, 0, 1, 1), "seed": 1.5}), ("mood", {"name": []}), ("shot", {"camera": wide(), "until": None}),
+    ("light", {"hue": 3}),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("word", "given"), MISUSED, ids=lambda one: one if isinstance(one, str) else str(list(one.items())[-1])
+)
+def test_what_is_given_wrongly_is_refused_where_it_is_said(film, word, given):
+    with pytest.raises(ProgramError) as refused:
+        getattr(film, word)(**given)
+    assert refused.value.place == "film.py"
+
+
+def test_what_an_author_s_own_function_does_wrong_stays_its_own(tmp_path):
+    program = tmp_path / "film.py"
+    program.write_text("def height(x, y):\n    raise ValueError('no ground')\n")
+    height = runpy.run_path(str(program))["height"]
+    with pytest.raises(ValueError, match="no ground"):
+        Film(rehearsal()).grass(area=(0, 0, 1, 1), z=height)
 
 
 def motion_file(tmp_path):

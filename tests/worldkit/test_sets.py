@@ -88,6 +88,37 @@ def test_a_still_life_s_wall_is_behind_all_that_moves_or_stands_there():
     assert 0.03 < front < 0.4, "close behind a ball that moves along it"
 
 
+def block(middle: tuple[float, float, float], half: tuple[float, float, float]) -> tuple[np.ndarray, np.ndarray]:
+    """A box that stands still: its corners, and two triangles that name them all."""
+    corners = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * half + middle
+    return corners, np.arange(9).reshape(3, 3) % 8
+
+
+def front(**around: tuple[np.ndarray, np.ndarray]) -> float:
+    """Where the wall of a still life begins behind a ball that moves along it, seen from -y, with what stands still around."""
+    t = np.linspace(0.0, 1.0, 30)[:, None]
+    ways = {"ball": np.hstack([0.3 * t - 0.15, 0 * t, 0.05 + 0 * t])}
+    ways |= {"target": np.tile([0.3, 0.65, 0.05], (30, 1))} if "target" in around else {}
+    still = {name: where for name, where in around.items() if name != "target"}
+    film = Film(Recorded.rehearsal(ways, duration=1.0, radius=0.05, ground=still))
+    film.set("still_life", facing_deg=-90.0)
+    facts, arrays = film.description()
+    board = next(t for t in facts["things"] if t["name"] == "back board")
+    return float(arrays[board["vertices"]][:, 1].min())
+
+
+def test_a_still_life_s_wall_is_behind_what_stands_still_but_not_behind_the_ground():
+    alone = front()
+    assert 0.05 < alone < 0.4
+    assert front(target=block((0, 0, 0), (1, 1, 1))) > 0.7, "a body that stands still behind the ball"
+    assert front(world=block((0, 1.2, 0.2), (0.1, 0.1, 0.2))) > 1.3, "a thing of the world itself"
+    assert front(world=block((0, 0.9, 0.5), (3.0, 0.05, 0.5))) > 0.95, "a wide wall of the world"
+    assert front(slab=block((0, 0, -0.1), (20, 20, 0.1))) == alone, "wide ground goes on under the wall"
+    assert front(before=block((0, -9, 0.5), (0.1, 0.1, 0.5))) == alone
+    with pytest.raises(ProgramError, match=r"'tower' stands 9\.1 m behind"):
+        front(tower=block((0, 9, 0.5), (0.1, 0.1, 0.5)))
+
+
 @pytest.mark.parametrize("name", ["laboratory", "kitchen_counter", "living_room", "workshop"])
 def test_a_room_has_light_from_one_side_whose_shadows_are_seen(name):
     facts, _, _ = described(name, 0.4)

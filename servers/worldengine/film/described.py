@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import ProgramError
 from worldkit.film_files import ARRAYS, DESCRIPTION
+from worldkit.filming import film_bounds as bounds
 from worldkit.filming.drawn_only import SHAPES
-from worldkit.filming.film_bounds import MOST_COPIES, MOST_FRAMES, MOST_LAMPS, MOST_PANELS, PANEL_M, PLACES, STORM_M_S
 from worldkit.scene import GROUND
 
 from . import gobos, ground_skins
-from .treatment import LIMITS, Treatments
+from .treatment import Treatments
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 PLACE = "film.py"
 MOST_THINGS, MOST_CAPTIONS, MOST_SURFACES = 500, 500, 20
 MOST_VERTICES = 3_000_000
-FAR_M = 1e5
 CAMERA: dict[str, tuple[int, ...]] = {
     "eye": (3,), "target": (3,), "roll_deg": (), "fovy_deg": (), "focus_m": (), "aperture": (), "time": (),
 }  # fmt: skip
@@ -133,8 +132,7 @@ def read(folder: Path, recording: "Recording", stated: dict[str, Any] | None = N
     """Read the description in a folder for a recording; `stated` is the light that its world states (`worldkit.lights.of`).
 
     Raises:
-        FilmError: it is damaged or too large, or asks for what no film may do: there are no words to move, hide or
-        recolour a
+        FilmError: it is damaged or too large, or asks for what no film may do: there are no words to move, hide or recolour a
             body in the course of time, and names that the world lacks are refused.
     """
     import numpy as np
@@ -154,11 +152,11 @@ def _checked(
     import numpy as np
 
     n = len(arrays["time"])
-    if not 1 <= n <= MOST_FRAMES:
-        raise _refuse(f"a film has 1 to {MOST_FRAMES} frames, not {n}")
+    if not 1 <= n <= bounds.MOST_FRAMES:
+        raise _refuse(f"a film has 1 to {bounds.MOST_FRAMES} frames, not {n}")
     for name, shape in CAMERA.items():
         value = arrays[name] = np.asarray(arrays[name], dtype=float)
-        if value.shape != (n, *shape) or not np.isfinite(value).all() or np.abs(value).max() > FAR_M:
+        if value.shape != (n, *shape) or not np.isfinite(value).all() or np.abs(value).max() > bounds.FAR_M:
             raise _refuse(f"{name} must be {(n, *shape)} finite numbers, is {value.shape}")
     last = float(recording.time[-1] - recording.time[0])
     if arrays["time"].min() < -1e-9 or arrays["time"].max() > last + 1e-9:
@@ -191,11 +189,11 @@ def _checked(
             f"two of the things that are drawn have the same name, or there are over {MOST_SURFACES} surfaces"
         )
     lamps = tuple(_lamp(one, bodies) for one in told.get("lamps", ()))
-    if len(lamps) > MOST_LAMPS:
-        raise _refuse(f"a film has at most {MOST_LAMPS} lamps, not {len(lamps)}", "let one stand for many")
+    if len(lamps) > bounds.MOST_LAMPS:
+        raise _refuse(f"a film has at most {bounds.MOST_LAMPS} lamps, not {len(lamps)}", "let one stand for many")
     panels = tuple(_panel(one, bodies) for one in told.get("panels", ()))
-    if len(panels) > MOST_PANELS:
-        raise _refuse(f"a film has at most {MOST_PANELS} panels, not {len(panels)}", "let one stand for many")
+    if len(panels) > bounds.MOST_PANELS:
+        raise _refuse(f"a film has at most {bounds.MOST_PANELS} panels, not {len(panels)}", "let one stand for many")
     geoms = {str(geom["name"]) for geom in recording.meta["geoms"] if geom["name"]}
     looks = {str(name): _look(look, arrays) for name, look in told["looks"].items()}
     for name in looks:
@@ -210,19 +208,9 @@ def _checked(
         raise _refuse("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples")
     air = [_air(one) for one in told["air"]]
     return Described(
-        tuple(shots),
-        captions,
-        Treatments(air, stated, gobos.told(told)),
-        things,
-        surfaces,
-        lamps,
-        panels,
-        looks,
-        share,
-        samples,
-        arrays,
-        _breeze(told),
-    )
+        tuple(shots), captions, Treatments(air, stated, gobos.told(told)), things, surfaces, lamps, panels, looks, share, samples,
+        arrays, _breeze(told),
+    )  # fmt: skip
 
 
 def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[str]) -> dict[str, Any]:
@@ -247,7 +235,7 @@ def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
     good = 0 < found["strength"] <= 1000 and 1 <= found["cone_deg"] <= 89
     if not (min(found["rgb"]) >= 0 and max(found["rgb"]) <= 1):
         raise _refuse(f"the lamp {found['name']!r} has a colour of {found['rgb']}", "give it three numbers from 0 to 1")
-    if not good or np.abs(found["pos"]).max() > FAR_M or (found["to"] and found["to"] not in bodies):
+    if not good or np.abs(found["pos"]).max() > bounds.FAR_M or (found["to"] and found["to"] not in bodies):
         raise _refuse(f"the lamp {found['name']!r} is none that can be lit, or is fixed to no body")
     return found
 
@@ -259,11 +247,11 @@ def _panel(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
     found: dict[str, Any] = {"name": name, "to": to, "seen": bool(told["seen"]), "strength": float(told["strength"])}
     for key, length in (("pos", 3), ("towards", 3), ("size", 2), ("rgb", 3)):
         value = np.asarray(told[key], dtype=float)
-        if value.shape != (length,) or not np.isfinite(value).all() or np.abs(value).max() > FAR_M:
+        if value.shape != (length,) or not np.isfinite(value).all() or np.abs(value).max() > bounds.FAR_M:
             raise _refuse(f"the panel {name!r} has no {key}")
         found[key] = value.tolist()
     good = 0 < found["strength"] <= 1000 and min(found["rgb"]) >= 0 and max(found["rgb"]) <= 1
-    good &= PANEL_M[0] <= min(found["size"]) and max(found["size"]) <= PANEL_M[1] and 0 < len(name) <= 60
+    good &= bounds.PANEL_M[0] <= min(found["size"]) and max(found["size"]) <= bounds.PANEL_M[1] and 0 < len(name) <= 60
     good &= float(np.linalg.norm(np.subtract(found["towards"], found["pos"]))) > 1e-6
     if not good or (to and to not in bodies):
         raise _refuse(f"the panel {name!r} is none that can be lit, or is fixed to no body")
@@ -276,28 +264,33 @@ def _breeze(told: dict[str, Any]) -> tuple[float, float] | None:
     if told.get("breeze") is None:
         return None
     wind = np.asarray(told["breeze"], dtype=float)
-    if wind.shape != (2,) or not np.isfinite(wind).all() or not 0 < np.hypot(*wind) <= STORM_M_S * (1 + 1e-6):
-        raise _refuse(f"a breeze is a wind of at most {STORM_M_S:g} m/s")
+    if wind.shape != (2,) or not np.isfinite(wind).all() or not 0 < np.hypot(*wind) <= bounds.STORM_M_S * (1 + 1e-6):
+        raise _refuse(f"a breeze is a wind of at most {bounds.STORM_M_S:g} m/s")
     return float(wind[0]), float(wind[1])
 
 
 def _caption(told: dict[str, Any]) -> dict[str, Any]:
     text, place = str(told["text"]), str(told["place"])
-    if place not in PLACES or not 0 < len(text) <= 200:
+    if place not in bounds.PLACES or not 0 < len(text) <= 200:
         raise _refuse(f"no caption can be put at {place!r}")
-    return {"text": text, "place": place, "start_s": float(told["start_s"]), "end_s": float(told["end_s"])}
+    begin, end = float(told["start_s"]), float(told["end_s"])
+    if not 0 <= begin <= end <= 2 * bounds.FAR_M:
+        raise _refuse(f"the caption {text!r} stands from {begin} s to {end} s of the film")
+    return {"text": text, "place": place, "start_s": begin, "end_s": end}
 
 
 def _air(told: dict[str, Any]) -> dict[str, Any]:
     import numpy as np
 
     found: dict[str, Any] = {"at_s": float(told["at_s"])}
+    if not 0 <= found["at_s"] <= bounds.FAR_M:
+        raise _refuse(f"nothing of the light is told for {found['at_s']} s of the film")
     for name, value in told.items():
         if name == "at_s":
             continue
-        if name not in LIMITS:
+        if name not in bounds.LIGHT:
             raise _refuse(f"nothing of the light is called {name!r}")
-        low, high = LIMITS[name]
+        low, high = bounds.LIGHT[name]
         numbers = np.asarray(value, dtype=float)
         wanted = (3,) if name.endswith("_rgb") or name in ("sky_zenith", "sky_horizon", "sky_ground") else ()
         if numbers.shape != wanted or not ((numbers >= low) & (numbers <= high)).all():
@@ -354,7 +347,7 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
     found: dict[str, Any] = {"name": name, "shape": shape, "to": to, "instead": bool(told["instead"]) and bool(to)}
     for key, length in (("size", 3), ("pos", 3), ("quat", 4)):
         numbers = [float(v) for v in told[key]]
-        if len(numbers) != length or not np.isfinite(numbers).all() or max(map(abs, numbers)) > FAR_M:
+        if len(numbers) != length or not np.isfinite(numbers).all() or max(map(abs, numbers)) > bounds.FAR_M:
             raise _refuse(f"the {key} of {name!r} must be {length} numbers")
         found[key] = numbers
     if min(found["size"]) <= 0 or abs(float(np.linalg.norm(found["quat"])) - 1) > 1e-3:
@@ -381,11 +374,16 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
                 _sways(name, found["look"], points * found["size"], arrays[found["uv"]][:, 0])
     if "ways" in told:
         ways, sizes = arrays[str(told["ways"])], arrays[str(told["sizes"])]
-        good = ways.ndim == 3 and ways.shape[0] == frames and ways.shape[2] == 3 and 1 <= ways.shape[1] <= MOST_COPIES
+        good = (
+            ways.ndim == 3
+            and ways.shape[0] == frames
+            and ways.shape[2] == 3
+            and 1 <= ways.shape[1] <= bounds.MOST_COPIES
+        )
         if not good or shape != ("mesh" if "turns" in told else "sphere") or not np.isfinite(ways).all():
             raise _refuse(f"{name!r} has no place in each of the {frames} frames")
-        if sizes.shape != ways.shape[:2] or not ((sizes >= 0) & (sizes <= FAR_M)).all():
-            raise _refuse(f"{name!r} has not a size of 0 to {FAR_M:g} m for each of its particles in each frame")
+        if sizes.shape != ways.shape[:2] or not ((sizes >= 0) & (sizes <= bounds.FAR_M)).all():
+            raise _refuse(f"{name!r} has not a size of 0 to {bounds.FAR_M:g} m for each of its particles in each frame")
         found |= {"ways": str(told["ways"]), "sizes": str(told["sizes"])}
         if "turns" in told:
             found["turns"] = str(told["turns"])

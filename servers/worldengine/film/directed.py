@@ -149,17 +149,12 @@ class Screening:
 
     def _travel_px(self, frame: int) -> float:
         """How far anything goes in the picture while the shutter is open for a frame."""
-        import numpy as np
-
-        views, places = [], []
+        views, shown = [], []
         for at in (float(frame), frame + self.film.shutter * (1 - 1e-6)):
             data = self._moment(at)
             views.append(of_camera(self.model, data, self._camera, self.frames.width, self.frames.height))
-            places.append(smear.points(self.model, data))
-        opened, closed = views
-        before, after = places
-        still = np.array_equal(opened.matrix(), closed.matrix())
-        return smear.travel_px(opened, opened if still else closed, before, after, self.frames.height)
+            shown.append(smear.drawn(self.model, data))
+        return smear.travel_px(views, shown, self.frames.height)
 
     def _parts(self, frame: int, moments: int) -> "list[Moment]":
         """The moments while the shutter is open for a frame."""

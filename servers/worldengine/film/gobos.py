@@ -11,15 +11,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from worldkit.filming.film_bounds import GOBO_M, GOBOS
+from worldkit.filming.film_bounds import FAR_M, GOBO_M, GOBOS
 
 PIXELS = 1024
 REACH = 4.0
 """A slide reaches so many times its pattern's size to each side of its middle; beyond it all light goes through."""
 AWAY = {"leaves": 3.5}
 """So many times its size is the pattern before what it falls on, which softens it; others are 2.5."""
-FAR = 1e5
-"""Nothing of it is told with larger numbers."""
 FADE = 0.1
 """The share of the slide, at its edges, over which it becomes clear."""
 
@@ -54,7 +52,7 @@ def told(film: dict[str, Any]) -> Gobo | None:
     one = film["gobo"]
     x, y, z = (float(v) for v in one["at"])
     found = Gobo(str(one["kind"]), float(one["size_m"]), float(one["turn_deg"]), int(one["seed"]), (x, y, z))
-    near = np.abs([found.turn_deg, x, y, z]).max() <= FAR
+    near = np.abs([found.turn_deg, x, y, z]).max() <= FAR_M
     if found.kind not in GOBOS or not (GOBO_M[0] <= found.size_m <= GOBO_M[1] and 0 <= found.seed < 1 << 32 and near):
         raise ValueError(f"no pattern {found.kind!r} of {found.size_m} m can be held before the light")
     return found

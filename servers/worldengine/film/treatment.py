@@ -3,6 +3,8 @@
 from dataclasses import asdict, dataclass, fields, replace
 from typing import TYPE_CHECKING, Any
 
+from worldkit.filming.film_bounds import LIGHT
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -62,15 +64,6 @@ class Treatment:
 
 
 PLAIN = Treatment()
-LIMITS: dict[str, tuple[float, float]] = {
-    "light_azimuth_deg": (-720, 720), "light_elevation_deg": (1, 90), "light_rgb": (0, 1), "light_strength": (0, 10),
-    "light_softness_deg": (0, 45), "sky_zenith": (0, 1), "sky_horizon": (0, 1), "sky_ground": (0, 1), "sky_glow": (0, 4),
-    "sky_clouds": (0, 1), "sky_stars": (0, 1), "sky_strength": (0, 10), "fog_rgb": (0, 1), "fog_density": (0, 100),
-    "fog_height_m": (1e-3, 1e6), "grade_exposure_stops": (-8, 8), "grade_contrast": (0, 3), "grade_saturation": (0, 3),
-    "grade_temperature": (-1, 1), "grade_tint": (-1, 1), "grade_vignette": (0, 1), "grade_glow": (0, 1),
-    "grade_fade": (0, 1),
-}  # fmt: skip
-"""The numbers that a film may give, each with its limits."""
 
 
 class Treatments:
@@ -89,7 +82,7 @@ class Treatments:
         kept = {n: v for n, v in self.stated.items() if not own_sky or n.startswith("light_")}
         self._begun = asdict(PLAIN.started_from(kept)) | {"light_gobo": gobo}
         self._tracks: dict[str, tuple[Any, Any]] = {}
-        for name in LIMITS:
+        for name in LIGHT:
             moments: dict[float, Any] = {float(one["at_s"]): one[name] for one in told if name in one}
             if moments:
                 at = sorted(moments)

@@ -8,10 +8,11 @@ import numpy as np
 from ..errors import ProgramError
 from . import free_edge, hero, sets
 from .drawn_only import look_facts
-from .film_bounds import MOST_FRAMES, PLACES
+from .film_bounds import FAR_M, MOST_FRAMES, PLACES
 from .frame_by_frame import grown, sampled
 from .lettered_plates import Labelled
 from .limbs import Limbs
+from .plain_refusals import refusing
 from .recorded import Recorded
 from .viewpoints import Viewpoint
 
@@ -19,6 +20,7 @@ SLOWEST, FASTEST = 1 / 200, 50.0
 Speed = float | tuple[float, float]
 
 
+@refusing
 class Film(Labelled, Limbs):
     """A film in the making; `recorded` is what happened.
 
@@ -107,12 +109,19 @@ class Film(Labelled, Limbs):
 
         They come and go softly, in at most a quarter of their time each; spaces and line ends stay as they are written.
         """
-        if place not in ("", *PLACES) or not text.strip() or len(text) > 200 or not seconds > 0:
+        if place not in ("", *PLACES) or not isinstance(text, str) or not text.strip() or len(text) > 200:
             raise ProgramError(
                 f"a caption has words (at most 200 letters), a time, and a place of {', '.join(PLACES)}", "film.py", ""
             )
         begin = self.now if start is None else float(start)
-        self._captions.append({"text": text, "start_s": begin, "end_s": begin + float(seconds), "place": place})
+        if not (0 <= begin <= FAR_M and 0 < seconds <= FAR_M):
+            raise ProgramError(
+                f"a caption from {begin:g} s on for {seconds:g} s is never seen",
+                "film.py",
+                "start=0 is where the film begins",
+            )
+        told = {"text": text, "start_s": begin, "end_s": begin + float(seconds), "place": place}
+        self._captions.append(told | {"line": _line()})
 
     def shutter(self, share: float = 0.5, *, samples: int = 8) -> None:
         """Motion blur: the shutter is open for `share` of each frame's time, drawn as the mean of at most `samples` pictures.
@@ -177,6 +186,7 @@ class Film(Labelled, Limbs):
         radii, (wide, high) = np.array([self.recorded.radius(name) for name in names]), self.recorded.size
         found = []
         for one in self._captions:
+            self.line = one["line"]
             first, last = (round(one[name] * self.recorded.fps) for name in ("start_s", "end_s"))
             some, place = slice(first, max(last, first + 1)), one["place"]
             shown = arrays["time"][some]
@@ -184,7 +194,8 @@ class Film(Labelled, Limbs):
                 places = np.stack([self.recorded.position(name, shown) for name in names], axis=1)
                 eye, target, lens = arrays["eye"][some], arrays["target"][some], arrays["fovy_deg"][some]
                 place = free_edge.chosen(eye, target, lens, places, radii, wide / high)
-            found.append(one | {"place": place or "bottom"})
+            found.append({name: one[name] for name in ("text", "start_s", "end_s")} | {"place": place or "bottom"})
+        self.line = 1
         return found
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
+from .film_bounds import FAR_M
 from .ground import Height
 
 Vec3 = tuple[float, float, float]
@@ -36,6 +37,12 @@ class Surface:
         for name in ("roughness", "metallic", "opacity"):
             if not 0.0 <= getattr(self, name) <= 1.0:
                 raise ProgramError(f"{name} lies between 0 and 1, got {getattr(self, name)}", "Surface", "")
+        if not 0.0 <= self.glow <= 50.0 or not 0.0 < self.tile_m < np.inf:
+            raise ProgramError(
+                f"a surface glows with 0 to 50 and has a tile above 0 m, not {self.glow} and {self.tile_m}",
+                "Surface",
+                "",
+            )
         if self.picture is not None:
             shape = np.shape(self.picture)
             if (
@@ -90,6 +97,18 @@ class Thing:
     turns: np.ndarray | None = None
     """(F, P, 4): how each copy of a mesh is turned in each frame."""
 
+    def __post_init__(self) -> None:
+        for what, count in (("size", 3), ("pos", 3), ("quat", 4)):
+            numbers = np.asarray(getattr(self, what), dtype=float)
+            if numbers.shape != (count,) or not (np.abs(numbers) <= FAR_M).all():
+                raise ProgramError(
+                    f"the {what} of {self.name!r} must be {count} numbers up to {FAR_M:g}, is {numbers.tolist()}",
+                    "film.py",
+                    "check how it is reckoned",
+                )
+        if not min(self.size) > 0 or abs(float(np.linalg.norm(self.quat)) - 1) > 1e-3:
+            raise ProgramError(f"{self.name!r} has no size, or its quaternion is none", "film.py", "check its numbers")
+
     def facts(self, arrays: dict[str, np.ndarray], number: int, breeze: bool) -> dict[str, Any]:
         """This thing as JSON; its arrays go into `arrays`. In a `breeze` it says how it sways."""
         found: dict[str, Any] = {
@@ -125,6 +144,8 @@ def known(look: str | Surface) -> None:
             raise ProgramError(
                 str(unknown).split(" Use one of")[0], "film.py", "name a look, '#rrggbb', or a Surface"
             ) from None
+    elif not isinstance(look, Surface):
+        raise ProgramError(f"{look!r} is no look", "film.py", "name a look, '#rrggbb', or a Surface")
 
 
 def look_facts(look: str | Surface, arrays: dict[str, np.ndarray], key: str) -> Any:

@@ -9,9 +9,10 @@ import numpy as np
 from ..errors import ProgramError
 from . import swaying_weights, trees
 from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
-from .film_bounds import MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
+from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
 from .patterned_light import PatternedLight
+from .plain_refusals import whole
 from .recorded import Recorded
 
 
@@ -84,8 +85,10 @@ class Dressing(PatternedLight):
         good = points.ndim == 2 and points.shape[1] == 3 and triangles.ndim == 2 and triangles.shape[1] == 3
         if not good or not np.isfinite(points).all() or triangles.min() < 0 or triangles.max() >= len(points):
             raise ProgramError(f"the mesh {name!r} is no (V, 3) vertices and (F, 3) faces among them", "film.py", "")
-        if uv is not None and np.shape(uv) != (len(points), 2):
-            raise ProgramError(f"the uv of {name!r} must be ({len(points)}, 2)", "film.py", "one for each vertex")
+        if uv is not None and (np.shape(uv) != (len(points), 2) or not np.isfinite(uv).all()):
+            raise ProgramError(
+                f"the uv of {name!r} must be ({len(points)}, 2) numbers", "film.py", "one for each vertex"
+            )
         if instead and not to:
             raise ProgramError(f"the skin {name!r} belongs to no body", "film.py", "name it: to='…'")
         told = None
@@ -125,7 +128,7 @@ class Dressing(PatternedLight):
         """
         if not 1 <= count <= 60_000:
             raise ProgramError(f"grass has 1 to 60000 blades, got {count}", "film.py", "cover less of the ground")
-        points, faces = blades(area, height, count, self._ground(z), clear_of, seed)
+        points, faces = blades(area, height, count, self._ground(z), clear_of, whole(seed))
         if not len(points):
             raise ProgramError(
                 f"no blade of {name!r} stands on the ground that it is given", "film.py", "move its area"
@@ -165,7 +168,7 @@ class Dressing(PatternedLight):
         if not np.isfinite(levels).all():
             where = places[~np.isfinite(levels)][0].tolist()
             raise ProgramError(f"a tree of {name!r} at {where} stands beside its ground", "film.py", "move it")
-        random = np.random.default_rng(seed)
+        random = np.random.default_rng(whole(seed))
         parts: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {"wood": [], "leaves": []}
         sways: dict[str, list[np.ndarray]] = {"wood": [], "leaves": []}
         for place, level in zip(places, levels, strict=True):
@@ -196,9 +199,9 @@ class Dressing(PatternedLight):
         x, y = self.recorded.wind[:2]
         planned = float(np.hypot(x, y))
         strong = min(planned, STORM_M_S) if speed is None else float(speed)
-        if not 0 < strong <= STORM_M_S:
+        if not 0 < strong <= STORM_M_S or not np.isfinite(towards_deg or 0.0):
             raise ProgramError(
-                f"a breeze of {strong:g} m/s: a wind blows with more than 0 and at most 40 m/s",
+                f"a breeze of {strong:g} m/s towards {towards_deg}: a wind blows with more than 0 and at most 40 m/s",
                 "film.py",
                 "film.breeze(3.0, towards_deg=90)" + ("" if planned else ", as the plan's medium states no wind"),
             )
@@ -293,15 +296,14 @@ class Dressing(PatternedLight):
         numbers = [*pos, strength, cone_deg, radius, *(aim or ())]
         if len(self._lamps) >= MOST_LAMPS:
             raise ProgramError(f"a film has at most {MOST_LAMPS} lamps", "film.py", "let one stand for many")
-        good = np.isfinite(numbers).all() and 0 < strength <= 1000 and 1 <= cone_deg <= 89 and 0 <= radius <= 10
+        good = (np.abs(numbers) <= FAR_M).all() and 0 < strength <= 1000 and 1 <= cone_deg <= 89 and 0 <= radius <= 10
         if not good or len(pos) != 3 or (aim is not None and len(aim) != 3):
             raise ProgramError(
                 f"the lamp {name!r} needs a place, a strength up to 1000, a cone of 1 to 89 degrees",
                 "film.py",
                 "check its numbers",
             )
-        if to:
-            self.recorded.index(to)
+        self._carrier(to)
         if radius > 0:
             self.draw(
                 name, "sphere", 2 * radius, pos=pos, look=Surface(colour=colour, glow=min(6.0, 2 + strength)), to=to
@@ -340,7 +342,7 @@ class Dressing(PatternedLight):
             raise ProgramError(f"a film has at most {MOST_PANELS} panels", "film.py", "let one stand for many")
         place, point, extent = (np.asarray(value, dtype=float) for value in (pos, towards, size))
         good = place.shape == point.shape == (3,) and extent.shape == (2,) and 0 < strength <= 1000
-        if not good or not np.isfinite([*place, *point]).all() or not np.linalg.norm(point - place) > 1e-6:
+        if not good or not (np.abs([*place, *point]) <= FAR_M).all() or not np.linalg.norm(point - place) > 1e-6:
             raise ProgramError(
                 f"the panel {name!r} needs a place, another point that it faces, and a strength up to 1000",
                 "film.py",
@@ -352,8 +354,7 @@ class Dressing(PatternedLight):
                 "film.py",
                 f"give it a width and height of {PANEL_M[0]} to {PANEL_M[1]} m",
             )
-        if to:
-            self.recorded.index(to)
+        self._carrier(to)
         self._named(name)
         self._panels.append(
             {
@@ -375,15 +376,19 @@ class Dressing(PatternedLight):
     def _add(self, thing: Thing) -> None:
         known(thing.look)
         self._named(thing.name)
-        if thing.to:
-            self.recorded.index(thing.to)
+        self._carrier(thing.to)
         self._things.append(thing)
+
+    def _carrier(self, to: str) -> None:
+        """Refuse to fix anything to what is no body; empty is the world."""
+        if to != "":
+            self.recorded.index(to)
 
     def _named(self, name: str) -> None:
         """Refuse a name that something else has, or none."""
         taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
         taken |= {one["name"] for one in (*self._surfaces, *self._lamps, *self._panels)}
-        if not name or len(name) > 60 or name in taken:
+        if not isinstance(name, str) or not 0 < len(name) <= 60 or name in taken:
             raise ProgramError(f"what is drawn needs a name of its own, not {name!r}", "film.py", "name it anew")
 
 

@@ -1,6 +1,8 @@
 """How much a film may hold. Its author is told at once, with the line; the engine checks the description again."""
 
 MOST_FRAMES, MOST_LAMPS, MOST_PANELS, MOST_COPIES = 20_000, 64, 16, 2_000
+FAR_M = 1e5
+"""Nothing of a film lies further away, or is larger, m; and nothing of it is later, s."""
 PLACES = ("bottom", "top", "title", "left")
 """Where words stand in the picture."""
 STORM_M_S = 40.0
@@ -11,3 +13,12 @@ GOBOS = ("window", "blinds", "leaves", "branches", "bars")
 """Patterns that may be held before the key light."""
 GOBO_M = (0.01, 1000.0)
 """The least and the most that such a pattern measures, m."""
+LIGHT: dict[str, tuple[float, float]] = {
+    "light_azimuth_deg": (-720, 720), "light_elevation_deg": (1, 90), "light_rgb": (0, 1), "light_strength": (0, 10),
+    "light_softness_deg": (0, 45), "sky_zenith": (0, 1), "sky_horizon": (0, 1), "sky_ground": (0, 1), "sky_glow": (0, 4),
+    "sky_clouds": (0, 1), "sky_stars": (0, 1), "sky_strength": (0, 10), "fog_rgb": (0, 1), "fog_density": (0, 100),
+    "fog_height_m": (1e-3, 1e6), "grade_exposure_stops": (-8, 8), "grade_contrast": (0, 3), "grade_saturation": (0, 3),
+    "grade_temperature": (-1, 1), "grade_tint": (-1, 1), "grade_vignette": (0, 1), "grade_glow": (0, 1),
+    "grade_fade": (0, 1),
+}  # fmt: skip
+"""The numbers that a film may give of its light, air and developing, each with its limits."""

@@ -34,7 +34,7 @@ class Labelled(Dressing):
         Raises:
             ProgramError: it has no words or more than 40 letters, or no height.
         """
-        words = text.strip()
+        words = text.strip() if isinstance(text, str) else ""
         if not 0 < len(words) <= MOST or not words.isprintable() or not 0 < height < np.inf:
             raise ProgramError(
                 f"a label has 1 to {MOST} letters in one line and a height, not {text!r} of {height} m",

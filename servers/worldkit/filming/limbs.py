@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import ProgramError
 from .drawn_only import Surface
 from .dressing import Dressing
+from .plain_refusals import whole
 from .trees import limb
 
 SIDES = 14
@@ -67,7 +68,7 @@ class Limbs(Dressing):
         far = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(way, axis=0), axis=1))])
         radii = 0.5 * np.interp(far / far[-1], [0.0, 1.0], thick)
         points, _ = limb(way, radii.tolist(), SIDES)
-        random = np.random.default_rng(seed)
+        random = np.random.default_rng(whole(seed))
         for number, body in enumerate(chain):
             first = max(number * len(SHARES) - 1, 0)
             last = min((number + 1) * len(SHARES) + 1, len(way) - 1)

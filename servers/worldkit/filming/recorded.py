@@ -4,6 +4,7 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -121,7 +122,7 @@ class Recorded:
     def index(self, body: str) -> int:
         """Number of a body; a `ProgramError` names the nearest where there is none."""
         if body not in self.bodies:
-            near = get_close_matches(body, self.bodies, n=3) or list(self.bodies[:6])
+            near = get_close_matches(str(body), self.bodies, n=3) or list(self.bodies[:6])
             raise ProgramError(f"no body is called {body!r}", "film.py", f"name one of: {', '.join(near) or '(none)'}")
         return self.bodies.index(body)
 
@@ -186,9 +187,19 @@ class Recorded:
     def extent(self, body: str) -> tuple[np.ndarray, np.ndarray]:
         """The two corners (3,), m, of what a body of `still` takes up in the world."""
         self.surface(body)
-        mine = self._ground["owner"] == self.still.index(body)
-        points = self._ground["vertices"][np.unique(self._ground["faces"][mine])]
+        points = self._of_still(body)
         return points.min(axis=0), points.max(axis=0)
+
+    def _of_still(self, body: str) -> np.ndarray:
+        mine = self._ground["owner"] == self.still.index(body)
+        return np.asarray(self._ground["vertices"][np.unique(self._ground["faces"][mine])])
+
+    def outline(self, body: str) -> np.ndarray:
+        """Points (P, 3), m, of the world that a body lies between at first: its own of one of `still`, else the corners around it."""
+        if body in self.still:
+            return self._of_still(body)
+        half, turn = self.box(body)[1], self.orientation(body, 0.0)
+        return np.asarray(self.position(body, 0.0) + (half * list(product((-1, 1), repeat=3))) @ turn.T)
 
     def into(self, body: str, points: np.ndarray, at: float = 0.0) -> np.ndarray:
         """Points (N, 3) of the world, m, in a body's own frame at a recorded time: what `to=` and skins are drawn in."""

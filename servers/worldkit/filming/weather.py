@@ -6,6 +6,7 @@ import numpy as np
 
 from ..errors import ProgramError
 from .drawn_only import rgb
+from .film_bounds import FAR_M, LIGHT
 from .moods import MOODS
 
 
@@ -97,4 +98,12 @@ class Weather:
 
     def _told(self, at: float | None, **values: Any) -> None:
         found = {name: np.asarray(value, dtype=float).tolist() for name, value in values.items() if value is not None}
-        self._air.append({"at_s": 0.0 if at is None else float(at), **found})
+        begin = 0.0 if at is None else float(at)
+        if not 0 <= begin <= FAR_M:
+            raise ProgramError(f"{begin} s is no time of a film", "film.py", "at=0 is where it begins")
+        for name, value in found.items():
+            low, high = LIGHT[name]
+            if not ((low <= np.array(value)) & (np.array(value) <= high)).all():
+                said = name.replace("_", " ", 1)
+                raise ProgramError(f"{said} must lie between {low:g} and {high:g}, got {value}", "film.py", "")
+        self._air.append({"at_s": begin, **found})

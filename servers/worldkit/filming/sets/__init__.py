@@ -12,6 +12,7 @@ import numpy as np
 
 from ...errors import ProgramError
 from ...seams import Seam
+from ..plain_refusals import whole
 from ..recorded import Recorded
 
 if TYPE_CHECKING:
@@ -82,7 +83,7 @@ class Place:
             floor=recorded.floor_z,
             facing_deg=float(facing_deg),
             ways=np.concatenate(rows) if rows else np.zeros((0, 3)),
-            random=np.random.default_rng(seed),
+            random=np.random.default_rng(whole(seed)),
             standing=max([radius, *_furniture(recorded, middle)]),
         )  # fmt: skip
 

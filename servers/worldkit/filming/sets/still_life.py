@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ...errors import ProgramError
 from ..drawn_only import Surface, rgb
 from . import LAND_M, Place, furniture, pieces
 
@@ -23,24 +24,37 @@ def build(film: "Dressing", place: Place) -> None:
     film.sky(zenith="#8d9aa6", horizon="#84827e", ground="#54483c", glow=0.0, strength=0.62)
     film.grade(exposure_stops=0.1, contrast=1.1, saturation=1.02, temperature=0.03, vignette=0.3, glow=0.05)
     film.ground("wood_walnut")
-    spot = place.spot(_depth(film, place) + 0.16 * large, 180)
+    depth = _depth(film, place) + 0.16 * large
+    spot, wide = place.spot(depth, 180), max(30 * large, 5 * depth)
     paint = _mottled(place.colour or COLOUR, place.random, 2.5 * large)
-    furniture.put(film, place, "wall", [pieces.block(30 * large, 0.05, 12 * large, (0, 0.025, 0), 0.002)], spot, paint)
-    strip = [pieces.block(30 * large, 0.03 * large, 0.09 * large, (0, -0.015 * large, 0))]
+    furniture.put(film, place, "wall", [pieces.block(wide, 0.05, 0.4 * wide, (0, 0.025, 0), 0.002)], spot, paint)
+    strip = [pieces.block(wide, 0.03 * large, 0.09 * large, (0, -0.015 * large, 0))]
     furniture.put(film, place, "back board", strip, spot, "wood_walnut")
     film.gobo("window", size=1.25 * large, seed=int(place.random.integers(1 << 16)))
 
 
 def _depth(film: "Dressing", place: Place) -> float:
-    """How far from its middle, away from the camera, movers and the things of the world among them reach, m."""
-    away = np.array(place.spot(1.0, 180)[:2]) - place.middle
+    """How far from its middle, away from the camera, movers and the things of the world reach, m.
+
+    Raises:
+        ProgramError: something stands so far behind that a wall close behind what happens would hide it.
+    """
+    recorded, away = film.recorded, np.array(place.spot(1.0, 180)[:2]) - place.middle
+    times = np.linspace(0.0, recorded.duration, 60)
+    low = min((float(recorded.position(n, times)[:, 2].min()) for n in recorded.movers or recorded.bodies), default=0.0)
     reach = [float(((place.ways[:, :2] - place.middle) @ away + place.ways[:, 2]).max())] if len(place.ways) else [0.0]
-    for name in film.recorded.bodies:
-        half = film.recorded.box(name)[1]
-        at = film.recorded.position(name, 0.0)[:2] - place.middle
-        if half[:2].max() < LAND_M and np.linalg.norm(at) < 2 * max(place.radius, 0.2):
-            turned = np.abs(film.recorded.orientation(name, 0.0)) @ half
-            reach.append(float(at @ away + np.abs(away) @ turned[:2]))
+    for name in dict.fromkeys((*recorded.bodies, *recorded.still)):
+        points = recorded.outline(name)
+        if np.ptp(points[:, :2], axis=0).max() >= 2 * LAND_M:  # what is so wide and below all that moves is ground
+            points = points[points[:, 2] > low]
+        far = float(((points[:, :2] - place.middle) @ away).max(initial=0.0))
+        if far > max(2 * LAND_M, reach[0]):
+            raise ProgramError(
+                f"{name!r} stands {far:.1f} m behind what happens, where the wall of a still life would hide it",
+                "film.py",
+                "use another set, or look from another side: facing_deg=…",
+            )
+        reach.append(far)
     return max(reach)
 
 
