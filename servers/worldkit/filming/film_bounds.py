@@ -11,3 +11,5 @@ GOBOS = ("window", "blinds", "leaves", "branches", "bars")
 """Patterns that may be held before the key light."""
 GOBO_M = (0.01, 1000.0)
 """The least and the most that such a pattern measures, m."""
+NATURAL_SHUTTER = 0.5
+"""The share of a frame's time for which the shutter of a film camera is open: 180 degrees."""
