@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, lay_film, record
-from worldengine.film import chosen_frames, described, motion_facts, passes
+from worldengine.film import chosen_frames, described, motion_facts, passes, streaks
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening, axes
 from worldengine.film.dressed import DressedReplay, dress
@@ -468,6 +468,37 @@ def test_an_open_shutter_takes_one_picture_where_nothing_moves_and_more_where_mu
         pictures = [screening.picture(number) for number in (3, 15, 18)]
         assert len(drawn) == 2 and all(1 < n <= 6 for n in drawn), "one that is held is one picture"
         assert np.array_equal(pictures[1], screening.picture(15)), "the same frame, the same moments"
+
+
+def test_a_film_that_says_nothing_of_its_shutter_draws_each_frame_once_and_smears_what_moves(made, monkeypatch):
+    calls = []
+    camera = still((0.0, -1.2, 0.3), (0, 0, 0.3))
+
+    def tell(film):
+        film.hold(camera, 0.5, at=0.1)
+        film.shot(camera, until=0.4)
+
+    with made.screening(tell) as screening:
+        counted(monkeypatch, streaks, "streaked", calls)
+        monkeypatch.setattr(screening.frames, "blurred", lambda *_: pytest.fail("drawn more than once"))
+        held, moving = screening.picture(3), screening.picture(18)
+        assert len(calls) == 1, "what is held is sharp"
+        assert np.array_equal(moving, screening.picture(18)) and np.array_equal(held, screening.picture(3))
+        assert screening._replay.data.time == pytest.approx(screening.film.arrays["time"][3], abs=0.01)
+        screening.film = replace(screening.film, shutter=0.0)
+        sharp = screening.picture(18)
+        assert np.array_equal(held, screening.picture(3))
+    assert np.abs(moving.astype(int) - sharp).max() > 20
+
+
+def test_where_the_driver_cannot_tell_what_a_picture_shows_it_stays_sharp(made, monkeypatch):
+    def refuse(*_):
+        raise RuntimeError("no such format")
+
+    with made.screening(lambda film: film.shot(still((0.0, -1.2, 0.3), (0, 0, 0.3)), until=0.4)) as screening:
+        monkeypatch.setattr(screening, "surfaces", refuse)
+        first = screening.picture(8)
+        assert np.array_equal(first, screening.picture(8)) and "no such format" in screening._sharp
 
 
 def counted(monkeypatch, place, name, calls):

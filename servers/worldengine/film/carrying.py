@@ -169,7 +169,7 @@ def filled(image: np.ndarray, holes: np.ndarray, things: np.ndarray) -> np.ndarr
     left = holes.copy()
     for kind in kinds[np.argsort(-counts)][:MOST_FILLED]:
         mine = holes & (things == kind)
-        part = tuple(slice(*_span(mine.any(axis=axis), FILL_PX)) for axis in (1, 0))
+        part = tuple(slice(*span(mine.any(axis=axis), FILL_PX)) for axis in (1, 0))
         source = cv2.erode(
             ((things[part] == kind) & known[part]).astype(np.uint8), brush
         )  # its rim is mixed with others
@@ -229,7 +229,7 @@ def carry(now: Surfaces, then: Surfaces, smear: float = 0.0) -> Carried:
         seen &= wide == 0
     else:
         seen &= cv2.remap(wide, x, y, cv2.INTER_NEAREST, borderValue=0) == 0
-    rows, columns, things, depth = _rimmed(now, here, brush, rim)
+    rows, columns, things, depth = rimmed(now, here, brush, rim)
     clear &= seen
     if len(rows):
         to_x, to_y, good = _placed(now, then, (rows, columns, things, depth), wide)
@@ -237,7 +237,7 @@ def carry(now: Surfaces, then: Surfaces, smear: float = 0.0) -> Carried:
     return Carried(x, y, seen, clear, False)
 
 
-def _rimmed(
+def rimmed(
     now: Surfaces, here: np.ndarray, brush: np.ndarray, rim: int
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     """The pixels of things that move, and of the rim around them: rows, columns, things, depths."""
@@ -247,8 +247,8 @@ def _rimmed(
         none = np.zeros(0, int)
         return none, none, none, np.zeros(0, np.float32)
     mask = here.astype(np.uint8)
-    top, bottom = _span(mask.max(axis=1), rim + 1)
-    left, right = _span(mask.max(axis=0), rim + 1)
+    top, bottom = span(mask.max(axis=1), rim + 1)
+    left, right = span(mask.max(axis=0), rim + 1)
     inner = mask[top:bottom, left:right]
     _, labels = cv2.distanceTransformWithLabels(1 - inner, cv2.DIST_L2, 3, labelType=cv2.DIST_LABEL_PIXEL)
     ys, xs = np.nonzero(inner)
@@ -263,7 +263,8 @@ def _rimmed(
     return rows[behind], columns[behind], things[behind], depth[behind]
 
 
-def _span(taken: np.ndarray, more: int) -> tuple[int, int]:
+def span(taken: np.ndarray, more: int) -> tuple[int, int]:
+    """The first place that is taken (N,), and the one after the last, with `more` on both sides as far as there are any."""
     found = np.flatnonzero(taken)
     return max(int(found[0]) - more, 0), min(int(found[-1]) + more + 1, len(taken))
 

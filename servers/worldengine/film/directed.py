@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit import cameras, turning
 
 from ..recording.replay import Replay
-from . import smear
+from . import smear, streaks
 from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
@@ -95,6 +95,8 @@ class Screening:
         """Called whenever a moment is set up, since a picture may take minutes."""
         self.frames = Frames(self.model, *size, renderer)
         self._seen: Shaded | None = None
+        self._sharp = ""
+        """Why nothing is smeared, where the driver cannot draw what a picture shows."""
 
     @property
     def sways(self) -> bool:
@@ -108,8 +110,30 @@ class Screening:
     def wordless(self, frame: int, quality: "Quality" = "video") -> "np.ndarray":
         """One frame without its words: uint8 (height, width, 3)."""
         moments = self._moments(quality, frame)
+        smeared = self._reckons and self._travel_px(frame) >= streaks.LEAST_PX
         before = [Before(number, self._parts(number, moments)) for number in self.standing(frame, quality)]
-        return self.frames.over(before, self._parts(frame, moments), self._camera, quality)
+        picture = self.frames.over(before, self._parts(frame, moments), self._camera, quality)
+        return self._smeared(frame, picture) if smeared else picture
+
+    @property
+    def _reckons(self) -> bool:
+        """Whether a frame is drawn once, and smeared along the way of what moves while the shutter is open."""
+        return self.film.shutter > 0 and self.film.samples == 1 and not self._sharp
+
+    def _smeared(self, frame: int, picture: "np.ndarray") -> "np.ndarray":
+        """A picture of a frame as an open shutter sees it; as it is where the driver cannot draw what it shows."""
+        try:
+            after, begun = frame + self.film.shutter * (1 - 1e-6), self._row(float(frame))
+            gone = self._seconds(after) - self._seconds(float(frame))
+            row = min(max(self._row(after), begun + (gone > 0)), len(self._time) - 1)
+            lasts = float(self._time[row] - self._time[begun])
+            poses, view = self._looking().placed(self._moment(after, row, treated=False), self._camera)
+            now = self.surfaces(frame)  # and what was drawn last is this frame again
+            return streaks.streaked(picture, now, poses, view, gone / lasts if lasts > 0 else 1.0)
+        except Exception as error:  # drivers fail in ways of their own, and a sharp picture is better than none
+            self._sharp = f"{type(error).__name__}: {error}"[:300]
+            self._moment(frame)
+            return picture
 
     def lettered(self, frame: int, image: "np.ndarray") -> "np.ndarray":
         """A picture with the words of a frame, which none can leave out: uint8 (height, width, 3)."""
@@ -123,16 +147,23 @@ class Screening:
         Raises:
             RuntimeError: the graphics driver refuses; other exceptions of its own, too.
         """
-        data = self._moment(frame + self.film.shutter / 2)
+        data = self._moment(frame + self._middle)
         return self._looking().surfaces(data, self._camera, coarser)
 
     def placed(self, frame: int) -> "tuple[np.ndarray, View]":
         """Where each thing of `surfaces` is (N, 3, 4), and the view, without drawing anything."""
-        return self._looking().placed(self._moment(frame + self.film.shutter / 2), self._camera)
+        return self._looking().placed(self._moment(frame + self._middle), self._camera)
+
+    @property
+    def _middle(self) -> float:
+        """From a frame to the middle of the time that its shutter is open; one drawn once is drawn in the middle."""
+        return 0.0 if self.film.samples == 1 else self.film.shutter / 2
 
     def _looking(self) -> "Shaded":
         from .renderers.preview.shaded import Shaded
 
+        if (own := self.frames.looking) is not None:
+            return own
         if self._seen is None:
             self._seen = Shaded(self.model, self.frames.width, self.frames.height)
         return self._seen
@@ -151,7 +182,7 @@ class Screening:
         """How far anything goes in the picture while the shutter is open for a frame."""
         views, shown = [], []
         for at in (float(frame), frame + self.film.shutter * (1 - 1e-6)):
-            data = self._moment(at)
+            data = self._moment(at, treated=not self._reckons)
             views.append(of_camera(self.model, data, self._camera, self.frames.width, self.frames.height))
             shown.append(smear.drawn(self.model, data))
         return smear.travel_px(views, shown, self.frames.height)
@@ -182,27 +213,41 @@ class Screening:
         self._moment(frame)  # what stands out of focus depends on how it is treated
         return sum(still != frame for still in standing[: self.frames.beside(self._moments(quality, frame), quality)])
 
-    def _moment(self, at: float) -> "mujoco.MjData":
-        """Set up what is shown between two frames of one shot."""
+    def _between(self, at: float) -> tuple[dict[str, Any], int, int, float]:
+        """The shot of a place between two frames, these, and how far it is from the first to the second."""
+        shot = self.film.shots[self.film.shot(int(at))]
+        low = int(at)
+        return shot, low, min(low + 1, shot["first"] + shot["frames"] - 1), at - low
+
+    def _seconds(self, at: float) -> float:
+        """The recorded time that is shown between two frames of one shot, s."""
+        (shot, low, high, part), time = self._between(at), self.film.arrays["time"]
+        if shot["frames"] > 1 and high == low and part > 0:  # past the shot's last frame, it goes on as before
+            return min(float(time[low] + part * (time[low] - time[low - 1])), float(self._time[-1]))
+        return float((1 - part) * time[low] + part * time[high])
+
+    def _row(self, at: float) -> int:
+        """The recorded row that is shown between two frames of one shot."""
+        import numpy as np
+
+        return int(np.abs(self._time - self._seconds(at)).argmin())
+
+    def _moment(self, at: float, row: int = -1, treated: bool = True) -> "mujoco.MjData":
+        """Set up what is shown between two frames of one shot, by another recorded row than its own if one is given.
+
+        With `treated` False the drawing keeps the light of what was set up before: that is not going to be drawn.
+        """
         import numpy as np
 
         self.tick()
         film = self.film
-        shot = film.shots[film.shot(int(at))]
-        last = shot["first"] + shot["frames"] - 1
-        low = int(at)
-        high, part = min(low + 1, last), at - low
+        shot, low, high, part = self._between(at)
 
         def told(name: str) -> Any:
             values = film.arrays[name]
             return (1 - part) * values[low] + part * values[high]
 
-        if shot["frames"] > 1 and high == low and part > 0:  # past the shot's last frame, it goes on as before
-            step = film.arrays["time"][low] - film.arrays["time"][low - 1]
-            time = min(float(film.arrays["time"][low] + part * step), float(self._time[-1]))
-        else:
-            time = float(told("time"))
-        row = int(np.abs(self._time - time).argmin())
+        row = self._row(at) if row < 0 else row
         data = self._replay.show(row)
         for first, ways, sizes in self._copies:
             count = ways.shape[1]
@@ -217,9 +262,11 @@ class Screening:
         for surface in self._surfaces:
             surface.place(data)
         self._look(data, shot, row, told)
+        if not treated:
+            return data
         treatment = film.treatments.at(at / self.fps, float(told("focus_m")), float(told("aperture")))
         if film.breeze is not None and self.sways:  # else what stands would be drawn anew for nothing
-            self._blown = (*film.breeze, time)
+            self._blown = (*film.breeze, self._seconds(at))
             treatment = replace(treatment, breeze=self._blown)
         self.frames.treat(treatment)
         return data

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from types import TracebackType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
 from worldkit import lights
 
@@ -14,6 +14,8 @@ from .treatment import Treatment
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
+
+    from .renderers.preview.shaded import Shaded
 
 
 class Frames:
@@ -138,6 +140,11 @@ class Frames:
         """How many pictures `before` at most are drawn with one of so many moments, as the drawing is treated now."""
         beside = getattr(self._open, "beside", None)
         return 0 if beside is None else int(beside(moments, quality))
+
+    @property
+    def looking(self) -> "Shaded | None":
+        """The drawing itself, where it can tell what a picture shows, pixel by pixel."""
+        return cast("Shaded", self._drawing) if hasattr(self._drawing, "surfaces") else None
 
     def treat(self, treatment: Treatment) -> None:
         """Apply this light, haze, focus and grading from now on, as far as the renderer can."""

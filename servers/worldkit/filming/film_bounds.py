@@ -22,3 +22,5 @@ LIGHT: dict[str, tuple[float, float]] = {
     "grade_fade": (0, 1),
 }  # fmt: skip
 """The numbers that a film may give of its light, air and developing, each with its limits."""
+NATURAL_SHUTTER = 0.5
+"""The share of a frame's time for which the shutter of a film camera is open: 180 degrees."""

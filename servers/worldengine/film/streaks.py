@@ -1,0 +1,230 @@
+"""Motion blur of one picture: what moves is smeared along its way, by where each point that is seen goes while a shutter is open.
+
+A film camera's shutter is open for half of a frame's time. To draw many moments of that costs as many pictures. Here one is drawn,
+of the middle moment, and with it what each pixel shows and how far away; so it is known where each point comes from and goes to,
+by the poses of its thing and of the camera, spin included. What is behind a thing that moves shows through its smeared outline; what
+stands in front of it keeps its own. Shadows, mirror images and what is soft stay where they are, or go with the camera.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from . import carrying
+
+if TYPE_CHECKING:
+    from .carrying import Surfaces
+    from .renderers.preview.eye import View
+
+LEAST_PX = 1.0
+"""What goes less far while the shutter is open stays sharp."""
+APART_PX = 3.0
+"""So far apart lie the places that are added up."""
+FEWEST, MOST = 3, 14
+"""Places that are added up."""
+LONGEST = 0.09
+"""No streak is longer than this share of the picture's height: a longer one would be steps."""
+LIGHT = (np.arange(256, dtype=np.float32) / 255) ** 2.2
+STEPS = 4095
+SHADE = np.rint(255 * (np.arange(STEPS + 1) / STEPS) ** (2 / 2.2)).astype(np.uint8)
+"""The value of a pixel by the square root of its light."""
+
+
+def streaked(picture: np.ndarray, now: Surfaces, poses: np.ndarray, view: View, share: float = 1.0) -> np.ndarray:
+    """A picture, uint8 (H, W, 3), smeared along the way to another moment; half of the way lies before it.
+
+    Args:
+        picture: of the middle moment.
+        now: what it shows, pixel by pixel.
+        poses: of each thing at a moment soon after (N, 3, 4), as in `Surfaces`.
+        view: of the camera then.
+        share: how much of the way of things from the one to the other is smeared; the camera's is all of it.
+    """
+    height, width = now.depth.shape
+    mover = _movers(now, poses)
+    found, light = picture, None
+    turn, step = carrying.pinhole(now.view, view, np.eye(3), np.zeros(3), width, height)
+    if not (np.allclose(turn, np.eye(3) * turn[2, 2], atol=1e-9) and np.abs(step).max() < 1e-9):
+        ways = _of_camera(now, turn, step)
+        if max(-float(ways.min()), float(ways.max())) >= LEAST_PX:
+            light = _along_all(LIGHT[picture], ways, mover)
+            found = np.where(mover[..., None], picture, _shade(light))
+    if not mover.any():
+        return found
+    goers = _goers(now, poses, view, mover, share)
+    part = goers.around(height, width)
+    own = LIGHT[picture[part]]
+    around = own if light is None else light[part]
+    rows, columns, smeared = _over(own, around, now.near[part], mover[part], goers.moved(part))
+    found = found.copy()
+    found[part][rows, columns] = _shade(smeared)
+    return found
+
+
+class Goers(NamedTuple):
+    """Pixels that things which move come to while the shutter is open."""
+
+    rows: np.ndarray
+    columns: np.ndarray
+    ways: np.ndarray
+    """How far what is seen there goes in the picture, pixels: float32 (N, 2), to the right and down."""
+    depth: np.ndarray
+    """How far away it is, m (N,)."""
+
+    def around(self, height: int, width: int) -> tuple[slice, slice]:
+        """Rows and columns of the part of a picture that is read for them."""
+        wide = int(np.ceil(np.abs(self.ways).max() / 2)) + 8
+        return tuple(
+            slice(max(int(at.min()) - wide, 0), min(int(at.max()) + wide + 1, most))
+            for at, most in ((self.rows, height), (self.columns, width))
+        )  # type: ignore[return-value]
+
+    def moved(self, part: tuple[slice, slice]) -> Goers:
+        """The same in a part of the picture."""
+        return self._replace(rows=self.rows - part[0].start, columns=self.columns - part[1].start)
+
+
+def _shade(light: np.ndarray) -> np.ndarray:
+    return SHADE[(np.sqrt(np.clip(light, 0.0, 1.0)) * STEPS + 0.5).astype(np.int32)]
+
+
+def _movers(now: Surfaces, poses: np.ndarray) -> np.ndarray:
+    """Where things are seen that stand elsewhere at another moment: bool (H, W)."""
+    count = min(len(now.poses), len(poses))  # a string is wound up
+    moves = np.zeros(len(now.poses) + 1, bool)  # the last one stands for -1
+    moves[:count] = np.abs(now.poses[:count] - poses[:count]).reshape(count, -1).max(axis=1) > carrying.LEAST_M
+    return np.asarray(moves[now.things])
+
+
+def _of_camera(now: Surfaces, turn: np.ndarray, step: np.ndarray) -> np.ndarray:
+    """How far, pixels, what stands still goes in the picture as the camera moves: float32 (H, W, 2)."""
+    height, width = now.depth.shape
+    t, s = turn.astype(np.float32), step.astype(np.float32)
+    column, row = np.arange(width, dtype=np.float32)[None], np.arange(height, dtype=np.float32)[:, None]
+    h = [(t[k, 0] * column + t[k, 2]) + t[k, 1] * row + s[k] * now.near for k in range(3)]
+    ahead = h[2] > 1e-6
+    deep = np.where(ahead, h[2], np.float32(1.0))
+    found = np.stack([h[0] / deep - column, h[1] / deep - row], axis=-1)
+    return _shortened(found * ahead[..., None], LONGEST * height)
+
+
+def _shortened(ways: np.ndarray, longest: float) -> np.ndarray:
+    """Ways (..., 2), none longer than `longest`, pixels."""
+    long = np.hypot(ways[..., 0], ways[..., 1])
+    if float(long.max(initial=0.0)) > longest:
+        ways = ways * np.minimum(1.0, longest / np.maximum(long, 1e-9))[..., None]
+    return ways.astype(np.float32)
+
+
+def _taps(ways: np.ndarray) -> np.ndarray:
+    """Shares of a way, from before to after its middle, at which it is added up."""
+    far = float(np.hypot(ways[..., 0], ways[..., 1]).max(initial=0.0))
+    count = int(np.clip(np.ceil(far / APART_PX), FEWEST, MOST))
+    return ((np.arange(count) + 0.5) / count - 0.5).astype(np.float32)
+
+
+def _along_all(light: np.ndarray, ways: np.ndarray, mover: np.ndarray) -> np.ndarray:
+    """What stands still, smeared as the camera moves; of what moves by itself nothing is spread on it."""
+    import cv2
+
+    x, y = carrying.grid(mover.shape[1], mover.shape[0])
+    free = (~mover).astype(np.float32)
+    four = cv2.merge([*cv2.split(light * free[..., None]), free])
+    total = np.zeros_like(four)
+    x_way, y_way = np.ascontiguousarray(ways[..., 0]), np.ascontiguousarray(ways[..., 1])
+    for share in _taps(ways):
+        at = x - share * x_way, y - share * y_way
+        total += cv2.remap(four, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+    weight = total[..., 3:]
+    return np.where(weight > 1e-3, total[..., :3] / np.maximum(weight, 1e-3), light)
+
+
+def _goers(now: Surfaces, poses: np.ndarray, view: View, mover: np.ndarray, share: float) -> Goers:
+    longest = LONGEST * now.depth.shape[0]
+    far = np.abs(_ways(now, poses, view, *np.nonzero(mover), now.things[mover], now.depth[mover], share)).max()
+    rim = int(np.ceil(min(float(far), longest) / 2)) + 1
+    rows, columns, things, depth = carrying.rimmed(now, mover, np.ones((2 * rim + 1,) * 2, np.uint8), rim)
+    return Goers(
+        rows, columns, _shortened(_ways(now, poses, view, rows, columns, things, depth, share), longest), depth
+    )
+
+
+def _ways(
+    now: Surfaces,
+    poses: np.ndarray,
+    view: View,
+    rows: np.ndarray,
+    columns: np.ndarray,
+    things: np.ndarray,
+    depth: np.ndarray,
+    share: float,
+) -> np.ndarray:
+    """How far, pixels (N, 2), points of things at some pixels and depths go."""
+    height, width = now.depth.shape
+    kinds, which = np.unique(things, return_inverse=True)
+    before = now.poses[kinds]
+    after = before + share * (poses[kinds] - before)
+    turns, steps = carrying.pinhole(now.view, view, *carrying.motion(before, after), width, height)
+    point = np.stack([columns, rows, np.ones(len(rows))], axis=1)
+    h = np.einsum("nij,nj->ni", turns[which], point) + steps[which] / depth[:, None]
+    ahead = h[:, 2:] > 1e-9
+    return np.where(ahead, h[:, :2] / np.where(ahead, h[:, 2:], 1.0) - point[:, :2], 0.0)
+
+
+def _over(
+    own: np.ndarray, around: np.ndarray, near: np.ndarray, mover: np.ndarray, goers: Goers
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """What moves, smeared over what is around it: rows, columns, and light (N, 3).
+
+    Args:
+        own: light, that of what moves as it is.
+        around: light of what stands still.
+        near: 1 / distance of what is seen, 1/m.
+        mover: where something moves.
+        goers: the pixels that it comes to.
+    """
+    import cv2
+
+    mine = mover.astype(np.float32)
+    four = cv2.merge([*cv2.split(own * mine[..., None]), mine])
+    # What is behind a thing shows where it is for a part of the time: it looks as what is seen beside the thing.
+    behind = _without(around, mover, near <= near[mover].max() * (1 + carrying.EDGE))[goers.rows, goers.columns]
+    total, counted = np.zeros((len(goers.rows), 4), np.float32), np.zeros((len(goers.rows), 1), np.float32)
+    hides = (1.0 / np.maximum(goers.depth, 1e-9) * (1 + carrying.EDGE)).astype(np.float32)[:, None]
+    for share in _taps(goers.ways):
+        at = goers.columns - share * goers.ways[:, 0], goers.rows - share * goers.ways[:, 1]
+        part = _read(four, at, cv2.INTER_LINEAR)
+        front = (_read(near, at, cv2.INTER_NEAREST) > hides) & (part[:, 3:] < 0.5)  # something else is in front of it
+        total += np.where(front, np.float32(0.0), part)
+        counted += ~front
+    known = counted[:, 0] > 0
+    total, behind = total[known] / counted[known], behind[known]
+    return goers.rows[known], goers.columns[known], total[:, :3] + (1.0 - total[:, 3:]) * behind
+
+
+def _read(picture: np.ndarray, at: tuple[np.ndarray, np.ndarray], how: int) -> np.ndarray:
+    """What a picture shows at some places (N,): (N, channels)."""
+    import cv2
+
+    count, tall = len(at[0]), 1 << 12  # OpenCV takes no map that is longer than 2^15
+    x, y = (np.resize(part.astype(np.float32), (-(-count // tall), tall)) for part in at)
+    found = cv2.remap(picture, x, y, how, borderMode=cv2.BORDER_REPLICATE)
+    return np.asarray(found.reshape(x.size, -1)[:count])
+
+
+def _without(around: np.ndarray, mover: np.ndarray, far: np.ndarray) -> np.ndarray:
+    """What is around, with what moves taken out: its place shows the nearest beside it that is as `far`, blurred a little."""
+    import cv2
+
+    source = cv2.erode((~mover).astype(np.uint8), np.ones((3, 3), np.uint8)) > 0  # the rim is mixed with what moves
+    source &= far
+    if not source.any():
+        return around
+    _, labels = cv2.distanceTransformWithLabels(
+        (~source).astype(np.uint8), cv2.DIST_L2, 3, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    of_label = np.zeros((int(labels.max()) + 1, 3), np.float32)
+    of_label[labels[source]] = around[source]
+    return np.where((source | ~mover)[..., None], around, cv2.blur(of_label[labels], (7, 7)))

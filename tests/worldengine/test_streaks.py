@@ -1,0 +1,100 @@
+"""One picture smeared along the way of what moves, as a film camera's open shutter would see it."""
+
+import numpy as np
+import pytest
+
+from worldengine.film import streaks
+from worldengine.film.carrying import Surfaces
+from worldengine.film.renderers.preview.eye import View
+
+FRONT = np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]])  # right is x, up is z, it looks along y
+SIZE = (120, 160)
+SQUARE = (slice(40, 80), slice(60, 100))
+POST = (slice(30, 60), slice(92, 96))
+MOVER, WALL, FRONT_POST = 0, 1, 2
+
+
+def view(x=0.0):
+    return View(np.array([x, -2.0, 0.0]), FRONT, (0.8, 0.6))
+
+
+def at(*places):
+    found = np.zeros((len(places), 3, 4))
+    found[:, :, :3], found[:, :, 3] = np.eye(3), places
+    return found
+
+
+REST = at((0.0, 0, 0), (0, 2, 0), (0, -1, 0))
+
+
+def scene(post=False):
+    """A red square two metres away before a grey wall; maybe with a post of a metre's distance before it."""
+    picture, things, depth = np.full((*SIZE, 3), 90, np.uint8), np.full(SIZE, WALL, np.int32), np.full(SIZE, 4.0)
+    picture[SQUARE], things[SQUARE], depth[SQUARE] = (220, 30, 30), MOVER, 2.0
+    if post:
+        picture[POST], things[POST], depth[POST] = (20, 20, 220), FRONT_POST, 1.0
+    return picture, Surfaces(things, depth.astype(np.float32), REST, view())
+
+
+def gone(metres):
+    poses = REST.copy()
+    poses[MOVER, 0, 3] += metres
+    return poses
+
+
+def test_what_stands_still_stays_as_it_is():
+    picture, shown = scene()
+    assert streaks.streaked(picture, shown, REST.copy(), view()) is picture
+
+
+def test_a_thing_is_smeared_over_its_way_to_both_sides_and_nothing_else_changes():
+    picture, shown = scene()
+    way_px = 10.0
+    moved = gone(way_px / 80 * 0.8 * 2)  # half of the width is 0.8 m at one metre, the square is at two
+    smeared = streaks.streaked(picture, shown, moved, view())
+    assert np.array_equal(smeared, streaks.streaked(picture, shown, moved, view())), "the same again"
+    red = smeared[60, :, 0].astype(float)
+    assert (np.diff(red[50:66]) > -1).all() and (np.diff(red[94:110]) < 1).all(), "it comes and goes evenly"
+    touched = np.flatnonzero((smeared != picture).any(axis=(0, 2)))
+    assert touched.min() == pytest.approx(60 - way_px / 2, abs=1.5) and touched.max() == pytest.approx(
+        99 + way_px / 2, abs=1.5
+    )
+    assert np.array_equal(smeared[:38], picture[:38]) and np.array_equal(smeared[60, 70:90], picture[60, 70:90])
+    light = [(image[60].astype(float) / 255) ** 2.2 for image in (picture, smeared)]
+    assert light[1].sum() == pytest.approx(light[0].sum(), rel=0.01), "no light is lost"
+    half = streaks.streaked(picture, shown, moved, view(), share=0.5)
+    assert np.flatnonzero((half != picture).any(axis=(0, 2))).min() == pytest.approx(60 - way_px / 4, abs=1.5)
+
+
+def test_what_stands_before_it_keeps_its_outline_and_leaves_no_colour_on_it():
+    picture, shown = scene(post=True)
+    smeared = streaks.streaked(picture, shown, gone(0.2), view())
+    assert np.array_equal(smeared[POST], picture[POST])
+    beside = smeared[45, [*range(85, 92), *range(96, 105)]].astype(float)
+    assert (beside[:, 2] < 120).all(), "no blue on the red nor on the wall"
+
+
+def test_what_spins_is_smeared_where_it_is_fast():
+    picture, shown = scene()
+    picture[SQUARE][::4] = (250, 250, 250)
+    turned = REST.copy()
+    c, s = np.cos(0.3), np.sin(0.3)
+    turned[MOVER, :, :3] = [[c, 0, s], [0, 1, 0], [-s, 0, c]]
+    changed = np.abs(streaks.streaked(picture, shown, turned, view()).astype(int) - picture).max(axis=2)
+    assert changed[58:62, 78:82].max() < 60 < changed[42:76:2, 62:66].max()
+
+
+def test_a_camera_that_goes_along_keeps_its_subject_sharp_and_smears_what_is_behind():
+    picture, shown = scene()
+    picture[:, ::8][shown.things[:, ::8] == WALL] = 220
+    smeared = streaks.streaked(picture, shown, gone(0.25), view(0.25))
+    assert np.array_equal(smeared[45:75, 66:94], picture[45:75, 66:94])
+    behind = smeared[10, 20:140, 0].astype(float)
+    assert np.ptp(behind) < 0.5 * np.ptp(picture[10, 20:140, 0].astype(float))
+
+
+def test_no_streak_is_longer_than_its_share_of_the_picture():
+    picture, shown = scene()
+    smeared = streaks.streaked(picture, shown, gone(3.0), view())
+    touched = np.flatnonzero((smeared != picture).any(axis=(0, 2)))
+    assert 60 - touched.min() <= streaks.LONGEST * SIZE[0] / 2 + 2
