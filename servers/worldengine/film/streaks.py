@@ -143,7 +143,8 @@ def _along_all(light: np.ndarray, ways: np.ndarray, mover: np.ndarray) -> np.nda
 
 def _goers(now: Surfaces, poses: np.ndarray, view: View, mover: np.ndarray, share: float) -> Goers:
     longest = LONGEST * now.depth.shape[0]
-    far = np.abs(_ways(now, poses, view, *np.nonzero(mover), now.things[mover], now.depth[mover], share)).max()
+    rows, columns = np.nonzero(mover)
+    far = np.abs(_ways(now, poses, view, rows, columns, now.things[mover], now.depth[mover], share)).max()
     rim = int(np.ceil(min(float(far), longest) / 2)) + 1
     rows, columns, things, depth = carrying.rimmed(now, mover, np.ones((2 * rim + 1,) * 2, np.uint8), rim)
     return Goers(

@@ -142,12 +142,12 @@ def view(recorded: Recorded, away: float = 0.0) -> tuple[float, float]:
     best, found = np.inf, (USUAL_AZIMUTH, USUAL_ELEVATION)
     for azimuth in np.arange(-177.0, 183.0, 15.0):
         a = np.radians(azimuth)
-        away = np.array([np.cos(a), np.sin(a)])
-        side = 0.0 if along is None else 0.5 * max(abs(float(away @ along)) - 0.42, 0.0)
+        level_way = np.array([np.cos(a), np.sin(a)])
+        side = 0.0 if along is None else 0.5 * max(abs(float(level_way @ along)) - 0.42, 0.0)
         usual = 0.25 * (1.0 - np.cos(a - np.radians(USUAL_AZIMUTH)))
         for elevation in (USUAL_ELEVATION, 28.0, 46.0):
             e = np.radians(elevation)
-            eye = points + far * np.array([np.cos(e) * away[0], np.cos(e) * away[1], np.sin(e)])
+            eye = points + far * np.array([np.cos(e) * level_way[0], np.cos(e) * level_way[1], np.sin(e)])
             cost = side + usual + 0.004 * (elevation - USUAL_ELEVATION) + 3.0 * _hidden(recorded, points, eye, still)
             if cost < best - 1e-9:
                 best, found = cost, (float(azimuth), float(elevation))
