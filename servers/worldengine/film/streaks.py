@@ -136,7 +136,7 @@ def _along_all(light: np.ndarray, ways: np.ndarray, mover: np.ndarray) -> np.nda
     x_way, y_way = np.ascontiguousarray(ways[..., 0]), np.ascontiguousarray(ways[..., 1])
     for share in _taps(ways):
         at = x - share * x_way, y - share * y_way
-        total += cv2.remap(four, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
+        total = total + cv2.remap(four, *at, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
     weight = total[..., 3:]
     return np.where(weight > 1e-3, total[..., :3] / np.maximum(weight, 1e-3), light)
 
