@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from worldkit.filming import Film, Recorded, free_edge, still
+from worldkit.filming import Film, Recorded, free_edge, planned, still
 
 
 def seen(*heights: float) -> str:
@@ -37,3 +37,17 @@ def test_a_caption_without_a_place_finds_its_own_and_one_with_a_place_keeps_it()
     film.shot(still((0, -4, 0.1), (0.2, 0, 0.1)), until=2.0)
     assert told(film)[:2] == ["top", "bottom"] and told(film)[3] == "bottom"
     assert told(film)[2] == "bottom", "held in the middle"
+
+
+@pytest.mark.parametrize(("own", "place"), [(False, "bottom"), (True, "top")])
+def test_where_a_camera_of_the_plan_stands_is_not_guessed(own, place):
+    """From the origin along +x, where no camera stands, the ball would be at the bottom; a shot of the film's own sees it there."""
+    t = np.linspace(0.0, 1.0, 30)[:, None]
+    recorded = Recorded.rehearsal({"ball": np.hstack([2 + 0 * t, 0.01 * t, -0.55 + 0 * t])}, duration=2.0, radius=0.05)
+    recorded.cameras = ("side",)
+    film = Film(recorded)
+    film.caption("Here it goes", seconds=2.0)
+    film.shot(planned("side"), until=1.0)
+    if own:
+        film.shot(still((0.0, 0.0, 0.0), (1.0, 0.0, 0.0)), until=2.0)
+    assert told(film) == [place]

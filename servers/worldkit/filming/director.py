@@ -184,11 +184,13 @@ class Film(Labelled, Limbs):
         """The captions, each with its place."""
         names = self.recorded.movers
         radii, (wide, high) = np.array([self.recorded.radius(name) for name in names]), self.recorded.size
+        own = np.concatenate([np.full(len(shot["times"]), not shot["camera"].planned) for shot in self._shots])
         found = []
         for one in self._captions:
             self.line = one["line"]
             first, last = (round(one[name] * self.recorded.fps) for name in ("start_s", "end_s"))
-            some, place = slice(first, max(last, first + 1)), one["place"]
+            some, place = np.arange(len(own))[first : max(last, first + 1)], one["place"]
+            some = some[own[some]]  # where a camera of the plan stands is not known here
             shown = arrays["time"][some]
             if not place and names and len(shown):
                 places = np.stack([self.recorded.position(name, shown) for name in names], axis=1)
