@@ -13,12 +13,13 @@ import pytest
 from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import chosen_frames, described, motion_facts, passes
 from worldengine.film.described import FilmError
-from worldengine.film.directed import Screening, axes
+from worldengine.film.directed import Screening
 from worldengine.film.dressed import DressedReplay, dress
 from worldengine.film.lettering import letter, pace
 from worldengine.film.treatment import Treatments
 from worldkit import portable, sculpt, turning
 from worldkit.filming import Film, Recorded, Surface, follow, planned, still, wide
+from worldkit.filming.viewpoints import axes
 
 SIZE = (96, 54)
 CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)

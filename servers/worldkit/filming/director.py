@@ -14,7 +14,7 @@ from .lettered_plates import Labelled
 from .limbs import Limbs
 from .plain_refusals import refusing
 from .recorded import Recorded
-from .viewpoints import Viewpoint
+from .viewpoints import Viewpoint, axes
 
 SLOWEST, FASTEST = 1 / 200, 50.0
 Speed = float | tuple[float, float]
@@ -194,8 +194,8 @@ class Film(Labelled, Limbs):
             shown = arrays["time"][some]
             if not place and names and len(shown):
                 places = np.stack([self.recorded.position(name, shown) for name in names], axis=1)
-                eye, target, lens = arrays["eye"][some], arrays["target"][some], arrays["fovy_deg"][some]
-                place = free_edge.chosen(eye, target, lens, places, radii, wide / high)
+                eye, target, roll, lens = (arrays[name][some] for name in ("eye", "target", "roll_deg", "fovy_deg"))
+                place = free_edge.chosen(eye, axes(eye, target, roll), lens, places, radii, wide / high)
             found.append({name: one[name] for name in ("text", "start_s", "end_s")} | {"place": place or "bottom"})
         self.line = 1
         return found
