@@ -1,5 +1,7 @@
 """Pictures are carried over to other moments by where every point that is seen stands then."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,12 @@ def test_what_both_hide_is_told_and_filled_in_from_beside_it():
     known = there.things != BALL
     assert (apart(image, wanted)[known & (now.things == WALL)] > 40).mean() < 0.02
     assert not (image == 0).all(axis=-1).any(), "no hole stays"
+
+
+def test_where_there_is_no_thing_none_is_missed():
+    still, _ = seen((0.0, 0.0))
+    bare = replace(still, things=np.full_like(still.things, -1), poses=np.zeros((0, 3, 4)))
+    assert not carrying.gone(bare, [bare], np.ones(bare.depth.shape, bool))
 
 
 def test_what_one_picture_hides_comes_from_the_other():

@@ -146,12 +146,13 @@ def exposures(parts: list[float], pictures: list[np.ndarray]) -> list[float]:
 
 def gone(now: Surfaces, sides: "list[Surfaces]", hidden: np.ndarray) -> bool:
     """Whether a thing would be missed that others do not show: most of it is `hidden`, and it would not be filled in by itself."""
-    for thing in np.unique(now.things[hidden]):
+    kinds = np.unique(now.things[hidden])
+    for thing in kinds[kinds >= 0]:
         mine = now.things == thing
         moves = any(
             thing >= len(side.poses) or np.abs(now.poses[thing] - side.poses[thing]).max() > LEAST_M for side in sides
         )
-        if thing < 0 or mine.mean() < (LEAST_GONE if moves else LEAST_STILL) or hidden[mine].mean() <= 0.5:
+        if mine.mean() < (LEAST_GONE if moves else LEAST_STILL) or hidden[mine].mean() <= 0.5:
             continue
         if not any((side.things == thing).any() for side in sides):
             return True
