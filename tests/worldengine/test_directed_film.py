@@ -287,6 +287,7 @@ REFUSED = {
     "does not follow": lambda f, a: f["shots"][0].update(first=3),
     "names no camera": lambda f, a: f["shots"][0].update(planned="top"),
     "is damaged": setting("things", 7),
+    "is damaged: OverflowError": setting("samples", float("inf")),
     "no size": lambda f, a: f["things"][0].update(size=[0, 1, 1]),
     "no shape": lambda f, a: f["things"][0].update(shape="plane"),
     "a shutter": setting("samples", 1000),
