@@ -1,5 +1,7 @@
 """Pictures are carried over to other moments by where every point that is seen stands then."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -70,6 +72,12 @@ def test_what_both_hide_is_told_and_filled_in_from_beside_it():
     assert not (image == 0).all(axis=-1).any(), "no hole stays"
 
 
+def test_where_there_is_no_thing_none_is_missed():
+    still, _ = seen((0.0, 0.0))
+    bare = replace(still, things=np.full_like(still.things, -1), poses=np.zeros((0, 3, 4)))
+    assert not carrying.gone(bare, [bare], np.ones(bare.depth.shape, bool))
+
+
 def test_what_one_picture_hides_comes_from_the_other():
     (now, wanted), (before, first), (after, last) = seen((0.0, 0.0)), seen((-1.2, 0.0)), seen((1.2, 0.0))
     image, missing = carrying.between(now, [(before, first), (after, last)], 0.5)
@@ -99,6 +107,21 @@ def test_while_a_film_fades_what_only_one_picture_shows_is_as_bright_as_the_rest
         if dark:
             for hiding in (before, after):
                 assert off[(hiding.things == BALL) & (now.things == WALL)].mean() < 8
+
+
+@pytest.mark.parametrize("gone", [0.8, 2.4])
+def test_a_camera_that_pans_onto_something_bright_is_no_fade(gone):
+    """Along a wall, one end of it dark and the other bright; at the sides each only one picture shows what is seen."""
+    moments = []
+    for x in (-gone, 0.0, gone):
+        surfaces, picture = seen((90.0, 0.0), eye=(x, 0.0))
+        across = x + ((np.arange(WIDTH) + 0.5) / WIDTH * 2 - 1) * TANGENTS[0] * AWAY
+        picture[:] = np.where(across < 3.0, 40, 220)[None, :, None]
+        moments.append((surfaces, picture))
+    (before, first), (now, wanted), (after, last) = moments
+    assert last.mean() > 1.1 * first.mean()
+    image, missing = carrying.between(now, [(before, first), (after, last)], 0.5)
+    assert missing == 0.0 and (apart(image, wanted) > 2).mean() < 0.05, "but for the edge between them"
 
 
 def test_a_place_in_one_picture_is_found_in_the_other_and_back():

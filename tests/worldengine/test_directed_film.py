@@ -13,12 +13,13 @@ import pytest
 from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import chosen_frames, described, motion_facts, passes, streaks
 from worldengine.film.described import FilmError
-from worldengine.film.directed import Screening, axes
+from worldengine.film.directed import Screening
 from worldengine.film.dressed import DressedReplay, dress
 from worldengine.film.lettering import letter, pace
 from worldengine.film.treatment import Treatments
 from worldkit import portable, sculpt, turning
 from worldkit.filming import Film, Recorded, Surface, follow, planned, still, wide
+from worldkit.filming.viewpoints import axes
 
 SIZE = (96, 54)
 CUBE = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
@@ -286,6 +287,7 @@ REFUSED = {
     "does not follow": lambda f, a: f["shots"][0].update(first=3),
     "names no camera": lambda f, a: f["shots"][0].update(planned="top"),
     "is damaged": setting("things", 7),
+    "is damaged: OverflowError": setting("samples", float("inf")),
     "no size": lambda f, a: f["things"][0].update(size=[0, 1, 1]),
     "no shape": lambda f, a: f["things"][0].update(shape="plane"),
     "a shutter": setting("samples", 1000),

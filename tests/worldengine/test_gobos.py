@@ -58,7 +58,28 @@ def test_it_finds_its_place_and_size_by_the_action():
 
 
 @pytest.mark.parametrize(
-    "words", [{"kind": "moon"}, {"size": 0.0}, {"size": np.nan}, {"at": (0.0, 1.0)}, {"turn_deg": np.inf}, {"seed": -1}]
+    "words",
+    [
+        {"kind": "moon"},
+        {"size": 0.0},
+        {"size": np.nan},
+        {"size": "x"},
+        {"at": (0.0, 1.0)},
+        {"at": 3.0},
+        {"at": (0.0, 0.0, 1e6)},
+        {"turn_deg": np.inf},
+        {"turn_deg": None},
+        {"turn_deg": 2**70},
+        {"turn_deg": 1e300},
+        {"seed": -1},
+        {"seed": np.inf},
+        {"seed": np.nan},
+        {"seed": None},
+        {"seed": "x"},
+        {"seed": 1.9},
+        {"seed": 1 << 32},
+    ],
+    ids=str,
 )
 def test_what_no_slide_can_be_is_refused(words):
     with pytest.raises(ProgramError):

@@ -223,6 +223,7 @@ REFUSED = {
     "there is no shape": lambda f: f.draw("a", "cone", 1.0),
     "belongs to no body": lambda f: f.mesh("a", np.eye(4)[:, :3], [[0, 1, 2]], instead=True),
     "a caption has words": lambda f: f.caption(" "),
+    "fill lies between 0 and 10, got -1": lambda f: f.light(fill=-1),
     "from -1 s on": lambda f: f.caption("a", start=-1.0),
     "from nan s on": lambda f: f.caption("a", start=NAN),
     "for inf s": lambda f: f.caption("a", seconds=INF),

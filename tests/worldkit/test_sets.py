@@ -59,6 +59,14 @@ def test_it_turns_with_the_camera():
     assert path[0] != path[1] and path[1][1] < 0  # behind, for a camera that looks from +y
 
 
+def test_a_set_is_turned_by_more_than_once_around_as_by_the_rest():
+    facts = [described("park", 1.0, facing_deg=facing)[0] for facing in (20.0, -700.0, 20.0 + 360 * 1000)]
+    assert facts[0] == facts[1] == facts[2]
+    assert sets.Place.of(recorded(1.0), -57.0, 1).facing_deg == -57.0
+    with pytest.raises(ProgramError):
+        described("park", 1.0, facing_deg=np.inf)
+
+
 def test_an_unknown_set_lists_those_that_there_are():
     with pytest.raises(ProgramError, match="no set 'moon'") as refused:
         Film(recorded(1.0)).set("moon")

@@ -31,6 +31,8 @@ MIXED = 1e-3
 """What is mixed with something nearer weighs so little: it is better than nothing, as among leaves."""
 FADED, MOST_GAIN = 1.1, 3.0
 """A film fades where one picture is so many times as bright as the other; one that is too dark by the latter tells nothing."""
+LEAST_SHARED = 0.01
+"""Whether it fades is told by so much of the picture at least."""
 FEATHER_PX = 5
 """Over so many pixels the one picture gives way to the other where only that one shows what is seen."""
 LEAST_GONE, LEAST_STILL = 4e-5, 1e-3
@@ -115,12 +117,14 @@ def between(
         return np.rint(mixed).astype(np.uint8), 0.0
     total = np.zeros((*now.depth.shape, 3), np.float32)
     weights = np.zeros(now.depth.shape, np.float32)
-    for part, gain, (one, picture) in zip(parts, exposures(parts, [p for _, p in found]), found, strict=True):
+    carried = [
+        picture if one.still else cv2.remap(picture, one.x, one.y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+        for one, picture in found
+    ]
+    gains = exposures(parts, carried, np.logical_and.reduce([one.clear for one, _ in found]))
+    for part, gain, (one, _), moved in zip(parts, gains, found, carried, strict=True):
         if gain > MOST_GAIN:
             continue
-        moved = (
-            picture if one.still else cv2.remap(picture, one.x, one.y, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-        )
         if gain != 1.0:
             moved = np.float32(gain) * moved
         weight = np.where(one.clear, np.float32(1.0), np.float32(MIXED) * one.seen)
@@ -136,9 +140,16 @@ def between(
     return (filled(image, unseen, now.things) if missing else image), missing
 
 
-def exposures(parts: list[float], pictures: list[np.ndarray]) -> list[float]:
-    """By how much each picture has to be brighter so that what only one shows looks as lit as what is taken from all of them."""
-    lit = [max(float(picture[::4, ::4].mean()), 1e-3) for picture in pictures]
+def exposures(parts: list[float], pictures: list[np.ndarray], shared: np.ndarray) -> list[float]:
+    """By how much each picture has to be brighter so that what only one shows looks as lit as what is taken from all of them.
+
+    That is told by what all of them show (`shared`, bool (H, W)), carried to one place: else a camera that pans onto something
+    bright would be taken for a film that fades. Where they share next to nothing none is changed.
+    """
+    some = shared[::4, ::4]
+    if some.mean() < LEAST_SHARED:
+        return [1.0] * len(pictures)
+    lit = [max(float(picture[::4, ::4][some].mean()), 1e-3) for picture in pictures]
     wanted = sum(part * one for part, one in zip(parts, lit, strict=True))
     gains = [wanted / one for one in lit]
     return gains if max(gains) > FADED * min(gains) else [1.0] * len(gains)
@@ -146,12 +157,13 @@ def exposures(parts: list[float], pictures: list[np.ndarray]) -> list[float]:
 
 def gone(now: Surfaces, sides: "list[Surfaces]", hidden: np.ndarray) -> bool:
     """Whether a thing would be missed that others do not show: most of it is `hidden`, and it would not be filled in by itself."""
-    for thing in np.unique(now.things[hidden]):
+    kinds = np.unique(now.things[hidden])
+    for thing in kinds[kinds >= 0]:
         mine = now.things == thing
         moves = any(
             thing >= len(side.poses) or np.abs(now.poses[thing] - side.poses[thing]).max() > LEAST_M for side in sides
         )
-        if thing < 0 or mine.mean() < (LEAST_GONE if moves else LEAST_STILL) or hidden[mine].mean() <= 0.5:
+        if mine.mean() < (LEAST_GONE if moves else LEAST_STILL) or hidden[mine].mean() <= 0.5:
             continue
         if not any((side.things == thing).any() for side in sides):
             return True

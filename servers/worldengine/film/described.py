@@ -142,7 +142,7 @@ def read(folder: Path, recording: "Recording", stated: dict[str, Any] | None = N
         with np.load(folder / ARRAYS, allow_pickle=False) as found:
             arrays = {name: np.asarray(found[name]) for name in found.files}
         return _checked(told, arrays, recording, stated)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError, IndexError, RecursionError) as cause:
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError) as cause:
         raise _refuse(f"the film's description is damaged: {type(cause).__name__}: {cause}") from cause
 
 

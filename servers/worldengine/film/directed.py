@@ -5,6 +5,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from worldkit import cameras, turning
+from worldkit.filming.viewpoints import axes
 
 from ..recording.replay import Replay
 from . import smear, streaks
@@ -352,16 +353,3 @@ class Screening:
 def _called(geom: str) -> str:
     """The name of a drawn thing by that of its geom, which its copies number."""
     return geom.removeprefix("drawn.").split("/")[0]
-
-
-def axes(eye: "np.ndarray", target: "np.ndarray", roll_deg: float) -> "np.ndarray":
-    """(3, 3) columns right, up and back of a camera at `eye` that looks at `target`, upright but for its roll."""
-    import numpy as np
-
-    back = np.asarray(eye, dtype=float) - np.asarray(target, dtype=float)
-    back /= max(float(np.linalg.norm(back)), 1e-12)
-    right = np.cross([0.0, 0.0, 1.0] if abs(back[2]) < 0.9999 else [0.0, 1.0, 0.0], back)
-    right /= np.linalg.norm(right)
-    up = np.cross(back, right)
-    c, s = np.cos(np.radians(roll_deg)), np.sin(np.radians(roll_deg))
-    return np.stack([c * right + s * up, c * up - s * right, back], axis=1)

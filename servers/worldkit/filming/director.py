@@ -14,7 +14,7 @@ from .lettered_plates import Labelled
 from .limbs import Limbs
 from .plain_refusals import refusing
 from .recorded import Recorded
-from .viewpoints import Viewpoint
+from .viewpoints import Viewpoint, axes
 
 SLOWEST, FASTEST = 1 / 200, 50.0
 Speed = float | tuple[float, float]
@@ -186,16 +186,18 @@ class Film(Labelled, Limbs):
         """The captions, each with its place."""
         names = self.recorded.movers
         radii, (wide, high) = np.array([self.recorded.radius(name) for name in names]), self.recorded.size
+        own = np.concatenate([np.full(len(shot["times"]), not shot["camera"].planned) for shot in self._shots])
         found = []
         for one in self._captions:
             self.line = one["line"]
             first, last = (round(one[name] * self.recorded.fps) for name in ("start_s", "end_s"))
-            some, place = slice(first, max(last, first + 1)), one["place"]
+            some, place = np.arange(len(own))[first : max(last, first + 1)], one["place"]
+            some = some[own[some]]  # where a camera of the plan stands is not known here
             shown = arrays["time"][some]
             if not place and names and len(shown):
                 places = np.stack([self.recorded.position(name, shown) for name in names], axis=1)
-                eye, target, lens = arrays["eye"][some], arrays["target"][some], arrays["fovy_deg"][some]
-                place = free_edge.chosen(eye, target, lens, places, radii, wide / high)
+                eye, target, roll, lens = (arrays[name][some] for name in ("eye", "target", "roll_deg", "fovy_deg"))
+                place = free_edge.chosen(eye, axes(eye, target, roll), lens, places, radii, wide / high)
             found.append({name: one[name] for name in ("text", "start_s", "end_s")} | {"place": place or "bottom"})
         self.line = 1
         return found

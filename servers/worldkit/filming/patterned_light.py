@@ -6,7 +6,8 @@ import numpy as np
 
 from ..errors import ProgramError
 from .drawn_only import Vec3
-from .film_bounds import GOBO_M, GOBOS
+from .film_bounds import FAR_M, GOBO_M, GOBOS
+from .plain_refusals import whole
 from .recorded import Recorded
 from .weather import Weather
 
@@ -47,17 +48,19 @@ class PatternedLight(Weather):
         middle = tuple((0.5 * (low + high)).tolist()) if at is None else tuple(map(float, at))
         fills = _OF_ACTION.get(kind, 1.0) * max(float(np.hypot(*(high - low)[:2])), float(high[2] - low[2]))
         wide = float(np.clip(fills, *GOBO_M)) if size is None else float(size)
-        if not (GOBO_M[0] <= wide <= GOBO_M[1] and len(middle) == 3 and np.isfinite([turn_deg, *middle]).all()):
+        turn, number = float(turn_deg), whole(seed)
+        if not (GOBO_M[0] <= wide <= GOBO_M[1] and len(middle) == 3 and (np.abs([turn, *middle]) <= FAR_M).all()):
             raise ProgramError(
-                f"a gobo has a size of {GOBO_M[0]:g} to {GOBO_M[1]:g} m and a point (x, y, z) that its light falls on",
+                f"a gobo has a size of {GOBO_M[0]:g} to {GOBO_M[1]:g} m, a point (x, y, z) that its light falls on, and a turn, "
+                f"not {wide:g} m, {middle} and {turn:g} degrees",
                 "film.py",
                 "film.gobo('window', size=0.6)",
             )
-        if not 0 <= int(seed) < 1 << 32:
-            raise ProgramError("the seed of a gobo is a whole number from 0", "film.py", "seed=1")
+        if number >= 1 << 32:
+            raise ProgramError(f"the seed of a gobo lies below {1 << 32}, got {number}", "film.py", "seed=1")
         self.light(softness_deg=softness_deg)
         self._gobo = {
-            "kind": kind, "size_m": wide, "at": list(middle), "turn_deg": float(turn_deg), "seed": int(seed)
+            "kind": kind, "size_m": wide, "at": list(middle), "turn_deg": turn, "seed": number
         }  # fmt: skip
 
     def _action(self) -> tuple[np.ndarray, np.ndarray]:

@@ -297,3 +297,14 @@ def wide(
 def planned(camera: str) -> Viewpoint:
     """The camera of this name in the plan, as the still and video pass place it."""
     return Viewpoint(None, None, planned=camera)
+
+
+def axes(eye: np.ndarray, target: np.ndarray, roll_deg: float | np.ndarray) -> np.ndarray:
+    """(..., 3, 3) columns right, up and back of cameras at `eye` (..., 3) that look at `target`, upright but for their roll (...)."""
+    back = np.asarray(eye, dtype=float) - np.asarray(target, dtype=float)
+    back /= np.maximum(np.linalg.norm(back, axis=-1, keepdims=True), 1e-12)
+    right = np.cross(np.where(np.abs(back[..., 2:]) < 0.9999, [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]), back)
+    right /= np.linalg.norm(right, axis=-1, keepdims=True)
+    up, roll = np.cross(back, right), np.radians(np.asarray(roll_deg, dtype=float))[..., None]
+    c, s = np.cos(roll), np.sin(roll)
+    return np.stack([c * right + s * up, c * up - s * right, back], axis=-1)

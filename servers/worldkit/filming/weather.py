@@ -36,11 +36,14 @@ class Weather:
     ) -> None:
         """The key light: where it comes from, its colour, its strength (1: bright sun) and how wide it is (sun 0.5).
 
-        `fill` is how much the surroundings and other lights of the setting give: 1 as they are, less for darker shadows.
+        `fill` is how much the surroundings and other lights of the setting give, less for darker shadows: the same number as the
+        `strength` of `sky`, which a set or a mood may have told already, and 1 before anything does.
 
         With `at`, a film time, every such call is a moment that the film goes through; in between it changes evenly. What is
         left out stays as the setting has it.
         """
+        if fill is not None and not 0 <= fill <= LIGHT["sky_strength"][1]:
+            raise ProgramError(f"fill lies between 0 and 10, got {fill}", "film.py", "fill=1 leaves it to the light")
         self._told(
             at, light_azimuth_deg=azimuth_deg, light_elevation_deg=elevation_deg,
             light_rgb=None if colour is None else rgb(colour), light_strength=strength, light_softness_deg=softness_deg, sky_strength=fill,

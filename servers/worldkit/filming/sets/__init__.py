@@ -6,6 +6,7 @@ camera looks, and gives light, sky and air; what the film says afterwards change
 """
 
 from dataclasses import dataclass, replace
+from math import remainder
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -81,7 +82,7 @@ class Place:
             radius=radius,
             top=float(high[2] + own),
             floor=recorded.floor_z,
-            facing_deg=float(facing_deg),
+            facing_deg=remainder(float(facing_deg), 360.0),
             ways=np.concatenate(rows) if rows else np.zeros((0, 3)),
             random=np.random.default_rng(whole(seed)),
             standing=max([radius, *_furniture(recorded, middle)]),
