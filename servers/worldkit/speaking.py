@@ -52,7 +52,8 @@ class Speaker:
     Args:
         model, data: the author's own; the model must be the engine's, bit for bit.
         control: the program's, with two arguments.
-        ports: declared entries by array (flat indices), and under `parameters` those of the model's arrays.
+        ports: declared entries by array (flat indices), and under `parameters` those of the model's arrays; where its `media` are
+            `alone`, `control` is not asked.
         message: address of the answer.
         laws: the program's, whose media the ports list.
         stray: called with (name of an array, whether it is the model's) for what was written outside the ports.
@@ -70,7 +71,8 @@ class Speaker:
     ) -> None:
         import numpy as np
 
-        self._model, self._data, self._control = model, data, control
+        media = ports.get("media") or {}
+        self._model, self._data, self._control = model, data, None if media.get("alone") else control
         self.mirror = Mirror(model, data)
         numbers, self._index = self.mirror.numbers(ports, (*HELD, *STATE))
         self._numbers = numbers
@@ -83,7 +85,6 @@ class Speaker:
         )
         from .strays import Strays
 
-        media = ports.get("media") or {}
         at = message + message_bytes(second, bool(ports.get("parameters")))
         self._laws = Stepped(laws, model, media, at) if laws or media else None
         self._shown = np.zeros(first)

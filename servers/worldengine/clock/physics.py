@@ -48,7 +48,7 @@ def run(given: Given, options: argparse.Namespace) -> None:
     every = world.record_every(model, steps) * variant.steps_per_step
     steps *= variant.steps_per_step
     hold = altered.alter(model, variant) if variant else None
-    silent = bool(hold and hold.silent)
+    silent = bool(hold and hold.silent and not given.laws)  # an author's own laws go on without `control`
     asked = bool(options.replay or (given.answers and options.channel)) and not silent
     if given.laws and not (asked or silent):
         what = f"the plan declares the law {given.laws[0].name}, and nobody is there who steps it"
@@ -129,7 +129,8 @@ def _inputs(
 
     # A rate that was asked for stays the same in time; a law that is asked at every step is asked at every finer one.
     every = given.control_every * (variant.steps_per_step if given.control_every > 1 else 1)
-    ports = Ports(model, given.inputs, _media(model, given, every, steps))
+    alone = bool(hold and hold.silent)  # a law, without the `control` beside it
+    ports = Ports(model, () if alone else given.inputs, _media(model, given, every, steps, alone))
     if options.replay:
         if variant:
             raise ProgramError("a variant is another world", "--replay", "ask its author anew")
@@ -138,13 +139,15 @@ def _inputs(
     return Asked(model, data, ports, voice, every, given.latency, hold.shares() if hold else None)
 
 
-def _media(model: "mujoco.MjModel", given: Given, every: int, steps: int) -> "Media | None":
-    """What the author's laws move; None without any."""
+def _media(model: "mujoco.MjModel", given: Given, every: int, steps: int, alone: bool) -> "Media | None":
+    """What the author's laws move; None without any. Of those that are alone nobody asks a `control`."""
     from ..inputs.declared_media import Media
 
     if not given.laws:
         return None
-    return Media(model, given.laws, every * float(model.opt.timestep), given.inputs, steps, every)
+    media = Media(model, given.laws, every * float(model.opt.timestep), given.inputs, steps, every)
+    media.alone = alone
+    return media
 
 
 def _meta(model: "mujoco.MjModel", given: Given, variant: Any, every: int, asked: bool) -> dict[str, Any]:

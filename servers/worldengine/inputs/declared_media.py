@@ -111,6 +111,8 @@ class Media:
         """So many questions lie between two that take the points."""
         self.end = self._end(steps, every)
         """The number of the question at the end of the run, which only takes the points; None where there is none."""
+        self.alone = False
+        """Whether the author's process asks its laws and not its `control`, as in a world without that."""
 
     def _end(self, steps: int | None, every: int) -> int | None:
         if self._seconds > (1.0 + 1e-9) / LEAST_HZ:  # between two questions nobody sees what a law does
@@ -138,7 +140,8 @@ class Media:
             {"name": row.name, "bodies": list(row.named), "shown_by": row.shown_by, "file": row.file, "points": count}
             for row, count in zip(self.rows, self.counts, strict=True)
         ]
-        return {"rows": rows, "seconds": self._seconds, "every": self.every, "end": self.end}
+        told = {"rows": rows, "seconds": self._seconds, "every": self.every, "end": self.end}
+        return {**told, "alone": True} if self.alone else told
 
     def read(self, at: int) -> "np.ndarray":
         """(width,) the numbers at this address, checked.
