@@ -11,6 +11,7 @@ a mistake, and a cheat only where it does not make up points to match. What bodi
 """
 
 import inspect
+import sys
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -102,14 +103,19 @@ def rows(laws: Sequence[Law]) -> list[dict[str, Any]]:
 
 
 def _stands_in(law: Law, declared: str) -> None:
-    """Refuse a law whose class stands in another file than the one that the plan declares; an empty one declares none."""
+    """Refuse a law whose class stands in another file than the one beside the program that the plan declares; an empty one
+    declares none.
+    """
+    if not declared:
+        return
+    folder = Path(getattr(sys.modules["__main__"], "__file__", None) or "program").resolve().parent
     try:
-        found = Path(inspect.getfile(type(law)))
+        found = Path(inspect.getfile(type(law))).resolve()
     except (TypeError, OSError):
         found = Path()
-    parts = Path(declared).parts
-    if found.parts[len(found.parts) - len(parts) :] != parts:
-        cause = f"the law {law.name} stands in {found.name or 'no file'}, and the plan declares {declared}"
+    if found != (folder / declared).resolve():
+        where = found.relative_to(folder) if found.is_relative_to(folder) else found.name or "no file"
+        cause = f"the law {law.name} stands in {where}, and the plan declares {declared}"
         raise ProgramError(cause, "program.main", "move its class into that file, and import it from there")
 
 

@@ -230,15 +230,6 @@ def test_what_a_law_may_not_be_is_refused_before_the_first_step(tmp_path: Path, 
         run(tmp_path / "out", spec=world(**flex), rows=rows, others=others)
 
 
-def test_a_law_of_another_file_than_the_plans_is_refused(tmp_path: Path) -> None:
-    here = Medium("springs", ("weight",), "net", "hung_springs.py", world=True)
-    kept = run(tmp_path / "here", rows=(here,), steps=3)
-    assert kept.meta["laws"][0]["law"]["file"] == here.file and Medium.read(kept.meta["laws"][0]) == here
-    for file in ("laws/springs.py", "elsewhere/hung_springs.py"):
-        with pytest.raises(ProgramError, match=rf"springs stands in hung_springs.py, .* declares {file}"):
-            run(tmp_path / "other", rows=(Medium("springs", ("weight",), "net", file, world=True),), steps=3)
-
-
 def test_too_many_points_are_refused_with_their_number(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(media_of, "MOST_POINTS", 2)
     with pytest.raises(ProgramError, match="move 3 points, more than 2"):

@@ -1,0 +1,26 @@
+"""What an author's law may not be or do is refused with its cause, whatever the engine would make of it."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from hung_springs import run, world
+from worldengine.inputs.declared_media import Medium
+from worldkit.errors import ProgramError
+
+
+def test_a_law_of_another_file_than_the_plans_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    beside = Path(__file__).parents[1]
+    monkeypatch.setattr(sys.modules["__main__"], "__file__", str(beside / "simulation.py"), raising=False)
+    here = Medium("springs", ("weight",), "net", "hung_springs.py", world=True)
+    kept = run(tmp_path / "here", rows=(here,), steps=3)
+    assert kept.meta["laws"][0]["law"]["file"] == here.file and Medium.read(kept.meta["laws"][0]) == here
+    for file in ("laws/springs.py", "elsewhere/hung_springs.py"):
+        with pytest.raises(ProgramError, match=rf"springs stands in hung_springs.py, .* declares {file}"):
+            run(tmp_path / "other", rows=(Medium("springs", ("weight",), "net", file, world=True),), steps=3)
+    monkeypatch.setattr(sys.modules["__main__"], "__file__", str(beside.parent / "simulation.py"))
+    with pytest.raises(
+        ProgramError, match=rf"springs stands in {beside.name}/hung_springs.py, .* declares hung_springs.py"
+    ):
+        run(tmp_path / "elsewhere", rows=(here,), steps=3)
