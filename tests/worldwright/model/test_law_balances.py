@@ -22,7 +22,8 @@ def recording(laws=(LAW,), medium=(0, 0, 0), energy=0.0):
     flat, pulled = np.zeros(3), np.outer([0.0, -0.02, -0.04], [1.0, 0.0, 0.0])
     columns = {"mass": flat + 1, "energy": flat + energy, "weight": flat, "stored": flat, "volume": flat}
     sums = Sums(step=np.array([0, 10, 20]), medium=np.array(medium), momentum=pulled, held=np.zeros((3, 3)), **columns)
-    return SimpleNamespace(meta={"laws": list(laws)}, balances=sums, time_step=0.001, folder="trajectory")
+    names = ("cart", "arm", "arm.left", "left/arm", "arm[1]")
+    return SimpleNamespace(meta={"laws": list(laws)}, balances=sums, time_step=0.001, folder="trajectory", names=names)
 
 
 def ledger(target: str) -> Interventions:
@@ -47,6 +48,15 @@ def test_what_goes_to_and_fro_within_and_is_rounded_comes_not_from_nowhere() -> 
         gravity=GRAVITY, **sums,
     )  # fmt: skip
     assert law.from_nowhere < 0.01
+
+
+@pytest.mark.parametrize("body", ["arm.left", "left/arm", "arm[1]"])
+def test_a_push_counts_for_a_body_of_any_name_and_for_no_other(body: str) -> None:
+    (law,) = law_balances.read(recording(({**LAW, "bodies": [body]},)), ledger(body), GRAVITY)
+    assert law.given[-1, 0] == pytest.approx(0.04) and law.from_nowhere == pytest.approx(0.0, abs=1e-12)
+    for other in ("arm", "left"):
+        (law,) = law_balances.read(recording(({**LAW, "bodies": [other]},)), ledger(body), GRAVITY)
+        assert not law.given.any() and not law.pushed
 
 
 @pytest.mark.parametrize("laws", [("springs",), ({"law": {"name": "springs"}},), ({**LAW, "bodies": None},), (3,)])

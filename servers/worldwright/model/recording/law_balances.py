@@ -156,8 +156,10 @@ def _of(recording: Any, number: int, law: Any, ledger: Interventions, gravity: A
     if len(t) < 2 or not (np.diff(t) > 0).all() or not all(np.isfinite(column).all() for column in columns.values()):
         cause = f"the sums of the law {law.name} are no numbers at two instants or more, one after another"
         raise _damaged(recording, cause)
-    kinds, owners = np.asarray(ledger.kind, dtype=str), [owner(str(target)) for target in ledger.target]
-    acted = np.isin(kinds, ("force", "torque")) & np.isin(np.array(owners, dtype=str), law.bodies)
+    kinds, bodies = np.asarray(ledger.kind, dtype=str), {*recording.names}
+    # A body may be called `arm.left`, whose pushes are not those of the `arm`.
+    whose = [target if target in bodies else owner(target) for target in map(str, ledger.target)]
+    acted = np.isin(kinds, ("force", "torque")) & np.isin(np.array(whose, dtype=str), law.bodies)
     when = np.asarray(ledger.time)[acted]
     force = np.asarray(ledger.value).reshape(len(kinds), -1)[acted][:, :3] * (kinds[acted] == "force")[:, None]
     order = np.argsort(when, kind="stable")

@@ -118,7 +118,8 @@ def _stronger(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> It
     if size[worst] <= most * (1 + SHARE) + 1e-6:
         return
     unit, time = UNIT[row.kind], float(times_s[worst])
-    body = row.bodies[0] if row.solver is None else owner(str(np.asarray(ledger.target, dtype=str)[mine][worst]))
+    target = str(np.asarray(ledger.target, dtype=str)[mine][worst])
+    body = row.bodies[0] if row.solver is None else target if target in row.bodies else owner(target)
     message = f"the {row.kind} on {body} reaches {size[worst]:.3g} {unit}; its declared law says {most:.3g}"
     yield Sign(body, (time, time), size[worst], most, unit, "blocking", message)
 
