@@ -164,6 +164,7 @@ class Stepped:
             of = np.array([bodies.index(body) for body in law.bodies], np.intp)
             self._laws.append((law, of, numbers[:TOTALS], numbers[TOTALS:].reshape(-1, 3), np.zeros(3)))
             pushed.append(of[of > 0])
+        self._gravity = model.opt.gravity.copy()  # which nobody can write afterwards
         self._pushed = np.concatenate([np.zeros(0, np.intp), *pushed])
         self._wrench = np.zeros((len(self._pushed), 6))
 
@@ -254,7 +255,7 @@ class Stepped:
     def _totals(self, law: Law, model: "mujoco.MjModel", data: "mujoco.MjData", held: "np.ndarray") -> "list[float]":
         mass, points, velocities = law.mass, law.points, law.velocities
         motion = 0.5 * float((mass[:, None] * velocities**2).sum())
-        weight = -float((mass[:, None] * points).sum(axis=0) @ model.opt.gravity)
+        weight = -float((mass[:, None] * points).sum(axis=0) @ self._gravity)
         stored = float(self._of(law, data, "energy", law.energy))
         volume = float(self._of(law, data, "volume", getattr(law, "volume", float)))
         momentum = (mass[:, None] * velocities).sum(axis=0)

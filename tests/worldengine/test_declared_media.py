@@ -144,7 +144,7 @@ def test_nothing_but_a_laws_forces_reaches_the_world_and_nobody_else_pushes_its_
         assert other.sha256 == plain.sha256, name
 
 
-def test_a_law_that_writes_the_model_is_refused_where_control_may(tmp_path: Path) -> None:
+def test_a_law_that_writes_the_model_is_refused_whatever_control_may(tmp_path: Path) -> None:
     class Lightening(Springs):
         def step(self, model, data, seconds):
             model.body_mass[1] *= 0.9
@@ -155,8 +155,9 @@ def test_a_law_that_writes_the_model_is_refused_where_control_may(tmp_path: Path
 
     opened = (("parameter", frozenset({"weight.body_mass"})),)
     assert run(tmp_path / "control", others=opened, steps=5, control=control).complete
-    with pytest.raises(ProgramError, match=r"a law writes model.body_mass"):
-        run(tmp_path / "law", Lightening(), others=opened, steps=5)
+    for name, others in (("law", opened), ("alone", ())):
+        with pytest.raises(ProgramError, match=r"a law writes model.body_mass"):
+            run(tmp_path / name, Lightening(), others=others, steps=5)
 
 
 @pytest.mark.parametrize("name", ["x", "cart/x", "cart"])

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from hung_springs import run, world
+from hung_springs import Springs, motor, run, world
 from worldengine.inputs.declared_media import Medium
 from worldkit.errors import ProgramError
 
@@ -24,3 +24,29 @@ def test_a_law_of_another_file_than_the_plans_is_refused(tmp_path: Path, monkeyp
         ProgramError, match=rf"springs stands in {beside.name}/hung_springs.py, .* declares hung_springs.py"
     ):
         run(tmp_path / "elsewhere", rows=(here,), steps=3)
+
+
+class Stubborn(Springs):
+    """It keeps to the gravity that there was."""
+
+    def start(self, model, data):
+        super().start(model, data)
+        self.gravity = model.opt.gravity.copy()
+
+
+def test_gravity_is_for_no_one_to_write(tmp_path: Path) -> None:
+    class Weightless(Springs):
+        def start(self, model, data):
+            super().start(model, data)
+            model.opt.gravity[:] = 0.0
+
+    def control(model, data):
+        model.opt.gravity[:] = 0.0
+
+    with pytest.raises(ProgramError, match=r"a law writes model.opt.gravity"):
+        run(tmp_path / "law", Weightless(), steps=5)
+    drive = (("control", frozenset({"pull"})),)
+    plain, other = (
+        run(tmp_path / f"{by}", Stubborn(), motor(), others=drive, steps=20, control=by) for by in (None, control)
+    )
+    assert (other.balances.weight == plain.balances.weight).all() and plain.balances.weight.all()
