@@ -89,6 +89,9 @@ def check(laws: Any) -> tuple[Law, ...]:
             raise ProgramError(
                 f"the bodies of the law {law.name} are a text", "program.main", f'write bodies = ("{law.bodies}",)'
             )
+        if twice := [body for body in law.bodies if [*law.bodies].count(body) > 1]:
+            cause = f"the law {law.name} names its body {twice[0]} twice"
+            raise ProgramError(cause, "program.main", "name it once, and sum what pushes it")
     if twice := [law.name for law in found if sum(other.name == law.name for other in found) > 1]:
         raise ProgramError(f"two laws are called {twice[0]}", "program.main", "give each a name of its own")
     return found

@@ -224,6 +224,8 @@ def test_a_law_that_fails_says_where_and_leaves_what_was_recorded(tmp_path: Path
         ((ROW,), (), {"contype": 1}, "net, which shows the law springs, collides"),
         ((ROW,), (("force", frozenset({"weight"})),), {}, "pushed by the law springs and by another input"),
         ((ROW, Medium("gum", ("weight",), "net")), (), {}, "pushed by the law gum and by the law springs"),
+        ((ROW, Medium("springs", (), "net")), (), {}, "two laws are called springs"),
+        ((Medium("springs", ("weight", "weight"), "net"),), (), {}, "springs names its body 'weight' twice"),
     ],
 )
 def test_what_a_law_may_not_be_is_refused_before_the_first_step(tmp_path: Path, rows, others, flex, says: str) -> None:

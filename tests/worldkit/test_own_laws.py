@@ -1,5 +1,6 @@
 """What an author's law may not be or do is refused with its cause, whatever the engine would make of it."""
 
+import json
 import sys
 from pathlib import Path
 
@@ -7,6 +8,7 @@ import pytest
 
 from hung_springs import Springs, motor, run, world
 from worldengine.inputs.declared_media import Medium
+from worldkit import program
 from worldkit.errors import ProgramError
 
 
@@ -50,3 +52,14 @@ def test_gravity_is_for_no_one_to_write(tmp_path: Path) -> None:
         run(tmp_path / f"{by}", Stubborn(), motor(), others=drive, steps=20, control=by) for by in (None, control)
     )
     assert (other.balances.weight == plain.balances.weight).all() and plain.balances.weight.all()
+
+
+class Doubled(Springs):
+    bodies = ("weight", "world", "weight")
+
+
+def test_a_law_that_names_a_body_twice_is_refused(tmp_path: Path) -> None:
+    words = ["--pass", "build", "--out", str(tmp_path)]
+    assert program.main(lambda: world(), duration=0.05, laws=[Doubled()], argv=words) == 1
+    said = json.loads((tmp_path / "error.json").read_text())
+    assert "springs names its body weight twice" in said["message"]
