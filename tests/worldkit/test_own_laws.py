@@ -4,10 +4,12 @@ import json
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from hung_springs import Springs, motor, run, world
 from worldengine.inputs.declared_media import Medium
+from worldengine.recording import stored
 from worldkit import program
 from worldkit.errors import ProgramError
 
@@ -26,6 +28,67 @@ def test_a_law_of_another_file_than_the_plans_is_refused(tmp_path: Path, monkeyp
         ProgramError, match=rf"springs stands in {beside.name}/hung_springs.py, .* declares hung_springs.py"
     ):
         run(tmp_path / "elsewhere", rows=(here,), steps=3)
+
+
+class Shrinking(Springs):
+    left = slice(0, 2)
+
+    def step(self, model, data, seconds):
+        self.points, self.velocities, self.mass = (a[self.left] for a in (self.points, self.velocities, self.mass))
+        return np.zeros((2, 3))
+
+
+class ToOne(Shrinking):
+    left = slice(0, 1)
+
+
+class Ragged(Springs):
+    def step(self, model, data, seconds):
+        self.points = [[0.0], [0.0, 1.0]]
+        return np.zeros((2, 3))
+
+
+class RaggedForces(Springs):
+    def step(self, model, data, seconds):
+        return [[0.0], [0.0, 1.0]]
+
+
+class Wordy(Springs):
+    def start(self, model, data):
+        super().start(model, data)
+        self.mass = ["a", "b", "c"]
+
+
+@pytest.mark.parametrize(
+    ("law", "says"),
+    [
+        (Shrinking, r"points of the shape \(2, 3\), and net shows 3 points"),
+        (ToOne, r"points of the shape \(1, 3\), and net shows 3 points"),
+        (Ragged, r"points of the law springs failed at t = 0.0000 s: ValueError"),
+        (RaggedForces, r"step of the law springs failed at t = 0.0000 s: ValueError"),
+        (Wordy, r"has mass that are no numbers"),
+    ],
+)
+def test_points_and_forces_of_another_shape_are_refused_whenever_they_are(tmp_path: Path, law, says: str) -> None:
+    with pytest.raises(ProgramError, match=says) as caught:
+        run(tmp_path / "out", law(), steps=20)
+    assert caught.value.next_move
+
+
+def test_lists_are_numbers_too(tmp_path: Path) -> None:
+    class Listed(Springs):
+        def start(self, model, data):
+            super().start(model, data)
+            self.mass = list(self.mass)
+
+        def step(self, model, data, seconds):
+            self.mass = np.asarray(self.mass)
+            forces = super().step(model, data, seconds)
+            self.mass, self.points = list(self.mass), self.points.tolist()
+            return forces.tolist()
+
+    listed, plain = run(tmp_path / "listed", Listed(), steps=20), run(tmp_path / "plain", steps=20)
+    assert stored.inputs_digest(listed.folder) == stored.inputs_digest(plain.folder)
 
 
 class Stubborn(Springs):
