@@ -125,6 +125,16 @@ def test_a_medium_that_is_taken_away_is_missed(tmp_path: Path, recorded: stored.
         run(tmp_path / "out", drive=stored.Replayable(tmp_path))
 
 
+def test_sums_of_an_earlier_version_are_refused(tmp_path: Path, recorded: stored.Recording) -> None:
+    for name in ("inputs", "edits", "media"):
+        (tmp_path / f"{name}.arrows").write_bytes((recorded.folder / f"{name}.arrows").read_bytes())
+    table = pa.ipc.open_stream((recorded.folder / "balances.arrows").read_bytes()).read_all().drop_columns(["weight"])
+    with pa.OSFile(str(tmp_path / "balances.arrows"), "wb") as sink, pa.ipc.new_stream(sink, table.schema) as writer:
+        writer.write_table(table)
+    with pytest.raises(RecordingError, match="no column weight, which an earlier version"):
+        stored.inputs_digest(tmp_path)
+
+
 class Meddling(Springs):
     def step(self, model, data, seconds):
         forces = super().step(model, data, seconds)

@@ -65,6 +65,9 @@ class Table:
     def _column(self, column: Column) -> "np.ndarray":
         import numpy as np
 
+        if column.width and any(column.name not in batch.schema.names for batch in self._batches):
+            cause = f"it has no column {column.name}, which an earlier version did not record"
+            raise RecordingError(cause, str(self._path), "run the physics pass again")
         if column.dtype == "string":
             return np.array([v for batch in self._batches for v in batch[column.name].to_pylist()], dtype=str)[
                 : self._length

@@ -39,6 +39,23 @@ def test_a_push_counts_for_the_body_whatever_joint_it_names(target: str) -> None
     assert law.from_nowhere == pytest.approx(0.0, abs=1e-12) and law.pushed == pytest.approx(0.04)
 
 
+@pytest.mark.parametrize("body", ["arm.left", "left/arm", "arm[1]"])
+def test_a_push_counts_for_a_body_of_any_name_and_for_no_other(body: str) -> None:
+    (law,) = law_balances.read(recording(({**LAW, "bodies": [body]},)), ledger(body), GRAVITY)
+    assert law.given[-1, 0] == pytest.approx(0.04) and law.from_nowhere == pytest.approx(0.0, abs=1e-12)
+    for other in ("arm", "left"):
+        (law,) = law_balances.read(recording(({**LAW, "bodies": [other]},)), ledger(body), GRAVITY)
+        assert not law.given.any() and not law.pushed
+
+
+def test_a_recording_of_fewer_sums_is_refused() -> None:
+    """As an earlier version wrote it."""
+    old = recording()
+    del old.balances.weight
+    with pytest.raises(RecordingError, match=r"law springs it lacks a sum: .*weight"):
+        law_balances.read(old, ledger("cart"), GRAVITY)
+
+
 def test_what_goes_to_and_fro_within_and_is_rounded_comes_not_from_nowhere() -> None:
     t, rng = np.linspace(0.0, 2.0, 201), np.random.default_rng(0)
     nought, still = np.zeros(201), np.zeros((201, 3))
@@ -48,15 +65,6 @@ def test_what_goes_to_and_fro_within_and_is_rounded_comes_not_from_nowhere() -> 
         gravity=GRAVITY, **sums,
     )  # fmt: skip
     assert law.from_nowhere < 0.01
-
-
-@pytest.mark.parametrize("body", ["arm.left", "left/arm", "arm[1]"])
-def test_a_push_counts_for_a_body_of_any_name_and_for_no_other(body: str) -> None:
-    (law,) = law_balances.read(recording(({**LAW, "bodies": [body]},)), ledger(body), GRAVITY)
-    assert law.given[-1, 0] == pytest.approx(0.04) and law.from_nowhere == pytest.approx(0.0, abs=1e-12)
-    for other in ("arm", "left"):
-        (law,) = law_balances.read(recording(({**LAW, "bodies": [other]},)), ledger(body), GRAVITY)
-        assert not law.given.any() and not law.pushed
 
 
 @pytest.mark.parametrize("laws", [("springs",), ({"law": {"name": "springs"}},), ({**LAW, "bodies": None},), (3,)])

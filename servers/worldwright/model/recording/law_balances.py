@@ -152,7 +152,10 @@ def _of(recording: Any, number: int, law: Any, ledger: Interventions, gravity: A
     sums, step = recording.balances, float(recording.time_step)
     mine = np.asarray(sums.medium) == number
     t = np.asarray(sums.step)[mine] * step
-    columns = {name: np.asarray(getattr(sums, name))[mine] for name in COLUMNS}
+    try:
+        columns = {name: np.asarray(getattr(sums, name))[mine] for name in COLUMNS}
+    except AttributeError as lacking:  # an earlier version recorded fewer
+        raise _damaged(recording, f"of the law {law.name} it lacks a sum: {lacking}") from lacking
     if len(t) < 2 or not (np.diff(t) > 0).all() or not all(np.isfinite(column).all() for column in columns.values()):
         cause = f"the sums of the law {law.name} are no numbers at two instants or more, one after another"
         raise _damaged(recording, cause)
