@@ -11,6 +11,7 @@ a mistake, and a cheat only where it does not make up points to match. What bodi
 """
 
 import inspect
+import sys
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
@@ -88,6 +89,9 @@ def check(laws: Any) -> tuple[Law, ...]:
             raise ProgramError(
                 f"the bodies of the law {law.name} are a text", "program.main", f'write bodies = ("{law.bodies}",)'
             )
+        if twice := [body for body in law.bodies if [*law.bodies].count(body) > 1]:
+            cause = f"the law {law.name} names its body {twice[0]} twice"
+            raise ProgramError(cause, "program.main", "name it once, and sum what pushes it")
     if twice := [law.name for law in found if sum(other.name == law.name for other in found) > 1]:
         raise ProgramError(f"two laws are called {twice[0]}", "program.main", "give each a name of its own")
     return found
@@ -102,14 +106,19 @@ def rows(laws: Sequence[Law]) -> list[dict[str, Any]]:
 
 
 def _stands_in(law: Law, declared: str) -> None:
-    """Refuse a law whose class stands in another file than the one that the plan declares; an empty one declares none."""
+    """Refuse a law whose class stands in another file than the one beside the program that the plan declares; an empty one
+    declares none.
+    """
+    if not declared:
+        return
+    folder = Path(getattr(sys.modules["__main__"], "__file__", None) or "program").resolve().parent
     try:
-        found = Path(inspect.getfile(type(law)))
+        found = Path(inspect.getfile(type(law))).resolve()
     except (TypeError, OSError):
         found = Path()
-    parts = Path(declared).parts
-    if found.parts[len(found.parts) - len(parts) :] != parts:
-        cause = f"the law {law.name} stands in {found.name or 'no file'}, and the plan declares {declared}"
+    if found != (folder / declared).resolve():
+        where = found.relative_to(folder) if found.is_relative_to(folder) else found.name or "no file"
+        cause = f"the law {law.name} stands in {where}, and the plan declares {declared}"
         raise ProgramError(cause, "program.main", "move its class into that file, and import it from there")
 
 
@@ -158,6 +167,7 @@ class Stepped:
             of = np.array([bodies.index(body) for body in law.bodies], np.intp)
             self._laws.append((law, of, numbers[:TOTALS], numbers[TOTALS:].reshape(-1, 3), np.zeros(3)))
             pushed.append(of[of > 0])
+        self._gravity = model.opt.gravity.copy()  # which nobody can write afterwards
         self._pushed = np.concatenate([np.zeros(0, np.intp), *pushed])
         self._wrench = np.zeros((len(self._pushed), 6))
 
@@ -176,10 +186,10 @@ class Stepped:
         for law, bodies, totals, points, held in self._laws:
             if not self._asked:
                 self._of(law, data, "start", partial(law.start, model, data))
-                self._fits(law, len(points), data)
             if self._asked % self._every == 0 or self._asked == self._end:
-                points[:] = law.points
-                totals[:] = self._totals(law, model, data, held)
+                points[:], velocities, mass = self._told(law, len(points))
+                self._sane(law, data)
+                totals[:] = self._totals(law, data, points, velocities, mass, held)
             if self._asked == self._end:
                 continue
             forces = self._of(law, data, "step", partial(law.step, model, data, self._seconds))
@@ -211,22 +221,33 @@ class Stepped:
             cause = f"{what} of the law {law.name} failed at t = {data.time:.4f} s: {said}"
             raise ProgramError(cause, place, "correct it there; what was recorded until then is kept") from error
 
-    def _fits(self, law: Law, count: int, data: "mujoco.MjData") -> None:
+    def _told(self, law: Law, count: int) -> "list[np.ndarray]":
+        """Its points (n, 3), m, velocities (n, 3), m/s, and masses (n,), kg, as it has them now."""
         import numpy as np
 
+        told = []
         for name, shape in (("points", (count, 3)), ("velocities", (count, 3)), ("mass", (count,))):
-            has = np.shape(getattr(law, name, ()))
-            if has != shape:
-                cause = f"the law {law.name} has {name} of the shape {has}, and {law.shown_by} shows {count} points"
+            try:
+                found = np.asarray(getattr(law, name, ()), float)
+            except (TypeError, ValueError) as error:
+                cause = f"the law {law.name} has {name} that are no numbers: {error}"
+                raise ProgramError(cause, law.name, f"make it an array of the shape {shape}") from error
+            if found.shape != shape:
+                cause = (
+                    f"the law {law.name} has {name} of the shape {found.shape}, and {law.shown_by} shows {count} points"
+                )
                 raise ProgramError(cause, law.name, f"make it {shape}, or give {law.shown_by} as many points")
-        self._sane(law, data)
+            told.append(found)
+        return told
 
     def _sane(self, law: Law, data: "mujoco.MjData") -> None:
         """Refuse points that are no numbers, or far away; a sum finds them without looking at each."""
         import numpy as np
 
-        far = float(np.abs(law.points).max(initial=0.0) + np.abs(law.velocities).max(initial=0.0))
-        if not far < HUGE:
+        def far() -> float:
+            return float(np.abs(law.points).max(initial=0.0) + np.abs(law.velocities).max(initial=0.0))
+
+        if not self._of(law, data, "points", far) < HUGE:
             cause = f"the points of the law {law.name} blew up at t = {data.time:.4f} s"
             raise ProgramError(cause, law.name, "step it more finely (several steps within one), soften it, or damp it")
 
@@ -234,7 +255,8 @@ class Stepped:
         """(k, 6) force and torque."""
         import numpy as np
 
-        found = np.asarray(forces, float) if forces is not None else np.zeros(0)
+        given = np.zeros(0) if forces is None else forces
+        found = self._of(law, data, "step", partial(np.asarray, given, float))
         if found.shape not in ((count, 3), (count, 6)):
             cause = f"step of the law {law.name} returned forces of the shape {found.shape}"
             raise ProgramError(
@@ -245,10 +267,17 @@ class Stepped:
             raise ProgramError(cause, law.name, "step it more finely (several steps within one), soften it, or damp it")
         return np.pad(found, ((0, 0), (0, 6 - found.shape[1])))
 
-    def _totals(self, law: Law, model: "mujoco.MjModel", data: "mujoco.MjData", held: "np.ndarray") -> "list[float]":
-        mass, points, velocities = law.mass, law.points, law.velocities
+    def _totals(
+        self,
+        law: Law,
+        data: "mujoco.MjData",
+        points: "np.ndarray",
+        velocities: "np.ndarray",
+        mass: "np.ndarray",
+        held: "np.ndarray",
+    ) -> "list[float]":
         motion = 0.5 * float((mass[:, None] * velocities**2).sum())
-        weight = -float((mass[:, None] * points).sum(axis=0) @ model.opt.gravity)
+        weight = -float((mass[:, None] * points).sum(axis=0) @ self._gravity)
         stored = float(self._of(law, data, "energy", law.energy))
         volume = float(self._of(law, data, "volume", getattr(law, "volume", float)))
         momentum = (mass[:, None] * velocities).sum(axis=0)

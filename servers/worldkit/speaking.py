@@ -52,7 +52,8 @@ class Speaker:
     Args:
         model, data: the author's own; the model must be the engine's, bit for bit.
         control: the program's, with two arguments.
-        ports: declared entries by array (flat indices), and under `parameters` those of the model's arrays.
+        ports: declared entries by array (flat indices), and under `parameters` those of the model's arrays; where its `media` are
+            `alone`, `control` is not asked.
         message: address of the answer.
         laws: the program's, whose media the ports list.
         stray: called with (name of an array, whether it is the model's) for what was written outside the ports.
@@ -70,7 +71,8 @@ class Speaker:
     ) -> None:
         import numpy as np
 
-        self._model, self._data, self._control = model, data, control
+        media = ports.get("media") or {}
+        self._model, self._data, self._control = model, data, None if media.get("alone") else control
         self.mirror = Mirror(model, data)
         numbers, self._index = self.mirror.numbers(ports, (*HELD, *STATE))
         self._numbers = numbers
@@ -82,10 +84,11 @@ class Speaker:
             _Parameters(model, ports["parameters"], message, second, stray) if ports.get("parameters") else None
         )
         from .strays import Strays
+        from .watch import Watch
 
-        media = ports.get("media") or {}
         at = message + message_bytes(second, bool(ports.get("parameters")))
         self._laws = Stepped(laws, model, media, at) if laws or media else None
+        self._watch = Watch(model) if self._laws is not None and self._parameters is None else None
         self._shown = np.zeros(first)
         edits = self._parameters is None
         self._strays = Strays(model, data, self.mirror, self._index, self._switches, edits, stray, control)
@@ -113,11 +116,15 @@ class Speaker:
         """Advance the laws; of what they do to data and model, only the forces that they return reach the inputs."""
         self._numbers.take(self._index, out=self._shown, mode="clip")
         switched = self._data.eq_active[self._switches]
+        if self._watch is not None:
+            self._watch.changes()  # what `control` wrote goes nowhere, and is told as a stray
         laws.step(self._model, self._data)
         self._numbers[self._index] = self._shown
         self._data.eq_active[self._switches] = switched
-        if self._parameters is not None:
-            self._parameters.refuse("a law")
+        watches = [self._watch] if self._watch is not None else self._parameters.watches if self._parameters else []
+        for edit in (edit for watch in watches for edit in watch.changes()):
+            cause = f"a law writes model.{edit.array}"
+            raise ProgramError(cause, "step", "leave the model: what a law does is its forces")
         laws.push(self._data)
 
     def look_around(self, slot: int) -> None:
@@ -142,7 +149,7 @@ class _Parameters:
 
         self._told: set[str] = set()
         self._tell = stray
-        self._watches = [Watch(model), Watch(model, bulky=True)]
+        self.watches = [Watch(model), Watch(model, bulky=True)]
         self._ports = {name: (n, None if index is None else np.array(index)) for n, (name, index) in enumerate(ports)}
         self._count = ctypes.c_uint64.from_address(message)
         room = (ctypes.c_uint8 * (16 * MOST_EDITS)).from_address(message + 8 + 8 * width)
@@ -153,19 +160,12 @@ class _Parameters:
             self._told.add(array)
             self._tell(array, of_model)
 
-    def refuse(self, by: str) -> None:
-        """Raises ProgramError where the model was changed since the last answer: by what may not."""
-        for edit in (edit for watch in self._watches for edit in watch.changes()):
-            raise ProgramError(
-                f"{by} writes model.{edit.array}", "step", "leave the model: what a law does is its forces"
-            )
-
     def write(self) -> None:
         """Write the changed parameters into the message."""
         import numpy as np
 
         count = 0
-        for edit in (edit for watch in self._watches for edit in watch.changes()):
+        for edit in (edit for watch in self.watches for edit in watch.changes()):
             number, allowed = self._ports.get(edit.array, (-1, None))
             mine = np.ones(len(edit.index), bool) if allowed is None else np.isin(edit.index, allowed)
             if number < 0 or not mine.all():

@@ -43,6 +43,26 @@ def test_edits_of_the_model_are_followed_forwards_and_backwards(tmp_path):
     assert initial == 0.5
 
 
+def test_pictures_of_another_colour_are_not_those_of_this_recording(tmp_path):
+    spec = empty()
+    ball(spec, "ball", (0, 0, 1))
+
+    def painted(colour):
+        def control(model, data):
+            model.geom_rgba[0, :3] = colour
+
+        return control
+
+    red, again, green = (
+        record(spec, tmp_path / f"{n}", 5, painted(colour))
+        for n, colour in enumerate(((1, 0, 0), (1, 0, 0), (0, 1, 0)))
+    )
+    assert red.sha256 == green.sha256  # it falls alike
+    assert red.shown_sha256 == again.shown_sha256 != green.shown_sha256
+    plain = record(spec, tmp_path / "plain", 5)
+    assert plain.shown_sha256 == plain.sha256 not in (red.shown_sha256, green.shown_sha256)
+
+
 def test_another_world_s_recording_is_refused(tmp_path):
     recording = record(heap(6), tmp_path / "t", 5)
     with pytest.raises(RecordingError, match="another world"):

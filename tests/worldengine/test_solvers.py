@@ -166,6 +166,13 @@ def test_what_is_recorded_of_it_is_drawn(tmp_path: Path) -> None:
         assert data.geom_xpos[surface, 2] + 0.01 == pytest.approx(level)
 
 
+def test_pictures_of_another_surface_are_not_those_of_this_recording(tmp_path: Path) -> None:
+    """High above the water nothing of it reaches the ball."""
+    one, same, other = (run(pond(z=5.0), tmp_path / f"{n}", 20, inflow=v) for n, v in enumerate((0.1, 0.1, 0.2)))
+    assert one.sha256 == other.sha256 and one.channels("basin")["level"][-1] != other.channels("basin")["level"][-1]
+    assert one.shown_sha256 == same.shown_sha256 != other.shown_sha256
+
+
 def test_two_of_a_kind_have_channels_of_their_own() -> None:
     rows = [Row("basin", (name,), WATER) for name in ("a", "b")]
     assert called(rows) == ["basin", "basin#2"]

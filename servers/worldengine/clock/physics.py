@@ -43,15 +43,16 @@ def run(given: Given, options: argparse.Namespace) -> None:
     variant = altered.Variant.parse(options.time_step_factor, options.without, options.weaken, options.vary)
     model = given.model()
     world.check_cast(model, given.movers, given.visual_only)
-    # At a finer step the recorded instants stay the same, so that expectations measure the same thing.
-    every = world.record_every(model, world.steps_of(model, given.duration)) * variant.steps_per_step
+    # At a finer step the recorded instants and the end stay the same, so that expectations measure the same thing.
+    steps = world.steps_of(model, given.duration)
+    every = world.record_every(model, steps) * variant.steps_per_step
+    steps *= variant.steps_per_step
     hold = altered.alter(model, variant) if variant else None
-    silent = bool(hold and hold.silent)
+    silent = bool(hold and hold.silent and not given.laws)  # an author's own laws go on without `control`
     asked = bool(options.replay or (given.answers and options.channel)) and not silent
     if given.laws and not (asked or silent):
         what = f"the plan declares the law {given.laws[0].name}, and nobody is there who steps it"
         raise ProgramError(what, "interventions", "give it to program.main in `laws=` (skill media)")
-    steps = world.steps_of(model, given.duration)
     meta = _meta(model, given, variant, every, asked)
     meta["motion_key"] = _motion_key(model, given, options, variant, steps, every, asked)
     as_built = copy.copy(model)  # the simulation may write parameters
@@ -66,7 +67,7 @@ def run(given: Given, options: argparse.Namespace) -> None:
         return
     prepare(model)
     data = world.start(model)
-    inputs = _inputs(model, data, given, options, variant, hold) if asked else None
+    inputs = _inputs(model, data, given, options, variant, hold, steps) if asked else None
     if inputs is not None:
         meta["inputs"] = inputs.ports.as_meta()
         if inputs.ports.media is not None:
@@ -110,10 +111,15 @@ def run(given: Given, options: argparse.Namespace) -> None:
 
 
 def _inputs(
-    model: "mujoco.MjModel", data: "mujoco.MjData", given: Given, options: argparse.Namespace, variant: Any, hold: Any
+    model: "mujoco.MjModel",
+    data: "mujoco.MjData",
+    given: Given,
+    options: argparse.Namespace,
+    variant: Any,
+    hold: Any,
+    steps: int,
 ) -> "Drive":
     """The source of the inputs: a recording, or the author's process at the other end of the channel."""
-    from worldkit import world
     from worldkit.channel import ENGINE, Channel, descriptors
 
     from ..inputs.author_link import Distant
@@ -123,8 +129,8 @@ def _inputs(
 
     # A rate that was asked for stays the same in time; a law that is asked at every step is asked at every finer one.
     every = given.control_every * (variant.steps_per_step if given.control_every > 1 else 1)
-    steps = world.steps_of(model, given.duration)
-    ports = Ports(model, given.inputs, _media(model, given, every, steps))
+    alone = bool(hold and hold.silent)  # a law, without the `control` beside it
+    ports = Ports(model, () if alone else given.inputs, _media(model, given, every, steps, alone))
     if options.replay:
         if variant:
             raise ProgramError("a variant is another world", "--replay", "ask its author anew")
@@ -133,13 +139,15 @@ def _inputs(
     return Asked(model, data, ports, voice, every, given.latency, hold.shares() if hold else None)
 
 
-def _media(model: "mujoco.MjModel", given: Given, every: int, steps: int) -> "Media | None":
-    """What the author's laws move; None without any."""
+def _media(model: "mujoco.MjModel", given: Given, every: int, steps: int, alone: bool) -> "Media | None":
+    """What the author's laws move; None without any. Of those that are alone nobody asks a `control`."""
     from ..inputs.declared_media import Media
 
     if not given.laws:
         return None
-    return Media(model, given.laws, every * float(model.opt.timestep), given.inputs, steps, every)
+    media = Media(model, given.laws, every * float(model.opt.timestep), given.inputs, steps, every)
+    media.alone = alone
+    return media
 
 
 def _meta(model: "mujoco.MjModel", given: Given, variant: Any, every: int, asked: bool) -> dict[str, Any]:

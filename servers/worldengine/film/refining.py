@@ -247,7 +247,7 @@ def refined(shown: OfTheAuthor, folder: Path, about: list[Any], end: float, tick
 
 def named(described: Path, shown_sha256: str, world: Path) -> str:
     """The name of the set of frames of a film: a hash of its description, in this folder, and of what it shows: the motion and
-    the laws' points (`Recording.shown_sha256`), and the world's file, which also has all looks, lights and planned cameras."""
+    what changes beside it (`Recording.shown_sha256`), and the world's file, which also has all looks, lights and planned cameras."""
     files = [world, *sorted(described.iterdir())]
     said = [shown_sha256, *(hashlib.sha256(path.read_bytes()).hexdigest() for path in files)]
     return hashlib.sha256("\n".join(said).encode()).hexdigest()[:16]

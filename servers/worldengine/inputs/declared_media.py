@@ -75,8 +75,8 @@ class Media:
         every: steps from one question to the next.
 
     Raises:
-        ProgramError: a body or what shows a law is not there, is simulated, has too many points, or is pushed by two; the laws
-            are asked too seldom, or not at the end.
+        ProgramError: a body or what shows a law is not there, is simulated, has too many points, is named twice, or is pushed by
+            two; two laws have one name; the laws are asked too seldom, or not at the end.
     """
 
     def __init__(
@@ -91,8 +91,14 @@ class Media:
         self.rows, self._seconds = tuple(rows), seconds
         bodies = names(model, "body", model.nbody)
         taken = {name: "another input" for kind, found in others or () if kind in PUSHES for name in found}
-        for row in rows:
-            for body in row.bodies:
+        for index, row in enumerate(rows):
+            if row.name in {other.name for other in rows[:index]}:
+                cause = f"two laws are called {row.name}, and the forces of one would be lost"
+                raise ProgramError(cause, "interventions", "write one row of each law, with all its bodies")
+            for place, body in enumerate(row.bodies):
+                if body in row.bodies[:place]:
+                    cause = f"the law {row.name} names its body {body!r} twice, and the forces of one would be lost"
+                    raise ProgramError(cause, "interventions", "name each body once")
                 if body not in bodies[1:]:
                     cause = f"the law {row.name} acts on {body!r}, which is not in the world"
                     raise ProgramError(cause, "interventions", f"name some of: {', '.join(bodies[1:])}")
@@ -111,6 +117,8 @@ class Media:
         """So many questions lie between two that take the points."""
         self.end = self._end(steps, every)
         """The number of the question at the end of the run, which only takes the points; None where there is none."""
+        self.alone = False
+        """Whether the author's process asks its laws and not its `control`, as in a world without that."""
 
     def _end(self, steps: int | None, every: int) -> int | None:
         if self._seconds > (1.0 + 1e-9) / LEAST_HZ:  # between two questions nobody sees what a law does
@@ -138,7 +146,8 @@ class Media:
             {"name": row.name, "bodies": list(row.named), "shown_by": row.shown_by, "file": row.file, "points": count}
             for row, count in zip(self.rows, self.counts, strict=True)
         ]
-        return {"rows": rows, "seconds": self._seconds, "every": self.every, "end": self.end}
+        told = {"rows": rows, "seconds": self._seconds, "every": self.every, "end": self.end}
+        return {**told, "alone": True} if self.alone else told
 
     def read(self, at: int) -> "np.ndarray":
         """(width,) the numbers at this address, checked.

@@ -65,6 +65,9 @@ class Table:
     def _column(self, column: Column) -> "np.ndarray":
         import numpy as np
 
+        if column.width and any(column.name not in batch.schema.names for batch in self._batches):
+            cause = f"it has no column {column.name}, which an earlier version did not record"
+            raise RecordingError(cause, str(self._path), "run the physics pass again")
         if column.dtype == "string":
             return np.array([v for batch in self._batches for v in batch[column.name].to_pylist()], dtype=str)[
                 : self._length
@@ -215,16 +218,18 @@ class Recording:
 
     @cached_property
     def shown_sha256(self) -> str:
-        """The hash of all that pictures can show of it: the trajectory, and the points of the author's laws, which move beside it."""
-        import numpy as np
-
-        laws = self.meta.get("laws")
-        if not laws:
+        """The hash of all that pictures can show of it: the trajectory, and what changes beside it: colours, sizes and lights
+        (`edits`), the channels of solvers (a water's surface), and the points of the author's laws.
+        """
+        said = {name: rows for name in ("laws", "solvers") if (rows := self.meta.get(name))}
+        told = {name: self._state[name] for name in self._state.columns if "." in name}
+        for name, table in (("edits", self.edits), ("media", self.media)):
+            told |= {f"{name} {n}": table[n] for n in table.columns if n != "time" and len(table)}
+        if not said and not told:
             return self.sha256
-        shown = hashlib.sha256(f"{self.sha256}\n{json.dumps(laws, sort_keys=True)}".encode())
-        for column in TABLES["media"]:
-            values = self.media[column.name]
-            shown.update(f"\n{column.name} {len(self.media)} ".encode() + np.ascontiguousarray(values).tobytes())
+        shown = hashlib.sha256(f"{self.sha256}\n{json.dumps(said, sort_keys=True)}".encode())
+        for name, values in told.items():
+            shown.update(f"\n{name} {len(values)} ".encode() + _content(values))
         return shown.hexdigest()
 
     @property
@@ -262,18 +267,12 @@ class Replayable:
 
 def inputs_digest(folder: Path) -> str:
     """SHA-256 of what was sent to a world, the rows of `inputs`, `edits` and a law's tables; empty when nothing was sent."""
-    import numpy as np
-
     found = Replayable(folder)
     digest = hashlib.sha256()
     told = tuple((name, table) for name in OF_MEDIA if len(table := getattr(found, name)))
     for name, table in (("inputs", found.inputs), ("edits", found.edits), *told):
         for column in (c for c in TABLES[name] if c.name not in ("time", "row")):
-            values = table[column.name]
-            data = (
-                "\0".join(values.tolist()).encode() if column.dtype == "string" else np.ascontiguousarray(values).data
-            )
-            digest.update(f"\n{name}.{column.name} {len(table)} ".encode() + bytes(data))
+            digest.update(f"\n{name}.{column.name} {len(table)} ".encode() + _content(table[column.name]))
     return digest.hexdigest() if told or len(found.inputs) or len(found.edits) else ""
 
 
@@ -294,6 +293,11 @@ def digest(recording: Recording) -> str:
         return hashlib.sha256(np.ascontiguousarray(getattr(recording, name)).data).hexdigest()
 
     return combine({name: column(name) for name in HASHED})
+
+
+def _content(values: "np.ndarray") -> bytes:
+    """The bytes of a column; those of texts lie apart by a zero."""
+    return "\0".join(values.tolist()).encode() if values.dtype.kind == "U" else values.tobytes()
 
 
 def _numbers(array: "pa.Array", column: Column) -> "np.ndarray":

@@ -13,7 +13,7 @@ Taken away (`--without NAME`):
     tendon    it carries nothing: no spring, no limit, no motor
     flex      it touches nothing
     BODY.velocity, BODY.weight      its initial velocity, its weight
-    gravity, wind, control (everything the program's control writes)
+    gravity, wind, control (everything the program's control writes; laws of the author's own go on, and it is not called)
     force:BODY torque:BODY pose:BODY velocity:BODY mocap:BODY control:ACTUATOR constraint:EQUALITY parameter:OWNER
                     one intervention, as the ledger calls it, is undone each time it is made
 

@@ -34,10 +34,10 @@ class Hold:
         self.laws: dict[str, float] = {}
         """The share left of a law of the world (`opt.wind`), counted from nought and not from what the model begins with."""
         self.silent = False
-        """If set, the author is never asked."""
+        """If set, the author's `control` is never asked."""
 
     def everything(self) -> None:
-        """Hold everything: the author is never asked."""
+        """Hold everything that `control` writes: it is never asked."""
         self.silent = True
 
     def shares(self) -> "Shares | None":

@@ -74,7 +74,7 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
     pieces = [_piece(mesh, path.name, number) for number, mesh in enumerate(found)]
     pieces, said = _corners(pieces)
     if len(pieces) > MOST_PIECES:
-        before, pieces = len(pieces), _by_look(pieces)
+        before, pieces = len(pieces), [_joined(group) for group in _by_look(pieces)]
         said.append(f"of {before} pieces those of one look became one")
         if len(pieces) > MOST_PIECES:
             said.append(
@@ -194,8 +194,8 @@ def _picture(image: Any) -> Array | None:
     return pixels
 
 
-def _by_look(pieces: list[Drawn]) -> list[Drawn]:
-    """Pieces of one picture and colour joined; a picture is the same where its pixels are."""
+def _by_look(pieces: list[Drawn]) -> list[list[Drawn]]:
+    """Pieces of one picture and colour together; a picture is the same where its pixels are."""
     groups: dict[tuple[Any, ...], list[Drawn]] = {}
     digests: dict[int, bytes] = {}  # a picture that several pieces share is looked at once
     for piece in pieces:
@@ -204,7 +204,7 @@ def _by_look(pieces: list[Drawn]) -> list[Drawn]:
             digests[id(picture)] = hashlib.sha256(repr(picture.shape).encode() + picture.tobytes()).digest()
         look = digests[id(picture)] if picture is not None else b""
         groups.setdefault((look, *(round(c, 2) for c in piece.rgba)), []).append(piece)
-    return [_joined(group) for group in groups.values()]
+    return [*groups.values()]
 
 
 def _corners(pieces: list[Drawn]) -> tuple[list[Drawn], list[str]]:
@@ -213,22 +213,30 @@ def _corners(pieces: list[Drawn]) -> tuple[list[Drawn], list[str]]:
     single = [piece for piece in pieces if len(piece.vertices) < LEAST_CORNERS]
     if not single:
         return pieces, []
-    looks = _by_look(single)
-    groups = [[piece] for piece in pieces if len(piece.vertices) >= LEAST_CORNERS]
-    groups += [[piece] for piece in looks if len(piece.vertices) >= LEAST_CORNERS]
-    alone = [_plain(piece) for piece in looks if len(piece.vertices) < LEAST_CORNERS]
+    groups: list[list[Drawn]] = []
+    alone: list[Drawn] = []
+    for look in _by_look(pieces):
+        whole = [[piece] for piece in look if len(piece.vertices) >= LEAST_CORNERS]
+        little = [piece for piece in look if len(piece.vertices) < LEAST_CORNERS]
+        if whole or len(little) > 1:
+            whole = whole or [[]]
+            whole[0] += little
+        else:
+            alone += [_plain(piece) for piece in little]
+        groups += whole
+    said = f"{len(single)} pieces of one triangle each joined those of their look"
     plain = [group for group in groups if group[0].picture is None]
-    if plain:
+    if alone and plain:
         colours = np.array([group[0].rgba for group in plain])
         for piece in alone:
             plain[int(np.linalg.norm(colours - piece.rgba, axis=1).argmin())].append(piece)
-        said = f"{len(single)} pieces of one triangle each joined those of their look, or of the nearest colour"
+        said += ", or of the nearest colour"
     elif len(alone) > 1:
         groups.append(alone)
         said = f"{len(single)} pieces of one triangle each joined, in one colour where their looks differ"
-    elif groups:
-        said = f"{len(single)} pieces of one triangle each joined those of their look; one of a look of its own is left out"
-    else:
+    elif alone and groups:
+        said += "; one of a look of its own is left out"
+    elif alone:
         return pieces, []  # nothing but a triangle: it has no volume, which is told
     return [_joined(group) for group in groups], [said]
 

@@ -257,7 +257,7 @@ class Acting:
             more += ["--source", str(source)]
         reads = (source, *reuse)
         author: Member | None = None
-        silent = tuple(self.spec.arguments) == ("--without", "control")
+        silent = tuple(self.spec.arguments) == ("--without", "control") and not self.laws()
         if self.spec.given:
             if driven := [Path(self.spec.given) / name for name in DRIVEN if (Path(self.spec.given) / name).is_file()]:
                 more += ["--replay", self.spec.given]
@@ -298,8 +298,11 @@ class Acting:
 
     def controls(self) -> bool:
         """Whether the program has a control, or a law of its own."""
-        said = plain.read_json(self.job.inputs / FACTS)
-        return bool(said.get("control") or said.get("laws"))
+        return bool(plain.read_json(self.job.inputs / FACTS).get("control")) or self.laws()
+
+    def laws(self) -> bool:
+        """Whether the program has a law of its own, which acts without a control too."""
+        return bool(plain.read_json(self.job.inputs / FACTS).get("laws"))
 
     def farewell(self, author: Member) -> None:
         """Let the author's process end by itself, as it does when the engine hangs up."""

@@ -1,7 +1,8 @@
 """A recording's motion in a few kilobytes, so that another machine's run can be held against it.
 
 Sampled at evenly spaced rows (first and last included), with the distance and the turn accumulated at the full rate:
-chaotic motion amplifies the last bit of a float, so the tolerance between two machines grows with the way of a body.
+chaotic motion amplifies the last bit of a float, so the tolerance between two machines grows with the way of a body, the
+shorter of both.
 """
 
 from pathlib import Path
@@ -15,7 +16,7 @@ NUMBERS = 60_000  # upper bound on stored numbers
 POSITION_M = 1e-3
 TURN_DEG = 1.0
 SHARE = 0.01
-TOLERANCE = "1 mm + 1 % of the distance travelled, 1 degree + 1 % of the accumulated turn"
+TOLERANCE = "1 mm + 1 % of the distance travelled, 1 degree + 1 % of the accumulated turn, by the shorter way"
 
 
 class Motion(Frozen):
@@ -80,7 +81,7 @@ def motion(recording: Path) -> Motion:
 
 
 def compare(stamped: Motion, now: Motion) -> Difference:
-    """Hold a new motion against a stamped one, sample by sample."""
+    """Hold a new motion against a stamped one, sample by sample, by the shorter way: a stamped one is a stranger's word."""
     import numpy as np
 
     from worldkit.turning import angles_between
@@ -95,8 +96,8 @@ def compare(stamped: Motion, now: Motion) -> Difference:
         return Difference(within=True, message="nothing moves")
     apart = np.linalg.norm(np.subtract(stamped.position, now.position), axis=2)
     turned = np.degrees(angles_between(np.asarray(stamped.quaternion), np.asarray(now.quaternion)))
-    allowed_m = POSITION_M + SHARE * np.asarray(stamped.travelled_m)
-    allowed_deg = TURN_DEG + SHARE * np.asarray(stamped.turned_deg)
+    allowed_m = POSITION_M + SHARE * np.minimum(stamped.travelled_m, now.travelled_m)
+    allowed_deg = TURN_DEG + SHARE * np.minimum(stamped.turned_deg, now.turned_deg)
     excess = np.maximum(apart / allowed_m, turned / allowed_deg)
     excess = np.where(np.isfinite(excess), excess, np.inf)
     sample, body = np.unravel_index(int(np.argmax(excess)), excess.shape)

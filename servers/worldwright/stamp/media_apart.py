@@ -21,14 +21,17 @@ def apart(recorded: Path, asked: Path) -> str:
         return f"its laws tell {len(rows[1])} places, recorded {len(rows[0])}, or at other steps"
     if not len(places[0]):
         return ""
-    way = np.zeros(len(places[0]))
-    way[1:] = np.linalg.norm(np.diff(places[0], axis=0), axis=1)
     begins = np.flatnonzero(np.r_[True, (np.diff(keys[0][:2]) != 0).any(axis=0)])  # where another point's rows begin
-    way[begins] = 0.0
-    total = np.cumsum(way)
-    travelled = total - np.repeat(total[begins], np.diff(np.r_[begins, len(way)]))
-    off, allowed = np.linalg.norm(places[1] - places[0], axis=1), POSITION_M + SHARE * travelled
-    excess = np.where(np.isfinite(off), off / allowed, np.inf)
+    ways = []
+    for place in places:
+        way = np.r_[0.0, np.linalg.norm(np.diff(place, axis=0), axis=1)]
+        way[begins] = 0.0
+        total = np.cumsum(way)
+        ways.append(total - np.repeat(total[begins], np.diff(np.r_[begins, len(way)])))
+    # By the shorter way: points that were written to tremble would else earn what they are off.
+    off, allowed = np.linalg.norm(places[1] - places[0], axis=1), POSITION_M + SHARE * np.minimum(*ways)
+    excess = off / allowed
+    excess = np.where(np.isfinite(excess), excess, np.inf)
     worst = int(np.argmax(excess))
     if excess[worst] <= 1.0:
         return ""

@@ -196,6 +196,22 @@ def test_a_single_triangle_is_no_mesh_of_its_own(plain: int, triangles: int, lef
     assert drawn_pieces._corners([whole]) == ([whole], [])
 
 
+@pytest.mark.parametrize("triangles", [1, 2])
+@pytest.mark.parametrize("other", [(), ("red",)])
+def test_a_single_triangle_joins_the_larger_piece_of_its_own_look(other: tuple, triangles: int) -> None:
+    box, picture = trimesh.creation.box((1, 1, 1)), np.full((2, 2, 3), 200, np.uint8)
+    look = {"picture": picture, "rgba": (1.0, 1.0, 1.0, 1.0)}
+    whole = Drawn(np.array(box.vertices), np.array(box.faces), np.zeros((8, 2)), **look)
+    one = Drawn(np.eye(3), np.array([[0, 1, 2]]), np.zeros((3, 2)), **look)
+    red = [Drawn(np.array(box.vertices), np.array(box.faces), rgba=(1.0, 0.0, 0.0, 1.0)) for _ in other]
+    pieces, (said,) = drawn_pieces._corners([whole, *red, *[one] * triangles])
+    assert [(len(piece.faces), piece.picture is None) for piece in pieces] == [
+        (12 + triangles, False),
+        *[(12, True)] * len(red),
+    ]
+    assert len(pieces[0].uv) == len(pieces[0].vertices) and said.endswith("joined those of their look")
+
+
 @pytest.fixture
 def intake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     """The confined process, here in this one."""

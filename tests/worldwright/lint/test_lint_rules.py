@@ -161,3 +161,36 @@ def test_a_law_whose_file_does_not_lie_beside_the_program_is_found(tmp_path):
     (tmp_path / "laws").mkdir()
     (tmp_path / "laws" / "rubber.py").write_text("class Rubber:\n    pass\n")
     assert list(rule.check(Program(source.read(path), plan_with(case.plan)))) == []
+
+
+BESIDE = (
+    "from laws.rubber import Rubber\nclass Own(Rubber):\n    pass\ndef made():\n    return Rubber()\nband = Rubber()\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("imported", "given", "says"),
+    [
+        ("from laws.rubber import Rubber", "Rubber()", []),
+        ("import laws.rubber", "laws.rubber.Rubber()", []),
+        ("from helpers import made", "made()", []),
+        ("from helpers import band", "band", []),
+        ("from helpers import Rubber", "Rubber()", []),
+        ("import copy, helpers", "copy.copy(helpers.band)", []),
+        ("from laws.honey import Honey", "Honey()", ["Honey(), which comes from none", "handed none of it"]),
+        ("from helpers import Own", "Own()", ["Own(), which comes from none", "handed none of it"]),
+        ("import helpers", "helpers.Own()", ["helpers.Own(), which comes from none", "handed none of it"]),
+    ],
+)
+def test_of_a_law_that_a_file_beside_makes_only_its_class_says_where_it_stands(tmp_path, imported, given, says):
+    rule = engine.find("WL128")
+    (tmp_path / "laws").mkdir()
+    (tmp_path / "laws" / "rubber.py").write_text("class Rubber:\n    pass\n")
+    (tmp_path / "laws" / "honey.py").write_text("class Honey:\n    pass\n")
+    (tmp_path / "helpers.py").write_text(BESIDE)
+    head, call = "from worldkit import program\nimport laws.rubber\n", "program.main(build, duration=3.0, laws=[{}])\n"
+    path = tmp_path / "simulation.py"
+    path.write_text(f"{head}{imported}\ndef build():\n    return None\n{call.format(given)}")
+    found = rule.check(Program(source.read(path), plan_with(rule.GOOD[0].plan)))
+    for problem, said in zip(found, says, strict=True):
+        assert said in problem.message

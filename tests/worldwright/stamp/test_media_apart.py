@@ -43,6 +43,17 @@ def test_a_point_may_stray_as_far_as_a_body_may(tmp_path: Path, instant: int, of
     assert why in said and bool(said) == bool(why)
 
 
+def test_points_that_are_written_to_tremble_earn_nothing_by_it(tmp_path: Path) -> None:
+    rests, trembles = np.zeros((200, 1, 3)), np.zeros((200, 1, 3))
+    trembles[::2, 0, 0], trembles[-1, 0, 0] = 9e-4, 2.5e-3
+    for recorded, asked in ((trembles, rests), (rests, trembles)):
+        folder = tmp_path / f"{asked.any()}"
+        folder.mkdir()
+        assert "2.50e-03 m off at step 995" in media_apart.apart(
+            told(folder / "one", recorded), told(folder / "other", asked)
+        )
+
+
 def test_points_at_other_steps_are_not_alike_and_no_points_are(tmp_path: Path) -> None:
     one, none = told(tmp_path / "one", PLACES), tmp_path / "none"
     none.mkdir()

@@ -33,8 +33,15 @@ def test_what_is_off_is_named_with_its_numbers() -> None:
 
 
 def test_a_body_that_went_far_may_differ_more() -> None:
-    assert compare(motion(travelled=1.0), motion(x=0.009)).within
-    assert not compare(motion(travelled=1.0), motion(x=0.012)).within
+    assert compare(motion(travelled=1.0), motion(x=0.009, travelled=1.0)).within
+    assert not compare(motion(travelled=1.0), motion(x=0.012, travelled=1.0)).within
+
+
+def test_a_way_that_only_one_of_them_says_allows_nothing() -> None:
+    for stamped, now in (({"travelled": 1.0}, {}), ({}, {"travelled": 1.0})):
+        assert not compare(motion(**stamped), motion(x=0.009, **now)).within
+    assert compare(motion(turned=500.0), motion(turn_deg=5.0, turned=500.0)).within
+    assert not compare(motion(turned=500.0), motion(turn_deg=5.0)).within
 
 
 @given(st.floats(0.01, 179.0))

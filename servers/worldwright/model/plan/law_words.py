@@ -10,8 +10,10 @@ from .committed import Constant
 
 __all__ = ["BRAKES", "direction", "interval", "limit", "named", "numbers"]
 NUMBER = r"(?P<number>\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)\s*"
-FORCE = NUMBER + r"(?P<prefix>[kKmM]?)N(?![\w·*/.-]*m\b)(?![·*/]s)(?!\w)"
-TORQUE = NUMBER + r"(?P<prefix>[kKmM]?)N\s?[·* .]?\s?m(?!\w)(?![·*/]s)"
+RATE = r"(?!\s*/|\s*[·*]?\s*s\b|\s+per\s+(?:unit|[kcm]?[msg]|rad|deg|met|sec|turn))"
+"""Behind a force or a torque of its own: not of a spring's or a damper's (`N/m`, `N s/m`, `N per m`, `N m/rad`)."""
+FORCE = NUMBER + r"(?P<prefix>[kKmM]?)N(?![\w·*/.-]*m\b)(?!\s*[·*]?\s*m\b)(?!\w)" + RATE
+TORQUE = NUMBER + r"(?P<prefix>[kKmM]?)N\s?[·* .]?\s?m(?!\w)" + RATE
 SPEED = NUMBER + r"(?P<prefix>[kcm]?)(?:m|rad)/s(?![\w²^])"
 GRAVITY = NUMBER + r"(?P<prefix>)m/s(?:\^2|\*\*2|²|2)"
 UNITS = {

@@ -19,7 +19,7 @@ from .records import Interventions
 Array = np.ndarray
 COLUMNS = ("mass", "momentum", "energy", "weight", "stored", "volume", "held")
 ROUNDING = 1e-6
-"""A share of all that gravity gave: what is off by less than a few percent of it is rounding, where nothing else acted."""
+"""A share of what gravity gave and of what moves to and fro within: what is off by less is rounding, where nothing else acted."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +55,19 @@ class LawBalance:
 
     @cached_property
     def from_nowhere(self) -> float:
-        """The largest momentum that no force accounts for, as a share of what was exchanged."""
-        pulled = np.concatenate([np.zeros((1, 3)), np.cumsum(self._pulls, axis=0)])
-        given = self.given + self.held - self.held[0]
-        off = _size((self.momentum - self.momentum[0]) + given - pulled)
-        return float(off.max() / max(self.exchanged, ROUNDING * float(_size(self._pulls).sum()), 1e-12))
+        """The momentum that no force accounts for, as a share of what was exchanged: the largest that there ever was, or, where
+        that is more, all of it from one instant to the next, since what swings to and fro returns to nought as often as it swings.
+        """
+        off = np.diff(self.momentum + self.given + self.held, axis=0) - self._pulls
+        largest, pulls, swing = float(_size(np.cumsum(off, axis=0)).max()), _size(self._pulls), self._swing
+        ever = float(np.maximum(_size(off) - ROUNDING * (pulls + swing), 0.0).sum())
+        return max(largest, ever) / max(self.exchanged, ROUNDING * float(pulls.sum() + swing.max()), 1e-12)
+
+    @property
+    def _swing(self) -> Array:
+        """(F - 1,) N s: how large the terms can be whose sum its momentum is, by its mass and energy of motion (Cauchy, Schwarz)."""
+        motion = np.maximum(self.energy - self.weight - self.stored, 0.0)
+        return np.asarray(np.sqrt(2.0 * np.abs(self.mass) * motion)[1:])
 
     @property
     def _pulls(self) -> Array:
@@ -144,12 +152,17 @@ def _of(recording: Any, number: int, law: Any, ledger: Interventions, gravity: A
     sums, step = recording.balances, float(recording.time_step)
     mine = np.asarray(sums.medium) == number
     t = np.asarray(sums.step)[mine] * step
-    columns = {name: np.asarray(getattr(sums, name))[mine] for name in COLUMNS}
+    try:
+        columns = {name: np.asarray(getattr(sums, name))[mine] for name in COLUMNS}
+    except AttributeError as lacking:  # an earlier version recorded fewer
+        raise _damaged(recording, f"of the law {law.name} it lacks a sum: {lacking}") from lacking
     if len(t) < 2 or not (np.diff(t) > 0).all() or not all(np.isfinite(column).all() for column in columns.values()):
         cause = f"the sums of the law {law.name} are no numbers at two instants or more, one after another"
         raise _damaged(recording, cause)
-    kinds, owners = np.asarray(ledger.kind, dtype=str), [owner(str(target)) for target in ledger.target]
-    acted = np.isin(kinds, ("force", "torque")) & np.isin(np.array(owners, dtype=str), law.bodies)
+    kinds, bodies = np.asarray(ledger.kind, dtype=str), {*recording.names}
+    # A body may be called `arm.left`, whose pushes are not those of the `arm`.
+    whose = [target if target in bodies else owner(target) for target in map(str, ledger.target)]
+    acted = np.isin(kinds, ("force", "torque")) & np.isin(np.array(whose, dtype=str), law.bodies)
     when = np.asarray(ledger.time)[acted]
     force = np.asarray(ledger.value).reshape(len(kinds), -1)[acted][:, :3] * (kinds[acted] == "force")[:, None]
     order = np.argsort(when, kind="stable")

@@ -1,7 +1,7 @@
 """Vectors in one SQLite file, which needs nothing installed and is read whole in a few hundredths of a second."""
 
 import sqlite3
-from contextlib import closing
+from contextlib import closing, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -48,13 +48,16 @@ def append(digests: list[str], vectors: "np.ndarray") -> None:
 
 
 def _rows(query: str) -> list[tuple]:
-    """Rows of the file; none before the first batch; a damaged file counts as none and is made anew."""
+    """Rows of the file; none before the first batch, or while another holds it; a damaged file counts as none and is made anew."""
     if not path().is_file():
         return []
     try:
         with closing(sqlite3.connect(path(), timeout=30.0)) as db:
             db.execute(_TABLE)
             return db.execute(query).fetchall()
+    except sqlite3.OperationalError:  # held by another, or on a disk that gives nothing: what lies there is whole
+        return []
     except sqlite3.DatabaseError:
-        path().unlink(missing_ok=True)
+        with suppress(OSError):
+            path().unlink(missing_ok=True)
         return []

@@ -12,6 +12,8 @@ def spring(
     volume: float = 0.0,
     ballast: float = 0.0,
     lies: float = 1.0,
+    rate: float = 3.0,
+    felt: float = 1.0,
 ) -> LawBalance:
     """The sums of a mass on a spring.
 
@@ -21,20 +23,22 @@ def spring(
         mass, volume: how fast they grow, as a share of those at the start, 1/s.
         ballast: kg besides, which are let down at once, to nobody's use.
         lies: the share of its weight that what stands fast carries; the rest only falls.
+        rate: of its swinging, rad/s.
+        felt: the share of the pull that the mass itself feels.
     """
     t = np.linspace(0.0, 2.0, 201)
-    own = np.outer(np.cos(3 * t), [1.0, 0.0, 0.0])
+    own = np.outer(np.cos(rate * t), [1.0, 0.0, 0.0])
     gravity = np.array([0.0, 0.0, -9.81]) if ballast else np.zeros(3)
     mass_at = 1.0 + ballast + mass * t
     pulled = np.concatenate([np.zeros((1, 3)), np.cumsum(mass_at[:-1, None] * gravity * np.diff(t)[:, None], axis=0)])
     let_down = -ballast * np.minimum(t, 0.1)
-    stored = 2.0 * np.cos(3 * t) ** 2
+    stored = 2.0 * np.cos(rate * t) ** 2
     return LawBalance(
         name="spring",
         bodies=("body",),
         t=t,
         mass=mass_at,
-        momentum=own + (1.0 - lies) * pulled,
+        momentum=felt * own + (1.0 - lies) * pulled,
         energy=stored + made * t + let_down,
         weight=let_down,
         stored=stored,

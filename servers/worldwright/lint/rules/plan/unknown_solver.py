@@ -3,7 +3,8 @@
 What it does: for each row of `interventions` with a `solver`: compares its name with the solvers that are installed, its
 `constants` with what that solver reads, each with the plan's constant of that name and its unit, its `bodies` with the
 plan's moving objects, and `shown_by` with the objects that are only drawn. A row with a `file` is the author's own law: the file
-is called after it, it has no `constants` (they stand in the file), its `bodies` are objects of the plan or `world`, and something shows it.
+is called after it, it has no `constants` (they stand in the file), its `bodies` are objects of the plan or `world`, each named once,
+something shows it, and it is the only row of its name.
 
 Why is this bad: the physics pass refuses the world when it starts; and a constant in another unit gives another world,
 without a word.
@@ -48,6 +49,11 @@ def _banded(*bodies: str) -> dict[str, Any]:
     return {"scene_objects": [ramp, crate, band], **_law(bodies, shown_by="band")}
 
 
+def _twice(plan: dict[str, Any]) -> dict[str, Any]:
+    """Its rows once more."""
+    return {**plan, "simulation_parameters": {"interventions": plan["simulation_parameters"]["interventions"] * 2}}
+
+
 NAMELESS = {"kind": "solver", "bodies": ["crate"], "law": "3 N of air", "source": "a table"}
 GOOD: Changes = ({}, _with(), _banded("crate"), _banded("crate", "world"))
 BAD: Changes = (
@@ -63,6 +69,8 @@ BAD: Changes = (
     _banded("crate", "whale"),
     _law(name="honey", shown_by="crate"),
     _law(file="/tmp/rubber.py"),
+    _banded("crate", "crate"),
+    _twice(_banded("crate")),
 )
 
 
@@ -139,7 +147,15 @@ def _law_problems(view: PlanView, row: Intervention, said: Beside, drawn: set[st
     if said.constants:
         what = f"the law `{said.name}` is told constants, which nobody reads to it"
         yield view.at(place, what, "write them into its file, and their origin into `source`")
-    for body in row.bodies:
+    laws = [one.solver.name for one in view.plan.simulation_parameters.interventions if one.solver and one.solver.file]
+    if laws.count(said.name) > 1:
+        what = f"the law `{said.name}` has two rows, of which the program could give only one"
+        yield view.at(place, what, "write one row, with all its bodies")
+    for body in dict.fromkeys(row.bodies):
+        if row.bodies.count(body) > 1:
+            yield view.at(
+                place, f"`{said.name}` acts on `{body}` twice", "name it once: its forces are one row for each body"
+            )
         if body != WORLD and body not in view.rows:
             yield view.at(
                 place, f"`{said.name}` acts on `{body}`, which the plan does not have", "name its objects, or `world`"

@@ -1,8 +1,9 @@
 """A law of the author's own is not the one in the file that the plan names.
 
 What it does: for each row of `interventions` whose `solver` has a `file`, looks whether that file belongs to the program (it
-imports it, and it lies there), and whether `laws=` of `program.main` is handed an object of a class from it. Silent on a law
-that comes from a call or a name that only a run would tell: the author's process refuses it when it starts.
+imports it, and it lies there), and whether `laws=` of `program.main` is handed an object of a class from it. Known is a class that
+is called there and stands in the program, or by that name in a file beside it. Silent on a law that comes from any other call or
+name, which only a run would tell: the author's process refuses it when it starts.
 
 Why is this bad: the plan was approved with this file, a reader of the stamp opens it, and another law moved the world.
 
@@ -14,7 +15,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path, PurePosixPath
 
-from ....model import companions
+from ....model import companions, syntax
 from ....model.companions import CompanionError
 from ...case import Case
 from ...harm import Argued
@@ -33,11 +34,13 @@ GOOD = (
     Case(_HEAD + "band = Rubber()\nprogram.main(build, duration=3.0, laws=(band,))\n", _PLAN),
     Case(_HEAD + "import laws.rubber\nprogram.main(build, duration=3.0, laws=[laws.rubber.soft()])\n", _PLAN),
     Case(_HEAD + "def made():\n    return Rubber()\nprogram.main(build, duration=3.0, laws=[made()])\n", _PLAN),
+    Case(_HEAD + "from helpers import made\nprogram.main(build, duration=3.0, laws=[made()])\n", _PLAN),
+    Case(_HEAD + "from helpers import band\nprogram.main(build, duration=3.0, laws=[band])\n", _PLAN),
+    Case(_HEAD + "import copy\nprogram.main(build, duration=3.0, laws=[copy.copy(Rubber())])\n", _PLAN),
     _HEAD + "program.main(build, duration=3.0)\n",
 )
 BAD = (
     Case(_HEAD + "program.main(build, duration=3.0)\n", _PLAN),
-    Case(_HEAD + "from laws.honey import Honey\nprogram.main(build, duration=3.0, laws=[Honey()])\n", _PLAN),
     Case(_HEAD + "class Own(Rubber):\n    pass\nprogram.main(build, duration=3.0, laws=[Own()])\n", _PLAN),
 )
 EVIDENCE = Argued("any law steps; that another one was approved, only the plan tells")
@@ -50,7 +53,7 @@ def check(program: Program) -> Iterator[Problem]:
     rows = program.plan.simulation_parameters.interventions
     files = [PurePosixPath(row.solver.file).as_posix() for row in rows if row.solver is not None and row.solver.file]
     modules = {file: file.removesuffix(".py").replace("/", ".") for file in files}
-    held = _held(program)
+    held = _beside(program)
     for file in files:
         if held is not None and file not in held:
             what = f"the plan declares a law in {file}, which does not belong to the program"
@@ -60,7 +63,7 @@ def check(program: Program) -> Iterator[Problem]:
     given = _given(program)
     if given is None:
         return
-    came = {node: _comes_from(program, node) for node in given}
+    came = {node: _comes_from(program, node, held or {}) for node in given}
     for node, full in came.items():
         if full is not None and not any(full.startswith(f"{module}.") for module in modules.values()):
             what = (
@@ -73,11 +76,11 @@ def check(program: Program) -> Iterator[Problem]:
             yield at(program.entry, what, f"import it (`from {module} import ...`) and give an object of it in `laws=`")
 
 
-def _held(program: Program) -> set[str] | None:
-    """The files that belong to the program; None where it lies in no folder."""
+def _beside(program: Program) -> dict[str, bytes] | None:
+    """The files that belong to the program, by their paths; None where it lies in no folder."""
     path = Path(program.path).absolute()
     with suppress(OSError, CompanionError):
-        return {*companions.of(path)} if path.is_file() else None
+        return companions.of(path) if path.is_file() else None
     return None
 
 
@@ -100,13 +103,18 @@ def _behind(program: Program, node: ast.expr | None) -> ast.expr | None:
     return bound[0] if len(bound) == 1 and bound[0] is not None else node
 
 
-def _comes_from(program: Program, node: ast.expr) -> str | None:
-    """The full path of what makes a law: of an import, or of a class of the program itself; None where it is not known."""
+def _comes_from(program: Program, node: ast.expr, beside: dict[str, bytes]) -> str | None:
+    """The full path of the class that a law is made of, in the program itself or in a file beside it; None where it is not known."""
     made = _behind(program, node)
     if not isinstance(made, ast.Call):
-        return program.dotted(made)
-    full = program.dotted(made.func)
-    own = {found.name for found in program.nodes(ast.ClassDef)}
-    return (
-        f"{Path(program.path).stem}.{made.func.id}" if isinstance(made.func, ast.Name) and made.func.id in own else full
-    )
+        return None
+    if isinstance(made.func, ast.Name) and any(made.func.id == own.name for own in program.nodes(ast.ClassDef)):
+        return f"{Path(program.path).stem}.{made.func.id}"
+    full = program.dotted(made.func) or ""
+    module, _, name = full.rpartition(".")
+    stem = module.replace(".", "/")
+    text = beside.get(f"{stem}.py", beside.get(f"{stem}/__init__.py", b""))
+    with suppress(ValueError, SyntaxError, RecursionError):
+        if any(isinstance(one, ast.ClassDef) and one.name == name for one in syntax.module(text).body):
+            return full
+    return None

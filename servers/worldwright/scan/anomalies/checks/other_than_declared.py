@@ -118,7 +118,8 @@ def _stronger(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> It
     if size[worst] <= most * (1 + SHARE) + 1e-6:
         return
     unit, time = UNIT[row.kind], float(times_s[worst])
-    body = row.bodies[0] if row.solver is None else owner(str(np.asarray(ledger.target, dtype=str)[mine][worst]))
+    target = str(np.asarray(ledger.target, dtype=str)[mine][worst])
+    body = row.bodies[0] if row.solver is None else target if target in row.bodies else owner(target)
     message = f"the {row.kind} on {body} reaches {size[worst]:.3g} {unit}; its declared law says {most:.3g}"
     yield Sign(body, (time, time), size[worst], most, unit, "blocking", message)
 
@@ -251,6 +252,10 @@ GOOD = (
     lambda: _gravity(-analytic.G),
     lambda: _own_law(5.0),
     lambda: _own_law(5.0, "at most 5 N along +X"),
+    lambda: _own_law(40.0, "a damper of 10 N s/m, at most 50 N"),
+    lambda: _own_law(40.0, "a damper of 10 N/(m/s), at most 50 N"),
+    lambda: _own_law(40.0, "a spring of 20 N per m, at most 50 N"),
+    lambda: _own_law(40.0, "a spring of 5 N m/rad, at most 50 N m", "torque"),
 )
 BAD = (
     lambda: replace(_pushed(40.0, "a breeze of 1 N, far below its weight of 49 N"), severity="blocking"),
@@ -262,6 +267,9 @@ BAD = (
     lambda: replace(_gravity(-1.62), severity="blocking"),
     lambda: replace(_own_law(40.0), severity="blocking"),
     lambda: replace(_own_law(40.0, "at most 2 N m", "torque"), severity="blocking"),
+    lambda: replace(_own_law(40.0, "a spring of 200 N per m, at most 5 N"), severity="blocking"),
+    lambda: replace(_own_law(40.0, "a spring of 50 N m/rad, at most 5 N m", "torque"), severity="blocking"),
+    lambda: replace(_own_law(40.0, "at most 5 N per wheel"), severity="blocking"),
     lambda: replace(_own_law(5.0, "at most 5 N along -X"), severity="blocking"),
     lambda: replace(_own_law(5.0, "brakes with 5 N against the motion"), severity="blocking"),
 )

@@ -4,8 +4,10 @@ What it means: its points are pushed without pushing back (or push without being
 energy is not the one whose slope its forces are. What flows in or out of it belongs into the plan.
 
 Formula: of each law, over its recorded instants: momentum of the points, less that at the start and what gravity gave, plus the
-impulse given to bodies and to what stands fast, over all impulses exchanged, mere weight not counted; the largest rise of its
-energy plus its work on bodies, over the range of either, energy by weight not counted; the largest change of mass, and of volume where the law tells it, over that at the start.
+impulse given to bodies and to what stands fast, over all impulses exchanged, mere weight not counted: the largest that it ever is,
+or all its changes from one instant to the next, where they are more; the largest rise of its energy plus its work on bodies, over
+the range of either, energy by weight not counted; the largest change of mass, and of volume where the law tells it, over that at
+the start.
 A recording with a law and fewer than two instants of its sums shows nothing of it, and blocks.
 Threshold: momentum 2 % warns, 10 % blocks; energy 5 % and 20 %; mass 1 % warns, 10 %
 blocks; volume 5 % warns.
@@ -72,13 +74,17 @@ def _unsummed() -> Trajectory:
 
 GOOD = (
     lambda: Case("a mass on a spring, and what hangs on it", _spring()),
+    lambda: Case("a mass on a stiff spring", _spring(rate=100.0)),
     lambda: Case("a world without a law of its own", analytic.resting()),
     lambda: Case("a spring beside ballast", _spring(ballast=1e4)),
     lambda: Case("a spring that warms up", _spring(made=-0.3)),
 )
 BAD = (
     lambda: Case("a mass that pulls at nothing", _spring(kept=0.0), severity="blocking"),
+    lambda: Case("a mass that often pulls at nothing", _spring(kept=0.0, rate=100.0), severity="blocking"),
+    lambda: Case("a body that is shaken by nothing", _spring(felt=0.0, rate=100.0), severity="blocking"),
     lambda: Case("a body that feels most of the pull", _spring(kept=0.9), severity="warn"),
+    lambda: Case("a body that feels most of a quick pull", _spring(kept=0.9, rate=100.0), severity="warn"),
     lambda: Case("a spring that winds itself up", _spring(made=0.3), severity="blocking"),
     lambda: Case("a spring that grows heavier", _spring(mass=0.04), severity="warn"),
     lambda: Case("a spring that grows half as heavy again", _spring(mass=0.25), severity="blocking"),
