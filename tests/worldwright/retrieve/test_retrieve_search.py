@@ -2,6 +2,7 @@
 
 import json
 import math
+import shutil
 import threading
 
 import numpy as np
@@ -137,11 +138,25 @@ def test_a_damaged_index_is_built_again(tmp_path, monkeypatch):
 
 
 def test_many_readers_build_one_index(tmp_path, monkeypatch):
-    """One of them builds it, and the others wait."""
+    """One of them builds it when all have asked, and the others wait."""
+    ready = index.open_index().path
     monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
     monkeypatch.setattr(index, "PATIENCE_S", 300.0)  # however busy the machine is
-    answers, built, build = [], [], index._build
-    monkeypatch.setattr(index, "_build", lambda path, *rest: (built.append(path), build(path, *rest)))
+    answers, built, asked, all_asked, held = [], [], [], threading.Event(), index.held
+
+    def ask(*words):
+        asked.append(words)
+        if len(asked) == 4:
+            all_asked.set()
+        return held(*words)
+
+    def build(path, *_):
+        assert all_asked.wait(300.0)
+        built.append(path)
+        shutil.copy(ready, path)  # the whole one, which another test builds
+
+    monkeypatch.setattr(index, "held", ask)
+    monkeypatch.setattr(index, "_build", build)
     threads = [threading.Thread(target=lambda: answers.append(anchors("sliding friction", 1))) for _ in range(4)]
     for thread in threads:
         thread.start()

@@ -11,13 +11,29 @@ from click.testing import CliRunner
 from worldwright import cli
 from worldwright.model.errors import NotFoundError
 from worldwright.model.progress import silent
-from worldwright.retrieve import forum_export, sources, tools
+from worldwright.retrieve import corpus, forum_export, sources, tools
 
 
 @pytest.fixture(autouse=True)
-def cache(tmp_path, monkeypatch):
-    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path / "cache"))
+def no_sources(monkeypatch):
     monkeypatch.delenv("WORLDWRIGHT_SOURCES", raising=False)
+
+
+@pytest.fixture
+def cache(tmp_path, monkeypatch):
+    """A folder of the test's own for what the user adds, and for the index of all."""
+    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path / "cache"))
+
+
+@pytest.fixture
+def few(cache, monkeypatch):
+    """Beside what the user adds, a few pages of the manual: the whole takes seconds to cut."""
+    pages = corpus._installed()[:5]
+    monkeypatch.setattr(corpus, "_installed", lambda: pages)
+    monkeypatch.setattr(corpus, "_lately", lambda moment: ())
+    corpus._fixed.cache_clear()
+    yield
+    corpus._fixed.cache_clear()
 
 
 def checkout(tmp_path):
@@ -32,7 +48,7 @@ def checkout(tmp_path):
     return folder
 
 
-def test_a_named_folder_is_searched_and_cited(tmp_path, monkeypatch):
+def test_a_named_folder_is_searched_and_cited(cache, tmp_path, monkeypatch):
     monkeypatch.setenv("WORLDWRIGHT_SOURCES", str(checkout(tmp_path)))
     hits = tools.search("wobblefish distance", part="sources").hits
     assert hits[0].citation == "engine-checkout-local/src/ray.c#wobblefish_ray:L1-L4"
@@ -40,7 +56,7 @@ def test_a_named_folder_is_searched_and_cited(tmp_path, monkeypatch):
     assert not any("skipped" in hit.citation for hit in hits)
 
 
-def test_sources_are_kept_and_forgotten(tmp_path):
+def test_sources_are_kept_and_forgotten(cache, tmp_path):
     folder = checkout(tmp_path)
     sources.add(folder)
     sources.add(folder)
@@ -114,7 +130,7 @@ def service():
     server.shutdown()
 
 
-def test_a_forum_is_exported_indexed_and_found(service, tmp_path):
+def test_a_forum_is_exported_indexed_and_found(few, service, tmp_path):
     out = tmp_path / "forum.jsonl"
     count = forum_export.export(forum_export.Forum("o/r", "dummy", service[0]), out, silent)
     threads = [json.loads(line) for line in out.read_text().splitlines()]

@@ -8,6 +8,7 @@ import socket
 import sysconfig
 from contextlib import ExitStack
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -152,6 +153,17 @@ def test_there_is_no_way_out(level, name, outcomes):
     if outcome.startswith("not feasible"):
         pytest.skip(outcome)
     assert outcome.startswith("barred"), outcome
+
+
+def test_what_one_installation_has_tried_another_does_not_make_it_try_again(tmp_path, monkeypatch):
+    tried = []
+    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    monkeypatch.setitem(sandbox.LADDER, "landlock", SimpleNamespace(unavailable=lambda: ""))
+    monkeypatch.setattr(sandbox.probe, "ways_out", lambda level: tried.append(level) or (["UDP"], 14, ""))
+    for installation in ("one", "another", "one", "another"):
+        monkeypatch.setattr(sandbox, "_state", lambda installation=installation: installation)
+        assert "UDP" in sandbox.unusable("landlock")
+    assert len(tried) == 2
 
 
 def test_a_broken_wall_is_noticed(tmp_path):

@@ -21,6 +21,8 @@ from .confinement import Confinement
 LADDER = {"bubblewrap": bubblewrap, "landlock": landlock, "rlimits": rlimits}
 CONFINING = ("bubblewrap", "landlock")
 """Levels that must withstand the probe; the lowest one only limits accidents."""
+REMEMBERED = 8
+"""Outcomes of the probe that are kept, the newest first."""
 
 __all__ = ["CONFINING", "LADDER", "Confinement", "level", "unusable"]
 
@@ -57,7 +59,8 @@ def level() -> str:
 def unusable(name: str) -> str:
     """Why a level does not work here; empty when a program inside it tried to get out and failed.
 
-    The answer is remembered until the machine, the user, bubblewrap or our own sources change.
+    The answer is remembered until the machine, the user, bubblewrap or our own sources change; those of several
+    installations are, side by side, since each of their jobs asks.
     """
     if reason := LADDER[name].unavailable():
         return reason
@@ -66,15 +69,17 @@ def unusable(name: str) -> str:
     kept = cache_folder() / f"sandbox-{name}-{os.geteuid()}.json"
     state = _state()
     try:
-        known = json.loads(kept.read_text(encoding="utf-8"))
-        if known["state"] == state:
-            return str(known["reason"])
+        known = list(json.loads(kept.read_text(encoding="utf-8"))["tried"])
+        reasons = {str(row["state"]): str(row["reason"]) for row in known}
     except (OSError, ValueError, KeyError, TypeError):
-        pass
+        known, reasons = [], {}
+    if state in reasons:
+        return reasons[state]
     possible, tried, broken = probe.ways_out(LADDER[name])
     reason = broken or (f"a confined program could: {', '.join(possible)}" if possible else "")
     with contextlib.suppress(OSError):  # with a read-only home the probe runs again: it costs time, not safety
-        write_json(kept, {"state": state, "reason": reason, "attempts": tried})
+        newest = {"state": state, "reason": reason, "attempts": tried}
+        write_json(kept, {"tried": [newest, *known][:REMEMBERED]})
     return reason
 
 
