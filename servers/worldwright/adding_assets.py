@@ -46,8 +46,8 @@ def add_asset(
 ) -> Illustrated:
     """Make an asset of a mesh file: mended, scaled, with hulls that keep cavities, mass and friction, stood on a floor.
 
-    The file is read confined and bounded; what was mended and assumed is told. Nothing is registered unless all of it went
-    well. Afterwards `find_asset` finds it, and a plan names its key.
+    The file is read confined and bounded; what was mended and assumed is told. What cannot be taken in is not registered; what
+    does not stand still is, and it is said. Afterwards `find_asset` finds it, and a plan names its key.
     """
     from .intake.taking_in import add
 

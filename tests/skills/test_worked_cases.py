@@ -1,6 +1,7 @@
-"""The worked cases of the skill `worked-cases`: each plan stands, its program is what the plan says, and its film can be drawn."""
+"""The worked cases of the skill `worked-cases`: each plan stands, does what it claims, and its film shows who does it."""
 
 import json
+import math
 import runpy
 import shutil
 import sys
@@ -9,18 +10,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from worldengine.film import described, motion_facts
+from worldengine.film import described, light_meter, motion_facts
 from worldengine.film.directed import Screening
 from worldengine.recording import stored
 from worldkit import portable
 from worldkit.filming import Film, Recorded
 from worldwright.lint import tools as lint
+from worldwright.lint.compiled import planned
 from worldwright.model.plan.plan_text import read_plan
+from worldwright.model.recording.trajectory_files import read_trajectory
 from worldwright.place import tools as place
+from worldwright.scan.objectives import expecting
 
 CASES = Path(__file__).parents[2] / "skills/worked-cases/references"
 NAMES = sorted(path.parent.name for path in CASES.glob("*/plan.md"))
 SIZE = (160, 90)
+SHARE = 0.005
+"""What moves covers so much of a picture where it is seen best: a pendulum's rod and bob 0.8 %, dominoes ten times as much."""
 
 
 class Filmed:
@@ -29,21 +35,27 @@ class Filmed:
     def __init__(self, name: str, folder: Path) -> None:
         case, self.folder = folder / name, folder
         self.plan = read_plan(case / "plan.md").plan
+        (case / "simulation.py").write_text(planned.source(self.plan), encoding="utf-8")
         runpy.run_path(str(case / "simulation.py"), run_name="__main__")
         self.recording = stored.open(folder / "run/trajectory")
-        facts = {"fps": 24, "size": list(SIZE), "movers": list(self.recording.meta.get("movers") or ())}
+        facts = {"fps": 24, "size": list(SIZE), "movers": self.plan.movers()}
         motion_facts.write(self.recording, folder / "motion.npz", facts)
         with np.load(folder / "motion.npz") as arrays:
             film = Film(Recorded(dict(arrays)))
         runpy.run_path(str(case / "film.py"))["film"](film)
         self.facts, arrays = film.description()
-        (folder / "film.json").write_text(json.dumps(self.facts))
         np.savez(folder / "film.npz", **arrays)
 
-    def screening(self, size: tuple[int, int] = SIZE, renderer: str = "preview") -> Screening:
+    def readings(self, **changes: object) -> list[dict]:
+        """What a light meter reads in three frames of the film, with the pixels of what moves."""
+        (self.folder / "film.json").write_text(json.dumps(self.facts | changes))
         world = self.folder / "run/world.mjz"
         film = described.read(self.folder, self.recording)
-        return Screening(world, portable.read(world), self.recording, film, size, 24, renderer)
+        with Screening(world, portable.read(world), self.recording, film, SIZE, 24, "preview") as screening:
+            return [
+                light_meter.reading(screening.model, picture, screening.segmentation(), self.plan.movers())
+                for picture in (screening.picture(film.frames * quarter // 4) for quarter in (1, 2, 3))
+            ]
 
 
 def filmed(name: str, folder: Path, monkeypatch) -> Filmed:
@@ -69,12 +81,13 @@ def test_a_plan_stands(name):
 
 @pytest.mark.gl
 @pytest.mark.parametrize("name", NAMES)
-def test_a_case_runs_and_its_film_shows_what_it_is_about(name, tmp_path, monkeypatch):
+def test_a_case_does_what_it_claims_and_its_film_shows_who_does_it(name, tmp_path, monkeypatch):
     case = filmed(name, tmp_path, monkeypatch)
-    moved = np.linalg.norm(np.ptp(case.recording.pos, axis=0), axis=-1)
-    assert moved.max() > 0.01 and np.isfinite(case.recording.pos).all()
-    with case.screening() as screening:
-        frames = [screening.picture(frame) for frame in (0, len(screening.film.arrays["eye"]) // 2)]
-    assert np.abs(frames[0].astype(int) - frames[1]).max() > 40, "something is seen to move"
-    for frame in frames:
-        assert 0.06 < frame.mean() / 255 < 0.85 and frame.std() > 15, "neither black, white nor grey"
+    told = expecting.expect(read_trajectory(tmp_path / "run/trajectory"), case.plan).objectives
+    assert [o.status for o in told] == ["proved", "visual_only"], told
+    read = case.readings()
+    for one in read:
+        assert 0.06 < one["luma"] < 0.85 and one["contrast"] > 0.06, "neither black, white nor grey"
+    if case.facts.get("surfaces"):  # what it stands for is counted where it is
+        read = case.readings(surfaces=[])
+    assert max(sum(one["subjects"].values()) for one in read) > SHARE * math.prod(SIZE), "what moves is seen"

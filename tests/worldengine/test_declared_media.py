@@ -249,10 +249,12 @@ def test_too_many_points_are_refused_with_their_number(monkeypatch: pytest.Monke
         Media(world().compile(), [ROW], 0.001)
 
 
-def test_many_points_are_recorded_less_often() -> None:
+def test_many_points_are_recorded_less_often_down_to_a_rate(monkeypatch: pytest.MonkeyPatch) -> None:
     model = world(points=3000).compile()
     assert Media(model, [ROW], 0.001).every == 20
     assert Media(model, [ROW], 0.04).every == 1
+    monkeypatch.setattr(media_of, "POINTS_A_SECOND", 3000)
+    assert Media(model, [ROW], 0.001).every == 40, "25 times a second, however many"
 
 
 def test_a_law_is_summed_at_the_end_too_and_asked_often_enough(tmp_path: Path) -> None:

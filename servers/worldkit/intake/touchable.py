@@ -10,7 +10,7 @@ from .drawn_pieces import Array
 from .mending import Solid
 
 TOLERANCE = 0.05
-"""A primitive or a single hull stands for a solid when it is larger by no more than this share of its volume."""
+"""A primitive stands for a solid when it is larger by no more than this share of its volume."""
 FULL = 0.93
 """A solid that fills this share of its hull collides as that."""
 TRIANGLES = 3_000

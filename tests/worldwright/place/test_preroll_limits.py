@@ -2,6 +2,8 @@
 
 import math
 import resource
+from contextlib import nullcontext
+from types import SimpleNamespace
 
 import pytest
 
@@ -62,8 +64,23 @@ def test_one_that_stands_still_is_no_fault_of_the_plan(monkeypatch, tmp_path, sm
         place.settle(tmp_path / "plan.md")
 
 
+@pytest.mark.parametrize("advances", [True, False])
+def test_it_is_waited_for_as_long_as_it_advances(monkeypatch, tmp_path, advances):
+    progress, clock, needs_s = tmp_path / "answer.progress", [0.0], 10 * asking.STILL_S
+
+    def sleep(_: float) -> None:
+        clock[0] += asking.STILL_S / 2
+        progress.write_text(f"step {clock[0]}" if advances else "built")
+
+    monkeypatch.setattr(asking, "time", SimpleNamespace(monotonic=lambda: clock[0], sleep=sleep))
+    monkeypatch.setattr(asking, "_ended", lambda *_: clock[0] >= needs_s)
+    with nullcontext() if advances else pytest.raises(JobError, match=r"nothing advanced for 180 s \(built\)"):
+        asking._follow(SimpleNamespace(returncode=0), progress)
+    assert (clock[0] >= needs_s) == advances
+
+
 @pytest.mark.usefixtures("unkept")
-def test_as_long_as_it_advances_no_clock_ends_it_but_that_of_the_call(monkeypatch):
+def test_the_clock_of_the_call_ends_it_whatever_its_own_would_say(monkeypatch):
     monkeypatch.setattr(asking, "STILL_S", math.inf)
     plan = crates()
     with call_time.limited(0.0), pytest.raises(CallOverError):

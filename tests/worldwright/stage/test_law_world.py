@@ -6,16 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import whole_runs
 from worldwright.draft.writing import write_program
-from worldwright.lint import tools as lint
-from worldwright.model.evidence import environment
 from worldwright.model.evidence.run import Run
-from worldwright.place.tools import resolve
 from worldwright.report.material import gather
 from worldwright.report.page import render
 from worldwright.scan import tools as scan
-from worldwright.stage import tools as stage
-from worldwright.stamp import by_measurement
 from worldwright.stamp import tools as stamp
 
 pytestmark = [pytest.mark.gl, pytest.mark.slow]
@@ -45,39 +41,23 @@ def written(run: Run) -> None:
 
 
 def test_a_law_of_ones_own_stretches_a_cord_to_acceptance(tmp_path: Path) -> None:
-    from worldengine.recording import stored
-
-    folder = tmp_path / "cord"
-    folder.mkdir()
-    (folder / "plan.md").write_text(PLAN.read_text(encoding="utf-8"), encoding="utf-8")
-    assert resolve(folder / "plan.md").ok
-    assert not [f for f in lint.check_plan(folder / "plan.md").findings if f.severity == "error"]
-    stamp.approve(str(folder), by="tester")
-    run = Run(folder)
+    run = whole_runs.approved(PLAN, tmp_path / "cord")
     written(run)
-    assert lint.check_program([run.program]).ok
-    for name in ("physics", "stills", "video"):
-        job = stage.start(str(folder), stage=name)
-        while not job.ended:
-            job = stage.wait(str(folder), job=job.job, timeout_s=30)
-        assert job.state == "succeeded", job.text()
-    recording = stored.open(run.evidence(run.evidence_key(environment.current().sha256())) / "physics" / "trajectory")
+    recording = whole_runs.filmed(run)
     rings = recording.media.place.reshape(-1, 33, 8, 3).mean(axis=2)
     length = np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
     assert 1.55 < length.max() / length[0] < 1.75, "stretched by more than half"
-    assert length.argmax() < length[length.argmax() :].argmin() + length.argmax() and length[-1] < 0.9 * length.max()
-    scanned = scan.scan(str(folder))
+    assert length[-1] < 0.9 * length.max(), "and sprung back"
+    scanned = scan.scan(str(run.folder))
     assert scanned.ok, scanned.text()
     assert all("declared: a neo-Hookean cord" in acted for acted in scanned.acting) and len(scanned.acting) == 2
-    assert scan.expect(str(folder)).ok
+    assert scan.expect(str(run.folder)).ok
     (law,) = gather(run).laws
     assert law.from_nowhere < 1e-9 and law.made_j / law.scale_j < 0.03 and law.volume_change < 0.01
     assert "own laws</h3>" in render(gather(run))
-    stamp.describe(str(folder), by_measurement.describe(run))
-    stamp.review(str(folder), by_measurement.review(run))
-    while not (accepted := stamp.accept(str(folder), timeout_s=60)).ok:  # a busy machine goes on at the next call
-        assert accepted.state == "proving"
-    while (proved := stamp.verify(str(folder), timeout_s=60, rebuild=True)).state == "running":
+    whole_runs.reviewed(run)
+    whole_runs.accepted(run)
+    while (proved := stamp.verify(str(run.folder), timeout_s=60, rebuild=True)).state == "running":
         pass
     assert (proved.state, proved.mode) == ("proved", "bitwise"), proved.text()
     assert "medium by the author's law rubber law re-run" in proved.text()

@@ -1,4 +1,4 @@
-"""The drops as one smooth surface, near, on a kitchen counter, in light that grazes it."""
+"""The rigid drops as one smooth surface, near, on a kitchen counter, in light that grazes it."""
 
 from worldkit.filming import Film, Surface, orbit
 
