@@ -103,7 +103,7 @@ def test_traced_light_through_a_slide_is_as_strong_as_its_picture_and_the_light_
     film = {"type": "hdrfilm", "width": 48, "height": 48, "rfilter": {"type": "box"}}
     eye = aim(origin=origin, target=[0, 0, 0], up=[0, 0, 1]) @ mi.ScalarTransform4f().scale([wide, wide, 1])
     sensor = mi.load_dict({"type": "orthographic", "to_world": eye, "film": film})
-    seen = np.array(mi.render(scene, sensor=sensor, integrator=mi.load_dict({"type": "direct"}), spp=64))
+    seen = np.array(mi.render(scene, sensor=sensor, integrator=mi.load_dict({"type": "direct"}), spp=128))
     got = seen[..., 1] / ROOM.key.colour[1]
     share = gobos.slide("bars", 1, ROOM.key_spread)
     inner = share.reshape(32, gobos.PIXELS // 32, 32, gobos.PIXELS // 32).mean(
@@ -114,6 +114,35 @@ def test_traced_light_through_a_slide_is_as_strong_as_its_picture_and_the_light_
         and np.corrcoef(got[8:40, 8:40].ravel(), inner.ravel())[0, 1] > 0.9
     )
     assert got[:6].mean() == pytest.approx(1.0, abs=0.06), "beside the slide"
+
+
+@pytest.mark.parametrize("size", [0.1, 0.8])
+def test_far_beyond_a_slide_all_the_ground_is_lit(size):
+    """Seen from above, 100 m each way: every ninth of it is as bright as without a slide, which hides little of the middle one."""
+    mi = pytest.importorskip("mitsuba")
+    from worldengine.film.renderers.traced import daylight, variant
+
+    variant.choose()
+    wide = 100.0
+    lights = daylight.key_lights(ROOM, np.zeros(3), 1.5, Gobo("leaves", size, 0.0, 1, (0.0, 0.0, 0.2)))
+    white = {"type": "diffuse", "reflectance": {"type": "rgb", "value": [1.0, 1.0, 1.0]}}
+    board = {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale(4 * wide), "bsdf": white}
+    scene = mi.load_dict({"type": "scene", **lights, "board": board})
+    film = {"type": "hdrfilm", "width": 33, "height": 33, "rfilter": {"type": "box"}}
+    eye = mi.ScalarTransform4f().look_at(origin=[0, 0, 100], target=[0, 0, 0], up=[0, 1, 0])
+    sensor = {"type": "orthographic", "to_world": eye @ mi.ScalarTransform4f().scale([wide, wide, 1]), "film": film}
+    seen = np.array(mi.render(scene, sensor=mi.load_dict(sensor), integrator=mi.load_dict({"type": "direct"}), spp=64))
+    ninths = (seen[..., 1] / (ROOM.key.colour[1] * WAY[2])).reshape(3, 11, 3, 11).mean(axis=(1, 3))
+    assert np.abs(ninths - 1).max() < 0.15
+
+
+def test_rings_of_light_lie_within_each_other_and_reach_all_of_the_scene():
+    from worldengine.film.renderers.traced.daylight import RING, rings
+
+    for half, far in ((0.04, 1000.0), (0.4, 1000.0), (4.8, 1200.0), (400.0, 1000.0)):
+        times = rings(half, far)
+        assert far <= half * np.prod(times) < 2 * far and min(times) >= 2 and max(times) <= RING
+    assert rings(2000.0, 1000.0) == []
 
 
 @pytest.mark.parametrize(

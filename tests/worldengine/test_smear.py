@@ -64,6 +64,16 @@ def test_a_beam_across_the_picture_counts_though_both_its_ends_are_beside_it():
     assert travel(shown([(0, 0, -2)], halves=below), shown([(0, 0, -2.1)], halves=below)) == 0.0
 
 
+@pytest.mark.parametrize("turn", [90, 180, 270, 360, 720])
+def test_what_turns_goes_far_even_where_it_ends_as_it_began(turn):
+    def fan(angle):
+        c, s = np.cos(angle), np.sin(angle)
+        return shown([(0, 0, 0)], [[(c, 0, s), (0, 1, 0), (-s, 0, c)]], [(0.5, 0.01, 0.01)])
+
+    moments = [fan(np.radians(turn) * share) for share in smear.LOOKS]
+    assert travel(*moments) > 1.3 * 0.5 / 2 / 0.45 * 45, "further than its own radius"
+
+
 @pytest.mark.parametrize(("pixels", "found"), [(0.0, 1), (0.99, 1), (1.0, 2), (3.9, 2), (9.0, 5), (100.0, 8)])
 def test_more_moments_for_what_is_faster_and_never_more_than_the_film_says(pixels, found):
     assert smear.moments(pixels, 8) == found and smear.moments(pixels, 1) == 1

@@ -182,8 +182,8 @@ class Screening:
     def _travel_px(self, frame: int) -> float:
         """How far anything goes in the picture while the shutter is open for a frame."""
         views, shown = [], []
-        for at in (float(frame), frame + self.film.shutter * (1 - 1e-6)):
-            data = self._moment(at, treated=not self._reckons)
+        for share in smear.LOOKS:
+            data = self._moment(frame + self.film.shutter * share, treated=not self._reckons)
             views.append(of_camera(self.model, data, self._camera, self.frames.width, self.frames.height))
             shown.append(smear.drawn(self.model, data))
         return smear.travel_px(views, shown, self.frames.height)

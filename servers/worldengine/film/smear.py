@@ -20,6 +20,8 @@ APART_PX = 2.0
 """Moments that lie so far apart melt into each other."""
 BESIDE = 0.25
 """What is further beside the picture than this share of it does not count."""
+LOOKS = (0.0, 0.38, 1.0 - 1e-6)
+"""At these shares of the time that a shutter is open it is looked where things are: what turns once around is back at its end."""
 NEAR_M = 0.02
 _SIGNS = np.array(list(product((-1.0, 1.0), repeat=3)))
 _EDGES = np.array([(a, b) for a in range(8) for b in range(a) if np.abs(_SIGNS[a] - _SIGNS[b]).sum() == 2])

@@ -28,8 +28,11 @@ AWAY = 60.0
 """The key light is so many radii of the scene away."""
 POINTS, GOLDEN_ANGLE = 12, 2.3999632
 """Through a slide the key light shines from so many points of its disk, each turned by this angle from the one before."""
-BESIDE = 16
-"""What shines beside a slide reaches so many times further than it."""
+GROUND_M, STEEP = 1000.0, 3.0
+"""Beside a slide light shines on all of the scene and so far over endless ground, from so many times as far away at least."""
+RING, BESIDE = 256, (0.25, 0.1)
+"""It is thrown by rings with a hole, each so many times as wide as that at most; the first and those around it are looked at so often,
+where the slide is looked at once."""
 
 
 def directions(width: int) -> np.ndarray:
@@ -109,23 +112,37 @@ def key_lights(setting: Setting, centre: np.ndarray, radius: float, gobo: Gobo |
     spread, across = max(setting.key_spread, 0.008), gobo.across(np.array(setting.key.direction))
     half = REACH * gobo.size_m
     turn = across[:, :3] * np.array([[half], [half], [1.0]])
-    middle, away = np.array(gobo.at), AWAY * max(radius, half)
+    middle = np.array(gobo.at)
+    far = max(float(np.linalg.norm(centre - middle)) + radius, GROUND_M)
+    away = max(AWAY * max(radius, half), STEEP * far)
     colour = np.array(setting.key.colour)
     share = slide(gobo.kind, gobo.seed, setting.key_spread)
     through = mi.load_dict(_thrown(share[..., None] * colour, "bilinear"))
-    around = np.ones((2 * BESIDE, 2 * BESIDE, 1))
-    around[BESIDE - 1 : BESIDE + 1, BESIDE - 1 : BESIDE + 1] = 0.0
-    beside = mi.load_dict(_thrown(around * colour, "nearest"))
+    thrown = [("key", through, half, 1.0)]
+    for ring, times in enumerate(rings(half, far)):
+        around = np.ones((2 * times, 2 * times, 1))
+        around[times - 1 : times + 1, times - 1 : times + 1] = 0.0
+        beside = mi.load_dict(_thrown(around * colour, "nearest"))
+        thrown.append((f"beside{ring}_", beside, times * thrown[-1][2], BESIDE[min(ring, 1)]))
     found: dict[str, dict[str, Any]] = {}
     for number in range(POINTS):
         out, angle = np.sqrt((number + 0.5) / POINTS) * spread * away, number * GOLDEN_ANGLE
         place = middle - away * turn[2] + out * (np.cos(angle) * turn[0] + np.sin(angle) * turn[1])
         move = mi.ScalarTransform4f().look_at(origin=place.tolist(), target=middle.tolist(), up=turn[1].tolist())
-        for name, image, wide, often in (("key", through, half, 1.0), ("beside", beside, BESIDE * half, 0.25)):
+        for name, image, wide, often in thrown:
             found[f"{name}{number}"] = {
                 "type": "projector", "to_world": move, "irradiance": image, "scale": float(away**2 / POINTS),
                 "fov": float(2 * np.degrees(np.arctan(wide / away))), "sampling_weight": often / POINTS,
             }  # fmt: skip
+    return found
+
+
+def rings(half: float, far: float) -> list[int]:
+    """How many times as wide as what is within it each ring of light around a slide of half width `half` is, so that they reach `far`, m."""
+    found = []
+    while half < far:
+        found.append(min(RING, int(np.ceil(far / half))))
+        half *= found[-1]
     return found
 
 
