@@ -364,7 +364,7 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
             or faces.max() >= len(points)
         ):
             raise _refuse(f"{name!r} is no mesh of at least four points and their triangles")
-        found |= {"vertices": str(told["vertices"]), "faces": str(told["faces"])}
+        found |= {"vertices": str(told["vertices"]), "faces": str(told["faces"]), "grows": bool(told.get("grows"))}
         if "uv" in told:
             found["uv"] = str(told["uv"])
             if arrays[found["uv"]].shape != (len(points), 2) or not np.isfinite(arrays[found["uv"]]).all():

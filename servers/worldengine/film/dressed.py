@@ -10,7 +10,7 @@ from worldkit import materials, portable
 from worldkit.lights import LIGHT_GAIN
 
 from ..recording.replay import Replay
-from . import one_surface, panel_lights, swaying
+from . import one_surface, panel_lights, sward_normals, swaying
 from .described import Described, FilmError
 
 if TYPE_CHECKING:
@@ -121,6 +121,8 @@ def _add(spec: "mujoco.MjSpec", film: Described, thing: dict[str, Any]) -> None:
             name=name, uservert=points.ravel(), userface=film.arrays[thing["faces"]].astype(np.int32).ravel(),
             inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL,
         )  # fmt: skip
+        if thing.get("grows"):
+            mesh.usernormal = sward_normals.of(points, film.arrays[thing["faces"]]).ravel()
         if "uv" in thing:
             mesh.usertexcoord = film.arrays[thing["uv"]].astype(float).ravel()
         if thing.get("ways"):

@@ -1,6 +1,5 @@
 """What a film draws and nobody simulated: surfaces, and meshes made of many small things."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -8,7 +7,6 @@ import numpy as np
 
 from ..errors import ProgramError
 from .film_bounds import FAR_M
-from .ground import Height
 
 Vec3 = tuple[float, float, float]
 SHAPES = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "mesh")
@@ -96,6 +94,8 @@ class Thing:
     """(F, P): the diameter of each copy in each frame, m; 0 is not drawn."""
     turns: np.ndarray | None = None
     """(F, P, 4): how each copy of a mesh is turned in each frame."""
+    grows: bool = False
+    """Blades of grass: each is lit as the sward that it belongs to, not as a plate."""
 
     def __post_init__(self) -> None:
         for what, count in (("size", 3), ("pos", 3), ("quat", 4)):
@@ -116,6 +116,7 @@ class Thing:
             "quat": list(map(float, self.quat)), "to": self.to, "instead": self.instead,
             "look": look_facts(self.look, arrays, f"picture{number}"),
         }  # fmt: skip
+        found |= {"grows": True} if self.grows else {}
         for name, kind in (
             ("vertices", "f4"),
             ("faces", "i4"),
@@ -131,6 +132,11 @@ class Thing:
                 arrays[f"{name}{number}"] = np.asarray(value, dtype=kind)
                 found[name] = f"{name}{number}"
         return found
+
+
+def matt(look: str | Surface) -> str | Surface:
+    """A look of what grows: a plain colour is that of a leaf, not of satin plastic."""
+    return Surface(colour=look, roughness=0.95) if isinstance(look, str) and look.startswith("#") else look
 
 
 def known(look: str | Surface) -> None:
@@ -160,38 +166,3 @@ def look_facts(look: str | Surface, arrays: dict[str, np.ndarray], key: str) -> 
         arrays[key] = np.asarray(look.picture, dtype=np.uint8)
         found["picture"] = key
     return found
-
-
-def blades(
-    area: tuple[float, float, float, float],
-    height: float,
-    count: int,
-    ground: Height,
-    clear_of: Sequence[tuple[float, float, float]],
-    seed: int,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (V, 3) and triangles (F, 3) of blades of grass that stand in an area (x0, y0, x1, y1), m, on `ground`.
-
-    `clear_of` are discs (x, y, radius) where nothing grows.
-    """
-    random = np.random.default_rng(seed)
-    x0, y0, x1, y1 = area
-    foot = random.uniform((x0, y0), (x1, y1), (count, 2))
-    for x, y, radius in clear_of:
-        foot = foot[np.hypot(foot[:, 0] - x, foot[:, 1] - y) > radius]
-    level = np.asarray(ground(foot[:, 0], foot[:, 1]), dtype=float)
-    foot, level = foot[np.isfinite(level)], level[np.isfinite(level)]
-    n = len(foot)
-    tall = height * random.uniform(0.45, 1.0, n)
-    yaw, lean = random.uniform(0, 2 * np.pi, n), random.uniform(0.05, 0.55, n) * tall
-    across = np.stack([np.cos(yaw), np.sin(yaw), np.zeros(n)], -1) * (0.045 * tall)[:, None]
-    bend = random.uniform(0, 2 * np.pi, n)
-    toward = np.stack([np.cos(bend), np.sin(bend), np.zeros(n)], -1) * lean[:, None]
-    base = np.concatenate([foot, level[:, None] - 0.002], axis=1)
-    up = np.array([0.0, 0.0, 1.0])
-    middle = base + toward * 0.3 + up * (0.55 * tall)[:, None]
-    tip = base + toward + up * tall[:, None]
-    corners = np.stack([base - across, base + across, middle + 0.7 * across, middle - 0.7 * across, tip], axis=1)
-    triangles = np.array([[0, 1, 2], [0, 2, 3], [3, 2, 4]])
-    faces = (np.arange(n)[:, None, None] * 5 + triangles[None]).reshape(-1, 3)
-    return corners.reshape(-1, 3), faces

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
-from . import swaying_weights, trees
-from .drawn_only import SHAPES, Surface, Thing, Vec3, blades, known, rgb
+from . import sward, swaying_weights, trees
+from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
 from .patterned_light import PatternedLight
@@ -119,8 +119,11 @@ class Dressing(PatternedLight):
         clear_of: Sequence[tuple[float, float, float]] = (),
         z: float | str | Height | None = None,
         seed: int = 1,
+        densest: tuple[float, float] | None = None,
     ) -> None:
         """Blades of grass in an area (x0, y0, x1, y1), m, but for the discs (x, y, radius) of `clear_of`.
+
+        They stand in clumps, spread evenly, or most of them around `densest` (x, y), m, as where a camera is near.
 
         They stand on the ground, or at `z`: a height, m; a body that stands still, such as a hill, on whose height field, mesh
         or box they stand (`film.recorded.surface`); or a function z(x, y) of arrays, NaN where nothing grows. A blade costs
@@ -128,14 +131,16 @@ class Dressing(PatternedLight):
         """
         if not 1 <= count <= 60_000:
             raise ProgramError(f"grass has 1 to 60000 blades, got {count}", "film.py", "cover less of the ground")
-        points, faces = blades(area, height, count, self._ground(z), clear_of, whole(seed))
+        points, faces = sward.blades(area, height, count, self._ground(z), clear_of, whole(seed), densest)
         if not len(points):
             raise ProgramError(
                 f"no blade of {name!r} stands on the ground that it is given", "film.py", "move its area"
             )
         sways = swaying_weights.of_grass(points)
         still = (0, 0, 0), (1, 0, 0, 0)
-        self._add(Thing(name, "mesh", (1, 1, 1), look, *still, vertices=points, faces=faces, sways=sways))
+        self._add(
+            Thing(name, "mesh", (1, 1, 1), matt(look), *still, vertices=points, faces=faces, sways=sways, grows=True)
+        )
 
     def tree(
         self,
@@ -185,7 +190,7 @@ class Dressing(PatternedLight):
             points = np.concatenate([points for points, _ in parts[part]])
             title = name if part == "wood" else f"{name} ({part})"
             told, still = np.concatenate(sways[part]), ((0, 0, 0), (1, 0, 0, 0))
-            self._add(Thing(title, "mesh", (1, 1, 1), look, *still, vertices=points, faces=faces, sways=told))
+            self._add(Thing(title, "mesh", (1, 1, 1), matt(look), *still, vertices=points, faces=faces, sways=told))
 
     def breeze(self, speed: float | None = None, *, towards_deg: float | None = None) -> None:
         """Let a wind move the grass, the leaves and branches of trees, and every mesh with `sways`; drawn only.

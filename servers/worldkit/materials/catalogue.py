@@ -137,7 +137,7 @@ LIBRARY: dict[str, Look] = {
     "brick": Look("Red brick in running bond", paint="masonry.bricks", arguments=("brick", (0.66, 0.33, 0.23), (0.43, 0.19, 0.135), (0.66, 0.62, 0.56)), tile_m=0.66, roughness=0.85, relief_m=0.006, apart=0.2, worn_m=0.008),
     "sand": Look("Pale beach sand", paint="stone.sand", arguments=("sand", (0.90, 0.79, 0.60), (0.70, 0.57, 0.39)), tile_m=1.3, roughness=0.95, relief_m=0.008, vary=0.15),
     "soil": Look("Dark garden soil", paint="stone.asphalt", arguments=("soil", (0.33, 0.235, 0.165)), tile_m=0.5, roughness=0.95, relief_m=0.006, vary=0.25),
-    "grass": Look("Mown lawn", paint="stone.grass", arguments=("grass", (0.50, 0.57, 0.27), (0.295, 0.40, 0.15), (0.10, 0.17, 0.05)), tile_m=1.1, roughness=0.92, sheen=0.25, relief_m=0.02, vary=0.16),
+    "grass": Look("Mown lawn", paint="stone.grass", arguments=("grass", (0.46, 0.51, 0.26), (0.29, 0.36, 0.15), (0.11, 0.15, 0.06)), tile_m=1.1, roughness=0.92, sheen=0.25, relief_m=0.02, vary=0.16),
     "snow": Look("Fresh snow", paint="stone.sand", arguments=("snow", (0.97, 0.975, 0.99), (0.86, 0.89, 0.95)), tile_m=1.7, roughness=0.85, sheen=0.2, relief_m=0.006, vary=0.04),
     "ice": Look("Frozen lake", paint="stone.ice", arguments=("ice",), tile_m=2.2, roughness=0.10, coat=0.6, relief_m=0.0006, vary=0.05),
     "water": Look("Open water with small ripples, as seen from above it", paint="nature.water", arguments=("water", (0.035, 0.115, 0.135), (0.085, 0.215, 0.215)), tile_m=7.0, roughness=0.04, coat=1.0, relief_m=0.035, vary=0.10),

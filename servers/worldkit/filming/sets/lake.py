@@ -19,7 +19,8 @@ def build(film: "Dressing", place: Place) -> None:
     film.ground("grass")
     shore = 1.4 * place.radius + 4.0
     land.water(film, place, shore=shore, name="lake", beyond=220.0)
-    land.turf(film, place, height=0.12, look="#8ea653", reach=shore - 0.6, count=30_000)
+    land.turf(film, place, height=0.12, look="#788c46", reach=(shore - 0.6) / 2.5, count=22_000)
+    land.short_turf(film, place, look="#788c46", count=8_000)
     land.stones(
         film,
         place,

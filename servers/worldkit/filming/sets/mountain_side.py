@@ -17,7 +17,8 @@ def build(film: "Dressing", place: Place) -> None:
     film.fog(colour="#cfdcea", visibility_m=1500.0)
     film.ground("grass")
     reach = 1.8 * place.radius + 4.0
-    land.turf(film, place, height=0.07, look="#a9b36a", reach=reach, count=30_000)
+    land.turf(film, place, height=0.07, look="#8b9258", reach=reach, count=22_000)
+    land.short_turf(film, place, look="#8b9258", count=8_000)
     land.stones(film, place, place.around(26, place.radius + 1.2, reach + 14), (0.2, 1.6))
     land.stones(film, place, place.around(60, 0.6 * place.radius + 0.8, reach), (0.03, 0.14), name="scree")
     land.wood(film, place, "conifer", 12, reach + 8, reach + 50, 9.0, "spruces")

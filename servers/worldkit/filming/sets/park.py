@@ -16,7 +16,8 @@ def build(film: "Dressing", place: Place) -> None:
     film.light(azimuth_deg=place.facing_deg - 55, elevation_deg=46)
     film.ground("grass")
     reach = 2.0 * place.radius + 4.0
-    land.turf(film, place, height=0.05, look="#9cbf58", reach=reach)
+    land.turf(film, place, height=0.05, look="#7f9a48", reach=reach, count=34_000)
+    land.short_turf(film, place, look="#7f9a48")
     x, y, z = place.spot(1.5 * place.radius + 3.2, 180)
     film.draw("path", "box", (300, 1.8, 0.02), pos=(x, y, z + 0.001), yaw_deg=place.yaw_to_camera() + 8, look="sand")
     slats = [pieces.block(1.6, 0.09, 0.03, (0, -0.2 + 0.12 * k, 0.42)) for k in range(4)]
@@ -27,4 +28,5 @@ def build(film: "Dressing", place: Place) -> None:
     feet += [pieces.block(0.05, 0.04, 0.5, (side, 0.26, 0.42)) for side in (-0.7, 0.7)]
     furniture.put(film, place, "bench's feet", feet, spot, "steel_dark")
     land.wood(film, place, "broadleaf", 9, reach + 5, reach + 28, 9.0, "trees")
-    land.wood(film, place, "broadleaf", 22, reach + 30, reach + 60, 10.0, "far trees")
+    land.wood(film, place, "broadleaf", 10, reach + 26, reach + 46, 10.0, "far trees")
+    land.edge_of_a_wood(film, place, away=62 + 2 * place.radius, height=13.0)

@@ -92,6 +92,25 @@ def noise(x: np.ndarray, y: np.ndarray, random: np.random.Generator, octaves: in
     return total / (2 * weight)
 
 
+def wooded(colour: str, random: np.random.Generator) -> Surface:
+    """A hillside from afar as a picture, its foot below: fields with hedges between them, and above them woods of many crowns."""
+    from ..drawn_only import rgb
+
+    high, wide = 128, 1024
+    up, along = np.meshgrid(np.linspace(1, 0, high), np.linspace(0, 1, wide), indexing="ij")
+    broad, crown = noise(7 * along, 2.5 * up, random, 4), noise(90 * along, 14 * up, random, 2)
+    crowns = 1.0 + 0.35 * crown + 0.18 * random.normal(size=up.shape)
+    dark = np.array(rgb(colour)) * 0.62
+    woods = dark * crowns[..., None]
+    strips = (np.floor(11 * along + 1.3 * broad + 2 * up) * 0.618) % 1.0
+    field = np.array(rgb(colour)) * 0.55 + np.array([0.62, 0.6, 0.36]) * 0.45
+    fields = field * (0.82 + 0.36 * strips)[..., None] * (1.0 + 0.04 * random.normal(size=up.shape))[..., None]
+    share = np.clip(2.2 * (up - 0.42) + 1.1 * broad + 0.5 * crown, 0.0, 1.0)[..., None]
+    hedge = (np.abs((11 * along + 1.3 * broad + 2 * up) % 1.0 - 0.5) > 0.47)[..., None]
+    picture = np.where(hedge & (share < 0.5), woods, share * woods + (1 - share) * fields)
+    return Surface(picture=(255 * np.clip(picture, 0, 1)).astype(np.uint8), roughness=0.95)
+
+
 def facade(wall: str, random: np.random.Generator, storeys: int = 4, bays: int = 5) -> Surface:
     """The front of a house as a picture, 3 m a storey and 2.4 m a bay: windows with frames, sills, some with curtains."""
     from ..drawn_only import rgb

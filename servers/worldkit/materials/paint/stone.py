@@ -99,5 +99,9 @@ def grass(size: int, name: str, light: Rgb, middle: Rgb, dark: Rgb) -> Painted:
     tone = np.clip(0.45 + 0.22 * blades + 0.07 * patch, 0.0, 1.0)
     rgb = ramp([(0.0, dark), (0.5, middle), (1.0, light)], tone)
     dry = smooth(0.9, 2.4, spectral(size, 1.2, name + "dry", low=3.0))
-    rgb = mix(rgb, (0.55, 0.53, 0.28), 0.28 * dry)
-    return Painted(rgb, np.clip(0.45 + 0.2 * blades, 0.0, 1.0))
+    rgb = mix(rgb, (0.50, 0.46, 0.27), 0.45 * dry)
+    # Thatch of dead blades, and bare soil where nothing grew.
+    thatch = smooth(0.3, 1.7, spectral(size, 0.9, name + "thatch", low=5.0))
+    rgb = mix(rgb, (0.47, 0.41, 0.26), 0.5 * thatch)
+    bare = smooth(1.0, 1.9, spectral(size, 1.3, name + "bare", low=4.0) - 0.25 * blades)
+    return Painted(mix(rgb, (0.27, 0.21, 0.14), 0.7 * bare), np.clip(0.45 + 0.2 * blades - 0.3 * bare, 0.0, 1.0))

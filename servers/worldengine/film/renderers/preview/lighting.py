@@ -16,6 +16,8 @@ TOLD = 4
 """The number of the film's own sky, among those of the settings."""
 SOFTEST = 0.16
 """The widest spread that the shadow filter draws without grain."""
+FAR_M = 650.0
+"""On a clear day air hides 63 % of what is so far away, m: the edge of a wood is blue a little, and hills are pale."""
 SUN = 3.0
 """The radiance of a white surface that faces a light of strength 1."""
 
@@ -42,7 +44,7 @@ def relight(own: Setting, told: Treatment) -> Setting:
         return replace(found, sky=own.sky * told.sky_strength, fills=fills)
     far = (1e6, 2e6)
     return replace(
-        found, index=TOLD, fills=(), sky=1.0, fade=far, pool=far, haze_m=260.0, key_in_sky=False, exposure=0.8
+        found, index=TOLD, fills=(), sky=1.0, fade=far, pool=far, haze_m=FAR_M, key_in_sky=False, exposure=0.8
     )
 
 

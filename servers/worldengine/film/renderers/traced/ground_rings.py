@@ -22,6 +22,8 @@ STEP = 5.0
 FAR_M = 4096.0
 VARIED = 0.13
 """Looks that vary at least this much are natural ground."""
+NEAR_M, PLAIN_M = 15.0, 90.0
+"""From so near to so far large patches fade, m: farther away they would look as if haze lay on the ground."""
 TURN = 0.43 * np.array([[0.81, -0.59], [0.59, 0.81]])
 
 
@@ -99,6 +101,9 @@ def painted(tile: np.ndarray, look: Look, centre: np.ndarray, half: float) -> np
     blur = float(np.clip((np.log2(max(pixel_m / texel_m, 1.0)) - 1.5) / 3.0, 0, 1))
     out += 0.85 * blur * (tile.mean(axis=(0, 1)) - out)
     large = _lookup(patches, x * 0.031, y * 0.031) + _lookup(patches, x * 0.0067, y * 0.0067) - 1.0
+    away = np.hypot(x - centre[0], y - centre[1])
+    share = np.clip((away - NEAR_M) / (PLAIN_M - NEAR_M), 0.0, 1.0)
+    large *= 1.0 - 0.8 * share * share * (3 - 2 * share)
     return np.maximum(out * (1.0 + look.vary * 2.4 * large)[..., None], 0.0).astype(np.float32)
 
 

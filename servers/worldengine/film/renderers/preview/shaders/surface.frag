@@ -202,7 +202,8 @@ void main() {
 #if VARY
     vec2 spot = (abs(nl.z) > 0.5 ? local.xy : abs(nl.x) > 0.5 ? local.yz : local.xz) + 7.0 * weave.w;
     float patches = textureLod(noise_map, spot * 0.031, 0.0).r + textureLod(noise_map, spot * 0.0067, 0.0).r - 1.0;
-    albedo *= 1.0 + more.x * 2.4 * patches;
+    // Far away, where the ground is seen at a glance, such patches would look as if haze lay on it.
+    albedo *= 1.0 + more.x * 2.4 * patches * (1.0 - 0.8 * smoothstep(15.0, 90.0, range));
 #endif
 #if WORN
     albedo = rubbed(albedo);
