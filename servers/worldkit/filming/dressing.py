@@ -102,11 +102,8 @@ class Dressing(PatternedLight):
                     "0 where it is held",
                 )
             told = np.stack([weight, 0.8 * points @ np.array([1.0, 0.7, 1.3])], axis=1)
-        self._add(
-            Thing(
-                name, "mesh", (1, 1, 1), look, pos, _yaw(yaw_deg), to, instead, points, triangles, uv, sways=told
-            )
-        )  # fmt: skip
+        one = Thing(name, "mesh", (1, 1, 1), look, pos, _yaw(yaw_deg), to, instead, points, triangles, uv, sways=told)
+        self._add(one)
 
     def grass(
         self,
