@@ -1,14 +1,13 @@
 """Make the harnesses' files from the roles: what all harnesses share, and the list of every generated file.
 
 Each harness's own forms are in `harnesses/`. Nothing is written here: `worldwright contract sync` writes the files, and
-`worldwright contract check` compares them.
+`worldwright contract check` compares them. The guard imports these modules and has nothing but this folder: what is of other
+packages is imported where a file is made.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-
-from worldkit.files import json_text
 
 from . import harnesses
 from .roles import ROLES, RUNS, SERVERS, Role
@@ -22,6 +21,8 @@ PERSONAL = ("stamp.approve",)
 
 def files() -> dict[str, str]:
     """Every generated file, by its path in the project."""
+    from worldkit.files import json_text
+
     found = {".mcp.json": json_text({"mcpServers": {name: server(name) for name in SERVERS}})}
     for harness in harnesses.known().values():
         found |= harness.files()

@@ -13,8 +13,6 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from worldkit.files import json_text
-
 from ..generated import GENERATED, PERSONAL, hook, instructions, mcp_names
 from ..roles import RUNS, SUITE, Role
 from ..tool_names import ToolNames
@@ -41,6 +39,8 @@ TOOLS = ToolNames(
 
 def files() -> dict[str, str]:
     """Its settings: servers, hook, sandbox, and the questions to the person."""
+    from worldkit.files import json_text
+
     judged = {"type": "command", "command": hook('"$CLAUDE_PROJECT_DIR"/', "claude_code"), "timeout": 20}
     settings = {
         "enableAllProjectMcpServers": True,

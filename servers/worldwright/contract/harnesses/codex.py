@@ -14,8 +14,6 @@ import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from worldkit.files import json_text
-
 from ..generated import GENERATED, PERSONAL, hook, instructions, server
 from ..roles import ROLES, SERVERS, SUITE, Role
 from ..tool_names import ToolNames
@@ -40,6 +38,8 @@ TOOLS = ToolNames(
 
 def files() -> dict[str, str]:
     """Its configuration and its hook."""
+    from worldkit.files import json_text
+
     judged = {"type": "command", "command": hook("", "codex"), "timeout": 20}
     hooks = {"hooks": {"PreToolUse": [{"matcher": ".*", "hooks": [judged]}]}}
     return {".codex/config.toml": _config(), ".codex/hooks.json": json_text(hooks)}

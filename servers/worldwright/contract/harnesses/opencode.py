@@ -10,8 +10,6 @@ import shutil
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from worldkit.files import json_text
-
 from ..generated import COMMAND, GENERATED, GUARD, PERSONAL, instructions
 from ..roles import COMMANDS, MAIN_TOOLS, RUNS, SERVERS, Role
 from ..tool_names import ToolNames
@@ -34,6 +32,8 @@ TOOLS = ToolNames(
 
 def files() -> dict[str, str]:
     """Its configuration and its plugin."""
+    from worldkit.files import json_text
+
     return {".opencode/opencode.json": json_text(_config()), ".opencode/plugins/guard.js": _plugin()}
 
 
