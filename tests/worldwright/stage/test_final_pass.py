@@ -30,9 +30,7 @@ def film(film: Film) -> None:
 
 def drawn(run: Run, **options):
     job = start(str(run.folder), stage="final", **options)
-    for _ in range(10):
-        if job.ended:
-            break
+    while not job.ended:
         job = wait(str(run.folder), job=job.job, timeout_s=20)
     assert job.state == "succeeded", job.text()
     return job, gates.passed(run, Job.find(run, job.job).spec.key, "final")
