@@ -1,5 +1,6 @@
 """What is drawn of where things are carries pictures over to other moments."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import mujoco
@@ -144,6 +145,23 @@ def test_what_goes_behind_glass_or_with_it_is_traced(after):
     assert not lacking(glazed(-0.002), still, glazed(0.002)), "a quarter of a pixel"
     assert lacking(glazed(-0.04), still, glazed(0.04)), "it would be seen at two places"
     assert lacking(glazed(0.0, -0.04), still, glazed(0.0, 0.04)), "the pane would take the ball along"
+
+
+def test_what_was_not_traced_in_time_is_not_reckoned_where_it_would_mislead():
+    """When the minutes end before the draft does: behind glass, or as it bends across a wide gap, the nearest is shown."""
+    black = np.zeros((27, 48, 3), np.uint8)
+
+    def reckoned(after: int, *frames: Surfaces) -> bool:
+        def surfaces(frame: int, coarser: int) -> Surfaces:
+            shown = frames[min(2 * frame // after, 2)]
+            return shown if coarser > 1 else replace(shown, behind=None)
+
+        return between.reckoned(1, [0, after], between.Geometry(surfaces), lambda k: black, 0.0) is not None
+
+    assert reckoned(8, *[glazed(0.0)] * 3) and reckoned(8, *[level(2.0)] * 3)
+    assert not reckoned(8, glazed(-0.04), glazed(0.0), glazed(0.04))
+    cloth = [level(2.0 + 0.1 * k, things=-1) for k in range(3)]
+    assert not reckoned(8, *cloth) and reckoned(2, *cloth), "a frame is short"
 
 
 @pytest.mark.gl

@@ -111,6 +111,18 @@ def test_what_the_wind_carries_hides_a_thing_where_it_is_drawn(blown, x0, x1, ca
                 assert (red_at_the_ball(screening, picture) > 60) is hides, (wind, frame)
 
 
+def test_what_the_wind_carries_is_blurred_as_far_as_it_goes(blown):
+    """With an open shutter, a gale takes more moments than a light air, and calm takes one."""
+    taken = []
+    for wind in (None, 1.0, 40.0):
+        film = blown.film(
+            lambda film, wind=wind: (flag(film), wind and film.breeze(wind, towards_deg=0.0), film.shutter(1.0))
+        )
+        with Screening(blown.folder / "world.mjz", blown.plain, blown.recording, film, (1280, 720), 24) as screening:
+            taken.append([screening._moments("video", frame) for frame in (4, 10, 16)])
+    assert taken[0] == [1, 1, 1] and max(taken[1]) < max(taken[2]) and max(taken[2]) == 8, taken
+
+
 def test_a_foot_stands_and_the_wind_carries_in_proportion():
     weight, phase = np.array([0.0, 0.5]), np.zeros(2)
     points = np.array([(0, 0, 0), (1, 2, 3)], float)

@@ -179,6 +179,23 @@ def test_a_look_is_given_to_a_body_and_told(made):
     assert film.told(24)["looks"] == {"first": "gold", "ground": "a surface of its own"}
 
 
+def test_the_words_of_a_plate_are_a_flat_sheet_that_goes_with_its_body(made):
+    film = made.film(lambda f: (looking(f), f.label("KINETIC", (0, -0.1, 0), height=0.1, facing_deg=-90.0, to="first")))
+    model = dress(made.folder / "world.mjz", film)
+    sheet, plate = (model.geom(f"drawn.{name}") for name in ("KINETIC", "KINETIC plate"))
+    mesh = int(sheet.dataid[0])
+    assert (model.mesh_vertnum[mesh], model.mesh_facenum[mesh]) == (4, 2) and model.mesh_texcoordnum[mesh] == 4
+    assert sheet.bodyid[0] == plate.bodyid[0] == model.body("first").id
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    first = model.mesh_vertadr[mesh]
+    corners = model.mesh_vert[first : first + 4] @ data.geom(sheet.id).xmat.reshape(3, 3).T + data.geom(sheet.id).xpos
+    own = corners - data.body("first").xpos - (0, -0.1, 0)
+    assert np.ptp(own[:, 1]) < 1e-6 and own[0, 1] < -plate.size[1], "before its plate"
+    assert np.ptp(own[:, 0]) == pytest.approx(2 * plate.size[0]) and np.ptp(own[:, 2]) == pytest.approx(0.1)
+    assert (model.mat(sheet.matid[0]).texid >= 0).any()
+
+
 def test_a_skin_takes_the_place_of_its_body_if_it_has_its_size(made):
     film = made.film(lambda f: (looking(f), f.mesh("ox", 0.1 * CUBE, FACES, to="first", instead=True)))
     model = dress(made.folder / "world.mjz", film)

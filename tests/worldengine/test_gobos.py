@@ -1,14 +1,21 @@
 """Slides before the key light: their pictures, where they lie, and that both renderers throw the same shadow."""
 
+from dataclasses import replace
+
+import mujoco
 import numpy as np
 import pytest
 
 from worldengine.film import gobos
+from worldengine.film.drawn_frames import Frames
 from worldengine.film.gobos import Gobo
+from worldengine.film.renderers.preview.lighting import relight
+from worldengine.film.treatment import Treatment
+from worldkit import scene
 from worldkit.errors import ProgramError
 from worldkit.filming import Film, Recorded
 from worldkit.filming.film_bounds import GOBOS
-from worldkit.settings import ROOM
+from worldkit.settings import OUTDOOR, ROOM
 
 WAY = np.array(ROOM.key.direction)
 
@@ -86,34 +93,77 @@ def test_what_no_slide_can_be_is_refused(words):
         rehearsed().gobo(**({"kind": "window"} | words))
 
 
+ASKEW = Gobo("leaves", 0.5, 30.0, 1, (0.1, -0.2, 0.0))
+"""It is like none of its mirror images."""
+
+
+def through(gobo: Gobo, way: np.ndarray, spread: float, points: np.ndarray) -> np.ndarray:
+    """The share of the light from a way that comes to points (..., 3): that of the slide, blurred a little, where it lies there."""
+    cv2 = pytest.importorskip("cv2")
+    across, picture = gobo.across(way), gobos.slide(gobo.kind, gobo.seed, spread)
+    right, up = (points @ across[k, :3] + across[k, 3] for k in (0, 1))
+    column, row = (((side + 1) * gobos.PIXELS - 1) / 2 for side in (right, -up))
+    soft = cv2.GaussianBlur(np.array(picture), (0, 0), 8.0)
+    found = cv2.remap(soft, column.astype(np.float32), row.astype(np.float32), cv2.INTER_LINEAR, borderValue=1.0)
+    return np.asarray(found)
+
+
+def alike(one: np.ndarray, other: np.ndarray) -> float:
+    return float(np.corrcoef(one.ravel(), other.ravel())[0, 1])
+
+
 def test_traced_light_through_a_slide_is_as_strong_as_its_picture_and_the_light_beside_it_is_whole():
     mi = pytest.importorskip("mitsuba")
     from worldengine.film.renderers.traced import daylight, variant
 
     variant.choose()
-    gobo = Gobo("bars", 0.5, 0.0, 1, (0.0, 0.0, 0.0))
-    lights = daylight.key_lights(ROOM, np.zeros(3), 2.0, gobo)
+    lights = daylight.key_lights(ROOM, np.zeros(3), 2.0, ASKEW)
     # A white board that faces the light, seen from there.
-    origin, aim = (5 * WAY).tolist(), mi.ScalarTransform4f().look_at
+    aim, wide, side = mi.ScalarTransform4f().look_at, 3.0, 48
     face = aim(origin=[0, 0, 0], target=WAY.tolist(), up=[0, 0, 1])
-    wide = 3.0
     white = {"type": "diffuse", "reflectance": {"type": "rgb", "value": [1.0, 1.0, 1.0]}}
     board = {"type": "rectangle", "to_world": face @ mi.ScalarTransform4f().scale(8.0), "bsdf": white}
-    scene = mi.load_dict({"type": "scene", **lights, "board": board})
-    film = {"type": "hdrfilm", "width": 48, "height": 48, "rfilter": {"type": "box"}}
-    eye = aim(origin=origin, target=[0, 0, 0], up=[0, 0, 1]) @ mi.ScalarTransform4f().scale([wide, wide, 1])
+    lit = mi.load_dict({"type": "scene", **lights, "board": board})
+    film = {"type": "hdrfilm", "width": side, "height": side, "rfilter": {"type": "box"}}
+    eye = aim(origin=(5 * WAY).tolist(), target=[0, 0, 0], up=[0, 0, 1]) @ mi.ScalarTransform4f().scale([wide, wide, 1])
     sensor = mi.load_dict({"type": "orthographic", "to_world": eye, "film": film})
-    seen = np.array(mi.render(scene, sensor=sensor, integrator=mi.load_dict({"type": "direct"}), spp=128))
+    seen = np.array(mi.render(lit, sensor=sensor, integrator=mi.load_dict({"type": "direct"}), spp=128))
     got = seen[..., 1] / ROOM.key.colour[1]
-    share = gobos.slide("bars", 1, ROOM.key_spread)
-    inner = share.reshape(32, gobos.PIXELS // 32, 32, gobos.PIXELS // 32).mean(
-        axis=(1, 3)
-    )  # 4 m of the 6 that are seen
-    assert (
-        np.abs(got[8:40, 8:40] - inner).mean() < 0.08
-        and np.corrcoef(got[8:40, 8:40].ravel(), inner.ravel())[0, 1] > 0.9
+    corner, right, down = (
+        np.array(sensor.sample_ray(0.0, 0.5, mi.Point2f(x, y), mi.Point2f(0.5, 0.5))[0].o, dtype=float).ravel()
+        for x, y in ((0, 0), (1, 0), (0, 1))
     )
-    assert got[:6].mean() == pytest.approx(1.0, abs=0.06), "beside the slide"
+    share = ((np.arange(side) + 0.5) / side)[:, None]
+    places = corner + share * (right - corner) + (share * (down - corner))[:, None]
+    wanted = through(ASKEW, WAY, ROOM.key_spread, places - (places @ WAY)[..., None] * WAY)
+    inner = np.s_[8:40, 8:40]  # 4 m of the 6 that are seen
+    assert alike(got[inner], wanted[inner]) > 0.9 and got[inner].mean() == pytest.approx(wanted[inner].mean(), abs=0.05)
+    assert alike(got[inner], wanted[inner][:, ::-1]) < 0.6, "nor is it its mirror image"
+    assert np.concatenate([got[:5], got[-5:]]).mean() == pytest.approx(1.0, abs=0.06), "beside the slide"
+
+
+@pytest.mark.gl
+def test_the_preview_throws_the_same_pattern_at_the_same_place():
+    spec = scene.new("yard", time_step=0.002, setting="outdoor", floor="plastic_white")
+    spec.worldbody.add_camera(name="above", pos=(0, 0, 5.0), xyaxes=(1, 0, 0, 0, 1, 0), fovy=40)
+    model = spec.compile()
+    data, camera = mujoco.MjData(model), model.camera("above").id
+    mujoco.mj_forward(model, data)
+    told = Treatment(light_azimuth_deg=20.0, light_elevation_deg=50.0, light_softness_deg=0.8, light_gobo=ASKEW)
+    pictures = []
+    with Frames(model, 96, 54, "preview") as frames:
+        for treatment in (told, replace(told, light_gobo=None)):
+            frames.treat(treatment)
+            pictures.append(frames.image(data, camera, "still").astype(float).mean(axis=-1))
+        assert frames.renderer == "preview", frames.reason
+    lit = relight(OUTDOOR, told)
+    x, y = ((np.arange(n) + 0.5) / n * 2 - 1 for n in (96, 54))
+    reach = 5.0 * np.tan(np.radians(20.0))
+    across, up = np.meshgrid(x * reach * 96 / 54, -y * reach)
+    wanted = through(ASKEW, np.array(lit.key.direction), lit.key_spread, np.stack([across, up, 0 * up], axis=-1))
+    got = pictures[0] / pictures[1]
+    assert alike(got, wanted) > 0.9
+    assert max(alike(got, wanted[:, ::-1]), alike(got, wanted[::-1])) < 0.5
 
 
 @pytest.mark.parametrize("size", [0.1, 0.8])
@@ -127,11 +177,11 @@ def test_far_beyond_a_slide_all_the_ground_is_lit(size):
     lights = daylight.key_lights(ROOM, np.zeros(3), 1.5, Gobo("leaves", size, 0.0, 1, (0.0, 0.0, 0.2)))
     white = {"type": "diffuse", "reflectance": {"type": "rgb", "value": [1.0, 1.0, 1.0]}}
     board = {"type": "rectangle", "to_world": mi.ScalarTransform4f().scale(4 * wide), "bsdf": white}
-    scene = mi.load_dict({"type": "scene", **lights, "board": board})
+    lit = mi.load_dict({"type": "scene", **lights, "board": board})
     film = {"type": "hdrfilm", "width": 33, "height": 33, "rfilter": {"type": "box"}}
     eye = mi.ScalarTransform4f().look_at(origin=[0, 0, 100], target=[0, 0, 0], up=[0, 1, 0])
     sensor = {"type": "orthographic", "to_world": eye @ mi.ScalarTransform4f().scale([wide, wide, 1]), "film": film}
-    seen = np.array(mi.render(scene, sensor=mi.load_dict(sensor), integrator=mi.load_dict({"type": "direct"}), spp=64))
+    seen = np.array(mi.render(lit, sensor=mi.load_dict(sensor), integrator=mi.load_dict({"type": "direct"}), spp=64))
     ninths = (seen[..., 1] / (ROOM.key.colour[1] * WAY[2])).reshape(3, 11, 3, 11).mean(axis=(1, 3))
     assert np.abs(ninths - 1).max() < 0.15
 

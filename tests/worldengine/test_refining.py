@@ -345,6 +345,20 @@ def test_why_no_frame_is_reckoned_any_more_is_told():
     assert "(RuntimeError: no context)" in refined.said(told | film.told())
 
 
+def test_light_that_flashes_between_two_traced_frames_is_not_mixed_from_them(monkeypatch):
+    from worldengine.film import between
+    from worldengine.film.treatment import Treatments
+
+    film = refining.OfTheAuthor.__new__(refining.OfTheAuthor)
+    film.shots, film._fps, film._geometry = [range(9)], 1, object()
+    monkeypatch.setattr(between, "reckoned", lambda *given: "mixed")
+    for brightest, found in ((1.0, "mixed"), (3.0, None)):
+        told = [{"at_s": at, "light_strength": brightest if at == 4.0 else 1.0} for at in (0.0, 3.0, 4.0, 5.0)]
+        still = {name: np.zeros(9) for name in ("focus_m", "aperture")}
+        film._film = SimpleNamespace(treatments=Treatments(told), arrays=still, shutter=0.0)
+        assert film.reckoned(1, [2.0, *[0.0] * 7, 2.0], lambda number: None) == found
+
+
 def test_what_is_missing_is_reckoned_between_the_drawn_frames_of_its_shot_unless_it_is_late(tmp_path):
     film, state = Halfway([range(6), range(6, 12)]), Refined(tmp_path / "frames", 12, "it")
     for number in (0, 4, 6, 10):

@@ -4,7 +4,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from . import carrying
-from .fitting import fit, parts
+from .fitting import Fit, fit, parts
 
 if TYPE_CHECKING:
     import numpy as np
@@ -42,6 +42,7 @@ class Geometry:
     ) -> None:
         self._surfaces, self._placed = surfaces, placed
         self._known: dict[tuple[int, int], Surfaces] = {}
+        self._misleads: dict[tuple[int, ...], bool] = {}
 
     def of(self, frame: int, coarser: int = 1) -> "Surfaces":
         """What a frame shows."""
@@ -58,16 +59,27 @@ class Geometry:
         """Whether a frame cannot well be reckoned from these two."""
         now, sides = self.of(frame, COARSER), [self.of(side, COARSER) for side in (before, after)]
         found, height = fit(now, sides), now.depth.shape[0]
-        if found.lost or any(parts(now, side, APART_PX / COARSER) for side in sides):
+        if found.lost or _misleads(now, sides, found, after - before):
             return True
         if after - before <= 2:
             return found.unseen > MOST_UNSEEN
-        if found.unseen > UNSEEN or found.melts > UNSEEN:
+        if found.unseen > UNSEEN:
             return True
         if carrying.strayed(*sides) > STRAYS * height or found.way > SWIMS * height:
             return True
         others = (k for k in range(before + 1, after) if k != frame and self._comes(k, sides))
         return any(fit(self.of(k, COARSER), sides).lost for k in others)
+
+    def misleads(self, frame: int, sides: Sequence[int]) -> bool:
+        """Whether it would show what never was, as something behind glass at two places, if it were reckoned from these; between two,
+        it is asked of the middle one, as while the film is drafted."""
+        middle = frame if len(sides) < 2 else (sides[0] + sides[-1]) // 2
+        key = (middle, *sides)
+        if key not in self._misleads:
+            now, known = self.of(middle, COARSER), [self.of(side, COARSER) for side in sides]
+            gap = max(frame, *sides) - min(frame, *sides)
+            self._misleads[key] = _misleads(now, known, fit(now, known), gap)
+        return self._misleads[key]
 
     def _comes(self, frame: int, sides: "list[Surfaces]") -> bool:
         """Whether a frame may show a thing that neither side does: it moves there, or is in the picture only meanwhile."""
@@ -82,6 +94,10 @@ class Geometry:
         shown = np.isin(np.arange(len(poses)), np.concatenate([side.things.ravel() for side in sides]))
         moves = np.any([np.abs(side.poses - poses).max(axis=(1, 2)) > carrying.LEAST_M for side in sides], axis=0)
         return bool((~shown & within(poses, view) & (moves | ~np.any(at_sides, axis=0))).any())
+
+
+def _misleads(now: "Surfaces", sides: "list[Surfaces]", found: Fit, gap: int) -> bool:
+    return any(parts(now, side, APART_PX / COARSER) for side in sides) or (gap > 2 and found.melts > UNSEEN)
 
 
 def within(poses: "np.ndarray", view: "View") -> "np.ndarray":
@@ -103,10 +119,12 @@ def neighbours(frame: int, drawn: Sequence[float], shot: range) -> list[int]:
 def reckoned(
     frame: int, sides: Sequence[int], geometry: Geometry, read: "Callable[[int], np.ndarray]", shutter: float
 ) -> "np.ndarray | None":
-    """The picture of a frame by its neighbours' pictures: uint8 (H, W, 3); None where they show too little of it.
+    """The picture of a frame by its neighbours' pictures: uint8 (H, W, 3); None where they show too little of it, or would mislead.
 
     `shutter` is the share of the time between two frames for which it is open.
     """
+    if geometry.misleads(frame, sides):
+        return None
     now, pictures = geometry.of(frame), [(geometry.of(side), read(side)) for side in sides]
     gap = max(abs(side - frame) for side in sides)
     share = (frame - sides[0]) / (sides[-1] - sides[0]) if len(sides) > 1 else 0.0

@@ -181,11 +181,15 @@ class Screening:
 
     def _travel_px(self, frame: int) -> float:
         """How far anything goes in the picture while the shutter is open for a frame."""
+        import numpy as np
+
         views, shown = [], []
         for share in smear.LOOKS:
             data = self._moment(frame + self.film.shutter * share, treated=not self._reckons)
             views.append(of_camera(self.model, data, self._camera, self.frames.width, self.frames.height))
-            shown.append(smear.drawn(self.model, data))
+            there = smear.drawn(self.model, data)
+            swaying = self._swaying.some(data, self._blown)
+            shown.append(there._replace(loose=np.concatenate([there.loose, swaying])))
         return smear.travel_px(views, shown, self.frames.height)
 
     def _parts(self, frame: int, moments: int) -> "list[Moment]":

@@ -15,6 +15,8 @@ ASIDE_GROUP = 5
 """The group that a ray does not meet."""
 
 
+SOME = 2000
+"""So many corners of a mesh, taken by chance, tell how far all of it goes in the picture."""
 BEYOND = 1.3
 """Gusts and flutter carry a corner so many times as far as its weight says, at most."""
 
@@ -45,6 +47,21 @@ class Swaying:
     def blow(self, data: mujoco.MjData, breeze: tuple[float, float, float]) -> None:
         """Let them be where they are in `data`, in a wind towards x and y, m/s, at a time, s."""
         self._placed, self._blown = {}, (data, breeze)
+
+    def some(self, data: mujoco.MjData, breeze: tuple[float, float, float] | None) -> np.ndarray:
+        """Corners (P, 3), m, of what sways where a wind, as in `blow`, has carried them: as many of each mesh as tell how it goes."""
+        found = [np.zeros((0, 3))]
+        for geom in self.geoms if breeze is not None else ():
+            mesh = int(self.model.geom_dataid[geom])
+            first, count = self.model.mesh_faceadr[mesh], self.model.mesh_facenum[mesh]
+            face, corner = np.random.default_rng(0).integers((count, 3), size=(SOME, 2)).T
+            vertex = self.model.mesh_vertadr[mesh] + self.model.mesh_face[first + face, corner]
+            told = self.model.mesh_texcoord[
+                self.model.mesh_texcoordadr[mesh] + self.model.mesh_facetexcoord[first + face, corner]
+            ]
+            there = self.model.mesh_vert[vertex] @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
+            found.append(there + swaying.swayed(there, told[:, 0], told[:, 1], breeze))
+        return np.concatenate(found)
 
     def _there(self, geom: int, eye: np.ndarray, way: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
         """A mesh's corners (C, 3), m, where the breeze has carried them, and its faces; None where a ray does not come near it."""

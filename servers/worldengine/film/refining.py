@@ -65,7 +65,7 @@ class Shown(Protocol):
         """One frame with so many samples a pixel, without its words: uint8 (height, width, 3)."""
 
     def reckoned(self, number: int, drawn: Sequence[float], read: "Callable[[int], np.ndarray]") -> "np.ndarray | None":
-        """A frame by the drawn ones of its shot, those with samples; None where they show too little of it."""
+        """A frame by the drawn ones of its shot, those with samples; None where they show too little of it, or would mislead."""
 
     def lettered(self, number: int, image: "np.ndarray") -> "np.ndarray":
         """A picture with the words of a frame."""
@@ -145,13 +145,16 @@ class OfTheAuthor:
     def reckoned(self, number: int, drawn: Sequence[float], read: "Callable[[int], np.ndarray]") -> "np.ndarray | None":
         """By where what is seen stands in the nearest traced frames before and after it."""
         from .between import neighbours, reckoned
+        from .fitting import uneven
 
         shot = next(shot for shot in self.shots if number in shot)
         sides = neighbours(number, drawn, shot)
         if self._geometry is None or not sides:
             return None
         try:
-            return reckoned(number, sides, self._geometry, read, self._film.shutter)
+            image = reckoned(number, sides, self._geometry, read, self._film.shutter)
+            first, last = min(number, *sides), max(number, *sides)
+            return None if image is None or uneven(self._film, first, last, self._fps) else image
         except Exception as error:  # as above
             self._give_up(error)
             return None
