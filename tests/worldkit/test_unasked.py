@@ -95,6 +95,10 @@ def test_a_small_thing_on_a_long_way_is_never_a_speck() -> None:
     away = np.linalg.norm(arrays["eye"] - np.array([found.position("stone", t) for t in arrays["time"]]), axis=1)
     share = found.radius("stone") / (away * np.tan(np.radians(arrays["fovy_deg"]) / 2))
     assert np.median(share) >= hero.LEAST and share.min() > 0.5 * hero.LEAST
+    down = np.degrees(
+        np.arcsin((arrays["eye"] - arrays["target"])[:, 2] / np.linalg.norm(arrays["eye"] - arrays["target"], axis=1))
+    )
+    assert np.all(down < arrays["fovy_deg"] / 2), "the horizon is in the picture"
 
 
 def test_two_that_meet_are_both_in_the_picture_from_the_start_and_large_as_they_meet() -> None:

@@ -17,6 +17,8 @@ Told = tuple[viewpoints.Viewpoint, dict[str, float]]
 
 USUAL_AZIMUTH, USUAL_ELEVATION = -57.0, 13.0
 """From here the lights of all settings fall across what is seen."""
+LEVEL_DEG = 6.5
+"""So low goes a camera that goes along: through its lens the horizon is then in the upper third, else it sees the ground alone."""
 LEAST = 0.1
 """A subject takes at least this share of the picture's height; a camera that held its whole way would show a speck."""
 NEAR = 1.8
@@ -49,7 +51,7 @@ def shots(recorded: Recorded) -> list[Told]:
         focus: str | float = away
         if recorded.radius(*heroes) < LEAST * away * tangent:
             focus, away = heroes[0], recorded.radius(*heroes) / (NEAR * LEAST * tangent)
-            azimuth, elevation = view(recorded, away)
+            azimuth, elevation = view(recorded, away, LEVEL_DEG)
             camera = viewpoints.follow(
                 heroes, azimuth_deg=(azimuth - 4.0, azimuth + 4.0), elevation_deg=elevation,
                 fill=NEAR * LEAST, lens_mm=LENS_MM, lag_s=0.18,
@@ -123,9 +125,9 @@ def leads(recorded: Recorded) -> tuple[str, ...]:
     return (max(recorded.movers, key=lambda name: float(recorded.speed(name, event))),)
 
 
-def view(recorded: Recorded, away: float = 0.0) -> tuple[float, float]:
+def view(recorded: Recorded, away: float = 0.0, lowest_deg: float = USUAL_ELEVATION) -> tuple[float, float]:
     """Azimuth and elevation, degrees, from which the motion is seen from the side and nothing stands before it, from so far away, m;
-    without it from where the whole way is seen."""
+    without it from where the whole way is seen. It is as low as `lowest_deg` where nothing is hidden then."""
     names = recorded.movers or recorded.bodies
     if not names:
         return USUAL_AZIMUTH, USUAL_ELEVATION
@@ -145,10 +147,10 @@ def view(recorded: Recorded, away: float = 0.0) -> tuple[float, float]:
         level_way = np.array([np.cos(a), np.sin(a)])
         side = 0.0 if along is None else 0.5 * max(abs(float(level_way @ along)) - 0.42, 0.0)
         usual = 0.25 * (1.0 - np.cos(a - np.radians(USUAL_AZIMUTH)))
-        for elevation in (USUAL_ELEVATION, 28.0, 46.0):
+        for elevation in (lowest_deg, 28.0, 46.0):
             e = np.radians(elevation)
             eye = points + far * np.array([np.cos(e) * level_way[0], np.cos(e) * level_way[1], np.sin(e)])
-            cost = side + usual + 0.004 * (elevation - USUAL_ELEVATION) + 3.0 * _hidden(recorded, points, eye, still)
+            cost = side + usual + 0.004 * (elevation - lowest_deg) + 3.0 * _hidden(recorded, points, eye, still)
             if cost < best - 1e-9:
                 best, found = cost, (float(azimuth), float(elevation))
     return found
