@@ -234,11 +234,11 @@ class Dressing(PatternedLight):
         Raises:
             ProgramError: there is no such shape, or no diameter above 0.
         """
-        if shape not in ("ball", "leaf") or not 0 < diameter < np.inf:
+        if shape not in ("ball", "leaf") or not 0 < diameter < np.inf or not callable(at):
             raise ProgramError(
-                f"{name!r} is of balls or leaves with a diameter above 0, not {diameter} of {shape!r}",
+                f"{name!r} is of balls or leaves with a diameter above 0, at a function's places, not {diameter} of {shape!r} at {at!r}",
                 "film.py",
-                "shape='leaf'",
+                "shape='leaf', and a function of times (F,) that gives places (F, P, 3)",
             )
         size, place, turn = (diameter,) * 3, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
         if shape == "leaf":
@@ -366,6 +366,8 @@ class Dressing(PatternedLight):
     def look(self, name: str, look: str | Surface) -> None:
         """Another look for a body, or for one geom, through the whole film; it is listed in the report."""
         known(look)
+        if not isinstance(name, str):
+            raise ProgramError(f"a look is given to a body or a geom by its name, not to {name!r}", "film.py", "")
         self._looks[name] = look
 
     def ground(self, look: str | Surface) -> None:

@@ -22,3 +22,5 @@ LIGHT: dict[str, tuple[float, float]] = {
     "grade_fade": (0, 1),
 }  # fmt: skip
 """The numbers that a film may give of its light, air and developing, each with its limits."""
+COLOURS = ("light_rgb", "sky_zenith", "sky_horizon", "sky_ground", "fog_rgb")
+"""Those that are three numbers."""
