@@ -254,7 +254,7 @@ NO_NUMBERS = [
     ("label", {"text": "a", "pos": (0, 0, 0), "facing_deg": INF}), ("label", {"text": "a", "pos": (0, 0, 0), "height": 1e300}),
     ("label", {"text": "a", "pos": None}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "pos": NAN}),
     ("draw", {"name": "a", "shape": "box", "size": -1.0}), ("draw", {"name": "a", "shape": "box", "size": 1.0, "quat": (0, 0, 0, 0)}),
-    ("lamp", {"name": "a", "pos": (0, 0, 1e9)}), ("panel", {"name": "a", "pos": (0, 0, 1e9), "size": (1, 1), "towards": (0, 0, 0)}),
+    ("grass", {"area": (0, 0, 1, 1), "height": NAN}), ("tree", {"name": "a", "at": [(0, 0)], "height": INF}), ("lamp", {"name": "a", "pos": (0, 0, 1e9)}), ("panel", {"name": "a", "pos": (0, 0, 1e9), "size": (1, 1), "towards": (0, 0, 0)}),
     ("breeze", {"speed": 3.0, "towards_deg": NAN}), ("mesh", {"name": "a", "vertices": np.eye(4)[:, :3], "faces": [[0, 1, 2]], "uv": np.full((4, 2), NAN)}),
 ]  # fmt: skip
 
@@ -288,7 +288,8 @@ MISUSED = [
     ("caption", {"text": 3}), ("caption", {"text": "a", "seconds": "x"}), ("shutter", {"share": "x"}), ("light", {"fill": "x"}),
     ("set", {"name": "park", "seed": np.nan}), ("set", {"name": "park", "seed": None}), ("set", {"name": "park", "facing_deg": None}),
     ("grass", {"area": (0, 0, 1, 1), "seed": 1.5}), ("mood", {"name": []}), ("shot", {"camera": wide(), "until": None}),
-    ("light", {"hue": 3}),
+    ("light", {"hue": 3}), ("light", {"strength": [1.0, 2.0]}), ("sky", {"zenith": "#000000", "horizon": "#000000", "glow": []}),
+    ("particles", {"name": "p", "at": 3.0}), ("look", {"name": 3, "look": "gold"}),
 ]  # fmt: skip
 
 

@@ -292,7 +292,7 @@ def _air(told: dict[str, Any]) -> dict[str, Any]:
             raise _refuse(f"nothing of the light is called {name!r}")
         low, high = bounds.LIGHT[name]
         numbers = np.asarray(value, dtype=float)
-        wanted = (3,) if name.endswith("_rgb") or name in ("sky_zenith", "sky_horizon", "sky_ground") else ()
+        wanted = (3,) if name in bounds.COLOURS else ()
         if numbers.shape != wanted or not ((numbers >= low) & (numbers <= high)).all():
             said = name.replace("_", " ", 1)
             raise _refuse(f"{said} must lie between {low} and {high}, got {value}", "give it such a number")

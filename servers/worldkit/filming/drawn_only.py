@@ -106,6 +106,8 @@ class Thing:
                     "film.py",
                     "check how it is reckoned",
                 )
+        if self.vertices is not None and not (np.abs(self.vertices) <= FAR_M).all():
+            raise ProgramError(f"a corner of {self.name!r} is nowhere", "film.py", "check how it is reckoned")
         if not min(self.size) > 0 or abs(float(np.linalg.norm(self.quat)) - 1) > 1e-3:
             raise ProgramError(f"{self.name!r} has no size, or its quaternion is none", "film.py", "check its numbers")
 

@@ -96,11 +96,8 @@ class Dressing(PatternedLight):
             weight = np.asarray(sways, dtype=float)
             pictured = uv is not None or (isinstance(look, Surface) and look.picture is not None)
             if weight.shape != (len(points),) or not ((weight >= 0) & (weight < 10)).all() or instead or pictured:
-                raise ProgramError(
-                    f"the sways of {name!r} must be ({len(points)},) metres from 0 to 10, of a mesh without picture that is no skin",
-                    "film.py",
-                    "0 where it is held",
-                )
+                cause = f"the sways of {name!r} must be ({len(points)},) metres from 0 to 10, of a mesh without picture that is no skin"
+                raise ProgramError(cause, "film.py", "0 where it is held")
             told = np.stack([weight, 0.8 * points @ np.array([1.0, 0.7, 1.3])], axis=1)
         one = Thing(name, "mesh", (1, 1, 1), look, pos, _yaw(yaw_deg), to, instead, points, triangles, uv, sways=told)
         self._add(one)
@@ -236,11 +233,11 @@ class Dressing(PatternedLight):
         Raises:
             ProgramError: there is no such shape, or no diameter above 0.
         """
-        if shape not in ("ball", "leaf") or not 0 < diameter < np.inf:
+        if shape not in ("ball", "leaf") or not 0 < diameter < np.inf or not callable(at):
             raise ProgramError(
-                f"{name!r} is of balls or leaves with a diameter above 0, not {diameter} of {shape!r}",
+                f"{name!r} is of balls or leaves with a diameter above 0, at a function's places, not {diameter} of {shape!r} at {at!r}",
                 "film.py",
-                "shape='leaf'",
+                "shape='leaf', and a function of times (F,) that gives places (F, P, 3)",
             )
         size, place, turn = (diameter,) * 3, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
         if shape == "leaf":
@@ -368,6 +365,8 @@ class Dressing(PatternedLight):
     def look(self, name: str, look: str | Surface) -> None:
         """Another look for a body, or for one geom, through the whole film; it is listed in the report."""
         known(look)
+        if not isinstance(name, str):
+            raise ProgramError(f"a look is given to a body or a geom by its name, not to {name!r}", "film.py", "")
         self._looks[name] = look
 
     def ground(self, look: str | Surface) -> None:

@@ -24,3 +24,5 @@ LIGHT: dict[str, tuple[float, float]] = {
 """The numbers that a film may give of its light, air and developing, each with its limits."""
 NATURAL_SHUTTER = 0.5
 """The share of a frame's time for which the shutter of a film camera is open: 180 degrees."""
+COLOURS = ("light_rgb", "sky_zenith", "sky_horizon", "sky_ground", "fog_rgb")
+"""Those that are three numbers."""

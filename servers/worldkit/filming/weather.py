@@ -6,7 +6,7 @@ import numpy as np
 
 from ..errors import ProgramError
 from .drawn_only import rgb
-from .film_bounds import FAR_M, LIGHT
+from .film_bounds import COLOURS, FAR_M, LIGHT
 from .moods import MOODS
 
 
@@ -106,7 +106,8 @@ class Weather:
             raise ProgramError(f"{begin} s is no time of a film", "film.py", "at=0 is where it begins")
         for name, value in found.items():
             low, high = LIGHT[name]
-            if not ((low <= np.array(value)) & (np.array(value) <= high)).all():
+            shape, numbers = (3,) if name in COLOURS else (), np.array(value)
+            if numbers.shape != shape or not ((low <= numbers) & (numbers <= high)).all():
                 said = name.replace("_", " ", 1)
                 raise ProgramError(f"{said} must lie between {low:g} and {high:g}, got {value}", "film.py", "")
         self._air.append({"at_s": begin, **found})
