@@ -5,15 +5,14 @@ exactly the kinetic energy that it hands to a body of constant mass. So a step's
 happens, one copy of a few numbers each, and everything is worked out later for a thousand steps at once.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from worldkit.mirror import Mirror
 from worldkit.naming import names
 
-from ..recording.coded_words import Words
-from ..recording.columns import VALUES
 from ..recording.describing import actuator_columns, pulled_bodies
+from ..recording.push_blocks import Block
 from .force_outputs import outputs
 
 if TYPE_CHECKING:
@@ -26,14 +25,12 @@ ROWS = 1024
 MOST_BYTES = 4 << 20
 FREE, BALL, SLIDE, HINGE = range(4)
 """mjtJoint."""
-WRENCH = {"force": slice(0, 3), "torque": slice(3, 6)}
-"""Parts of a row's values, by its kind."""
-Columns = dict[str, Any]
-"""Columns of the interventions table, by name."""
+WRENCH = {"force": range(3), "torque": range(3, 6)}
+"""Numbers of a body's wrench in `xfrc_applied`, by kind."""
 
 
 class Pushes:
-    """Notes of consecutive steps; `emit` receives a function that turns them into rows of the ledger.
+    """Notes of consecutive steps; `emit` receives a function that makes blocks of the ledger of them (`push_blocks`).
 
     A step goes: `measure()` when velocities are computed, `interfered()` if the state was then written, `note()` once the
     inputs in force are known, `reacted()` once forces are. `measure()` and `finish()` once more at the end of the run.
@@ -44,7 +41,7 @@ class Pushes:
         model: "mujoco.MjModel",
         data: "mujoco.MjData",
         ports: "Ports",
-        emit: Callable[[Callable[[], Columns]], object],
+        emit: Callable[[Callable[[], Iterator[Block]]], object],
     ) -> None:
         import numpy as np
 
@@ -66,7 +63,7 @@ class Pushes:
         """Begin new notes with the last `kept` steps of the old ones and the notes of the step under way."""
         import numpy as np
 
-        fresh = [np.zeros((self._capacity + 1, *note.shape[1:])) for note in self._notes]
+        fresh = [np.empty((self._capacity + 1, *note.shape[1:])) for note in self._notes]
         for new, old in zip(fresh, self._notes, strict=True):
             last = old[self._count - kept : self._count + 1]
             new[: len(last)] = last
@@ -113,18 +110,19 @@ class Pushes:
     def _hand_over(self, steps: int) -> None:
         book, before = self._book, self._last_controls
         time, pushed = self._time[: steps + 1], self._pushed[:steps]
-        begin, end, exerted = self._speed[:steps], self._speed[1 : steps + 1].copy(), self._exerted[:steps]
-        for step, speed in self._ends.items():
-            if step < steps:
-                end[step] = speed
+        begin, end, exerted = self._speed[:steps], self._speed[1 : steps + 1], self._exerted[:steps]
+        ends = {step: speed for step, speed in self._ends.items() if step < steps}
+        if ends:
+            end = end.copy()
+            end[list(ends)] = list(ends.values())
         self._last_controls = pushed[-1, : len(book.controls)].copy()
-        if pushed.any() or before.any():
-            self._emit(lambda: book.rows(time, pushed, begin, end, exerted, before))
+        if len(self._inputs):
+            self._emit(lambda: book.blocks(time, pushed, begin, end, exerted, before))
         self._start(self._count - steps)
 
 
 class _Book:
-    """Knows where in the data the inputs, velocities and forces are, and makes rows of them."""
+    """Knows where in the data the inputs, velocities and forces are, and makes blocks of them."""
 
     def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: "Ports") -> None:
         import numpy as np
@@ -132,7 +130,7 @@ class _Book:
         self._model = model
         bodies, joints = names(model, "body", model.nbody), names(model, "joint", model.njnt)
         self.controls = np.array(ports.entries.get("ctrl", ()), np.intp)
-        self._bodies = np.unique(np.array(ports.entries.get("xfrc_applied", ()), np.intp) // 6)
+        self._pushed = _by_body(ports.entries.get("xfrc_applied", ()))
         dofs = np.array(ports.entries.get("qfrc_applied", ()), np.intp)
         self._joints = np.unique(model.dof_jntid[dofs]) if len(dofs) else np.zeros(0, np.intp)
         self._dofs = {int(j): _dofs(model, int(j)) for j in self._joints}
@@ -143,7 +141,10 @@ class _Book:
             f"{pulled[output[c]][0]}/{columns[c]}" if len(pulled[output[c]]) == 1 else columns[c]
             for c in self.controls.tolist()
         ]
-        self._called = [bodies[b] for b in self._bodies]
+        self._called = {kind: [bodies[b] for b in of] for kind, of in self._pushed.items()}
+        # Where a body is all of its tree, its own centre of mass is the one that its velocity refers to.
+        self._carried = np.flatnonzero(~_alone(model)[self._pushed["force"]])
+        carried = self._pushed["force"][self._carried]
         owner = [int(model.jnt_bodyid[j]) for j in self._joints]
         self._owners = [
             bodies[b] if model.body_jntnum[b] == 1 else f"{bodies[b]}/{joints[j]}"
@@ -163,18 +164,24 @@ class _Book:
         def each(items: Any, width: int) -> Any:
             return (np.asarray(items, np.intp)[:, None] * width + np.arange(width)).reshape(-1)
 
+        def numbers_of(items: Any, width: int, wanted: Any) -> Any:
+            """The wanted numbers of each item, the first of all items, then the second, …"""
+            return (np.asarray(items, np.intp) * width + np.array(wanted)[:, None]).reshape(-1)
+
         all_dofs = np.concatenate([np.zeros(0, np.intp), *(np.arange(s.start, s.stop) for s in self._dofs.values())])
         pushed = [
             ("ctrl", "ctrl", self.controls),
             ("qfrc", "qfrc_applied", all_dofs),
-            ("xfrc", "xfrc_applied", each(self._bodies, 6)),
+            *((kind, "xfrc_applied", numbers_of(of, 6, WRENCH[kind])) for kind, of in self._pushed.items()),
         ]
         speeds = [
             ("drive", "actuator_velocity", output[self.controls] if len(self.controls) else ()),
             ("qvel", "qvel", all_dofs),
-            ("cvel", "cvel", each(self._bodies, 6)),
-            ("centre", "xipos", each(self._bodies, 3)),
-            ("tree", "subtree_com", each(model.body_rootid[self._bodies], 3)),
+            ("moves", "cvel", numbers_of(self._pushed["force"], 6, range(3, 6))),
+            ("turns", "cvel", numbers_of(self._pushed["torque"], 6, range(3))),
+            ("spin", "cvel", numbers_of(carried, 6, range(3))),
+            ("centre", "xipos", numbers_of(carried, 3, range(3))),
+            ("tree", "subtree_com", numbers_of(model.body_rootid[carried], 3, range(3))),
             ("turned", "xmat", each(owner, 9)),
             ("axis", "xaxis", each(self._joints, 3)),
         ]
@@ -182,8 +189,8 @@ class _Book:
         numbers, _ = mirror.numbers({}, ())
         self.indices = (numbers, lay(pushed), lay(speeds), lay(forces))
 
-    def rows(self, time: Any, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any) -> Columns:
-        """Rows of the ledger for S steps, in the order of their times.
+    def blocks(self, time: Any, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any) -> Iterator[Block]:
+        """What pushed over S steps.
 
         Args:
             time: (S + 1,) s.
@@ -194,60 +201,49 @@ class _Book:
         """
         import numpy as np
 
-        step = np.diff(time)
-        parts = [*self._controlled(pushed, begin, end, exerted, before, step)]
-        parts += [*self._external(pushed, begin, end, step), *self._generalised(pushed, begin, end, step)]
-        at = np.concatenate([np.zeros(0, np.intp), *(part[0] for part in parts)])
-        order = np.argsort(at, kind="stable")
-        counts = np.array([len(part[0]) for part in parts], np.intp)
-        kinds = Words(np.repeat(np.arange(len(parts), dtype=np.int32), counts), [part[1] for part in parts])
-        called = Words.joined([part[2] for part in parts])
-        values = np.concatenate([np.zeros((0, VALUES)), *(part[3] for part in parts)])
-        works = np.concatenate([np.zeros(0), *(part[4] for part in parts)])
-        return {
-            "time": time[at][order],
-            "kind": kinds.taken(order),
-            "target": called.taken(order),
-            "value": values[order],
-            "work_j": works[order],
-        }
+        half, time = np.diff(time)[:, None] / 2, time[:-1]
+        if len(self.controls):
+            yield self._controlled(time, half, pushed, begin, end, exerted, before)
+        if len(self._pushed["force"]):
+            velocity = self._at(begin, "moves") + self._at(end, "moves")
+            if len(self._carried):
+                velocity[:, :, self._carried] += self._round(begin) + self._round(end)
+            yield self._external("force", time, half, pushed, velocity)
+        if len(self._pushed["torque"]):
+            yield self._external("torque", time, half, pushed, self._at(begin, "turns") + self._at(end, "turns"))
+        if len(self._joints):
+            yield from self._generalised(time, half, pushed, begin, end)
 
-    def _controlled(
-        self, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any, step: Any
-    ) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
-        """(steps, kind, target, values, works) of each actuator, while its control is not zero or changes."""
+    def _controlled(self, time: Any, half: Any, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any) -> Block:
+        """Each actuator, while its control is not zero or changes: the control, and its force."""
         import numpy as np
 
         value, speed = pushed[:, self._parts["ctrl"]], self._parts["drive"]
         former = np.concatenate([before[None], value[:-1]])
-        works = exerted * (begin[:, speed] + end[:, speed]) / 2 * step[:, None]
-        told = (value != 0) | (value != former)
-        yield _told("control", self._actuators, told, np.stack([value, exerted], axis=2), slice(0, 2), works)
+        works = exerted * (begin[:, speed] + end[:, speed]) * half
+        return Block("control", time, self._actuators, (value != 0) | (value != former), (value, exerted), works)
 
-    def _external(self, pushed: Any, begin: Any, end: Any, step: Any) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
-        """Forces (N) and torques (N·m) on bodies, at their centres of mass, world frame."""
+    def _external(self, kind: str, time: Any, half: Any, pushed: Any, velocity: Any) -> Block:
+        """Forces (N) or torques (N·m) on B bodies, at their centres of mass, world frame; `velocity` (S, 3, B) is that of both ends, summed."""
+        x, y, z = vector = self._at(pushed, kind).swapaxes(0, 1)
+        works = x * velocity[:, 0]
+        works += y * velocity[:, 1]
+        works += z * velocity[:, 2]
+        works *= half
+        return Block(kind, time, self._called[kind], (x != 0) | (y != 0) | (z != 0), vector, works)
 
-        wrench = pushed[:, self._parts["xfrc"]].reshape(len(step), -1, 6)
-        if not wrench.any():
-            return
-        motion = (self._twist(begin) + self._twist(end)) / 2
-        for kind, part in WRENCH.items():
-            vector = wrench[..., part]
-            works = (vector * motion[..., part]).sum(axis=2) * step[:, None]
-            yield _told(kind, self._called, vector.any(axis=2), vector, part, works)
+    def _at(self, noted: Any, part: str) -> Any:
+        """(S, 3, B) what was noted of B bodies."""
+        return noted[:, self._parts[part]].reshape(len(noted), 3, -1)
 
-    def _twist(self, speeds: Any) -> Any:
-        """(S, B, 6) m/s and rad/s: velocity of the bodies' centres of mass and angular velocity, world frame."""
+    def _round(self, speeds: Any) -> Any:
+        """(S, 3, B) m/s: how much faster the centre of mass of a body in a tree is than what moves with it at the tree's."""
         import numpy as np
 
-        velocity = speeds[:, self._parts["cvel"]].reshape(len(speeds), -1, 6)
-        arm = (speeds[:, self._parts["centre"]] - speeds[:, self._parts["tree"]]).reshape(len(speeds), -1, 3)
-        spin = velocity[..., :3]
-        return np.concatenate([velocity[..., 3:] + np.cross(spin, arm), spin], axis=2)
+        arm = self._at(speeds, "centre") - self._at(speeds, "tree")
+        return np.cross(self._at(speeds, "spin"), arm, axis=1)
 
-    def _generalised(
-        self, pushed: Any, begin: Any, end: Any, step: Any
-    ) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
+    def _generalised(self, time: Any, half: Any, pushed: Any, begin: Any, end: Any) -> Iterator[Block]:
         """Forces on joints, as force (N) or torque (N·m) on the bodies that own them, world frame."""
         import numpy as np
 
@@ -255,24 +251,24 @@ class _Book:
         if not force.any():
             return
         # Forces and velocities of joints are dual: their product is the power, whatever their frame.
-        power = force * (begin[:, self._parts["qvel"]] + end[:, self._parts["qvel"]]) / 2
-        turned = begin[:, self._parts["turned"]].reshape(len(step), -1, 3, 3)
-        axis = begin[:, self._parts["axis"]].reshape(len(step), -1, 3)
-        for kind, mine in self._by_kind.items():
+        power = force * (begin[:, self._parts["qvel"]] + end[:, self._parts["qvel"]])
+        turned = begin[:, self._parts["turned"]].reshape(len(time), -1, 3, 3)
+        axis = begin[:, self._parts["axis"]].reshape(len(time), -1, 3)
+        for joint, mine in self._by_kind.items():
             owners = [self._owners[j] for j in mine.joints]
 
-            def told(word: str, dofs: Any, vector: Any, owners: list[str] = owners) -> Any:
-                works = power[:, dofs].sum(axis=2) * step[:, None]
-                return _told(word, owners, vector.any(axis=2), vector, WRENCH[word], works)
+            def told(kind: str, dofs: Any, vector: Any, owners: list[str] = owners) -> Block:
+                works = power[:, dofs].sum(axis=2) * half
+                return Block(kind, time, owners, vector.any(axis=2), np.moveaxis(vector, 2, 0), works)
 
-            if kind == FREE:
+            if joint == FREE:
                 yield told("force", mine.dofs[:, :3], force[:, mine.dofs[:, :3]])
-            if kind in (FREE, BALL):
+            if joint in (FREE, BALL):
                 own = force[:, mine.dofs[:, -3:]]
                 yield told("torque", mine.dofs[:, -3:], np.einsum("sjkl,sjl->sjk", turned[:, mine.joints], own))
             else:
                 vector = axis[:, mine.joints] * force[:, mine.dofs]
-                yield told("torque" if kind == HINGE else "force", mine.dofs, vector)
+                yield told("torque" if joint == HINGE else "force", mine.dofs, vector)
 
 
 class _Alike(NamedTuple):
@@ -295,23 +291,20 @@ def _alike(kinds: Any) -> dict[int, _Alike]:
     return found
 
 
-def _told(kind: str, targets: Sequence[str], acts: Any, vectors: Any, part: slice, works: Any) -> Any:
-    """(steps, kind, targets, values, works) of the rows of one kind.
-
-    Args:
-        kind: of the rows.
-        targets: names of B bodies or actuators.
-        acts: (S, B) whether there is a row.
-        vectors: (S, B, …) their numbers, which become this `part` of the values.
-        part: of the values.
-        works: (S, B) J.
-    """
+def _by_body(entries: Any) -> dict[str, Any]:
+    """(B,) bodies whose force, and whose torque, is among these entries of `xfrc_applied`."""
     import numpy as np
 
-    at, which = np.nonzero(acts)
-    values = np.zeros((len(at), VALUES))
-    values[:, part] = vectors[at, which]
-    return at, kind, Words(which.astype(np.int32), targets), values, works[at, which]
+    bodies, numbers = np.divmod(np.array(entries, np.intp), 6)
+    return {kind: np.unique(bodies[np.isin(numbers, wanted)]) for kind, wanted in WRENCH.items()}
+
+
+def _alone(model: "mujoco.MjModel") -> Any:
+    """(nbody,) bool: the bodies that nothing carries, and that carry nothing."""
+    import numpy as np
+
+    count = np.bincount(model.body_rootid, minlength=model.nbody)
+    return count[model.body_rootid] == 1
 
 
 def twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndarray":

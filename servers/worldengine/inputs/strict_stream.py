@@ -7,14 +7,14 @@ true run, and its ledger says what pushed.
 """
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from worldkit.errors import RecordingError
 from worldkit.laws import HUGE
 from worldkit.speaking import HELD
 from worldkit.watch import LOOKS, Edit
 
-from ..recording.columns import OF_MEDIA, TABLES, arrow_schema
+from ..recording.columns import FORETOLD_COLUMNS, OF_MEDIA, TABLES, arrow_schema
 from .ports import Ports, flat
 
 if TYPE_CHECKING:
@@ -197,8 +197,8 @@ def _whole(path: Path, name: str) -> None:
         return
     try:
         with pa.memory_map(str(path)) as file, pa.ipc.open_stream(file) as reader:
-            wanted: Any = arrow_schema(TABLES[name])
-            if not reader.schema.equals(wanted):
+            forms = (TABLES[name], FORETOLD_COLUMNS) if name == "inputs" else (TABLES[name],)
+            if not any(reader.schema.equals(arrow_schema(form)) for form in forms):
                 raise RecordingError(f"{path.name} is no table of {name}: its columns are others", str(path), REMEDY)
             for batch in reader:
                 batch.validate(full=True)
