@@ -8,7 +8,7 @@ row of `pushes.arrows`, a stream of Arrow's that is not packed:
     time     S times of states that were acted on, s
     target   B names
     acts     whether each of S x B is told, as bits, step by step, the highest bit of a byte first; empty where all are
-    value    of those that are told, N in this order, the first number of the kind of all, then the second, …
+    value    of those that are told, N: step by step the first numbers of the kind of all targets, then the second, …
     work_j   their N works, J
 
 The rows of the table `interventions` (`columns`) are those N with their numbers in the kind's places (`PLACES`), zeros in the
@@ -41,8 +41,8 @@ class Block(NamedTuple):
     targets: "Sequence[str]"
     acts: "np.ndarray"
     """(S, B) bool."""
-    numbers: "Sequence[np.ndarray]"
-    """(S, B) each, as many as the kind has."""
+    numbers: "np.ndarray"
+    """(S, W, B) with as many W as the kind has."""
     works: "np.ndarray"
     """(S, B) J."""
 
@@ -77,10 +77,9 @@ class PushStream:
             bits = b""
             if told < acts.size:
                 bits = np.packbits(acts).tobytes()
-                numbers, works = [number[acts] for number in numbers], works[acts]
-            value = np.concatenate([number.reshape(-1) for number in numbers])
+                numbers, works = numbers[np.broadcast_to(acts[:, None], numbers.shape)], works[acts]
             columns = [pa.array([kind]), listed(time), listed(targets), pa.array([bits], pa.binary())]
-            columns += [listed(value), listed(works.reshape(-1))]
+            columns += [listed(numbers.reshape(-1)), listed(works.reshape(-1))]
             self._writer.write_batch(pa.RecordBatch.from_arrays(columns, schema=self._schema))
 
     def close(self) -> None:
@@ -112,10 +111,13 @@ def _rows(batch: Any, n: int) -> "dict[str, np.ndarray]":
     kind, time = batch["kind"][n].as_py(), numbers("time")
     targets = np.array(batch["target"][n].as_py(), dtype=str)
     shape, bits = (len(time), len(targets)), np.frombuffer(batch["acts"][n].as_py(), np.uint8)
-    acts = np.unpackbits(bits, count=shape[0] * shape[1]).reshape(shape) if len(bits) else np.ones(shape, bool)
+    acts = np.unpackbits(bits, count=shape[0] * shape[1]).reshape(shape) > 0 if len(bits) else np.ones(shape, bool)
     step, which = np.nonzero(acts)
-    value = np.zeros((len(step), VALUES))
-    value[:, PLACES[kind]] = numbers("value").reshape(-1, len(step)).T
+    found, value = numbers("value"), np.zeros((len(step), VALUES))
+    every = np.broadcast_to(acts[:, None], (shape[0], len(found) // len(step), shape[1]))
+    numbered = np.zeros(every.shape)
+    numbered[every] = found
+    value[:, PLACES[kind]] = numbered.swapaxes(1, 2)[acts]
     return {
         "time": time[step],
         "kind": np.full(len(step), kind),
