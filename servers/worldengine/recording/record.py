@@ -198,7 +198,8 @@ class Recorder:
             self._hand_over()
             self._full.put(None)
             self._thread.join()
-        for stream in (*self._streams.values(), self._pushes):
+        self._pushes.close()
+        for stream in self._streams.values():
             stream.close()
         if complete:
             self._raise_failure()
