@@ -464,7 +464,7 @@ def test_what_pushes_many_bodies_takes_little_room_and_is_driven_again(tmp_path)
     plain = 16 * 180 * steps  # a step, an entry and a value for each force
     assert len(first.inputs) > 100 * steps
     assert (tmp_path / "a/inputs.arrows").stat().st_size < 0.6 * plain
-    assert (tmp_path / "a/interventions.arrows").stat().st_size < 0.6 * 80 * len(first.interventions)
+    assert (tmp_path / "a/pushes.arrows").stat().st_size < 0.6 * 80 * len(first.interventions)
     again = replay(crowd(), tmp_path / "b", steps, first)
     assert again.sha256 == first.sha256
     for name in ("kind", "target", "value", "work_j"):

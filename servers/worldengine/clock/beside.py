@@ -75,7 +75,7 @@ class Beside:
 
     def record(self, recorder: "Recorder") -> None:
         """Keep the ledger of their work in this recording; must be called before the first step."""
-        self._pushes = Pushes(self._model, self._data, self._ports, lambda rows: recorder.later("interventions", rows))
+        self._pushes = Pushes(self._model, self._data, self._ports, lambda blocks: recorder.later("pushes", blocks))
         recorder.before_flush.append(self._pushes.flush)
 
     def measure(self) -> None:

@@ -42,7 +42,7 @@ class Ledger:
         import numpy as np
 
         self._model, self._data, self._recorder = model, data, recorder
-        self.pushes = Pushes(model, data, ports, lambda rows: recorder.later("interventions", rows))
+        self.pushes = Pushes(model, data, ports, lambda blocks: recorder.later("pushes", blocks))
         lasting = sum(len(ports.entries.get(name, ())) for name in HELD)
         self.messages = Messages(recorder, lasting)
         recorder.before_flush.append(self._flush)

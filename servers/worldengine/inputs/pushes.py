@@ -1,39 +1,30 @@
-"""Note what pushes during a step, and the work it does: forces and torques on bodies and joints, controls of actuators.
+"""Note what pushes during a step: forces and torques on bodies and joints, controls of actuators (`push_works`).
 
-The work of a force that is constant over a step is that force times the mean of the velocities at both ends, times the step:
-exactly the kinetic energy that it hands to a body of constant mass. So a step's inputs and velocities are noted while it
-happens, one copy of a few numbers each, and everything is worked out later for a thousand steps at once.
+A step's inputs and the velocities at its two ends are noted while it happens, one copy of a few numbers each, and only while
+there are inputs other than zero: a world may declare many that rest. Everything is worked out later for many steps at once.
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+import queue
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
-from worldkit.mirror import Mirror
-from worldkit.naming import names
+from worldkit.mirror import Mirror, address, differ
 
-from ..recording.coded_words import Words
-from ..recording.columns import VALUES
-from ..recording.describing import actuator_columns, pulled_bodies
-from .force_outputs import outputs
+from .push_works import Way, ways
 
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
 
+    from ..recording.push_blocks import Block
     from .ports import Ports
 
 ROWS = 1024
-MOST_BYTES = 4 << 20
-FREE, BALL, SLIDE, HINGE = range(4)
-"""mjtJoint."""
-WRENCH = {"force": slice(0, 3), "torque": slice(3, 6)}
-"""Parts of a row's values, by its kind."""
-Columns = dict[str, Any]
-"""Columns of the interventions table, by name."""
+MOST_BYTES = 8 << 20
 
 
 class Pushes:
-    """Notes of consecutive steps; `emit` receives a function that turns them into rows of the ledger.
+    """Notes of consecutive steps; `emit` receives functions that make blocks of the ledger of them (`push_blocks`).
 
     A step goes: `measure()` when velocities are computed, `interfered()` if the state was then written, `note()` once the
     inputs in force are known, `reacted()` once forces are. `measure()` and `finish()` once more at the end of the run.
@@ -44,58 +35,42 @@ class Pushes:
         model: "mujoco.MjModel",
         data: "mujoco.MjData",
         ports: "Ports",
-        emit: Callable[[Callable[[], Columns]], object],
+        emit: Callable[[Callable[[], "Iterator[Block]"]], object],
     ) -> None:
         import numpy as np
 
         self._data, self._emit = data, emit
-        self._book = _Book(model, data, ports)
-        self._numbers, self._inputs, self._speeds, self._forces = self._book.indices
-        row = 8 * (len(self._inputs) + len(self._speeds) + len(self._forces) + 1)
+        numbers, _ = Mirror(model, data).numbers({}, ())
+        found = ways(model, data, ports)
+        row = 8 * (1 + sum(len(way.inputs) + len(way.speeds) + len(way.forces) for way in found))
         self._capacity = max(16, min(ROWS, MOST_BYTES // row))
-        self._last_controls = np.array(data.ctrl[self._book.controls])
-        widths = ((), (len(self._inputs),), (len(self._speeds),), (len(self._forces),))
-        self._notes = [np.zeros((0, *width)) for width in widths]
-        self._time, self._pushed, self._speed, self._exerted = self._notes
+        self._time = np.zeros(self._capacity + 1)
+        self._notes = [_Notes(way, data, numbers, self._capacity) for way in found]
+        self._forced = [notes for notes in self._notes if notes.forced]
+        self._acting = [notes for notes in self._notes if notes.acting]
         self._count = 0
-        self._ends: dict[int, np.ndarray] = {}
-        """Velocities at the end of those steps after which the state was written."""
-        self._start(0)
-
-    def _start(self, kept: int) -> None:
-        """Begin new notes with the last `kept` steps of the old ones and the notes of the step under way."""
-        import numpy as np
-
-        fresh = [np.zeros((self._capacity + 1, *note.shape[1:])) for note in self._notes]
-        for new, old in zip(fresh, self._notes, strict=True):
-            last = old[self._count - kept : self._count + 1]
-            new[: len(last)] = last
-        self._notes = fresh
-        self._time, self._pushed, self._speed, self._exerted = fresh
-        self._count = kept
-        self._ends.clear()
 
     def measure(self) -> None:
         """Note the velocities, which are computed now."""
         n = self._count
         self._time[n] = self._data.time
-        self._numbers.take(self._speeds, out=self._speed[n], mode="clip")
+        for notes in self._acting:
+            notes.measure(n)
 
     def interfered(self) -> None:
         """Note that the state was written and what derives from it computed anew."""
-        n = self._count
-        if n:
-            self._ends[n - 1] = self._speed[n].copy()
-        self._numbers.take(self._speeds, out=self._speed[n], mode="clip")
+        for notes in self._acting:
+            notes.interfered(self._count)
 
     def note(self) -> None:
         """Note the inputs that act during the step."""
-        self._numbers.take(self._inputs, out=self._pushed[self._count], mode="clip")
+        n, before = self._count, self._acting
+        self._acting = [notes for notes in self._notes if notes.note(n, notes in before)]
 
     def reacted(self) -> None:
         """Note the forces, which are computed now, before the step ends."""
-        if len(self._forces):
-            self._numbers.take(self._forces, out=self._exerted[self._count], mode="clip")
+        for notes in self._forced:
+            notes.reacted(self._count)
         self._count += 1
         if self._count == self._capacity:
             self.flush()
@@ -111,207 +86,101 @@ class Pushes:
             self._hand_over(self._count)
 
     def _hand_over(self, steps: int) -> None:
-        book, before = self._book, self._last_controls
-        time, pushed = self._time[: steps + 1], self._pushed[:steps]
-        begin, end, exerted = self._speed[:steps], self._speed[1 : steps + 1].copy(), self._exerted[:steps]
-        for step, speed in self._ends.items():
-            if step < steps:
-                end[step] = speed
-        self._last_controls = pushed[-1, : len(book.controls)].copy()
-        if pushed.any() or before.any():
-            self._emit(lambda: book.rows(time, pushed, begin, end, exerted, before))
-        self._start(self._count - steps)
+        time, last = self._time.copy(), self._count + 1
+        made = [pair for notes in self._notes if (pair := notes.hand_over(time[: steps + 1], steps, last))]
+        if made:
+            self._emit(lambda: _each(made))
+        self._time[: last - steps] = time[steps:last]
+        self._count -= steps
 
 
-class _Book:
-    """Knows where in the data the inputs, velocities and forces are, and makes rows of them."""
+def _each(made: "list[tuple[Callable[[], Block], Callable[[], object]]]") -> "Iterator[Block]":
+    """Each block; once it is used, the memory of its notes is, too."""
+    for block, give_back in made:
+        yield block()
+        give_back()
 
-    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: "Ports") -> None:
+
+class _Notes:
+    """Notes of one way to push: row n of each array is of the step n."""
+
+    def __init__(self, way: Way, data: "mujoco.MjData", numbers: "np.ndarray", capacity: int) -> None:
         import numpy as np
 
-        self._model = model
-        bodies, joints = names(model, "body", model.nbody), names(model, "joint", model.njnt)
-        self.controls = np.array(ports.entries.get("ctrl", ()), np.intp)
-        self._bodies = np.unique(np.array(ports.entries.get("xfrc_applied", ()), np.intp) // 6)
-        dofs = np.array(ports.entries.get("qfrc_applied", ()), np.intp)
-        self._joints = np.unique(model.dof_jntid[dofs]) if len(dofs) else np.zeros(0, np.intp)
-        self._dofs = {int(j): _dofs(model, int(j)) for j in self._joints}
-        self._by_kind = _alike(model.jnt_type[self._joints])
-        pulled, columns = pulled_bodies(model)["actuator"], actuator_columns(model)[0]
-        output = outputs(model)
-        self._actuators = [  # an actuator that moves one body's joint is called `body/actuator`
-            f"{pulled[output[c]][0]}/{columns[c]}" if len(pulled[output[c]]) == 1 else columns[c]
-            for c in self.controls.tolist()
-        ]
-        self._called = [bodies[b] for b in self._bodies]
-        owner = [int(model.jnt_bodyid[j]) for j in self._joints]
-        self._owners = [
-            bodies[b] if model.body_jntnum[b] == 1 else f"{bodies[b]}/{joints[j]}"
-            for b, j in zip(owner, self._joints, strict=True)
-        ]
-        mirror = Mirror(model, data)
-        self._parts: dict[str, slice] = {}
+        self._way, self._take, self._rows = way, numbers.take, capacity + 1
+        looked = getattr(data, way.array) if way.array else np.zeros(0)
+        self._looked, self._at, self._rest = looked, address(looked), looked.nbytes - looked.itemsize
+        self.acting, self.forced = not way.array, len(way.forces) > 0
+        self._before = numbers.take(way.inputs)
+        self._free: queue.SimpleQueue[list[np.ndarray]] = queue.SimpleQueue()
+        self._ends: dict[int, np.ndarray] = {}
+        """Velocities at the end of those steps after which the state was written."""
+        self._begin()
 
-        def lay(rows: list[tuple[str, str, Any]]) -> Any:
-            index: list[Any] = []
-            for name, array, flat in rows:
-                start = sum(map(len, index))
-                index.append(mirror.at(array) // 8 + np.asarray(flat, np.intp).reshape(-1))
-                self._parts[name] = slice(start, start + len(index[-1]))
-            return np.concatenate(index) if index else np.zeros(0, np.intp)
+    def _begin(self) -> None:
+        """Begin new notes, in memory that was given back if there is any: fresh pages cost as much as what is done with them."""
+        import numpy as np
 
-        def each(items: Any, width: int) -> Any:
-            return (np.asarray(items, np.intp)[:, None] * width + np.arange(width)).reshape(-1)
+        way = self._way
+        widths = ((), (len(way.inputs),), (len(way.speeds),), (len(way.forces),))
+        try:
+            self._all = self._free.get_nowait()
+        except queue.Empty:
+            self._all = [np.zeros((self._rows, *width)) for width in widths]
+        self._acts, self._pushed, self._speed, self._exerted = self._all
+        self._acts[:] = 0.0
 
-        all_dofs = np.concatenate([np.zeros(0, np.intp), *(np.arange(s.start, s.stop) for s in self._dofs.values())])
-        pushed = [
-            ("ctrl", "ctrl", self.controls),
-            ("qfrc", "qfrc_applied", all_dofs),
-            ("xfrc", "xfrc_applied", each(self._bodies, 6)),
-        ]
-        speeds = [
-            ("drive", "actuator_velocity", output[self.controls] if len(self.controls) else ()),
-            ("qvel", "qvel", all_dofs),
-            ("cvel", "cvel", each(self._bodies, 6)),
-            ("centre", "xipos", each(self._bodies, 3)),
-            ("tree", "subtree_com", each(model.body_rootid[self._bodies], 3)),
-            ("turned", "xmat", each(owner, 9)),
-            ("axis", "xaxis", each(self._joints, 3)),
-        ]
-        forces = [("exerted", "actuator_force", output[self.controls] if len(self.controls) else ())]
-        numbers, _ = mirror.numbers({}, ())
-        self.indices = (numbers, lay(pushed), lay(speeds), lay(forces))
+    def measure(self, n: int) -> None:
+        """Note the velocities, at the end of a step in which this pushed and at the beginning of the next."""
+        self._take(self._way.speeds, out=self._speed[n], mode="clip")
 
-    def rows(self, time: Any, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any) -> Columns:
-        """Rows of the ledger for S steps, in the order of their times.
+    def interfered(self, n: int) -> None:
+        """Note them anew for this step."""
+        if n:
+            self._ends[n - 1] = self._speed[n].copy()
+        self.measure(n)
 
-        Args:
-            time: (S + 1,) s.
-            pushed: (S, …) the inputs that act.
-            begin, end: (S, …) velocities at both ends.
-            exerted: (S, C) forces of the actuators.
-            before: (C,) controls before the first step.
+    def note(self, n: int, known: bool) -> bool:
+        """Note the inputs, and the velocities if they are not known; returns whether there are inputs."""
+        if len(self._looked):  # zero are all numbers if one is, and each is as the next
+            self.acting = differ(self._at, self._at + 8, self._rest) != 0 or self._looked.flat[0] != 0
+        if self.acting:
+            self._acts[n] = 1.0
+            self._take(self._way.inputs, out=self._pushed[n], mode="clip")
+            if not known:
+                self.measure(n)
+        return self.acting
+
+    def reacted(self, n: int) -> None:
+        """Note the forces."""
+        self._take(self._way.forces, out=self._exerted[n], mode="clip")
+
+    def hand_over(
+        self, time: "np.ndarray", steps: int, last: int
+    ) -> "tuple[Callable[[], Block], Callable[[], object]] | None":
+        """Begin new notes after so many steps, with what is noted until the row `last`.
+
+        Returns what makes a block of the old ones, and what must be called once it is used; None where nothing pushed in them.
         """
-        import numpy as np
-
-        step = np.diff(time)
-        parts = [*self._controlled(pushed, begin, end, exerted, before, step)]
-        parts += [*self._external(pushed, begin, end, step), *self._generalised(pushed, begin, end, step)]
-        at = np.concatenate([np.zeros(0, np.intp), *(part[0] for part in parts)])
-        order = np.argsort(at, kind="stable")
-        counts = np.array([len(part[0]) for part in parts], np.intp)
-        kinds = Words(np.repeat(np.arange(len(parts), dtype=np.int32), counts), [part[1] for part in parts])
-        called = Words.joined([part[2] for part in parts])
-        values = np.concatenate([np.zeros((0, VALUES)), *(part[3] for part in parts)])
-        works = np.concatenate([np.zeros(0), *(part[4] for part in parts)])
-        return {
-            "time": time[at][order],
-            "kind": kinds.taken(order),
-            "target": called.taken(order),
-            "value": values[order],
-            "work_j": works[order],
-        }
-
-    def _controlled(
-        self, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any, step: Any
-    ) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
-        """(steps, kind, target, values, works) of each actuator, while its control is not zero or changes."""
-        import numpy as np
-
-        value, speed = pushed[:, self._parts["ctrl"]], self._parts["drive"]
-        former = np.concatenate([before[None], value[:-1]])
-        works = exerted * (begin[:, speed] + end[:, speed]) / 2 * step[:, None]
-        told = (value != 0) | (value != former)
-        yield _told("control", self._actuators, told, np.stack([value, exerted], axis=2), slice(0, 2), works)
-
-    def _external(self, pushed: Any, begin: Any, end: Any, step: Any) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
-        """Forces (N) and torques (N·m) on bodies, at their centres of mass, world frame."""
-
-        wrench = pushed[:, self._parts["xfrc"]].reshape(len(step), -1, 6)
-        if not wrench.any():
-            return
-        motion = (self._twist(begin) + self._twist(end)) / 2
-        for kind, part in WRENCH.items():
-            vector = wrench[..., part]
-            works = (vector * motion[..., part]).sum(axis=2) * step[:, None]
-            yield _told(kind, self._called, vector.any(axis=2), vector, part, works)
-
-    def _twist(self, speeds: Any) -> Any:
-        """(S, B, 6) m/s and rad/s: velocity of the bodies' centres of mass and angular velocity, world frame."""
-        import numpy as np
-
-        velocity = speeds[:, self._parts["cvel"]].reshape(len(speeds), -1, 6)
-        arm = (speeds[:, self._parts["centre"]] - speeds[:, self._parts["tree"]]).reshape(len(speeds), -1, 3)
-        spin = velocity[..., :3]
-        return np.concatenate([velocity[..., 3:] + np.cross(spin, arm), spin], axis=2)
-
-    def _generalised(
-        self, pushed: Any, begin: Any, end: Any, step: Any
-    ) -> "Iterator[tuple[Any, str, Words, Any, Any]]":
-        """Forces on joints, as force (N) or torque (N·m) on the bodies that own them, world frame."""
-        import numpy as np
-
-        force = pushed[:, self._parts["qfrc"]]
-        if not force.any():
-            return
-        # Forces and velocities of joints are dual: their product is the power, whatever their frame.
-        power = force * (begin[:, self._parts["qvel"]] + end[:, self._parts["qvel"]]) / 2
-        turned = begin[:, self._parts["turned"]].reshape(len(step), -1, 3, 3)
-        axis = begin[:, self._parts["axis"]].reshape(len(step), -1, 3)
-        for kind, mine in self._by_kind.items():
-            owners = [self._owners[j] for j in mine.joints]
-
-            def told(word: str, dofs: Any, vector: Any, owners: list[str] = owners) -> Any:
-                works = power[:, dofs].sum(axis=2) * step[:, None]
-                return _told(word, owners, vector.any(axis=2), vector, WRENCH[word], works)
-
-            if kind == FREE:
-                yield told("force", mine.dofs[:, :3], force[:, mine.dofs[:, :3]])
-            if kind in (FREE, BALL):
-                own = force[:, mine.dofs[:, -3:]]
-                yield told("torque", mine.dofs[:, -3:], np.einsum("sjkl,sjl->sjk", turned[:, mine.joints], own))
-            else:
-                vector = axis[:, mine.joints] * force[:, mine.dofs]
-                yield told("torque" if kind == HINGE else "force", mine.dofs, vector)
-
-
-class _Alike(NamedTuple):
-    """Joints of one kind: their places among the pushed ones, and of their forces, (J,) and (J, dofs)."""
-
-    joints: Any
-    dofs: Any
-
-
-def _alike(kinds: Any) -> dict[int, _Alike]:
-    """The joints by their kind, for joints of these kinds whose forces lie one after the other."""
-    import numpy as np
-
-    width = np.array([{FREE: 6, BALL: 3}.get(int(kind), 1) for kind in kinds], np.intp)
-    first = np.cumsum(width) - width
-    found = {}
-    for kind in dict.fromkeys(int(kind) for kind in kinds):
-        mine = np.flatnonzero(kinds == kind)
-        found[kind] = _Alike(mine, first[mine][:, None] + np.arange(width[mine[0]]))
-    return found
-
-
-def _told(kind: str, targets: Sequence[str], acts: Any, vectors: Any, part: slice, works: Any) -> Any:
-    """(steps, kind, targets, values, works) of the rows of one kind.
-
-    Args:
-        kind: of the rows.
-        targets: names of B bodies or actuators.
-        acts: (S, B) whether there is a row.
-        vectors: (S, B, …) their numbers, which become this `part` of the values.
-        part: of the values.
-        works: (S, B) J.
-    """
-    import numpy as np
-
-    at, which = np.nonzero(acts)
-    values = np.zeros((len(at), VALUES))
-    values[:, part] = vectors[at, which]
-    return at, kind, Words(which.astype(np.int32), targets), values, works[at, which]
+        old, ends, before = self._all, self._ends, self._before
+        acts, pushed, speed, exerted = (rows[:steps] for rows in old)
+        self._begin()
+        self._ends = {step - steps: kept for step, kept in ends.items() if step >= steps}
+        for new, rows in zip(self._all, old, strict=True):
+            new[: last - steps] = rows[steps:last]
+        give_back = lambda: self._free.put(old)  # noqa: E731
+        if not acts.any():
+            give_back()
+            return None
+        pushed[acts == 0] = 0.0
+        self._before = pushed[-1].copy()
+        end = old[2][1 : steps + 1]
+        if ends:
+            end = end.copy()
+            for step, kept in ends.items():
+                if step < steps:
+                    end[step] = kept
+        return lambda: self._way.told(time, pushed, speed, end, exerted, before), give_back
 
 
 def twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndarray":
@@ -330,8 +199,3 @@ def displacement(data: "mujoco.MjData", body: int, pos: "np.ndarray", quat: "np.
     from worldkit.turning import conjugate, product, rotation_vectors
 
     return np.concatenate((data.xpos[body] - pos, rotation_vectors(product(data.xquat[body], conjugate(quat)))))
-
-
-def _dofs(model: "mujoco.MjModel", joint: int) -> slice:
-    first = int(model.jnt_dofadr[joint])
-    return slice(first, first + {FREE: 6, BALL: 3}.get(int(model.jnt_type[joint]), 1))

@@ -51,7 +51,7 @@ class Drive:
         if not answers.news:  # the inputs stand as they were written
             ledger.messages.step = step
             return False
-        ledger.messages.add(step, answers.vector)
+        self._keep(step)
         changes = answers.changes
         if changes:
             ledger.about_to_change()
@@ -62,6 +62,10 @@ class Drive:
             answers.change()
             ledger.changed()
         return changes
+
+    def _keep(self, step: int) -> None:
+        """Record the answer that acts from this step on."""
+        self._ledger.messages.add(step, self.answers.vector)
 
     def reacted(self) -> None:
         """Note the forces, which are computed now, before the step ends."""
@@ -173,7 +177,17 @@ class Replayed(Drive):
         every: int = 1,
     ) -> None:
         super().__init__(model, data, ports)
+        self._folder = recording.folder
         self._recorded = Recorded(recording, model, ports, steps, every)
+
+    def record(self, recorder: "Recorder") -> None:
+        """Keep the ledger in this recording, and in it the inputs as they were given."""
+        super().record(recorder)
+        recorder.as_given("inputs", self._folder)
+
+    def _keep(self, step: int) -> None:
+        """It is recorded already."""
+        self._ledger.messages.step = step
 
     def act(self, step: int, row: Callable[[], object] | None) -> None:
         """Apply what the recording holds for this step."""

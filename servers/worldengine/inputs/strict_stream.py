@@ -7,14 +7,14 @@ true run, and its ledger says what pushed.
 """
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from worldkit.errors import RecordingError
 from worldkit.laws import HUGE
 from worldkit.speaking import HELD
 from worldkit.watch import LOOKS, Edit
 
-from ..recording.columns import OF_MEDIA, TABLES, arrow_schema
+from ..recording.columns import FORETOLD_COLUMNS, OF_MEDIA, TABLES, arrow_schema
 from .ports import Ports, flat
 
 if TYPE_CHECKING:
@@ -51,12 +51,13 @@ class Recorded:
         for name in ("inputs", "edits", *(OF_MEDIA if ports.media else ())):
             _whole(recording.folder / f"{name}.arrows", name)
         self._lasting = sum(len(ports.entries.get(name, ())) for name in HELD)
-        self._at = self._edit_at = 0
         self.vector = np.full(ports.width, np.nan)
         self.vector[: self._lasting] = 0.0
         inputs, edits = recording.inputs, recording.edits
         self._step, self._entry, self._value = (np.asarray(inputs[name]) for name in ("step", "entry", "value"))
         self._edits = [np.asarray(edits[name]) for name in ("step", "array", "index", "value")]
+        ends = np.arange(steps + 1)
+        self._ends, self._edit_ends = (np.searchsorted(rows, ends) for rows in (self._step, self._edits[0]))
         self._check_inputs(Rows(recording.folder / "inputs.arrows", self._step), steps, every)
         self._check_edits(Rows(recording.folder / "edits.arrows", self._edits[0]), model, ports, steps, every)
         self._media = ports.media
@@ -104,26 +105,22 @@ class Recorded:
 
     def speaks(self, step: int) -> bool:
         """Whether an answer acts from this step on."""
-        numbers = self._at < len(self._step) and self._step[self._at] == step
-        return bool(numbers or (self._edit_at < len(self._edits[0]) and self._edits[0][self._edit_at] == step))
+        return any(ends[step] < ends[step + 1] for ends in (self._ends, self._edit_ends))
 
     def answer(self, step: int) -> "tuple[np.ndarray, list[Edit]]":
         """The vector and the edits that act from this step on; steps must come in their order."""
         import numpy as np
 
         self.vector[self._lasting :] = np.nan
-        end = int(np.searchsorted(self._step, step, side="right"))
-        self.vector[self._entry[self._at : end]] = self._value[self._at : end]
-        self._at = end
+        mine = slice(*self._ends[step : step + 2])
+        self.vector[self._entry[mine]] = self._value[mine]
         edits: list[Edit] = []
-        steps, arrays, indices, values = self._edits
-        end = int(np.searchsorted(steps, step, side="right"))
-        mine = slice(self._edit_at, end)
+        _, arrays, indices, values = self._edits
+        mine = slice(*self._edit_ends[step : step + 2])
         for name in dict.fromkeys(arrays[mine].tolist()):
             these = arrays[mine] == name
             looks = any(part in name for part in LOOKS)
             edits.append(Edit(str(name), indices[mine][these].astype(np.intp), values[mine][these], looks_only=looks))
-        self._edit_at = end
         return self.vector, edits
 
 
@@ -197,8 +194,8 @@ def _whole(path: Path, name: str) -> None:
         return
     try:
         with pa.memory_map(str(path)) as file, pa.ipc.open_stream(file) as reader:
-            wanted: Any = arrow_schema(TABLES[name])
-            if not reader.schema.equals(wanted):
+            forms = (TABLES[name], FORETOLD_COLUMNS) if name == "inputs" else (TABLES[name],)
+            if not any(reader.schema.equals(arrow_schema(form)) for form in forms):
                 raise RecordingError(f"{path.name} is no table of {name}: its columns are others", str(path), REMEDY)
             for batch in reader:
                 batch.validate(full=True)

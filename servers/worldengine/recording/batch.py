@@ -45,7 +45,7 @@ class Batch:
         self.rows = 0
         self.first_row = 0
         self.events: dict[str, list[Any]] = {name: [] for name in TABLES if name != "contacts"}
-        self.later: dict[str, list[Any]] = {name: [] for name in self.events}
+        self.later: dict[str, list[Any]] = {name: [] for name in (*self.events, "pushes")}
         self.time = np.empty(capacity)
         self.ncon = np.zeros(capacity, np.int32)
         self.nefc = np.zeros(capacity, np.int32)

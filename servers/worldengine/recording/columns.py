@@ -122,6 +122,14 @@ INPUT_COLUMNS = (
     Column("entry", (), "1", "entry of the answer, counted through meta.inputs", "int32"),
     Column("value", (), "the input's", "value"),
 )
+FORETOLD_COLUMNS = (
+    *INPUT_COLUMNS[:2],
+    *(
+        Column(f"error_{n}", (), "", f"byte {n} of the value's error, lowest first (`foretold`)", "uint8")
+        for n in range(8)
+    ),
+)
+"""How the file of wide answers holds the rows of `inputs`."""
 MEDIUM_COLUMNS = (
     Column("step", (), "1", "step at which the points lay there", "int32"),
     Column("medium", (), "1", "which of meta.laws", "int32"),

@@ -14,6 +14,7 @@ Row n holds the state at time n and the quantities derived from that same state;
 
 import hashlib
 import queue
+import shutil
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -22,11 +23,14 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import RecordingError
 from worldkit.files import write_json
+from worldkit.speaking import ARRAYS
 
 from . import derive
 from .batch import PLAIN, Batch
 from .coded_words import Words
-from .columns import OF_MEDIA, SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
+from .columns import FORETOLD_COLUMNS, OF_MEDIA, SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
+from .foretold import BYTES, FEWEST, WEIGHTS, Forecast
+from .push_blocks import PushStream
 
 if TYPE_CHECKING:
     import mujoco
@@ -91,7 +95,7 @@ class Recorder:
         """These are called before a batch is handed over, the last moment to add what belongs to it."""
         self.rows = 0
         self.max_depth_m = 0.0
-        self.counts: dict[str, int] = {}
+        self._counts: dict[str, int] = {}
         self.warnings: dict[str, int] = {}
         self._hashes = {name: hashlib.sha256() for name in HASHED}
         told = {name: columns for name, columns in TABLES.items() if meta.get("laws") or name not in OF_MEDIA}
@@ -101,10 +105,12 @@ class Recorder:
             self._folder / "meta.json",
             {"schema": SCHEMA_VERSION, **meta, "columns": {"state": as_meta(self.columns), **tables}},
         )
+        wide = sum(len(entries) for array, entries in meta.get("inputs", {}).items() if array in ARRAYS) >= FEWEST
         self._streams = {
-            name: _Stream(self._folder / f"{name}.arrows", columns, packed=name in PACKED)
+            name: (_Foretold if wide and name == "inputs" else _Stream)(self._folder / f"{name}.arrows", columns)
             for name, columns in {"state": self.columns, **told}.items()
         }
+        self._pushes = PushStream(self._folder)
         self._thread = threading.Thread(target=self._work, name="recorder", daemon=True)
         self._thread.start()
 
@@ -113,6 +119,12 @@ class Recorder:
 
     def __exit__(self, kind: object, error: object, trace: object) -> None:
         self.close(complete=kind is None)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """Rows of the ledger by kind, valid once the recorder is closed."""
+        pushed = self._pushes.counts
+        return {kind: self._counts.get(kind, 0) + pushed.get(kind, 0) for kind in {**self._counts, **pushed}}
 
     @property
     def recorded(self) -> int:
@@ -150,15 +162,22 @@ class Recorder:
             buffer, source = batch.controls
             buffer[batch.rows] = source
 
-    def later(self, table: str, columns: Callable[[], dict[str, Any]]) -> None:
-        """Add rows to a table that the writer's thread computes."""
-        self._batch.later[table].append(columns)
+    def later(self, table: str, made: Callable[[], Any]) -> None:
+        """Add what the writer's thread computes: columns of rows of a table, or to `pushes` its blocks."""
+        self._batch.later[table].append(made)
 
     def event(self, table: str, *values: Any) -> None:
         """Add a row to `interventions`, `warnings` or `edits`, in the order of their columns."""
         self._batch.events[table].append(values)
         if table == "warnings":
             self.warnings[values[1]] = self.warnings.get(values[1], 0) + values[2]
+
+    def as_given(self, table: str, folder: Path) -> None:
+        """Let a table be the file of another recording, byte by byte, if that has one; nothing may be added to it."""
+        given = folder / f"{table}.arrows"
+        if given.exists():
+            self._streams[table].close()
+            shutil.copyfile(given, self._folder / given.name)
 
     def flush(self) -> None:
         """Hand the current batch to the writer; waits only when the disk is two batches behind."""
@@ -179,6 +198,7 @@ class Recorder:
             self._hand_over()
             self._full.put(None)
             self._thread.join()
+        self._pushes.close()
         for stream in self._streams.values():
             stream.close()
         if complete:
@@ -218,6 +238,8 @@ class Recorder:
                 contacts = self._contacts(batch)
                 self.max_depth_m = max(self.max_depth_m, float(contacts["depth_m"].max()))
                 self._streams["contacts"].write(contacts)
+        for make in batch.later["pushes"]:
+            self._pushes.write(make())
         for table, events in batch.events.items():
             names = [column.name for column in TABLES[table]]
             parts = [made for make in batch.later[table] if len((made := make())[names[0]])]
@@ -243,7 +265,7 @@ class Recorder:
             columns = {n: c.taken(order) if isinstance(c, Words) else c[order] for n, c in columns.items()}
         if table == "interventions":
             for kind, count in columns["kind"].counts().items():
-                self.counts[kind] = self.counts.get(kind, 0) + count
+                self._counts[kind] = self._counts.get(kind, 0) + count
         self._streams[table].write(columns)
 
     def _columns(self, batch: Batch) -> "dict[str, np.ndarray]":
@@ -305,17 +327,17 @@ class Recorder:
 class _Stream:
     """One Arrow IPC stream file: each batch reaches the operating system in one go."""
 
-    def __init__(self, path: Path, columns: tuple[Column, ...], packed: bool) -> None:
+    def __init__(self, path: Path, columns: tuple[Column, ...]) -> None:
         import pyarrow as pa
 
         self._columns = columns
         self._schema = arrow_schema(columns)
         self._sink = pa.OSFile(str(path), "wb")
-        options = pa.ipc.IpcWriteOptions(compression="zstd" if packed else None)
+        options = pa.ipc.IpcWriteOptions(compression="zstd" if path.stem in PACKED else None)
         self._writer = pa.ipc.new_stream(self._sink, self._schema, options=options)
 
-    def write(self, values: dict[str, Any]) -> None:
-        """Append one record batch."""
+    def write(self, values: dict[str, Any], about: "dict[bytes, str] | None" = None) -> None:
+        """Append one record batch, with what is said about it."""
         import numpy as np
         import pyarrow as pa
 
@@ -327,13 +349,27 @@ class _Stream:
                 continue
             flat = pa.array(np.asarray(value, column.dtype).reshape(-1))
             arrays.append(pa.FixedSizeListArray.from_arrays(flat, type=field.type) if column.shape else flat)
-        self._writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=self._schema))
+        self._writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=self._schema), about)
 
     def close(self) -> None:
         """End the stream."""
         if not self._sink.closed:
             self._writer.close()
             self._sink.close()
+
+
+class _Foretold(_Stream):
+    """The stream of `inputs` where answers are wide."""
+
+    def __init__(self, path: Path, columns: tuple[Column, ...]) -> None:  # noqa: ARG002 (they are its own)
+        super().__init__(path, FORETOLD_COLUMNS)
+        self._forecast = Forecast()
+
+    def write(self, values: dict[str, Any], about: "dict[bytes, str] | None" = None) -> None:
+        """Append one record batch with the errors of the values in their place."""
+        weights, errors = self._forecast.encode(*(values[name] for name in ("step", "entry", "value")))
+        about = {**(about or {}), WEIGHTS: " ".join(map(repr, weights))}
+        super().write({**values, **dict(zip(BYTES, errors, strict=True))}, about)
 
 
 def combine(digests: dict[str, str]) -> str:

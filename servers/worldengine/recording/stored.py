@@ -10,13 +10,16 @@ memory; of those that are packed (`record.PACKED`) the rows are unpacked when th
 
 import hashlib
 import json
+from collections.abc import Mapping
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import RecordingError
 
+from . import push_blocks
 from .columns import CAMERAS_FILE, OF_MEDIA, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
+from .foretold import BYTES, WEIGHTS, Forecast, weights_of
 from .record import HASHED, combine
 
 if TYPE_CHECKING:
@@ -37,7 +40,7 @@ class Table:
     def __init__(self, path: Path, columns: tuple[Column, ...], limit: int | None = None) -> None:
         self._path = path
         self.columns = {column.name: column for column in columns}
-        self._batches = _read(path)
+        self._batches, self._about = _read(path)
         self._length = sum(batch.num_rows for batch in self._batches)
         if limit is not None:
             self._length = min(self._length, limit)
@@ -62,6 +65,11 @@ class Table:
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.columns]
 
+    def take(self, columns: "Mapping[str, np.ndarray]") -> None:
+        """Have these columns, if any, in place of the file's."""
+        self._made.update(columns)
+        self._length = next((len(column) for column in columns.values()), self._length)
+
     def _column(self, column: Column) -> "np.ndarray":
         import numpy as np
 
@@ -72,7 +80,7 @@ class Table:
             return np.array([v for batch in self._batches for v in batch[column.name].to_pylist()], dtype=str)[
                 : self._length
             ]
-        parts = [_numbers(batch[column.name], column) for batch in self._batches if column.width]
+        parts = self._parts(column) if column.width else []
         if len(parts) == 1:
             return parts[0][: self._length]
         if not parts:
@@ -80,6 +88,27 @@ class Table:
         joined = np.concatenate(parts)[: self._length]
         joined.flags.writeable = False
         return joined
+
+    def _parts(self, column: Column) -> "list[np.ndarray]":
+        """The numbers of a column, batch by batch."""
+        return [_numbers(batch[column.name], column) for batch in self._batches]
+
+
+class Inputs(Table):
+    """The table `inputs`, however its file holds the values (`foretold`)."""
+
+    def _parts(self, column: Column) -> "list[np.ndarray]":
+        if not self._batches or column.name in self._batches[0].schema.names:
+            return super()._parts(column)
+        forecast, found = Forecast(), []
+        for batch, about in zip(self._batches, self._about, strict=True):
+            step, entry, *errors = (batch[name].to_numpy() for name in ("step", "entry", *BYTES))
+            try:
+                found.append(forecast.decode(step, entry, errors, weights_of(about.get(WEIGHTS, b""))))
+            except ValueError as cause:
+                where = f"{self._path.name} is damaged: {cause}"
+                raise RecordingError(where, str(self._path), "restore it as it was recorded, or record anew") from cause
+        return found
 
 
 class Recording:
@@ -145,8 +174,10 @@ class Recording:
 
     @cached_property
     def interventions(self) -> Table:
-        """The interventions: what acted on the state besides the engine's own step."""
-        return self._table("interventions")
+        """The interventions: what acted on the state besides the engine's own step; pushes are kept in blocks (`push_blocks`)."""
+        table = self._table("interventions")
+        table.take(push_blocks.join(table, _read(self.folder / push_blocks.FILE)[0]))
+        return table
 
     @cached_property
     def warnings(self) -> Table:
@@ -161,7 +192,8 @@ class Recording:
     @cached_property
     def inputs(self) -> Table:
         """What was sent to the world: of each answer, the difference from the one before."""
-        return self._table("inputs")
+        table = self._table("inputs")
+        return Inputs(table._path, tuple(table.columns.values()))
 
     @cached_property
     def media(self) -> Table:
@@ -260,8 +292,9 @@ class Replayable:
 
     def __init__(self, folder: Path | str) -> None:
         self.folder = Path(folder)
-        self.inputs, self.edits, self.media, self.balances = (
-            Table(self.folder / f"{name}.arrows", TABLES[name]) for name in ("inputs", "edits", *OF_MEDIA)
+        self.inputs = Inputs(self.folder / "inputs.arrows", TABLES["inputs"])
+        self.edits, self.media, self.balances = (
+            Table(self.folder / f"{name}.arrows", TABLES[name]) for name in ("edits", *OF_MEDIA)
         )
 
 
@@ -312,22 +345,25 @@ def _numbers(array: "pa.Array", column: Column) -> "np.ndarray":
     return flat.to_numpy(zero_copy_only=True).reshape(-1, *column.shape)
 
 
-def _read(path: Path) -> "list[pa.RecordBatch]":
-    """All whole record batches of a stream file; a torn tail ends the list, a missing file is empty."""
+def _read(path: Path) -> "tuple[list[pa.RecordBatch], list[Mapping[bytes, bytes]]]":
+    """All whole record batches of a stream file, and what is said about each; a torn tail ends the lists, a missing file is empty."""
     import pyarrow as pa
 
+    batches: list[pa.RecordBatch] = []
+    about: list[Mapping[bytes, bytes]] = []
     if not path.exists() or not path.stat().st_size:
-        return []
-    batches = []
+        return batches, about
     try:
         reader = pa.ipc.open_stream(pa.memory_map(str(path)))
         while True:
-            batches.append(reader.read_next_batch())
+            batch, said = reader.read_next_batch_with_custom_metadata()
+            batches.append(batch)
+            about.append(said or {})
     except StopIteration:
         pass
     except (pa.ArrowInvalid, OSError):
         pass  # the process died while writing this batch
-    return batches
+    return batches, about
 
 
 def _json(path: Path, meaning: str) -> dict[str, Any]:
