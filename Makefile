@@ -7,7 +7,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := .ci/constraints.txt
 PYTEST = $(BIN)/python -m pytest $(if $(REPORT),--junit-xml="$(REPORT)")
 
-.PHONY: help demo test tests lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-conformance test-harness test-semantic docs lock clean
+.PHONY: help demo test tests quick lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-conformance test-harness test-semantic docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -21,6 +21,10 @@ test: lint tests ## Everything that must hold, in under eight minutes on two cor
 
 tests: .venv/.dev ## The tests alone
 	$(PYTEST) -n $(JOBS) --dist worksteal
+
+quick: style ## What most often turned a longer run red, in a minute or two: run it before each
+	$(BIN)/worldwright contract check
+	$(PYTEST) -n $(JOBS) --dist worksteal tests/test_laws.py tests/test_architecture.py tests/test_dependencies.py tests/skills tests/worldwright/test_schemas.py tests/worldwright/contract tests/worldwright/doctor
 
 lint: style types ## Format, lint and types
 
