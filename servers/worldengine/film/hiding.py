@@ -51,7 +51,9 @@ class Swaying:
     def some(self, data: mujoco.MjData, breeze: tuple[float, float, float] | None) -> np.ndarray:
         """Corners (P, 3), m, of what sways where a wind, as in `blow`, has carried them: as many of each mesh as tell how it goes."""
         found = [np.zeros((0, 3))]
-        for geom in self.geoms if breeze is not None else ():
+        for geom in self.geoms:
+            if breeze is None:
+                break
             mesh = int(self.model.geom_dataid[geom])
             first, count = self.model.mesh_faceadr[mesh], self.model.mesh_facenum[mesh]
             face, corner = np.random.default_rng(0).integers((count, 3), size=(SOME, 2)).T

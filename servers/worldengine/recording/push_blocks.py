@@ -25,8 +25,6 @@ if TYPE_CHECKING:
 
     import numpy as np
 
-    from .stored import Table
-
 FILE = "pushes.arrows"
 PLACES = {"control": slice(0, 2), "force": slice(0, 3), "torque": slice(3, 6)}
 """Where a kind's numbers lie in a row's values."""
@@ -89,8 +87,8 @@ class PushStream:
             self._sink.close()
 
 
-def join(table: "Table", batches: "Iterable[Any]") -> "Mapping[str, np.ndarray]":
-    """The columns of the table of interventions with the rows of the blocks among its own, in the order of their times."""
+def join(table: Any, batches: "Iterable[Any]") -> "Mapping[str, np.ndarray]":
+    """The columns of the table of interventions (`stored.Table`) with the rows of the blocks among its own, in the order of their times."""
     import numpy as np
 
     parts = [_rows(batch, n) for batch in batches for n in range(batch.num_rows)]

@@ -5,7 +5,8 @@
 
 The folder holds `meta.json`, `state.arrows` and the tables `contacts`, `interventions`, `warnings`, `edits`, `inputs`
 (Arrow IPC streams; `columns` says what is in them), with an author's law also `media` and `balances`, and `complete.json` once the run ended well. The streams are mapped into
-memory; of those that are packed (`record.PACKED`) the rows are unpacked when the table is opened.
+memory; of those that are packed (`record.PACKED`) the rows are unpacked when the table is opened. Rows of `interventions` that
+push lie in `pushes.arrows` (`push_blocks`), and wide answers in `inputs` as errors of a forecast (`foretold`).
 """
 
 import hashlib
@@ -73,13 +74,8 @@ class Table:
     def _column(self, column: Column) -> "np.ndarray":
         import numpy as np
 
-        if column.width and any(column.name not in batch.schema.names for batch in self._batches):
-            cause = f"it has no column {column.name}, which an earlier version did not record"
-            raise RecordingError(cause, str(self._path), "run the physics pass again")
         if column.dtype == "string":
-            return np.array([v for batch in self._batches for v in batch[column.name].to_pylist()], dtype=str)[
-                : self._length
-            ]
+            return np.array([v for held in self._held(column) for v in held.to_pylist()], dtype=str)[: self._length]
         parts = self._parts(column) if column.width else []
         if len(parts) == 1:
             return parts[0][: self._length]
@@ -91,7 +87,14 @@ class Table:
 
     def _parts(self, column: Column) -> "list[np.ndarray]":
         """The numbers of a column, batch by batch."""
-        return [_numbers(batch[column.name], column) for batch in self._batches]
+        return [_numbers(held, column) for held in self._held(column)]
+
+    def _held(self, column: Column) -> list[Any]:
+        """What the file holds of a column, batch by batch."""
+        if any(column.name not in batch.schema.names for batch in self._batches):
+            cause = f"it has no column {column.name}, which an earlier version did not record"
+            raise RecordingError(cause, str(self._path), "run the physics pass again")
+        return [batch[column.name] for batch in self._batches]
 
 
 class Inputs(Table):
@@ -102,8 +105,8 @@ class Inputs(Table):
             return super()._parts(column)
         forecast, found = Forecast(), []
         for batch, about in zip(self._batches, self._about, strict=True):
-            step, entry, *errors = (batch[name].to_numpy() for name in ("step", "entry", *BYTES))
             try:
+                step, entry, *errors = (batch[name].to_numpy() for name in ("step", "entry", *BYTES))
                 found.append(forecast.decode(step, entry, errors, weights_of(about.get(WEIGHTS, b""))))
             except ValueError as cause:
                 where = f"{self._path.name} is damaged: {cause}"

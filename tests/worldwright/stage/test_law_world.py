@@ -7,11 +7,13 @@ import numpy as np
 import pytest
 
 import whole_runs
+from worldengine.recording import stored
 from worldwright.draft.writing import write_program
 from worldwright.model.evidence.run import Run
 from worldwright.report.material import gather
 from worldwright.report.page import render
 from worldwright.scan import tools as scan
+from worldwright.stage import for_servers as stage
 from worldwright.stamp import tools as stamp
 
 pytestmark = [pytest.mark.gl, pytest.mark.slow]
@@ -44,6 +46,10 @@ def test_a_law_of_ones_own_stretches_a_cord_to_acceptance(tmp_path: Path) -> Non
     run = whole_runs.approved(PLAN, tmp_path / "cord")
     written(run)
     recording = whole_runs.filmed(run)
+    alone = stage.run_variant(run, "without-control", ("--without", "control"))
+    assert alone.state == "succeeded", alone.text()
+    without = stored.open(stage.variant_folder(run, "without-control") / "trajectory")
+    assert without.sha256 == recording.sha256, "there is no control to take away, and the law stays"
     rings = recording.media.place.reshape(-1, 33, 8, 3).mean(axis=2)
     length = np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
     assert 1.55 < length.max() / length[0] < 1.75, "stretched by more than half"
