@@ -20,7 +20,7 @@ from .model.evidence.build_steps import StepName
 from .model.evidence.run import Run, sha256_file
 from .model.plan import imported
 from .model.progress import Progress
-from .stamp.going import GROUPS, Going, Say, WrongError
+from .stamp.going import FOR_EVER_S, GROUPS, Going, Say, WrongError
 
 STEPS = [name for group in GROUPS for name in group]
 
@@ -39,6 +39,8 @@ class Options:
     """Also repeat the physics at half the time step."""
     until: StepName | None = None
     """End after the group of this step."""
+    timeout_s: float = FOR_EVER_S
+    """Return after about this long, s."""
 
 
 class Accepting(Going):
@@ -100,9 +102,17 @@ def go(run: Run, options: Options, say: Say) -> bool:
     try:
         with _listener() as progress:
             gone = walk(
-                run, refine=options.refine, until=options.until, approve=allowed, say=say, progress=progress
+                run,
+                timeout_s=options.timeout_s,
+                refine=options.refine,
+                until=options.until,
+                approve=allowed,
+                say=say,
+                progress=progress,
             ).go()
-        if gone.ok and options.until:
+        for running in gone.under_way:
+            say("running", "waiting", running)
+        if gone.under_way or (gone.ok and options.until):
             say("next", "waiting", gone.next_move)
         return gone.ok and (options.until or walk.groups[-1][-1]) in gone.held
     finally:
@@ -133,8 +143,22 @@ def _listener() -> Iterator[Progress]:
 @click.option("--accept", is_flag=True, help="Review by measurement and stamp the world if every objective is proved.")
 @click.option("--refine", is_flag=True, help="Also repeat the physics at half the time step.")
 @click.option("--until", type=click.Choice(STEPS), help="End after this step's group: `expect` draws no film yet.")
+@click.option(
+    "--timeout-s",
+    type=click.FloatRange(min=0.0),
+    default=FOR_EVER_S,
+    show_default="none",
+    help="Return after about so many seconds; the work goes on, call again.",
+)
 def command(
-    run: Path, folder: Path | None, approve: bool, auto: bool, accept: bool, refine: bool, until: StepName | None
+    run: Path,
+    folder: Path | None,
+    approve: bool,
+    auto: bool,
+    accept: bool,
+    refine: bool,
+    until: StepName | None,
+    timeout_s: float,
 ) -> None:
     """Advance a run (its folder, or a plan.md) as far as it goes without a decision; tell all that is wrong together."""
     from rich.console import Console
@@ -155,7 +179,7 @@ def command(
         found = Run.find(run)
         if folder is not None and folder.resolve() != found.folder:
             found = started_from(found, folder)
-        return go(found, Options(approve, auto, accept, refine, until), say)
+        return go(found, Options(approve, auto, accept, refine, until, timeout_s), say)
 
     sys.exit(0 if report_errors(work) else 1)
 

@@ -1,11 +1,14 @@
 """What a rule or a check found: in a source file (`Finding`) or in a recorded motion (`Anomaly`)."""
 
+from collections.abc import Iterable
 from typing import Literal
 
 from .frozen import Frozen
 
 Severity = Literal["error", "warning", "info"]
 AnomalySeverity = Literal["blocking", "warn", "info"]
+FEW = 2
+"""So many of one kind are told one by one."""
 
 
 class Finding(Frozen):
@@ -57,3 +60,19 @@ class Anomaly(Frozen):
             f"{self.severity} {self.code} {self.name}: {self.body} at {start:.3f}-{end:.3f} s: {self.message} "
             f"(measured {self.measured:.4g} {self.unit}, threshold {self.threshold:.4g} {self.unit})"
         )
+
+
+def by_kind(anomalies: Iterable[Anomaly]) -> list[str]:
+    """A line for each; of one kind that does not block and comes more than twice, as in a crowd, one line for the worst."""
+    lines, kinds = [], dict[tuple[str, AnomalySeverity], list[Anomaly]]()
+    for anomaly in anomalies:
+        kinds.setdefault((anomaly.code, anomaly.severity), []).append(anomaly)
+    for (_, severity), found in kinds.items():
+        if severity == "blocking" or len(found) <= FEW:
+            lines += [str(one) for one in found]
+            continue
+        worst = max(found, key=lambda one: abs(one.measured / one.threshold) if one.threshold else abs(one.measured))
+        others = list(dict.fromkeys(one.body for one in found if one is not worst))
+        more = f", and {len(others) - FEW} more" if len(others) > FEW else ""
+        lines.append(f"{worst}; the same, less, of {', '.join(others[:FEW])}{more}")
+    return lines

@@ -1,4 +1,4 @@
-"""The accepted worlds that are nearest to a sentence: by mechanism first, then by words and by meaning.
+"""The accepted worlds and worked cases that are nearest to a sentence: by mechanism first, then by words and by meaning.
 
 A world of the same mechanism teaches a plan what its words cannot: a tetherball shows a yo-yo its string, another toy does not.
 """
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     import numpy as np
 
 CHECKOUT = Path(__file__).resolve().parents[3]
+WORKED = CHECKOUT / "skills" / "worked-cases" / "references"
+"""Plans with a film each, which tests run; they have no stamp."""
 SHARED_WEIGHT = 1.0
 """Of the share of the sentence's mechanisms that a world has."""
 WORD_WEIGHT = 0.06
@@ -29,11 +31,13 @@ REST_WEIGHT = 0.5
 
 LONG_WEIGHT = 0.015
 """Taken off for each thousand bytes of a plan: a long one is more to read, and more to change."""
+SHORT = 4.0
+"""Thousand bytes: a plan that is shorter than that is not nearer for it."""
 
 
 @dataclass(frozen=True)
 class World:
-    """An accepted world, as far as a new plan may begin with it."""
+    """An accepted world or a worked case, as far as a new plan may begin with it."""
 
     folder: Path
     plan: Plan
@@ -66,12 +70,12 @@ class Near:
 
 
 def worlds(runs: Path = Path("runs")) -> Iterator[World]:
-    """The examples, then the user's runs that are accepted; one that cannot be read is passed over."""
+    """The examples, the worked cases, then the user's runs that are accepted; one that cannot be read is passed over."""
     seen = set()
-    for top in (CHECKOUT / "examples", runs):
+    for top in (CHECKOUT / "examples", WORKED, runs):
         for path in sorted(top.glob("*/plan.md")):
             run = Run(path.parent)
-            if run.name in seen or not (run.stamped / "stamp.json").is_file():
+            if run.name in seen or not (top == WORKED or (run.stamped / "stamp.json").is_file()):
                 continue
             try:
                 plan = read_plan(run.plan).plan
@@ -96,7 +100,7 @@ def nearest(sentence: str, known: list[World]) -> list[Near]:
     found = []
     for world, score in zip(known, scores, strict=True):
         shared = tuple(name for name in asked if name in world.mechanisms)
-        length = (world.folder / "plan.md").stat().st_size / 1000
+        length = max(SHORT, (world.folder / "plan.md").stat().st_size / 1000)
         common = SHARED_WEIGHT * len(shared) / max(1, len(asked))
         found.append(Near(world, float(score) + common - LONG_WEIGHT * length, shared))
     return sorted(found, key=lambda near: (-near.score, near.world.slug))

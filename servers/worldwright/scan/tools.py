@@ -13,7 +13,7 @@ from ..model.errors import NotFoundError
 from ..model.evidence.audits import CausesReport, RefineReport, RobustReport
 from ..model.evidence.reports import CheckRun, EvidenceKey, ExpectReport, ScanReport
 from ..model.evidence.run import Run
-from ..model.finding import Anomaly, AnomalySeverity
+from ..model.finding import Anomaly, AnomalySeverity, by_kind
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
 from ..model.progress import Progress, silent
@@ -76,7 +76,7 @@ class Scanned(ScanReport):
     def text(self) -> str:
         """The report: anomalies first, then what could not be checked."""
         looked = sum(check.status != "skipped" for check in self.checks)
-        lines = [str(anomaly) for anomaly in self.anomalies]
+        lines = by_kind(self.anomalies)
         lines += [f"skipped {c.code} {c.name}: {c.reason}" for c in self.checks if c.status == "skipped"]
         blocking = sum(a.severity == "blocking" for a in self.anomalies)
         verdict = "not plausible" if blocking else "plausible"

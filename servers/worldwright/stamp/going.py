@@ -16,7 +16,7 @@ from ..model.evidence import approval
 from ..model.evidence.build_steps import StepName
 from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
-from ..model.finding import Finding
+from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
 from . import audited, gates, next_repair, picture_claims
 from .gone import Gone, Wrong
@@ -283,7 +283,7 @@ class Going:
         anomalies = report.anomalies if report else ()
         if blocking := [a for a in anomalies if a.severity == "blocking"]:
             raise WrongError(*((str(a), next_repair.of_anomaly(State(self.run), a.code)) for a in blocking))
-        remarks = [str(a) for a in anomalies if a.severity == "warn"]
+        remarks = by_kind(a for a in anomalies if a.severity == "warn")
         said = [self.step("scan").detail]
         with suppress(WorldwrightError):  # without the recording there is nothing to add
             said += [f"smallest in the pictures: {small}"] if (small := _smallest(self.run)) else []

@@ -18,9 +18,10 @@ REPO = Path(__file__).parents[3]
 NEAREST = {
     "A yo-yo rises and falls on its string": {"slack-rope-pulls-box", "tetherball-swings"},
     "A small and a large stone are rolled down a slope": {"rolling-marble"},
-    "a steady wind turns a windmill": {"pendulum-dies-out", "tetherball-swings"},
-    "A grandfather clock's pendulum swings": {"pendulum-dies-out"},
-    "A row of dominoes falls": {"bowling-pin-tips"},
+    "a steady wind turns a windmill": {"pendulum-dies-out", "tetherball-swings", "lit-set"},
+    "A grandfather clock's pendulum swings": {"pendulum-dies-out", "lit-set"},
+    "A row of dominoes falls": {"camera-move"},
+    "Thick honey is poured into a jar": {"poured-drops"},
     "A mug slides across the table and stops": {"box-slides-to-rest"},
     "A jack-in-the-box jumps out": {"spring-toy-launches"},
     "A crane lifts a crate by a rope": {"slack-rope-pulls-box"},

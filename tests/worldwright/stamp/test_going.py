@@ -166,7 +166,8 @@ def test_a_pass_that_failed_while_nobody_waited_is_told_once_and_then_tried_agai
     (fresh / "simulation.py").write_text(FAILING, encoding="utf-8")
     run = Run(fresh)
     run.keep(run.evidence_key(environment.current().sha256()), "lint", LintReport(rules=1))
-    assert stamp.go(str(fresh), timeout_s=0.01).state == "running"
+    cut = CliRunner().invoke(cli.main, ["go", str(fresh), "--timeout-s", "0.01"])
+    assert cut.exit_code == 1 and "running" in cut.output and f"worldwright go {fresh}" in cut.output, cut.output
     time.sleep(0.1)
     gone = to_the_end(fresh)
     assert gone.state == "stopped" and "no world" in gone.wrong[0].what, gone.text()
