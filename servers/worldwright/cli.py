@@ -29,6 +29,10 @@ COMMANDS = {
         "worldwright.go",
         "Advance a run as far as it goes without a decision; with --accept from a plan to an accepted world.",
     ),
+    "campaign": (
+        "worldwright.campaign.command",
+        "Many worlds at once: sweeps of one plan, or many plans, and a table of what came of them.",
+    ),
     "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
     "sculpt": ("worldwright.sculpting", "See something sculpted from four sides: `sculpt sheet FILE.py[:NAME]`."),
     "asset": (

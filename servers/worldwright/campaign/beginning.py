@@ -1,0 +1,87 @@
+"""How a campaign begins: its file is checked against its plans before a folder is made, and its limits may be changed later."""
+
+import time
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+from ..model.errors import WorldwrightError
+from . import points
+from .campaign_file import Campaign, CampaignError, read
+from .campaign_store import Store
+from .plan_fields import path_of
+
+SHOWN = 5
+CANCEL_S = 20.0
+
+
+def checked(file: Path) -> Campaign:
+    """The campaign of a file; of a sweep, every field is a number of its plan.
+
+    Raises:
+        CampaignError: see `campaign_file.read`; a swept plan that is none is refused here, since no world could be made of it.
+    """
+    campaign = read(file)
+    if campaign.sweep is None:
+        return campaign
+    from ..model.plan.plan_text import read_plan
+
+    try:
+        document = read_plan(file.parent / str(campaign.plan))
+    except WorldwrightError as error:
+        raise CampaignError(
+            f"its plan cannot be swept: {error.cause}", place=error.place, next_move=error.next_move
+        ) from error
+    for name in campaign.sweep.fields:
+        path_of(document, name)
+    return campaign
+
+
+def limited(campaign: Campaign, workers: int | None, by: str | None, address: str | None) -> Campaign:
+    """The campaign with what the command line says in place of its file."""
+    told: dict[str, Any] = {"workers": workers, "hands": by, "address": address}
+    changes = {name: value for name, value in told.items() if value is not None}
+    return campaign.model_copy(update=changes) if changes else campaign
+
+
+def begun(campaign: Campaign, file: Path, folder: Path | None, approved: bool) -> Store:
+    """The folder of a campaign, begun or gone on with."""
+    store = Store(folder or Path("runs") / str(campaign.name))
+    store.begin(campaign, file, approved)
+    return store
+
+
+def changed(store: Store, workers: int | None, by: str | None, address: str | None) -> Store:
+    """The same campaign with other hands."""
+    from worldkit.files import write_json
+
+    from .campaign_store import ABOUT
+
+    about = store.begun
+    campaign = limited(about.campaign, workers, by, address)
+    if campaign != about.campaign:
+        now = about.model_copy(update={"campaign": campaign})
+        write_json(store.folder / ABOUT, now.model_dump(mode="json", by_alias=True))
+    return store
+
+
+def shown(campaign: Campaign) -> list[str]:
+    """How many worlds a campaign would be, and the first of them, one a line."""
+    lines = [f"{campaign.name}: {campaign.size:,} worlds, each up to `{campaign.until}`"]
+    if campaign.sweep is None:
+        return lines + [f"  {given.plan}" for given in islice(campaign.given, SHOWN)]
+    for number in range(min(SHOWN, campaign.size)):
+        values = points.at(campaign.sweep, number)
+        lines.append("  " + ", ".join(f"{name} {value:g}" for name, value in values.items()))
+    return lines
+
+
+def cancelled(store: Store) -> str:
+    """Ask the driver to stop, and wait for it a while; what came of that."""
+    if not store.driven:
+        return "it is not at work"
+    store.cancelled.touch()
+    ends = time.monotonic() + CANCEL_S
+    while store.driven and time.monotonic() < ends:
+        time.sleep(0.1)
+    return "it is still ending what is under way" if store.driven else "cancelled; what is done stays, `resume` goes on"

@@ -1,0 +1,320 @@
+"""The folder of a campaign: what stands on disk, and under which name.
+
+| path | what |
+|---|---|
+| `campaign.json` | the campaign as it was begun, with the hashes of its plans (`Begun`) |
+| `base/N/` | plan N with what belongs to it, as it was when the campaign began |
+| `worlds/xx/<world>/` | the run folder of a world, whose first two digits are `xx` |
+| `rows/xx/<world>.json` | its row: the proof that it is done, written last |
+| `begun/xx/<world>` | one character each time that it is begun, written before anything is paid |
+| `locks/xx/<world>` | held by whoever works on it |
+| `driver.lock`, `cancel` | held by the live driver; asks it to stop |
+| `table.parquet`, `table.csv`, `index.html` | what `report` writes |
+
+Whoever works on a world (another process, another node that sees the same folder) asks here first and writes here last, each
+time by a rename: a reader never sees half a row, and a row that is there is never paid again.
+"""
+
+import hashlib
+import json
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from worldkit.files import write_atomic, write_json
+
+from ..model import companions, try_lock
+from ..model.errors import NotFoundError, WorldwrightError
+from ..model.evidence import pictures_of
+from ..model.evidence.run import Run, sha256_file
+from ..model.frozen import Frozen
+from ..model.plan import imported
+from ..model.storage import writing
+from .campaign_file import Campaign, CampaignError, Given
+from .world_row import Row
+
+ABOUT = "campaign.json"
+LONGEST_PROMPT = 20_000
+"""Characters; a prompt is a sentence or a page, never a file of data."""
+
+
+class Base(Frozen):
+    """A plan of a campaign, as it was when that began."""
+
+    source: str
+    """As the campaign names it."""
+    sha256: str = ""
+    """Over the plan and all that belongs to it; empty where it cannot be read."""
+    category: str = ""
+    prompt: str = ""
+    wrong: str = ""
+    """Why no world can be made of it: each of its worlds then says so."""
+    kind: str = ""
+    """The code of that."""
+    next_move: str = ""
+
+
+class Begun(Frozen):
+    """A campaign on disk."""
+
+    campaign: Campaign
+    bases: tuple[Base, ...]
+    approved: bool = False
+    """A person at the command line approves the plans of its worlds; else it is auto mode."""
+
+
+class Store:
+    """One campaign's folder."""
+
+    def __init__(self, folder: Path | str) -> None:
+        self.folder = Path(folder).resolve()
+        self.cancelled = self.folder / "cancel"
+
+    @classmethod
+    def find(cls, name: Path | str) -> "Store":
+        """The campaign at a path, or named under ./runs."""
+        for candidate in (Path(name), Path("runs") / name):
+            if (candidate / ABOUT).is_file():
+                return cls(candidate)
+        known = sorted(path.parent.name for path in Path("runs").glob(f"*/{ABOUT}"))
+        raise NotFoundError(
+            f"there is no campaign '{name}' (a folder with a {ABOUT})",
+            place=str(name),
+            next_move=f"name one of: {', '.join(known) or '(none yet)'}, or begin one: `worldwright campaign run FILE.yaml`",
+        )
+
+    @property
+    def begun(self) -> Begun:
+        """The campaign as it was begun."""
+        path = self.folder / ABOUT
+        try:
+            return Begun.model_validate_json(path.read_bytes())
+        except (OSError, ValidationError) as cause:
+            raise CampaignError(
+                f"the campaign cannot be read: {str(cause).splitlines()[0]}",
+                place=str(path),
+                next_move="begin it again in another folder; worlds that are done stand under worlds/",
+            ) from cause
+
+    def begin(self, campaign: Campaign, file: Path, approved: bool) -> Begun:
+        """Write down a campaign and copy its plans; one that is here already must be the same, but for its limits.
+
+        Raises:
+            CampaignError: the folder holds another campaign.
+        """
+        before = self.begun if (self.folder / ABOUT).is_file() else None
+        if before is not None and _same_worlds(before.campaign) != _same_worlds(campaign):
+            raise CampaignError(
+                "this folder holds another campaign",
+                place=str(self.folder),
+                next_move="name another folder (`--folder`), or go on with that one: `worldwright campaign resume`",
+            )
+        with writing("the campaign", self.folder):
+            if before is not None:  # its plans stay as they were; its limits may be others now
+                bases = before.bases
+            else:
+                bases = tuple(self._keep(n, given, campaign, file.parent) for n, given in enumerate(campaign.given))
+            begun = Begun(campaign=campaign, bases=bases, approved=approved)
+            write_json(self.folder / ABOUT, begun.model_dump(mode="json", by_alias=True))
+        return begun
+
+    def _keep(self, number: int, given: Given, campaign: Campaign, beside: Path) -> Base:
+        """Copy one plan, with its prompt, its author's program and film, and the files that these name."""
+        about = Base(source=given.plan, category=given.category or campaign.category)
+        try:
+            found = _content(beside / given.plan, given)
+        except WorldwrightError as error:
+            return about.model_copy(
+                update={"wrong": str(error.cause), "kind": error.code, "next_move": error.next_move}
+            )
+        digest = hashlib.sha256()
+        for name, content in sorted(found.items()):
+            write_atomic(self.base(number) / name, content)
+            digest.update(f"{name}\n{hashlib.sha256(content).hexdigest()}\n".encode())
+        prompt = found.get("prompt.md", b"").decode(errors="replace").strip()
+        return about.model_copy(update={"sha256": digest.hexdigest(), "prompt": " ".join(prompt.split())[:400]})
+
+    def base(self, number: int) -> Path:
+        """Folder of plan `number`."""
+        return self.folder / "base" / str(number)
+
+    def world(self, world: str) -> Path:
+        """Run folder of a world."""
+        return self.folder / "worlds" / world[:2] / world
+
+    def row_path(self, world: str) -> Path:
+        """The file of a world's row."""
+        return self.folder / "rows" / world[:2] / f"{world}.json"
+
+    def done(self, world: str) -> bool:
+        """Whether its row stands."""
+        return self.row_path(world).is_file()
+
+    def row(self, world: str) -> Row | None:
+        """Its row; None when it has none, or none that can be read, which is then made again."""
+        try:
+            return Row.model_validate_json(self.row_path(world).read_bytes())
+        except (OSError, ValidationError):
+            return None
+
+    def keep(self, row: Row) -> Row:
+        """Write a row, in one step."""
+        with writing("the row", self.row_path(row.world)):
+            write_atomic(self.row_path(row.world), row.model_dump_json() + "\n")
+        return row
+
+    def rows(self) -> Iterator[Row]:
+        """Every row, one after the other, in the order of the worlds' hashes."""
+        for path in sorted((self.folder / "rows").glob("*/*.json")):
+            if (row := self.row(path.stem)) is not None:
+                yield row
+
+    def forget(self, row: Row) -> None:
+        """Take a row away, so that its world is begun again, as often as any other."""
+        self._beginnings(row.world).unlink(missing_ok=True)
+        self.row_path(row.world).unlink(missing_ok=True)
+
+    def _beginnings(self, world: str) -> Path:
+        return self.folder / "begun" / world[:2] / world
+
+    def begun_before(self, world: str) -> int:
+        """How often a world was begun."""
+        try:
+            return self._beginnings(world).stat().st_size
+        except OSError:
+            return 0
+
+    def begin_world(self, world: str) -> int:
+        """Note that a world is begun; returns how often it was now."""
+        path = self._beginnings(world)
+        with writing("the beginning of a world", path):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("ab") as stream:
+                stream.write(b".")
+        return self.begun_before(world)
+
+    def not_begun(self, world: str) -> None:
+        """Take back the last beginning: it was broken off from outside."""
+        if count := self.begun_before(world):
+            self._beginnings(world).write_bytes(b"." * (count - 1))
+
+    @contextmanager
+    def working(self, world: str) -> Iterator[bool]:
+        """Hold a world within the block; gives False, and holds nothing, while somebody else does."""
+        path = self.folder / "locks" / world[:2] / world
+        path.parent.mkdir(parents=True, exist_ok=True)
+        with path.open("ab") as handle:
+            yield _taken(handle.fileno())
+
+    @contextmanager
+    def driving(self) -> Iterator[None]:
+        """Be the one driver within the block.
+
+        Raises:
+            CampaignError: another one is at work.
+        """
+        self.folder.mkdir(parents=True, exist_ok=True)
+        with (self.folder / "driver.lock").open("ab") as handle:
+            if not _taken(handle.fileno()):
+                raise CampaignError(
+                    "the campaign is at work already",
+                    place=str(self.folder),
+                    next_move="`worldwright campaign status` shows how far it is, `campaign cancel` stops it",
+                )
+            self.cancelled.unlink(missing_ok=True)
+            yield
+
+    @property
+    def driven(self) -> bool:
+        """Whether a driver is at work."""
+        try:
+            with (self.folder / "driver.lock").open("rb") as handle:
+                return not _taken(handle.fileno())
+        except OSError:
+            return False
+
+
+def address(base: Base, number: int, values: dict[str, float], campaign: Campaign) -> str:
+    """The hash that addresses world `number`: its plan with all that belongs to it, what is set in it, how far it is taken.
+
+    Two draws of equal values are two worlds, and so are two plans of equal content: each has its row.
+    """
+    sweep = campaign.sweep
+    which = number if sweep is None else number % sweep.draws
+    walk = [campaign.until, campaign.pictures, campaign.refine]
+    told = json.dumps([base.sha256 or base.source, which, values, walk], sort_keys=True)
+    return hashlib.sha256(told.encode()).hexdigest()[:16]
+
+
+def seed(base: Path, target: Path) -> None:
+    """Copy what a base holds into the folder of a world; what stands there is kept."""
+    for path in sorted(base.rglob("*")):
+        inside = target / path.relative_to(base)
+        if path.is_file() and not inside.exists():
+            inside.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(path, inside)
+
+
+def _same_worlds(campaign: Campaign) -> Campaign:
+    """A campaign without what may differ when it goes on: its limits and who does the work."""
+    free = {"budget", "per_world", "workers", "hands", "address", "report", "name"}
+    return campaign.model_copy(update={name: Campaign.model_fields[name].default for name in free})
+
+
+def _content(path: Path, given: Given) -> dict[str, bytes]:
+    """A plan and what belongs to it, by path relative to its folder."""
+    plan = path / "plan.md" if path.is_dir() else path
+    if not plan.is_file():
+        raise NotFoundError("there is no such plan", place=str(path), next_move="name a plan.md, or its folder")
+    run = Run(plan.parent)
+    found = {"plan.md": plan.read_bytes()}
+    prompt = given.prompt if given.prompt is not None else _text(run.prompt)
+    if prompt is not None:
+        _check(prompt, str(run.prompt))
+        found["prompt.md"] = prompt.encode()
+    if plan.name != "plan.md":
+        return found
+    found |= imported.beside(run.folder)
+    if run.program.is_file() and not _drafted(run):
+        found |= {**companions.of(run.program), **pictures_of.files(run), "simulation.py": run.program.read_bytes()}
+    return found
+
+
+def _check(prompt: str, place: str) -> None:
+    if not prompt.strip():
+        error = CampaignError(
+            "its prompt is empty", place=place, next_move="write the sentence that the world is built from"
+        )
+        error.code = "empty_prompt"
+        raise error
+    if len(prompt) > LONGEST_PROMPT:
+        error = CampaignError(
+            f"its prompt has {len(prompt):,} characters, more than {LONGEST_PROMPT:,}",
+            place=place,
+            next_move="shorten it",
+        )
+        error.code = "long_prompt"
+        raise error
+
+
+def _text(path: Path) -> str | None:
+    try:
+        return path.read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return None
+
+
+def _drafted(run: Run) -> bool:
+    """Whether, by the journal, the program is still the draft, which each world then drafts from its own plan."""
+    present = sha256_file(run.program)
+    return any(e.get("action") == "draft" and e.get("program_sha256") == present for e in run.entries())
+
+
+def _taken(handle: int) -> bool:
+    try:
+        return try_lock.taken(handle)
+    except OSError:  # a file system without locks: rows are still written in one step, and looked for first
+        return True

@@ -1,0 +1,150 @@
+"""Ray's tasks as the hands of a campaign: on this machine, or on a cluster by its address.
+
+A task is one world and hands back its name alone: rows and recordings lie in the campaign's folder, which every node must see
+under the same path, with the same environment installed. Ray repeats nothing by itself (`max_retries=0`): a world whose worker
+died is begun again by the driver, which counts how often. A task asks for one processor, and for the memory that such worlds
+took before; results are far below the size that goes through the object store, which is therefore kept small.
+"""
+
+import contextlib
+import os
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.util import find_spec
+from typing import Any
+
+from .campaign_file import CampaignError
+from .one_world import Task
+from .worker_processes import Ended, Work, alone
+
+STORE_MB = 128
+"""Of Ray's object store, started here: nothing of ours lies in it."""
+FIRST_MB, SPARE_MB = 1024.0, 512.0
+"""Memory that a world asks for before any was seen; what its pass, a process of its own, takes beside its worker."""
+
+
+def installed() -> bool:
+    """Whether Ray is here."""
+    return find_spec("ray") is not None
+
+
+@dataclass
+class _Under:
+    task: Task
+    deadline: float
+    cancelled: bool = False
+
+
+class Tasks:
+    """Hands that are Ray's tasks; see `Hands`.
+
+    Args:
+        count: worlds at work at once; None: as many as the cluster has processors, less one on a machine with more than two.
+        work: what is done with a task.
+        seconds: a world that takes longer is ended.
+        address: of the cluster, `host:port`; empty: Ray is started here.
+        memory_mb: the largest that such worlds took before; 0: nothing is known.
+
+    Raises:
+        CampaignError: Ray is not installed, or no cluster answers there.
+    """
+
+    def __init__(
+        self, count: int | None, work: Work, seconds: float = float("inf"), address: str = "", memory_mb: float = 0.0
+    ) -> None:
+        if not installed():
+            raise CampaignError(
+                "Ray is not installed here",
+                next_move="`pip install ray` (the extra `cluster`), or `--hands processes`",
+            )
+        import ray
+
+        self._ray: Any = ray
+        self._seconds = seconds
+        self._under: dict[Any, _Under] = {}
+        # Ray looks for its processes by this; nothing is told to its makers.
+        os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
+        self._started = not ray.is_initialized()
+        if self._started:
+            self._connect(count, address)
+        processors = int(ray.cluster_resources().get("CPU", 1))
+        self._count = count or max(1, processors - (processors > 2))
+        asked = (memory_mb + SPARE_MB if memory_mb else FIRST_MB) * (1 << 20)
+        most = ray.cluster_resources().get("memory", asked)
+        self._remote = ray.remote(num_cpus=1, memory=int(min(asked, most / 2)), max_retries=0, max_calls=200)(
+            _alone(work)
+        )
+
+    def _connect(self, count: int | None, address: str) -> None:
+        quiet: dict[str, Any] = {"log_to_driver": False, "logging_level": "ERROR", "configure_logging": True}
+        try:
+            if address:
+                self._ray.init(address=address, **quiet)
+            else:
+                self._ray.init(
+                    address="local",
+                    num_cpus=count,
+                    include_dashboard=False,
+                    object_store_memory=STORE_MB << 20,
+                    **quiet,
+                )
+        except Exception as cause:  # Ray raises many kinds, each with its own words
+            raise CampaignError(
+                f"Ray does not answer: {str(cause).splitlines()[0] if str(cause) else type(cause).__name__}",
+                place=address or "this machine",
+                next_move="`ray status --address HOST:PORT` tells whether it is up; or `--hands processes`",
+            ) from cause
+
+    def free(self) -> int:
+        """See `Hands`."""
+        return self._count - len(self._under)
+
+    def take(self, task: Task) -> None:
+        """See `Hands`."""
+        self._under[self._remote.remote(task)] = _Under(task, time.monotonic() + self._seconds)
+
+    def ended(self, timeout_s: float) -> Iterator[Ended]:
+        """See `Hands`; with Ray, a world's seconds begin when it is handed out."""
+        if not self._under:
+            return
+        patience = max(0.0, min(timeout_s, min(u.deadline for u in self._under.values()) - time.monotonic()))
+        ready, _ = self._ray.wait(list(self._under), num_returns=1, timeout=patience)
+        for reference in ready:
+            under = self._under.pop(reference)
+            try:
+                answered = self._ray.get(reference) == under.task.world
+                yield Ended(task=under.task, died="" if answered else "it answered something else")
+            except Exception as error:  # the worker's death, its node's, lack of memory: Ray says which
+                said = str(error).strip().splitlines()
+                died = f"{type(error).__name__}: {said[0] if said else 'no word'}"
+                yield Ended(task=under.task, died="" if under.cancelled else died, over_time=under.cancelled)
+        for reference, under in list(self._under.items()):
+            if under.deadline <= time.monotonic():
+                under.cancelled, under.deadline = True, time.monotonic() + self._seconds
+                self._ray.cancel(reference, force=True)
+
+    def drop(self) -> list[Task]:
+        """See `Hands`."""
+        left = [under.task for under in self._under.values()]
+        for reference in self._under:
+            with contextlib.suppress(Exception):
+                self._ray.cancel(reference, force=True)
+        self._under.clear()
+        return left
+
+    def close(self) -> None:
+        """Leave the cluster; end Ray where it was started here."""
+        if self._started:
+            self._ray.shutdown()
+
+
+def _alone(work: Work) -> Any:
+    """The work as a task of Ray: nothing beside it, and the world's name handed back."""
+
+    def world(task: Task) -> str:
+        alone()
+        work(task)
+        return task.world
+
+    return world

@@ -1,0 +1,171 @@
+"""A campaign comes to its end whatever dies on the way: nothing is paid twice, and one bad world is one row."""
+
+import json
+import multiprocessing as mp
+import os
+import signal
+import time
+from pathlib import Path
+
+import pytest
+
+import stub_worlds
+from stub_worlds import FAILS, KILLS, LEAVES, MASS, SLEEPS, paid
+from worldwright.campaign import beginning, conducting
+from worldwright.campaign.campaign_file import CampaignError
+from worldwright.campaign.campaign_store import Store
+from worldwright.campaign.one_world import task
+
+
+@pytest.fixture
+def begun(tmp_path, small_plan):
+    """Begins a campaign over masses of the dropped ball."""
+
+    def begin(masses, **words) -> Store:
+        (tmp_path / "plan.md").write_text(small_plan, encoding="utf-8")
+        file = tmp_path / "c.yaml"
+        said = {"plan": "plan.md", "hands": "processes", "workers": 2, "report": False, **words}
+        said["sweep"] = {"fields": {MASS: {"values": list(masses)}}}
+        file.write_text(json.dumps(said))
+        return beginning.begun(beginning.checked(file), file, tmp_path / "campaign", approved=False)
+
+    return begin
+
+
+def test_every_world_is_one_row_and_a_second_run_pays_for_nothing(begun):
+    store, seen = begun(range(1, 7)), []
+    first = conducting.conduct(store, stub_worlds.do, watch=lambda now, row: seen.append((now.done, row)))
+    assert first.done == first.worlds == 6 and first.outcomes == {"held": 6} and not first.at_work and first.ok
+    assert [done for done, row in seen if row] == [1, 2, 3, 4, 5, 6]
+    assert sorted(row.values[MASS] for row in store.rows()) == [1, 2, 3, 4, 5, 6]
+    again = conducting.conduct(store, stub_worlds.do)
+    assert again.done == 6 and set(paid(store.folder).values()) == {1}
+
+
+def test_a_bad_world_and_a_dying_worker_are_rows_among_the_others(begun):
+    store = begun([1, KILLS, FAILS, LEAVES, 2], per_world={"begun": 2})
+    end = conducting.conduct(store, stub_worlds.do)
+    rows = {row.values[MASS]: row for row in store.rows()}
+    assert end.done == 5 and end.outcomes == {"failed": 1, "gave_up": 1, "held": 3}
+    assert rows[FAILS].cause.kind == "WL101" and rows[FAILS].cause.next_move == "mend it"
+    assert rows[KILLS].outcome == "gave_up" and rows[KILLS].cause.kind == "worker_died"
+    assert "signal 9" in rows[KILLS].cause.said
+    assert rows[LEAVES].outcome == "held" and rows[LEAVES].begun == 2
+    assert end.causes == {"WL101": 1, "worker_died": 1}
+
+
+def test_a_world_without_end_is_given_up(begun, monkeypatch):
+    monkeypatch.setattr(conducting, "GRACE_S", 0.0)
+    store = begun([SLEEPS, 1], per_world={"seconds": 3})
+    end = conducting.conduct(store, stub_worlds.do)
+    assert end.outcomes == {"gave_up": 1, "held": 1} and end.causes == {"over_time": 1}
+
+
+def test_a_worker_that_dies_before_it_begins_is_not_started_for_ever(begun):
+    store = begun([1], per_world={"begun": 2})
+    end = conducting.conduct(store, os._exit)  # type: ignore[arg-type]
+    assert end.causes == {"worker_died": 1}
+
+
+def _drive(folder: str) -> None:
+    conducting.conduct(Store(folder), stub_worlds.slowly)
+
+
+def test_a_driver_that_is_killed_is_gone_on_with(begun):
+    store = begun(range(1, 9))
+    driver = mp.get_context("spawn").Process(target=_drive, args=(str(store.folder),))
+    driver.start()
+    until(lambda: len(list(store.rows())) >= 2)
+    os.kill(driver.pid, signal.SIGKILL)
+    driver.join()
+    assert not store.driven and conducting.standing(store).done < 8
+    end = conducting.conduct(store, stub_worlds.do)
+    assert end.done == 8 and end.outcomes == {"held": 8}
+    assert set(paid(store.folder).values()) == {1}, "what the dead driver's workers were at was waited for"
+
+
+def test_a_cancelled_campaign_stops_and_goes_on(begun):
+    store = begun([SLEEPS, 1, 2, 3])
+    driver = mp.get_context("spawn").Process(target=_drive, args=(str(store.folder),))
+    driver.start()
+    until(lambda: len(list(store.rows())) == 3)
+    with pytest.raises(CampaignError, match="at work already"):
+        conducting.conduct(store, stub_worlds.do)
+    assert beginning.cancelled(store).startswith("cancelled")
+    driver.join()
+    standing = conducting.standing(store)
+    assert standing.stopped == "cancelled" and standing.done == 3 and not standing.ok
+    sleeping = task(store, store.begun, 0)
+    assert store.begun_before(sleeping.world) == 0, "what was broken off from outside was not its fault"
+    assert beginning.cancelled(store) == "it is not at work"
+
+
+def test_a_budget_ends_the_handing_out_and_more_of_it_goes_on(begun):
+    store = begun(range(1, 7), budget={"runs": 3})
+    end = conducting.conduct(store, stub_worlds.do)
+    assert end.done == end.runs == 3 and end.stopped == "the budget of 3 runs is used up" and not end.ok
+    begun(range(1, 7), budget={"seconds": 4})
+    end = conducting.conduct(store, stub_worlds.do)
+    assert 4 <= end.done < 6 and "4 s" in end.stopped
+    begun(range(1, 7))
+    assert conducting.conduct(store, stub_worlds.do).done == 6
+
+
+def test_worlds_of_one_outcome_are_begun_again(begun):
+    store = begun([1, FAILS])
+    conducting.conduct(store, stub_worlds.do)
+    assert conducting.forget(store, "WL101") == 1
+    assert conducting.conduct(store, stub_worlds.do).outcomes == {"failed": 1, "held": 1}
+    assert sorted(paid(store.folder).values()) == [1, 2]
+    with pytest.raises(CampaignError, match="no world ended as `x`"):
+        conducting.forget(store, "x")
+
+
+def test_a_damaged_row_is_made_again(begun):
+    store = begun([1, 2])
+    conducting.conduct(store, stub_worlds.do)
+    first = next(store.rows())
+    store.row_path(first.world).write_text("{")
+    store.row_path(first.world).unlink()
+    assert conducting.conduct(store, stub_worlds.do).done == 2
+
+
+def test_a_folder_keeps_its_campaign(begun, tmp_path):
+    store = begun([1, 2])
+    with pytest.raises(CampaignError, match="another campaign"):
+        begun([1, 2, 3])
+    (tmp_path / "plan.md").write_text("no plan any more")
+    assert begin_again(store, tmp_path).bases == store.begun.bases
+
+
+def begin_again(store: Store, tmp_path: Path):
+    campaign = store.begun.campaign
+    return store.begin(campaign, tmp_path / "c.yaml", approved=False)
+
+
+def test_the_first_world_does_not_wait_for_the_thousandth(begun):
+    store = begun(range(1, 1001), budget={"runs": 1})
+    assert conducting.conduct(store, stub_worlds.do).done == 1
+    assert len(paid(store.folder)) == 1
+
+
+def test_a_campaign_that_is_not_there_is_answered_with_those_that_are(begun, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(Exception, match="none yet"):
+        Store.find("nothing")
+    assert Store.find(begun([1]).folder).begun.campaign.size == 1
+
+
+def test_without_ray_our_own_processes_do_the_work_and_it_is_said_once(begun, monkeypatch):
+    said = []
+    monkeypatch.setattr(conducting.on_ray, "installed", lambda: False)
+    conducting.conduct(begun([1], hands="auto"), stub_worlds.do, say=said.append)
+    assert len(said) == 1 and "2 worker processes" in said[0]
+
+
+def until(condition) -> None:
+    for _ in range(1200):
+        if condition():
+            return
+        time.sleep(0.05)
+    raise AssertionError("it did not come to that within a minute")

@@ -1,0 +1,109 @@
+"""The table and the page of a campaign say what its rows say, whatever stands in them."""
+
+import csv
+import json
+import re
+
+import pyarrow.parquet
+import pytest
+
+from worldwright.campaign import campaign_table, wall
+from worldwright.campaign.campaign_file import Campaign
+from worldwright.campaign.campaign_store import Base, Begun, Store
+from worldwright.campaign.world_row import Cause, Margin, Row
+
+EVIL = '</script><b onclick="x">&'
+
+
+@pytest.fixture
+def store(tmp_path):
+    """A campaign that is begun, without a plan behind it."""
+    begun = Begun(campaign=Campaign(name="walls", plans=tuple("abcde")), bases=(Base(source="a"),))
+    (tmp_path / "campaign.json").write_text(begun.model_dump_json(by_alias=True))
+    return Store(tmp_path)
+
+
+def row(number, **more):
+    return Row(**{"world": f"{number:016x}", "number": number, "outcome": "held", **more})
+
+
+def margins(*found):
+    return tuple(Margin(objective=0, name="falls", status="holds", margin=m, measured=m, unit="m") for m in found)
+
+
+def test_the_table_holds_every_row_and_loads(store):
+    store.keep(
+        row(0, values={"masses.ball": 0.1}, margins=margins(0.2, -0.1), minutes={"physics": 0.5}, prompt='a, "b"\nc')
+    )
+    store.keep(
+        row(1, outcome="failed", cause=Cause(kind="WL101", step="lint", said=EVIL), interventions=("force on ball",))
+    )
+    paths = wall.write(store)
+    assert [path.name for path in paths] == ["table.parquet", "table.csv", "index.html"]
+    table = campaign_table.read(store.folder).sort_by("number").to_pylist()
+    assert table[0]["vary.masses.ball"] == 0.1 and table[1]["vary.masses.ball"] is None
+    assert table[0]["margin"] == table[0]["margin.0.falls.2"] == -0.1 and table[0]["margin.0.falls"] == 0.2
+    assert (
+        table[1]["cause"] == "WL101" and table[1]["cause_said"] == EVIL and table[1]["interventions"] == "force on ball"
+    )
+    with (store.folder / "table.csv").open(newline="") as stream:
+        read = sorted(csv.DictReader(stream), key=lambda cells: cells["number"])
+    assert read[0]["prompt"] == 'a, "b"\nc' and float(read[0]["minutes.physics"]) == 0.5
+    assert pyarrow.parquet.read_schema(store.folder / "table.parquet").names == list(read[0])
+
+
+def test_the_page_groups_failures_draws_margins_and_links_reports(store):
+    store.keep(row(0, margins=margins(0.5), report="worlds/00/x/report.html", poster="worlds/00/x/p.webp"))
+    for number in (1, 2):
+        store.keep(
+            row(
+                number,
+                outcome="failed",
+                cause=Cause(kind="WL101", step="lint", said=f"{EVIL} {number}", next_move="mend"),
+            )
+        )
+    store.keep(row(3, outcome="refuted", margins=margins(-0.5), cause=Cause(kind="refuted", step="expect", said="no")))
+    page = wall.write(store)[-1].read_text()
+    assert "4 of 5 worlds" in page
+    assert page.index("<b>2</b> × WL101") < page.index("<b>1</b> × refuted")
+    assert EVIL not in page and page.count("</script>") == 2
+    tiles = json.loads(re.search(r'id="rows">(.*?)</script>', page, re.DOTALL)[1])
+    assert tiles[0] == {
+        "n": 0,
+        "w": f"{0:016x}",
+        "o": "held",
+        "m": 0.5,
+        "p": "worlds/00/x/p.webp",
+        "r": "worlds/00/x/report.html",
+    }
+    assert [tile["n"] for tile in tiles] == [0, 1, 2, 3]
+    assert "0.falls: -0.5 to 0.5 m," in " ".join(page.split()) and "1 of 2 below 0" in page
+    assert 'x1="50.00"' in page, "where 0 lies is drawn"
+
+
+def test_a_campaign_of_which_nothing_is_done_has_a_page(store):
+    page = wall.write(store)[-1].read_text()
+    assert "0 of 5 worlds" in page and campaign_table.read(store.folder).num_rows == 0
+
+
+def test_a_histogram_counts_every_value_once():
+    found = wall.histogram("x", [-1.0, -0.5, 0.0, 1.0])
+    assert sum(found.counts) == found.total == 4 and found.counts[0] == found.counts[-1] == 1 and found.fails == 2
+    assert found.zero == 0.5
+    alone = wall.histogram("x", [2.0] * 5)
+    assert max(alone.counts) == 5 and alone.zero is None and alone.low < 2 < alone.high
+    assert all(0 <= x < 1 and 0 <= height <= 1 for x, height, _ in alone.bars)
+
+
+def test_a_number_that_is_none_stands_nowhere(store):
+    store.keep(row(0, margins=(Margin(objective=0, name="falls", status="unknown"),)))
+    page = wall.write(store)[-1].read_text()
+    assert "Margins" not in page
+
+
+def test_a_page_shows_the_first_of_very_many(store, monkeypatch):
+    monkeypatch.setattr(wall, "MOST_SHOWN", 2)
+    for number in range(4):
+        store.keep(row(number))
+    page = wall.write(store)[-1].read_text()
+    assert "The table has all 4; here are 2" in page
