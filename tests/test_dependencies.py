@@ -29,9 +29,9 @@ BY_PATH = {"roles", "measure"}
 STARTED = {ROOT / "servers/worldwright/lint" / name for name in ("compiled", "observed/inside")}
 """Folders of programs that run in the sandbox by their file, each with its neighbours on its path."""
 PARTS = {
-    "servers": ("semantic", "view", "film", "hulls", "cluster"),
+    "servers": ("semantic", "view", "film", "hulls", "cluster", "gym"),
     "catalog/make": ("hulls",),
-    "tests": ("dev", "film", "hulls", "semantic", "view"),
+    "tests": ("dev", "film", "gym", "hulls", "semantic", "view"),
 }
 """What each part of the tree may import besides the core: the extras that `make` installs where it runs."""
 

@@ -25,10 +25,10 @@ from worldkit.errors import RecordingError
 from worldkit.files import write_json
 from worldkit.speaking import ARRAYS
 
-from . import derive
-from .batch import PLAIN, Batch
+from .batch import Batch
 from .coded_words import Words
 from .columns import FORETOLD_COLUMNS, OF_MEDIA, SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
+from .derived_columns import Derived
 from .foretold import BYTES, FEWEST, WEIGHTS, Forecast
 from .push_blocks import PushStream
 
@@ -69,7 +69,6 @@ class Recorder:
         channels: "Mapping[Column, np.ndarray] | None" = None,
     ) -> None:
         import mujoco
-        import numpy as np
 
         self._model, self._data, self._folder = model, data, Path(folder)
         if (self._folder / "meta.json").exists():
@@ -77,8 +76,7 @@ class Recorder:
         sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
         self._channels = dict(channels or {})
         self.columns = (*state_columns(sizes), *self._channels)
-        self._mass = np.where(model.body_treeid[1:] >= 0, model.body_mass[1:], 0.0)
-        self._root = model.body_rootid[1:]
+        self._derived = Derived(model, tuple(column.name for column in self._channels))
         self._momentum = mujoco.mj_subtreeVel
         row_bytes = 8 * (model.nq + model.nv + 22 * model.nbody + 200)
         self.batch_rows = batch_rows or max(8, min(1024, BATCH_BYTES // row_bytes))
@@ -230,12 +228,12 @@ class Recorder:
 
     def _write(self, batch: Batch) -> None:
         if batch.rows:
-            columns = self._columns(batch)
+            columns = self._derived.state(batch)
             for name in HASHED:
                 self._hashes[name].update(columns[name].data)
             self._streams["state"].write(columns)
             if batch.contact_count:
-                contacts = self._contacts(batch)
+                contacts = self._derived.contacts(batch)
                 self.max_depth_m = max(self.max_depth_m, float(contacts["depth_m"].max()))
                 self._streams["contacts"].write(contacts)
         for make in batch.later["pushes"]:
@@ -267,61 +265,6 @@ class Recorder:
             for kind, count in columns["kind"].counts().items():
                 self._counts[kind] = self._counts.get(kind, 0) + count
         self._streams[table].write(columns)
-
-    def _columns(self, batch: Batch) -> "dict[str, np.ndarray]":
-        """The state columns of a batch, contiguous."""
-        import numpy as np
-
-        n = batch.rows
-        columns = {name: batch.buffer(name) for name in (*PLAIN, *(column.name for column in self._channels))}
-        columns |= {"time": batch.time[:n], "ncon": batch.ncon[:n], "eq_residual": batch.eq_residual[:n]}
-        columns |= {
-            "eq_force": batch.eq_force[:n],
-            "eq_torque": batch.eq_torque[:n],
-            "tendon_length": batch.buffer("ten_length"),
-        }
-        columns["tendon_force"] = derive.tension(
-            self._model, columns["tendon_length"], batch.buffer("ten_velocity"), batch.tendon_limit[:n]
-        )
-        iterations, islands = batch.buffer("solver_niter"), np.maximum(batch.nisland[:n], 1)
-        used = np.arange(iterations.shape[1]) < islands[:, None]
-        columns["solver_niter"] = np.where(used, iterations, 0).max(axis=1).astype(np.int32)
-        momentum = batch.buffer("linvel") * float(self._model.body_subtreemass[0])
-        columns |= {"linmom": momentum, "angmom": batch.buffer("angmom")}
-        columns |= {"pos": batch.buffer("xpos"), "quat": batch.buffer("xquat")}
-        if len(self._root):
-            cvel, trees = batch.buffer("cvel"), batch.buffer("subtree_com")
-            columns["angvel"] = np.ascontiguousarray(cvel[..., :3])
-            columns["linvel"] = derive.velocity_at(columns["pos"], cvel, trees[:, self._root])
-            if moving := float(self._mass.sum()):
-                # The engine's angular momentum refers to the centre of everything, with the scenery.
-                own = np.einsum("nbi,b->ni", batch.buffer("xipos"), self._mass) / moving
-                columns["angmom"] = derive.angular_momentum(columns["angmom"], trees[:, 0], own, momentum)
-        return columns
-
-    def _contacts(self, batch: Batch) -> "dict[str, np.ndarray]":
-        """The contact columns of a batch."""
-        import numpy as np
-
-        n, count = batch.rows, batch.contact_count
-        raw = {name: buffer[:count] for name, buffer in batch.contact.items()}
-        per_row = batch.ncon[:n]
-        first = np.cumsum(batch.nefc[:n]) - batch.nefc[:n]
-        address = raw["efc_address"]
-        address = np.where(address >= 0, address + np.repeat(first, per_row), -1)
-        batch.efc_force[batch.efc_count] = 0.0
-        forces = batch.efc_force[: batch.efc_count + 1]
-        normal_force, force = derive.contact_forces(forces, address, raw["dim"], raw.get("friction"), raw["frame"])
-        return {
-            "row": np.repeat(np.arange(batch.first_row, batch.first_row + n, dtype=np.int32), per_row),
-            "geom1": np.ascontiguousarray(raw["geom"][:, 0]),
-            "geom2": np.ascontiguousarray(raw["geom"][:, 1]),
-            "depth_m": -raw["dist"],
-            "normal_force": normal_force,
-            "force": force,
-            "position": raw["pos"],
-            "normal": np.ascontiguousarray(raw["frame"][:, :3]),
-        }
 
 
 class _Stream:

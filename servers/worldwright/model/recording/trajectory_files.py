@@ -112,7 +112,7 @@ def read_recording(folder: Path) -> Trajectory:
 
     try:
         recording = stored.open(folder)
-        return _from_recording(recording)
+        return from_recording(recording)
     except stored.RecordingError as cause:
         raise RecordingError(
             getattr(cause, "cause", str(cause)),
@@ -121,7 +121,8 @@ def read_recording(folder: Path) -> Trajectory:
         ) from cause
 
 
-def _from_recording(recording: Any) -> Trajectory:
+def from_recording(recording: Any) -> Trajectory:
+    """A motion out of an open recording, or of what has the same attributes."""
     names = tuple(recording.names)
     mechanics = Mechanics.from_meta(recording.meta, names)
     owner = {name: index for index, name in enumerate(names)}

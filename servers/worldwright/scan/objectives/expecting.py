@@ -30,28 +30,35 @@ def expect(trajectory: Trajectory, plan: Plan) -> ExpectReport:
 def _objective(
     trajectory: Trajectory, index: int, objective: Objective, duration_s: float | None = None
 ) -> ObjectiveResult:
-    measured = tuple(
-        _unless_cut(trajectory, measure(trajectory, name, named(arguments)), duration_s)
+    found = tuple(
+        measured(trajectory, name, named(arguments), duration_s)
         for row in objective.expect
         for name, arguments in row.items()
     )
-    states = {result.status for result in measured}
+    states = {result.status for result in found}
     if "fails" in states:
-        failed = [f"{r.name}: {r.message}" for r in measured if r.status == "fails"]
+        failed = [f"{r.name}: {r.message}" for r in found if r.status == "fails"]
         status, reason = "refuted", "; ".join(failed)
-    elif measured and states == {"holds"}:
+    elif found and states == {"holds"}:
         status, reason = "proved", ""
-    elif not measured and objective.visual_only:
+    elif not found and objective.visual_only:
         status, reason = "visual_only", objective.visual_only
     else:
-        unknown = [f"{r.name}: {r.message}" for r in measured if r.status == "unknown"]
+        unknown = [f"{r.name}: {r.message}" for r in found if r.status == "unknown"]
         nothing = (
             "nothing is expected of the recorded state; add `expect:`, or `visual_only: why it cannot be measured`"
         )
         status, reason = "unproved", "; ".join(unknown) or nothing
     return ObjectiveResult.model_validate(
-        {"index": index, "claim": objective.claim, "status": status, "reason": reason, "expectations": measured}
+        {"index": index, "claim": objective.claim, "status": status, "reason": reason, "expectations": found}
     )
+
+
+def measured(
+    trajectory: Trajectory, name: str, arguments: dict[str, Any], duration_s: float | None = None
+) -> ExpectationResult:
+    """Measure one expectation, unproved as long as the recording ends before the time that it speaks of."""
+    return _unless_cut(trajectory, measure(trajectory, name, arguments), duration_s)
 
 
 def _unless_cut(trajectory: Trajectory, result: ExpectationResult, duration_s: float | None) -> ExpectationResult:
