@@ -3,7 +3,8 @@
 With equal chances equal paths bring equal light: where a coarse look at two moments is the same, nothing moved there,
 and no shadow, glow or mirror image of it, and the light traced of the one is that of the other to the last sample. What is
 too small for a coarse look is found by its outline: a thing is drawn anew where it was and where it is, however small, and
-so are its shadow on the ground and its image in it.
+so are its shadow on the ground and its image in it. Out of focus an outline is wider by what a point becomes there: from no
+place further beside it does any way through the lens meet the thing, or pass where it stood.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from worldkit.settings import Setting
 from ...film_curve import gains
 from ...treatment import Treatment
 from ..preview.eye import View
+from .shutter import PINHOLE, Lens
 from .walked import Rays
 
 if TYPE_CHECKING:
@@ -35,6 +37,8 @@ SMALL = 10
 """The shadow or image of a thing of more coarse pixels is found by its light."""
 UNSEEN = 0.01
 """A thing that moved by so many coarse pixels stands where it stood."""
+ROUND = np.array([(np.cos(turn), np.sin(turn)) for turn in np.arange(12) * np.pi / 6]) / np.cos(np.pi / 12)
+"""Corners around a circle of radius 1."""
 MOST = 0.6
 """Where more than this share of a picture differs, it is traced as a whole, which costs no more then."""
 MOST_MOVED = 300
@@ -56,14 +60,15 @@ class Look(NamedTuple):
     """Height of the ground, m."""
     key: np.ndarray
     """Unit vector toward the light, (3,)."""
+    lens: Lens = PINHOLE
 
     @classmethod
-    def of(cls, setting: Setting, told: Treatment, floor_z: float) -> Look:
-        """That of a setting, as the film grades it."""
+    def of(cls, setting: Setting, told: Treatment, floor_z: float, view: View) -> Look:
+        """That of a setting, as the film grades it and this view focuses."""
         brighter = setting.exposure * 2.0**told.grade_exposure_stops
         exposure = brighter * gains(told.grade_temperature, told.grade_tint)
         contrast = max(told.grade_contrast, 1.0) * max(told.grade_saturation, 1.0)
-        return cls(exposure.astype(np.float32), contrast, floor_z, np.array(setting.key.direction))
+        return cls(exposure.astype(np.float32), contrast, floor_z, np.array(setting.key.direction), Lens.of(view, told))
 
 
 class Sight(NamedTuple):
@@ -152,8 +157,8 @@ def changed(
     for sight in (*now, *rest):
         mask |= differing(first.light, sight.light, look)
         for thing in chain(figures.moved(first.poses, sight.poses), strands.moved(first.soft, sight.soft)):
-            outline(mask, [thing], view)
-            outline(mask, echoes(thing, look), view, SMALL)
+            outline(mask, [thing], view, lens=look.lens)
+            outline(mask, echoes(thing, look), view, SMALL, look.lens)
             if mask.mean() > MOST:  # the picture is not worth a closer look
                 return np.ones(mask.shape, bool)
     import cv2
@@ -180,17 +185,20 @@ def echoes(thing: tuple[np.ndarray, np.ndarray], look: Look) -> Iterator[tuple[n
         yield tuple(points - np.maximum(points[:, 2:] - look.floor_z, 0.0) / look.key[2] * look.key for points in thing)
 
 
-def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: View, most: float = np.inf) -> None:
+def outline(
+    mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: View, most: float = np.inf, lens: Lens = PINHOLE
+) -> None:
     """Mark in a mask (h, w) the convex outlines of things at two moments, of which the points (N, 3), m, are given.
 
-    What moved by less than can be seen is left out, and so is what is wider or higher than `most` places of the mask; all of
-    the mask is marked where a thing of any size reaches behind the camera.
+    What moved by less than can be seen is left out, and so is what is wider or higher than `most` places of the mask, were it
+    sharp; all of the mask is marked where a thing of any size reaches behind the camera. Through a lens an outline is as much
+    wider as the thing's least sharp point is.
     """
     import cv2
 
     size = np.array(mask.shape[::-1])
     for thing in things:
-        flat = []
+        flat, spread = [], []
         for points in thing:
             own = (points - view.eye) @ view.axes
             away = -own[:, 2:]
@@ -203,8 +211,12 @@ def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: Vi
                 return
             place = (own[:, :2] / away / view.tangents * (1, -1) + 1.0) * 0.5 * size
             flat.append(np.clip(place, -4.0 * size, 5.0 * size).astype(np.float32))
+            spread.append(lens.spread(away).max() / np.array(view.tangents) * 0.5 * size)
         if len(flat) == 2 and flat[0].shape == flat[1].shape and np.abs(flat[1] - flat[0]).max() <= UNSEEN:
             continue
-        for place in flat:
+        for place, wide in zip(flat, spread, strict=True):
             if np.ptp(place, axis=0).max() <= most:
-                cv2.fillConvexPoly(mask, np.floor(cv2.convexHull(place)).astype(np.int32), 1)
+                hull = cv2.convexHull(place)
+                if wide.max() > UNSEEN:
+                    hull = cv2.convexHull((hull + (ROUND * wide).astype(np.float32)).reshape(-1, 2))
+                cv2.fillConvexPoly(mask, np.floor(hull).astype(np.int32), 1)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from math import atan, degrees
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+import numpy as np
+
 from ...treatment import Treatment
 from ..preview.eye import View
 from ..preview.focus import FRAME_M
@@ -47,6 +49,27 @@ class Shutter(NamedTuple):
         return self.samples >= FINE
 
 
+class Lens(NamedTuple):
+    """What is in front of the film: half the width of its opening, none of a pinhole, and how far away it is sharp, m."""
+
+    radius_m: float = 0.0
+    focus_m: float = 1.0
+
+    @classmethod
+    def of(cls, view: View, told: Treatment) -> Lens:
+        """That of a full-frame camera with this view, at the film's f-number."""
+        if told.aperture <= 0:
+            return PINHOLE
+        return cls(FRAME_M / (2.0 * view.tangents[1]) / told.aperture / 2.0, max(told.focus_m, 0.02))
+
+    def spread(self, away: np.ndarray) -> np.ndarray:
+        """Around where they are seen points so far ahead (N,), m, are spread by these tangents (N,) of angles."""
+        return np.asarray(self.radius_m * np.abs(1.0 / self.focus_m - 1.0 / away))
+
+
+PINHOLE = Lens()
+
+
 def sensor(view: View, told: Treatment, width: int, height: int, channels: str) -> Any:
     """Mitsuba's camera for a view and a picture of `width` x `height` pixels; one with a lens where the film focuses."""
     import mitsuba as mi
@@ -58,11 +81,10 @@ def sensor(view: View, told: Treatment, width: int, height: int, channels: str) 
         "type": "hdrfilm", "width": width, "height": height, "rfilter": {"type": "box"},
         "pixel_format": channels, "component_format": "float32",
     }  # fmt: skip
-    lens: dict[str, Any] = {"type": "perspective"}
-    if told.aperture > 0:
-        radius = FRAME_M / (2.0 * tangent) / told.aperture / 2.0
-        lens = {"type": "thinlens", "aperture_radius": radius, "focus_distance": max(told.focus_m, 0.02)}
+    lens, kind = Lens.of(view, told), dict[str, Any](type="perspective")
+    if lens.radius_m > 0:
+        kind = {"type": "thinlens", "aperture_radius": lens.radius_m, "focus_distance": lens.focus_m}
     return mi.load_dict(
-        {**lens, "fov": 2 * degrees(atan(tangent)), "fov_axis": "y", "near_clip": 0.01, "far_clip": 1e5,
+        {**kind, "fov": 2 * degrees(atan(tangent)), "fov_axis": "y", "near_clip": 0.01, "far_clip": 1e5,
          "to_world": move, "film": film}
     )  # fmt: skip

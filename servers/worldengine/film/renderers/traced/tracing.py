@@ -23,7 +23,7 @@ from .figures import Figures, fill, mesh_of
 from .glimpses import Around, Glimpse, Outlook, glimpses_apart
 from .half_room import Face, Walls
 from .plates import Plate, Sight
-from .shutter import FINEST, Shutter, sensor
+from .shutter import FINEST, Lens, Shutter, sensor
 from .strand_meshes import Strands
 from .unwrapped import along_sides
 from .walked import Rays
@@ -263,7 +263,7 @@ class Tracing:
         known = [plate for plate in found if plate.key == self._key(view, drawn)]
         known = [plate for plate in known if moved(plate.sights[0].poses, now) <= plates.MOST_MOVED]
         sights = self._sights(moments, view, drawn) if known else ()
-        look = plates.Look.of(self.setting, self._treatment, self._floor_z)
+        look = plates.Look.of(self.setting, self._treatment, self._floor_z, view)
         kept = plates.kept(sights, known, self.figures, self._strands, view, look) if known else None
         if kept is None:
             return self.blurred((moment() for moment in moments), len(moments), camera, quality)
@@ -277,20 +277,16 @@ class Tracing:
     def beside(self, moments: int, quality: Quality) -> int:
         """How many pictures of its shot at most `over` draws with one of so many moments: those that have room."""
         shutter, pixels = Shutter.of(quality, moments), self.width * self.height
-        # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
-        still = (
-            self._treatment.aperture <= 0
-            and self._treatment.breeze is None
-            and variant.choose() != variant.PLAIN
-            and shutter.coarser == 1
-        )
+        # A breeze moves all that grows; computed plainly, paths are not walked side by side; a draft gains nothing.
+        still = self._treatment.breeze is None and variant.choose() != variant.PLAIN and shutter.coarser == 1
         held = (*self.figures.poses(), *self._strands.points.values())
         sight = sum(part.nbytes for part in held) + 12 * pixels // plates.SIDE**2
         return plates.fitting(pixels, sight, shutter.moments) if still else 0
 
     def _key(self, view: View, drawn: frozenset[Face]) -> Any:
         """What has to be equal in two pictures for the light of the one to be that of the other."""
-        return view.eye.tobytes(), view.axes.tobytes(), view.tangents, drawn, self._treatment.lit
+        lens = Lens.of(view, self._treatment)
+        return view.eye.tobytes(), view.axes.tobytes(), view.tangents, lens, drawn, self._treatment.lit
 
     def _plate(self, one: Before, shutter: Shutter, camera: int) -> Plate:
         """The picture of these moments, with what it takes to see what differs from it."""
