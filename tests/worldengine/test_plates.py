@@ -195,6 +195,7 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
 
     monkeypatch.setattr(walked, "_some", watched)
     monkeypatch.setattr(plates, "SAMPLES", 2)  # one kernel less to be compiled
+    monkeypatch.setattr(plates, "FINER", 4)  # so many samples as the whole picture
     drawing = renderers.SEAM.find("traced").take(model, 160, 90)
 
     def open_at(x: float, camera: float = 0.0) -> list[renderers.Moment]:
@@ -222,7 +223,8 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
     assert np.array_equal(drawing.over(before, [partial(at, 0.0)] * 2, 0, 4), same[0])
     assert len(set_up) == 3, "the first moment for the view, and each for its coarse look"
 
-    assert drawing.beside(2, 4) >= 2 and drawing.beside(2, 0.5) == 0, "none beside a draft"
+    assert drawing.beside(2, 4) >= (2, 1.0) and drawing.beside(2, 2)[1] == 2.0
+    assert drawing.beside(2, 0.5)[0] == 0, "none beside a draft"
     set_up.clear(), asked.clear()
     drawing.treat(Treatment(aperture=0.4, focus_m=2.5))  # all that is seen is soft
     before = [Before(n, open_at(x)) for n, x in enumerate((0.4, -0.5))]

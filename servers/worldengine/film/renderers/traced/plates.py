@@ -45,6 +45,8 @@ MOST_MOVED = 300
 """Where more geoms moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
 ROOM_BYTES = 1 << 30
 """Memory for plates and for what is looked at coarsely."""
+FINER = 18
+"""Samples a pixel of a plate, at least: it is traced once for a shot, and stands in all of its pictures."""
 PIXEL_BYTES = 64
 """Of a plate, for each pixel: light, colours, normals, places, the share of things, and the light without noise."""
 
@@ -117,11 +119,13 @@ class Shelf:
 
 
 class Kept(NamedTuple):
-    """What plates tell of a picture: its rays but for those where the mask `left` (h, w) has it, and if none is, its light."""
+    """What plates tell of a picture: its rays but for those where the mask `left` (h, w) has it; and of the first plate the light
+    without noise (H, W, 3), which is that of the picture but where the mask `other` (h, w) has it."""
 
     left: np.ndarray
     rays: Rays
-    clean: np.ndarray | None
+    other: np.ndarray
+    clean: np.ndarray
 
 
 def kept(
@@ -140,11 +144,12 @@ def kept(
     for plate in known:
         differs = changed(now, plate, figures, strands, view, look)
         if not differs.any():
-            return Kept(differs, plate.rays, plate.clean)
+            return Kept(differs, plate.rays, differs, plate.clean)
         if found is None:
-            found = Kept(differs, plate.rays, None)
+            found = Kept(differs, plate.rays, differs, plate.clean)
         else:
-            found = Kept(found.left & differs, plate.rays.over(found.rays, found.left), None)
+            rays = plate.rays.over(found.rays, found.left)
+            found = found._replace(left=found.left & differs, rays=rays)
     return found if found is not None and found.left.mean() <= MOST else None
 
 

@@ -18,6 +18,8 @@ SAMPLES: dict[str, float] = {"still": 32, "video": 3}
 DRAFT_GUIDE_SAMPLES, GUIDE_SAMPLES, FINE_GUIDE_SAMPLES = 2, 4, 16
 FINE, FINEST = 18, 54
 """From so many samples a pixel on the denoiser is guided better and takes its time; and from so many, no light is cut off."""
+AFFORDED = 0.25
+"""What is traced over a plate may take this share of what the whole picture would, so that little is traced with more samples."""
 DRAFT_SIDE = 2
 """Of a draft, light is traced for every second pixel of every second row."""
 
@@ -42,6 +44,11 @@ class Shutter(NamedTuple):
         fewest = DRAFT_GUIDE_SAMPLES if samples < 1 else GUIDE_SAMPLES
         guides = -(-(FINE_GUIDE_SAMPLES if samples >= FINE else fewest) // moments)
         return cls(moments, samples, max(1, round(samples * coarser**2 / moments)), coarser, guides)
+
+    def finer(self, share: float, most: float) -> Shutter:
+        """The same for so small a share of the picture: as many times the samples as it affords, and `most` a pixel."""
+        times = int(max(1.0, min(most / self.samples, AFFORDED / max(share, 1e-6))))
+        return Shutter.of(times * self.samples, self.moments)
 
     @property
     def fine(self) -> bool:
