@@ -98,6 +98,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--minutes", type=float, default=5.0, help="time for drawing (final)")
     parser.add_argument("--at", type=float, action="append", help="seconds of the film, or of the recording (frame)")
     parser.add_argument("--shots", action="store_true", help="three moments of every shot of the film (frame)")
+    parser.add_argument("--samples", type=float, help="paths a pixel, by the final pass's renderer (frame)")
     parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame, sheet)")
     parser.add_argument("--eye", type=_point, help="where an unplanned camera stands: X,Y,Z in m (frame)")
     parser.add_argument("--target", type=_point, default=(0.0, 0.0, 0.0), help="what it looks at: X,Y,Z in m")

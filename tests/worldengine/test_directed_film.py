@@ -669,8 +669,8 @@ def test_the_frames_of_a_still_shot_stand_in_for_what_does_not_change(made):
         assert screening.standing(shots[1]["first"], 2) == (), "the camera goes along"
         assert screening.standing(shots[2]["first"], 2) == (), "the light wanders"
         assert screening.stills(first, 2) == 0, "this renderer draws none of them beside"
-        screening.frames._drawing.beside = lambda moments, quality: {1: 2, 4: 1}[moments]
-        assert [screening.stills(frame, 2) for frame in (first, first + 1, last, shots[1]["first"])] == [1, 2, 1, 0]
+        screening.frames._drawing.beside = lambda moments, quality: {1: (2, 3.0), 4: (1, 1.0)}[moments]
+        assert [screening.stills(frame, 2) for frame in (first, first + 1, last, shots[1]["first"])] == [5, 6, 5, 0]
         screening.film = replace(screening.film, shutter=0.5, samples=4)
         assert [screening.stills(frame, 5) for frame in (first, last)] == [1, 0], "there is room for one"
         screening.film = replace(screening.film, shutter=0.0)

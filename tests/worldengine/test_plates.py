@@ -11,7 +11,7 @@ from worldengine.film import renderers
 from worldengine.film.renderers import Before
 from worldengine.film.renderers.preview.eye import View
 from worldengine.film.renderers.traced import figures, plates, rounded, walked
-from worldengine.film.renderers.traced.shutter import Shutter
+from worldengine.film.renderers.traced.shutter import Lens, Shutter
 from worldengine.film.treatment import Treatment
 from worldkit import bodies, scene
 from worldkit.settings import STUDIO
@@ -42,7 +42,7 @@ def test_what_the_film_grades_plainer_is_found_too():
         (Treatment(), False), (Treatment(grade_exposure_stops=6), True), (Treatment(grade_contrast=3), True),
         (Treatment(grade_contrast=3, grade_exposure_stops=-8), False), (Treatment(grade_saturation=3), True),
     ):  # fmt: skip
-        assert plates.differing(before, now, plates.Look.of(STUDIO, told, 0.0)).all() == seen, told
+        assert plates.differing(before, now, plates.Look.of(STUDIO, told, 0.0, AHEAD)).all() == seen, told
 
 
 class Grains:
@@ -96,6 +96,28 @@ def test_a_thing_is_drawn_anew_where_it_was_and_where_it_is_however_small():
     assert not mask.any(), "behind the camera nothing is seen"
     plates.outline(mask, [(small, small * (1, -1, 1) + np.array([(0, 20, 0), (0, 0, 0), (0, 0, 0)]))], AHEAD)
     assert mask.all(), "what reaches the camera may be anywhere"
+
+
+def test_out_of_focus_it_is_drawn_anew_as_far_as_its_light_is_spread():
+    lens = Lens.of(AHEAD, Treatment(aperture=0.01, focus_m=5.0))  # an opening as wide as a barrel
+    wide = lens.radius_m * (1 / 5 - 1 / 10) * 40  # places of the mask, of a point 10 m ahead
+    assert 2 < wide < 5
+    point = np.array([(0.0, 10.0, 0.0)])
+    found = {}
+    for name, through in (("sharp", Lens()), ("soft", lens), ("in focus", lens._replace(focus_m=10.0))):
+        found[name] = np.zeros((40, 80), np.uint8)
+        plates.outline(found[name], [(point, point - 100.0)], AHEAD, lens=through)
+    assert found["sharp"].sum() == found["in focus"].sum() == 1
+    rows, columns = np.mgrid[:40, :80] - np.array([[[19.5]], [[39.5]]])
+    away = np.hypot(rows, columns)
+    assert found["soft"][away < wide - 1].all() and not found["soft"][away > wide + 2].any()
+    beside = point - (10.0 + 10 / 40, 0, 0)  # one place to the left of the picture
+    mask = np.zeros((40, 80), np.uint8)
+    plates.outline(mask, [(beside, beside - 100.0)], AHEAD, lens=lens)
+    assert mask[20, 0] and not mask[:, 10:].any(), "what is beside the picture may be spread into it"
+    small = np.zeros((40, 80), np.uint8)
+    plates.outline(small, [(point, point - 100.0)], AHEAD, 2, lens)
+    assert np.array_equal(small, found["soft"]), "what would be small were it sharp"
 
 
 def test_so_are_its_shadow_and_its_image_in_the_ground():
@@ -173,6 +195,7 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
 
     monkeypatch.setattr(walked, "_some", watched)
     monkeypatch.setattr(plates, "SAMPLES", 2)  # one kernel less to be compiled
+    monkeypatch.setattr(plates, "FINER", 4)  # so many samples as the whole picture
     drawing = renderers.SEAM.find("traced").take(model, 160, 90)
 
     def open_at(x: float, camera: float = 0.0) -> list[renderers.Moment]:
@@ -200,7 +223,14 @@ def test_what_stands_is_not_traced_again_and_the_picture_is_the_same(monkeypatch
     assert np.array_equal(drawing.over(before, [partial(at, 0.0)] * 2, 0, 4), same[0])
     assert len(set_up) == 3, "the first moment for the view, and each for its coarse look"
 
-    assert drawing.beside(2, 4) >= 2 and drawing.beside(2, 0.5) == 0, "none beside a draft"
-    drawing.treat(Treatment(aperture=2.8, focus_m=4.0))
-    assert drawing.beside(2, 4) == 0, "nor out of focus"
+    assert drawing.beside(2, 4) >= (2, 1.0) and drawing.beside(2, 2)[1] == 2.0
+    assert drawing.beside(2, 0.5)[0] == 0, "none beside a draft"
+    set_up.clear(), asked.clear()
+    drawing.treat(Treatment(aperture=0.4, focus_m=2.5))  # all that is seen is soft
+    before = [Before(n, open_at(x)) for n, x in enumerate((0.4, -0.5))]
+    soft = drawing.over(before, open_at(-0.1), 0, 4)
+    assert 0.02 < asked[0] < 0.5
+    apart = np.abs(soft - whole(-0.1))
+    assert apart.mean() < 0.2 and np.percentile(apart, 99.5) <= 3
+    assert np.abs(soft.astype(int) - there).max() > 30, "and it is another picture"
     drawing.close()

@@ -12,6 +12,7 @@ from ..recording.replay import Replay
 from .encode import write_png
 from .light_meter import reading
 from .picture_grid import labelled, laid_out
+from .renderers import FINAL, Quality
 
 if TYPE_CHECKING:
     import mujoco
@@ -42,15 +43,17 @@ def of_film(
     """Draw the film's frames at `options.at`, s, or with `options.shots` three of every shot on sheets (`shots-1.jpg`)."""
     from .directed import Screening
 
-    size = options.size or given.size
+    size, (renderer, quality) = options.size or given.size, _drawn_by(options)
     chosen = _of_shots(film) if options.shots else [(_frame(at, film, given.fps), "") for at in options.at]
     rows, cells = [], []
-    with Screening(given.world, model, recording, film, size, given.fps) as screening:
-        screening.picture(chosen[0][0])  # the first one also sets the stage, which takes longer
+    with Screening(given.world, model, recording, film, size, given.fps, renderer) as screening:
+        screening.alone = True
+        if options.samples is None:
+            screening.picture(chosen[0][0])  # the first one also sets the stage, which takes longer
         spent = 0.0
         for done, (number, word) in enumerate(chosen):
             started = time.perf_counter()
-            image = screening.picture(number)
+            image = screening.picture(number, quality)
             spent += time.perf_counter() - started
             read = reading(screening.model, image, screening.segmentation(), given.movers)
             shown = {"film_s": number / given.fps, "recorded_s": float(film.arrays["time"][number])}
@@ -85,18 +88,18 @@ def through_a_camera(
 
     from .drawn_frames import Frames
 
-    size = options.size or given.size
+    size, (renderer, quality) = options.size or given.size, _drawn_by(options)
     replay = Replay(model, recording)
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     rows = []
-    with Frames(model, *size) as frames:
+    with Frames(model, size[0], size[1], renderer) as frames:
         for done, at in enumerate(options.at):
             row = int(abs(recording.time - recording.time[0] - at).argmin())
             data = replay.show(row)
             cameras.track(model, data)
             if options.eye is not None:
                 free(model, data, name, options)
-            image = frames.image(data, name, quality="video")
+            image = frames.image(data, name, quality)
             write_png(options.out / picture_name(done), image)
             read = reading(model, image, frames.segmentation(data, name), given.movers)
             rows.append({"recorded_s": float(recording.time[row] - recording.time[0]), "reading": read})
@@ -113,6 +116,11 @@ def free(model: "mujoco.MjModel", data: "mujoco.MjData", name: str, options: arg
     data.cam_xpos[index] = options.eye
     data.cam_xmat[index] = axes(options.eye, options.target, 0.0).ravel()
     model.cam_fovy[index] = options.fovy
+
+
+def _drawn_by(options: argparse.Namespace) -> tuple[str, Quality]:
+    """The renderer that is wanted, and its effort: with `options.samples` that of the final pass; empty for the usual one."""
+    return ("", "video") if options.samples is None else (FINAL, options.samples)
 
 
 def _frame(at_s: float, film: "Described", fps: int) -> int:

@@ -92,6 +92,8 @@ class Screening:
         ]
         self._blown: tuple[float, float, float] | None = None
         self._still: dict[int, tuple[int, ...]] = {}
+        self.alone = False
+        """Few pictures are wanted: nothing is drawn that others could be drawn over."""
         self.tick: Callable[[], object] = lambda: None
         """Called whenever a moment is set up, since a picture may take minutes."""
         self.frames = Frames(self.model, *size, renderer)
@@ -199,7 +201,7 @@ class Screening:
     def standing(self, frame: int, quality: "Quality") -> tuple[int, ...]:
         """The frames that stand in for what does not change in a shot, if its camera and light do not: its last, where most
         has come to rest, and its first, for what is about to move; a draft needs none."""
-        if isinstance(quality, str) or quality < 1:
+        if self.alone or isinstance(quality, str) or quality < 1:
             return ()
         shot = self.film.shot(frame)
         if shot not in self._still:
@@ -210,13 +212,14 @@ class Screening:
             self._still[shot] = (first + count - 1, first) if held and len(lit) == 1 and count > 1 else ()
         return self._still[shot]
 
-    def stills(self, frame: int, quality: "Quality") -> int:
-        """How many other frames the renderer draws with this one, if it is the first of its shot."""
+    def stills(self, frame: int, quality: "Quality") -> float:
+        """What else the renderer draws with this frame, if it is the first of its shot: that takes as long as so many frames."""
         standing = self.standing(frame, quality)
         if not standing:
-            return 0
-        self._moment(frame)  # what stands out of focus depends on how it is treated
-        return sum(still != frame for still in standing[: self.frames.beside(self._moments(quality, frame), quality)])
+            return 0.0
+        self._moment(frame)  # whether any stands depends on how it is treated
+        most, dearer = self.frames.beside(self._moments(quality, frame), quality)
+        return dearer * len(standing[:most]) - (frame in standing[:most])
 
     def _between(self, at: float) -> tuple[dict[str, Any], int, int, float]:
         """The shot of a place between two frames, these, and how far it is from the first to the second."""

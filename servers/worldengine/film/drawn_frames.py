@@ -136,10 +136,11 @@ class Frames:
             self.treat(self._treatment)
             return self.over(before, moments, camera, quality)
 
-    def beside(self, moments: int, quality: renderers.Quality) -> int:
-        """How many pictures `before` at most are drawn with one of so many moments, as the drawing is treated now."""
+    def beside(self, moments: int, quality: renderers.Quality) -> tuple[int, float]:
+        """How many pictures `before` at most are drawn with one of so many moments, as the drawing is treated now, and how many
+        times as dear each of them is."""
         beside = getattr(self._open, "beside", None)
-        return 0 if beside is None else int(beside(moments, quality))
+        return (0, 1.0) if beside is None else beside(moments, quality)
 
     @property
     def looking(self) -> "Shaded | None":

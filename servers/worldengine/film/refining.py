@@ -70,8 +70,8 @@ class Shown(Protocol):
     def lettered(self, number: int, image: "np.ndarray") -> "np.ndarray":
         """A picture with the words of a frame."""
 
-    def stills(self, number: int, samples: float) -> int:
-        """How many other frames are drawn with this one, if it is the first of its shot with so many samples."""
+    def stills(self, number: int, samples: float) -> float:
+        """What is drawn with this frame, if it is the first of its shot with so many samples, in frames of these."""
 
     def told(self) -> dict[str, Any]:
         """What the result says of it: cameras, renderer, …"""
@@ -167,9 +167,9 @@ class OfTheAuthor:
         """With its captions, and how fast it runs."""
         return self._screening.lettered(number, image)
 
-    def stills(self, number: int, samples: float) -> int:
-        """The frames that stand in for what does not change in its shot, as far as the renderer draws any."""
-        return self._screening.stills(number, samples) if self._traced else 0
+    def stills(self, number: int, samples: float) -> float:
+        """What the frames take that stand in for what does not change in its shot, as far as the renderer draws any."""
+        return self._screening.stills(number, samples) if self._traced else 0.0
 
     def told(self) -> dict[str, Any]:
         """The renderer, what the film tells of itself, and, as `unreckoned`, why frames were reckoned no more."""
@@ -285,7 +285,7 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
             continue
         shot = 0 if samples == draft else max(k for k, shot in enumerate(shown.shots) if shot.start <= number)
         first = (shot, samples) not in begun
-        stills = shown.stills(number, samples) if first else 0
+        stills = shown.stills(number, samples) if first else 0.0
         if begun and now + state.pace.expected(samples, first, stills) > end:
             return False
         image = shown.picture(number, samples)

@@ -17,6 +17,8 @@ from .short_runs import engine
 
 WIDTH, MOST_BYTES = 960, 100_000
 """Pixels across one moment, and the most bytes of one picture or one sheet."""
+TRACED_WIDTH, SAMPLES = 640, 8
+"""Pixels across one that is traced, and its samples a pixel: light can be judged by it, and it takes seconds."""
 
 
 class Reading(Frozen):
@@ -71,22 +73,37 @@ class Looked(Frozen):
 
 
 def moment(
-    run: Run, key: EvidenceKey, at_s: float, camera: str | None, eye: str | None, target: str | None, fov_deg: float
+    run: Run,
+    key: EvidenceKey,
+    at_s: float,
+    camera: str | None,
+    eye: str | None,
+    target: str | None,
+    fov_deg: float,
+    traced: bool = False,
 ) -> Illustrated:
     """One moment, through a camera of the plan, the film's own (the house's where there is no `film.py`), or one that stands at
-    `eye` and looks at `target` ("x,y,z", m).
+    `eye` and looks at `target` ("x,y,z", m); `traced` by the renderer of the final pass, small and with few samples.
 
     Raises:
         GateError: nothing is recorded of this program and plan.
         NotFoundError: a place is no three numbers, or there is one without the other.
-        JobError: there is no such camera, or `film.py` does not run.
+        JobError: there is no such camera, `film.py` does not run, or nothing can be traced here.
     """
     physics = recorded(run, key)
     through = standpoint(camera, eye, target, fov_deg)
     width, height = plain.read_json(physics / "program.json")["size"]
-    size = min(WIDTH, width), max(16, round(min(WIDTH, width) * height / width / 2) * 2)
-    found = draw_frame(run, physics, at_s, size, camera == FILM, through)
+    across = min(TRACED_WIDTH if traced else WIDTH, width)
+    size = across, max(16, round(across * height / width / 2) * 2)
+    by = ["--samples", str(SAMPLES)] if traced else []
+    found = draw_frame(run, physics, at_s, size, camera == FILM, [*through, *by], by)
     said = found["result.json"]
+    if traced and (why := said["renderer"].get("because")):
+        raise JobError(
+            f"the final pass's renderer cannot draw here: {why}",
+            code="missing_renderer",
+            next_move="worldwright doctor; without --traced the usual renderer draws",
+        )
     glance = _glance(str(said["cameras"][0]), said["recorded_s"], "", said["reading"])
     picture = Picture(_small(found[FRAME]), glance.text(), "jpeg")
     return Illustrated(_looked(said, (glance,)), (picture,))

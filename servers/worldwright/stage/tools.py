@@ -313,6 +313,7 @@ def look(
     eye: Annotated[str | None, Field(description="x,y,z of a free camera, m."), Also("--from")] = None,
     target: Annotated[str | None, Field(description="x,y,z it looks at."), Also("--to")] = None,
     fov: Annotated[float, Field(description="Degrees.", gt=1, lt=150)] = 45,
+    traced: Annotated[bool, Field(description="One moment in the final pass's light.")] = False,
 ) -> Illustrated:
     """See a recording at once: one moment through any camera, planned or not; else a storyboard of all cameras.
 
@@ -323,9 +324,9 @@ def look(
 
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
-    if (at, camera, eye, target) == (None,) * 4:
+    if (at, camera, eye, target) == (None,) * 4 and not traced:
         return looking.storyboard(folder, key)
-    return looking.moment(folder, key, at or 0.0, camera, eye, target, fov)
+    return looking.moment(folder, key, at or 0.0, camera, eye, target, fov, traced)
 
 
 @reads

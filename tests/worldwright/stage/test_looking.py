@@ -60,3 +60,10 @@ def test_an_unknown_camera_is_answered_with_the_known_ones(reviewed):
 def test_nothing_recorded_is_nothing_to_see(planned):
     with pytest.raises(GateError, match="no recording"):
         look(str(planned))
+
+
+def test_a_moment_is_seen_in_the_light_of_the_final_pass(reviewed):
+    pytest.importorskip("mitsuba")
+    found = look(str(reviewed), at=0.1, camera="film", traced=True)
+    assert found.data.renderer == "traced" and decoded(found.pictures[0]).shape[1] <= 640
+    assert 0.05 < found.data.glances[0].reading.luma < 0.95

@@ -7,7 +7,8 @@ room reaches). Where it lacks that, a change of any camera makes the pictures of
 `blurred(moments, count, camera, quality)`: one picture of the light of `count` moments, each set up as it is taken from
 `moments`. Where it lacks that, the pictures of the moments are averaged. And it may have `over(before, moments, camera,
 quality)`: the same picture, for which it need not draw again what stands in the pictures `before` of the same shot; then also
-`beside(moments, quality) -> int`: how many of these it draws at most with one of so many moments, as it is treated now.
+`beside(moments, quality) -> (int, float)`: how many of these it draws at most with one of so many moments, as it is treated now,
+and how many times as dear as that one each of them is.
 """
 
 import os

@@ -3,7 +3,8 @@
 With equal chances equal paths bring equal light: where a coarse look at two moments is the same, nothing moved there,
 and no shadow, glow or mirror image of it, and the light traced of the one is that of the other to the last sample. What is
 too small for a coarse look is found by its outline: a thing is drawn anew where it was and where it is, however small, and
-so are its shadow on the ground and its image in it.
+so are its shadow on the ground and its image in it. Out of focus an outline is wider by what a point becomes there: from no
+place further beside it does any way through the lens meet the thing, or pass where it stood.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from worldkit.settings import Setting
 from ...film_curve import gains
 from ...treatment import Treatment
 from ..preview.eye import View
+from .shutter import PINHOLE, Lens
 from .walked import Rays
 
 if TYPE_CHECKING:
@@ -35,12 +37,16 @@ SMALL = 10
 """The shadow or image of a thing of more coarse pixels is found by its light."""
 UNSEEN = 0.01
 """A thing that moved by so many coarse pixels stands where it stood."""
+ROUND = np.array([(np.cos(turn), np.sin(turn)) for turn in np.arange(12) * np.pi / 6]) / np.cos(np.pi / 12)
+"""Corners around a circle of radius 1."""
 MOST = 0.6
 """Where more than this share of a picture differs, it is traced as a whole, which costs no more then."""
 MOST_MOVED = 300
 """Where more geoms moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
 ROOM_BYTES = 1 << 30
 """Memory for plates and for what is looked at coarsely."""
+FINER = 18
+"""Samples a pixel of a plate, at least: it is traced once for a shot, and stands in all of its pictures."""
 PIXEL_BYTES = 64
 """Of a plate, for each pixel: light, colours, normals, places, the share of things, and the light without noise."""
 
@@ -56,14 +62,15 @@ class Look(NamedTuple):
     """Height of the ground, m."""
     key: np.ndarray
     """Unit vector toward the light, (3,)."""
+    lens: Lens = PINHOLE
 
     @classmethod
-    def of(cls, setting: Setting, told: Treatment, floor_z: float) -> Look:
-        """That of a setting, as the film grades it."""
+    def of(cls, setting: Setting, told: Treatment, floor_z: float, view: View) -> Look:
+        """That of a setting, as the film grades it and this view focuses."""
         brighter = setting.exposure * 2.0**told.grade_exposure_stops
         exposure = brighter * gains(told.grade_temperature, told.grade_tint)
         contrast = max(told.grade_contrast, 1.0) * max(told.grade_saturation, 1.0)
-        return cls(exposure.astype(np.float32), contrast, floor_z, np.array(setting.key.direction))
+        return cls(exposure.astype(np.float32), contrast, floor_z, np.array(setting.key.direction), Lens.of(view, told))
 
 
 class Sight(NamedTuple):
@@ -112,11 +119,13 @@ class Shelf:
 
 
 class Kept(NamedTuple):
-    """What plates tell of a picture: its rays but for those where the mask `left` (h, w) has it, and if none is, its light."""
+    """What plates tell of a picture: its rays but for those where the mask `left` (h, w) has it; and of the first plate the light
+    without noise (H, W, 3), which is that of the picture but where the mask `other` (h, w) has it."""
 
     left: np.ndarray
     rays: Rays
-    clean: np.ndarray | None
+    other: np.ndarray
+    clean: np.ndarray
 
 
 def kept(
@@ -135,11 +144,12 @@ def kept(
     for plate in known:
         differs = changed(now, plate, figures, strands, view, look)
         if not differs.any():
-            return Kept(differs, plate.rays, plate.clean)
+            return Kept(differs, plate.rays, differs, plate.clean)
         if found is None:
-            found = Kept(differs, plate.rays, None)
+            found = Kept(differs, plate.rays, differs, plate.clean)
         else:
-            found = Kept(found.left & differs, plate.rays.over(found.rays, found.left), None)
+            rays = plate.rays.over(found.rays, found.left)
+            found = found._replace(left=found.left & differs, rays=rays)
     return found if found is not None and found.left.mean() <= MOST else None
 
 
@@ -152,8 +162,8 @@ def changed(
     for sight in (*now, *rest):
         mask |= differing(first.light, sight.light, look)
         for thing in chain(figures.moved(first.poses, sight.poses), strands.moved(first.soft, sight.soft)):
-            outline(mask, [thing], view)
-            outline(mask, echoes(thing, look), view, SMALL)
+            outline(mask, [thing], view, lens=look.lens)
+            outline(mask, echoes(thing, look), view, SMALL, look.lens)
             if mask.mean() > MOST:  # the picture is not worth a closer look
                 return np.ones(mask.shape, bool)
     import cv2
@@ -180,17 +190,20 @@ def echoes(thing: tuple[np.ndarray, np.ndarray], look: Look) -> Iterator[tuple[n
         yield tuple(points - np.maximum(points[:, 2:] - look.floor_z, 0.0) / look.key[2] * look.key for points in thing)
 
 
-def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: View, most: float = np.inf) -> None:
+def outline(
+    mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: View, most: float = np.inf, lens: Lens = PINHOLE
+) -> None:
     """Mark in a mask (h, w) the convex outlines of things at two moments, of which the points (N, 3), m, are given.
 
-    What moved by less than can be seen is left out, and so is what is wider or higher than `most` places of the mask; all of
-    the mask is marked where a thing of any size reaches behind the camera.
+    What moved by less than can be seen is left out, and so is what is wider or higher than `most` places of the mask, were it
+    sharp; all of the mask is marked where a thing of any size reaches behind the camera. Through a lens an outline is as much
+    wider as the thing's least sharp point is.
     """
     import cv2
 
     size = np.array(mask.shape[::-1])
     for thing in things:
-        flat = []
+        flat, spread = [], []
         for points in thing:
             own = (points - view.eye) @ view.axes
             away = -own[:, 2:]
@@ -203,8 +216,12 @@ def outline(mask: np.ndarray, things: Iterable[tuple[np.ndarray, ...]], view: Vi
                 return
             place = (own[:, :2] / away / view.tangents * (1, -1) + 1.0) * 0.5 * size
             flat.append(np.clip(place, -4.0 * size, 5.0 * size).astype(np.float32))
+            spread.append(lens.spread(away).max() / np.array(view.tangents) * 0.5 * size)
         if len(flat) == 2 and flat[0].shape == flat[1].shape and np.abs(flat[1] - flat[0]).max() <= UNSEEN:
             continue
-        for place in flat:
+        for place, wide in zip(flat, spread, strict=True):
             if np.ptp(place, axis=0).max() <= most:
-                cv2.fillConvexPoly(mask, np.floor(cv2.convexHull(place)).astype(np.int32), 1)
+                hull = cv2.convexHull(place)
+                if wide.max() > UNSEEN:
+                    hull = cv2.convexHull((hull + (ROUND * wide).astype(np.float32)).reshape(-1, 2))
+                cv2.fillConvexPoly(mask, np.floor(hull).astype(np.int32), 1)

@@ -16,14 +16,14 @@ from ..preview.eye import View, of_camera
 from ..preview.finish import Finish, linear
 from ..preview.lighting import relight
 from ..preview.scenery import own_lights, setting_of, space_of
-from . import daylight, panel_emitters, plates, rounded, variant, walked
+from . import daylight, panel_emitters, patches, plates, rounded, variant, walked
 from .darkroom import Scene, air, develop
 from .denoised import Denoiser
 from .figures import Figures, fill, mesh_of
 from .glimpses import Around, Glimpse, Outlook, glimpses_apart
 from .half_room import Face, Walls
 from .plates import Plate, Sight
-from .shutter import FINEST, Shutter, sensor
+from .shutter import FINEST, Lens, Shutter, sensor
 from .strand_meshes import Strands
 from .unwrapped import along_sides
 from .walked import Rays
@@ -251,46 +251,50 @@ class Tracing:
         return develop(light, self.setting, self._treatment)
 
     def over(self, before: Sequence[Before], moments: Sequence[Moment], camera: int, quality: Quality) -> np.ndarray:
-        """As `blurred`, but where nothing differs from the pictures `before` of the same still camera and light, these stand."""
+        """As `blurred`, but where nothing differs from the pictures `before` of the same still camera and light, these stand.
+
+        They are traced more finely, and so is what differs where that is little.
+        """
         shutter = Shutter.of(quality, len(moments))
+        finer = Shutter.of(max(shutter.samples, plates.FINER), len(moments))
         first = moments[0]()  # which stands only until another moment is asked for
         view, outlook, drawn, painted = self._seen(first, camera)
         self._placed(first, view, drawn)
         now, moved = self.figures.poses(), self.figures.how_many_moved
-        before = before[: self.beside(len(moments), quality)]
-        self._plates.keep({(one.name, shutter) for one in before})
-        found = [self._plate(one, shutter, camera) for one in before]
+        before = before[: self.beside(len(moments), quality)[0]]
+        self._plates.keep({(one.name, finer) for one in before})
+        found = [self._plate(one, finer, camera) for one in before]
         known = [plate for plate in found if plate.key == self._key(view, drawn)]
         known = [plate for plate in known if moved(plate.sights[0].poses, now) <= plates.MOST_MOVED]
         sights = self._sights(moments, view, drawn) if known else ()
-        look = plates.Look.of(self.setting, self._treatment, self._floor_z)
+        look = plates.Look.of(self.setting, self._treatment, self._floor_z, view)
         kept = plates.kept(sights, known, self.figures, self._strands, view, look) if known else None
         if kept is None:
             return self.blurred((moment() for moment in moments), len(moments), camera, quality)
         rays, clean = kept.rays, kept.clean
-        if clean is None:
-            anew, _ = self._exposed((moment() for moment in moments), shutter, camera, kept.left)
+        if kept.left.any():
+            some = shutter.finer(float(kept.left.mean()), finer.samples)
+            anew, _ = self._exposed((moment() for moment in moments), some, camera, kept.left)
             rays = anew.over(rays, kept.left)
-            clean = self._cleaned(rays, shutter)
+        if kept.other.any():
+            clean = patches.mended(clean, rays, kept.other, self._denoised)
         return self._developed(clean, [Glimpse(view, outlook, painted, rays.places, rays.seen)])
 
-    def beside(self, moments: int, quality: Quality) -> int:
-        """How many pictures of its shot at most `over` draws with one of so many moments: those that have room."""
+    def beside(self, moments: int, quality: Quality) -> tuple[int, float]:
+        """How many pictures of its shot at most `over` draws with one of so many moments: those that have room; and how many times
+        the samples each of them takes."""
         shutter, pixels = Shutter.of(quality, moments), self.width * self.height
-        # Out of focus nothing keeps its outline; computed plainly, paths are not walked side by side; a draft gains nothing.
-        still = (
-            self._treatment.aperture <= 0
-            and self._treatment.breeze is None
-            and variant.choose() != variant.PLAIN
-            and shutter.coarser == 1
-        )
+        # A breeze moves all that grows; computed plainly, paths are not walked side by side; a draft gains nothing.
+        still = self._treatment.breeze is None and variant.choose() != variant.PLAIN and shutter.coarser == 1
         held = (*self.figures.poses(), *self._strands.points.values())
         sight = sum(part.nbytes for part in held) + 12 * pixels // plates.SIDE**2
-        return plates.fitting(pixels, sight, shutter.moments) if still else 0
+        fitting = plates.fitting(pixels, sight, shutter.moments) if still else 0
+        return fitting, max(shutter.samples, plates.FINER) / shutter.samples
 
     def _key(self, view: View, drawn: frozenset[Face]) -> Any:
         """What has to be equal in two pictures for the light of the one to be that of the other."""
-        return view.eye.tobytes(), view.axes.tobytes(), view.tangents, drawn, self._treatment.lit
+        lens = Lens.of(view, self._treatment)
+        return view.eye.tobytes(), view.axes.tobytes(), view.tangents, lens, drawn, self._treatment.lit
 
     def _plate(self, one: Before, shutter: Shutter, camera: int) -> Plate:
         """The picture of these moments, with what it takes to see what differs from it."""
@@ -348,6 +352,15 @@ class Tracing:
         clean = denoiser.clean(rays.light, smaller(rays.albedo), smaller(rays.normals))
         fallen = clean / smaller(albedo)
         return cv2.resize(fallen, (self.width, self.height), interpolation=cv2.INTER_LINEAR) * albedo
+
+    def _denoised(self, rays: Rays, scale: float, fine: bool) -> np.ndarray:
+        """Light without noise of a patch (h, w, 3) of a picture, brightened by `scale` meanwhile."""
+        height, width = rays.seen.shape
+        denoiser = Denoiser(width, height, variant.choose() == variant.GPU, fine, scale)
+        try:
+            return denoiser.clean(rays.light, rays.albedo, rays.normals)
+        finally:
+            denoiser.close()
 
     def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
         """Geom number of each pixel, or -1: int32 (height, width), by MuJoCo's own renderer."""

@@ -65,7 +65,7 @@ def light(
     """Scene light (H, W, 3) of paths of at most `depth` turns; where a coarser mask does not have it, nothing.
 
     Args:
-        scene, sensor: Mitsuba's; for some pixels the sensor has to be a pinhole.
+        scene, sensor: Mitsuba's.
         depth: the longest paths.
         samples: a pixel.
         seed: of their chances.
@@ -156,7 +156,8 @@ def _some(scene: Any, sensor: Any, integrator: Any, samples: int, seed: int, whe
     active = dr.gather(mi.Bool, mi.Bool(spread(where, height, width).ravel()), pixel)
     place = mi.Vector2f(mi.Float(pixel - row * wide), mi.Float(row)) + sampler.next_2d()
     place /= mi.Vector2f(mi.Float(wide), dr.opaque(mi.Float, height))
-    ray, weight = sensor.sample_ray_differential(0.0, 0.0, mi.Point2f(place), mi.Point2f(0.5))
+    through = sampler.next_2d() if sensor.needs_aperture_sample() else mi.Point2f(0.5)
+    ray, weight = sensor.sample_ray_differential(0.0, 0.0, mi.Point2f(place), mi.Point2f(through))
     ray.scale_differential(dr.rsqrt(mi.Float(each)))
     found, _, further = integrator.sample(scene, sampler, ray, None, active)
     totals = []
