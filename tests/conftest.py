@@ -6,6 +6,7 @@ also when workers run the tests; why it failed stands at the end as always.
 """
 
 import atexit
+import gc
 import os
 import shutil
 import tempfile
@@ -105,6 +106,19 @@ def pytest_configure(config: pytest.Config) -> None:
     """Name failures where the terminal is, which is not in a worker; with -v each test is named anyway."""
     if not hasattr(config, "workerinput") and config.get_verbosity() <= 0:
         config.pluginmanager.register(NamedAtOnce(config))
+
+
+def pytest_collection() -> None:
+    """What is collected stays to the end: whoever looked for garbage on the way found none, in a fifth of the time."""
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Nor need anybody walk through thousands of tests and all modules each time, later."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(10 * gc.get_threshold()[0], *gc.get_threshold()[1:])
+    gc.enable()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter, config: pytest.Config) -> None:

@@ -2,8 +2,10 @@
 
 import hashlib
 import json
+import os
 from dataclasses import dataclass
 from functools import lru_cache
+from glob import glob
 from pathlib import Path
 
 import worldkit
@@ -67,21 +69,23 @@ def _code(name: str) -> str:
     """The hash of the film's code, of what it takes from `worldkit` when it draws, of a renderer, and of all plainer ones, which
     it draws on, and which may take over from it."""
     film, kit = Path(__file__).parent, Path(worldkit.__file__ or "").parent
-    own = [*film.glob("*.py"), Path(renderers.__file__ or "")]
-    own += [film.parent / name for name in REPLAYED_BY]
-    own += [path for pattern in DRAWN_FROM for path in kit.glob(pattern)]
-    drawn: list[Path] = []
+    # Plain texts: each step of a run asks this of some hundred files.
+    patterns = [str(film / "*.py"), *(str(kit / pattern) for pattern in DRAWN_FROM)]
+    own = [path for pattern in patterns for path in glob(pattern, recursive=True)]  # noqa: PTH207
+    own += [renderers.__file__ or "", *(str(film.parent / name) for name in REPLAYED_BY)]
+    drawn: list[str] = []
     while name:
-        drawn += renderers.SEAM.files(name)
+        drawn += map(str, renderers.SEAM.files(name))
         name = renderers.plainer(name)
-    files = dict.fromkeys([*sorted(own), *drawn])
-    return _hash(tuple((path, stat.st_size, stat.st_mtime_ns) for path in files for stat in (path.stat(),)))
+    files = tuple(dict.fromkeys([*sorted(own), *drawn]))
+    return _hash(tuple((p, s.st_size, s.st_mtime_ns) for p, s in zip(files, map(os.stat, files), strict=True)))
 
 
 @lru_cache(maxsize=32)
-def _hash(files: tuple[tuple[Path, int, int], ...]) -> str:
-    """One hash over names and contents, read anew when a file's size or time changes: each step of a run asks for it."""
+def _hash(files: tuple[tuple[str, int, int], ...]) -> str:
+    """One hash over names and contents, read anew when a file's size or time changes."""
     digest = hashlib.sha256()
-    for path, *_ in files:
+    for name, *_ in files:
+        path = Path(name)
         digest.update(path.name.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()

@@ -211,7 +211,7 @@ class State:
 
     def pictures(self, stage: PassName) -> str:
         """Identity of the pictures that a pass would make now; empty where the renderer is not there."""
-        return pictures_of.identity(self.run, stage) if self.film else ""
+        return pictures_of.identity(self.run, stage, self.film.sha256) if self.film else ""
 
     @cached_property
     def scan(self) -> Kept[ScanReport]:

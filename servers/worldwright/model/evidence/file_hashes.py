@@ -11,7 +11,7 @@ from pathlib import Path
 
 from worldkit.files import write_json
 
-Named = tuple[tuple[Path, str], ...]
+Named = tuple[tuple[str | Path, str], ...]
 """Files, each with the name that counts for it."""
 
 
@@ -34,12 +34,13 @@ def below(root: Path, patterns: Iterable[str] = ("*",)) -> Named:
         fitting = {name for pattern in wanted for name in fnmatch.filter(names, pattern)} - {"thumbnail.png"}
         found += [f"{folder}{os.sep}{name}" for name in fitting]
     plain = sorted(filter(os.path.isfile, found), key=lambda path: path.replace(os.sep, "\0"))
-    return tuple((Path(path), path[len(start) + 1 :].replace(os.sep, "/")) for path in plain)
+    return tuple((path, path[len(start) + 1 :].replace(os.sep, "/")) for path in plain)
 
 
 def sha256_of(name: str, files: Named) -> str:
     """SHA-256 over names and contents, kept in the cache under `name`."""
-    stats = [(str(p), s.st_size, s.st_mtime_ns) for p, _ in files for s in (p.stat(),)]
+    paths = [os.fspath(path) for path, _ in files]
+    stats = [(path, stat.st_size, stat.st_mtime_ns) for path, stat in zip(paths, map(os.stat, paths), strict=True)]
     stamp = hashlib.sha256(json.dumps([sys.version, stats]).encode()).hexdigest()
     kept = cache_folder() / f"hash-{name}.json"
     try:
@@ -50,7 +51,7 @@ def sha256_of(name: str, files: Named) -> str:
         pass
     digest = hashlib.sha256()
     for path, relative in files:
-        digest.update(relative.encode() + b"\0" + hashlib.sha256(path.read_bytes()).digest())
+        digest.update(relative.encode() + b"\0" + hashlib.sha256(Path(path).read_bytes()).digest())
     with contextlib.suppress(OSError):  # a read-only home costs time, not correctness
         write_json(kept, {"stamp": stamp, "sha256": digest.hexdigest()})
     return digest.hexdigest()

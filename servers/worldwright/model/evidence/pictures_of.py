@@ -19,15 +19,21 @@ AUTHORED: tuple[PassName, ...] = ("video", "final")
 """The passes that draw the author's film."""
 
 
-def identity(run: Run, stage: PassName) -> str:
+def identity(run: Run, stage: PassName, film: str = "") -> str:
     """SHA-256 of everything but the recording that the pictures of a pass depend on; empty for those without pictures.
+
+    Args:
+        run: the run folder.
+        stage: which pass.
+        film: the identity of the wanted renderer's films, from one who has asked for it just now; asked for when empty.
 
     Raises:
         NotFoundError: there is no such renderer as `WORLDKIT_RENDERER` names.
     """
     if stage in ("bundle", "physics"):
         return ""
-    drawn = environment.film(FINAL if stage == "final" else "").sha256
+    known = film if stage != "final" else ""
+    drawn = known or environment.film(FINAL if stage == "final" else "").sha256
     authored = author_sha256(run) if stage in AUTHORED else ""
     return hashlib.sha256(f"{drawn}\n{authored}".encode()).hexdigest() if authored else drawn
 
