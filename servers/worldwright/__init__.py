@@ -1,16 +1,14 @@
 """Worldwright: a sentence in, a physically grounded, executable and re-provable world out."""
 
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .loaded import World, Worlds
+from typing import Any
 
 __version__ = "0.1.0"
 
 
-def load(name: "Path | str") -> "World | Worlds":
-    """A run's arrays, model and frames, or a campaign's table and worlds; see `worldwright.loaded`.
+def load(name: "Path | str") -> Any:
+    """A run's arrays, model and frames (`loaded.World`), or a campaign's table and worlds (`loaded.Worlds`).
 
     Args:
         name: the folder, or its name under runs/ or examples/.
@@ -18,6 +16,5 @@ def load(name: "Path | str") -> "World | Worlds":
     Raises:
         NotFoundError: there is no such run or campaign; those that are there are named.
     """
-    from .loaded import load as load_one
-
-    return load_one(name)
+    # by its name: what it imports asks for the version
+    return import_module(".loaded", __name__).load(name)
