@@ -1,16 +1,12 @@
 """Worldwright: a sentence in, a physically grounded, executable and re-provable world out."""
 
-from pathlib import Path
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .loaded import World, Worlds
+from typing import Any
 
 __version__ = "0.1.0"
 
 
-def load(name: "Path | str") -> "World | Worlds":
-    """A run's arrays, model and frames, or a campaign's table and worlds; see `worldwright.loaded`.
+def load(name: Any) -> Any:
+    """A run's arrays, model and frames (`loaded.World`), or a campaign's table and worlds (`loaded.Worlds`).
 
     Args:
         name: the folder, or its name under runs/ or examples/.
@@ -18,6 +14,6 @@ def load(name: "Path | str") -> "World | Worlds":
     Raises:
         NotFoundError: there is no such run or campaign; those that are there are named.
     """
-    from .loaded import load as load_one
+    from importlib import import_module  # everything stands on this package, so it names nothing that stands on it
 
-    return load_one(name)
+    return import_module("worldwright.loaded").load(name)

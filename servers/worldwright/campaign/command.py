@@ -55,13 +55,13 @@ def run(
     """Run a campaign, or go on with it; it prints how far it is, and ends with the table and the page."""
 
     def work() -> "Standing | None":
-        from . import beginning
+        from . import setting_out
 
-        campaign = beginning.limited(beginning.checked(file), workers, by, address)
+        campaign = setting_out.limited(setting_out.checked(file), workers, by, address)
         if count:
-            click.echo("\n".join(beginning.shown(campaign)))
+            click.echo("\n".join(setting_out.shown(campaign)))
             return None
-        store = beginning.begun(campaign, file, folder, approve)
+        store = setting_out.begun(campaign, file, folder, approve)
         return _conducted(store)
 
     _end(report_errors(work, style), style)
@@ -80,13 +80,13 @@ def resume(
     """Go on with what is left of a campaign."""
 
     def work() -> "Standing":
-        from . import beginning, conducting
+        from . import conducting, setting_out
         from .campaign_store import Store
 
         store = Store.find(campaign)
         if again:
             click.echo(f"{conducting.forget(store, again)} worlds are begun once more", err=True)
-        return _conducted(beginning.changed(store, workers, by, address))
+        return _conducted(setting_out.changed(store, workers, by, address))
 
     _end(report_errors(work, style), style)
 
@@ -112,10 +112,10 @@ def cancel(campaign: str) -> None:
     """Stop a campaign: what is under way ends now, what is done stays, and `resume` goes on."""
 
     def work() -> str:
-        from . import beginning
+        from . import setting_out
         from .campaign_store import Store
 
-        return beginning.cancelled(Store.find(campaign))
+        return setting_out.cancelled(Store.find(campaign))
 
     click.echo(report_errors(work))
 
