@@ -137,9 +137,14 @@ def report(campaign: str) -> None:
 
 def _conducted(store: "Store") -> "Standing":
     """Drive a campaign with a bar on a terminal and lines elsewhere; the table and the page are written at its end."""
+    import signal
     import time
 
     from . import conducting, wall
+
+    signal.signal(
+        signal.SIGTERM, lambda *_: sys.exit(143)
+    )  # as Ctrl-C: what is under way is ended, and not counted as begun
 
     told = [0.0]
     bar = sys.stderr.isatty()
@@ -153,9 +158,12 @@ def _conducted(store: "Store") -> "Standing":
             rate = more[0].strip() if now.rate_per_minute is not None else ""
             click.echo(f"\r\033[K{head} {rate}" if bar else f"{head} {rate}", err=True, nl=not bar)
 
+    # Ended politely is as Ctrl-C: what is under way is ended, and does not count as begun.
+    before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         standing = conducting.conduct(store, say=lambda said: click.echo(said, err=True), watch=watch)
     finally:
+        signal.signal(signal.SIGTERM, before)
         if bar:
             click.echo(err=True)
     for path in wall.write(store):
