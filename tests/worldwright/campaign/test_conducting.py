@@ -56,7 +56,7 @@ def test_a_bad_world_and_a_dying_worker_are_rows_among_the_others(begun):
 
 def test_a_world_without_end_is_given_up(begun, monkeypatch):
     monkeypatch.setattr(conducting, "GRACE_S", 0.0)
-    store = begun([SLEEPS, 1], per_world={"seconds": 3})
+    store = begun([SLEEPS, 1], per_world={"seconds": 5})
     end = conducting.conduct(store, stub_worlds.do)
     assert end.outcomes == {"gave_up": 1, "held": 1} and end.causes == {"over_time": 1}
 
