@@ -52,6 +52,7 @@ ELSEWHERE = {
     "WORLDWRIGHT_CONFORMANCE": "the protocol's own judges: make test-conformance (brings them from npm)",
     "WORLDWRIGHT_HARNESSES": "the real Claude Code, Codex and OpenCode: make test-harness (brings them from npm)",
     "WORLDWRIGHT_SEMANTIC": "torch and LanceDB: make test-semantic (installs the `semantic` extra)",
+    "WORLDWRIGHT_RAY": "campaigns on Ray itself: make test-ray (installs the `cluster` extra)",
     "WORLDWRIGHT_KILLS": "kill -9 at a hundred moments instead of a few: make test-faults",
     "WORLDWRIGHT_TRICKS": "every trick to get a false claim stamped instead of a dozen: make test-tricks",
 }

@@ -46,7 +46,10 @@ SERVERS = {
 }
 
 
-LENT = {"stage": "worldwright.rehearsing", "retrieve": "worldwright.adding_assets"}
+LENT = {
+    "stage": ("worldwright.rehearsing", "worldwright.campaign.tools"),
+    "retrieve": ("worldwright.adding_assets",),
+}
 """Modules with more tools of a server: such as need servers that stand on it, and which it may therefore not import."""
 BEAT_S = 10.0
 """A call is silent for at most twice so long, s: a client that counts its patience anew at each word waits 30 s."""
@@ -54,8 +57,8 @@ BEAT_S = 10.0
 
 def tools(server: str) -> tuple[Callable[..., Any], ...]:
     """The public functions of a server, with those that it is lent, imported when asked for."""
-    own: tuple[Callable[..., Any], ...] = importlib.import_module(f"worldwright.{server}.tools").TOOLS
-    return (*own, *importlib.import_module(LENT[server]).TOOLS) if server in LENT else own
+    modules = (f"worldwright.{server}.tools", *LENT.get(server, ()))
+    return tuple(tool for module in modules for tool in importlib.import_module(module).TOOLS)
 
 
 def hints(function: Callable[..., Any]) -> dict[str, Any]:

@@ -35,6 +35,8 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
     (planned / "plan.md").write_text((copy / "plan.md").read_text(encoding="utf-8") + "\n", encoding="utf-8")
     (copy / "pebble.py").write_text("from worldkit import sculpt\n\npebble = sculpt.sphere(0.05)\n", encoding="utf-8")
     (copy / "block.obj").write_text(BLOCK, encoding="utf-8")
+    (planned / "sweep.yaml").write_text(SWEEP, encoding="utf-8")
+    campaign = str(planned / "campaign")
     return {
         "retrieve": {
             "search": {"question": "how does restitution follow from solref", "k": 3},
@@ -72,6 +74,11 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "log": {"run": run},
             "cancel": {"run": run},
             "rehearse": {"run": str(planned), "timeout_s": 1},
+            "campaign_start": {"file": str(planned / "sweep.yaml"), "folder": campaign},
+            "campaign_wait": {"campaign": campaign, "timeout_s": 20},
+            "campaign_status": {"campaign": campaign},
+            "campaign_cancel": {"campaign": campaign},
+            "campaign_results": {"campaign": campaign},
         },
         "scan": {
             "scan": {"run": run},
@@ -97,6 +104,14 @@ BLOCK = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 
     f"f {row}\n" for row in ("1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4")
 )
 """A cube as a mesh file."""
+SWEEP = """\
+plan: plan.md
+hands: processes
+workers: 1
+report: false
+sweep: {fields: {simulation_parameters.masses.ball: {values: [-1]}}}
+"""
+"""A campaign of one world, which the plan's check refuses."""
 
 
 def serve(server: str) -> StdioServerParameters:

@@ -9,8 +9,10 @@
 | `world_row` | what is handed back of a world: one row |
 | `one_world` | a world from its seed to its row, by the walk that `worldwright go` takes |
 | `worker_processes`, `on_ray` | who does the work: our own processes, or Ray's tasks |
+| `setting_out` | a file checked against its plans before a folder is made |
 | `conducting` | the driver: hands out worlds, keeps to budgets, outlives a worker |
 | `campaign_table`, `wall` | Parquet, CSV, and the page |
+| `tools` | the same for an agent, lent to `stage` |
 
 A world is addressed by the hash of what it is made of, so it is looked for before it is paid for; a row on disk is the only
 proof that it is done. Whoever is killed in between (driver, worker, machine) leaves what was proven where it is found again.

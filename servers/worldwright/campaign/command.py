@@ -55,13 +55,13 @@ def run(
     """Run a campaign, or go on with it; it prints how far it is, and ends with the table and the page."""
 
     def work() -> "Standing | None":
-        from . import starting
+        from . import setting_out
 
-        campaign = starting.limited(starting.checked(file), workers, by, address)
+        campaign = setting_out.limited(setting_out.checked(file), workers, by, address)
         if count:
-            click.echo("\n".join(starting.shown(campaign)))
+            click.echo("\n".join(setting_out.shown(campaign)))
             return None
-        store = starting.begun(campaign, file, folder, approve)
+        store = setting_out.begun(campaign, file, folder, approve)
         return _conducted(store)
 
     _end(report_errors(work, style), style)
@@ -80,13 +80,13 @@ def resume(
     """Go on with what is left of a campaign."""
 
     def work() -> "Standing":
-        from . import conducting, starting
+        from . import conducting, setting_out
         from .campaign_store import Store
 
         store = Store.find(campaign)
         if again:
             click.echo(f"{conducting.forget(store, again)} worlds are begun once more", err=True)
-        return _conducted(starting.changed(store, workers, by, address))
+        return _conducted(setting_out.changed(store, workers, by, address))
 
     _end(report_errors(work, style), style)
 
@@ -112,10 +112,10 @@ def cancel(campaign: str) -> None:
     """Stop a campaign: what is under way ends now, what is done stays, and `resume` goes on."""
 
     def work() -> str:
-        from . import starting
+        from . import setting_out
         from .campaign_store import Store
 
-        return starting.cancelled(Store.find(campaign))
+        return setting_out.cancelled(Store.find(campaign))
 
     click.echo(report_errors(work))
 
@@ -137,9 +137,14 @@ def report(campaign: str) -> None:
 
 def _conducted(store: "Store") -> "Standing":
     """Drive a campaign with a bar on a terminal and lines elsewhere; the table and the page are written at its end."""
+    import signal
     import time
 
     from . import conducting, wall
+
+    signal.signal(
+        signal.SIGTERM, lambda *_: sys.exit(143)
+    )  # as Ctrl-C: what is under way is ended, and not counted as begun
 
     told = [0.0]
     bar = sys.stderr.isatty()
@@ -153,9 +158,12 @@ def _conducted(store: "Store") -> "Standing":
             rate = more[0].strip() if now.rate_per_minute is not None else ""
             click.echo(f"\r\033[K{head} {rate}" if bar else f"{head} {rate}", err=True, nl=not bar)
 
+    # Ended politely is as Ctrl-C: what is under way is ended, and does not count as begun.
+    before = signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
         standing = conducting.conduct(store, say=lambda said: click.echo(said, err=True), watch=watch)
     finally:
+        signal.signal(signal.SIGTERM, before)
         if bar:
             click.echo(err=True)
     for path in wall.write(store):

@@ -17,6 +17,8 @@ from ..model.frozen import Frozen
 from .one_world import Task
 
 Work = Callable[[Task], Any]
+BEGUN = "begun"
+"""What a worker says when it takes a world up; afterwards, its address."""
 
 
 class Ended(Frozen):
@@ -75,7 +77,7 @@ class Processes:
     def take(self, task: Task) -> None:
         """See `Hands`."""
         idle = next((worker for worker in self._workers if worker.at is None), None) or self._new()
-        idle.at, idle.deadline = task, time.monotonic() + self._seconds
+        idle.at, idle.deadline = task, float("inf")  # its seconds begin when the worker does: a new one starts first
         with contextlib.suppress(OSError):  # it died while it was idle: `ended` finds it
             idle.pipe.send(task)
 
@@ -91,11 +93,14 @@ class Processes:
             task = worker.at
             assert task is not None
             if worker.pipe in heard or worker.process.sentinel in heard:
-                answered = False
+                said = None
                 with contextlib.suppress(EOFError, OSError):
-                    answered = worker.pipe.poll() and worker.pipe.recv() == task.world
+                    said = worker.pipe.recv() if worker.pipe.poll() else None
+                if said == BEGUN:
+                    worker.deadline = time.monotonic() + self._seconds
+                    continue
                 worker.at = None
-                if answered:
+                if said == task.world:
                     yield Ended(task=task)
                 else:
                     worker.process.join()
@@ -150,6 +155,7 @@ def _serve(pipe: Connection, work: Work) -> None:
     with contextlib.suppress(EOFError, OSError):
         while True:
             task = pipe.recv()
+            pipe.send(BEGUN)
             work(task)
             pipe.send(task.world)
 

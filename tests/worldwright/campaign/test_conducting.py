@@ -11,7 +11,7 @@ import pytest
 
 import stub_worlds
 from stub_worlds import FAILS, KILLS, LEAVES, MASS, SLEEPS, paid
-from worldwright.campaign import conducting, starting
+from worldwright.campaign import conducting, setting_out
 from worldwright.campaign.campaign_file import CampaignError
 from worldwright.campaign.campaign_store import Store
 from worldwright.campaign.one_world import task
@@ -27,7 +27,7 @@ def begun(tmp_path, small_plan):
         said = {"plan": "plan.md", "hands": "processes", "workers": 2, "report": False, **words}
         said["sweep"] = {"fields": {MASS: {"values": list(masses)}}}
         file.write_text(json.dumps(said))
-        return starting.begun(starting.checked(file), file, tmp_path / "campaign", approved=False)
+        return setting_out.begun(setting_out.checked(file), file, tmp_path / "campaign", approved=False)
 
     return begin
 
@@ -56,7 +56,7 @@ def test_a_bad_world_and_a_dying_worker_are_rows_among_the_others(begun):
 
 def test_a_world_without_end_is_given_up(begun, monkeypatch):
     monkeypatch.setattr(conducting, "GRACE_S", 0.0)
-    store = begun([SLEEPS, 1], per_world={"seconds": 3})
+    store = begun([SLEEPS, 1], per_world={"seconds": 5})
     end = conducting.conduct(store, stub_worlds.do)
     assert end.outcomes == {"gave_up": 1, "held": 1} and end.causes == {"over_time": 1}
 
@@ -91,13 +91,13 @@ def test_a_cancelled_campaign_stops_and_goes_on(begun):
     until(lambda: len(list(store.rows())) == 3)
     with pytest.raises(CampaignError, match="at work already"):
         conducting.conduct(store, stub_worlds.do)
-    assert starting.cancelled(store).startswith("cancelled")
+    assert setting_out.cancelled(store).startswith("cancelled")
     driver.join()
     standing = conducting.standing(store)
     assert standing.stopped == "cancelled" and standing.done == 3 and not standing.ok
     sleeping = task(store, store.begun, 0)
     assert store.begun_before(sleeping.world) == 0, "what was broken off from outside was not its fault"
-    assert starting.cancelled(store) == "it is not at work"
+    assert setting_out.cancelled(store) == "it is not at work"
 
 
 def test_a_budget_ends_the_handing_out_and_more_of_it_goes_on(begun):

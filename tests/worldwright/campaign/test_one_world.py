@@ -8,7 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 import worldwright
-from worldwright.campaign import one_world, starting
+from worldwright.campaign import one_world, setting_out
 from worldwright.campaign.campaign_store import Store
 from worldwright.campaign.one_world import task
 from worldwright.cli import main
@@ -23,7 +23,7 @@ def started(folder, plan, **words) -> Store:
     (folder / "plan.md").write_text(plan, encoding="utf-8")
     file = folder / "falls.yaml"
     file.write_text(json.dumps({"plan": "plan.md", "report": False, **words}))
-    return starting.begun(starting.checked(file), file, folder / "campaign", approved=False)
+    return setting_out.begun(setting_out.checked(file), file, folder / "campaign", approved=False)
 
 
 @pytest.fixture(scope="module")
@@ -113,7 +113,7 @@ def test_bad_plans_of_many_are_their_own_rows(tmp_path, short):
     file = tmp_path / "many.yaml"
     plans = ["missing.md", "none.md", "empty", {"plan": "empty", "prompt": "x" * 1_000_000}]
     file.write_text(json.dumps({"plans": plans, "report": False}))
-    store = starting.begun(starting.checked(file), file, tmp_path / "campaign", approved=False)
+    store = setting_out.begun(setting_out.checked(file), file, tmp_path / "campaign", approved=False)
     rows = [one_world.perform(task(store, store.begun, number)) for number in range(4)]
     assert [row.outcome for row in rows] == ["failed"] * 4
     assert [row.cause.kind for row in rows] == ["not_found", "WP002", "empty_prompt", "long_prompt"]

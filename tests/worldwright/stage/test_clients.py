@@ -84,7 +84,9 @@ def test_http_lists_and_runs_and_tells_its_progress(http, make):
             return names, ended, wrong
 
     names, ended, wrong = anyio.run(talk)
-    assert names == {"draft", "start", "wait", "status", "cancel", "look", "frames", "sheet", "log", "rehearse"}
+    campaigns = {f"campaign_{verb}" for verb in ("start", "wait", "status", "cancel", "results")}
+    own = {"draft", "start", "wait", "status", "cancel", "look", "frames", "sheet", "log"}
+    assert names == own | campaigns | {"rehearse"}
     assert ended["state"] == "succeeded"
     assert wrong.is_error
     assert json.loads(wrong.content[0].text)["next"]
