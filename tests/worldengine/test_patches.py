@@ -57,6 +57,6 @@ def test_a_patch_melts_into_the_plate_and_touches_nothing_else():
 
 def test_what_is_little_is_traced_with_more_samples_but_never_with_more_than_its_plate():
     whole = Shutter.of(6, 1)
-    for share, samples in ((0.6, 6), (0.25, 6), (0.12, 12), (0.05, 18), (0.0, 18)):
+    for share, samples in ((0.6, 6), (0.11, 6), (0.05, 12), (0.03, 18), (0.0, 18)):
         assert whole.finer(share, 18).samples == samples, share
     assert Shutter.of(54, 2).finer(0.01, 54) == Shutter.of(54, 2)

@@ -150,6 +150,7 @@ def test_plates_of_another_shot_make_room_and_what_does_not_fit_is_not_begun():
         shelf.put(name, one)
     shelf.keep({"b", "c"})
     assert shelf.find("a") is None and shelf.find("b") is one
+    assert [plates.samples(each) for each in (2, 6, 18, 54)] == [6, 18, 18, 54]
     hd, soft = 1280 * 720, 6 << 20
     assert plates.fitting(hd, 0, 8) > 2
     assert plates.fitting(hd, soft, 64) == 1, "where skins were, at each of so many moments"

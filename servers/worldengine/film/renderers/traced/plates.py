@@ -45,8 +45,8 @@ MOST_MOVED = 300
 """Where more geoms moved, as of a heap of grains, a picture is traced as a whole: their outlines take too long."""
 ROOM_BYTES = 1 << 30
 """Memory for plates and for what is looked at coarsely."""
-FINER = 18
-"""Samples a pixel of a plate, at least: it is traced once for a shot, and stands in all of its pictures."""
+TIMES, FINER = 3, 18
+"""A plate takes so many times the samples of its pictures, up to so many a pixel: it is traced once, and stands in all of them."""
 PIXEL_BYTES = 64
 """Of a plate, for each pixel: light, colours, normals, places, the share of things, and the light without noise."""
 
@@ -96,6 +96,11 @@ class Plate(NamedTuple):
 def fitting(pixels: int, sight: int, moments: int) -> int:
     """How many plates of so many pixels and moments have room beside those of a picture; `sight` is the size of a moment's."""
     return max(0, ROOM_BYTES - moments * sight) // (PIXEL_BYTES * pixels + moments * sight)
+
+
+def samples(each: float) -> float:
+    """Samples a pixel of a plate, by those of the pictures that are drawn over it."""
+    return max(each, min(TIMES * each, FINER))
 
 
 class Shelf:

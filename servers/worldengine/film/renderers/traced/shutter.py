@@ -18,7 +18,7 @@ SAMPLES: dict[str, float] = {"still": 32, "video": 3}
 DRAFT_GUIDE_SAMPLES, GUIDE_SAMPLES, FINE_GUIDE_SAMPLES = 2, 4, 16
 FINE, FINEST = 18, 54
 """From so many samples a pixel on the denoiser is guided better and takes its time; and from so many, no light is cut off."""
-AFFORDED = 0.25
+AFFORDED = 0.1
 """What is traced over a plate may take this share of what the whole picture would, so that little is traced with more samples."""
 DRAFT_SIDE = 2
 """Of a draft, light is traced for every second pixel of every second row."""

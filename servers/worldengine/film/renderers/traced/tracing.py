@@ -256,7 +256,7 @@ class Tracing:
         They are traced more finely, and so is what differs where that is little.
         """
         shutter = Shutter.of(quality, len(moments))
-        finer = Shutter.of(max(shutter.samples, plates.FINER), len(moments))
+        finer = Shutter.of(plates.samples(shutter.samples), len(moments))
         first = moments[0]()  # which stands only until another moment is asked for
         view, outlook, drawn, painted = self._seen(first, camera)
         self._placed(first, view, drawn)
@@ -289,7 +289,7 @@ class Tracing:
         held = (*self.figures.poses(), *self._strands.points.values())
         sight = sum(part.nbytes for part in held) + 12 * pixels // plates.SIDE**2
         fitting = plates.fitting(pixels, sight, shutter.moments) if still else 0
-        return fitting, max(shutter.samples, plates.FINER) / shutter.samples
+        return fitting, plates.samples(shutter.samples) / shutter.samples
 
     def _key(self, view: View, drawn: frozenset[Face]) -> Any:
         """What has to be equal in two pictures for the light of the one to be that of the other."""
