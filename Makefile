@@ -93,11 +93,11 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,gym,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,gym,mcap,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev
-	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,semantic,gym,dev]'
+	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,semantic,gym,mcap,dev]'
 	@touch $@
 
 clean: ## Remove the environment and caches; runs are kept

@@ -45,7 +45,7 @@ COMMANDS = {
         "Hand in a film of a run that you drew yourself: shown as its author's, never evidence.",
     ),
     "report": ("worldwright.report.command", "Write a run's self-contained report.html."),
-    "export": ("worldwright.exported", "Write the drawn world with its recorded motion as glTF or USD."),
+    "export": ("worldwright.exported", "Write the recorded motion as glTF, USD, or MCAP in ROS 2's messages."),
     "gc": (
         "worldwright.freeing",
         "Free what can be made again of runs: pictures, recordings and jobs of earlier programs.",

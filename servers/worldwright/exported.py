@@ -1,4 +1,4 @@
-"""`worldwright export RUN --format gltf|usd`: the drawn world with its recorded motion, for other programs and the report."""
+"""`worldwright export RUN --format gltf|usd|mcap`: the recorded motion for other programs, drawn or as messages, and for the report."""
 
 import json
 import struct
@@ -12,16 +12,24 @@ from worldkit.files import write_atomic
 from .cli import report_errors
 from .model.evidence.run import Run
 
-FORMATS = {"gltf": "scene.glb", "usd": "scene.usda"}
+FORMATS = {"gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap"}
 RECORDING = "recording_sha256"
 
 
-def write(run: Run, kind: str = "gltf", path: Path | None = None) -> Path:
-    """Write a run's scene, beside its report unless a `path` is given; returns where.
+RATE_HZ = 25.0
+
+
+def write(
+    run: Run, kind: str = "gltf", path: Path | None = None, *, rate_hz: float = RATE_HZ, camera: str = ""
+) -> Path:
+    """Write a run's scene, or its recording as messages, beside its report unless a `path` is given; returns where.
+
+    `rate_hz` and `camera` (whose film is told, too) are for `mcap`; see `ends.mcap_file`.
 
     Raises:
         GateError: nothing is recorded of this program and plan.
         JobError: the engine could not write it.
+        NotFoundError: the extra `mcap` is not installed, or there is no such film.
     """
     from .model.evidence import environment
     from .stage.one_frame import given_words, recorded
@@ -29,9 +37,19 @@ def write(run: Run, kind: str = "gltf", path: Path | None = None) -> Path:
 
     physics = recorded(run, run.evidence_key(environment.current().sha256()))
     name = FORMATS[kind]
+    target = path or run.folder / name
+    if kind == "mcap":
+        from worldengine.recording import stored
+
+        from .ends import mcap_file
+
+        film = physics.parent / "video" / f"{camera}.mp4" if camera else None
+        mcap_file.write(
+            stored.open(physics / "trajectory"), target, rate_hz=rate_hz, plan=run.source.read_bytes(), film=film
+        )
+        return target
     words = ["scene", *given_words(physics), "--format", kind]
     found = engine(words, (physics,), (name,), again=f"worldwright export RUN --format {kind}")
-    target = path or run.folder / name
     write_atomic(target, found[name])
     return target
 
@@ -58,9 +76,17 @@ def scene(run: Run) -> bytes | None:
 @click.argument("run")
 @click.option("--format", "kind", type=click.Choice(tuple(FORMATS)), default="gltf", show_default=True)
 @click.option("--out", type=click.Path(path_type=Path), help="The file; beside the report without it.")
-def command(run: str, kind: str, out: Path | None) -> None:
-    """Write the drawn world with its recorded motion: glTF for viewers and browsers, USD for tools of film and robots.
+@click.option(
+    "--rate",
+    type=click.FloatRange(min=0),
+    default=RATE_HZ,
+    show_default=True,
+    help="Of mcap: rows a simulated second; 0: all.",
+)
+@click.option("--pictures", default="", metavar="CAMERA", help="Of mcap: the film of this camera of the plan, too.")
+def command(run: str, kind: str, out: Path | None, rate: float, pictures: str) -> None:
+    """Write the recorded motion: the drawn world as glTF or USD, or as MCAP in ROS 2's messages (the extra `mcap`).
 
     A skin over several bodies is carried out as one rigid piece for each of them.
     """
-    report_errors(lambda: click.echo(str(write(Run.find(run), kind, out))))
+    report_errors(lambda: click.echo(str(write(Run.find(run), kind, out, rate_hz=rate, camera=pictures))))

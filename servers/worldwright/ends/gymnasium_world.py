@@ -78,7 +78,7 @@ class World(gymnasium.Env):
         self.judge: Judge | None = None
         self._episode: Episode | None = None
         if reward:
-            rows = self.actions * self.stepped.every + 1
+            rows = self.actions * self.stepped.every // self.stepped.row_every + 2
             meta = {**describe(model, self.world.given.visual_only), "movers": list(self.world.given.movers)}
             self._episode = Episode(model, self.stepped.data, meta, rows)
             self.judge = Judge.of(self.world.plan, self.world.given.duration, self._as_accepted(recorded))
@@ -127,7 +127,7 @@ class World(gymnasium.Env):
         assert isinstance(space, gymnasium.spaces.Box)
         self.stepped.act(np.clip(given, space.low, space.high), self._episode)
         self._done += 1
-        sick = not np.isfinite(self.stepped.data.qacc).all() or bool(self.stepped.data.warning.number[4:7].any())
+        sick = self.stepped.sick
         truncated = self._done >= self.actions
         reward, broken = 0.0, False
         if self._episode is not None and self.judge is not None and not sick:

@@ -27,6 +27,7 @@ class Stepped:
         indices: of `ctrl`, the declared controls: an action has so many numbers.
         others: how many entries and parameters beside them act as they were recorded.
         every: steps from one action to the next.
+        row_every: steps from one row of an episode to the next, as the recording of so long a world has them.
 
     Raises:
         GateError: an author's law or a solver beside the engine belongs to the world.
@@ -39,7 +40,7 @@ class Stepped:
 
         from worldengine.inputs.ports import Ports
         from worldengine.inputs.replies import Answers
-        from worldkit.world import start
+        from worldkit.world import record_every, start
 
         if world.given.laws or world.given.solvers:
             rows: tuple[Any, ...] = (*world.given.laws, *world.given.solvers)
@@ -51,7 +52,7 @@ class Stepped:
             )
         self.model = copy.copy(world.model)
         self.data = start(self.model)
-        self.every = world.given.control_every
+        self.every, self.row_every = world.given.control_every, record_every(self.model, world.steps)
         self._world, self._as_built = world, copy.copy(world.model)
         self._ports = Ports(self.model, world.given.inputs if world.given.answers else ())
         self.indices = tuple(self._ports.entries.get("ctrl", ()))
@@ -99,14 +100,15 @@ class Stepped:
         for number in range(self.every):
             if number == 0:
                 self._write(action)
-            if episode is not None:
-                episode.before()
+            kept = episode if self.step_number % self.row_every == 0 else None
+            if kept is not None:
+                kept.before()
             if self._rk4:
                 mujoco.mj_forwardSkip(self.model, self.data, int(mujoco.mjtStage.mjSTAGE_VEL), 0)
             else:
                 mujoco.mj_step2(self.model, self.data)
-            if episode is not None:
-                episode.after()
+            if kept is not None:
+                kept.after()
             if self._rk4:
                 mujoco.mj_step(self.model, self.data)
             self.step_number += 1
@@ -120,6 +122,14 @@ class Stepped:
         if episode is not None:
             episode.before()
             episode.after()
+
+    @property
+    def sick(self) -> bool:
+        """Whether the engine gave up on a number since the episode began: a position, velocity or acceleration."""
+        import mujoco
+
+        kinds = ("BADQPOS", "BADQVEL", "BADQACC")
+        return any(self.data.warning.number[int(getattr(mujoco.mjtWarning, f"mjWARN_{kind}"))] for kind in kinds)
 
     def _write(self, action: np.ndarray) -> None:
         if self._recorded is None:

@@ -68,6 +68,9 @@ NOTHING = Given()
 """For a process that makes every shape anew, and whose shapes nobody else is given."""
 
 
+SCULPTING = (b"sculpt", b"vehicles")
+
+
 def given(files: Mapping[str, bytes]) -> Given:
     """The kept shapes of a process that runs these files, by path relative to the run folder.
 
@@ -83,8 +86,8 @@ def given(files: Mapping[str, bytes]) -> Given:
 
 
 def _sculpts(files: Mapping[str, bytes]) -> bool:
-    """Whether one of these may import `worldkit.sculpt`: none that does lacks the word."""
-    return any(b"sculpt" in content for name, content in files.items() if name.endswith(".py"))
+    """Whether one of these may import `worldkit.sculpt`, or what draws by it: none that does lacks the word."""
+    return any(word in content for name, content in files.items() if name.endswith(".py") for word in SCULPTING)
 
 
 def of_files(program: Path, paths: Iterable[Path]) -> Given:

@@ -68,3 +68,14 @@ def test_a_program_that_answers_nothing_leaves_no_action(tmp_path):
     silent = dataclasses.replace(world, given=dataclasses.replace(world.given, control=""))
     stepped = Stepped(silent)
     assert stepped.indices == () and stepped.others == 0
+
+
+def test_a_world_that_blows_up_is_sick_until_it_begins_anew(tmp_path):
+    stepped = Stepped(pushed(tmp_path)[0])
+    stepped.begin()
+    stepped.data.qvel[0] = 1e12
+    stepped.look()
+    stepped.act(np.zeros(1))
+    assert stepped.sick
+    stepped.begin()
+    assert not stepped.sick

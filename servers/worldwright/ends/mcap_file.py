@@ -1,0 +1,137 @@
+"""A recording as an MCAP file in ROS 2's messages and encoding (CDR), for Foxglove, `ros2 bag` and whatever reads bags (extra `mcap`).
+
+    /clock                rosgraph_msgs/Clock
+    /tf, /tf_static       tf2_msgs/TFMessage: every body in `world`; those that stand fast once
+    /joint_states         sensor_msgs/JointState of hinges and slides
+    /odom/BODY            nav_msgs/Odometry of each loose body
+    /control/NAME         std_msgs/Float64: what the control was given
+    /camera/NAME          sensor_msgs/CompressedImage: a film of a plan's camera, if asked for
+
+Times are simulated, from 0. The plan is attached, and the metadata `worldwright` names the trajectory's hash.
+"""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..model.errors import NotFoundError
+from .ros_messages import Told, definition
+
+if TYPE_CHECKING:
+    from worldengine.recording.stored import Recording
+
+QUALITY = 85
+Row = tuple[int, str, str, dict[str, Any]]
+"""Time, ns; topic; type; message."""
+
+
+def write(
+    recording: "Recording", path: Path, *, rate_hz: float = 25.0, plan: bytes = b"", film: Path | None = None
+) -> int:
+    """Write the file; returns how many messages it holds.
+
+    Args:
+        recording: what was recorded.
+        path: of the file, written whole or not at all.
+        rate_hz: rows a simulated second; 0 tells every recorded row.
+        plan: its text.
+        film: of a plan's camera, whose name is the file's.
+
+    Raises:
+        NotFoundError: the extra is not installed, the rate makes no sense, or the film cannot be read.
+    """
+    import tempfile
+
+    from worldkit.files import write_atomic
+
+    try:
+        from mcap_ros2.writer import Writer
+    except ImportError as cause:
+        raise NotFoundError(
+            "mcap-ros2-support is not installed", place="extra `mcap`", next_move='pip install "worldwright[mcap]"'
+        ) from cause
+    with tempfile.TemporaryFile() as room:
+        writer, schemas, count = Writer(room), {}, 0
+        for ns, topic, kind, message in _in_order(recording, rate_hz, film):
+            if kind not in schemas:
+                schemas[kind] = writer.register_msgdef(kind, definition(kind))
+            writer.write_message(topic, schemas[kind], message, log_time=ns, publish_time=ns, sequence=count)
+            count += 1
+        if plan:
+            writer.add_attachment(0, 0, "plan.md", "text/markdown", plan)
+        told = {"trajectory_sha256": recording.sha256, "simulator": f"mujoco {recording.meta['simulator']['version']}"}
+        writer.add_metadata("worldwright", told)
+        writer.finish()
+        room.seek(0)
+        write_atomic(path, room.read())
+    return count
+
+
+def chosen_rows(recording: "Recording", rate_hz: float) -> list[int]:
+    """The rows nearest to each tick, and the last one; each once."""
+    import numpy as np
+
+    time = recording.time
+    if not (0 <= rate_hz < 1e6):
+        raise NotFoundError(f"{rate_hz:g} rows a second cannot be told", next_move="give a rate from 0 (every row) on")
+    if not rate_hz:
+        return list(range(len(time)))
+    ticks = np.arange(time[0], time[-1] + 0.5 / rate_hz, 1 / rate_hz)
+    after = np.clip(np.searchsorted(time, ticks), 0, len(time) - 1)
+    before = np.maximum(after - 1, 0)
+    nearest = np.where(np.abs(time[before] - ticks) <= np.abs(time[after] - ticks), before, after)
+    return [int(row) for row in np.unique([*nearest, len(time) - 1])]
+
+
+def _in_order(recording: "Recording", rate_hz: float, film: Path | None) -> Iterator[Row]:
+    """All messages in the order of their times."""
+    from heapq import merge
+
+    told = Told(recording)
+    pictures = _pictures(told, film) if film is not None else iter(())
+    return merge(_states(told, chosen_rows(recording, rate_hz)), pictures, key=lambda row: row[0])
+
+
+def _states(told: Told, rows: list[int]) -> Iterator[Row]:
+    if told.still and rows:
+        yield told.ns(rows[0]), "/tf_static", "tf2_msgs/msg/TFMessage", told.transforms(rows[0], told.still)
+    for row in rows:
+        ns = told.ns(row)
+        yield ns, "/clock", "rosgraph_msgs/msg/Clock", told.clock(row)
+        yield ns, "/tf", "tf2_msgs/msg/TFMessage", told.transforms(row, told.moving)
+        if told.joints:
+            yield ns, "/joint_states", "sensor_msgs/msg/JointState", told.joint_state(row)
+        for body in told.loose:
+            yield ns, f"/odom/{topic(told.frames[body])}", "nav_msgs/msg/Odometry", told.odometry(row, body)
+        for control, name in enumerate(told.controls):
+            yield ns, f"/control/{topic(name)}", "std_msgs/msg/Float64", told.control(row, control)
+
+
+def _pictures(told: Told, film: Path) -> Iterator[Row]:
+    """The frames of a film of a plan's camera: frame k shows the world at k / fps."""
+    import cv2
+
+    reader = cv2.VideoCapture(str(film))
+    fps = reader.get(cv2.CAP_PROP_FPS)
+    if not reader.isOpened() or not fps > 0:
+        raise NotFoundError(
+            f"there is no film {film.name} to be read",
+            place=str(film),
+            next_move="worldwright stage start RUN --stage video, or name another camera",
+        )
+    try:
+        number = 0
+        while (read := reader.read())[0]:
+            ns = round(number / fps * 1e9)
+            data = cv2.imencode(".jpg", read[1], [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1].tobytes()
+            name = f"/camera/{topic(film.stem)}"
+            yield ns, name, "sensor_msgs/msg/CompressedImage", told.picture(ns, data, film.stem)
+            number += 1
+    finally:
+        reader.release()
+
+
+def topic(name: str) -> str:
+    """A name as a part of a topic: letters, digits and underscores, not beginning with a digit."""
+    plain = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name)
+    return f"_{plain}" if plain[:1].isdigit() else plain
