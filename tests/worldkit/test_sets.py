@@ -54,17 +54,17 @@ def test_the_same_seed_gives_the_same_set_and_another_another():
 
 
 def test_it_turns_with_the_camera():
-    here, there = (described("park", 1.0, facing_deg=facing)[0] for facing in (-57.0, 90.0))
-    path = [next(t for t in facts["things"] if t["name"] == "path")["pos"] for facts in (here, there)]
-    assert path[0] != path[1] and path[1][1] < 0  # behind, for a camera that looks from +y
+    here, there = (described("street", 1.0, facing_deg=facing)[0] for facing in (-57.0, 90.0))
+    kerb = [next(t for t in facts["things"] if t["name"] == "kerb")["pos"] for facts in (here, there)]
+    assert kerb[0] != kerb[1] and kerb[1][1] < 0  # behind, for a camera that looks from +y
 
 
 def test_a_set_is_turned_by_more_than_once_around_as_by_the_rest():
-    facts = [described("park", 1.0, facing_deg=facing)[0] for facing in (20.0, -700.0, 20.0 + 360 * 1000)]
-    assert facts[0] == facts[1] == facts[2]
+    facts = [described("street", 1.0, facing_deg=facing)[0] for facing in (20.0, -700.0, 20.0 + 360 * 1000, 21.0)]
+    assert facts[0] == facts[1] == facts[2] != facts[3]
     assert sets.Place.of(recorded(1.0), -57.0, 1).facing_deg == -57.0
     with pytest.raises(ProgramError):
-        described("park", 1.0, facing_deg=np.inf)
+        described("street", 1.0, facing_deg=np.inf)
 
 
 def test_an_unknown_set_lists_those_that_there_are():

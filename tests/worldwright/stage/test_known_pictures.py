@@ -22,13 +22,17 @@ from worldkit.filming import follow
 def film(film):
     film.shot(follow("ball"), until=0.3)
 """
-CLOSE = ('if __name__ == "__main__":', '\n_build = build\n\n\ndef build() -> mujoco.MjSpec:\n    """With one more camera."""\n    spec = _build()\n    cameras.add(spec, "close", view="{view}", subjects=("ball",))\n    return spec\n\n\nif __name__ == "__main__":')  # fmt: skip
 
 
 def made(folder: Path, *passes: str) -> list[dict]:
-    """Go through the passes to their end; their summaries, with the folder of each."""
+    """Approve and lint a changed world, and go through its passes to their end; their summaries, with the folder of each."""
     stamp.approve(str(folder), by="tester")
     lint.check_program([folder / "simulation.py"])
+    return filmed(folder, *passes)
+
+
+def filmed(folder: Path, *passes: str) -> list[dict]:
+    """The same of a world that is linted already."""
     found = []
     for name in ("physics", *passes):
         job = stage.start(str(folder), stage=name)
@@ -51,7 +55,7 @@ def patch(path: Path, old: str, new: str) -> None:
 
 def test_a_changed_text_or_threshold_costs_no_frame(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
-    before = made(folder, "stills", "video")
+    before = filmed(folder, "stills", "video")
     patch(folder / "plan.md", "# A dropped ball", "# A ball, told otherwise")
     resolve(folder / "plan.md")
     stills, video = made(folder, "stills", "video")
@@ -65,18 +69,14 @@ def test_a_changed_text_or_threshold_costs_no_frame(reviewed: Path, copy: Copy) 
 
 def test_a_changed_camera_costs_only_its_own_frames(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
-    patch(folder / "simulation.py", CLOSE[0], CLOSE[1].format(view="top_down"))
-    first, _ = made(folder, "stills", "video")
-    patch(
-        folder / "simulation.py",
-        'view="top_down", subjects=("ball",))\n    return',
-        'view="close_up", subjects=("ball",))\n    return',
-    )
+    first, _ = filmed(folder, "stills", "video")
+    side = 'view="side_minus_y", subjects=("ball",)'
+    patch(folder / "simulation.py", side, f"{side}, fovy=25.0")
     stills, video = made(folder, "stills", "video")
-    assert stills["drawn"] == 1 and "close.png" not in stills["taken"]
-    assert len(stills["taken"]) == len(stills["cameras"]) - 1
-    assert video["drawn"] == video["frames"] and "close.mp4" not in video["taken"]
-    assert sha256_file(first["folder"] / "close.png") != sha256_file(stills["folder"] / "close.png")
+    assert stills["drawn"] == 1 and "side.png" not in stills["taken"]
+    assert len(stills["taken"]) == len(stills["cameras"]) - 1 > 0
+    assert video["drawn"] == video["frames"] and "side.mp4" not in video["taken"]
+    assert sha256_file(first["folder"] / "side.png") != sha256_file(stills["folder"] / "side.png")
 
 
 def test_a_changed_look_is_drawn_anew(reviewed: Path, copy: Copy) -> None:
@@ -92,7 +92,7 @@ def test_a_changed_look_is_drawn_anew(reviewed: Path, copy: Copy) -> None:
 
 def test_a_picture_with_an_edited_byte_is_drawn_anew(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
-    (before,) = made(folder, "stills")
+    (before,) = filmed(folder, "stills")
     name = before["cameras"][0]
     picture = before["folder"] / f"{name}.png"
     picture.write_bytes(picture.read_bytes() + b"\0")
@@ -105,11 +105,11 @@ def test_a_picture_with_an_edited_byte_is_drawn_anew(reviewed: Path, copy: Copy)
 def test_a_film_is_drawn_again_only_when_it_says_something_else(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
     (folder / "film.py").write_text(FILM)
-    (video,) = made(folder, "video")
+    (video,) = filmed(folder, "video")
     assert video["drawn"] >= video["film"]["frames"]
     (folder / "film.py").write_text("# A remark.\n" + FILM)
-    (again,) = made(folder, "video")
+    (again,) = filmed(folder, "video")
     assert again["drawn"] == 0 and again["film"] == video["film"] and "film.mp4" in again["taken"]
     (folder / "film.py").write_text(FILM.replace('"ball"', '"ball", azimuth_deg=40'))
-    (other,) = made(folder, "video")
+    (other,) = filmed(folder, "video")
     assert other["drawn"] == other["film"]["frames"] and "film.mp4" not in other["taken"]
