@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from . import standing
+from . import standing_waves
 from .gravity_waves import Airy, ruffled
 from .hull_samples import Hulls
 from .wet_grid import WetGrid
@@ -65,7 +65,7 @@ class Water:
         self.grid, self.level, self.depth, self.liquid, self.hulls, self.gravity = (
             grid, level, depth, liquid, hulls, gravity,
         )  # fmt: skip
-        self.waves = standing.of(grid)
+        self.waves = standing_waves.of(grid)
         self.airy = Airy(gravity, depth, liquid.tension / liquid.density)
         k = self.waves.k
         self._lift, self._pull, self._omega = self.airy.lift(k), self.airy.restoring(k), self.airy.frequency(k)
