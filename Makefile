@@ -7,7 +7,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := .ci/constraints.txt
 PYTEST = $(BIN)/python -m pytest $(if $(REPORT),--junit-xml="$(REPORT)")
 
-.PHONY: help demo test tests quick lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-conformance test-harness test-semantic test-ray docs lock clean
+.PHONY: help demo test tests quick lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-validation test-conformance test-harness test-semantic test-ray docs lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -20,7 +20,7 @@ demo: .venv/.core ## Build and accept the billiards world from its plan, and say
 test: lint tests ## Everything that must hold, in under eight minutes on two cores
 
 tests: .venv/.dev ## The tests alone
-	$(PYTEST) -n $(JOBS) --dist worksteal
+	$(PYTEST) -n $(JOBS) --dist worksteal --ignore=tests/validation
 
 quick: style ## What most often turned a longer run red, in a minute or two: run it before each
 	$(BIN)/worldwright contract check
@@ -60,6 +60,9 @@ test-faults: .venv/.dev ## kill -9 at a hundred random moments (make test does a
 
 test-tricks: .venv/.dev ## Every trick to get a false claim stamped (make test tries a dozen)
 	WORLDWRIGHT_TRICKS=1 $(PYTEST) -n $(JOBS) --dist worksteal tests/worldwright/security
+
+test-validation: .venv/.dev ## Textbook cases against what the suite simulates, each within its stated error
+	$(PYTEST) -n $(JOBS) --dist worksteal tests/validation
 
 test-conformance: .venv/.dev ## The official MCP suite over HTTP and the inspector over stdio, on all six servers (needs npm)
 	WORLDWRIGHT_CONFORMANCE=1 $(PYTEST) tests/conformance -p no:xdist

@@ -226,7 +226,7 @@ def test_a_case_comes_out_as_it_is_known_to(
     model = spec.compile()
     prepare(model)
     data = start(model)
-    beside = Beside(model, data, [Row(name, case.bodies, case.constants)])
+    beside = Beside(model, data, [Row(name, case.bodies, case.constants, case.shown_by)])
     with Recorder(model, data, tmp_path / "out", describing.describe(model), channels=beside.channels) as recorder:
         simulate(model, data, recorder, round(case.seconds / model.opt.timestep), every=10 * finer, beside=beside)
     recording = stored.open(tmp_path / "out")

@@ -1,15 +1,17 @@
 """Run the solvers of one world beside the engine: each step asks them, writes their forces and books their work."""
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import ProgramError
 from worldkit.naming import names
 
+from ..inputs.declared_media import Medium
 from ..inputs.ports import Ports
 from ..inputs.pushes import Pushes
 from ..recording.columns import Column
-from ..solvers import Row, called, check
+from ..solvers import Row, Shown, called, check
 
 if TYPE_CHECKING:
     import mujoco
@@ -49,6 +51,8 @@ class Beside:
         bodies = names(model, "body", model.nbody)
         taken = {entry // 6 for entry in inputs.entries.get("xfrc_applied", ())} if inputs else set()
         self._solvers = []
+        self._shown: list[tuple[Medium, Shown]] = []
+        self._steps, self._recorder = 0, None
         self.channels: dict[Column, np.ndarray] = {}
         for name, row in zip(called(rows), rows, strict=True):
             solver = check(row)
@@ -66,15 +70,25 @@ class Beside:
                     "let one of them push it: of two forces on one body, nobody could tell whose work is whose",
                 )
             taken |= set(mine)
-            running = solver.start(model, data, mine, row.constants)
+            running = solver.start(model, data, mine, row.constants, row.shown_by)
             self._solvers.append((np.array(mine), running, _shares(mine, hold)))
+            if isinstance(running, Shown) and running.points() is not None:
+                self._shown.append((Medium(name, row.bodies, row.shown_by), running))
             self.channels |= {_named(name, column): array for column, array in running.channels.items()}
         pushed = frozenset(body for row in rows for body in row.bodies)
         self._ports = Ports(model, (("force", pushed), ("torque", pushed)))
         self._before: list[np.ndarray] = []
 
-    def record(self, recorder: "Recorder") -> None:
-        """Keep the ledger of their work in this recording; must be called before the first step."""
+    @property
+    def shown(self) -> "list[dict[str, Any]]":
+        """What of the world they move corner by corner, as rows of a recording's `meta.json`."""
+        return [medium.written() for medium, _ in self._shown]
+
+    def record(self, recorder: "Recorder", laws: int = 0) -> None:
+        """Keep the ledger of their work in this recording, and the corners that they move, behind those of so many laws; must be
+        called before the first step.
+        """
+        self._recorder, self._first = recorder, laws
         self._pushes = Pushes(self._model, self._data, self._ports, lambda blocks: recorder.later("pushes", blocks))
         recorder.before_flush.append(self._pushes.flush)
 
@@ -90,6 +104,7 @@ class Beside:
         self._before = [applied[bodies].copy() for bodies, _, _ in self._solvers]
         for (bodies, running, shares), before in zip(self._solvers, self._before, strict=True):
             applied[bodies] = before + running.look(self._data) * shares
+        self._keep(last=False)
         self._pushes.note()
 
     def reacted(self) -> None:
@@ -102,17 +117,39 @@ class Beside:
         for (bodies, running, _), before in zip(self._solvers, self._before, strict=True):
             self._data.xfrc_applied[bodies] = before
             running.advance(step_s)
+        self._steps += 1
 
     def finish(self) -> None:
         """Bring the channels up to date with the last state, and close the ledger."""
         for _, running, _ in self._solvers:
             running.look(self._data)
+        self._keep(last=True)
         self._pushes.measure()
         self._pushes.finish()
+
+    def _keep(self, last: bool) -> None:
+        """Record the corners that are due at this step."""
+        for number, (_, running) in enumerate(self._shown, self._first):
+            if self._recorder is not None and (last or self._steps % running.every == 0):
+                points = running.points()
+                self._recorder.later("media", partial(_corners, self._steps, number, points))
 
 
 def _named(name: str, column: Column) -> Column:
     return Column(f"{name}.{column.name}", column.shape, column.unit, column.description, column.dtype)
+
+
+def _corners(step: int, medium: int, points: "np.ndarray") -> dict[str, Any]:
+    """The rows of `media` of one instant."""
+    import numpy as np
+
+    count = len(points)
+    return {
+        "step": np.full(count, step, np.int32),
+        "medium": np.full(count, medium, np.int32),
+        "point": np.arange(count, dtype=np.int32),
+        "place": points.astype(np.float32),
+    }
 
 
 def _shares(bodies: Sequence[int], hold: "Hold | None") -> "np.ndarray":

@@ -73,6 +73,8 @@ def run(given: Given, options: argparse.Namespace) -> None:
         if inputs.ports.media is not None:
             meta["laws"] = [row.written() for row in given.laws]
     beside = Beside(model, data, given.solvers, inputs.ports if inputs else None, hold) if given.solvers else None
+    if beside and beside.shown:
+        meta["shown"] = beside.shown
     progress = Progress(out, steps, "steps")
     started = time.perf_counter()
     try:

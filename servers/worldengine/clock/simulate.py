@@ -71,7 +71,8 @@ def simulate(
     if inputs is not None:
         inputs.record(recorder)
     if beside is not None:
-        beside.record(recorder)
+        media = inputs.ports.media if inputs is not None else None
+        beside.record(recorder, len(media.rows) if media else 0)
     warned = data.warning.number
     seen = warned.tolist()
     step1, step2, before, after = mujoco.mj_step1, mujoco.mj_step2, recorder.before, recorder.after

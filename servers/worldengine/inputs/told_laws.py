@@ -23,6 +23,11 @@ def told(meta: Mapping[str, Any], place: str) -> tuple[Medium, ...]:
     raise RecordingError(cause, place, "run the physics pass again")
 
 
+def moved(meta: Mapping[str, Any], place: str) -> tuple[Medium, ...]:
+    """All media of a recording: its laws, then what solvers of the suite move (`shown`); errors as of `told`."""
+    return (*told(meta, place), *told({"laws": meta.get("shown")}, place))
+
+
 def _whole(row: Any) -> bool:
     said, bodies = (row.get("law"), row.get("bodies")) if isinstance(row, Mapping) else (None, None)
     if not isinstance(said, Mapping) or not isinstance(bodies, (list, tuple)):

@@ -132,7 +132,7 @@ FORETOLD_COLUMNS = (
 """How the file of wide answers holds the rows of `inputs`."""
 MEDIUM_COLUMNS = (
     Column("step", (), "1", "step at which the points lay there", "int32"),
-    Column("medium", (), "1", "which of meta.laws", "int32"),
+    Column("medium", (), "1", "which of meta.laws and, after these, meta.shown", "int32"),
     Column("point", (), "1", "which of its points", "int32"),
     Column("place", (3,), "m", "where it lay", "float32"),
 )
@@ -158,7 +158,7 @@ TABLES: Mapping[str, tuple[Column, ...]] = {
 }
 """The tables beside the state, each in `<name>.arrows`."""
 OF_MEDIA = ("media", "balances")
-"""Those that only a world with an author's law has (`worldengine.inputs.declared_media`)."""
+"""Those that only a world has with an author's law (`worldengine.inputs.declared_media`), or a solver that moves a flex."""
 
 
 def arrow_schema(columns: tuple[Column, ...]) -> Any:

@@ -26,9 +26,9 @@ class Lain:
         import numpy as np
 
         from ..inputs.declared_media import Place
-        from ..inputs.told_laws import told
+        from ..inputs.told_laws import moved
 
-        rows, media = told(recording.meta, str(recording.folder)), recording.media
+        rows, media = moved(recording.meta, str(recording.folder)), recording.media
         try:
             self._places = [Place(model, row) for row in rows]
         except ProgramError as error:

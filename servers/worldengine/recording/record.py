@@ -96,7 +96,8 @@ class Recorder:
         self._counts: dict[str, int] = {}
         self.warnings: dict[str, int] = {}
         self._hashes = {name: hashlib.sha256() for name in HASHED}
-        told = {name: columns for name, columns in TABLES.items() if meta.get("laws") or name not in OF_MEDIA}
+        moves = meta.get("laws") or meta.get("shown")
+        told = {name: columns for name, columns in TABLES.items() if moves or name not in OF_MEDIA}
         tables = {name: as_meta(columns) for name, columns in told.items()}
         self._folder.mkdir(parents=True, exist_ok=True)
         write_json(

@@ -51,7 +51,8 @@ class Replay:
         ]
         self._applied: list[tuple[np.ndarray, int, float]] = []
         self._shown = list(_shown(model, recording))
-        self._media = Lain(model, recording) if recording.meta.get("laws") else None
+        moves = recording.meta.get("laws") or recording.meta.get("shown")
+        self._media = Lain(model, recording) if moves else None
 
     def show(self, row: int) -> "mujoco.MjData":
         """The data at a recorded row, ready to be drawn."""
@@ -89,8 +90,9 @@ def _shown(model: "mujoco.MjModel", recording: "Recording") -> "Iterator[tuple[S
 
     rows = [Row.read(row) for row in recording.meta.get("solvers", ())]
     geoms = names(model, "geom", model.ngeom)
+    moved = {row["law"]["shown_by"] for row in recording.meta.get("shown", ())}
     for name, row in zip(called(rows), rows, strict=True):
-        if row.shown_by:
+        if row.shown_by and row.shown_by not in moved:
             if row.shown_by not in geoms:
                 raise RecordingError(
                     f"the solver {row.solver} is to be shown by {row.shown_by!r}, which the world has not",

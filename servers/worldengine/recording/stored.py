@@ -256,7 +256,7 @@ class Recording:
         """The hash of all that pictures can show of it: the trajectory, and what changes beside it: colours, sizes and lights
         (`edits`), the channels of solvers (a water's surface), and the points of the author's laws.
         """
-        said = {name: rows for name in ("laws", "solvers") if (rows := self.meta.get(name))}
+        said = {name: rows for name in ("laws", "solvers", "shown") if (rows := self.meta.get(name))}
         told = {name: self._state[name] for name in self._state.columns if "." in name}
         for name, table in (("edits", self.edits), ("media", self.media)):
             told |= {f"{name} {n}": table[n] for n in table.columns if n != "time" and len(table)}

@@ -10,7 +10,7 @@ row of `simulation_parameters.interventions` of the kind `solver`, which names i
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 from worldkit.errors import ProgramError
 from worldkit.seams import Seam
@@ -62,6 +62,8 @@ class Case:
     tolerance: float
     because: str
     """The source of the formula."""
+    shown_by: str = ""
+    """What shows it in that world, where the solver reads its shape from that."""
 
 
 class Running(Protocol):
@@ -84,18 +86,35 @@ class Running(Protocol):
         """Advance its own state by `step_s` seconds, with the bodies as they were at the last look."""
 
 
+@runtime_checkable
+class Shown(Protocol):
+    """What a running solver has, too, that moves the corners of a flex."""
+
+    every: int
+    """Steps from one record of them to the next."""
+
+    def points(self) -> "np.ndarray | None":
+        """(n, 3) m: where they are now; None where a geom shows it."""
+
+
 class Solver(Protocol):
     """The protocol of the modules of this folder."""
 
     CONSTANTS: Mapping[str, tuple[str, str]]
-    """The constants that its row in a plan must give: name, with unit and meaning."""
+    """The constants that its row in a plan must give: name, with unit and meaning. Those that it may give are in `OPTIONAL`, where
+    a module has that."""
     CASES: tuple[Case, ...]
     """Worlds with a known outcome, which every integrator and half the time step must give."""
 
     def start(
-        self, model: "mujoco.MjModel", data: "mujoco.MjData", bodies: Sequence[int], constants: Mapping[str, float]
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        bodies: Sequence[int],
+        constants: Mapping[str, float],
+        shown_by: str = "",
     ) -> Running:
-        """Start the solver at the initial state.
+        """Start the solver at the initial state; `shown_by` names what shows it.
 
         Raises:
             ProgramError: it cannot act on these bodies, or a constant makes no sense.
@@ -117,6 +136,11 @@ def called(rows: Sequence[Row]) -> list[str]:
     return found
 
 
+def reads(solver: Solver) -> dict[str, tuple[str, str]]:
+    """All constants that it can be told: name, with unit and meaning."""
+    return {**solver.CONSTANTS, **getattr(solver, "OPTIONAL", {})}
+
+
 def check(row: Row) -> Solver:
     """The solver that a row asks for; raises `ProgramError` when there is none, or its constants do not fit."""
     if row.solver not in SEAM.names():
@@ -125,10 +149,10 @@ def check(row: Row) -> Solver:
     solver = SEAM.find(row.solver)
     for what, names in (
         ("lacks", set(solver.CONSTANTS) - set(row.constants)),
-        ("does not know", set(row.constants) - set(solver.CONSTANTS)),
+        ("does not know", set(row.constants) - set(reads(solver))),
     ):
         if names:
-            needed = ", ".join(f"{name} ({unit})" for name, (unit, _) in solver.CONSTANTS.items())
+            needed = ", ".join(f"{name} ({unit})" for name, (unit, _) in reads(solver).items())
             raise ProgramError(
                 f"the solver {row.solver} {what} {', '.join(sorted(names))}", "interventions", f"it reads: {needed}"
             )

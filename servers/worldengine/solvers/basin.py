@@ -173,7 +173,11 @@ class Basin:
 
 
 def start(
-    model: "mujoco.MjModel", data: "mujoco.MjData", bodies: Sequence[int], constants: Mapping[str, float]
+    model: "mujoco.MjModel",
+    data: "mujoco.MjData",
+    bodies: Sequence[int],
+    constants: Mapping[str, float],
+    shown_by: str = "",
 ) -> Basin:
     """Start the water at rest."""
     return Basin(model, data, bodies, constants)

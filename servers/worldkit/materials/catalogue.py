@@ -192,6 +192,7 @@ LIBRARY: dict[str, Look] = {
     "cork": Look("Pressed cork", paint="stone.granite", arguments=("cork", (0.72, 0.53, 0.34), (0.60, 0.41, 0.25), (0.38, 0.23, 0.13)), tile_m=0.22, roughness=0.88, relief_m=0.0005, apart=0.08),
     "foam": Look("Soft grey foam", paint="fibre.worn", arguments=("foam", (0.36, 0.37, 0.40), 2.5), tile_m=0.1, roughness=0.98, relief_m=0.001),
     "water_clear": Look("Clear water in a vessel, seen through", rgba=(0.93, 0.97, 0.98, 0.25), roughness=0.03, clear=1.0, index=1.333, absorbs=(0.34, 0.057, 0.02)),
+    "water_pond": Look("Water of a pond, seen through: green-brown where it is deep", rgba=(0.80, 0.88, 0.78, 0.4), roughness=0.03, clear=1.0, index=1.333, absorbs=(1.9, 0.95, 1.7)),
     "tea": Look("Black tea, clear: golden where it is thin, red-brown where it is deep", rgba=(0.86, 0.44, 0.12, 0.5), roughness=0.03, clear=1.0, index=1.334, absorbs=(5.0, 21.0, 55.0)),
     "wine_red": Look("Red wine: ruby where it is thin, nearly black where it is deep", rgba=(0.55, 0.06, 0.10, 0.6), roughness=0.03, clear=1.0, index=1.345, absorbs=(14.0, 95.0, 75.0)),
     "wine_white": Look("White wine, pale straw", rgba=(0.95, 0.90, 0.60, 0.35), roughness=0.03, clear=1.0, index=1.345, absorbs=(0.6, 1.8, 11.0)),

@@ -71,7 +71,12 @@ class _Writer:
         self.crowds = Crowds(plan)
         self.parameters = plan.simulation_parameters
         solvers = [row.solver for row in self.parameters.interventions if row.solver]
-        read = {name for solver in solvers for name in solver.constants.values()}
+        read = {
+            name
+            for solver in solvers
+            for own, name in solver.constants.items()
+            if own != "level" or not solver.container
+        }
         self.own = {name: value for name, value in self.parameters.constants.items() if name not in read}
         """Constants of the plan, less those that a solver beside the engine reads."""
 

@@ -5,6 +5,7 @@ from dataclasses import fields
 
 from ..model.errors import PlanError
 from ..model.plan.committed import AssetRow, Joint, Plan, SceneObject
+from ..model.plan.declared_inputs import Beside
 from ..model.plan.formed import arguments
 from ..model.plan.layout import Scene
 from . import imports
@@ -19,6 +20,9 @@ class Objects(Stances):
     def __init__(self, plan: Plan, scene: Scene, needs: Needs) -> None:
         super().__init__(plan, scene, needs)
         self.loops = plan.topology.loops()
+        beside = [row.solver for row in self.parameters.interventions if row.solver]
+        self.waters = {water.shown_by: water for water in beside if water.container and water.shown_by}
+        """What shows the water in a container, by its name."""
         self.alike = {name: family for family, names in plan.families.items() if self.equal(names) for name in names}
         """The family of each copy that differs from the others by its name and pose alone."""
 
@@ -28,16 +32,32 @@ class Objects(Stances):
         for item in self.ordered():
             if not isinstance(item, SceneObject):
                 parts.append(imports.written(self, item))
+            elif item.name in self.waters:
+                continue
             elif (family := self.alike.get(item.name)) is None:
                 parts.append(self.scene_object(item))
             elif family not in looped:
                 looped.add(family)
                 parts.append(self.copies(item, family))
+        # What is filled is there before, wherever its row stands.
+        parts += [self.filled(row, self.waters[row.name]) for row in self.plan.scene_objects if row.name in self.waters]
         parts += [self.loop(joint) for joint in self.loops]
         if self.plan.plan_type == "fsi_in_scene":
             self.needs.leave("the plan couples a fluid with solids", "the fluid's medium and its coupling")
             parts.append(comment("AUTHOR: add the fluid and its coupling to the solids here."))
         return "\n".join(part for part in parts if part)
+
+    def filled(self, row: SceneObject, water: Beside) -> str:
+        """The text of the water in a container."""
+        self.needs.use("waters")
+        constant = self.parameters.constants.get(water.constants.get("level", ""))
+        level = None if constant is None else Raw(constant_name(water.constants["level"]))
+        keywords: dict = {"container": water.container, "level": level}
+        if row.look:
+            keywords["look"] = row.look
+        note = row.description or row.role
+        lines = [comment(note)] if note else []
+        return "\n".join([*lines, call("waters.fill", Raw("spec"), row.name, **keywords)])
 
     def equal(self, names: tuple[str, ...]) -> bool:
         """Whether copies are loose or fixed bodies of one mass, on which nothing hangs by name before they are there."""

@@ -24,6 +24,8 @@ class Beside(Frozen):
     """The author's, beside the program: `laws/rubber.py` (`worldkit.laws`)."""
     constants: dict[str, str] = {}
     """What it reads, by its own names: each the name of a row of `constants`."""
+    container: str = ""
+    """Of water: the object that holds it, which the draft fills up to its `level` (`worldkit.waters`)."""
     shown_by: str = ""
     """An object that is `visual_only` and shows it: the water's surface, the flex or the geoms that a law moves."""
 

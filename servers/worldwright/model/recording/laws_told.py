@@ -15,8 +15,17 @@ def of(meta: Mapping[str, Any], place: str = "meta.json") -> "tuple[Medium, ...]
     Raises:
         RecordingError: what it says of them makes no sense.
     """
-    if meta.get("laws") is None:
-        return ()
+    return () if meta.get("laws") is None else _read(meta, place)
+
+
+def drawn(meta: Mapping[str, Any], place: str = "meta.json") -> frozenset[str]:
+    """The names of what only shows the points of a law, or the water of a solver of the suite; errors as of `of`."""
+    shown = meta.get("shown")
+    of_solvers = () if shown is None else _read({"laws": shown}, place)
+    return frozenset(medium.shown_by for medium in (*of(meta, place), *of_solvers))
+
+
+def _read(meta: Mapping[str, Any], place: str) -> "tuple[Medium, ...]":
     from worldengine.inputs.told_laws import told
     from worldkit import errors
 

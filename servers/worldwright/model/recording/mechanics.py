@@ -257,8 +257,8 @@ def _vector(meta: Mapping[str, Any], key: str, option: Mapping[str, Any] | None 
 
 
 def _only_drawn(meta: Mapping[str, Any]) -> bool:
-    """Whether all flexes of a recording only show where the points of an author's law are."""
-    moved = {law.shown_by for law in laws_told.of(meta)}
+    """Whether all flexes of a recording only show where the points of an author's law are, or the water of a solver."""
+    moved = laws_told.drawn(meta)
     flexes = [row.get("name") for row in _rows(meta.get("flexes"))]
     return bool(flexes) and moved.issuperset(flexes)
 

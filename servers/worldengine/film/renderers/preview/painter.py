@@ -215,6 +215,8 @@ class Painter:
             far_sides.hide(True)
             for shape, batch, count in self._soft(clear=True):
                 self._shade(batch, shape or self._shape(batch, view, height, count), count)
+            if owners and any(True for _ in self._soft(clear=True)):
+                copy()
             for number, (row, batch) in enumerate(owners):
                 if 0 < number < NESTED and len(owners) <= NESTED:
                     copy()

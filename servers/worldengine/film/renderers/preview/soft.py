@@ -16,8 +16,21 @@ if TYPE_CHECKING:
     import mujoco
 
 
-def _row(finish: Finish, rgba: np.ndarray, geom: int = -1, pictured: bool = False, half: float = 0.0) -> np.ndarray:
-    """The numbers of one thing; `half` its half width, m, which what is clear bends light by."""
+BEAD_M = 0.004
+"""Half the width of a drop, about, by which it bends light."""
+LIQUID = 9.0
+"""The kind of shape of what is clear and closed, by which the shader knows it."""
+
+
+def _row(
+    finish: Finish,
+    rgba: np.ndarray,
+    geom: int = -1,
+    pictured: bool = False,
+    half: float = 0.0,
+    middle: np.ndarray | None = None,
+) -> np.ndarray:
+    """The numbers of one thing; `half` its half width, m, which what is clear bends light by; `middle` of a body of liquid."""
     entry, row = finish.look, np.zeros(FLOATS, dtype=np.float32)
     row[[0, 5, 10]] = 1.0
     row[12:15] = 1.0
@@ -27,6 +40,8 @@ def _row(finish: Finish, rgba: np.ndarray, geom: int = -1, pictured: bool = Fals
     row[28:32] = geom, entry.emission, 1.0, half if entry.clear > 0 else 0.0
     row[32:36] = 0.18, 0.18, 0.18, -1e3
     row[37:39] = entry.clear, 1e3
+    if entry.clear > 0 and middle is not None:
+        row[24:27], row[39] = middle, LIQUID
     return row
 
 
@@ -67,7 +82,10 @@ class Soft:
             finish, rgba = self._finish(patch.material, patch.rgba)
             pictured = patch.uv is not None and finish.texture >= 0 and not finish.look.around
             self._draws.append((self._shape(patch), len(rows), 1, finish))
-            rows.append(_row(finish, rgba, patch.geom, pictured, float(np.sort(np.ptp(patch.points, axis=0))[1]) / 2))
+            half, middle = float(np.sort(np.ptp(patch.points, axis=0))[1]) / 2, None
+            if patch.key[0] == "flex" and self._shapes.is_closed(patch.key[1]):
+                half, middle = (BEAD_M, None) if patch.key[2] else self._shapes.around(patch.key[1])
+            rows.append(_row(finish, rgba, patch.geom, pictured, half, middle))
         groups: dict[int, list[np.ndarray]] = {}
         for strand in strands:
             row = _row(*self._finish(strand.material, strand.rgba))

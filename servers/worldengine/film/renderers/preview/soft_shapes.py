@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from .closed_flexes import ClosedFlex, at_rest, closed
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -71,6 +73,7 @@ class SoftShapes:
         self._options.geomgroup[:] = 0
         self._options.sitegroup[:] = 0
         self._skins = [_skin(model, skin) for skin in range(model.nskin)]
+        self._closed: dict[int, ClosedFlex | None] = {flex: None for flex in range(model.nflex) if closed(model, flex)}
 
     def read(self, data: mujoco.MjData) -> tuple[list[Strand], list[Patch]]:
         """All of them in the state `data`."""
@@ -95,13 +98,14 @@ class SoftShapes:
                 strands.append(Strand(material, rgba, np.array(geom.pos, dtype=float), turn, *size))
             elif geom.type == kinds.mjGEOM_FLEX and scene.flexfaceused[number]:
                 first, count = int(scene.flexfaceadr[number]), int(scene.flexfaceused[number])
-                points, normals = (
-                    np.array(values).reshape(-1, 9)[first : first + count].reshape(-1, 3)
-                    for values in (scene.flexface, scene.flexnormal)
-                )
+                pieces = self._solid(number, data) if number in self._closed else [
+                    tuple(np.array(values).reshape(-1, 9)[first : first + count].reshape(-1, 3) for values in (scene.flexface, scene.flexnormal))
+                ]  # fmt: skip
                 if material < 0:  # MuJoCo 4 keeps one for each element, and its scene names none; the first one counts
                     material = int(model.flex_matid[model.flex_elemadr[number]])
-                patches.append(Patch(("flex", number, 0), points, normals, None, material, rgba, FLEX - number))
+                for piece, (points, normals) in enumerate(pieces):
+                    key = ("flex", number, piece)
+                    patches.append(Patch(key, points, normals, None, material, rgba, FLEX - number))
             elif geom.type == kinds.mjGEOM_SKIN:
                 first, count = int(scene.skinvertadr[number]), int(scene.skinvertnum[number])
                 points, normals = (
@@ -117,6 +121,25 @@ class SoftShapes:
                     key = ("skin", number, piece)
                     patches.append(Patch(key, points[at], normals[at], uv, material, rgba, owner))
         return strands, patches
+
+    def is_closed(self, flex: int) -> bool:
+        """Whether a flex is drawn as what it encloses."""
+        return flex in self._closed
+
+    def around(self, flex: int) -> tuple[float, np.ndarray]:
+        """Half the width, m, and the middle (3,), m, of a flex that is closed, as it is built: drops that fly do not count."""
+        first, count = int(self.model.flex_vertadr[flex]), int(self.model.flex_vertnum[flex])
+        points = at_rest(self.model)[first : first + count]
+        low, high = points.min(axis=0), points.max(axis=0)
+        return float((high - low)[:2].mean() / 2), (low + high) / 2
+
+    def _solid(self, flex: int, data: mujoco.MjData) -> list[tuple[np.ndarray, np.ndarray]]:
+        """The corners of a flex that is drawn as what it encloses, and their normals, of each of its pieces."""
+        made = self._closed[flex]
+        if made is None:
+            first, count = int(self.model.flex_vertadr[flex]), int(self.model.flex_vertnum[flex])
+            made = self._closed[flex] = ClosedFlex(self.model, flex, at_rest(self.model)[first : first + count])
+        return made.read(data)
 
 
 def geom_of(model: mujoco.MjModel, body: int) -> int:

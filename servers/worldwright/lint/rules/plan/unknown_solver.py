@@ -4,7 +4,7 @@ What it does: for each row of `interventions` with a `solver`: compares its name
 `constants` with what that solver reads, each with the plan's constant of that name and its unit, its `bodies` with the
 plan's moving objects, and `shown_by` with the objects that are only drawn. A row with a `file` is the author's own law: the file
 is called after it, it has no `constants` (they stand in the file), its `bodies` are objects of the plan or `world`, each named once,
-something shows it, and it is the only row of its name.
+something shows it, and it is the only row of its name. A `container` is an object that stands still, filled to a `level`, and shown.
 
 Why is this bad: the physics pass refuses the world when it starts; and a constant in another unit gives another world,
 without a word.
@@ -55,7 +55,23 @@ def _twice(plan: dict[str, Any]) -> dict[str, Any]:
 
 
 NAMELESS = {"kind": "solver", "bodies": ["crate"], "law": "3 N of air", "source": "a table"}
-GOOD: Changes = ({}, _with(), _banded("crate"), _banded("crate", "world"))
+
+
+def _filled(container: str = "ramp", level: str = "level", **ramp: Any) -> dict[str, Any]:
+    """Water in a container."""
+    objects = _banded("crate")["scene_objects"]
+    objects[0] = {**objects[0], **ramp}
+    constants = {
+        "density": {"value": 998, "unit": "kg/m^3", "source": "CRC"},
+        "level": {"value": 0.1, "unit": "m", "source": "the prompt"},
+    }
+    told = {"density": "density"} | ({"level": level} if level else {})
+    said = {"name": "water", "container": container, "constants": told, "shown_by": "band"}
+    row = {"kind": "solver", "bodies": ["crate"], "law": "Archimedes", "source": "the prompt's bath", "solver": said}
+    return {"scene_objects": objects, "simulation_parameters": {"constants": constants, "interventions": [row]}}
+
+
+GOOD: Changes = ({}, _with(), _banded("crate"), _banded("crate", "world"), _filled())
 BAD: Changes = (
     _with(name="tide"),
     _with(constants={}),
@@ -71,6 +87,9 @@ BAD: Changes = (
     _law(file="/tmp/rubber.py"),
     _banded("crate", "crate"),
     _twice(_banded("crate")),
+    _filled("lake"),
+    _filled("crate"),
+    _filled(level=""),
 )
 
 
@@ -107,7 +126,7 @@ def check(view: PlanView) -> Iterator[Problem]:
 
 
 def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[Problem]:
-    from worldengine.solvers import SEAM
+    from worldengine.solvers import SEAM, reads
 
     said, rows = row.solver, view.rows
     assert said is not None
@@ -118,9 +137,12 @@ def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[P
     if said.name not in SEAM.names():
         yield view.at(place, f"there is no solver `{said.name}`", f"name one of: {', '.join(SEAM.names())}")
         return
-    read, own = SEAM.find(said.name).CONSTANTS, view.plan.simulation_parameters.constants
+    must, read = SEAM.find(said.name).CONSTANTS, reads(SEAM.find(said.name))
+    own = view.plan.simulation_parameters.constants
     listed = ", ".join(f"{name} ({unit}: {meaning})" for name, (unit, meaning) in read.items())
     for name in sorted({*read, *said.constants}):
+        if name not in said.constants and name not in must:
+            continue
         if name not in said.constants:
             yield view.at(place, f"`{said.name}` is not told its {name}", f"it reads {listed}")
         elif name not in read:
@@ -134,9 +156,27 @@ def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[P
     for body in row.bodies:
         if body not in rows or not view.moves(rows[body]):
             yield view.at(place, f"`{said.name}` acts on `{body}`, which does not move", "name objects that can move")
+    if said.container:
+        yield from _container_problems(view, said, place)
     if said.shown_by and said.shown_by not in drawn:
         what = f"`{said.name}` is shown by `{said.shown_by}`, which is no object that is only drawn"
         yield view.at(place, what, "name one with `visual_only`: what is simulated is not moved by a picture")
+
+
+def _container_problems(view: PlanView, said: Beside, place: Place) -> Iterator[Problem]:
+    if "level" not in said.constants:
+        yield view.at(
+            place, f"`{said.name}` has no level, up to which to fill `{said.container}`", "leave `container` out"
+        )
+    if (holds := view.rows.get(said.container)) is None:
+        what = f"`{said.name}` fills `{said.container}`, which the plan does not have"
+        yield view.at(place, what, "name an object that holds it")
+    elif view.moves(holds):
+        what = f"`{said.name}` fills `{said.container}`, which can move, and its water could not"
+        yield view.at(place, what, "give it `fixed: true`")
+    if not said.shown_by:
+        what = f"nothing shows the water in `{said.container}`"
+        yield view.at(place, what, "name an object with `visual_only` in `shown_by`, as large as the water")
 
 
 def _law_problems(view: PlanView, row: Intervention, said: Beside, drawn: set[str], place: Place) -> Iterator[Problem]:

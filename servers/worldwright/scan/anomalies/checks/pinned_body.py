@@ -50,7 +50,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             f"{held} is held by the {tie['type']} {tie['name']} (up to {peak:.3g} N); the plan does not mention it"
         )
         yield Sign(held, (trajectory.t[0], trajectory.t[-1]), peak, 0.0, "N", "blocking", message)
-    moved = {law.shown_by for law in laws_told.of(meta)}  # by an author's law: only drawn, held by nothing
+    moved = laws_told.drawn(meta)  # by an author's law, or water: only drawn, held by nothing
     for flex in meta.get("flexes") or ():
         if flex.get("pinned") and flex["name"] not in moved and not context.declares("constraint", flex["name"]):
             message = f"{flex['pinned']} of {flex['vertices']} vertices of {flex['name']} are pinned to "

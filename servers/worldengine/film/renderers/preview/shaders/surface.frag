@@ -78,7 +78,7 @@ vec3 mirrored_light(vec3 d, float roughness, vec4 support, vec3 p, float size) {
     return mix(surroundings(normalize(vec3(d.xy, max(d.z, 0.0))), roughness), below * ground_light * open, down);
 }
 
-#if MIRROR
+#if MIRROR || CLEAR
 
 float distance_at(vec2 q) { return near_m / max(textureLod(behind_depth, q, 0.0).r, 1e-7); }
 
@@ -115,6 +115,12 @@ vec4 seen_along(vec3 p, vec3 d, vec4 support, float size) {
     vec2 margin = smoothstep(vec2(0.0), vec2(0.08), q) * smoothstep(vec2(0.0), vec2(0.08), 1.0 - q);
     float open = 1.0 - smoothstep(0.01, 0.03, abs(distance_at(q) / max(clip.w, 1e-6) - 1.0));
     float facing = smoothstep(-0.25, 0.25, dot(d, forward)) * smoothstep(0.0, 0.35, -dot(textureLod(guide, q, 0.0).xyz, d));
+#if CLEAR
+    // What is seen behind the surface of water lies under it, and is mirrored in nothing.
+    vec4 met = to_clip * vec4(p + d * high, 1.0);
+    float seen_z = eye.z + (p.z + d.z * high - eye.z) * distance_at(met.xy / met.w * 0.5 + 0.5) / max(met.w, 1e-6);
+    facing *= smoothstep(-0.02, 0.02, (seen_z - p.z) / size);
+#endif
     float trust = on_thing ? facing : floor_t < 1e5 && clip.w > 0.0 ? open : 0.0;
     return vec4(textureLod(behind, clamp(q, 0.0, 1.0), 0.0).rgb, margin.x * margin.y * trust);
 }
@@ -153,6 +159,8 @@ float occlusion(vec2 at, float distance_m) {
 }
 
 #if CLEAR
+#include "liquid.glsl"
+
 // How far a ray goes on inside of a thing, m: from p along d, both in the thing's own frame; dip is how straight it goes in.
 float way_within(vec3 p, vec3 d, float kind, float radius, float dip) {
     vec3 half_size = abs(size.xyz);
@@ -364,6 +372,15 @@ void main() {
         c = textureLod(behind, q, 0.0).rgb * tint * (1.0 - f) + mirror * f + shine;
         alpha = more.y > 0.0 ? 1.0 : base.a;
         if (more.y <= 0.0) c = light + shine + env + albedo * misc.y;
+        if (abs(more.w - LIQUID) < 0.5) {
+            vec3 up = reflect(-v, n);
+            float gloss = 0.0204 + 0.9796 * fifth(1.0 - nv);  // ((1.333 - 1) / (1.333 + 1))^2 at right angles
+            vec3 sky_light = mirrored_light(up, 0.02, support, world, extent);
+            vec4 near_by = up.z > 0.0 ? seen_along(world, up, vec4(support.rgb, -1e3), 0.25 * extent) : vec4(0.0);
+            sky_light = mix(sky_light, near_by.rgb, near_by.a);
+            c = through_liquid(world, v, n, weave.xyz, misc.w) * (1.0 - gloss) + sky_light * gloss + shine;
+            alpha = 1.0;
+        }
     }
 #endif
 

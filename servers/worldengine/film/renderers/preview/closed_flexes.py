@@ -1,0 +1,109 @@
+"""Flexes of triangles that close around something, as solid things: water, a tube, a balloon.
+
+MuJoCo draws a flex of triangles as a sheet with two sides, a little thicker than nothing, which makes a bubble of what should be
+water. One in which each edge has two triangles that go round it in opposite senses is drawn as what it encloses instead, smooth
+where it is round at the start, with an edge where two of its faces meet at more than `EDGE`.
+"""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    import mujoco
+
+EDGE = np.cos(np.radians(40.0))
+
+
+class ClosedFlex:
+    """One such flex: its corners as triangles, three to each, and smooth normals, from where its points are.
+
+    Args:
+        model: the world.
+        flex: the number of a flex that `closed` says is one.
+        points: (n, 3) m, at the start; which edges are sharp is told by them.
+    """
+
+    def __init__(self, model: mujoco.MjModel, flex: int, points: np.ndarray) -> None:
+        from scipy.sparse import csr_matrix
+
+        first, count = int(model.flex_vertadr[flex]), int(model.flex_vertnum[flex])
+        self._rows = slice(first, first + count)
+        self._triangles = _triangles(model, flex)
+        normals = _areas(points[self._triangles])
+        unit = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+        corner = self._triangles.ravel()
+        order = np.argsort(corner, kind="stable")
+        ends = np.searchsorted(corner[order], np.arange(count + 1))
+        rows, columns = [], []
+        for a, b in pairwise(ends):
+            mine = order[a:b]
+            faces = mine // 3
+            near = unit[faces] @ unit[faces].T > EDGE
+            i, j = np.nonzero(near)
+            rows.append(mine[i])
+            columns.append(faces[j])
+        row, column = np.concatenate(rows), np.concatenate(columns)
+        self._beads = _beads(self._triangles, count)
+        """(F,) which triangles are of beads: all pieces but the largest."""
+        self._smooth = csr_matrix((np.ones(len(row)), (row, column)), shape=(len(corner), len(self._triangles)))
+
+    def read(self, data: mujoco.MjData) -> list[tuple[np.ndarray, np.ndarray]]:
+        """(3 F, 3) m and (3 F, 3): the corners and their normals in a state, of its largest piece, and of its beads where it has some."""
+        points = data.flexvert_xpos[self._rows][self._triangles]
+        normals = self._smooth @ _areas(points)
+        normals = (normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)).reshape(-1, 3, 3)
+        parts = [~self._beads, self._beads] if self._beads.any() else [~self._beads]
+        return [(points[part].reshape(-1, 3), normals[part].reshape(-1, 3)) for part in parts]
+
+
+def closed(model: mujoco.MjModel, flex: int) -> bool:
+    """Whether a flex is of triangles that close around something."""
+    if model.flex_dim[flex] != 2:
+        return False
+    faces = _triangles(model, flex).astype(np.int64)
+    sides = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    most = int(faces.max(initial=0)) + 1
+    there, back = sides @ (most, 1), sides @ (1, most)
+    return len(np.unique(there)) == len(there) and bool(np.array_equal(np.sort(there), np.sort(back)))
+
+
+def at_rest(model: mujoco.MjModel) -> np.ndarray:
+    """(n, 3) m: the points of all flexes as the world is built."""
+    import mujoco
+
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_flex(model, data)
+    return np.array(data.flexvert_xpos)
+
+
+def _triangles(model: mujoco.MjModel, flex: int) -> np.ndarray:
+    first = int(model.flex_elemdataadr[flex])
+    return np.asarray(model.flex_elem[first : first + 3 * int(model.flex_elemnum[flex])]).reshape(-1, 3)
+
+
+def _beads(triangles: np.ndarray, count: int) -> np.ndarray:
+    """(F,) whether a triangle belongs to another piece than the largest one."""
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    pairs = np.concatenate([triangles[:, :2], triangles[:, 1:]])
+    _, part = connected_components(coo_matrix((np.ones(len(pairs)), pairs.T), shape=(count, count)), directed=False)
+    return np.asarray(part != np.bincount(part).argmax())[triangles[:, 0]]
+
+
+def _areas(triangles: np.ndarray) -> np.ndarray:
+    """(F, 3): the normals of triangles (F, 3, 3), twice as long as their areas."""
+    a, b = triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    return np.stack(
+        [
+            a[:, 1] * b[:, 2] - a[:, 2] * b[:, 1],
+            a[:, 2] * b[:, 0] - a[:, 0] * b[:, 2],
+            a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0],
+        ],
+        axis=1,
+    )

@@ -1,0 +1,44 @@
+const float LIQUID = 9.0;
+// What is seen through the surface of a body of liquid: along the bent ray to what the picture has behind it, fainter by the way.
+// At an upright wall of it, as of a glass, light comes out again at the far side, bent there, too: a lens.
+vec3 through_liquid(vec3 p, vec3 v, vec3 n, vec3 middle, float half_width) {
+    const float index = 1.333;
+    vec3 d = refract(-v, n, 1.0 / index);
+    float most = 2.2 * half_width, t;
+    vec4 clip = to_clip * vec4(p, 1.0);
+    if (abs(n.z) < 0.5) {
+        vec2 from = p.xy - middle.xy;
+        float a = max(dot(d.xy, d.xy), 1e-6), b = dot(from, d.xy);
+        t = clamp(-2.0 * b / a, 0.0, most);
+        vec3 out_at = p + d * t;
+        vec3 inward = vec3(-normalize(out_at.xy - middle.xy + 1e-9), 0.0);
+        vec3 onward = refract(d, inward, index);
+        if (dot(onward, onward) < 0.5) onward = reflect(d, inward);
+        // What stands in it is met before the far side.
+        vec4 within = to_clip * vec4(p + d * 0.5 * t, 1.0);
+        vec2 at = within.xy / within.w * 0.5 + 0.5;
+        float met = distance_at(at);
+        vec2 q = at;
+        float before = (to_clip * vec4(out_at, 1.0)).w;
+        if (met > before) {
+            float far = min(met - before, 12.0 * half_width);
+            vec4 there = to_clip * vec4(out_at + onward * max(far, 0.3 * half_width), 1.0);
+            q = there.xy / there.w * 0.5 + 0.5;
+        }
+        return textureLod(behind, clamp(q, 0.002, 0.998), 0.0).rgb * exp(-absorbs * t);
+    }
+    vec2 q = clip.xy / clip.w * 0.5 + 0.5;
+    float ahead = max(dot(d, forward), 0.05);
+    t = 0.0;
+    for (int i = 0; i < 4; i++) {
+        t = clamp(t + 0.8 * (distance_at(q) - clip.w) / ahead, 0.0, most);
+        clip = to_clip * vec4(p + d * t, 1.0);
+        q = clamp(clip.xy / clip.w * 0.5 + 0.5, 0.002, 0.998);
+    }
+    // Near the picture's edge what is bent beyond it is not known: there it is less bent.
+    vec2 straight = gl_FragCoord.xy / pixels;
+    vec2 wanted = (to_clip * vec4(p + d * t, 1.0)).xy / clip.w * 0.5 + 0.5;
+    vec2 room = min(straight, 1.0 - straight), past = abs(wanted - straight);
+    float kept = min(min(1.0, 0.9 * room.x / max(past.x, 1e-5)), min(1.0, 0.9 * room.y / max(past.y, 1e-5)));
+    return textureLod(behind, mix(straight, wanted, kept), 0.0).rgb * exp(-absorbs * t);
+}

@@ -1,0 +1,92 @@
+"""The solver `water` in a recorded world: what shows it is recorded and drawn, twice the same, and drops keep its volume."""
+
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from worldengine.clock.beside import Beside
+from worldengine.clock.simulate import prepare, simulate
+from worldengine.recording import describing, stored
+from worldengine.recording.record import Recorder
+from worldengine.recording.replay import Replay
+from worldengine.solvers import Row, water
+from worldkit import bodies, scene, waters
+from worldkit.errors import ProgramError
+from worldkit.world import start
+
+STEPS, STEP = 150, 0.004
+
+
+def tank() -> mujoco.MjSpec:
+    spec = scene.new("tank", time_step=STEP)
+    bodies.container(spec, "tank", size=(0.5, 0.4, 0.3), wall=0.02, pos=(0, 0, 0.15), fixed=True)
+    bodies.sphere(spec, "ball", diameter=0.06, pos=(0.02, 0.01, 0.36), density=700.0)
+    waters.fill(spec, "water", container="tank", level=0.2, drops=20)
+    return spec
+
+
+def run(folder: Path, **constants: float) -> tuple[mujoco.MjModel, stored.Recording]:
+    model = tank().compile()
+    prepare(model)
+    data = start(model)
+    rows = [Row("water", ("ball",), {"density": 998.0, "level": 0.2, **constants}, "water")]
+    beside = Beside(model, data, rows)
+    meta = {**describing.describe(model), "solvers": [row.written() for row in rows], "shown": beside.shown}
+    with Recorder(model, data, folder, meta, channels=beside.channels) as recorder:
+        simulate(model, data, recorder, STEPS, beside=beside)
+    return model, stored.open(folder)
+
+
+@pytest.fixture(scope="module")
+def fallen(tmp_path_factory: pytest.TempPathFactory) -> tuple[mujoco.MjModel, stored.Recording]:
+    return run(tmp_path_factory.mktemp("fallen") / "out")
+
+
+def test_a_ball_splashes_and_the_volume_is_kept(fallen) -> None:
+    _, recording = fallen
+    told = recording.channels("water")
+    assert told["drops"].max() > 5, "drops fly"
+    assert told["immersed"].max() > 5e-5
+    assert np.abs(told["volume"]).max() < 1e-15 * 0.2
+    assert told["level"][-1] > 0.2 + 0.5 * told["immersed"][-1, 0] / (0.46 * 0.36)
+
+
+def test_its_surface_is_drawn_where_it_lay(fallen) -> None:
+    model, recording = fallen
+    replay = Replay(model, recording)
+    flat = np.ptp(replay.show(0).flexvert_xpos[:500, 2])
+    rough = np.ptp(replay.show(STEPS - 30).flexvert_xpos[:500, 2])
+    assert flat < 1e-5 < 1e-3 < rough
+
+
+def test_it_comes_out_the_same_twice(fallen, tmp_path: Path) -> None:
+    _, again = run(tmp_path / "again")
+    _, first = fallen
+    assert np.array_equal(again.pos, first.pos)
+    assert np.array_equal(np.asarray(again.media.place), np.asarray(first.media.place))
+
+
+def test_a_wind_ruffles_it_and_its_level_stays() -> None:
+    model = tank().compile()
+    pool = water.start(
+        model, start(model), [model.body("ball").id], {"density": 998.0, "level": 0.2, "wind": 25.0}, "water"
+    )
+    waves = pool.water.surface()
+    assert 2e-4 < waves.std() < 5e-3, "JONSWAP: a quarter of 8 mm, less what is finer than the grid"
+    assert abs(float((waves * pool.water.grid.areas).sum())) < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("constants", "shown_by", "says"),
+    [
+        ({"density": 998.0, "level": 0.21}, "water", "shows it at"),
+        ({"density": 0.0, "level": 0.2}, "water", "needs a density"),
+        ({"density": 998.0, "level": 0.2}, "ball", "is shown by"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(constants: dict, shown_by: str, says: str) -> None:
+    model = tank().compile()
+    with pytest.raises(ProgramError, match=says):
+        Beside(model, start(model), [Row("water", ("ball",), constants, shown_by)])
