@@ -32,14 +32,21 @@ WORLD = "world"
 """As a body of a law, which the plan's row names too: what stands fast. What pushes it is summed, and goes nowhere."""
 TOTALS = 11
 """Numbers before the points: mass, momentum (3), energy, of that by weight and stored, volume, impulse taken by the world (3)."""
+EACH = 4
+"""Numbers of a point, after them: all places (3), and then all colours, each as one number (`one_number`)."""
 HUGE = 1e6
 """A point or force beyond it, m or N, is a blow-up."""
+
+
+PLAIN = -1.0
+"""In place of a colour: that of what shows the law is drawn."""
 
 
 class Law(Protocol):
     """The protocol of a law; n points, k bodies, everything in the world frame.
 
-    It may have `volume() -> float`, m^3, too, where its matter keeps one. Where it steps more finely than it is asked, the force
+    It may have `volume() -> float`, m^3, too, where its matter keeps one, and `colours`, (n, 3) sRGB from 0 to 1, which are drawn in
+    place of the colour of what shows it. Where it steps more finely than it is asked, the force
     that it returns is the mean one.
     """
 
@@ -69,6 +76,13 @@ class Law(Protocol):
 
     def energy(self) -> float:
         """What is stored in the points besides their motion and weight, J: stretch, surface."""
+
+
+def one_number(colours: "np.ndarray") -> "np.ndarray":
+    """(n,) colours (n, 3), sRGB from 0 to 1, as whole numbers of 24 bits, red first."""
+    import numpy as np
+
+    return np.asarray(np.rint(np.clip(colours, 0.0, 1.0) * 255.0) @ (65536.0, 256.0, 1.0))
 
 
 def check(laws: Any) -> tuple[Law, ...]:
@@ -162,10 +176,11 @@ class Stepped:
                 move = "say the same in both, `world` too where the law pushes on it"
                 raise ProgramError(cause, "program.main", move)
             _stands_in(law, row.get("file", ""))
-            numbers = words(at, TOTALS + 3 * row["points"])
+            numbers = words(at, TOTALS + EACH * row["points"])
             at += 8 * len(numbers)
+            told = numbers[TOTALS : TOTALS + 3 * row["points"]].reshape(-1, 3), numbers[TOTALS + 3 * row["points"] :]
             of = np.array([bodies.index(body) for body in law.bodies], np.intp)
-            self._laws.append((law, of, numbers[:TOTALS], numbers[TOTALS:].reshape(-1, 3), np.zeros(3)))
+            self._laws.append((law, of, numbers[:TOTALS], told, np.zeros(3)))
             pushed.append(of[of > 0])
         self._gravity = model.opt.gravity.copy()  # which nobody can write afterwards
         self._pushed = np.concatenate([np.zeros(0, np.intp), *pushed])
@@ -183,11 +198,12 @@ class Stepped:
             ProgramError: a law raises, or returns what cannot be.
         """
         first = 0
-        for law, bodies, totals, points, held in self._laws:
+        for law, bodies, totals, (points, colours), held in self._laws:
             if not self._asked:
                 self._of(law, data, "start", partial(law.start, model, data))
             if self._asked % self._every == 0 or self._asked == self._end:
                 points[:], velocities, mass = self._told(law, len(points))
+                colours[:] = self._coloured(law, data, len(points))
                 self._sane(law, data)
                 totals[:] = self._totals(law, data, points, velocities, mass, held)
             if self._asked == self._end:
@@ -239,6 +255,21 @@ class Stepped:
                 raise ProgramError(cause, law.name, f"make it {shape}, or give {law.shown_by} as many points")
             told.append(found)
         return told
+
+    def _coloured(self, law: Law, data: "mujoco.MjData", count: int) -> "np.ndarray | float":
+        """(n,) its colours, each as one number; `PLAIN` where it has none."""
+        import numpy as np
+
+        given = getattr(law, "colours", None)
+        if given is None:
+            return PLAIN
+        found = self._of(law, data, "colours", partial(np.asarray, given, float))
+        if found.shape != (count, 3) or not float(np.abs(found - 0.5).max(initial=0.0)) <= 0.5 + 1e-6:
+            cause = (
+                f"the law {law.name} has colours of the shape {found.shape}, or beyond 0 to 1, at t = {data.time:.4f} s"
+            )
+            raise ProgramError(cause, law.name, f"give {law.shown_by} ({count}, 3) of sRGB from 0 to 1, or none")
+        return one_number(found)
 
     def _sane(self, law: Law, data: "mujoco.MjData") -> None:
         """Refuse points that are no numbers, or far away; a sum finds them without looking at each."""

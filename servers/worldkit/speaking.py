@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from .channel import Channel, PeerError
 from .errors import ProgramError
-from .laws import TOTALS, Law, Stepped
+from .laws import EACH, TOTALS, Law, Stepped
 from .mirror import Mirror, words
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def message_bytes(width: int, edits: bool) -> int:
 
 def media_bytes(media: "dict[str, Any] | None") -> int:
     """Size of what laws tell beside an answer, after it: sums and points of each (`laws.Stepped`)."""
-    return _lines(sum(8 * (TOTALS + 3 * int(row["points"])) for row in media["rows"])) if media else 0
+    return _lines(sum(8 * (TOTALS + EACH * int(row["points"])) for row in media["rows"])) if media else 0
 
 
 def _lines(size: int) -> int:

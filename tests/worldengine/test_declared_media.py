@@ -107,6 +107,7 @@ def _at(row: int, value: float):
         ("media", {"medium": _at(2, 1)}, "another medium"),
         ("media", {"point": _at(7, 0)}, "another point"),
         ("media", {"place": _at(5, np.nan)}, "it lies nowhere"),
+        ("media", {"colour": _at(5, 1 << 24)}, "its colour is none"),
         ("balances", {"energy": _at(3, np.inf)}, "row 3 .* not finite"),
     ],
 )

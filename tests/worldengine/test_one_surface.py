@@ -48,6 +48,27 @@ def test_it_keeps_to_the_room_that_it_has_and_none_is_none():
     assert [len(part) for part in one_surface.around(np.zeros((0, 3)), np.zeros(0), 9, 9)] == [0, 0]
 
 
+def test_colours_mix_where_they_meet_and_nowhere_else():
+    points = grid(8, 0.02)[:64] * (1, 1, 0)
+    left = points[:, :1] < points[:, 0].mean()
+    colours = np.where(left, (1.0, 0.8, 0.0), (0.0, 0.6, 0.9))
+    vertices, _ = one_surface.around(points, np.full(64, 0.012), 60_000, 60_000)
+    found = one_surface.mixed(vertices, points, np.full(64, 0.012), colours)
+    across = vertices[:, 0] - points[:, 0].mean()
+    assert found[across < -0.045] == pytest.approx(np.tile((1.0, 0.8, 0.02), ((across < -0.045).sum(), 1)), abs=0.03)
+    middle = found[np.abs(across) < 0.003]
+    assert (middle[:, 1] > 1.5 * middle[:, [0, 2]].max(axis=1)).all(), "of yellow and blue comes green"
+    order = np.argsort(across)
+    assert np.abs(np.diff(found[order, 2])).max() < 0.5, "smoothly"
+
+
+def test_what_an_eye_does_not_see_is_not_made():
+    points, radii = grid(6, 0.019), np.full(216, 0.01)
+    fine, coarse = (one_surface.around(points, radii, 60_000, 60_000, finest) for finest in (0.0, 0.006))
+    assert len(coarse[1]) < 0.5 * len(fine[1])
+    assert volume(*coarse) == pytest.approx(volume(*fine), rel=0.1)
+
+
 class Poured:
     """Nine balls that fall onto a floor, seen by a film."""
 
@@ -66,9 +87,9 @@ class Poured:
         with np.load(folder / "motion.npz") as arrays:
             self.seen = Recorded(dict(arrays))
 
-    def film(self, change=None, look="plastic_red"):
+    def film(self, change=None, look="plastic_red", blended=False):
         film = Film(self.seen)
-        film.surface("honey", of="drop_*", look=look)
+        film.surface("honey", of="drop_*", look=look, blended=blended)
         film.shot(still((0.2, -1.6, 0.5), (0.2, 0.2, 0.2), lens_mm=35), until=0.25)
         lay_film(self.folder, film, change and (lambda facts, _: change(facts)))
         return described.read(self.folder, self.recording)
@@ -137,3 +158,18 @@ def test_particles_can_be_a_surface_too(poured):
     surface.place(data)
     assert (surface._vertices[:, 2] > -100).sum() > 100
     assert renderers.USUAL == "preview"
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("renderer", ["preview", "traced"])
+def test_bodies_of_several_colours_are_one_skin_that_has_them_all(poured, renderer):
+    film = poured.film(look="plastic_red", blended=True)
+    for geom in range(poured.plain.ngeom):
+        if poured.plain.geom(geom).name.startswith("drop_"):
+            assert poured.plain.geom_rgba[geom, 2] == pytest.approx(0.8)
+    with Screening(poured.folder / "world.mjz", poured.plain, poured.recording, film, SIZE, 24, renderer) as screening:
+        image = screening.picture(film.frames - 1, 2).astype(int)
+        assert screening.frames.renderer == renderer, screening.frames.reason
+        assert len(screening._surfaces) == 1
+    assert ((image[..., 2] - image[..., 0]) > 40).sum() > 60, "blue as its bodies are"
+    assert ((image[..., 0] - image[..., 2]) > 40).sum() == 0, "and nowhere red as its look"

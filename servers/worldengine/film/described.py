@@ -217,7 +217,7 @@ def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[s
     name, of = str(told["name"]), [str(one) for one in told["of"]]
     if not 0 < len(name) <= 60 or not of or not set(of) <= known:
         raise _refuse(f"the surface {name!r} is of what is no body and no particles", "name some that there are")
-    return {"name": name, "of": of, "look": _look(told["look"], arrays)}
+    return {"name": name, "of": of, "look": _look(told["look"], arrays), "blended": told.get("blended") is True}
 
 
 def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:

@@ -267,9 +267,11 @@ class Screening:
             place = (1 - part) * ways[low] + part * ways[high]
             data.geom_xpos[copies] = place + turned @ self.model.mesh_pos[mesh]
             data.geom_xmat[copies] = (turned @ turning.matrices(self.model.mesh_quat[mesh])).reshape(-1, 9)
-        for surface in self._surfaces:
-            surface.place(data)
         self._look(data, shot, row, told)
+        if self._surfaces:
+            pixel = np.radians(self.model.cam_fovy[self._camera]) / self.frames.height
+            for surface in self._surfaces:
+                surface.place(data, data.cam_xpos[self._camera], float(pixel))
         if not treated:
             return data
         treatment = film.treatments.at(at / self.fps, float(told("focus_m")), float(told("aperture")))

@@ -19,7 +19,13 @@ DRAWN_FROM = (
     "cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "lights.py", "model_text.py", "turning.py", "forms/lattice.py",
 )  # fmt: skip
 """What of `worldkit` decides how a recorded world looks when it is drawn, and from where."""
-REPLAYED_BY = ("recording/seen.py", "recording/replay.py", "recording/lain.py", "inputs/declared_media.py")
+REPLAYED_BY = (
+    "recording/seen.py",
+    "recording/replay.py",
+    "recording/lain.py",
+    "recording/point_colours.py",
+    "inputs/declared_media.py",
+)
 """What of the engine decides what is shown at which time, and where an author's laws are drawn."""
 
 

@@ -4,18 +4,22 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..recording import point_colours
+
 if TYPE_CHECKING:
     import mujoco
 
 REACH = 2.4
 """A particle draws the surface towards itself within so many of its radii."""
-CELLS_A_RADIUS = 3.0
+CELLS_A_RADIUS, LEAST_CELLS = 3.0, 1.5
 MOST_CELLS = 3_000_000
 SMOOTH_CELLS = 0.7
 MOST_TRIANGLES, LEAST_TRIANGLES, TRIANGLES_EACH = 150_000, 4_000, 240
 """A surface has room for so many: at most, at least, and for each particle."""
 SAMPLES = 5
 """A long shape counts as so many balls in a row."""
+NEAREST, MINGLING, DARKEST = 12, 3.0, 0.02
+"""So many particles colour a corner, within so many of their radii; what is darker than this (sRGB) would swallow all else."""
 NOWHERE = -1e4
 
 
@@ -26,22 +30,65 @@ class Surface:
         model: the dressed world.
         skin: number of its skin.
         geoms: numbers of the geoms that it stands for.
+        blended: it has their colours, mixed where they meet, in place of its look's; colours that a law tells it has always.
     """
 
-    def __init__(self, model: "mujoco.MjModel", skin: int, geoms: "np.ndarray") -> None:
+    def __init__(self, model: "mujoco.MjModel", skin: int, geoms: "np.ndarray", blended: bool = False) -> None:
         self._model, self._geoms = model, geoms
         first, count = int(model.skin_vertadr[skin]), int(model.skin_vertnum[skin])
         self._vertices = model.skin_vert[first : first + count]
         first, count = int(model.skin_faceadr[skin]), int(model.skin_facenum[skin])
         self._faces = model.skin_face[first : first + count]
+        colours, first = point_colours.of(model), int(model.skin_vertadr[skin])
+        self._told, self._own = colours.geom, colours.skin[first : first + int(model.skin_vertnum[skin])]
+        self._blended = blended
+        self._colour(self._own[:0], np.zeros(0, int), np.zeros((0, 3)), np.zeros(0))
 
-    def place(self, data: "mujoco.MjData") -> None:
-        """Lay the surface around its particles as they are in `data`."""
-        points, radii = balls(self._model, data, self._geoms)
-        vertices, faces = around(points, radii, len(self._faces), len(self._vertices))
+    def place(self, data: "mujoco.MjData", eye: "np.ndarray | None" = None, pixel: float = 0.0) -> None:
+        """Lay the surface around its particles as they are in `data`, no finer than an eye (3,) sees whose pixels are so wide, rad."""
+        points, radii, owners = balls(self._model, data, self._geoms)
+        finest = 0.0
+        if eye is not None and len(points):
+            finest = pixel * max(float((np.linalg.norm(points - eye, axis=1) - radii).min()), 0.0)
+        vertices, faces = around(points, radii, len(self._faces), len(self._vertices), finest)
         self._vertices[:] = NOWHERE
         self._faces[:] = len(self._vertices) - 1
         self._vertices[: len(vertices)], self._faces[: len(faces)] = vertices, faces
+        self._colour(vertices, owners, points, radii)
+
+    def _colour(self, vertices: "np.ndarray", owners: "np.ndarray", points: "np.ndarray", radii: "np.ndarray") -> None:
+        """Mix the colours of the particles around each corner, as paints: by what each takes from light."""
+        told = self._told[self._geoms]
+        if not self._blended and (not len(told) or told.min() < 0):
+            return
+        own = np.array([seen_rgb(self._model, geom) for geom in self._geoms]).reshape(-1, 3) if self._blended else told
+        own = np.where(told < 0, own, told)
+        self._own[:] = own.mean(axis=0) if len(own) else 0.5
+        if len(vertices):
+            self._own[: len(vertices)] = mixed(vertices, points, radii, own[np.searchsorted(self._geoms, owners)])
+
+
+def seen_rgb(model: "mujoco.MjModel", geom: int) -> "np.ndarray":
+    """(3,) sRGB of a geom."""
+    from .renderers.preview.finish import of_material
+
+    material = int(model.geom_matid[geom])
+    return np.asarray(
+        model.geom_rgba[geom, :3] if material < 0 else np.array(of_material(model, material).mean) ** (1 / 2.2)
+    )
+
+
+def mixed(vertices: "np.ndarray", points: "np.ndarray", radii: "np.ndarray", colours: "np.ndarray") -> "np.ndarray":
+    """(V, 3) sRGB at corners of a surface around balls (P) of these colours, those near by weight: the mean of their logarithms,
+    as layers of colour add up what they absorb (the law of Beer and Lambert).
+    """
+    from scipy.spatial import cKDTree
+
+    away, near = cKDTree(points).query(vertices, k=min(NEAREST, len(points)))
+    away, near = away.reshape(len(vertices), -1), near.reshape(len(vertices), -1)
+    weight = np.maximum(1.0 - (away / (MINGLING * radii[near])) ** 2, 1e-3 / (1.0 + away / radii[near])) ** 3
+    lost = np.log(np.maximum(colours, DARKEST))[near]
+    return np.asarray(np.exp((weight[..., None] * lost).sum(axis=1) / weight.sum(axis=1, keepdims=True)))
 
 
 def room(particles: int) -> int:
@@ -49,12 +96,14 @@ def room(particles: int) -> int:
     return int(np.clip(TRIANGLES_EACH * particles, LEAST_TRIANGLES, MOST_TRIANGLES))
 
 
-def balls(model: "mujoco.MjModel", data: "mujoco.MjData", geoms: "np.ndarray") -> "tuple[np.ndarray, np.ndarray]":
-    """Middles (P, 3), m, and radii (P,), m, of balls that fill some geoms; long ones are filled by several."""
+def balls(
+    model: "mujoco.MjModel", data: "mujoco.MjData", geoms: "np.ndarray"
+) -> "tuple[np.ndarray, np.ndarray, np.ndarray]":
+    """Middles (P, 3), m, radii (P,), m, and geoms (P,) of balls that fill some geoms; long ones are filled by several."""
     import mujoco
 
     kinds = mujoco.mjtGeom
-    points, radii = [], []
+    points, radii, owners = [], [], []
     for geom in geoms:
         size, kind = model.geom_size[geom], model.geom_type[geom]
         if kind == kinds.mjGEOM_SPHERE:
@@ -73,22 +122,24 @@ def balls(model: "mujoco.MjModel", data: "mujoco.MjData", geoms: "np.ndarray") -
         turn = data.geom_xmat[geom].reshape(3, 3)
         points.append(own @ turn.T + data.geom_xpos[geom])
         radii.append(np.full(len(row), radius))
+        owners.append(np.full(len(row), geom))
     if not points:
-        return np.zeros((0, 3)), np.zeros(0)
-    return np.concatenate(points), np.concatenate(radii)
+        return np.zeros((0, 3)), np.zeros(0), np.zeros(0, int)
+    return np.concatenate(points), np.concatenate(radii), np.concatenate(owners)
 
 
 def around(
-    points: "np.ndarray", radii: "np.ndarray", most_faces: int, most_vertices: int
+    points: "np.ndarray", radii: "np.ndarray", most_faces: int, most_vertices: int, finest: float = 0.0
 ) -> "tuple[np.ndarray, np.ndarray]":
     """Vertices (V, 3), m, and faces (F, 3), outward, of a smooth surface around balls; both empty where there is none.
 
     After Zhu and Bridson, "Animating Sand as a Fluid" (2005): the distance to the weighted mean of what is near, less its
-    radius, which is flat over what lies level, and smoothed a little.
+    radius, which is flat over what lies level, and smoothed a little. `finest`, m: what is smaller is not seen.
     """
     if not len(points):
         return np.zeros((0, 3)), np.zeros((0, 3), np.int32)
-    cell = float(np.median(radii)) / CELLS_A_RADIUS
+    radius = float(np.median(radii))
+    cell = min(max(radius / CELLS_A_RADIUS, finest), radius / LEAST_CELLS)
     while True:
         vertices, faces, cell = _meshed(points, radii, cell)
         if len(faces) <= most_faces and len(vertices) < most_vertices:
@@ -98,35 +149,37 @@ def around(
 
 def _meshed(points: "np.ndarray", radii: "np.ndarray", cell: float) -> "tuple[np.ndarray, np.ndarray, float]":
     from scipy.ndimage import gaussian_filter
+    from scipy.sparse import csr_array
     from skimage.measure import marching_cubes
 
-    largest = float(radii.max())
-    low = points.min(axis=0) - 2.0 * largest - 3 * cell
-    span = np.ptp(points, axis=0) + 4.0 * largest + 6 * cell
+    margin = REACH * float(radii.max()) + 2 * cell
+    low, span = points.min(axis=0) - margin, np.ptp(points, axis=0) + 2 * margin
     cell = max(cell, float(np.prod(span) / MOST_CELLS) ** (1 / 3))
+    low, span = low - 2 * cell, span + 4 * cell  # all that a ball reaches is in the grid
     shape = tuple(int(n) for n in np.ceil(span / cell) + 1)
-    total = int(np.prod(shape))
-    weight, mean, mean_radius = np.zeros(total), np.zeros((3, total)), np.zeros(total)
+    total, strides = int(np.prod(shape)), np.array([shape[1] * shape[2], shape[2], 1])
+    sums = np.zeros((total, 5))  # of the weights, and of them with places and radii
     for radius in np.unique(np.round(radii, 9)):  # balls of one size reach over equally many cells
         mine = points[np.abs(radii - radius) < 1e-8]
         reach = REACH * radius
         n = int(np.ceil(reach / cell))
         around_it = np.stack(np.meshgrid(*[np.arange(-n, n + 1)] * 3, indexing="ij"), -1).reshape(-1, 3)
-        around_it = around_it[np.linalg.norm(around_it, axis=1) <= n + 1]
-        for part in np.array_split(mine, max(1, len(mine) * len(around_it) // 2_000_000 + 1)):
-            index = np.round((part - low) / cell).astype(int)[:, None] + around_it
-            good = ((index >= 0) & (index < np.array(shape))).all(axis=-1)
-            away = np.linalg.norm(index * cell + low - part[:, None], axis=-1) / reach
-            w = np.maximum(1.0 - away**2, 0.0) ** 3 * good
-            flat = np.ravel_multi_index(tuple(np.moveaxis(np.where(good[..., None], index, 0), -1, 0)), shape).ravel()
-            weight += np.bincount(flat, w.ravel(), total)
-            mean_radius += np.bincount(flat, (w * radius).ravel(), total)
-            for axis in range(3):
-                mean[axis] += np.bincount(flat, (w * part[:, None, axis]).ravel(), total)
+        around_it = around_it[np.linalg.norm(around_it, axis=1) <= reach / cell + 0.9]
+        for part in np.array_split(mine, len(mine) * len(around_it) // 4_000_000 + 1):
+            nearest = np.rint((part - low) / cell).astype(int)
+            off = (nearest * cell + low - part) / reach
+            steps = around_it * (cell / reach)
+            away = (off**2).sum(axis=1)[:, None] + 2 * off @ steps.T + (steps**2).sum(axis=1)
+            weights = np.maximum(1.0 - away, 0.0) ** 3
+            places = (nearest @ strides)[:, None] + around_it @ strides
+            ends = np.arange(0, places.size + 1, len(around_it))
+            table = csr_array((weights.ravel(), places.ravel(), ends), shape=(len(part), total))
+            sums += table.T @ np.column_stack([np.ones(len(part)), part, np.full(len(part), radius)])
+    weight, mean, mean_radius = sums[:, 0], sums[:, 1:4], sums[:, 4]
     near = weight > 1e-9
     places = np.stack(np.unravel_index(np.flatnonzero(near), shape), -1) * cell + low
     level = np.full(total, 2.0 * cell)
-    distance = np.linalg.norm(places - (mean[:, near] / weight[near]).T, axis=1) - mean_radius[near] / weight[near]
+    distance = np.linalg.norm(places - mean[near] / weight[near, None], axis=1) - mean_radius[near] / weight[near]
     level[near] = np.clip(distance, -3.0 * cell, 3.0 * cell)
     field: Any = gaussian_filter(level.reshape(shape), SMOOTH_CELLS)
     if not field.min() < 0.0 < field.max():

@@ -59,7 +59,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
             answers.change()
             refresh(model, data)
         if media is not None:
-            for place, (_, points) in zip(media.places, media.parts(media.read(voice.media)), strict=True):
+            for place, (_, points, _) in zip(media.places, media.parts(media.read(voice.media)), strict=True):
                 place.show(data, points)
 
     live(model, data, None if voice is None else control, given.duration)

@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.channel import PeerError
 from worldkit.errors import ProgramError
-from worldkit.laws import HUGE, TOTALS, WORLD
+from worldkit.laws import EACH, HUGE, PLAIN, TOTALS, WORLD
 from worldkit.mirror import words
 from worldkit.naming import names
+
+from ..recording import point_colours
 
 if TYPE_CHECKING:
     import mujoco
@@ -138,7 +140,7 @@ class Media:
     @property
     def width(self) -> int:
         """How many numbers the laws tell beside an answer."""
-        return sum(TOTALS + 3 * count for count in self.counts)
+        return sum(TOTALS + EACH * count for count in self.counts)
 
     def as_meta(self) -> dict[str, Any]:
         """The media for the author's process: see `worldkit.laws.Stepped`."""
@@ -158,20 +160,24 @@ class Media:
         import numpy as np
 
         numbers = words(at, self.width).copy()
-        for row, (_, points) in zip(self.rows, self.parts(numbers), strict=True):
+        for row, (_, points, colours) in zip(self.rows, self.parts(numbers), strict=True):
             if not float(np.abs(points).max(initial=0.0)) < HUGE:
                 raise PeerError(f"the law {row.name} sends points that are no places", "control", "send numbers")
+            if point_colours.wrong(colours).any():
+                raise PeerError(f"the law {row.name} sends colours that are none", "control", "send 24 bits, or -1")
         if not np.isfinite(numbers).all():
             raise PeerError("a law sends sums that are not finite", "control", "send numbers")
         return numbers
 
-    def parts(self, numbers: "np.ndarray") -> "list[tuple[np.ndarray, np.ndarray]]":
-        """((TOTALS,) sums, (n, 3) points, m) of each medium."""
+    def parts(self, numbers: "np.ndarray") -> "list[tuple[np.ndarray, np.ndarray, np.ndarray]]":
+        """((TOTALS,) sums, (n, 3) points, m, (n,) colours, each one number) of each medium."""
+        import numpy as np
+
         found, at = [], 0
         for count in self.counts:
-            end = at + TOTALS + 3 * count
-            found.append((numbers[at : at + TOTALS], numbers[at + TOTALS : end].reshape(-1, 3)))
-            at = end
+            sums, places, colours = np.split(numbers[at : at + TOTALS + EACH * count], (TOTALS, TOTALS + 3 * count))
+            found.append((sums, places.reshape(-1, 3), colours))
+            at += TOTALS + EACH * count
         return found
 
     def keep(self, recorder: "Recorder", step: int, numbers: "np.ndarray") -> None:
@@ -186,13 +192,14 @@ class Media:
             "step": np.full(sum(self.counts), step, np.int32),
             "medium": np.repeat(np.arange(len(self.counts), dtype=np.int32), self.counts),
             "point": np.concatenate([np.arange(count, dtype=np.int32) for count in self.counts]),
-            "place": np.concatenate([points for _, points in self.parts(numbers)]).astype(np.float32),
+            "place": np.concatenate([points for _, points, _ in self.parts(numbers)]).astype(np.float32),
+            "colour": np.concatenate([colours for _, _, colours in self.parts(numbers)]).astype(np.int32),
         }
 
     def _sums(self, step: int, numbers: "np.ndarray") -> dict[str, Any]:
         import numpy as np
 
-        sums = np.array([totals for totals, _ in self.parts(numbers)])
+        sums = np.array([totals for totals, _, _ in self.parts(numbers)])
         columns = {"mass": sums[:, 0], "momentum": sums[:, 1:4], "energy": sums[:, 4], "weight": sums[:, 5]}
         columns |= {"stored": sums[:, 6], "volume": sums[:, 7], "held": sums[:, 8:11]}
         count = len(self.counts)
@@ -211,15 +218,21 @@ class Place:
         import numpy as np
 
         flexes, bodies = names(model, "flex", model.nflex), names(model, "body", model.nbody)
+        self._colours = point_colours.of(model)
         if row.shown_by in flexes:
             flex = flexes.index(row.shown_by)
             first, self.count = int(model.flex_vertadr[flex]), int(model.flex_vertnum[flex])
-            self._array, self._at = "flexvert_xpos", np.arange(first, first + self.count)
+            self._array, self._tinted, self._at = (
+                "flexvert_xpos",
+                self._colours.flex,
+                np.arange(first, first + self.count),
+            )
             owners = model.flex_vertbodyid[first : first + self.count]
             solid = bool(model.flex_contype[flex] or model.flex_conaffinity[flex])
         elif row.shown_by in bodies[1:]:
             body = bodies.index(row.shown_by)
-            self._array, self._at = "geom_xpos", np.flatnonzero(model.geom_bodyid == body)
+            self._array, self._tinted = "geom_xpos", self._colours.geom
+            self._at = np.flatnonzero(model.geom_bodyid == body)
             self.count, owners = len(self._at), np.array([body])
             solid = bool((model.geom_contype[self._at] | model.geom_conaffinity[self._at]).any())
         else:
@@ -233,6 +246,11 @@ class Place:
                 cause, "interventions", "give it contype=0, conaffinity=0, no joints, and a point for each"
             )
 
-    def show(self, data: "mujoco.MjData", points: "np.ndarray") -> None:
-        """Lay what is drawn at the points (n, 3), m, in data whose kinematics are done."""
+    def show(self, data: "mujoco.MjData", points: "np.ndarray", colours: "np.ndarray | None" = None) -> None:
+        """Lay what is drawn at the points (n, 3), m, in data whose kinematics are done; colours (n, 3) sRGB, or None."""
         getattr(data, self._array)[self._at] = points
+        self.colour(PLAIN if colours is None else colours)
+
+    def colour(self, colours: "np.ndarray | float") -> None:
+        """Give what is drawn colours (n, 3), sRGB, or `PLAIN`."""
+        self._tinted[self._at] = colours

@@ -14,6 +14,7 @@ from worldkit.laws import HUGE
 from worldkit.speaking import HELD
 from worldkit.watch import LOOKS, Edit
 
+from ..recording import point_colours
 from ..recording.columns import FORETOLD_COLUMNS, OF_MEDIA, TABLES, arrow_schema
 from .ports import Ports, flat
 
@@ -172,15 +173,25 @@ def _told(recording: "Recording | Replayable", media: "Media", steps: int, every
     rows.refuse(points["point"] != np.tile(order, len(due)), "it is of another point than is due", points["point"])
     place = np.asarray(points["place"], float)
     rows.refuse(~(np.abs(place) < HUGE).all(axis=1), "it lies nowhere", place)
+    colour = np.asarray(points["colour"], float)
+    rows.refuse(point_colours.wrong(colour), "its colour is none", colour)
     rows = Rows(recording.folder / "balances.arrows", np.asarray(sums["step"]))
     columns = [np.asarray(sums[name], float).reshape(len(sums), -1) for name in SUMS]
     totals = np.concatenate(columns, axis=1)
     rows.refuse(~np.isfinite(totals).all(axis=1), "a sum is not finite", totals)
-    place, totals = place.reshape(len(due), count, 3), totals.reshape(len(due), mediums, -1)
+    place, colour, totals = (
+        place.reshape(len(due), count, 3),
+        colour.reshape(len(due), count),
+        totals.reshape(len(due), mediums, -1),
+    )
     ends = np.cumsum([0, *media.counts])
     return {
         int(step): np.concatenate(
-            [part for m in range(mediums) for part in (totals[n, m], place[n, ends[m] : ends[m + 1]].ravel())]
+            [
+                part
+                for m, mine in enumerate(map(slice, ends, ends[1:]))
+                for part in (totals[n, m], place[n, mine].ravel(), colour[n, mine])
+            ]
         )
         for n, step in enumerate(due)
     }

@@ -135,6 +135,7 @@ MEDIUM_COLUMNS = (
     Column("medium", (), "1", "which of meta.laws and, after these, meta.shown", "int32"),
     Column("point", (), "1", "which of its points", "int32"),
     Column("place", (3,), "m", "where it lay", "float32"),
+    Column("colour", (), "sRGB", "red, green and blue as one number of 24 bits; -1: it has none of its own", "int32"),
 )
 BALANCE_COLUMNS = (
     Column("step", (), "1", "step at which the sums held", "int32"),

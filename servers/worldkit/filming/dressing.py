@@ -249,11 +249,13 @@ class Dressing(PatternedLight):
             self._add(Thing(name, "sphere", size, look, place, turn))
         self._grown.append((self._things.pop(), at))
 
-    def surface(self, name: str, *, of: str | Sequence[str], look: str | Surface = "wax") -> None:
+    def surface(
+        self, name: str, *, of: str | Sequence[str], look: str | Surface = "wax", blended: bool = False
+    ) -> None:
         """Bodies or particles of one substance as one smooth surface, made for each picture from where they are then.
 
         `of` names bodies, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
-        of="drop_*", look="honey")`. Their own shapes are left out.
+        of="drop_*", look="honey")`. Their own shapes are left out. `blended`: their colours, mixed where they meet; those of a law too.
 
         Raises:
             ProgramError: it names nothing, or what is another surface's already.
@@ -270,7 +272,7 @@ class Dressing(PatternedLight):
                 f"name some of: {', '.join(names[:6]) or '(none)'}",
             )
         self._named(name)
-        self._surfaces.append({"name": name, "of": found, "look": look})
+        self._surfaces.append({"name": name, "of": found, "look": look, "blended": blended})
 
     def lamp(
         self,

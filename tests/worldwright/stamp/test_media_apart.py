@@ -11,13 +11,14 @@ from worldengine.recording.columns import TABLES, arrow_schema
 from worldwright.stamp import law_check, media_apart
 
 
-def told(folder: Path, places: np.ndarray, step: int = 5) -> Path:
-    """A recording of one law's points (instants, points, 3)."""
+def told(folder: Path, places: np.ndarray, step: int = 5, colours: int | np.ndarray = -1) -> Path:
+    """A recording of one law's points (instants, points, 3), and their colours."""
     folder.mkdir()
     schema, (count, points, _) = arrow_schema(TABLES["media"]), places.shape
     steps, point = np.repeat(np.arange(count) * step, points), np.tile(np.arange(points), count)
     flat = pa.FixedSizeListArray.from_arrays(pa.array(places.astype(np.float32).ravel()), type=schema.field(3).type)
     columns = [*(pa.array(c, pa.int32()) for c in (steps, 0 * steps, point)), flat]
+    columns.append(pa.array(np.broadcast_to(colours, steps.shape), pa.int32()))
     with pa.ipc.new_stream(str(folder / "media.arrows"), schema) as stream:
         stream.write_batch(pa.RecordBatch.from_arrays(columns, schema=schema))
     return folder
@@ -52,6 +53,16 @@ def test_points_that_are_written_to_tremble_earn_nothing_by_it(tmp_path: Path) -
         assert "2.50e-03 m off at step 995" in media_apart.apart(
             told(folder / "one", recorded), told(folder / "other", asked)
         )
+
+
+def test_a_colour_may_be_a_little_off_and_no_more(tmp_path: Path) -> None:
+    grey, near, other = (
+        told(tmp_path / name, PLACES, colours=colour)
+        for name, colour in (("grey", 0x808080), ("near", 0x82807E), ("other", 0x808095))
+    )
+    assert media_apart.apart(grey, near) == ""
+    assert "21 of 255 off in colour at step 0" in media_apart.apart(grey, other)
+    assert "off in colour" in media_apart.apart(grey, told(tmp_path / "none", PLACES))
 
 
 def test_points_at_other_steps_are_not_alike_and_no_points_are(tmp_path: Path) -> None:

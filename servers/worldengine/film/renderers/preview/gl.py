@@ -16,7 +16,7 @@ from OpenGL import GL
 SHADERS = Path(__file__).parent / "shaders"
 SCRATCH_UNIT = GL.GL_TEXTURE15
 """The unit on which textures are made, so that none in use is ever displaced."""
-_common: dict[str, object] = {"HALF_DEPTH": 0}
+_common: dict[str, object] = {"HALF_DEPTH": 0, "COLOURED": 0}
 
 
 def clip_control() -> Callable[[int, int], object] | None:
@@ -271,7 +271,8 @@ class Target:
 
 
 class Shape:
-    """Vertices (n, 9: corner xyz and cap side, normal xyz, texture uv) and triangles (m, 3) on the graphics side."""
+    """Vertices (n, 9: corner xyz and cap side, normal xyz, texture uv; or n, 12: colour rgb, too) and triangles (m, 3) on the
+    graphics side."""
 
     def __init__(self, vertices: np.ndarray, triangles: np.ndarray, dynamic: bool = False):
         self.count = triangles.size
@@ -283,12 +284,14 @@ class Shape:
         indices = np.ascontiguousarray(triangles, dtype=np.uint32)
         GL.glBufferData(GL.GL_ELEMENT_ARRAY_BUFFER, indices.nbytes, indices, GL.GL_STATIC_DRAW)
         self.fill(vertices)
-        for place, (count, offset) in enumerate(((4, 0), (3, 16), (2, 28))):
+        self.coloured = vertices.shape[1] > 9
+        for place, (count, offset) in enumerate(((4, 0), (3, 16), (2, 28), (3, 36))[: 3 + self.coloured]):
             GL.glEnableVertexAttribArray(place)
-            GL.glVertexAttribPointer(place, count, GL.GL_FLOAT, GL.GL_FALSE, 36, ctypes.c_void_p(offset))
+            stride = 4 * vertices.shape[1]
+            GL.glVertexAttribPointer(place, count, GL.GL_FLOAT, GL.GL_FALSE, stride, ctypes.c_void_p(offset))
 
     def fill(self, vertices: np.ndarray) -> None:
-        """Replace the vertices (n, 9)."""
+        """Replace the vertices (n, 9 or 12)."""
         data = np.ascontiguousarray(vertices, dtype=np.float32)
         GL.glBindBuffer(GL.GL_ARRAY_BUFFER, self._vertices)
         GL.glBufferData(GL.GL_ARRAY_BUFFER, data.nbytes, data, self._usage)

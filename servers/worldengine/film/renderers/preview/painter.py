@@ -153,7 +153,7 @@ class Painter:
         reflecting, panels = "reflection" in self._textures, bool(self._uniforms["panel_count"])
         wanted = features(
             batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind, panels=panels,
-            gobo="gobo" in self._textures,
+            gobo="gobo" in self._textures, coloured=shape.coloured,
         )  # fmt: skip
         program = self._variants.get(wanted).use()
         if wanted not in self._prepared:

@@ -35,12 +35,23 @@ class Features:
     """A slide is before the key light."""
     mirror: bool
     """It reflects the picture itself."""
+    coloured: bool
+    """Its corners have colours of their own."""
     simple: bool
     """It omits relief, contact shadows and fine glints, as mirror images do."""
 
 
 def features(
-    batch: Batch, setting: int, *, reflecting: bool, simple: bool, mirror: bool, paint: int, panels: bool, gobo: bool
+    batch: Batch,
+    setting: int,
+    *,
+    reflecting: bool,
+    simple: bool,
+    mirror: bool,
+    paint: int,
+    panels: bool,
+    gobo: bool,
+    coloured: bool,
 ) -> Features:
     """The features that a batch needs."""
     look, kind = batch.finish.look, batch.shape[0]
@@ -63,6 +74,7 @@ def features(
         panels=panels,
         gobo=gobo,
         mirror=mirror,
+        coloured=coloured,
         simple=simple,
     )
 

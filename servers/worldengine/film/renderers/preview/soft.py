@@ -52,7 +52,7 @@ class Soft:
         self._shapes = SoftShapes(model)
         self.rows = np.zeros((0, FLOATS), dtype=np.float32)
         self._draws: list[tuple[gl.Shape | None, int, int, Finish]] = []
-        self._triangles: dict[tuple[str, int, int, int], gl.Shape] = {}
+        self._triangles: dict[tuple[str, int, int, int, int], gl.Shape] = {}
         self._finishes = {i: of_material(model, i) for i in range(model.nmat)} if self._shapes.any else {}
 
     def _finish(self, material: int, rgba: np.ndarray) -> tuple[Finish, np.ndarray]:
@@ -60,11 +60,13 @@ class Soft:
         return (finish, np.array(finish.look.rgba)) if finish else (plain(rgba), rgba)
 
     def _shape(self, patch: Patch) -> gl.Shape:
-        vertices = np.zeros((len(patch.points), 9), dtype=np.float32)
+        vertices = np.zeros((len(patch.points), 9 if patch.colours is None else 12), dtype=np.float32)
         vertices[:, :3], vertices[:, 4:7] = patch.points, patch.normals
         if patch.uv is not None:
             vertices[:, 7], vertices[:, 8] = patch.uv[:, 0], 1.0 - patch.uv[:, 1]  # our v runs up
-        key = (*patch.key, len(patch.points))
+        if patch.colours is not None:
+            vertices[:, 9:] = patch.colours
+        key = (*patch.key, *vertices.shape)
         if key not in self._triangles:
             self._triangles[key] = gl.Shape(vertices, np.arange(len(vertices)).reshape(-1, 3), dynamic=True)
         else:
@@ -85,7 +87,8 @@ class Soft:
             half, middle = float(np.sort(np.ptp(patch.points, axis=0))[1]) / 2, None
             if patch.key[0] == "flex" and self._shapes.is_closed(patch.key[1]):
                 half, middle = (BEAD_M, None) if patch.key[2] else self._shapes.around(patch.key[1])
-            rows.append(_row(finish, rgba, patch.geom, pictured, half, middle))
+            tint = rgba if patch.colours is None else np.ones(4)
+            rows.append(_row(finish, tint, patch.geom, pictured, half, middle))
         groups: dict[int, list[np.ndarray]] = {}
         for strand in strands:
             row = _row(*self._finish(strand.material, strand.rgba))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from ....recording import point_colours
 from .closed_flexes import ClosedFlex, at_rest, closed
 
 if TYPE_CHECKING:
@@ -47,6 +49,8 @@ class Patch(NamedTuple):
     rgba: np.ndarray
     geom: int
     """A geom of the body that it belongs to, or -1; of a flex `FLEX` less its number."""
+    colours: np.ndarray | None = None
+    """(3 N, 3) scene-linear, in place of its material's; None where it has none of its own."""
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,7 @@ class SoftShapes:
         self._options.sitegroup[:] = 0
         self._skins = [_skin(model, skin) for skin in range(model.nskin)]
         self._closed: dict[int, ClosedFlex | None] = {flex: None for flex in range(model.nflex) if closed(model, flex)}
+        self._corners: list[np.ndarray] | None = None
 
     def read(self, data: mujoco.MjData) -> tuple[list[Strand], list[Patch]]:
         """All of them in the state `data`."""
@@ -103,9 +108,10 @@ class SoftShapes:
                 ]  # fmt: skip
                 if material < 0:  # MuJoCo 4 keeps one for each element, and its scene names none; the first one counts
                     material = int(model.flex_matid[model.flex_elemadr[number]])
+                colours = None if number in self._closed else self._of_flex(number, data)
                 for piece, (points, normals) in enumerate(pieces):
                     key = ("flex", number, piece)
-                    patches.append(Patch(key, points, normals, None, material, rgba, FLEX - number))
+                    patches.append(Patch(key, points, normals, None, material, rgba, FLEX - number, colours))
             elif geom.type == kinds.mjGEOM_SKIN:
                 first, count = int(scene.skinvertadr[number]), int(scene.skinvertnum[number])
                 points, normals = (
@@ -119,7 +125,9 @@ class SoftShapes:
                     at = faces[which].ravel()
                     uv = None if skin.uv is None else skin.uv[at]
                     key = ("skin", number, piece)
-                    patches.append(Patch(key, points[at], normals[at], uv, material, rgba, owner))
+                    colours = point_colours.linear(point_colours.of(model).skin[first : first + count])
+                    colours = None if colours is None else colours[at]
+                    patches.append(Patch(key, points[at], normals[at], uv, material, rgba, owner, colours))
         return strands, patches
 
     def is_closed(self, flex: int) -> bool:
@@ -140,6 +148,39 @@ class SoftShapes:
             first, count = int(self.model.flex_vertadr[flex]), int(self.model.flex_vertnum[flex])
             made = self._closed[flex] = ClosedFlex(self.model, flex, at_rest(self.model)[first : first + count])
         return made.read(data)
+
+    def _of_flex(self, number: int, data: mujoco.MjData) -> np.ndarray | None:
+        """(3 N, 3) the colours of the corners of a flex's triangles as the scene has them; None where its points have none."""
+        first, count = (int(a[number]) for a in (self.model.flex_vertadr, self.model.flex_vertnum))
+        colours = point_colours.linear(point_colours.of(self.model).flex[first : first + count])
+        if colours is None:
+            return None
+        if self._corners is None:
+            self._corners = self._points_of_corners(data)
+        return np.asarray(colours[self._corners[number] - first])
+
+    def _points_of_corners(self, data: mujoco.MjData) -> list[np.ndarray]:
+        """Of each flex, (3 N,) which of the model's flex points each corner of its triangles in the scene is of: asked of the
+        scene with each point in a place of its own, far from the others.
+        """
+        import mujoco
+
+        model, other = self.model, copy.copy(data)
+        apart = 10.0 * max(1.0, float(model.flex_radius.max(initial=0.0)))
+        own = np.arange(model.nflexvert)
+        side = int(np.ceil(np.sqrt(model.nflexvert)))
+        other.flexvert_xpos[:] = apart * np.stack([own % side, own // side, (own % side) ** 2 % 7], axis=1)
+        scene = mujoco.MjvScene(model, maxgeom=20000)
+        mujoco.mjv_updateScene(
+            model, other, self._options, mujoco.MjvPerturb(), mujoco.MjvCamera(), mujoco.mjtCatBit.mjCAT_ALL, scene
+        )
+        faces = np.array(scene.flexface).reshape(-1, 9)
+        found = []
+        for flex in range(model.nflex):
+            first, count = int(scene.flexfaceadr[flex]), int(scene.flexfaceused[flex])
+            at = np.rint(faces[first : first + count].reshape(-1, 3)[:, :2] / apart).astype(int)
+            found.append(at[:, 0] + side * at[:, 1])
+        return found
 
 
 def geom_of(model: mujoco.MjModel, body: int) -> int:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     import mujoco
 
 PIXELS, WIDE_PIXELS, CUBE_PIXELS, BALL_PIXELS = 512, 1024, 256, 512
+CORNERS = "vertex_color"
+"""The attribute of a mesh whose corners have colours of their own."""
 CLEAR = 0.6
 """What is more transparent than this by its colour alone is glass; the rest is partly there."""
 
@@ -105,6 +107,7 @@ class Coatings:
         wide: bool = False,
         sheet: bool = False,
         strip: bool = False,
+        corners: bool = False,
     ) -> Any:
         """The material of a thing.
 
@@ -116,29 +119,43 @@ class Coatings:
             wide: it is large, so its paint is finer.
             sheet: it has no thickness.
             strip: it is the worn strip along its edges.
+            corners: its mesh has colours at its corners, in place of all tints and pictures.
         """
         mark = ball and finish.look.mark and finish.texture < 0 and finish.look.paint is None
-        key = (finish.look, finish.texture, tuple(np.round(rgb, 4)), round(alpha, 3), mark, wide, sheet, strip)
+        key = (finish.look, finish.texture, tuple(np.round(rgb, 4)), round(alpha, 3), mark, wide, sheet, strip, corners)
         if key not in self._made:
             import mitsuba as mi
 
-            told = self._told(finish, np.asarray(rgb, dtype=float), alpha, mark, wide, sheet, strip)
+            told = self._told(finish, np.asarray(rgb, dtype=float), alpha, mark, wide, sheet, strip, corners)
             self._made[key] = mi.load_dict(told)
         return self._made[key]
 
     def _told(
-        self, finish: Finish, rgb: np.ndarray, alpha: float, mark: bool, wide: bool, sheet: bool, strip: bool
+        self,
+        finish: Finish,
+        rgb: np.ndarray,
+        alpha: float,
+        mark: bool,
+        wide: bool,
+        sheet: bool,
+        strip: bool,
+        corners: bool,
     ) -> dict[str, Any]:
         entry = finish.look
         if entry.clear > 0 or alpha < CLEAR:
-            tint = {"type": "rgb", "value": [float(x) for x in np.clip(rgb, 0.0, 1.0) ** 0.5]}
+            tint: dict[str, Any] = {"type": "rgb", "value": [float(x) for x in np.clip(rgb, 0.0, 1.0) ** 0.5]}
+            if corners:
+                tint = {"type": "mesh_attribute", "name": CORNERS}
             if sheet:
                 return {"type": "thindielectric", "int_ior": entry.index, "specular_transmittance": tint}
             faded = self.fades and entry.absorbs != NOTHING
             return {"type": "dielectric", "int_ior": entry.index} | ({} if faded else {"specular_transmittance": tint})
-        pixels = marked(rgb) if mark else self.picture(finish, wide)
-        if pixels is None:
-            colour: dict[str, Any] = {"type": "rgb", "value": [float(x) for x in np.clip(rgb, 0.0, 0.97)]}
+        pixels = None if corners else marked(rgb) if mark else self.picture(finish, wide)
+        colour: dict[str, Any]
+        if corners:
+            colour = {"type": "mesh_attribute", "name": CORNERS}
+        elif pixels is None:
+            colour = {"type": "rgb", "value": [float(x) for x in np.clip(rgb, 0.0, 0.97)]}
         else:
             tinted = pixels if mark else pixels * rgb.astype(np.float32)
             colour = texture(rubbed.flaked(tinted, finish.look) if strip else tinted)

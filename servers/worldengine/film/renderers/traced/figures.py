@@ -15,7 +15,7 @@ from ...panel_lights import of_model
 from ..preview import unit_shapes
 from ..preview.things import EXACT_UV, FLAT_UV, Things
 from . import rounded, rubbed
-from .coatings import CLEAR, Coatings
+from .coatings import CLEAR, CORNERS, Coatings
 from .ground_rings import rings
 from .leaning import facing, upright
 from .relief import displaced
@@ -124,8 +124,10 @@ def elsewhere(before: np.ndarray, now: np.ndarray) -> np.ndarray:
     return np.abs(before - now).max(axis=1) > TREMBLE
 
 
-def mesh_of(vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow: np.ndarray) -> tuple[Any, Any]:
-    """An empty mesh of Mitsuba with these triangles, and its parameters."""
+def mesh_of(
+    vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow: np.ndarray, coloured: bool = False
+) -> tuple[Any, Any]:
+    """An empty mesh of Mitsuba with these triangles, and its parameters; its corners may have colours of their own."""
     import mitsuba as mi
 
     props = mi.Properties()
@@ -137,11 +139,16 @@ def mesh_of(vertices: int, faces: np.ndarray, uv: np.ndarray, coating: Any, glow
     params = mi.traverse(shape)
     params["faces"] = np.ascontiguousarray(faces, dtype=np.uint32).ravel()
     params["vertex_texcoords"] = np.ascontiguousarray(uv, dtype=np.float32).ravel()
+    if coloured:
+        shape.add_attribute(CORNERS, 3, [0.5] * (3 * vertices))
+        params = mi.traverse(shape)
     return shape, params
 
 
-def fill(params: Any, points: np.ndarray, normals: np.ndarray) -> None:
-    """Give a mesh its vertices and normals (V, 3)."""
+def fill(params: Any, points: np.ndarray, normals: np.ndarray, colours: np.ndarray | None = None) -> None:
+    """Give a mesh its vertices and normals (V, 3), and colours of its own, scene-linear (V, 3), if it was made for them."""
+    if colours is not None:
+        params[CORNERS] = np.ascontiguousarray(np.clip(colours, 0.0, 0.97), dtype=np.float32).ravel()
     params["vertex_positions"] = np.ascontiguousarray(points, dtype=np.float32).ravel()
     params["vertex_normals"] = np.ascontiguousarray(normals, dtype=np.float32).ravel()
     params.update()

@@ -48,7 +48,8 @@ class Strands:
         if (finish.look.paint or finish.texture >= 0) and not pictured:  # these bring no coordinates for a picture
             finish, tint = plain((*(np.asarray(finish.mean) ** (1 / 2.2)), 1.0)), np.asarray(finish.mean)
         self.clear |= finish.look.clear > 0
-        coating = self._coatings.of(finish, tint, 1.0)
+        coloured = patch.colours is not None
+        coating = self._coatings.of(finish, tint, 1.0, corners=coloured)
         room = len(patch.points)
         if patch.key[0] == "tendon":
             one = len(self._unit.points)
@@ -58,7 +59,7 @@ class Strands:
         else:
             faces = np.arange(room).reshape(-1, 3)
         uv = np.zeros((room, 2)) if patch.uv is None else patch.uv
-        shape, params = mesh_of(room, faces, uv, coating, np.zeros(3))
+        shape, params = mesh_of(room, faces, uv, coating, np.zeros(3), coloured)
         self._params[patch.key] = (params, room)
         self.shapes.append(shape)
         if finish.look.absorbs != NOTHING:
@@ -94,7 +95,7 @@ class Strands:
             if spare:
                 points = np.concatenate([points, np.full((spare, 3), NOWHERE)])
                 normals = np.concatenate([normals, np.tile([0.0, 0.0, 1.0], (spare, 1))])
-            fill(params, points, normals)
+            fill(params, points, normals, patch.colours)
             self.points[patch.key] = points
         return True
 

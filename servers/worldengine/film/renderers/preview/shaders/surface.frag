@@ -24,6 +24,9 @@ in vec3 world;
 in vec3 local;
 in vec3 local_normal;
 in vec2 uv;
+#if COLOURED
+in vec3 own_colour;
+#endif
 out vec4 colour;
 
 uniform sampler2D around;        // the surroundings; coarser levels for rougher surfaces
@@ -188,7 +191,12 @@ void main() {
     vec3 nl = normalize(local_normal);
 
     // Paint and relief.
-    vec3 albedo = base.rgb;
+#if COLOURED
+    vec3 own = own_colour;
+#else
+    vec3 own = base.rgb;
+#endif
+    vec3 albedo = own;
     vec3 slope = vec3(0.0);
     float height = 1.0;
     float extent = max(size.x, max(size.y, abs(size.z)));
@@ -203,7 +211,9 @@ void main() {
     Paint coat_of_paint = Paint(texture(paint, weave.z < 6.5 ? uv * weave.x : local.xy * weave.xy + 0.5), vec3(0.0));
 #endif
 #if PAINT
+#if !COLOURED
     albedo *= coat_of_paint.value.rgb;
+#endif
     slope = coat_of_paint.slope;
     height = PAINT == 3 ? 1.0 : coat_of_paint.value.a;
 #endif
@@ -366,7 +376,7 @@ void main() {
         float t = onward.z < -0.02 ? min((exit_point.z - support.w) / -onward.z, 6.0 * extent) : 3.0 * extent;
         vec4 clip = to_clip * vec4(exit_point + onward * max(t, 0.0), 1.0);
         vec2 q = clamp(clip.xy / clip.w * 0.5 + 0.5, 0.002, 0.998);
-        vec3 tint = pow(base.rgb, vec3(BALL == 1 ? 0.9 : 0.5 + 0.9 * (1.0 - nv)));
+        vec3 tint = pow(own, vec3(BALL == 1 ? 0.9 : 0.5 + 0.9 * (1.0 - nv)));
         if (dot(absorbs, vec3(1.0)) > 0.0)
             tint = exp(-absorbs * way_within(local, through * rotation, more.w, misc.w, dip));
         c = textureLod(behind, q, 0.0).rgb * tint * (1.0 - f) + mirror * f + shine;

@@ -3,6 +3,10 @@
 layout(location = 0) in vec4 corner;
 layout(location = 1) in vec3 corner_normal;
 layout(location = 2) in vec2 corner_uv;
+#if COLOURED
+layout(location = 3) in vec3 corner_colour;
+out vec3 own_colour;
+#endif
 
 uniform samplerBuffer things;
 uniform int first;
@@ -46,6 +50,9 @@ void main() {
     local_normal = corner_normal / max(abs(extent.xyz), 1e-9);
     world = rotation * local + origin;
     uv = corner_uv;
+#if COLOURED
+    own_colour = corner_colour;
+#endif
     float kind = texelFetch(things, thing + 9).w;
     if (kind >= 100.0) world += swayed(world, vec2(corner_uv.x, 1.0 - corner_uv.y), vec2(extent.w, facts.w), kind - 100.0);
     vec3 drawn = world;
