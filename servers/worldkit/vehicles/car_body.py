@@ -3,7 +3,7 @@
 Outlines are a mid-size saloon's, in metres on the ground below the middle of the wheelbase, and are stretched to the car's numbers.
 """
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from .four_wheels import CORNERS, Car
 
@@ -190,7 +190,7 @@ def dress_car(spec: "mujoco.MjSpec", car: Car, name: str, look: str, cells: int 
     from .. import sculpt
 
     body, wheel = body_shape(car), wheel_shape(car)
-    make = {"paint": BodyPaint(car, look), "cells": cells, "triangles": 24_000, "texels": 1024}
+    make: dict[str, Any] = {"paint": BodyPaint(car, look), "cells": cells, "triangles": 24_000, "texels": 1024}
     solid = sculpt.made(body, hulls="convex", **make)
     x, y, z = ((solid.low + solid.high) / 2).tolist()
     sculpt.dress(spec, name, body, pos=(x, y, z - car.wheel_radius_m), **make)
