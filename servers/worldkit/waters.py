@@ -133,7 +133,7 @@ def measure(spec: "mujoco.MjSpec", container: str, level: float) -> Vessel:
             )
             raise ProgramError(cause, place, "lower the level, or close the walls")
     heights = level - depth * np.arange(RINGS) / (RINGS - 1) * (1 - 1e-3)
-    rings = []
+    rings: list[np.ndarray] = []
     for z in heights:
         reach = ring(z)
         last = rings[-1] if rings else reach

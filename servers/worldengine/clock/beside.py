@@ -52,7 +52,8 @@ class Beside:
         taken = {entry // 6 for entry in inputs.entries.get("xfrc_applied", ())} if inputs else set()
         self._solvers = []
         self._shown: list[tuple[Medium, Shown]] = []
-        self._steps, self._recorder = 0, None
+        self._steps = 0
+        self._recorder: Recorder | None = None
         self.channels: dict[Column, np.ndarray] = {}
         for name, row in zip(called(rows), rows, strict=True):
             solver = check(row)
@@ -131,8 +132,8 @@ class Beside:
         """Record the corners that are due at this step."""
         for number, (_, running) in enumerate(self._shown, self._first):
             if self._recorder is not None and (last or self._steps % running.every == 0):
-                points = running.points()
-                self._recorder.later("media", partial(_corners, self._steps, number, points))
+                if (points := running.points()) is not None:
+                    self._recorder.later("media", partial(_corners, self._steps, number, points))
 
 
 def _named(name: str, column: Column) -> Column:
@@ -149,6 +150,7 @@ def _corners(step: int, medium: int, points: "np.ndarray") -> dict[str, Any]:
         "medium": np.full(count, medium, np.int32),
         "point": np.arange(count, dtype=np.int32),
         "place": points.astype(np.float32),
+        "colour": np.full(count, -1, np.int32),
     }
 
 

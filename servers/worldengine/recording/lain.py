@@ -51,7 +51,8 @@ class Lain:
                 cause = f"the recording has {len(mine)} places of the law {row.name}, {place.count} points at {len(steps)} instants"
                 raise RecordingError(cause, str(recording.folder), "run the physics pass again")
             self.points.append(mine[: whole * place.count].reshape(whole, place.count, 3))
-            own = np.asarray(media.colour)[medium == number][: whole * place.count] if "colour" in media.columns else ()
+            told = np.asarray(media.colour)[medium == number] if "colour" in media.columns else np.empty(0)
+            own = told[: whole * place.count]
             self.colours.append(own.reshape(whole, -1) if len(own) and own.max() >= 0 else None)
             if len(own):
                 place.colour(point_colours.shares(own[: place.count]))  # who draws it asks first whether there are some
