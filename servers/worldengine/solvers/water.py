@@ -9,6 +9,7 @@ Source: Lamb, Hydrodynamics, chapters VIII and IX; Newman, Marine Hydrodynamics,
 
 import math
 from collections.abc import Mapping, Sequence
+from copy import copy
 from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import ProgramError
@@ -225,6 +226,7 @@ def show(model: "mujoco.MjModel", data: "mujoco.MjData", geom: int, channels: Ma
 
 def _shape(model: "mujoco.MjModel", data: "mujoco.MjData", shown_by: str) -> "tuple[np.ndarray, float, float, Any]":
     """(outline (P, 2) m, level, floor, m, the flex that shows it or None)."""
+    import mujoco
     import numpy as np
 
     from ..waves.shown_water import ShownWater
@@ -233,6 +235,7 @@ def _shape(model: "mujoco.MjModel", data: "mujoco.MjData", shown_by: str) -> "tu
     if shown_by in flexes:
         drawn = ShownWater(model, flexes.index(shown_by))
         return drawn.outline, drawn.level, drawn.floor, drawn
+    mujoco.mj_kinematics(model, data := copy(data))
     geom = geoms.index(shown_by) if shown_by in geoms else -1
     if geom < 0 or model.geom_type[geom] not in (5, 6) or abs(data.geom_xmat[geom, 8]) < 1 - 1e-9:
         cause = f"the water is shown by {shown_by!r}, which is no flex, no level box and no upright cylinder"
