@@ -131,9 +131,9 @@ class Beside:
     def _keep(self, last: bool) -> None:
         """Record the corners that are due at this step."""
         for number, (_, running) in enumerate(self._shown, self._first):
-            if self._recorder is not None and (last or self._steps % running.every == 0):
-                if (points := running.points()) is not None:
-                    self._recorder.later("media", partial(_corners, self._steps, number, points))
+            due = last or self._steps % running.every == 0
+            if due and self._recorder is not None and (points := running.points()) is not None:
+                self._recorder.later("media", partial(_corners, self._steps, number, points))
 
 
 def _named(name: str, column: Column) -> Column:

@@ -94,6 +94,7 @@ class Pool:
         constants: Mapping[str, float],
         shown_by: str,
     ) -> None:
+        import mujoco
         import numpy as np
 
         from ..waves.afloat import Afloat
@@ -110,6 +111,9 @@ class Pool:
             raise ProgramError(
                 "water lies level, and gravity is aslant here", "interventions", "let gravity be along -z"
             )
+        data = copy(data)  # a world that begins may not know yet where its bodies are
+        for stage in (mujoco.mj_kinematics, mujoco.mj_comPos, mujoco.mj_comVel):
+            stage(model, data)
         hulls = Hulls(model, bodies)
         outline, level, floor, self._drawn = _shape(model, data, shown_by)
         if abs(level - told["level"]) > AGREED_M:
@@ -226,7 +230,6 @@ def show(model: "mujoco.MjModel", data: "mujoco.MjData", geom: int, channels: Ma
 
 def _shape(model: "mujoco.MjModel", data: "mujoco.MjData", shown_by: str) -> "tuple[np.ndarray, float, float, Any]":
     """(outline (P, 2) m, level, floor, m, the flex that shows it or None)."""
-    import mujoco
     import numpy as np
 
     from ..waves.shown_water import ShownWater
@@ -235,7 +238,6 @@ def _shape(model: "mujoco.MjModel", data: "mujoco.MjData", shown_by: str) -> "tu
     if shown_by in flexes:
         drawn = ShownWater(model, flexes.index(shown_by))
         return drawn.outline, drawn.level, drawn.floor, drawn
-    mujoco.mj_kinematics(model, data := copy(data))
     geom = geoms.index(shown_by) if shown_by in geoms else -1
     if geom < 0 or model.geom_type[geom] not in (5, 6) or abs(data.geom_xmat[geom, 8]) < 1 - 1e-9:
         cause = f"the water is shown by {shown_by!r}, which is no flex, no level box and no upright cylinder"
