@@ -63,8 +63,9 @@ def _imported(path: Path) -> Iterator[tuple[str, int]]:
 
 
 def _beside(path: Path) -> set[str]:
-    """Modules that a test may import because their folder is on its path."""
-    return {name for folder in (path.parent, path.parents[1], ROOT / "tests") for name in _modules(folder)}
+    """Modules that a test may import because their folder is on its path, and folders of `tests` itself."""
+    folders = {child.name for child in (ROOT / "tests").iterdir() if child.is_dir()}
+    return folders | {name for folder in (path.parent, path.parents[1], ROOT / "tests") for name in _modules(folder)}
 
 
 @functools.cache

@@ -8,8 +8,9 @@ vehicles.add(spec, CAR, name="car", pos=(0, 0, 0))
 vehicles.pedals(CAR, model, data, "car", steering_deg=4.0, throttle=0.3, brake=0.0)
 """
 
+from .car_numbers import Car
 from .driving_inputs import Commands, pedals
-from .four_wheels import Car, add
+from .four_wheels import add
 from .path_following import Course, Driver
 
 __all__ = ["Car", "Commands", "Course", "Driver", "add", "pedals"]

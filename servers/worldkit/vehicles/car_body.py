@@ -5,7 +5,7 @@ Outlines are a mid-size saloon's, in metres on the ground below the middle of th
 
 from typing import TYPE_CHECKING, Any
 
-from .four_wheels import CORNERS, Car
+from .car_numbers import CORNERS, Car
 
 if TYPE_CHECKING:
     import mujoco

@@ -7,7 +7,8 @@ stands is held. The engine's moment falls with speed where its power says so.
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .four_wheels import BRAKE_GAIN, CORNERS, Car, ackermann
+from .car_numbers import CORNERS, Car
+from .four_wheels import BRAKE_GAIN, ackermann
 
 if TYPE_CHECKING:
     import mujoco

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
+from .car_numbers import Car
 from .driving_inputs import Commands
-from .four_wheels import Car
 
 if TYPE_CHECKING:
     import mujoco

@@ -209,6 +209,10 @@ MAIN_TOOLS = (
     "retrieve.search", "retrieve.read",
 )  # fmt: skip
 """The tools of the main thread: it orchestrates, looks, answers, approves in the person's name, stamps."""
+ON_REQUEST = (
+    "stage.campaign_start", "stage.campaign_wait", "stage.campaign_status", "stage.campaign_cancel", "stage.campaign_results",
+)  # fmt: skip
+"""Tools for whoever runs many worlds; no role needs them for one, so they cost no role a word."""
 RESERVED = ("stamp.describe", "stamp.review", "stage.draft", "place.resolve", "place.settle", "retrieve.begin",
     "lint.complete_plan",
 )  # fmt: skip

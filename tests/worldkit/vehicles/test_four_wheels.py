@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from worldkit import contacts, motion, portable, scene, vehicles
-from worldkit.vehicles.four_wheels import CORNERS, ackermann, spin_inertia
+from worldkit.vehicles.car_numbers import CORNERS
+from worldkit.vehicles.four_wheels import ackermann, spin_inertia
 
 G = 9.81
 CAR = vehicles.Car()

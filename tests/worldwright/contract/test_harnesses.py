@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from worldwright import cli, expose
 from worldwright.contract import command, generated, guard, harnesses
-from worldwright.contract.roles import COMMANDS, MAIN_TOOLS, RESERVED, ROLES, SERVERS
+from worldwright.contract.roles import COMMANDS, MAIN_TOOLS, ON_REQUEST, RESERVED, ROLES, SERVERS
 
 REPO = Path(__file__).parents[3]
 TOOLS = {f"{server}.{function.__name__}" for server in expose.SERVERS for function in expose.tools(server)}
@@ -42,7 +42,7 @@ def test_every_tool_exists(tools):
 
 
 def test_every_tool_has_somebody():
-    used = {tool for role in ROLES for tool in role.tools} | set(MAIN_TOOLS)
+    used = {tool for role in ROLES for tool in role.tools} | set(MAIN_TOOLS) | set(ON_REQUEST)
     assert used == TOOLS
 
 
