@@ -106,7 +106,7 @@ def test_the_film_is_drawn_before_the_plans_cameras_under_one_progress(made, tmp
 def test_every_shot_is_seen_on_one_sheet_and_several_moments_in_one_call(made, tmp_path):
     film = made.film(two_shots)
     given = SimpleNamespace(world=made.folder / "world.mjz", size=SIZE, fps=24, movers=("first", "second"))
-    options = Namespace(out=tmp_path, size=None, shots=True, at=[0.0])
+    options = Namespace(out=tmp_path, size=None, shots=True, at=[0.0], samples=None)
     told = chosen_frames.of_film(made.plain, made.recording, film, given, options)
     assert [(row["shot"], row["word"]) for row in told["moments"]] == [
         (shot, word) for shot in (1, 2) for word in ("first", "middle", "last")
@@ -114,7 +114,11 @@ def test_every_shot_is_seen_on_one_sheet_and_several_moments_in_one_call(made, t
     assert told["moments"][2]["film_s"] < told["moments"][3]["film_s"] and (tmp_path / "shots-1.jpg").is_file()
     assert told["moments"][0]["reading"]["subjects"]["first"] > 0
     chosen = chosen_frames.of_film(
-        made.plain, made.recording, film, given, Namespace(out=tmp_path, size=None, shots=False, at=[0.3, 0.1])
+        made.plain,
+        made.recording,
+        film,
+        given,
+        Namespace(out=tmp_path, size=None, shots=False, at=[0.3, 0.1], samples=None),
     )
     assert [row["film_s"] for row in chosen["moments"]] == pytest.approx([7 / 24, 2 / 24])
     assert {"frame.png", "frame-2.png"} <= {path.name for path in tmp_path.iterdir()}
