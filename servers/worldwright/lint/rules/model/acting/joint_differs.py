@@ -50,7 +50,6 @@ def _bouncing(restitution: float, time_constant: float) -> tuple[str, dict[str, 
     return text, plan | {"topology": {**plan["topology"], "joints": [pivot]}}  # type: ignore[dict-item]
 
 
-
 def _hung(anchor: float) -> tuple[str, dict[str, object]]:
     """A case with an arm on a ball joint at this height above it, m; by the plan it is 0.5 m."""
     text, plan = changed(

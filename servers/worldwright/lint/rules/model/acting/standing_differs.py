@@ -140,7 +140,9 @@ def _describe_lean(up: np.ndarray, planned: np.ndarray) -> str:
     lean = float(np.linalg.norm(up - planned))
     if lean <= (LEVEL_RAD if level else SLOPE_RAD):
         return ""
-    return f"leans by {np.degrees(lean):.3g} degrees " + ("where the plan lays it level" if level else "from the plan's slope")
+    return f"leans by {np.degrees(lean):.3g} degrees " + (
+        "where the plan lays it level" if level else "from the plan's slope"
+    )
 
 
 def _describe_distance(
