@@ -2,14 +2,16 @@
 
 What it does: works out, by the engine's own rules, how each pair of bodies touches (masks, exclusions, priorities, mixing,
 explicit pairs), and compares sliding, torsional and rolling friction, rebound, softness, margin, adhesion and the speed of
-surfaces with the world of the plan's draft; of a body of several surfaces part by part. Our own pairs against hopping count as the contacts they replace. A stiffer
-contact of the same rebound is free; without a stated rebound MuJoCo's own contact is, too.
+surfaces with the world of the plan's draft; of a body of several surfaces part by part. Our own pairs against hopping count
+as the contacts they replace. A stiffer contact of the same rebound is free; without a stated rebound MuJoCo's own contact is,
+too.
 
 Why is this bad: the friction that is written on a geom need not act: a pair or a priority overrides it, and a crate slides
 twice as far on the same plan.
 
 Use instead: `contacts.surface` with the plan's constants on every geom of the body, priorities and pairs left alone; to let
-two bodies pass through each other, say so in the plan with `visual_only`.
+two bodies pass through each other, say so in the plan with `visual_only`. A surface that runs has a constant `belt_speed` in
+m/s or rad/s.
 """
 
 from collections.abc import Iterator
@@ -56,8 +58,17 @@ def _block(foot: str, top: str) -> tuple[str, dict[str, object]]:
     }
 
 
+def _running(constant: str, unit: str) -> tuple[str, dict[str, object]]:
+    """A case with a ground that runs at 0.45 m/s, the value of this constant."""
+    text, plan = changed("spec.geom('ground').surfacevel = (0.45, 0, 0, 0, 0, 0)")
+    known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
+    said = {constant: {"value": 0.45, "unit": unit, "source": "a drawing"}}
+    return text, plan | {"simulation_parameters": known | {"constants": said}}
+
+
 GOOD = (
     *SOUND,
+    _running("belt_speed", "m/s"),
     _block("LEAD", "RUBBER"),
     changed(
         "spec.geom('crate').solref = (-1 / 0.008**2, 0)",
@@ -73,6 +84,7 @@ BAD = (
     changed("spec.geom('crate').contype = spec.geom('crate').conaffinity = 0"),
     changed("spec.add_exclude(bodyname1='crate', bodyname2='arm')"),
     changed("spec.geom('ground').surfacevel = (1, 0, 0, 0, 0, 0)"),
+    _running("crate_surface_thickness", "m"),
     changed("spec.geom('crate').adhesion = 30"),
     changed("spec.geom('crate').margin = 0.02"),
     changed("spec.geom('crate').gap = 0.02"),
@@ -93,6 +105,8 @@ SHARE, LEAST = 0.01, 1e-3
 SPIN_M, ROLL_M = 0.005, 1e-4
 """Torsional and rolling friction, m, of a plan that states none: a program may leave these out."""
 SOFTEST_S = 0.02
+RUNNING = ("belt", "conveyor", "surface", "treadmill", "turntable")
+"""Words by which a constant speaks of a surface that runs, m/s or rad/s; who makes it run, an intervention says (WS315)."""
 MOST = 12
 """So many pairs of one body are shown: more would say the same."""
 
@@ -140,7 +154,7 @@ def _swapped(view: ModelView, built: Touching, planned: Touching) -> Iterator[Pr
             for other in others:
                 message = _difference(view, built.of_geom(geom, other), planned.of_geom(near, other))
                 if message:
-                    said = message.format(f"{view.name('geom', geom)} of {own} and {other}")
+                    said = message.format(f"{view.name('geom', geom)} and {other}")
                     yield view.at("geom", geom, said, "give each part the plan's material")
                     break
 
@@ -194,8 +208,9 @@ def _describe_difference(view: ModelView, built: Touch, planned: Touch) -> str:
     if abs(built.adhesion - planned.adhesion) > 1e-9 and not stated(view.plan, built.adhesion, "adhesion", "stick"):
         return f"{{}} stick together by up to {shown(built.adhesion)} N at each point, which the plan does not say"
     speeds = [v for v in built.surface if v]
+    turning = [v for index, v in enumerate(built.surface) if v and index % 6 >= 3]
     if built.surface != planned.surface and not all(
-        stated(view.plan, v, "belt", "conveyor", "surface", "treadmill", "turntable") for v in speeds
+        stated(view.plan, v, *RUNNING, unit="rad/s" if v in turning else "m/s") for v in speeds
     ):
         return f"a surface between {{}} runs at {shown(speeds)}, which is no constant of the plan"
     return ""
