@@ -66,8 +66,10 @@ def test_contacts_are_what_the_engine_makes_of_two_geoms(one, other, paired, apa
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     view = view_of(model)
-    found = touching.Touching(view, lambda body: view.texts["names"]["body"][body]).between("one", "other")
+    touches = touching.Touching(view, lambda body: view.texts["names"]["body"][body])
+    found = touches.between("one", "other")
     assert len(found) == data.ncon
+    assert touches.of_geom(0, "other") == touches.of_geom(1, "one") == found
     for touch in found:
         contact = data.contact[0]
         assert touch.condim == contact.dim

@@ -89,6 +89,14 @@ class Touching:
         rows, kind = np.unique(table, axis=0, return_inverse=True)
         return rows, kind.reshape(-1)
 
+    def kind(self, geom: int) -> int:
+        """Which of `rows` a geom is of."""
+        return int(self._kinds[1][geom])
+
+    def is_paired(self, geom: int) -> bool:
+        """Whether an explicit pair names a geom."""
+        return geom in self.view.pair_geom1 or geom in self.view.pair_geom2
+
     @cached_property
     def geoms(self) -> dict[str, dict[int, Counter[int]]]:
         """The number of geoms of each kind on every body of an owner."""
@@ -143,6 +151,24 @@ class Touching:
                 continue
             for (k, many), (m, more) in product(of_a.items(), of_b.items()):
                 if many * more > held[a, k, b, m] and (touch := self._mixed(k, m)) is not None:
+                    found.add(touch)
+        return found
+
+    def of_geom(self, geom: int, other: str) -> set[Touch]:
+        """Every way in which one geom can touch another owner: what `between` says of all of a body, said of a part."""
+        view, listed = self.view, dict[int, int]()
+        if view.contacts_off:
+            return set()
+        for index, (a, b) in enumerate(zip(view.pair_geom1.tolist(), view.pair_geom2.tolist(), strict=True)):
+            if geom in (a, b):
+                listed[b if a == geom else a] = index
+        kinds, bodies, mine = self._kinds[1], view.geom_bodyid, int(view.geom_bodyid[geom])
+        found = set[Touch]()
+        for body in self.geoms.get(other, {}):
+            for theirs in np.flatnonzero(bodies == body).tolist():
+                if theirs in listed:
+                    found.add(self._paired(listed[theirs]))
+                elif self._may_meet(mine, body) and (touch := self._mixed(int(kinds[geom]), int(kinds[theirs]))):
                     found.add(touch)
         return found
 

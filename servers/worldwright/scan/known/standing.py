@@ -1,4 +1,4 @@
-"""Bodies on several feet, with a contact under each."""
+"""Bodies on several feet, with a contact under each, and on what is no body."""
 
 from dataclasses import replace
 from typing import Any
@@ -7,7 +7,7 @@ import numpy as np
 
 from ...model.recording.records import Contacts
 from ...model.recording.trajectory import Trajectory
-from .analytic import G, clock, motion
+from .analytic import G, clock, motion, resting
 
 
 def standing(lean_m: float = 0.0, half_m: float = 0.1, seconds: float = 1.0, **more: Any) -> Trajectory:
@@ -35,3 +35,11 @@ def standing(lean_m: float = 0.0, half_m: float = 0.1, seconds: float = 1.0, **m
         position=np.tile(feet, (len(t), 1)),
     )
     return replace(motion(t, pos, vel, size_m=2 * half_m, **more), contacts=stood)
+
+
+def on_flex(**more: Any) -> Trajectory:
+    """A body of 1 kg that a flex carries over the ground: what touches it is no geom, and no body."""
+    made = resting(**more)
+    assert made.contacts is not None
+    flex, own = (np.full(len(made.contacts.row), geom) for geom in (-1, 0))
+    return replace(made, contacts=replace(made.contacts, geom1=flex, geom2=own))

@@ -162,6 +162,8 @@ def last_rows(trajectory: Trajectory, rows: slice, seconds: float) -> slice:
 def contacts_of(trajectory: Trajectory, one: str, other: str) -> Any:
     """(N,) bool: the contacts between two bodies; a geom's name means that geom alone, the world's names all of the world.
 
+    What touches a flex touches no body: neither the ground nor the world.
+
     Raises:
         UnknowableError: no contacts were recorded.
     """
@@ -173,7 +175,9 @@ def contacts_of(trajectory: Trajectory, one: str, other: str) -> Any:
         found = body == trajectory.index(name)
         geoms = trajectory.mechanics.geom_names
         alone = name in geoms and name not in trajectory.names and name not in WORLD_NAMES
-        return found & (geom == geoms.index(name)) if alone and geom is not None else found
+        if geom is None or not (alone or trajectory.index(name) < 0):
+            return found
+        return found & (geom == geoms.index(name) if alone else geom >= 0)
 
     first, second = (contacts.body1, contacts.geom1), (contacts.body2, contacts.geom2)
     return (mine(one, *first) & mine(other, *second)) | (mine(one, *second) & mine(other, *first))

@@ -5,14 +5,17 @@ a gust can be what the prompt asks for; then the plan says it.
 
 Formula: `option.wind` is not 0 in a medium with density or viscosity; a geom has a surface velocity or adhesion; the
 model has engine plugins. Declared by an intervention of kind `force`, `parameter`, `control` or `solver` naming the body
-or the one it is welded to (for wind: `wind` or `world`; for plugins: `world`), as an objective's cause,
-as the wind of the plan's `medium`, or by a material with `adhesion`.
+or the one it is welded to (for wind: `wind` or `world`; for plugins: `world`), as an objective's cause (never
+the ground, and a moving surface only of what stands still itself: no crate is the cause of its own drive), as the wind of
+the plan's `medium`, or by a material with `adhesion`.
 Threshold: none. Blocking with a plan; without one a remark.
 Source: MuJoCo manual, option/wind, geom/surfacevel, geom/adhesion; the facts on staging.
 """
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+
+import numpy as np
 
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
@@ -22,6 +25,9 @@ from ..wholes import head_names
 CODE = "WS315"
 STAGING = True
 NEEDS = ("meta",)
+RUNS = "has a moving surface"
+GROUND = {"ground", "floor"}
+"""As a cause they explain no drive: every world has one."""
 KINDS = ("force", "parameter", "control", "solver")
 
 
@@ -34,7 +40,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         drives.append(("wind", "a wind blows", ("wind", "world")))
     told, head, sticky = set(), head_names(trajectory), _sticky(context)
     for geom in trajectory.meta.get("geoms") or ():
-        for key, what in (("surfacevel", "has a moving surface"), ("adhesion", "attracts what it touches")):
+        for key, what in (("surfacevel", RUNS), ("adhesion", "attracts what it touches")):
             body = str(geom.get("body"))
             if geom.get(key) and (body, key) not in told and not (key == "adhesion" and body in sticky):
                 told.add((body, key))
@@ -42,12 +48,20 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     if trajectory.meta.get("has_plugin"):
         drives.append(("world", "an engine plugin acts", ("world", "plugin")))
     causes = {name for objective in context.plan.objectives for name in objective.cause} if context.plan else set()
+    causes -= GROUND
     for body, message, names in drives:
-        if causes.intersection(names) or any(context.acts_on(name, KINDS) for name in names):
+        runs = message.endswith(RUNS) and _moves(trajectory, body)
+        if (causes.intersection(names) and not runs) or any(context.acts_on(name, KINDS) for name in names):
             continue
         severity = "blocking" if context.planned else "info"
         window = (trajectory.t[0], trajectory.t[-1])
         yield Sign(body, window, 1.0, 0.0, "drives", severity, f"{message}; no intervention says so")
+
+
+def _moves(trajectory: Trajectory, body: str) -> bool:
+    return body in trajectory.names and bool(
+        np.ptp(trajectory.pos[:, trajectory.names.index(body)], axis=0).max() > 1e-6
+    )
 
 
 def _sticky(context: Context) -> set[str]:
@@ -65,8 +79,18 @@ def _planned(context: Context, wind: Sequence[float]) -> bool:
     return medium is not None and all(abs(a - b) < 1e-6 for a, b in zip(medium.wind, wind, strict=True))
 
 
-def _belt(**geom: bool) -> Trajectory:
-    return replace(analytic.resting(), meta={"geoms": [{"name": "belt", "body": "body", **geom}]})
+def _belt(made: Trajectory | None = None, **geom: bool) -> Trajectory:
+    return replace(made or analytic.resting(), meta={"geoms": [{"name": "belt", "body": "body", **geom}]})
+
+
+def _caused() -> Context:
+    """A plan that only says that the body is the cause."""
+    from ....model.plan.committed import Objective, Plan, SimulationParameters
+
+    objective = Objective.model_construct(claim="It moves.", cause=("body",))
+    parameters = SimulationParameters.model_construct(materials={}, medium=None)
+    made = Plan.model_construct(objectives=(objective,), simulation_parameters=parameters, scene_objects=())
+    return Context(planned=True, plan=made)
 
 
 def _windy(density: float) -> Trajectory:
@@ -74,10 +98,12 @@ def _windy(density: float) -> Trajectory:
 
 
 GOOD = (
+    lambda: Case("a belt that the plan names as the cause", _belt(surfacevel=True), _caused()),
     lambda: Case("a still surface", _belt(surfacevel=False), Context(planned=True)),
     lambda: Case("wind in a vacuum", _windy(0.0), Context(planned=True)),
 )
 BAD = (
+    lambda: Case("a crate on tracks that is its own cause", _belt(analytic.falling(), surfacevel=True), _caused()),
     lambda: Case("a secret conveyor", _belt(surfacevel=True), Context(planned=True), severity="blocking"),
     lambda: Case("a secret wind", _windy(1.2), Context(planned=True), severity="blocking"),
 )

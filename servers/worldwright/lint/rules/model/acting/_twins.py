@@ -150,12 +150,14 @@ def named(plan: Plan, value: float, *names: str) -> bool:
     return any(np.isclose(np.abs(row), abs(value), rtol=1e-3).any() for row in values)
 
 
-def stated(plan: Plan, value: float, *words: str) -> bool:
+def stated(plan: Plan, value: float, *words: str, unit: str = "") -> bool:
     """Whether a constant of the plan has this value, and one of the words in its name (`belt_speed`: belt, speed).
 
-    It serves what the plan has no field for. `window_width` does not speak of wind.
+    It serves what the plan has no field for. `window_width` does not speak of wind, and with a `unit` no thickness of a speed.
     """
     for name, constant in plan.simulation_parameters.constants.items():
+        if unit and constant.unit.replace(" ", "") != unit:
+            continue
         values = constant.value if isinstance(constant.value, tuple) else (constant.value,)
         if not {*name.lower().split("_")}.isdisjoint(words) and np.isclose(np.abs(values), abs(value), rtol=1e-3).any():
             return True

@@ -2,14 +2,16 @@
 
 What it does: works out, by the engine's own rules, how each pair of bodies touches (masks, exclusions, priorities, mixing,
 explicit pairs), and compares sliding, torsional and rolling friction, rebound, softness, margin, adhesion and the speed of
-surfaces with the world of the plan's draft. Our own pairs against hopping count as the contacts they replace. A stiffer
-contact of the same rebound is free; without a stated rebound MuJoCo's own contact is, too.
+surfaces with the world of the plan's draft; of a body of several surfaces part by part. Our own pairs against hopping count
+as the contacts they replace. A stiffer contact of the same rebound is free; without a stated rebound MuJoCo's own contact is,
+too.
 
 Why is this bad: the friction that is written on a geom need not act: a pair or a priority overrides it, and a crate slides
 twice as far on the same plan.
 
 Use instead: `contacts.surface` with the plan's constants on every geom of the body, priorities and pairs left alone; to let
-two bodies pass through each other, say so in the plan with `visual_only`.
+two bodies pass through each other, say so in the plan with `visual_only`. A surface that runs has a constant `belt_speed` in
+m/s or rad/s.
 """
 
 from collections.abc import Iterator
@@ -29,14 +31,52 @@ CODE = "WM160"
 SEVERITY = "error"
 SCOPE = "acts"
 PAIR = "spec.add_pair(geomname1='crate', geomname2='ground', condim=3, friction=[0.01, 0.01, 0, 0, 0])"
+
+
+def _block(foot: str, top: str) -> tuple[str, dict[str, object]]:
+    """A case with a block that by its plan has a foot of lead and a top of rubber, built of these two."""
+    text, plan = changed(
+        "LEAD, RUBBER = (contacts.surface(friction=0.3, restitution=r, time_constant=0.004) for r in (0.05, 0.85))",
+        "b = spec.worldbody.add_body(name='block', pos=(0, 3, 0.6))",
+        "b.add_freejoint(name='block')",
+        f"b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(.15, .15, .05), pos=(0, 0, -.05), mass=1, **{foot})",
+        f"b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(.15, .15, .05), pos=(0, 0, .05), mass=1, **{top})",
+    )
+    parts = [
+        {"name": name, "primitive": "box", "size": [0.3, 0.3, 0.1], "offset": [0, 0, z], "material": material}
+        for name, z, material in (("foot", 0.05, "lead"), ("top", 0.15, "rubber"))
+    ]
+    row = {"name": "block", "primitive": "compound", "material": "lead", "parts": parts}
+    known: dict = plan["simulation_parameters"] | {}  # type: ignore[operator]
+    made = {m: {"friction": 0.3, "restitution": r, "source": "a table"} for m, r in (("lead", 0.05), ("rubber", 0.85))}
+    topology: dict = plan["topology"]  # type: ignore[assignment]
+    return text, plan | {
+        "simulation_parameters": known
+        | {"materials": known["materials"] | made, "masses": known["masses"] | {"block": 2}},
+        "scene_objects": [*plan["scene_objects"], row],  # type: ignore[misc]
+        "topology": topology | {"body_positions": topology["body_positions"] | {"block": {"x": 0, "y": 3, "z": 0.6}}},
+    }
+
+
+def _running(constant: str, unit: str) -> tuple[str, dict[str, object]]:
+    """A case with a ground that runs at 0.45 m/s, the value of this constant."""
+    text, plan = changed("spec.geom('ground').surfacevel = (0.45, 0, 0, 0, 0, 0)")
+    known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
+    said = {constant: {"value": 0.45, "unit": unit, "source": "a drawing"}}
+    return text, plan | {"simulation_parameters": known | {"constants": said}}
+
+
 GOOD = (
     *SOUND,
+    _running("belt_speed", "m/s"),
+    _block("LEAD", "RUBBER"),
     changed(
         "spec.geom('crate').solref = (-1 / 0.008**2, 0)",
         "spec.geom('crate').solref[1] = spec.geom('ground').solref[1] / 2",
     ),
 )
 BAD = (
+    _block("RUBBER", "LEAD"),
     changed(PAIR),
     changed("spec.geom('crate').priority = 1", "spec.geom('crate').friction = (0.05, 0.005, 0.0001)"),
     changed("spec.geom('ground').friction[0] = 1.0"),
@@ -44,6 +84,7 @@ BAD = (
     changed("spec.geom('crate').contype = spec.geom('crate').conaffinity = 0"),
     changed("spec.add_exclude(bodyname1='crate', bodyname2='arm')"),
     changed("spec.geom('ground').surfacevel = (1, 0, 0, 0, 0, 0)"),
+    _running("crate_surface_thickness", "m"),
     changed("spec.geom('crate').adhesion = 30"),
     changed("spec.geom('crate').margin = 0.02"),
     changed("spec.geom('crate').gap = 0.02"),
@@ -64,6 +105,8 @@ SHARE, LEAST = 0.01, 1e-3
 SPIN_M, ROLL_M = 0.005, 1e-4
 """Torsional and rolling friction, m, of a plan that states none: a program may leave these out."""
 SOFTEST_S = 0.02
+RUNNING = ("belt", "conveyor", "surface", "treadmill", "turntable")
+"""Words by which a constant speaks of a surface that runs, m/s or rad/s; who makes it run, an intervention says (WS315)."""
 MOST = 12
 """So many pairs of one body are shown: more would say the same."""
 
@@ -75,7 +118,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     built = Touching(view, lambda body: owner(view, body))
     plan_names = planned_view.texts["names"]["body"]
     planned = Touching(planned_view, lambda body: plan_names[body] if body else GROUND)
-    yield from _swapped(view, planned_view)
+    yield from _swapped(view, built, planned)
     known, seen = set(planned.geoms), set()
     for one in built.suspects(planned):
         shown_pairs = 0
@@ -90,21 +133,30 @@ def check(view: ModelView) -> Iterator[Problem]:
                 yield _problem_of(view, one, other, message)
 
 
-def _swapped(view: ModelView, planned: ModelView) -> Iterator[Problem]:
+def _swapped(view: ModelView, built: Touching, planned: Touching) -> Iterator[Problem]:
     """Bodies with several surfaces of which one part has another's: each geom is compared with the plan's nearest to it."""
+    twin_view = planned.view
     for body, twin in twins(view, "body"):
         mine, theirs = (
             np.flatnonzero((world.geom_bodyid == index) & world.collides)
-            for world, index in ((view, body), (planned, twin))
+            for world, index in ((view, body), (twin_view, twin))
         )
-        if body == 0 or not len(mine) or len(np.unique(planned.geom_friction[theirs, 0])) < 2:
+        if body == 0 or not len(mine) or len({planned.kind(geom) for geom in theirs.tolist()}) < 2:
             continue
-        for geom in mine:
-            near = theirs[np.argmin(((planned.geom_pos[theirs] - view.geom_pos[geom]) ** 2).sum(axis=1))]
-            here, there = float(view.geom_friction[geom, 0]), float(planned.geom_friction[near, 0])
-            if abs(here - there) > max(LEAST, SHARE * there):
-                message = f"{view.name('geom', int(geom))} has a friction of {shown(here)}, by the plan this part has {shown(there)}"
-                yield view.at("geom", int(geom), message, "give each part the plan's material")
+        own, seen = owner(view, body), set[tuple[int, int]]()
+        others = sorted({*planned.geoms} & {*built.geoms} - {own})
+        for geom in mine.tolist():
+            near = int(theirs[np.argmin(((twin_view.geom_pos[theirs] - view.geom_pos[geom]) ** 2).sum(axis=1))])
+            alike = (built.kind(geom), planned.kind(near))
+            if alike in seen and not (built.is_paired(geom) or planned.is_paired(near)):
+                continue
+            seen.add(alike)
+            for other in others:
+                message = _difference(view, built.of_geom(geom, other), planned.of_geom(near, other))
+                if message:
+                    said = message.format(f"{view.name('geom', geom)} and {other}")
+                    yield view.at("geom", geom, said, "give each part the plan's material")
+                    break
 
 
 def _problem_of(view: ModelView, one: str, other: str, message: str) -> Problem:
@@ -156,8 +208,9 @@ def _describe_difference(view: ModelView, built: Touch, planned: Touch) -> str:
     if abs(built.adhesion - planned.adhesion) > 1e-9 and not stated(view.plan, built.adhesion, "adhesion", "stick"):
         return f"{{}} stick together by up to {shown(built.adhesion)} N at each point, which the plan does not say"
     speeds = [v for v in built.surface if v]
+    turning = [v for index, v in enumerate(built.surface) if v and index % 6 >= 3]
     if built.surface != planned.surface and not all(
-        stated(view.plan, v, "belt", "conveyor", "surface", "treadmill", "turntable") for v in speeds
+        stated(view.plan, v, *RUNNING, unit="rad/s" if v in turning else "m/s") for v in speeds
     ):
         return f"a surface between {{}} runs at {shown(speeds)}, which is no constant of the plan"
     return ""

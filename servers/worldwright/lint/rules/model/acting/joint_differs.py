@@ -50,8 +50,20 @@ def _bouncing(restitution: float, time_constant: float) -> tuple[str, dict[str, 
     return text, plan | {"topology": {**plan["topology"], "joints": [pivot]}}  # type: ignore[dict-item]
 
 
-GOOD = (*SOUND, _bouncing(0.6, 0.01))
+def _hung(anchor: float) -> tuple[str, dict[str, object]]:
+    """A case with an arm on a ball joint at this height above it, m; by the plan it is 0.5 m."""
+    text, plan = changed(
+        "spec.delete(spec.actuator('push'))",
+        "spec.delete(spec.joint('pivot'))",
+        f"spec.body('arm').add_joint(name='hook', type=mujoco.mjtJoint.mjJNT_BALL, pos=(0, 0, {anchor}))",
+    )
+    hook = {"name": "hook", "type": "ball", "child": "arm", "anchor": [1.5, 0, 1.0]}
+    return text, plan | {"topology": {**plan["topology"], "joints": [hook], "actuators": None}}  # type: ignore[dict-item]
+
+
+GOOD = (*SOUND, _bouncing(0.6, 0.01), _hung(0.5))
 BAD = (
+    _hung(0.31),
     _bouncing(0.1, 0.01),
     _bouncing(0.8, 0.01),
     _bouncing(0.6, 0.025),
@@ -151,7 +163,7 @@ def _compared(view: ModelView, index: int, twin: int) -> Iterator[Problem]:
         ("jnt_actgravcomp", "compensation by actuators"),
     ):
         yield from compared(view, "joint", ((field, word),), index, twin)
-    if kind in ("hinge", "slide"):
+    if kind != "free":
         yield from _placed(view, planned, index, twin)
 
 
@@ -172,11 +184,11 @@ def _stopped(view: ModelView, planned: ModelView, index: int, twin: int) -> str:
 
 
 def _placed(view: ModelView, planned: ModelView, index: int, twin: int) -> Iterator[Problem]:
-    """Compare axis and anchor (m), world frame, in the built pose."""
+    """Compare axis and anchor (m), world frame, in the built pose: of a hinge its line, of a ball its centre."""
     axis, anchor = _axis_line(view, index)
     wanted, there = _axis_line(planned, twin)
-    name = names(view, "joint")[index]
-    if axis @ wanted < TURNED:
+    name, kind = names(view, "joint")[index], view.joint_kind[index]
+    if kind != "ball" and axis @ wanted < TURNED:
         yield view.at(
             "joint",
             index,
@@ -184,7 +196,9 @@ def _placed(view: ModelView, planned: ModelView, index: int, twin: int) -> Itera
             "give the plan's axis",
         )
     off = anchor - there
-    if view.joint_kind[index] == "hinge" and np.linalg.norm(off - (off @ wanted) * wanted) > NEAR:
+    if kind == "hinge":
+        off = off - (off @ wanted) * wanted
+    if kind != "slide" and np.linalg.norm(off) > NEAR:
         yield view.at(
             "joint",
             index,

@@ -1,10 +1,11 @@
 """What stands still, or hangs on a joint, is not where and how the plan puts it.
 
 What it does: compares the pose, at the start, of every body that is not free with the plan's draft, to 2 mm and half a degree;
-and of the world's own geoms, such as the ground, their kind, size and pose.
+and of the world's own geoms, such as the ground, their kind, size and pose. What cannot move, and its geoms, also leans as
+the plan says: to a tenth of a degree, and what the plan lays level is level up to rounding.
 
 Why is this bad: a floor that leans by two degrees makes a crate slide twice as far, a rail that stands ten centimetres
-further away is never met, and no pair, mass or law says so.
+further away is never met, and no pair, mass or law says so. On half a degree a ball begins to roll by itself.
 
 Use instead: the poses of the plan's rows; to tilt a floor, tilt it in the plan.
 """
@@ -27,9 +28,31 @@ HILL = (
     "spec.worldbody.add_geom(name='ground', type=mujoco.mjtGeom.mjGEOM_MESH, meshname='hill')",
 )
 LEANS = "spec.geom('ground').quat = (0.996, 0, 0.087, 0)"
-GOOD = SOUND
+SHELF = changed(
+    "s = spec.worldbody.add_body(name='shelf', pos=(0, 3, 0.5))",
+    "s.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(1, 0.3, 0.25), euler=(0, TILT, 0), **SURFACE)",
+)
+
+
+def _shelf(tilt: float) -> tuple[str, dict[str, object]]:
+    """A case with a fixed shelf that the plan has, too, and whose geom leans by `tilt` rad."""
+    text, plan = SHELF[0].replace("TILT", str(tilt)), SHELF[1]
+    row = {"name": "shelf", "primitive": "box", "size": [2, 0.6, 0.5], "fixed": True, "material": "wood"}
+    place = {"shelf": {"x": 0, "y": 3, "z": 0.5}}
+    topology: dict = plan["topology"]  # type: ignore[assignment]
+    return text, plan | {
+        "scene_objects": [*plan["scene_objects"], row],  # type: ignore[misc]
+        "topology": topology | {"body_positions": topology["body_positions"] | place},
+    }
+
+
+SLIGHTLY = "spec.geom('ground').quat = (1, 0, 0.0049, 0)"
+"""0.56 degrees: within what poses are compared to."""
+GOOD = (*SOUND, _shelf(0.0), changed("spec.geom('ground').quat = (0.8, 0, 0, 0.6)"))
 BAD = (
     changed(LEANS),
+    changed(SLIGHTLY),
+    _shelf(0.0098),
     changed("spec.geom('ground').pos = (0, 0, -0.02)"),
     changed(*HILL),
     changed("spec.body('arm').pos = (1.5, 0, 0.6)"),
@@ -44,9 +67,14 @@ EVIDENCE = Measured(
     good=changed()[0],
 )
 NEAR_M, NEAR_RAD, SIZE_M = 2e-3, 0.01, 1e-3
+LEVEL_RAD, SLOPE_RAD = 2e-6, 2e-3
+"""So far may lean what the plan lays level (in a minute a ball rolls 3 cm), and any other slope."""
 FIX = "give it the pose of the plan's row"
 ENDLESS = ("plane", "hfield")
 """Geoms whose size only says how far they are drawn, or comes from their data."""
+
+SIDED, ROUND = ("box", "ellipsoid", "cylinder", "capsule"), ("cylinder", "capsule")
+"""Geoms that have sides which lean, and those whose sides lean alike all round."""
 
 
 def check(view: ModelView) -> Iterator[Problem]:
@@ -58,7 +86,10 @@ def check(view: ModelView) -> Iterator[Problem]:
         if body == 0 or body in free:
             continue
         here, there = (view.xpos[body], view.xmat[body]), (planned.xpos[twin], planned.xmat[twin])
-        if said := _describe_distance(here, there):
+        said = _describe_distance(here, there)
+        if not said and view.body_weldid[body] == 0:
+            said = _describe_lean(view.xmat[body][2], planned.xmat[twin][2])
+        if said:
             yield view.at("body", body, f"{view.name('body', body)} {said}", FIX)
     for geom, twin in twins(view, "geom"):
         if view.geom_bodyid[geom] or planned.geom_bodyid[twin] or not view.collides[geom]:
@@ -73,8 +104,45 @@ def check(view: ModelView) -> Iterator[Problem]:
             yield view.at("geom", geom, f"{name} measures {shown(built)}, by the plan {shown(size)}", FIX)
         here = view.geom_xpos[geom], view.geom_xmat[geom]
         there = planned.geom_xpos[twin], planned.geom_xmat[twin]
-        if said := _describe_distance(here, there, plane=kind == "plane"):
+        said = _describe_distance(here, there, plane=kind == "plane")
+        if not said and kind != "mesh":
+            said = _describe_lean(view.geom_xmat[geom][2], planned.geom_xmat[twin][2])
+        if said:
             yield view.at("geom", geom, f"{name} {said}", FIX)
+    yield from _leaning_parts(view, planned)
+
+
+def _leaning_parts(view: ModelView, planned: ModelView) -> Iterator[Problem]:
+    """Geoms of bodies that cannot move, each held against the plan's geom of its kind that leans most as it does."""
+    for body, twin in twins(view, "body"):
+        if body == 0 or view.body_weldid[body]:
+            continue
+        for geom in np.flatnonzero((view.geom_bodyid == body) & view.collides):
+            kind = view.geom_kind[geom]
+            alike = [g for g in np.flatnonzero(planned.geom_bodyid == twin) if planned.geom_kind[g] == kind in SIDED]
+            said = [_describe_lean(_steepness(view, int(geom)), _steepness(planned, int(g))) for g in alike]
+            if said and all(said):
+                yield view.at("geom", int(geom), f"{view.name('geom', int(geom))} {min(said, key=len)}", FIX)
+
+
+def _steepness(view: ModelView, geom: int) -> np.ndarray:
+    """(3,) the upward direction along the sides of a geom, whichever of them is called x and whichever way it points."""
+    up = np.abs(view.geom_xmat[geom][2])
+    if view.geom_kind[geom] in ROUND:
+        return np.array([0.0, np.hypot(up[0], up[1]), up[2]])
+    found: np.ndarray = np.sort(up)
+    return found
+
+
+def _describe_lean(up: np.ndarray, planned: np.ndarray) -> str:
+    """Say how far the upward direction (3,), in a thing's own axes, is from the plan's; empty when it is not."""
+    level = np.sort(np.abs(planned))[1] < LEVEL_RAD
+    lean = float(np.linalg.norm(up - planned))
+    if lean <= (LEVEL_RAD if level else SLOPE_RAD):
+        return ""
+    return f"leans by {np.degrees(lean):.3g} degrees " + (
+        "where the plan lays it level" if level else "from the plan's slope"
+    )
 
 
 def _describe_distance(

@@ -1,7 +1,7 @@
 """What can be touched of a body is not the shape that the plan gives it.
 
 What it does: compares the colliding geoms of each thing of the plan with those of its draft: the box around them (3 % and
-1 mm), the volume inside them (10 %), where in the box that volume lies, and for models, sculptures and catalog meshes the collision meshes themselves, by hash.
+1 mm), the volume inside them (10 %), where in the box that volume lies, each part of a compound, and for models, sculptures and catalog meshes the collision meshes themselves, by hash.
 
 Why is this bad: the size that is checked may be that of what is drawn; what collides may be smaller, elsewhere, or round: a
 crate on a hidden ball rolls. A ramp that rises towards the other side has the same box and the same volume.
@@ -17,6 +17,7 @@ from .....model.plan.imported import is_model, is_sculpt
 from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
+from ._part_points import FORMED, uncovered
 from ._twins import SOUND, changed, owner, shown, twins
 
 CODE = "WM170"
@@ -41,8 +42,33 @@ SLOPED: dict[str, object] = {
     "scene_objects": [{"name": "slope", "primitive": "wedge", "size": [0.8, 0.4, 0.4], "fixed": True}],
     "topology": {"scene_predicates": None, "body_positions": {"slope": {"x": 0, "y": 0, "z": 0.2}}},
 }
-GOOD = SOUND
+
+
+def _track(hurdle: float) -> tuple[str, dict[str, object]]:
+    """A case with a track whose hurdle, 8 cm high by the plan, is built so high, m."""
+    text, plan = changed(
+        "t = spec.worldbody.add_body(name='track', pos=(0, 3, 0.15))",
+        "b = lambda size, pos: t.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=size, pos=pos, **SURFACE)",
+        "b((1.2, 0.5, 0.1), (0, 0, -0.05)), b((1.2, 0.02, 0.15), (0, -0.48, 0)), b((1.2, 0.02, 0.15), (0, 0.48, 0))",
+        f"b((0.02, 0.45, {hurdle} / 2), (0.2, 0, 0.05 + {hurdle} / 2))",
+    )
+    boxes = (
+        ("base", [2.4, 1.0, 0.2], [0, 0, 0.1]),
+        ("right", [2.4, 0.04, 0.3], [0, -0.48, 0.15]),
+        ("left", [2.4, 0.04, 0.3], [0, 0.48, 0.15]),
+        ("hurdle", [0.04, 0.9, 0.08], [0.2, 0, 0.24]),
+    )
+    parts = [{"name": name, "primitive": "box", "size": size, "offset": at} for name, size, at in boxes]
+    row = {"name": "track", "primitive": "compound", "fixed": True, "material": "wood", "parts": parts}
+    topology: dict = plan["topology"]  # type: ignore[assignment]
+    places = topology["body_positions"] | {"track": {"x": 0, "y": 3, "z": 0.15}}
+    more = {"scene_objects": [*plan["scene_objects"], row], "topology": topology | {"body_positions": places}}  # type: ignore[misc]
+    return text, plan | more
+
+
+GOOD = (*SOUND, _track(0.08), _track(0.082))
 BAD = (
+    _track(0.005),
     changed(BALL),
     changed("spec.geom('crate').size = (0.19, 0.15, 0.1)"),
     changed("spec.geom('arm').pos = (0.05, 0, 0)"),
@@ -96,9 +122,27 @@ def check(view: ModelView) -> Iterator[Problem]:
         elif there[name] and _elsewhere(_inside(view, body, name), _inside(planned, twin, name), size):
             message = f"what can be touched of {name} fills its box otherwise than the plan's {name}"
             yield view.at("body", body, message, FIX)
+        elif said := _part_differs(view, body, planned, twin, name):
+            yield view.at("body", body, said, "build each part in the plan's size and place")
         elif name in meshed and _meshes(view, name) != _meshes(planned, name):
             fix = "use the catalog's hulls, or make it by `sculpt.from_file` of the file that the plan names"
             yield view.at("body", body, f"the collision meshes of {name} are not those of its model", fix)
+
+
+def _part_differs(view: ModelView, body: int, planned: ModelView, twin: int, name: str) -> str:
+    """How a part of a thing of several differs from the plan's; empty when none does, or where meshes are compared."""
+    mine, theirs = _touchable(view, name), _touchable(planned, name)
+    if len(theirs) < 2 or any(w.geom_kind[g] not in FORMED for w, of in ((view, mine), (planned, theirs)) for g in of):
+        return ""
+    if (part := uncovered(planned, theirs, twin, view, mine, body)) is not None:
+        return f"{planned.name('geom', part)} is built smaller than the plan's, or elsewhere"
+    if (part := uncovered(view, mine, body, planned, theirs, twin)) is not None:
+        return f"{view.name('geom', part)} reaches beyond the parts of the plan's {name}"
+    return ""
+
+
+def _touchable(view: ModelView, name: str) -> list[int]:
+    return [int(g) for g in np.flatnonzero(view.collides) if _holder(view, int(view.geom_bodyid[g])) == name]
 
 
 def _volumes(view: ModelView) -> dict[str, float]:
@@ -112,7 +156,7 @@ def _volumes(view: ModelView) -> dict[str, float]:
 
 def _inside(view: ModelView, body: int, name: str) -> tuple[np.ndarray, np.ndarray]:
     """Middle (3,), m, and covariance (3, 3), m^2, of the points inside what can be touched of a thing, in its frame."""
-    mine = [g for g in np.flatnonzero(view.collides) if _holder(view, int(view.geom_bodyid[g])) == name]
+    mine = _touchable(view, name)
     share = view.geom_solid[mine] / view.geom_solid[mine].sum()
     turns, back = view.geom_xmat[mine], view.xmat[body].T
     middles = (view.geom_xpos[mine] + np.einsum("nij,nj->ni", turns, view.geom_middle[mine]) - view.xpos[body]) @ back.T

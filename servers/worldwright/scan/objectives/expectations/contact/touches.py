@@ -5,6 +5,7 @@ Measures how many recorded rows hold a contact between them that pushes or overl
 
 from .....model.recording.trajectory import Trajectory
 from ....known.analytic import collision, falling, resting
+from ....known.standing import on_flex
 from ....measuring.measured import Measured, OfPair, pair_rows, window
 
 CODE = "WE105"
@@ -26,4 +27,7 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
 
 
 GOOD = ((collision, {"bodies": ["a", "b"]}), (resting, {"bodies": ["body", "ground"]}))
-BAD = ((lambda: falling(seconds=0.3, touches=[]), {"bodies": ["body", "ground"]}),)
+BAD = (
+    (lambda: falling(seconds=0.3, touches=[]), {"bodies": ["body", "ground"]}),
+    (on_flex, {"bodies": ["body", "ground"]}),
+)
