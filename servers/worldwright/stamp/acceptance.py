@@ -337,9 +337,7 @@ def _filmed(state: State, taken: Taken) -> Filmed | None:
     told = (video.summary.get("film") or {}) if video and video.ok else {}
     if not sha256:
         return None
-    return Filmed(
-        sha256=sha256, **{name: told[name] for name in ("drawn_only", "looks", "hidden", "shots") if name in told}
-    )
+    return Filmed(**{name: told[name] for name in Filmed.model_fields if name in told} | {"sha256": sha256})
 
 
 def _materials(state: State, taken: Taken, environment: Environment) -> dict[str, Digest]:

@@ -79,7 +79,12 @@ class Filmed(Frozen):
     hidden: dict[str, float] = {}
     """Seconds of film in which something drawn only stands before the middle of a moving body, by which before which."""
     shots: tuple[dict[str, Any], ...] = ()
-    """Each shot's film time and length (`film_s`, `seconds`), recorded times (`from_s`, `to_s`) and mean `speed`."""
+    """Each shot's film time and length (`film_s`, `seconds`), recorded times (`from_s`, `to_s`) and mean `speed`; where it has
+    any, what the cut before it leaps over (`leap_s`) and how far its camera is rolled over (`rolled_deg`)."""
+    time_map: tuple[dict[str, float], ...] = ()
+    """Recorded seconds in a second of film (`pace`), cuts and all, from `film_s` on for `seconds`."""
+    captions: tuple[str, ...] = ()
+    """The words in its picture, word for word: its author's, and no evidence of anything."""
 
 
 class ExpectationVerdict(Frozen):
