@@ -19,7 +19,8 @@ WINDOW_S = 1.0
 
 def leaps(film: "Described") -> dict[int, float]:
     """Recorded seconds that the film leaps over, ahead, by the frame that comes after the cut."""
-    time, found = film.arrays["time"], {}
+    time = film.arrays["time"]
+    found: dict[int, float] = {}
     for before, shot in zip(film.shots, film.shots[1:], strict=False):
         first = shot["first"]
         step = float(time[first - 1] - time[first - 2]) if before["frames"] > 1 else 0.0
@@ -31,11 +32,12 @@ def leaps(film: "Described") -> dict[int, float]:
 
 def shots(film: "Described", fps: float) -> list[dict[str, Any]]:
     """Each shot for the statement: `film_s`, `seconds`, `from_s`, `to_s`, `speed`; `leap_s`, `rolled_deg` and `camera` where it has any."""
-    time, leapt, rows = film.arrays["time"], leaps(film), []
+    time, leapt = film.arrays["time"], leaps(film)
+    rows: list[dict[str, Any]] = []
     for shot in film.shots:
         first, last = shot["first"], shot["first"] + shot["frames"] - 1
         speed = (float(time[last]) - float(time[first])) * fps / max(last - first, 1)
-        row = {"film_s": round(first / fps, 4), "seconds": round(shot["frames"] / fps, 4)}
+        row: dict[str, Any] = {"film_s": round(first / fps, 4), "seconds": round(shot["frames"] / fps, 4)}
         row |= {"from_s": round(float(time[first]), 4), "to_s": round(float(time[last]), 4), "speed": round(speed, 3)}
         row |= {"leap_s": round(leapt[first], 4)} if first in leapt else {}
         rolled = max((camera_roll.degrees(film, frame) for frame in range(first, last + 1)), key=abs)

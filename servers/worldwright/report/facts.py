@@ -125,6 +125,7 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("described by", _word(material.stamp.predicate.described_by, material.stamp.predicate.description_came)),
             ("reviewed by", _word(material.stamp.predicate.reviewer, material.stamp.predicate.review_came)),
             ("not looked at", ", ".join(f"objective {i}" for i in material.stamp.not_looked_at)),
+            ("drawn by the program, not simulated", ", ".join(material.stamp.predicate.drawn_only)),
             ("signature", material.signer),
             (
                 "approved by",

@@ -137,6 +137,8 @@ class Acceptance(Frozen):
     source: Source
     proof: Proof
     film: Filmed | None = None
+    drawn_only: tuple[str, ...] = ()
+    """What the program draws, nothing can touch and the plan does not have; `drawn_by_program`."""
     handed_in: HandedIn | None = Field(None, exclude_if=lambda value: value is None)
     """A film that the author drew with a renderer of their own: listed, and no evidence of anything."""
     environment: Environment

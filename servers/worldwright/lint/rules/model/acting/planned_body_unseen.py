@@ -47,6 +47,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     assert planned is not None and plan is not None
     here, there = _by_name(view, view), _by_name(planned, view)
     others = {owner(view, int(body)) for body in (*view.flex_vertbodyid, *np.flatnonzero(view.skinned))}
+    others |= {row.name for row in plan.scene_objects if row.visual_only}  # a law may show it in a way of its own
     for name in plan.object_names():
         body = view.root_named(name)
         wanted = drawn_m(planned, there.get(name, []))
