@@ -11,7 +11,7 @@ from worldkit.filming import film_bounds as bounds
 from worldkit.filming.drawn_only import SHAPES
 from worldkit.scene import GROUND
 
-from . import gobos, ground_skins
+from . import gobos, ground_skins, stand_ins, time_map
 from .treatment import Treatments
 
 if TYPE_CHECKING:
@@ -81,14 +81,15 @@ class Described:
         for thing in self.things:
             if thing.get("ways"):
                 copies = self.arrays[thing["ways"]].shape[1]
-                said.append(f"{thing['name']} ({copies} particles)")
+                said.append(f"{thing['name']} ({copies} particles{' of ' * ('like' in thing)}{thing.get('like', '')})")
             elif thing["instead"]:
                 away = thing.get("off_m")
                 off = "" if away is None else f", up to {away:.2g} m off its surface"
                 off = ", within 1 mm of its surface" if away is not None and away < 1e-3 else off
                 said.append(f"{thing['name']} (skin over {thing['to']}{off})")
             else:
-                said.append(f"{thing['name']} (on {thing['to']})" if thing["to"] else thing["name"])
+                about = [f"on {thing['to']}" * bool(thing["to"]), thing.get("like", "")]
+                said.append(thing["name"] + (f" ({', '.join(filter(None, about))})" if any(about) else ""))
         said += [f"{one['name']} (one surface in place of {len(one['of'])} shapes)" for one in self.surfaces]
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
@@ -104,26 +105,16 @@ class Described:
         return said + (["fog"] if treated.fog_rgb is not None else [])
 
     def told(self, fps: float) -> dict[str, Any]:
-        """The film's entry in the statement: what is only drawn, its own looks, and each shot's recorded times and speed."""
-        time = self.arrays["time"]
-        rows = []
-        for shot in self.shots:
-            first, last = shot["first"], shot["first"] + shot["frames"] - 1
-            speed = (float(time[last]) - float(time[first])) * fps / max(last - first, 1)
-            rows.append(
-                {"film_s": round(first / fps, 4), "seconds": round(shot["frames"] / fps, 4)}
-                | {
-                    "from_s": round(float(time[first]), 4),
-                    "to_s": round(float(time[last]), 4),
-                    "speed": round(speed, 3),
-                }
-                | ({"camera": shot["planned"]} if shot["planned"] else {})
-            )
+        """The film's entry in the statement: what is only drawn, its own looks, its shots and time map, its author's words."""
         looks = {name: look if isinstance(look, str) else "a surface of its own" for name, look in self.looks.items()}
+        looks |= {
+            name: f"{look}, nearly clear" for name, look in looks.items() if opacity(self.looks[name]) < bounds.SEEN
+        }
         return {
             "drawn_only": self.drawn_only(),
             "looks": looks,
-            "shots": rows,
+            "shots": time_map.shots(self, fps),
+            "time_map": time_map.paces(self, fps),
             "captions": [c["text"] for c in self.captions],
         }
 
@@ -178,6 +169,7 @@ def _checked(
         raise _refuse(f"a film has at most {MOST_CAPTIONS} captions and draws at most {MOST_THINGS} things")
     bodies = set(recording.names)
     things = tuple(_thing(one, arrays, bodies, n) for one in told["things"])
+    things = stand_ins.told(things, arrays, recording)
     things = tuple(thing | ground_skins.off(thing, arrays, recording) for thing in things)
     particles = {thing["name"] for thing in things if thing.get("ways") and thing["shape"] == "sphere"}
     surfaces = tuple(_surface(one, arrays, bodies | particles) for one in told.get("surfaces", ()))
@@ -322,6 +314,13 @@ def _look(told: Any, arrays: "dict[str, np.ndarray]") -> Any:
             raise _refuse("a painted picture is uint8 (height, width, 3), at most 4096 a side")
         found["picture"] = str(told["picture"])  # type: ignore[assignment]
     return found
+
+
+def opacity(look: Any) -> float:
+    """How opaque a look of a film is, 0 to 1."""
+    from worldkit.materials import look as known
+
+    return float(known(look).rgba[3] if isinstance(look, str) else look["opacity"])
 
 
 def _sways(name: str, look: Any, points: "np.ndarray", weight: "np.ndarray") -> None:

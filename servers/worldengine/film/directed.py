@@ -8,7 +8,7 @@ from worldkit import cameras, turning
 from worldkit.filming.viewpoints import axes
 
 from ..recording.replay import Replay
-from . import smear, streaks
+from . import camera_roll, smear, stand_ins, streaks, time_map
 from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
@@ -142,7 +142,8 @@ class Screening:
         """A picture with the words of a frame, which none can leave out: uint8 (height, width, 3)."""
         film = self.film
         speed = film.speed(frame, self.fps)
-        return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)])
+        more = time_map.words(film, frame, self.fps), camera_roll.words(film, frame), stand_ins.words(film, frame)
+        return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)], *more)
 
     def surfaces(self, frame: int, coarser: int = 1) -> "Surfaces":
         """What a frame shows, pixel by pixel, in the middle of the time that its shutter is open, `coarser` times smaller each way.

@@ -10,7 +10,7 @@ from worldkit import materials, portable
 from worldkit.lights import LIGHT_GAIN
 
 from ..recording.replay import Replay
-from . import one_surface, panel_lights, sward_normals, swaying
+from . import one_surface, panel_lights, sward_normals, swaying, unseen
 from .described import Described, FilmError
 
 if TYPE_CHECKING:
@@ -34,17 +34,19 @@ def dress(world: Path, film: Described) -> "mujoco.MjModel":
     """The model that the film shows.
 
     Raises:
-        FilmError: a skin does not have the size of its body, or something cannot be added to the picture.
+        FilmError: a skin does not have the size of its body, a body that can move is made unseen, or something cannot be added to the picture.
     """
     import numpy as np
 
     spec = portable.spec(world)
+    before = unseen.seen(spec)
     for name, look in film.looks.items():
         _relook(spec, name, _material(spec, film, look, f"drawn.look {name}"))
     for thing in film.things:
         _add(spec, film, thing)
     for one in film.surfaces:
         _cover(spec, film, one)
+    unseen.refuse(spec, film, before)
     for lamp in film.lamps:
         _light(spec, lamp)
     swaying.add(spec, [f"drawn.{thing['name']}" for thing in film.things if thing.get("sways") and film.breeze])

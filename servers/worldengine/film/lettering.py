@@ -1,4 +1,4 @@
-"""Write words on a picture: captions, and how fast the film runs, which no author can leave out."""
+"""Write words on a picture: captions, and how fast the film runs and what else is not as it was, which no author can leave out."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -29,7 +29,7 @@ def pace(speed: float) -> str:
 
 
 def letter(
-    image: "np.ndarray", film_s: float, captions: Sequence[dict[str, Any]], speed: float, again: bool
+    image: "np.ndarray", film_s: float, captions: Sequence[dict[str, Any]], speed: float, again: bool, *more: str
 ) -> "np.ndarray":
     """Write the words of this moment on a picture: uint8 (H, W, 3) RGB.
 
@@ -39,10 +39,11 @@ def letter(
         captions: `text`, `place`, `start_s`, `end_s` of each.
         speed: recorded seconds per second of film.
         again: whether the film has shown this moment before.
+        more: what else the corner says; empty words are left out.
     """
     import numpy as np
 
-    words = ", ".join(word for word in ("again" if again else "", pace(speed)) if word)
+    words = ", ".join(word for word in ("again" if again else "", pace(speed), *more) if word)
     active = [c for c in captions if c["start_s"] <= film_s < c["end_s"]]
     if not words and not active:
         return image

@@ -34,7 +34,7 @@ def write(recording: "Recording", path: Path, facts: dict[str, Any], told: "Mapp
     length = max(float(time[-1] - time[0]), 1e-9)
     wanted = time[0] + np.arange(int(length * RATE_HZ) + 1) / RATE_HZ
     rows = np.unique(np.concatenate([[0], np.clip(np.searchsorted(time, wanted), 0, len(time) - 1), [len(time) - 1]]))
-    middle, half = _boxes(recording)
+    middle, half = boxes(recording)
     ground = {f"ground_{name}": value for name, value in still_surfaces.read(recording.folder).items()}
     touch = _touches(recording, time)
     cameras = list(map(str, recording.meta.get("cameras", ())))
@@ -48,7 +48,7 @@ def write(recording: "Recording", path: Path, facts: dict[str, Any], told: "Mapp
     )  # fmt: skip
 
 
-def _boxes(recording: "Recording") -> "tuple[np.ndarray, np.ndarray]":
+def boxes(recording: "Recording") -> "tuple[np.ndarray, np.ndarray]":
     """Middle and half extents (B, 3), m, of the box around the shapes of each body, in the body's frame."""
     import numpy as np
 

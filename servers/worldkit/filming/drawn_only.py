@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
-from .film_bounds import FAR_M
+from .film_bounds import FAR_M, SEEN
 
 Vec3 = tuple[float, float, float]
 SHAPES = ("box", "sphere", "cylinder", "capsule", "ellipsoid", "mesh")
@@ -154,6 +154,17 @@ def known(look: str | Surface) -> None:
             ) from None
     elif not isinstance(look, Surface):
         raise ProgramError(f"{look!r} is no look", "film.py", "name a look, '#rrggbb', or a Surface")
+
+
+def opaque(look: str | Surface, name: str, movers: tuple[str, ...]) -> str | Surface:
+    """The look of a body; a `ProgramError` where that would make a mover nearly clear, which shows what did not happen."""
+    if name in movers and isinstance(look, Surface) and look.opacity < SEEN:
+        raise ProgramError(
+            f"{name!r} moves, and an opacity of {look.opacity:g} makes it unseen",
+            "film.py",
+            f"give it at least {SEEN:g}, or a look of glass",
+        )
+    return look
 
 
 def look_facts(look: str | Surface, arrays: dict[str, np.ndarray], key: str) -> Any:

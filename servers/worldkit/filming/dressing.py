@@ -8,7 +8,7 @@ import numpy as np
 
 from ..errors import ProgramError
 from . import sward, swaying_weights, trees
-from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, rgb
+from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
 from .patterned_light import PatternedLight
@@ -365,11 +365,11 @@ class Dressing(PatternedLight):
         )  # fmt: skip
 
     def look(self, name: str, look: str | Surface) -> None:
-        """Another look for a body, or for one geom, through the whole film; it is listed in the report."""
+        """Another look for a body, or for one geom, through the whole film; the report lists it. None makes a mover unseen."""
         known(look)
         if not isinstance(name, str):
             raise ProgramError(f"a look is given to a body or a geom by its name, not to {name!r}", "film.py", "")
-        self._looks[name] = look
+        self._looks[name] = opaque(look, name, self.recorded.movers)
 
     def ground(self, look: str | Surface) -> None:
         """Another look for the ground, where the world has one (the geom `ground`)."""

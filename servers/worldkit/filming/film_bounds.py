@@ -5,6 +5,8 @@ FAR_M = 1e5
 """Nothing of a film lies further away, or is larger, m; and nothing of it is later, s."""
 PLACES = ("bottom", "top", "title", "left")
 """Where words stand in the picture."""
+SEEN = 0.2
+"""What is less opaque than this is hardly seen; clear glass, which is drawn with its mirror images, is 0.22 and more."""
 STORM_M_S = 40.0
 """The strongest wind that is drawn, m/s."""
 PANEL_M = (0.005, 100.0)

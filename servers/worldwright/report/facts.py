@@ -5,6 +5,7 @@ from typing import Any
 
 from ..model.evidence import approval, rounding
 from ..model.evidence.reports import ExpectationResult
+from . import film_facts
 from .chart import quantity
 from .material import Material, acting
 
@@ -124,6 +125,7 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("described by", _word(material.stamp.predicate.described_by, material.stamp.predicate.description_came)),
             ("reviewed by", _word(material.stamp.predicate.reviewer, material.stamp.predicate.review_came)),
             ("not looked at", ", ".join(f"objective {i}" for i in material.stamp.not_looked_at)),
+            ("drawn by the program, not simulated", ", ".join(material.stamp.predicate.drawn_only)),
             ("signature", material.signer),
             (
                 "approved by",
@@ -143,17 +145,7 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
     if material.physics and (rounded := rounding.told(material.physics.summary)):
         tables["World"] = [("its file", rounded)]
     if material.film:
-        shots = (
-            f"{s['from_s']:g} to {s['to_s']:g} s at {s['speed']:g} × speed" for s in material.film.get("shots", ())
-        )
-        hidden: dict[str, float] = material.film.get("hidden", {})
-        looks = (f"{name} as {look}" for name, look in material.film.get("looks", {}).items())
-        tables["Film"] = [
-            ("drawn only, not simulated", ", ".join(material.film.get("drawn_only", ())) or "nothing"),
-            ("looks of its own", ", ".join(looks)),
-            ("hidden by what is drawn", ", ".join(f"{what} for {s:g} s" for what, s in hidden.items())),
-            ("shots", "; ".join(shots)),
-        ]
+        tables["Film"] = film_facts.rows(material.film)
     if material.handed_in:
         own = material.handed_in
         tables["Handed in, no evidence"] = [

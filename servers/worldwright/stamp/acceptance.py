@@ -17,12 +17,14 @@ from ..model.evidence import came, handed_in, pictures_of
 from ..model.evidence.journal import Journal
 from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
+from ..model.plan.committed import Plan
 from ..model.progress import Progress, silent
 from ..model.storage import writing
 from . import (
     bundle,
     departures,
     digest,
+    drawn_by_program,
     exactness,
     gates,
     keyring,
@@ -290,6 +292,7 @@ def _predicate(
         ),
         proof=_proof(state, proved),
         film=_filmed(state, taken),
+        drawn_only=_drawn_only(proved, plan),
         handed_in=handed_in.of(folder),
         environment=environment.model_copy(update={"film": state.film}),
         cpu=processor.cpu(),
@@ -331,15 +334,20 @@ def _predicate(
     )
 
 
+def _drawn_only(proved: Proved, plan: Plan) -> tuple[str, ...]:
+    """What the program draws, and neither it nor the plan has simulated."""
+    from worldengine.recording import stored
+
+    return drawn_by_program.listed(stored.open(proved.recording).meta, plan)
+
+
 def _filmed(state: State, taken: Taken) -> Filmed | None:
     """The author's film, and what the video pass says of it; None where there is none."""
     video, sha256 = state.passes["video"].value, taken.film_sha256
     told = (video.summary.get("film") or {}) if video and video.ok else {}
     if not sha256:
         return None
-    return Filmed(
-        sha256=sha256, **{name: told[name] for name in ("drawn_only", "looks", "hidden", "shots") if name in told}
-    )
+    return Filmed(**{name: told[name] for name in Filmed.model_fields if name in told} | {"sha256": sha256})
 
 
 def _materials(state: State, taken: Taken, environment: Environment) -> dict[str, Digest]:

@@ -79,7 +79,12 @@ class Filmed(Frozen):
     hidden: dict[str, float] = {}
     """Seconds of film in which something drawn only stands before the middle of a moving body, by which before which."""
     shots: tuple[dict[str, Any], ...] = ()
-    """Each shot's film time and length (`film_s`, `seconds`), recorded times (`from_s`, `to_s`) and mean `speed`."""
+    """Each shot's film time and length (`film_s`, `seconds`), recorded times (`from_s`, `to_s`) and mean `speed`; where it has
+    any, what the cut before it leaps over (`leap_s`) and how far its camera is rolled over (`rolled_deg`)."""
+    time_map: tuple[dict[str, float], ...] = ()
+    """Recorded seconds in a second of film (`pace`), cuts and all, from `film_s` on for `seconds`."""
+    captions: tuple[str, ...] = ()
+    """The words in its picture, word for word: its author's, and no evidence of anything."""
 
 
 class ExpectationVerdict(Frozen):
@@ -132,6 +137,8 @@ class Acceptance(Frozen):
     source: Source
     proof: Proof
     film: Filmed | None = None
+    drawn_only: tuple[str, ...] = ()
+    """What the program draws, nothing can touch and the plan does not have; `drawn_by_program`."""
     handed_in: HandedIn | None = Field(None, exclude_if=lambda value: value is None)
     """A film that the author drew with a renderer of their own: listed, and no evidence of anything."""
     environment: Environment

@@ -118,7 +118,7 @@ def _mesh_sha256(model: mujoco.MjModel, mesh: int) -> str:
 
 def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
     """The start: poses, velocities, contacts, residuals, effective inverse inertias."""
-    from worldengine.recording.seen import visible
+    from worldengine.recording.seen import skinned, visible
 
     shown = np.asarray(visible(model), bool)
     contact = data.contact
@@ -146,6 +146,7 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "cam_xmat": data.cam_xmat.reshape(-1, 3, 3).copy(),
         "cvel": data.cvel.copy(),
         "visible": shown,
+        "skinned": skinned(model),
         "contact_geom": np.array(contact.geom).reshape(-1, 2),
         "contact_depth": -np.array(contact.dist).reshape(-1),
         "near_geom": _near(model, data),

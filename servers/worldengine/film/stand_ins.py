@@ -1,0 +1,100 @@
+"""What is drawn only and could be taken for a mover: as large as it, and flying about, or standing in its place.
+
+It may be drawn, and says so: its size in statement and report, its name in the picture's corner.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from ..recording.stored import Recording
+    from .described import Described
+
+LIKE = 0.5
+"""From this share of a mover's longest side on, something is as large as it."""
+COVERS = 0.9
+"""What is fixed to a body and has this share of each of its sides, around its middle, covers it."""
+MOVES_M = 1e-3
+ROWS = 100
+"""At so many moments, evenly spread, it is asked where the movers were."""
+
+
+def movers(recording: "Recording") -> list[str]:
+    """Bodies that the plan expects to move, and all others that did."""
+    import numpy as np
+
+    told = set(recording.meta.get("movers") or ())
+    gone = np.ptp(recording.pos, axis=0).max(axis=-1) > MOVES_M if len(recording.names) else ()
+    return [name for name, moved in zip(recording.names, gone, strict=True) if moved or name in told]
+
+
+def told(
+    things: "tuple[dict[str, Any], ...]", arrays: "dict[str, np.ndarray]", recording: "Recording"
+) -> "tuple[dict[str, Any], ...]":
+    """The drawn things, with `like`, such as `0.2 m, as large as ball`, of each that could be taken for a mover."""
+    import numpy as np
+
+    from .motion_facts import boxes
+
+    names = movers(recording)
+    if not names or not things:
+        return things
+    index = [recording.names.index(name) for name in names]
+    middle, half = (found[index] for found in boxes(recording))
+    ways = np.array(recording.pos[:: max(len(recording.time) // ROWS, 1)], dtype=float)[:, index]
+    return tuple(thing | _like(thing, _extent(thing, arrays), names, middle, half, ways) for thing in things)
+
+
+def _like(
+    thing: dict[str, Any],
+    extent: "tuple[np.ndarray, np.ndarray]",
+    names: list[str],
+    middle: "np.ndarray",
+    half: "np.ndarray",
+    ways: "np.ndarray",
+) -> dict[str, str]:
+    """`like` of one thing of some sides and middle, beside movers (M) with their boxes (M, 3), m, and ways (R, M, 3), m."""
+    import numpy as np
+
+    if thing["instead"]:  # a skin has its body's size and place, and is told as one
+        return {}
+    (size, centre), largest, away = extent, 2 * half.max(axis=1), np.linalg.norm(half, axis=1)
+    same = size.max() >= LIKE * largest
+    if thing["to"] and not thing.get("ways"):
+        near = np.linalg.norm(middle - centre, axis=1) < 0.5 * away
+        whole = (np.sort(size) >= COVERS * np.sort(2 * half, axis=1)).all(axis=1)
+        same = near & whole & (np.array(names) == thing["to"])
+    elif not thing.get("ways"):
+        same &= size.max() <= largest / LIKE
+        some = np.flatnonzero(same)
+        same[some] = (np.linalg.norm(ways[:, some] - centre, axis=2) < away[some]).any(axis=0)
+    if not same.any():
+        return {}
+    where = "" if thing.get("ways") else ", and in its place"
+    return {"like": f"{size.max():.2g} m, as large as {names[int(np.argmax(same))]}{where}"}
+
+
+def _extent(thing: dict[str, Any], arrays: "dict[str, np.ndarray]") -> "tuple[np.ndarray, np.ndarray]":
+    """Full sides (3,), m, of a thing, and its middle (3,), m, in the frame it is fixed in."""
+    import numpy as np
+
+    from worldkit.turning import turned
+
+    size, middle = np.array(thing["size"], dtype=float), np.zeros(3)
+    if thing["shape"] == "mesh":
+        points = arrays[thing["vertices"]] * size
+        size, middle = np.ptp(points, axis=0), 0.5 * (points.min(axis=0) + points.max(axis=0))
+    if thing.get("ways") and "turns" not in thing:
+        size = np.full(3, float(arrays[thing["sizes"]].max(initial=0.0)))
+    return size, turned(np.array(thing["quat"], dtype=float)[None], middle[None])[0] + np.array(thing["pos"])
+
+
+def words(film: "Described", frame: int) -> str:
+    """What the picture says of them: `drawn: dust`; empty where none is shown."""
+    shown = [
+        thing["name"]
+        for thing in film.things
+        if thing.get("like") and (not thing.get("ways") or film.arrays[thing["sizes"]][frame].max() > 0)
+    ]
+    return f"drawn: {', '.join(shown[:3])}{' …' * (len(shown) > 3)}" if shown else ""

@@ -1,0 +1,80 @@
+"""Which recorded time a film shows when: its shots with what each leaps over, and recorded seconds in each second of film.
+
+A shot's own speed says nothing of its cuts: many short shots that leap ahead show a slow motion fast, each at speed 1.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from . import camera_roll
+from .lettering import USUAL, pace
+
+if TYPE_CHECKING:
+    from .described import Described
+
+LEAST_S, SEEN_S = 1e-3, 0.05
+"""A cut leaps from the first on, s, and one alone is told in the picture from the second on."""
+WINDOW_S = 1.0
+"""The picture tells of the cuts of so many last seconds of film."""
+
+
+def leaps(film: "Described") -> dict[int, float]:
+    """Recorded seconds that the film leaps over, ahead, by the frame that comes after the cut."""
+    time = film.arrays["time"]
+    found: dict[int, float] = {}
+    for before, shot in zip(film.shots, film.shots[1:], strict=False):
+        first = shot["first"]
+        step = float(time[first - 1] - time[first - 2]) if before["frames"] > 1 else 0.0
+        leap = float(time[first] - time[first - 1]) - max(step, 0.0)
+        if leap >= LEAST_S:
+            found[first] = leap
+    return found
+
+
+def shots(film: "Described", fps: float) -> list[dict[str, Any]]:
+    """Each shot for the statement: `film_s`, `seconds`, `from_s`, `to_s`, `speed`; `leap_s`, `rolled_deg` and `camera` where it has any."""
+    time, leapt = film.arrays["time"], leaps(film)
+    rows: list[dict[str, Any]] = []
+    for shot in film.shots:
+        first, last = shot["first"], shot["first"] + shot["frames"] - 1
+        speed = (float(time[last]) - float(time[first])) * fps / max(last - first, 1)
+        row: dict[str, Any] = {"film_s": round(first / fps, 4), "seconds": round(shot["frames"] / fps, 4)}
+        row |= {"from_s": round(float(time[first]), 4), "to_s": round(float(time[last]), 4), "speed": round(speed, 3)}
+        row |= {"leap_s": round(leapt[first], 4)} if first in leapt else {}
+        rolled = max((camera_roll.degrees(film, frame) for frame in range(first, last + 1)), key=abs)
+        row |= {"rolled_deg": round(rolled, 1)} if rolled else {}
+        rows.append(row | ({"camera": shot["planned"]} if shot["planned"] else {}))
+    return rows
+
+
+def _pace(film: "Described", low: int, high: int, fps: float) -> float:
+    """Recorded seconds in a second of film from one frame to a later one, cuts and all; what leaps back counts nothing."""
+    import numpy as np
+
+    return float(np.maximum(np.diff(film.arrays["time"][low : high + 1]), 0.0).sum()) * fps / (high - low)
+
+
+def paces(film: "Described", fps: float) -> list[dict[str, float]]:
+    """The time map: from `film_s` on, for `seconds` of film, a second of it shows `pace` recorded seconds, cuts and all."""
+    found: list[dict[str, float]] = []
+    step = max(round(fps), 1)
+    for low in range(0, max(film.frames - 1, 1), step):
+        high = min(low + step, film.frames - 1)
+        now = round(_pace(film, low, high, fps), 2) if high > low else 0.0
+        seconds = round((min(low + step, film.frames) - low) / fps, 4)
+        if found and found[-1]["pace"] == now:
+            found[-1]["seconds"] = round(found[-1]["seconds"] + seconds, 4)
+        else:
+            found.append({"film_s": round(low / fps, 4), "seconds": seconds, "pace": now})
+    return found
+
+
+def words(film: "Described", frame: int, fps: float) -> str:
+    """What the picture says of the cuts before a frame: `1.5 s later`, `3 × speed by cuts`; empty where none leapt."""
+    low = max(frame - round(WINDOW_S * fps), 0)
+    near = [leap for first, leap in leaps(film).items() if low < first <= frame]
+    if not near or sum(near) * fps <= USUAL * (frame - low):
+        return ""
+    run = pace(_pace(film, low, frame, fps))
+    if len(near) > 1 and run:
+        return f"{run} by cuts"
+    return f"{near[-1]:.2g} s later" if near[-1] >= SEEN_S else ""

@@ -1,0 +1,49 @@
+"""Refuse a film that makes a body which can move unseen: claims are about what moves, and a film shows what happened.
+
+A wall may be cut away, which its look tells; a mover stays in the picture, by its own shapes, a skin or a surface.
+"""
+
+from typing import TYPE_CHECKING, Any
+
+from worldkit.filming.film_bounds import SEEN
+
+from .described import Described, FilmError, opacity
+
+if TYPE_CHECKING:
+    import mujoco
+
+FIX = "give it a look with an opacity of 0.2 or more; to show what is behind it, place the camera elsewhere"
+
+
+def seen(spec: "mujoco.MjSpec") -> set[str]:
+    """Bodies that can move and are seen: one shape that is drawn, and opaque enough, or a surface over theirs."""
+    return {body.name for body in spec.bodies if _moves(body) and any(_opaque(spec, geom) for geom in body.geoms)}
+
+
+def refuse(spec: "mujoco.MjSpec", film: Described, before: set[str]) -> None:
+    """Refuse a film by whose looks and skins a body that was seen `before` is seen no more.
+
+    Raises:
+        FilmError: naming the body.
+    """
+    covered = {name: one for one in film.surfaces for name in one["of"]}
+    shown = seen(spec) | {name for name, one in covered.items() if opacity(one["look"]) >= SEEN}
+    for name in sorted(before - shown):
+        raise FilmError(
+            f"the film makes {name!r}, which can move, nearly clear: what happened to it is unseen", "film.py", FIX
+        )
+
+
+def _moves(body: Any) -> bool:
+    while body is not None and body.name != "world":
+        if len(body.joints):
+            return True
+        body = body.parent
+    return False
+
+
+def _opaque(spec: "mujoco.MjSpec", geom: Any) -> bool:
+    if geom.group > 2:
+        return False
+    material = spec.material(geom.material) if geom.material else None
+    return float(geom.rgba[3] if material is None else material.rgba[3]) >= SEEN

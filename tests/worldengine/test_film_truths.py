@@ -1,0 +1,163 @@
+"""A film says in its picture's corner, its statement and its report what it shows otherwise than it was."""
+
+import numpy as np
+import pytest
+
+from small_worlds import ball, empty, floor, lay_film, record
+from worldengine.film import camera_roll, described, motion_facts, stand_ins, time_map
+from worldengine.film.described import FilmError
+from worldengine.film.dressed import dress
+from worldkit import portable
+from worldkit.errors import ProgramError
+from worldkit.filming import Film, Recorded, Surface, still
+
+FPS = 24
+
+
+class Made:
+    """A ball that rolls for four seconds over a floor, recorded, and films of it."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.recording = record(self.world(), folder / "trajectory", 2000, before=self.push)
+        self.recording.meta["movers"] = ["ball"]
+        portable.write(self.world(), folder / "world.mjz")
+        facts = {"fps": FPS, "size": [96, 54], "movers": ["ball"]}
+        motion_facts.write(self.recording, folder / "motion.npz", facts)
+        with np.load(folder / "motion.npz") as arrays:
+            self.seen = Recorded(dict(arrays))
+
+    def world(self):
+        spec = empty(time_step=0.002)
+        floor(spec)
+        ball(spec, "ball", (0, 0, 0.1), rgba=(0.8, 0.1, 0.1, 1))
+        return spec
+
+    def push(self, model, data):
+        data.qvel[0] = 0.2
+
+    def film(self, tell, change=None):
+        film = Film(self.seen)
+        tell(film)
+        if not film._shots:
+            film.shot(SIDE, until=1.0)
+        lay_film(self.folder, film, change)
+        return described.read(self.folder, self.recording)
+
+    def said(self, film, frame):
+        return [time_map.words(film, frame, FPS), camera_roll.words(film, frame), stand_ins.words(film, frame)]
+
+
+SIDE = still((0.2, -2.5, 0.6), (0.2, 0, 0.1))
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory):
+    return Made(tmp_path_factory.mktemp("truths"))
+
+
+def test_many_cuts_that_leap_ahead_are_fast_motion_and_say_so(made):
+    def leaping(film):
+        for number in range(12):
+            film.shot(SIDE, start=number * 0.3, until=number * 0.3 + 2.4 / FPS)
+
+    film = made.film(leaping)
+    told = film.told(FPS)
+    assert {shot["speed"] for shot in told["shots"]} == {1.0}
+    assert told["shots"][1]["leap_s"] == pytest.approx(0.3 - 2 / FPS, abs=1e-3)
+    assert all(row["pace"] > 2.5 for row in told["time_map"])
+    assert made.said(film, 0)[0] == ""
+    assert made.said(film, 2)[0] == "0.22 s later"
+    assert "by cuts" in made.said(film, 20)[0] and made.said(film, 20)[0].startswith(("3", "4"))
+
+
+def test_shots_that_follow_each_other_leap_over_nothing_whatever_their_speeds(made):
+    def plain(film):
+        film.shot(SIDE, until=0.7)
+        film.shot(SIDE, until=1.2, speed=(1, 0.2))
+        film.hold(SIDE, 0.5)
+        film.shot(SIDE, until=3.0, speed=2.0)
+        film.shot(SIDE, start=1.0, until=1.5)  # shown again: the corner says that already
+
+    film = made.film(plain)
+    told = film.told(FPS)
+    assert not any("leap_s" in shot for shot in told["shots"])
+    assert {made.said(film, frame)[0] for frame in range(film.frames)} == {""}
+    assert sum(row["seconds"] for row in told["time_map"]) == pytest.approx(film.frames / FPS, abs=1e-3)
+
+
+def test_one_cut_that_leaps_ahead_is_told_for_a_second(made):
+    film = made.film(lambda f: (f.shot(SIDE, until=0.5), f.shot(SIDE, start=2.0, until=4.0)))
+    cut = film.shots[1]["first"]
+    assert [made.said(film, frame)[0] for frame in (cut - 1, cut, cut + FPS + 1)] == ["", "1.5 s later", ""]
+
+
+def test_a_camera_that_is_rolled_over_is_told_and_one_that_is_canted_or_looks_down_is_not(made):
+    def rolled(roll, eye=(0.2, -2.5, 0.6), change=None):
+        return made.film(lambda f: f.shot(still(eye, (0.2, 0, 0.1), roll_deg=roll), until=0.3), change)
+
+    for roll in (180.0, -180.0, 540.0):
+        film = rolled(roll)
+        assert abs(film.told(FPS)["shots"][0]["rolled_deg"]) == 180.0
+        assert made.said(film, 3)[1] == "camera rolled 180°"
+    for film in (rolled(20.0), rolled(360.0), rolled(90.0, (0.2, -0.01, 3.0))):
+        assert "rolled_deg" not in film.told(FPS)["shots"][0] and made.said(film, 3)[1] == ""
+
+
+def flying(diameter):
+    return lambda f: f.particles(
+        "dust", lambda t: np.stack([0.3 * t, 0 * t, 0.1 + t], axis=1)[:, None], diameter=diameter
+    )
+
+
+def test_particles_as_large_as_a_mover_are_told_by_size_and_count_and_in_the_corner(made):
+    film = made.film(flying(0.2))
+    assert film.drawn_only() == ["dust (1 particles of 0.2 m, as large as ball)"]
+    assert made.said(film, 3)[2] == "drawn: dust"
+    small = made.film(flying(0.02))
+    assert small.drawn_only() == ["dust (1 particles)"] and made.said(small, 3)[2] == ""
+
+
+def test_a_thing_in_a_mover_s_place_is_told_and_scenery_is_not(made):
+    def drawn(**where):
+        film = made.film(lambda f: f.draw("other", "sphere", 0.21, **where))
+        return film.drawn_only(), made.said(film, 3)[2]
+
+    assert drawn(pos=(0.4, 0, 0.1)) == (["other (0.21 m, as large as ball, and in its place)"], "drawn: other")
+    assert drawn(to="ball") == (["other (on ball, 0.21 m, as large as ball, and in its place)"], "drawn: other")
+    assert drawn(pos=(0.4, 1.0, 0.1)) == (["other"], "")
+    assert drawn(to="ball", pos=(0, 0, 0.2)) == (["other (on ball)"], "")
+
+
+def test_no_look_makes_a_mover_unseen(made):
+    with pytest.raises(ProgramError, match="'ball' moves, and an opacity of 0 makes it unseen"):
+        made.film(lambda f: f.look("ball", Surface(opacity=0.0)))
+    clear = {"rgb": [1, 1, 1], "roughness": 0.5, "metallic": 0, "glow": 0, "opacity": 0.05, "tile_m": 1}
+
+    def refused(film):
+        with pytest.raises(FilmError, match="makes 'ball', which can move, nearly clear"):
+            dress(made.folder / "world.mjz", film)
+
+    refused(made.film(lambda f: None, lambda facts, _: facts["looks"].update(ball=clear)))
+    refused(made.film(lambda f: f.surface("honey", of="ball", look=Surface(opacity=0.1))))
+    whole = made.film(lambda f: (f.surface("honey", of="ball", look="honey"), f.look("ground", Surface(opacity=0.1))))
+    assert dress(made.folder / "world.mjz", whole).nskin == 1
+    assert whole.told(FPS)["looks"] == {"ground": "a surface of its own, nearly clear"}
+    assert dress(made.folder / "world.mjz", made.film(lambda f: f.look("ball", "glass_clear"))).ngeom
+
+
+def test_a_clear_skin_hides_no_mover(made):
+    cube = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    faces = [(0, 2, 1), (1, 2, 3), (4, 5, 6), (5, 7, 6), (0, 1, 4), (1, 5, 4), (2, 6, 3), (3, 6, 7), (0, 4, 2), (2, 4, 6), (1, 3, 5), (3, 7, 5)]  # fmt: skip
+
+    def skin(look):
+        return made.film(lambda f: f.mesh("coat", 0.1 * cube, np.array(faces), to="ball", instead=True, look=look))
+
+    with pytest.raises(FilmError, match="nearly clear"):
+        dress(made.folder / "world.mjz", skin(Surface(opacity=0.05)))
+    assert skin("gold").told(FPS)["drawn_only"] == ["coat (skin over ball)"]
+
+
+def test_captions_are_told_word_for_word(made):
+    film = made.film(lambda f: f.caption("The ball leaps by itself"))
+    assert film.told(FPS)["captions"] == ["The ball leaps by itself"]
