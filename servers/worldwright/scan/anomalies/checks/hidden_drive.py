@@ -88,8 +88,12 @@ def _caused() -> Context:
     from ....model.plan.committed import Objective, Plan, SimulationParameters
 
     objective = Objective.model_construct(claim="It moves.", cause=("body",))
-    parameters = SimulationParameters.model_construct(materials={}, medium=None)
-    made = Plan.model_construct(objectives=(objective,), simulation_parameters=parameters, scene_objects=())
+    parameters = SimulationParameters.model_construct(
+        time_step=0.002, simulation_duration=1.0, materials={}, medium=None
+    )
+    made = Plan.model_construct(
+        plan_type="mbs_in_scene", objectives=(objective,), simulation_parameters=parameters, scene_objects=()
+    )
     return Context(planned=True, plan=made)
 
 
