@@ -1,9 +1,6 @@
 """A film's camera that is rolled over: whoever sees it must still tell which way things fall."""
 
-from typing import TYPE_CHECKING
-
-if TYPE_CHECKING:
-    from .described import Described
+from typing import Any
 
 TOLD_DEG = 30.0
 """More than this is told; a hand-held or canted camera is not."""
@@ -11,7 +8,7 @@ STEEP = 0.985
 """A camera that looks so nearly straight up or down, by the sine, shows nothing fall, whichever way it is turned."""
 
 
-def degrees(film: "Described", frame: int) -> float:
+def degrees(film: Any, frame: int) -> float:
     """How far the camera of a frame is rolled about where it looks, -180 to 180 degrees; 0 where that is not told.
 
     A camera of the plan stands as its plan was approved.
@@ -26,7 +23,7 @@ def degrees(film: "Described", frame: int) -> float:
     return 0.0 if steep or abs(roll) <= TOLD_DEG else roll
 
 
-def words(film: "Described", frame: int) -> str:
+def words(film: Any, frame: int) -> str:
     """What the picture says of it; empty where its camera stands upright."""
     roll = abs(degrees(film, frame))
     return f"camera rolled {roll:.0f}°" if roll else ""

@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     import numpy as np
 
     from ..recording.stored import Recording
-    from .described import Described
 
 LIKE = 0.5
 """From this share of a mover's longest side on, something is as large as it."""
@@ -90,7 +89,7 @@ def _extent(thing: dict[str, Any], arrays: "dict[str, np.ndarray]") -> "tuple[np
     return size, turned(np.array(thing["quat"], dtype=float)[None], middle[None])[0] + np.array(thing["pos"])
 
 
-def words(film: "Described", frame: int) -> str:
+def words(film: Any, frame: int) -> str:
     """What the picture says of them: `drawn: dust`; empty where none is shown."""
     shown = [
         thing["name"]

@@ -3,13 +3,10 @@
 A shot's own speed says nothing of its cuts: many short shots that leap ahead show a slow motion fast, each at speed 1.
 """
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from . import camera_roll
 from .lettering import USUAL, pace
-
-if TYPE_CHECKING:
-    from .described import Described
 
 LEAST_S, SEEN_S = 1e-3, 0.05
 """A cut leaps from the first on, s, and one alone is told in the picture from the second on."""
@@ -17,7 +14,7 @@ WINDOW_S = 1.0
 """The picture tells of the cuts of so many last seconds of film."""
 
 
-def leaps(film: "Described") -> dict[int, float]:
+def leaps(film: Any) -> dict[int, float]:
     """Recorded seconds that the film leaps over, ahead, by the frame that comes after the cut."""
     time = film.arrays["time"]
     found: dict[int, float] = {}
@@ -30,7 +27,7 @@ def leaps(film: "Described") -> dict[int, float]:
     return found
 
 
-def shots(film: "Described", fps: float) -> list[dict[str, Any]]:
+def shots(film: Any, fps: float) -> list[dict[str, Any]]:
     """Each shot for the statement: `film_s`, `seconds`, `from_s`, `to_s`, `speed`; `leap_s`, `rolled_deg` and `camera` where it has any."""
     time, leapt = film.arrays["time"], leaps(film)
     rows: list[dict[str, Any]] = []
@@ -46,14 +43,14 @@ def shots(film: "Described", fps: float) -> list[dict[str, Any]]:
     return rows
 
 
-def _pace(film: "Described", low: int, high: int, fps: float) -> float:
+def _pace(film: Any, low: int, high: int, fps: float) -> float:
     """Recorded seconds in a second of film from one frame to a later one, cuts and all; what leaps back counts nothing."""
     import numpy as np
 
     return float(np.maximum(np.diff(film.arrays["time"][low : high + 1]), 0.0).sum()) * fps / (high - low)
 
 
-def paces(film: "Described", fps: float) -> list[dict[str, float]]:
+def paces(film: Any, fps: float) -> list[dict[str, float]]:
     """The time map: from `film_s` on, for `seconds` of film, a second of it shows `pace` recorded seconds, cuts and all."""
     found: list[dict[str, float]] = []
     step = max(round(fps), 1)
@@ -68,7 +65,7 @@ def paces(film: "Described", fps: float) -> list[dict[str, float]]:
     return found
 
 
-def words(film: "Described", frame: int, fps: float) -> str:
+def words(film: Any, frame: int, fps: float) -> str:
     """What the picture says of the cuts before a frame: `1.5 s later`, `3 × speed by cuts`; empty where none leapt."""
     low = max(frame - round(WINDOW_S * fps), 0)
     near = [leap for first, leap in leaps(film).items() if low < first <= frame]

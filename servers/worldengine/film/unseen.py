@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.filming.film_bounds import SEEN
 
-from .described import Described, FilmError, opacity
+from .described import FilmError, opacity
 
 if TYPE_CHECKING:
     import mujoco
@@ -20,7 +20,7 @@ def seen(spec: "mujoco.MjSpec") -> set[str]:
     return {body.name for body in spec.bodies if _moves(body) and any(_opaque(spec, geom) for geom in body.geoms)}
 
 
-def refuse(spec: "mujoco.MjSpec", film: Described, before: set[str]) -> None:
+def refuse(spec: "mujoco.MjSpec", film: Any, before: set[str]) -> None:
     """Refuse a film by whose looks and skins a body that was seen `before` is seen no more.
 
     Raises:
