@@ -10,6 +10,8 @@ import click
 from worldkit.files import write_atomic
 
 from .cli import report_errors
+from .model.errors import GateError, NotFoundError
+from .model.evidence.reports import EvidenceKey
 from .model.evidence.run import Run
 
 FORMATS = {"gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap"}
@@ -20,22 +22,28 @@ RATE_HZ = 25.0
 
 
 def write(
-    run: Run, kind: str = "gltf", path: Path | None = None, *, rate_hz: float = RATE_HZ, camera: str = ""
+    run: Run, kind: str = "gltf", path: Path | None = None, *, rate_hz: float | None = None, camera: str = ""
 ) -> Path:
     """Write a run's scene, or its recording as messages, beside its report unless a `path` is given; returns where.
 
-    `rate_hz` and `camera` (whose film is told, too) are for `mcap`; see `ends.mcap_file`.
+    `rate_hz` (`RATE_HZ` without it) and `camera`, whose film is told, too, are for `mcap` alone; see `ends.mcap_file`.
 
     Raises:
-        GateError: nothing is recorded of this program and plan.
+        GateError: nothing is recorded of this program and plan, or what was filmed is of another.
         JobError: the engine could not write it.
-        NotFoundError: the extra `mcap` is not installed, or there is no such film.
+        NotFoundError: the extra `mcap` is not installed, no such camera was filmed, or the format has none of what is asked.
     """
+    if kind != "mcap" and (rate_hz is not None or camera):
+        asked = "--pictures" if camera else "--rate"
+        raise NotFoundError(
+            f"{asked} does nothing to {kind}", next_move=f"leave it out, or take --format mcap: {asked} is its own"
+        )
     from .model.evidence import environment
     from .stage.one_frame import given_words, recorded
     from .stage.short_runs import engine
 
-    physics = recorded(run, run.evidence_key(environment.current().sha256()))
+    key = run.evidence_key(environment.current().sha256())
+    physics = recorded(run, key)
     name = FORMATS[kind]
     target = path or run.folder / name
     if kind == "mcap":
@@ -43,15 +51,35 @@ def write(
 
         from .ends import mcap_file
 
-        film = physics.parent / "video" / f"{camera}.mp4" if camera else None
+        film = _film(run, key, camera) if camera else None
+        rate = RATE_HZ if rate_hz is None else rate_hz
         mcap_file.write(
-            stored.open(physics / "trajectory"), target, rate_hz=rate_hz, plan=run.source.read_bytes(), film=film
+            stored.open(physics / "trajectory"), target, rate_hz=rate, plan=run.source.read_bytes(), film=film
         )
         return target
     words = ["scene", *given_words(physics), "--format", kind]
     found = engine(words, (physics,), (name,), again=f"worldwright export RUN --format {kind}")
     write_atomic(target, found[name])
     return target
+
+
+def _film(run: Run, key: EvidenceKey, camera: str) -> Path:
+    """The film of a camera, which shows the recording frame by frame; the run's own film cuts and slows, and is none."""
+    from .stage import gates
+
+    result = gates.passed(run, key, "video")
+    if result is None:
+        raise GateError(
+            "there are no films of this program and plan as they would be drawn now",
+            place=str(run.evidence(key) / "video"),
+            next_move=f"worldwright stage start {run.folder} --stage video",
+        )
+    known = [str(name) for name in (result.get("summary") or {}).get("cameras") or ()]
+    if camera not in known:
+        raise NotFoundError(
+            f"no camera {camera!r} was filmed", next_move=f"name one of: {', '.join(known) or '(none)'}"
+        )
+    return run.evidence(key) / "video" / f"{camera}.mp4"
 
 
 def scene(run: Run) -> bytes | None:
@@ -79,12 +107,10 @@ def scene(run: Run) -> bytes | None:
 @click.option(
     "--rate",
     type=click.FloatRange(min=0),
-    default=RATE_HZ,
-    show_default=True,
-    help="Of mcap: rows a simulated second; 0: all.",
+    help=f"Of mcap: rows a simulated second, {RATE_HZ:g} without it; 0: all.",
 )
 @click.option("--pictures", default="", metavar="CAMERA", help="Of mcap: the film of this camera of the plan, too.")
-def command(run: str, kind: str, out: Path | None, rate: float, pictures: str) -> None:
+def command(run: str, kind: str, out: Path | None, rate: float | None, pictures: str) -> None:
     """Write the recorded motion: the drawn world as glTF or USD, or as MCAP in ROS 2's messages (the extra `mcap`).
 
     A skin over several bodies is carried out as one rigid piece for each of them.

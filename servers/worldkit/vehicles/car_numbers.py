@@ -1,10 +1,13 @@
 """The numbers of a car, and what follows from them."""
 
 from dataclasses import dataclass
+from math import radians, tan
 from typing import Literal
 
 CORNERS = ("fl", "fr", "rl", "rr")
 """Front left, front right, rear left, rear right."""
+DRIVEN = {"front": CORNERS[:2], "rear": CORNERS[2:], "all": CORNERS}
+"""Driven wheels, by the name of the drive."""
 
 
 @dataclass(frozen=True)
@@ -60,6 +63,22 @@ class Car:
             raise ValueError("the wheels stand outside of the car: give it a larger length_m or width_m")
         if self.steering_deg > 50:
             raise ValueError(f"a car's front wheels cannot turn by {self.steering_deg} degrees: 50 at most")
+        if self.driven not in DRIVEN:
+            raise ValueError(f"a car is not driven {self.driven!r}: {', '.join(DRIVEN)}")
+        if hung := [f"{corner} {load:.0f} N" for corner in CORNERS if (load := self.strut_n(corner)) <= 0]:
+            raise ValueError(
+                f"a car's struts must be pressed at rest, not pulled: {', '.join(hung)}; put its front_share nearer to 0.5"
+            )
+        if (room := self.wheelbase_m - 2.5 * self.wheel_radius_m) <= 0 or self.track_m <= self.tyre_width_m:
+            raise ValueError(
+                f"a car's chassis has no room between its wheels: {room:.2f} m along (2.5 wheel_radius_m are the wheels') and "
+                f"{self.track_m - self.tyre_width_m:.2f} m across; give it a larger wheelbase_m or track_m, or smaller wheels"
+            )
+        if (radius := self.wheelbase_m / tan(radians(self.steering_deg))) <= self.track_m / 2:
+            raise ValueError(
+                f"a car steered by {self.steering_deg} degrees turns about a point {radius:.2f} m beside its middle, "
+                f"between its wheels: give it less steering_deg, or a track_m below {2 * radius:.2f}"
+            )
 
     @property
     def sprung_kg(self) -> float:
@@ -74,7 +93,7 @@ class Car:
     @property
     def driven_wheels(self) -> tuple[str, ...]:
         """Of `CORNERS`."""
-        return {"front": CORNERS[:2], "rear": CORNERS[2:], "all": CORNERS}[self.driven]
+        return DRIVEN[self.driven]
 
     def place(self, corner: str) -> tuple[float, float]:
         """(x, y) of a wheel in the car's frame, m."""

@@ -72,7 +72,7 @@ def _weigh(body: "mujoco.MjsBody", car: Car) -> None:
 
 
 def _chassis(body: "mujoco.MjsBody", car: Car, name: str) -> None:
-    """What collides: a low box between the wheels, two over the axles, and the cabin."""
+    """What collides: a low box between the axles, one above the wheels as long as the car, and the cabin."""
     import mujoco
 
     box = mujoco.mjtGeom.mjGEOM_BOX

@@ -17,7 +17,11 @@ if TYPE_CHECKING:
 
     from ..model.plan.committed import Plan
 
-WORLD, FACTS = "world.mjz", "world"
+WORLD, FACTS, MOTION = "world.mjz", "world", "trajectory.npz"
+NEEDED = ("plan.md", WORLD, f"{FACTS}/program.json", f"{FACTS}/inputs.json")
+"""What there must be of every world."""
+DRIVEN = tuple(f"{FACTS}/{name}.arrows" for name in ("inputs", "edits", "media", "balances"))
+"""What drove it, where anything did (`worldengine.recording.stored.Replayable` reads it)."""
 
 
 @dataclass(frozen=True)
@@ -58,7 +62,8 @@ class AcceptedWorld:
                 place=str(folder),
                 next_move=f"worldwright stamp verify {run.folder} --rebuild, or accept it anew: worldwright go {run.folder}/plan.md",
             )
-        for part in ("plan.md", WORLD, f"{FACTS}/program.json", f"{FACTS}/inputs.json"):
+        there = {part for part in (*DRIVEN, MOTION) if (folder / part).exists()}
+        for part in (*NEEDED, *sorted(there.union(name for name in DRIVEN if name in stamped))):
             if not (folder / part).is_file() or sha256_file(folder / part) != stamped.get(part):
                 raise GateError(
                     f"{part} is not what the stamp lists",

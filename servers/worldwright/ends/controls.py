@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..model.errors import NotFoundError
+from ..model.errors import GateError, NotFoundError
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -28,7 +28,10 @@ class ControlInput:
     low: float
     high: float
     bounded_by: str
-    """Who says so: the caller, the model's ctrlrange, the plan's limit, joint or number, the recording, or nobody."""
+    """Who says so: the caller, the model's ctrlrange, the plan's limit, joint or number, the recording, or nobody.
+
+    Where the model clamps nothing, what was recorded beyond such a bound is allowed, too: "the joint's range, and the recording".
+    """
 
 
 def control_inputs(
@@ -67,8 +70,16 @@ def control_inputs(
             low, high, by = float(said[0]), float(said[1]), "the caller"
         else:
             low, high, by = _bounds(model, plan, index, name, kind, joint, recorded[:, column])
+            if not model.actuator_ctrllimited[index]:
+                low, high, by = _with(recorded[:, column], low, high, by)
         found.append(ControlInput(name, index, unit, low, high, by))
     return tuple(found)
+
+
+def _with(recorded: "np.ndarray", low: float, high: float, by: str) -> tuple[float, float, str]:
+    """Bounds widened to what was recorded: an action that is clipped would not give the recorded motion."""
+    least, most = float(recorded.min(initial=low)), float(recorded.max(initial=high))
+    return (low, high, by) if (least, most) == (low, high) else (least, most, f"{by}, and the recording")
 
 
 def _drive(model: "mujoco.MjModel", control: int) -> tuple[str, str, int]:
@@ -116,3 +127,17 @@ def _bounds(
         return -abs(float(value)), abs(float(value)), "the plan's number, either way"
     largest = float(np.abs(recorded).max(initial=0.0))
     return (-largest, largest, "the recording, either way") if largest else (-np.inf, np.inf, "nobody")
+
+
+def checked(action: Any, shape: tuple[int, ...]) -> "np.ndarray":
+    """An action as an array of this shape; a `GateError` where it is none, or a number of it is not finite."""
+    import numpy as np
+
+    try:
+        given = np.asarray(action, float)
+    except (TypeError, ValueError):
+        given = np.full((), np.nan)
+    if given.shape != shape or not np.isfinite(given).all():
+        numbers = " x ".join(map(str, shape))
+        raise GateError(f"{action!r} is no action of {numbers} finite numbers", next_move="see env.unwrapped.inputs")
+    return given

@@ -8,6 +8,7 @@ truncated after the plan's duration. Nothing of the program is run, and what a l
 """
 
 from collections.abc import Mapping
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,7 @@ import numpy as np
 
 from ..model.errors import GateError, NotFoundError
 from .accepted_world import AcceptedWorld
-from .controls import control_inputs
+from .controls import checked, control_inputs
 from .episode import Episode
 from .jitter import Jitter, shake
 from .judging import Judge
@@ -36,6 +37,7 @@ class World(gymnasium.Env):
         judge_every_s: simulated seconds from one judgement to the next; 0 judges after every action.
         jitter: how far the start may be off (`jitter.shake`); `reset(options={"jitter": …})` says it for one episode.
         bounds: bounds of actions by the control's name, in its unit, in place of those that were found.
+        judge: of another copy of this world, whose making costs a whole episode; this copy gets rows of its own.
 
     Attributes:
         inputs: the controls, with units, bounds and who says so.
@@ -58,6 +60,7 @@ class World(gymnasium.Env):
         judge_every_s: float = 0.1,
         jitter: Jitter | None = None,
         bounds: Mapping[str, tuple[float, float]] | None = None,
+        judge: Judge | None = None,
     ) -> None:
         from worldengine.recording.describing import describe
 
@@ -81,12 +84,13 @@ class World(gymnasium.Env):
             rows = self.actions * self.stepped.every // self.stepped.row_every + 2
             meta = {**describe(model, self.world.given.visual_only), "movers": list(self.world.given.movers)}
             self._episode = Episode(model, self.stepped.data, meta, rows)
-            self.judge = Judge.of(self.world.plan, self.world.given.duration, self._as_accepted(recorded))
+            known = judge or Judge.of(self.world.plan, self.world.given.duration, self._as_accepted(recorded))
+            self.judge = deepcopy(known)
         self.stepped.begin()
         self.stepped.look()
         self.observation_space = space_of(self._observed())
         self._pictures: Any = None
-        self._over = True
+        self._over, self._begun = True, False
 
     def _as_accepted(self, recorded: np.ndarray) -> Any:
         """The motion by the recorded controls."""
@@ -101,11 +105,12 @@ class World(gymnasium.Env):
     def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None) -> tuple[Any, dict[str, Any]]:
         """Stand at the recorded start, off by the jitter that the seed draws."""
         super().reset(seed=seed)
+        self._over = True
         self.stepped.begin()
         if jitter := (options or {}).get("jitter", self.jitter):
             shake(self.stepped.model, self.stepped.data, jitter, self.np_random)
         self.stepped.look()
-        self._done, self._judged_s, self._over = 0, 0.0, False
+        self._done, self._judged_s, self._over, self._begun = 0, 0.0, False, True
         if self._episode is not None and self.judge is not None:
             self._episode.begin()
             self.judge.begin()
@@ -115,14 +120,13 @@ class World(gymnasium.Env):
         """Apply an action, which is kept within its bounds.
 
         Raises:
-            GateError: the episode is over, or a number of the action is not finite.
+            GateError: the episode is over or has not begun, or the action is no (controls,) finite numbers.
         """
-        given = np.asarray(action, float).reshape(-1)
-        if self._over or len(given) != len(self.inputs) or not np.isfinite(given).all():
-            cause = (
-                "the episode is over" if self._over else f"{action!r} is no action of {len(self.inputs)} finite numbers"
+        if self._over:
+            raise GateError(
+                f"the episode {'is over' if self._begun else 'has not begun'}", next_move="call reset() first"
             )
-            raise GateError(cause, next_move="call reset() first" if self._over else "see env.unwrapped.inputs")
+        given = checked(action, (len(self.inputs),))
         space = self.action_space
         assert isinstance(space, gymnasium.spaces.Box)
         self.stepped.act(np.clip(given, space.low, space.high), self._episode)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..model.errors import NotFoundError
+from ..model.errors import GateError, NotFoundError
 
 if TYPE_CHECKING:
     import mujoco
@@ -23,6 +23,7 @@ def shake(model: "mujoco.MjModel", data: "mujoco.MjData", jitter: Jitter, rng: n
 
     Raises:
         NotFoundError: neither a loose body nor a hinge or slide has this name, or it has no such amount.
+        GateError: an amount is no finite number.
     """
     import mujoco
 
@@ -42,7 +43,13 @@ def shake(model: "mujoco.MjModel", data: "mujoco.MjData", jitter: Jitter, rng: n
         own = WORDS if kind == free else WORDS[::2] if kind == slide else WORDS[1::2]
         if odd := sorted(set(amounts) - set(own)):
             raise NotFoundError(f"{name} has no {', '.join(odd)}", next_move=f"give it some of: {', '.join(own)}")
+        if bad := [word for word, amount in amounts.items() if not _finite(amount)]:
+            raise GateError(f"{name}: {', '.join(bad)} must be finite", next_move="give metres, degrees, or 0 for none")
         _one(model, data, known[name], amounts, rng)
+
+
+def _finite(amount: object) -> bool:
+    return isinstance(amount, (int, float, np.number)) and bool(np.isfinite(amount))
 
 
 def _one(

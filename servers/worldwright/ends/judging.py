@@ -1,8 +1,8 @@
 """Judge an episode by the plan's objectives, with the house's own measurements, as far as that can be done while it runs.
 
-An expectation is paid for once, when it is certain:
+An expectation is paid for when it holds, and what falls later is taken back:
 
-    event     (`touches`, `reaches`, `comes_to_rest`: it comes true at a moment) when it first holds
+    event     (`touches`, `reaches`, `comes_to_rest`: it comes true at a moment) when it first holds; measured again at the end
     lasting   (those of `FINAL`: `stays_upright`, `never_touches`) at the end; if it fails before, the episode is over, since
               no later motion can make it true of the whole
     rest      (`ends_at`, `carries_load`, `moves_straight`: a number of the whole) at the end
@@ -90,6 +90,8 @@ class Judge:
     def judge(self, episode: Episode, at_end: bool) -> tuple[float, bool]:
         """(reward since the last time, whether a lasting expectation is broken).
 
+        Where the episode ends, so or so, what was paid is measured again: an event that holds no more is taken back.
+
         Args:
             episode: its rows so far.
             at_end: nothing follows: what lasted is paid.
@@ -98,12 +100,15 @@ class Judge:
             return 0.0, False
         motion = episode.motion()
         held, broken = 0, False
-        for row in self.rows:
-            if row.paid or (row.how == "rest" and not at_end):
+        for row in sorted(
+            self.rows, key=lambda row: row.how != "lasting"
+        ):  # a broken one ends the episode for the others
+            if not at_end and (row.how == "rest" or (row.paid and not broken)):
                 continue
             result = expecting.measured(motion, row.name, row.arguments, self.duration_s)
             row.status, row.margin = result.status, result.margin
-            if row.status == "holds" and (at_end or row.how == "event"):
-                row.paid, held = True, held + 1
+            now = row.status == "holds" and (at_end or row.how == "event")
+            held += now - row.paid
+            row.paid = now
             broken |= row.how == "lasting" and row.status == "fails"
         return held / len(self.rows), broken

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..model.errors import NotFoundError
+from .accepted_world import MOTION
 
 if TYPE_CHECKING:
     import mujoco
@@ -40,7 +41,7 @@ class LivePictures:
         self.camera = camera or known[0]
         width, height = world.given.size
         poses: list[np.ndarray | None] = [None, None]
-        if (motion := world.folder / "trajectory.npz").is_file():
+        if (motion := world.folder / MOTION).is_file():
             with np.load(motion, allow_pickle=False) as told:
                 poses = [told["pos"], told["quat"]]
         cameras.aim(self._model, poses[0], orientations=poses[1], aspect=width / height)

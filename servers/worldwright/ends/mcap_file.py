@@ -10,7 +10,7 @@
 Times are simulated, from 0. The plan is attached, and the metadata `worldwright` names the trajectory's hash.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -93,6 +93,8 @@ def _in_order(recording: "Recording", rate_hz: float, film: Path | None) -> Iter
 
 
 def _states(told: Told, rows: list[int]) -> Iterator[Row]:
+    odometries = dict(zip(told.loose, topics(told.frames[body] for body in told.loose), strict=True))
+    controls = topics(told.controls)
     if told.still and rows:
         yield told.ns(rows[0]), "/tf_static", "tf2_msgs/msg/TFMessage", told.transforms(rows[0], told.still)
     for row in rows:
@@ -102,9 +104,9 @@ def _states(told: Told, rows: list[int]) -> Iterator[Row]:
         if told.joints:
             yield ns, "/joint_states", "sensor_msgs/msg/JointState", told.joint_state(row)
         for body in told.loose:
-            yield ns, f"/odom/{topic(told.frames[body])}", "nav_msgs/msg/Odometry", told.odometry(row, body)
-        for control, name in enumerate(told.controls):
-            yield ns, f"/control/{topic(name)}", "std_msgs/msg/Float64", told.control(row, control)
+            yield ns, f"/odom/{odometries[body]}", "nav_msgs/msg/Odometry", told.odometry(row, body)
+        for control, name in enumerate(controls):
+            yield ns, f"/control/{name}", "std_msgs/msg/Float64", told.control(row, control)
 
 
 def _pictures(told: Told, film: Path) -> Iterator[Row]:
@@ -135,3 +137,16 @@ def topic(name: str) -> str:
     """A name as a part of a topic: letters, digits and underscores, not beginning with a digit."""
     plain = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "_" for c in name)
     return f"_{plain}" if plain[:1].isdigit() else plain
+
+
+def topics(names: Iterable[str]) -> list[str]:
+    """Names as parts of topics, no two alike: of those that would become one, the second ends with `_2`, and so on."""
+    found: dict[str, None] = {}
+    wanted = [topic(name) for name in names]
+    for plain in wanted:
+        own, number = plain, 1
+        while own in found or (number > 1 and own in wanted):
+            number += 1
+            own = f"{plain}_{number}"
+        found[own] = None
+    return list(found)

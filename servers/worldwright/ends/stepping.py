@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from .accepted_world import AcceptedWorld
     from .episode import Episode
 
+BLOW_UPS = ("BADQPOS", "BADQVEL", "BADQACC")
+"""The engine's warnings of a number that it gave up on."""
+
 
 class Stepped:
     """One world that is stepped.
@@ -94,10 +97,13 @@ class Stepped:
         mujoco.mj_step1(self.model, self.data)
 
     def act(self, action: np.ndarray, episode: "Episode | None" = None) -> None:
-        """Apply a (controls,) action, take the steps up to the next one, and compute what derives from the new state."""
+        """Apply a (controls,) action, take the steps up to the next one, and compute what derives from the new state.
+
+        None is taken beyond the plan's duration: where `every` does not divide its steps, the last action acts for fewer.
+        """
         import mujoco
 
-        for number in range(self.every):
+        for number in range(min(self.every, self._world.steps - self.step_number)):
             if number == 0:
                 self._write(action)
             kept = episode if self.step_number % self.row_every == 0 else None
@@ -128,8 +134,7 @@ class Stepped:
         """Whether the engine gave up on a number since the episode began: a position, velocity or acceleration."""
         import mujoco
 
-        kinds = ("BADQPOS", "BADQVEL", "BADQACC")
-        return any(self.data.warning.number[int(getattr(mujoco.mjtWarning, f"mjWARN_{kind}"))] for kind in kinds)
+        return any(self.data.warning.number[int(getattr(mujoco.mjtWarning, f"mjWARN_{kind}"))] for kind in BLOW_UPS)
 
     def _write(self, action: np.ndarray) -> None:
         if self._recorded is None:
@@ -138,7 +143,7 @@ class Stepped:
         from worldengine.inputs.ledger import refresh
 
         answers, step = self._answers, self.step_number
-        vector, edits = self._recorded.answer(step) if step < self._world.steps else (self._recorded.vector, [])
+        vector, edits = self._recorded.answer(step)
         vector = vector.copy()
         vector[: len(self.indices)] = action
         answers.replay(vector, edits)

@@ -71,8 +71,16 @@ def by_kind(anomalies: Iterable[Anomaly]) -> list[str]:
         if severity == "blocking" or len(found) <= FEW:
             lines += [str(one) for one in found]
             continue
-        worst = max(found, key=lambda one: abs(one.measured / one.threshold) if one.threshold else abs(one.measured))
+        worst = max(found, key=_off)
         others = list(dict.fromkeys(one.body for one in found if one is not worst))
         more = f", and {len(others) - FEW} more" if len(others) > FEW else ""
         lines.append(f"{worst}; the same, less, of {', '.join(others[:FEW])}{more}")
     return lines
+
+
+def _off(one: Anomaly) -> float:
+    """How far off it is, as a factor of its threshold, whichever side is the bad one; as it stands where that is 0."""
+    if not one.threshold:
+        return abs(one.measured)
+    ratio = abs(one.measured / one.threshold)
+    return max(ratio, 1 / ratio) if ratio else float("inf")

@@ -25,7 +25,7 @@ def listed(meta: Mapping[str, Any], plan: Plan) -> tuple[str, ...]:
     for geom in meta.get("geoms") or ():
         body, sides = str(geom["body"]), tuple(sorted(2 * half for half in geom["aabb"][3:]))
         owner = body
-        while owner and owner not in known and owner.rsplit("_", 1)[0] not in known:
+        while owner and not _planned(owner, known):
             owner = parent.get(owner, "")
         if owner:
             sizes.setdefault(owner, []).append(sides)
@@ -34,6 +34,12 @@ def listed(meta: Mapping[str, Any], plan: Plan) -> tuple[str, ...]:
             loose.setdefault(own, []).append(sides)
     said = [f"{name} ({_size(shapes, sizes)})" for name, shapes in loose.items()]
     return tuple(said[:MOST]) + ((f"and {len(said) - MOST} more",) if len(said) > MOST else ())
+
+
+def _planned(name: str, known: set[str]) -> bool:
+    """Whether it is a planned thing, or a numbered copy of one: `crate`, `crate_2`, but no `crate_ghost`."""
+    head, _, tail = name.rpartition("_")
+    return name in known or (head in known and tail.isdigit())
 
 
 def _size(shapes: list[tuple[float, ...]], planned: dict[str, list[tuple[float, ...]]]) -> str:

@@ -149,6 +149,15 @@ def test_what_cannot_stand_is_refused():
     for words in ({"mass_kg": 50}, {"front_share": 0.95}, {"wheelbase_m": 5.0}, {"tyre_friction": float("nan")}):
         with pytest.raises(ValueError, match="car"):
             vehicles.Car(**words)
+    for words, number in (
+        ({"driven": "4wd"}, "'4wd': front, rear, all"),
+        ({"mass_kg": 200, "front_share": 0.78}, "rl -78 N, rr -78 N"),
+        ({"wheelbase_m": 0.75}, "-0.03 m along"),
+        ({"tyre_width_m": 1.6, "width_m": 3.2}, "-0.08 m across"),
+        ({"wheelbase_m": 0.8, "steering_deg": 50}, "50 degrees turns about a point 0.67 m"),
+    ):
+        with pytest.raises(ValueError, match=number):
+            vehicles.Car(**words)
     spec = scene.new("road", time_step=0.002)
     vehicles.add(spec, CAR, name="car", look=None)
     with pytest.raises(ValueError, match="already"):

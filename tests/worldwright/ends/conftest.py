@@ -4,6 +4,7 @@ import dataclasses
 import hashlib
 import json
 import runpy
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -33,6 +34,11 @@ def sealed(run: Path) -> None:
     hashes = {str(path.relative_to(accepted)): hashlib.sha256(path.read_bytes()).hexdigest() for path in files}
     rows = [{"name": name, "digest": {"sha256": digest}} for name, digest in hashes.items()]
     (accepted / "stamp.json").write_text(json.dumps({"subject": rows}))
+
+
+@pytest.fixture(scope="session")
+def seal() -> Callable[[Path], None]:
+    return sealed
 
 
 @pytest.fixture(scope="session")

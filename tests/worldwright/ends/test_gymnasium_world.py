@@ -1,6 +1,7 @@
 """An accepted world as a Gymnasium environment: the recorded rows again, honest rewards, and typed refusals."""
 
 import dataclasses
+import json
 import shutil
 
 import numpy as np
@@ -150,3 +151,107 @@ def test_a_world_with_a_solver_beside_it_is_no_plain_world(roped):
     row = Row(solver="basin", bodies=("box",), constants={})
     with pytest.raises(GateError, match="basin works beside the engine"):
         Stepped(dataclasses.replace(world, given=dataclasses.replace(world.given, solvers=(row,))))
+
+
+def test_what_drove_a_world_is_held_against_its_stamp(roped, tmp_path):
+    facts = "accepted/world"
+    for number, (part, content) in enumerate(
+        [(f"{facts}/inputs.arrows", b"forged"), (f"{facts}/inputs.arrows", None), (f"{facts}/edits.arrows", b"more"),
+         (f"{facts}/media.arrows", b"more"), (f"{facts}/balances.arrows", b"more"), ("accepted/trajectory.npz", b"other")]
+    ):  # fmt: skip
+        copied = tmp_path / str(number)
+        shutil.copytree(roped.run, copied)
+        if content is None:
+            (copied / part).unlink()
+        else:
+            (copied / part).write_bytes(content)
+        with pytest.raises(GateError, match=f"{part.removeprefix('accepted/')} is not what the stamp lists"):
+            AcceptedWorld.read(copied)
+
+
+def test_copies_with_rewards_are_judged_apart_by_what_one_found(roped, monkeypatch):
+    from worldwright.ends.judging import Judge
+
+    built, of = [], Judge.of
+    monkeypatch.setattr(Judge, "of", lambda *given: built.append(1) or of(*given))
+    many = gymnasium.make_vec(ID, num_envs=3, run=roped.run)
+    first, second, _ = (env.unwrapped.judge for env in many.envs)
+    assert len(built) == 1 and len(first.rows) == len(second.rows) > 1
+    first.rows[0].paid = True
+    assert not second.rows[0].paid
+
+
+def test_a_copy_that_blows_up_is_over_as_it_is_alone(roped):
+    wild = {"box": {"speed_m_s": 1e12}}
+    alone = made(roped, reward=False, jitter=wild)
+    alone.reset(seed=1)
+    *_, terminated, truncated, _ = alone.step([0.0])
+    assert terminated and not truncated
+    batch = gymnasium.make_vec(ID, num_envs=2, run=roped.run, reward=False)
+    batch.reset(seed=1, options={"jitter": wild})
+    *_, terminated, truncated, _ = batch.step(np.zeros((2, 1)))
+    assert terminated.all() and not truncated.any()
+    batch.step(np.zeros((2, 1)))
+    *_, terminated, _, _ = batch.step(np.zeros((2, 1)))
+    assert not terminated.any()
+
+
+def test_the_engines_word_of_a_blow_up_counts_in_a_batch(roped):
+    batch = gymnasium.make_vec(ID, num_envs=2, run=roped.run, reward=False)
+    batch.reset(seed=1)
+    unwrapped = batch.unwrapped
+    unwrapped._batch.warning[1, unwrapped._bad[-1], 1] = 1
+    assert unwrapped._sane().tolist() == [True, False]
+
+
+def test_a_jitter_of_the_options_lasts_one_episode_in_a_batch_too(roped):
+    batch = gymnasium.make_vec(ID, num_envs=2, run=roped.run, reward=False)
+    plain, _ = batch.reset(seed=1)
+    first, _ = batch.reset(seed=1, options={"jitter": OFF})
+    assert not np.array_equal(first["qpos"], plain["qpos"])
+    for _ in range(401):
+        seen, *_ = batch.step(np.zeros((2, 1)))
+    assert np.array_equal(seen["qpos"], plain["qpos"])
+
+
+def test_an_episode_ends_with_the_plans_duration_where_actions_do_not_divide_it(roped, seal, tmp_path):
+    copied = tmp_path / "rope"
+    shutil.copytree(roped.run, copied)
+    facts = copied / "accepted/world"
+    for name, content in {"duration": 0.1, "control_every": 30, "control": ""}.items():
+        said = json.loads((facts / "program.json").read_bytes())
+        (facts / "program.json").write_text(json.dumps(said | {name: content}))
+    (facts / "inputs.arrows").unlink()
+    seal(copied)
+    words = {"run": copied, "reward": False, "observation": "flat"}
+    alone = gymnasium.make(ID, disable_env_checker=True, **words)
+    batch = gymnasium.make_vec(ID, num_envs=2, **words)
+    alone.reset(seed=1), batch.reset(seed=1)
+    for _ in range(4):
+        one, _, _, truncated, _ = alone.step([])
+        both, *_ = batch.step(np.zeros((2, 0)))
+    assert truncated and one[0] == pytest.approx(0.1)
+    assert np.array_equal(both, [one, one])
+
+
+@pytest.mark.parametrize("action", [[np.nan], [], [0.0, 0.0], [[0.0]], None, "left"])
+def test_a_broken_action_is_refused(roped, action):
+    alone, batch = made(roped, reward=False), gymnasium.make_vec(ID, num_envs=2, run=roped.run, reward=False)
+    for env, given in ((alone, action), (batch, [action, action])):
+        with pytest.raises(GateError, match=r"call reset\(\) first"):
+            env.unwrapped.step(given)
+        env.reset(seed=1)
+        with pytest.raises(GateError, match="finite numbers"):
+            env.unwrapped.step(given)
+
+
+def test_a_broken_start_is_refused(roped):
+    alone, batch = made(roped, reward=False), gymnasium.make_vec(ID, num_envs=2, run=roped.run, reward=False)
+    for env in (alone, batch):
+        for amount in (np.nan, np.inf, "far", None):
+            with pytest.raises(GateError, match="speed_m_s must be finite"):
+                env.reset(seed=1, options={"jitter": {"box": {"speed_m_s": amount}}})
+            with pytest.raises(GateError, match=r"call reset\(\) first"):
+                env.unwrapped.step(np.zeros((2, 1)) if env is batch else [0.0])
+    with pytest.raises(GateError, match="3 seeds for 2 copies"):
+        batch.reset(seed=[1, 2, 3])

@@ -1,12 +1,13 @@
 """A recording as MCAP, read back by the packages that others read such files with."""
 
 import click.testing
+import mujoco
 import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, record
 from worldwright.ends import mcap_file, ros_messages
-from worldwright.model.errors import NotFoundError
+from worldwright.model.errors import GateError, NotFoundError
 
 pytest.importorskip("mcap", reason="the extra `mcap` is not installed")
 pytest.importorskip("mcap_ros2", reason="the extra `mcap` is not installed")
@@ -15,8 +16,6 @@ pytest.importorskip("mcap_ros2", reason="the extra `mcap` is not installed")
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory):
     """A ball that flies and spins over a shelf, and a door that a motor opens, 0.5 s."""
-    import mujoco
-
     spec = empty()
     floor(spec)
     ball(spec, "a ball", (0, 0, 2))
@@ -146,6 +145,21 @@ def test_names_become_topics():
     assert [mcap_file.topic(name) for name in ("ball", "2nd ball", "käse/x")] == ["ball", "_2nd_ball", "k_se_x"]
 
 
+def test_two_names_never_become_one_topic(tmp_path):
+    assert mcap_file.topics(["a b", "a_b", "a_b_2", "a/b"]) == ["a_b", "a_b_3", "a_b_2", "a_b_4"]
+    spec = empty()
+    for number, name in enumerate(("a ball", "a_ball")):
+        ball(spec, name, (0, number, 2))
+        joint = spec.worldbody.add_body(name=f"wing {number}", pos=(3, number, 2)).add_joint(name=f"hinge {number}")
+        spec.body(f"wing {number}").add_geom(size=(0.1, 0, 0))
+        spec.add_actuator(name=name, target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+    mcap_file.write(record(spec, tmp_path / "recording", 3), tmp_path / "a.mcap", rate_hz=0)
+    found = [(name, body) for name, _, _, body in messages(tmp_path / "a.mcap")]
+    for kind in ("odom", "control"):
+        assert [len([1 for name, _ in found if name == f"/{kind}/a_ball{end}"]) for end in ("", "_2")] == [4, 4]
+    assert {body.child_frame_id for name, body in found if name == "/odom/a_ball_2"} == {"a_ball"}
+
+
 def test_a_definition_has_each_part_once():
     text = ros_messages.definition("nav_msgs/msg/Odometry")
     assert text.count("MSG: geometry_msgs/Vector3\n") == 1 and text.count("MSG: std_msgs/Header\n") == 1
@@ -165,7 +179,7 @@ def test_a_run_is_exported_with_its_plan(recording, tmp_path, monkeypatch):
 
     from worldwright import exported
     from worldwright.model.evidence.run import Run
-    from worldwright.stage import one_frame
+    from worldwright.stage import gates, one_frame
 
     (tmp_path / "plan.md").write_text("# The plan of a door")
     (tmp_path / "simulation.py").write_text("")
@@ -175,5 +189,16 @@ def test_a_run_is_exported_with_its_plan(recording, tmp_path, monkeypatch):
     assert path == tmp_path / "recording.mcap" and len([1 for name, *_ in messages(path) if name == "/clock"]) == 6
     with path.open("rb") as stream:
         assert [bytes(one.data) for one in make_reader(stream).iter_attachments()] == [b"# The plan of a door"]
+    video, filmed = {"summary": {"cameras": ["side"], "film": {}}}, {}
+    monkeypatch.setattr(gates, "passed", lambda run, key, stage: filmed.get(stage))
+    with pytest.raises(GateError, match="as they would be drawn now"):
+        exported.write(Run(tmp_path), "mcap", camera="side")
+    filmed["video"] = video
     with pytest.raises(NotFoundError, match=r"no film side\.mp4"):
         exported.write(Run(tmp_path), "mcap", camera="side")
+    for name in ("film", "../side"):
+        with pytest.raises(NotFoundError, match="name one of: side"):
+            exported.write(Run(tmp_path), "mcap", camera=name)
+    for words, option in (({"camera": "side"}, "--pictures"), ({"rate_hz": 0.0}, "--rate")):
+        with pytest.raises(NotFoundError, match=f"{option} does nothing to usd"):
+            exported.write(Run(tmp_path), "usd", **words)

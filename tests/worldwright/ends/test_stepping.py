@@ -25,7 +25,7 @@ def control(model, data):
         model.opt.gravity[2] = -3.0
 
 
-def pushed(folder):
+def pushed(folder, every=1):
     """The world of a cart with a motor and a ball that is pushed, kicked, and made lighter; and its recording."""
     spec = empty()
     floor(spec)
@@ -38,9 +38,11 @@ def pushed(folder):
     facts.mkdir()
     portable.write(spec, folder / "world.mjz")
     said = {"duration": 0.12, "fps": 24, "size": [64, 48], "movers": [], "visual_only": [], "seed": 0, "latency": 0}
-    (facts / "program.json").write_text(json.dumps({**said, "control": "control", "control_every": 1}))
+    (facts / "program.json").write_text(json.dumps({**said, "control": "control", "control_every": every}))
     (facts / "inputs.json").write_text(json.dumps([{"kind": kind, "bodies": sorted(of)} for kind, of in ROWS]))
-    recording = record(portable.read(folder / "world.mjz"), folder / "recording", 120, control, rows=ROWS)
+    recording = record(
+        portable.read(folder / "world.mjz"), folder / "recording", 120, control, rows=ROWS, control_every=every
+    )
     for name in ("inputs", "edits"):
         (facts / f"{name}.arrows").write_bytes((recording.folder / f"{name}.arrows").read_bytes())
     given = Given.read(folder / "world.mjz", facts / "program.json", facts / "inputs.json")
@@ -79,3 +81,15 @@ def test_a_world_that_blows_up_is_sick_until_it_begins_anew(tmp_path):
     assert stepped.sick
     stepped.begin()
     assert not stepped.sick
+
+
+def test_the_last_action_ends_with_the_plans_duration(tmp_path):
+    world, recording = pushed(tmp_path, every=50)
+    stepped = Stepped(world)
+    controls = stepped.recorded_controls()
+    stepped.begin()
+    stepped.look()
+    for action in controls:
+        stepped.act(action)
+    assert len(controls) == 3 and stepped.step_number == 120
+    assert np.array_equal(stepped.data.qpos, recording.qpos[-1])

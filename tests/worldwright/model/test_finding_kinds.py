@@ -3,7 +3,7 @@
 from worldwright.model.finding import Anomaly, by_kind
 
 
-def told(code: str, severity: str, body: str, measured: float) -> Anomaly:
+def told(code: str, severity: str, body: str, measured: float, threshold: float = 0.1) -> Anomaly:
     return Anomaly(
         code=code,
         name="deep_penetration",
@@ -11,7 +11,7 @@ def told(code: str, severity: str, body: str, measured: float) -> Anomaly:
         body=body,
         window_s=(0.0, 1.0),
         measured=measured,
-        threshold=0.1,
+        threshold=threshold,
         unit="m",
         message="they overlap",
     )
@@ -28,3 +28,12 @@ def test_what_blocks_is_told_one_by_one_and_two_stay_two():
     found = [told("WS110", "blocking", f"drop_{n}", 1.0) for n in range(4)]
     found += [told("WS107", "warn", f"drop_{n}", 1.0) for n in range(2)]
     assert by_kind(found) == [str(one) for one in found]
+
+
+def test_where_small_is_bad_the_worst_is_the_smallest():
+    seen = [told("WS110", "warn", f"seen_{pixels}", pixels, 16) for pixels in (1, 5, 15.5)]
+    for found in (seen, seen[::-1]):
+        (line,) = by_kind(found)
+        assert line.startswith("warn WS110 deep_penetration: seen_1 ")
+    nothing = told("WS110", "warn", "nothing", 0.0, 16)
+    assert by_kind([*seen, nothing])[0].startswith("warn WS110 deep_penetration: nothing ")

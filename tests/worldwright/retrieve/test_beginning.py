@@ -154,8 +154,19 @@ def test_every_word_of_the_table_means_something_that_there_is():
         ("A kite flies in a gust", ("rope", "flight", "air")),
         ("Two cars crash", ("impact", "vehicle")),
         ("A vase is shattered by a hammer", ("impact", "breaking")),
+        ("Paint flows down a pane of glass", ("flowing",)),
+        ("Glue drips and lava oozes", ("flowing",)),
+        ("A paint can falls beside a bottle of ink", ()),
         ("Nothing of the kind", ()),
     ],
 )
 def test_a_sentence_names_its_mechanisms(sentence, names):
     assert mechanisms.of_sentence(sentence) == names
+
+
+def test_what_stays_in_a_box_does_not_flow():
+    plan = read_plan(REPO / "examples/rolling-marble/plan.md").plan
+    boxed = plan.objectives[0].model_copy(update={"expect": ({"stays_contained": {"container": "box"}},)})
+    poured = boxed.model_copy(update={"expect": ({"pours_into": {"container": "box"}},)})
+    assert "flowing" not in mechanisms.of_plan(plan.model_copy(update={"objectives": (boxed,)}))
+    assert "flowing" in mechanisms.of_plan(plan.model_copy(update={"objectives": (poured,)}))
