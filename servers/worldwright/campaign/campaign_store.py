@@ -150,8 +150,8 @@ class Store:
         return self.folder / "rows" / world[:2] / f"{world}.json"
 
     def done(self, world: str) -> bool:
-        """Whether its row stands."""
-        return self.row_path(world).is_file()
+        """Whether its row stands, and can be read."""
+        return self.row(world) is not None
 
     def row(self, world: str) -> Row | None:
         """Its row; None when it has none, or none that can be read, which is then made again."""

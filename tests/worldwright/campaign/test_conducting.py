@@ -126,8 +126,8 @@ def test_a_damaged_row_is_made_again(begun):
     conducting.conduct(store, stub_worlds.do)
     first = next(store.rows())
     store.row_path(first.world).write_text("{")
-    store.row_path(first.world).unlink()
-    assert conducting.conduct(store, stub_worlds.do).done == 2
+    assert conducting.conduct(store, stub_worlds.do).done == 2 and store.row(first.world).values == first.values
+    assert sorted(paid(store.folder).values()) == [1, 2]
 
 
 def test_a_folder_keeps_its_campaign(begun, tmp_path):
