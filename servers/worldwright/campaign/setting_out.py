@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..model.errors import WorldwrightError
+from ..model.evidence import came
 from . import points
 from .campaign_file import Campaign, CampaignError, read
 from .campaign_store import Store
@@ -45,23 +46,18 @@ def limited(campaign: Campaign, workers: int | None, by: str | None, address: st
 
 
 def begun(campaign: Campaign, file: Path, folder: Path | None, approved: bool) -> Store:
-    """The folder of a campaign, begun or gone on with."""
+    """The folder of a campaign, begun or gone on with; `approved`: whoever calls gives a person's word for all its plans."""
+    from ..contract import harnesses
+
     store = Store(folder or Path("runs") / str(campaign.name))
-    store.begin(campaign, file, approved)
+    store.begin(campaign, file, came.by_command(harnesses.around()) if approved else None)
     return store
 
 
 def changed(store: Store, workers: int | None, by: str | None, address: str | None) -> Store:
     """The same campaign with other hands."""
-    from worldkit.files import write_json
-
-    from .campaign_store import ABOUT
-
     about = store.begun
-    campaign = limited(about.campaign, workers, by, address)
-    if campaign != about.campaign:
-        now = about.model_copy(update={"campaign": campaign})
-        write_json(store.folder / ABOUT, now.model_dump(mode="json", by_alias=True))
+    store.change(about, about.model_copy(update={"campaign": limited(about.campaign, workers, by, address)}))
     return store
 
 
