@@ -97,16 +97,19 @@ class World:
     @cached_property
     def model(self) -> "mujoco.MjModel":
         """The compiled world."""
-        import mujoco
+        from worldkit import portable
 
         inner = self.folder / "physics" / "world.mjz"
         path = inner if inner.is_file() else self.folder / "world.mjz"
         if not path.is_file():
             raise NotFoundError("the world's file is not here", place=str(path), next_move="worldwright gallery build")
-        return mujoco.MjSpec.from_file(str(path)).compile()
+        return portable.read(path)
 
     def at(self, time_s: float) -> "mujoco.MjData":
         """The recorded row nearest to a moment, as a state of `model` on which `mj_forward` was called.
+
+        All of the state is set: joints, actuators and their controls, mocap bodies, equalities, plastic springs. Not applied are
+        recorded edits of the model (`worldengine/recording/replay.py` does that, for a film) and what a solver shows.
 
         Raises:
             RecordingError: the recording holds no joint positions (an accepted folder's own file).
@@ -114,8 +117,10 @@ class World:
         import mujoco
         import numpy as np
 
+        from worldengine.recording.replay import STATE
+
         try:
-            qpos, qvel = self.arrays["qpos"], self.arrays["qvel"]
+            state = {name: self.arrays[name] for name in STATE}
         except KeyError as cause:
             raise RecordingError(
                 "joint positions are not in this recording",
@@ -124,7 +129,9 @@ class World:
             ) from cause
         row = int(np.abs(self.arrays["time"] - time_s).argmin())
         data = mujoco.MjData(self.model)
-        data.time, data.qpos[:], data.qvel[:] = self.arrays["time"][row], qpos[row], qvel[row]
+        data.time = self.arrays["time"][row]
+        for name, recorded in state.items():
+            getattr(data, name)[...] = recorded[row]
         mujoco.mj_forward(self.model, data)
         return data
 
@@ -216,6 +223,12 @@ class Worlds:
         if row is None:
             raise NotFoundError(
                 f"no world `{which}` is done", place=str(self.store.folder), next_move="worldwright campaign status"
+            )
+        if not row.folder:
+            raise NotFoundError(
+                f"world {row.number} left nothing behind: {row.cause.said.splitlines()[0] if row.cause else row.outcome}",
+                place=str(self.store.row_path(row.world)),
+                next_move=(row.cause.next_move if row.cause else "") or "worldwright campaign resume",
             )
         return World(Run(self.store.folder / row.folder))
 

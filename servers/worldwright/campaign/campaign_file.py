@@ -6,6 +6,7 @@ axis of the grid (`values`, or `from`, `to`, `steps`) or is drawn anew for each 
 """
 
 import json
+import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -19,6 +20,10 @@ MOST_BYTES = 1 << 20
 """A campaign's file is a page, not a list of its worlds."""
 MOST_WORLDS = 1_000_000
 MOST_WORKERS = 4096
+MOST_WHOLE = 1 << 53
+"""Up to here, a plan's numbers hold every whole one."""
+FAR = 40
+"""Standard deviations beyond which nothing is ever drawn."""
 DRAWN = ("uniform", "log_uniform", "normal", "integers")
 
 
@@ -35,7 +40,7 @@ def _no_truth(value: Any) -> Any:
 
 
 Number = Annotated[float, BeforeValidator(_no_truth), Field(allow_inf_nan=False)]
-Count = Annotated[int, BeforeValidator(_no_truth)]
+Count = Annotated[int, BeforeValidator(_no_truth), Field(ge=-MOST_WHOLE, le=MOST_WHOLE)]
 Pair = tuple[Number, Number]
 
 
@@ -76,6 +81,13 @@ class Axis(Frozen):
             low, high = getattr(self, name) or (0, 1)
             if low >= high:
                 raise ValueError(f"`{name}` is [low, high] with low < high")
+        for name, ends in (("from, to", (self.start, self.to)), ("uniform", self.uniform)):
+            if ends and None not in ends and math.isinf(ends[1] - ends[0]):
+                raise ValueError(f"`{name}` is wider than a number can say: from {ends[0]:g} to {ends[1]:g}")
+        if self.normal and math.isinf(abs(self.normal[0]) + FAR * self.normal[1]):
+            raise ValueError(f"`normal` draws what is no number: mean {self.normal[0]:g}, deviation {self.normal[1]:g}")
+        if self.spacing == "log" and self.start and self.to and not 0 < self.to / self.start < math.inf:
+            raise ValueError(f"a logarithmic scale from {self.start:g} to {self.to:g} is wider than a number can say")
         if self.normal and self.normal[1] <= 0:
             raise ValueError("`normal` is [mean, standard deviation], the latter above 0")
         if self.within and not self.normal:
@@ -243,7 +255,7 @@ def parse(text: str, place: str = "") -> Campaign:
         raise _refused(error, place) from None
     if campaign.size > MOST_WORLDS:
         raise CampaignError(
-            f"it asks for {campaign.size:,} worlds; a campaign has at most {MOST_WORLDS:,}",
+            f"it asks for {_whole(campaign.size)} worlds; a campaign has at most {MOST_WORLDS:,}",
             place=place,
             next_move="take fewer values along an axis, or draw from a range (`uniform`, with `draws`)",
         )
@@ -311,9 +323,18 @@ def _known(owner: type[Frozen]) -> str:
     return f"known words: {', '.join(field.alias or name for name, field in owner.model_fields.items())}"
 
 
+def _whole(value: int) -> str:
+    """A whole number, written out where a person would read it to its end; Python writes no number of thousands of digits."""
+    if abs(value) <= MOST_WHOLE:
+        return f"{value:,}"
+    return f"about {'-' * (value < 0)}10^{math.log10(abs(value)):.0f}"
+
+
 def _short(value: Any) -> str:
+    if isinstance(value, int) and abs(value) > MOST_WHOLE:
+        return _whole(value)
     try:
         text = json.dumps(value)
     except (TypeError, ValueError):
-        text = str(value)
+        text = type(value).__name__ if isinstance(value, (dict, list, tuple)) else str(value)
     return text if len(text) <= 60 else f"{text[:57]}…"

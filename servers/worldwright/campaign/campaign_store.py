@@ -18,6 +18,7 @@ time by a rename: a reader never sees half a row, and a row that is there is nev
 import hashlib
 import json
 import shutil
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -29,6 +30,7 @@ from worldkit.files import write_atomic, write_json
 from ..model import companions, try_lock
 from ..model.errors import NotFoundError, WorldwrightError
 from ..model.evidence import pictures_of
+from ..model.evidence.came import Came
 from ..model.evidence.run import Run, sha256_file
 from ..model.frozen import Frozen
 from ..model.plan import imported
@@ -37,6 +39,12 @@ from .campaign_file import Campaign, CampaignError, Given
 from .world_row import Row
 
 ABOUT = "campaign.json"
+BEGINS_S, LOOK_S = 0.5, 0.02
+"""Who asks whether a driver is at work holds its lock for a moment: a driver that begins waits so long for it, and looks so often."""
+LIMITS = frozenset({"budget", "per_world", "workers"})
+"""What may change while a driver is at work."""
+FREE = LIMITS | {"hands", "address", "report", "name"}
+"""What may be other when a campaign goes on: its worlds stay what they are."""
 LONGEST_PROMPT = 20_000
 """Characters; a prompt is a sentence or a page, never a file of data."""
 
@@ -64,6 +72,8 @@ class Begun(Frozen):
     bases: tuple[Base, ...]
     approved: bool = False
     """A person at the command line approves the plans of its worlds; else it is auto mode."""
+    word: Came = Came(how="automation")
+    """How that person's word came, as it was seen when it was given: whoever works on a world later sees a worker only."""
 
 
 class Store:
@@ -99,43 +109,72 @@ class Store:
                 next_move="begin it again in another folder; worlds that are done stand under worlds/",
             ) from cause
 
-    def begin(self, campaign: Campaign, file: Path, approved: bool) -> Begun:
+    def begin(self, campaign: Campaign, file: Path, word: Came | None = None) -> Begun:
         """Write down a campaign and copy its plans; one that is here already must be the same, but for its limits.
 
+        Args:
+            campaign: what its file says.
+            file: that file; plans are named relative to it.
+            word: how a person's word for its plans came; None: nobody gave it now, though one that stands is kept.
+
         Raises:
-            CampaignError: the folder holds another campaign.
+            CampaignError: the folder holds another campaign, one of its plans was edited since, or it is at work and more than
+                its limits would change.
         """
-        before = self.begun if (self.folder / ABOUT).is_file() else None
-        if before is not None and _same_worlds(before.campaign) != _same_worlds(campaign):
+        if (self.folder / ABOUT).is_file():
+            before = self.begun
+            self._check_same(before, campaign, file.parent)
+            told = {"approved": True, "word": word} if word is not None and not before.approved else {}
+            return self.change(before, before.model_copy(update={"campaign": campaign, **told}))
+        bases = []
+        with writing("the campaign", self.folder):
+            for number, given in enumerate(campaign.given):
+                base, found = _base(given, campaign, file.parent)
+                for name, content in found.items():
+                    write_atomic(self.base(number) / name, content)
+                bases.append(base)
+        word, approved = word or Came(how="automation"), word is not None
+        return self._write(Begun(campaign=campaign, bases=tuple(bases), approved=approved, word=word))
+
+    def _check_same(self, before: Begun, campaign: Campaign, beside: Path) -> None:
+        if _without(before.campaign, FREE) != _without(campaign, FREE):
             raise CampaignError(
                 "this folder holds another campaign",
                 place=str(self.folder),
                 next_move="name another folder (`--folder`), or go on with that one: `worldwright campaign resume`",
             )
+        for base, given in zip(before.bases, campaign.given, strict=True):
+            now, _ = _base(given, campaign, beside)
+            if now.sha256 != base.sha256:
+                raise CampaignError(
+                    f"`{given.plan}`, or what belongs to it, is no longer what this campaign began with"
+                    + (f": {now.wrong}" if now.wrong else ""),
+                    place=str(beside / given.plan),
+                    next_move="name another folder (`--folder`) for it as it is now, or go on with it as it was: "
+                    f"`worldwright campaign resume {self.folder.name}`",
+                )
+
+    def change(self, before: Begun, now: Begun) -> Begun:
+        """Write a campaign down as it is now; workers read it again for each world, so that while one drives only limits change.
+
+        Raises:
+            CampaignError: a driver is at work, and something else would change.
+        """
+        if now == before:
+            return now
+        fixed = [begun.model_copy(update={"campaign": _without(begun.campaign, LIMITS)}) for begun in (before, now)]
+        if fixed[0] != fixed[1] and self.driven:
+            raise CampaignError(
+                f"the campaign is at work: until it ends, only its limits change ({', '.join(sorted(LIMITS))})",
+                place=str(self.folder),
+                next_move=f"`worldwright campaign cancel {self.folder.name}` first, or wait for its end",
+            )
+        return self._write(now)
+
+    def _write(self, begun: Begun) -> Begun:
         with writing("the campaign", self.folder):
-            if before is not None:  # its plans stay as they were; its limits may be others now
-                bases = before.bases
-            else:
-                bases = tuple(self._keep(n, given, campaign, file.parent) for n, given in enumerate(campaign.given))
-            begun = Begun(campaign=campaign, bases=bases, approved=approved)
             write_json(self.folder / ABOUT, begun.model_dump(mode="json", by_alias=True))
         return begun
-
-    def _keep(self, number: int, given: Given, campaign: Campaign, beside: Path) -> Base:
-        """Copy one plan, with its prompt, its author's program and film, and the files that these name."""
-        about = Base(source=given.plan, category=given.category or campaign.category)
-        try:
-            found = _content(beside / given.plan, given)
-        except WorldwrightError as error:
-            return about.model_copy(
-                update={"wrong": str(error.cause), "kind": error.code, "next_move": error.next_move}
-            )
-        digest = hashlib.sha256()
-        for name, content in sorted(found.items()):
-            write_atomic(self.base(number) / name, content)
-            digest.update(f"{name}\n{hashlib.sha256(content).hexdigest()}\n".encode())
-        prompt = found.get("prompt.md", b"").decode(errors="replace").strip()
-        return about.model_copy(update={"sha256": digest.hexdigest(), "prompt": " ".join(prompt.split())[:400]})
 
     def base(self, number: int) -> Path:
         """Folder of plan `number`."""
@@ -150,8 +189,8 @@ class Store:
         return self.folder / "rows" / world[:2] / f"{world}.json"
 
     def done(self, world: str) -> bool:
-        """Whether its row stands."""
-        return self.row_path(world).is_file()
+        """Whether its row stands, and can be read."""
+        return self.row(world) is not None
 
     def row(self, world: str) -> Row | None:
         """Its row; None when it has none, or none that can be read, which is then made again."""
@@ -218,7 +257,10 @@ class Store:
         """
         self.folder.mkdir(parents=True, exist_ok=True)
         with (self.folder / "driver.lock").open("ab") as handle:
-            if not _taken(handle.fileno()):
+            ends = time.monotonic() + BEGINS_S
+            while not (mine := _taken(handle.fileno())) and time.monotonic() < ends:
+                time.sleep(LOOK_S)
+            if not mine:
                 raise CampaignError(
                     "the campaign is at work already",
                     place=str(self.folder),
@@ -231,7 +273,7 @@ class Store:
     def driven(self) -> bool:
         """Whether a driver is at work."""
         try:
-            with (self.folder / "driver.lock").open("rb") as handle:
+            with (self.folder / "driver.lock").open("r+b") as handle:  # some file systems lock what can be written only
                 return not _taken(handle.fileno())
         except OSError:
             return False
@@ -258,10 +300,25 @@ def seed(base: Path, target: Path) -> None:
             shutil.copyfile(path, inside)
 
 
-def _same_worlds(campaign: Campaign) -> Campaign:
-    """A campaign without what may differ when it goes on: its limits and who does the work."""
-    free = {"budget", "per_world", "workers", "hands", "address", "report", "name"}
+def _without(campaign: Campaign, free: frozenset[str]) -> Campaign:
+    """A campaign with these words as if its file did not say them."""
     return campaign.model_copy(update={name: Campaign.model_fields[name].default for name in free})
+
+
+def _base(given: Given, campaign: Campaign, beside: Path) -> tuple[Base, dict[str, bytes]]:
+    """One plan, with its prompt, its author's program and film, and the files that these name, by path."""
+    about = Base(source=given.plan, category=given.category or campaign.category)
+    try:
+        found = _content(beside / given.plan, given)
+    except WorldwrightError as error:
+        return about.model_copy(
+            update={"wrong": str(error.cause), "kind": error.code, "next_move": error.next_move}
+        ), {}
+    digest = hashlib.sha256()
+    for name, content in sorted(found.items()):
+        digest.update(f"{name}\n{hashlib.sha256(content).hexdigest()}\n".encode())
+    prompt = found.get("prompt.md", b"").decode(errors="replace").strip()
+    return about.model_copy(update={"sha256": digest.hexdigest(), "prompt": " ".join(prompt.split())[:400]}), found
 
 
 def _content(path: Path, given: Given) -> dict[str, bytes]:

@@ -5,6 +5,7 @@ Columns are fixed, but for one `vary.FIELD` a swept field, one `minutes.STEP` a 
 so that memory does not grow with the campaign.
 """
 
+import secrets
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
@@ -80,6 +81,8 @@ def of(rows: list[Row]) -> "pyarrow.Table":
 def write(rows: Iterable[Row], differing: list[str], folder: Path) -> tuple[Path, Path]:
     """Write `table.parquet` and `table.csv` into a folder, each in one step; returns their paths.
 
+    Two may write at once: each has its own drafts, and the later table stands.
+
     Args:
         rows: in the order of the table.
         differing: what `columns` says of the same rows.
@@ -91,17 +94,22 @@ def write(rows: Iterable[Row], differing: list[str], folder: Path) -> tuple[Path
 
     schema = schema_of(differing)
     parquet, csv = folder / PARQUET, folder / CSV
-    drafts = [path.with_name(f".{path.name}.draft") for path in (parquet, csv)]
-    with (
-        pa.parquet.ParquetWriter(drafts[0], schema, compression="zstd") as first,
-        pa.csv.CSVWriter(drafts[1], schema) as second,
-    ):
-        for stretch in _stretches(rows):
-            table = pa.Table.from_pylist([flat(row) for row in stretch], schema=schema)
-            first.write_table(table)
-            second.write_table(table)
-    for draft, path in zip(drafts, (parquet, csv), strict=True):
-        draft.replace(path)
+    own = secrets.token_hex(4)
+    drafts = [path.with_name(f".{path.name}.{own}") for path in (parquet, csv)]
+    try:
+        with (
+            pa.parquet.ParquetWriter(drafts[0], schema, compression="zstd") as first,
+            pa.csv.CSVWriter(drafts[1], schema) as second,
+        ):
+            for stretch in _stretches(rows):
+                table = pa.Table.from_pylist([flat(row) for row in stretch], schema=schema)
+                first.write_table(table)
+                second.write_table(table)
+        for draft, path in zip(drafts, (parquet, csv), strict=True):
+            draft.replace(path)
+    finally:
+        for draft in drafts:  # what was not put in its place
+            draft.unlink(missing_ok=True)
     return parquet, csv
 
 

@@ -142,10 +142,6 @@ def _conducted(store: "Store") -> "Standing":
 
     from . import conducting, wall
 
-    signal.signal(
-        signal.SIGTERM, lambda *_: sys.exit(143)
-    )  # as Ctrl-C: what is under way is ended, and not counted as begun
-
     told = [0.0]
     bar = sys.stderr.isatty()
 

@@ -179,6 +179,8 @@ class _Conducting:
         self.since = (time.monotonic(), count.done)
         self.again: deque[Task] = deque()
         self.deaths: Counter[str] = Counter()
+        self.spent: dict[str, float] = {}
+        """Seconds of workers that left no row, by world."""
         self.under_way: set[str] = set()
         self.fresh = self._left()
 
@@ -224,19 +226,21 @@ class _Conducting:
         one = ended.task
         self.under_way.discard(one.world)
         row = self.store.row(one.world)
+        spent = self.spent.pop(one.world, 0.0) + ended.seconds
         if row is None and ended.over_time:
             seconds = self.begun.campaign.per_world.seconds
             said = f"it was not done within {seconds:g} s, nor did it end by itself"
-            row = gave_up(self.store, one, "over_time", said, "raise per_world.seconds, or see its folder")
+            row = gave_up(self.store, one, "over_time", said, "raise per_world.seconds, or see its folder", spent)
         elif row is None:
             self.deaths[one.world] += 1  # a worker that dies before it notes that it began is counted here alone
             times = max(self.deaths[one.world], self.store.begun_before(one.world))
             if times < self.begun.campaign.per_world.begun:
                 self.again.append(one)
+                self.spent[one.world] = spent
                 return
             said = f"it was begun {times} times; the last time {ended.died or 'it left no row'}"
             move = "see its folder; `worldwright campaign resume --again worker_died` begins it once more"
-            row = gave_up(self.store, one, "worker_died", said, move)
+            row = gave_up(self.store, one, "worker_died", said, move, spent)
         self.count.add(row)
         self.watch(self.told(), row)
 
@@ -245,8 +249,13 @@ def forget(store: Store, what: str) -> int:
     """Take away the rows of one outcome or one kind of cause, so that these worlds are begun again; how many.
 
     Raises:
-        CampaignError: nothing is of that name.
+        CampaignError: nothing is of that name, or a driver is at work, which counted these rows.
     """
+    with store.driving():
+        return _forgotten(store, what)
+
+
+def _forgotten(store: Store, what: str) -> int:
     found = [row for row in store.rows() if what in (row.outcome, row.cause.kind if row.cause else "")]
     if not found:
         count = standing(store)

@@ -32,6 +32,7 @@ def installed() -> bool:
 @dataclass
 class _Under:
     task: Task
+    began: float
     deadline: float
     cancelled: bool = False
 
@@ -40,7 +41,8 @@ class Tasks:
     """Hands that are Ray's tasks; see `Hands`.
 
     Args:
-        count: worlds at work at once; None: as many as the cluster has processors, less one on a machine with more than two.
+        count: worlds at work at once; None: as many as the cluster has processors, less one where there are more than two; never
+            more than its nodes, as they are now, have processors and memory for.
         work: what is done with a task.
         seconds: a world that takes longer is ended.
         address: of the cluster, `host:port`; empty: Ray is started here.
@@ -68,13 +70,15 @@ class Tasks:
         self._started = not ray.is_initialized()
         if self._started:
             self._connect(count, address)
-        processors = int(ray.cluster_resources().get("CPU", 1))
-        self._count = count or max(1, processors - (processors > 2))
+        nodes = [node["Resources"] for node in ray.nodes() if node["Alive"]]
+        processors = int(sum(node.get("CPU", 0) for node in nodes))
         asked = (memory_mb + SPARE_MB if memory_mb else FIRST_MB) * (1 << 20)
-        most = ray.cluster_resources().get("memory", asked)
-        self._remote = ray.remote(num_cpus=1, memory=int(min(asked, most / 2)), max_retries=0, max_calls=200)(
-            _alone(work)
-        )
+        memory = [node.get("memory", float("inf")) for node in nodes if node.get("CPU")]
+        asked = min(asked, max(memory, default=float("inf")) / 2)
+        # What only waits in Ray's queue would be taken for slow, so no more is handed out than the nodes hold at once.
+        fit = sum(int(min(node.get("CPU", 0), node.get("memory", float("inf")) / asked)) for node in nodes)
+        self._count = max(1, min(count or processors - (processors > 2), fit))
+        self._remote = ray.remote(num_cpus=1, memory=int(asked), max_retries=0, max_calls=200)(_alone(work))
 
     def _connect(self, count: int | None, address: str) -> None:
         quiet: dict[str, Any] = {"log_to_driver": False, "logging_level": "ERROR", "configure_logging": True}
@@ -102,7 +106,8 @@ class Tasks:
 
     def take(self, task: Task) -> None:
         """See `Hands`."""
-        self._under[self._remote.remote(task)] = _Under(task, time.monotonic() + self._seconds)
+        now = time.monotonic()
+        self._under[self._remote.remote(task)] = _Under(task, now, now + self._seconds)
 
     def ended(self, timeout_s: float) -> Iterator[Ended]:
         """See `Hands`; with Ray, a world's seconds begin when it is handed out."""
@@ -118,7 +123,13 @@ class Tasks:
             except Exception as error:  # the worker's death, its node's, lack of memory: Ray says which
                 said = str(error).strip().splitlines()
                 died = f"{type(error).__name__}: {said[0] if said else 'no word'}"
-                yield Ended(task=under.task, died="" if under.cancelled else died, over_time=under.cancelled)
+                spent = time.monotonic() - under.began
+                yield Ended(
+                    task=under.task,
+                    died="" if under.cancelled else died,
+                    over_time=under.cancelled,
+                    seconds=spent,
+                )
         for reference, under in list(self._under.items()):
             if under.deadline <= time.monotonic():
                 under.cancelled, under.deadline = True, time.monotonic() + self._seconds

@@ -76,15 +76,17 @@ def perform(one: Task) -> Row:
         time.sleep(POLL_S)
 
 
-def gave_up(store: Store, one: Task, kind: str, said: str, next_move: str = "") -> Row:
-    """The row of a world that nobody works on any more, written by whoever watched it, unless it has one."""
+def gave_up(store: Store, one: Task, kind: str, said: str, next_move: str = "", seconds: float = 0.0) -> Row:
+    """The row of a world that nobody works on any more, written by whoever watched it (for `seconds`), unless it has one."""
     if (row := store.row(one.world)) is not None:
         return row
     stop_jobs(store, one.world)
     cause = Cause(kind=kind, step="worker", said=said, next_move=next_move)
     with suppress(Exception):  # what it left may be broken in any way
-        return store.keep(_row(store, store.begun, one, Walked("gave_up", cause), {}, 0.0))
-    return store.keep(Row(world=one.world, number=one.number, values=one.values, outcome="gave_up", cause=cause))
+        return store.keep(_row(store, store.begun, one, Walked("gave_up", cause), {}, seconds))
+    return store.keep(
+        Row(world=one.world, number=one.number, values=one.values, outcome="gave_up", cause=cause, seconds=seconds)
+    )
 
 
 def stop_jobs(store: Store, world: str) -> None:
@@ -211,17 +213,17 @@ def _walk(run: Run, begun: Begun, minutes: dict[str, float]) -> Any:
         "refine": campaign.refine,
         "until": campaign.until,
     }
-    return walk(run, approve=_granting(run, begun.approved), say=say, **limits).go()
+    return walk(run, approve=_granting(run, begun), say=say, **limits).go()
 
 
-def _granting(run: Run, approved: bool) -> Callable[[], str]:
+def _granting(run: Run, begun: Begun) -> Callable[[], str]:
     """What gives the approval: auto mode, or the word that a person gave for all worlds when the campaign began."""
 
     def grant() -> str:
         from ..stamp.tools import approve
 
-        with came.entered(came.by_command("") if approved else came.Came(how="automation")):
-            approve(str(run.folder), by="command line", auto=not approved)
+        with came.entered(begun.word):
+            approve(str(run.folder), by="command line", auto=not begun.approved)
         return "approved for the campaign"
 
     return grant

@@ -15,7 +15,7 @@ from .campaign_file import CampaignError
 
 Path = tuple[str | int, ...]
 MOST_NAMED = 12
-_PART = re.compile(r"\.?([^.\[\]]+)|\[(\d+)\]")
+_PART = re.compile(r"\.?([^.\[\]]+)|\[(\d{1,9})\]")
 
 
 def path_of(document: PlanDocument, field: str) -> Path:

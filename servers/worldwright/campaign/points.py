@@ -13,6 +13,8 @@ from .campaign_file import Axis, Sweep
 DRAWN_DIGITS, LAID_DIGITS = 6, 12
 """Significant digits of what is drawn, and of what is laid along a range: a plan is read by people."""
 AGAIN = 10_000
+TINY = 1e-280
+"""Numbers below it have fewer digits, or their steps do."""
 
 
 def at(sweep: Sweep, number: int) -> dict[str, float]:
@@ -38,6 +40,24 @@ def along(axis: Axis, place: int) -> float:
     if axis.spacing == "log":
         return _rounded(axis.start * (axis.to / axis.start) ** share, LAID_DIGITS)
     return _rounded(axis.start + (axis.to - axis.start) * share, LAID_DIGITS)
+
+
+def equal_neighbours(axis: Axis) -> tuple[int, int] | None:
+    """Two places next to each other of an axis whose values, as they are written into a plan, are equal; None: all differ.
+
+    Looked for only where steps come near the digits that are written, or near the smallest numbers: along any other range they differ.
+    """
+    if axis.values is not None or axis.drawn or axis.steps is None or axis.steps == 1:
+        return None
+    assert axis.start is not None and axis.to is not None
+    if axis.spacing == "log":
+        apart = abs(math.log(axis.to / axis.start)) / (axis.steps - 1)
+    else:
+        apart = abs(axis.to - axis.start) / (axis.steps - 1) / max(abs(axis.start), abs(axis.to))
+    if apart > 100 * 10.0**-LAID_DIGITS and max(abs(axis.start), abs(axis.to)) > TINY:
+        return None
+    places = range(axis.steps - 1)
+    return next(((n, n + 1) for n in places if along(axis, n) == along(axis, n + 1)), None)
 
 
 def _drawn(axis: Axis, seed: int, name: str, draw: int) -> float:

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from ..model.errors import WorldwrightError
+from ..model.evidence import came
 from . import points
 from .campaign_file import Campaign, CampaignError, read
 from .campaign_store import Store
@@ -19,7 +20,8 @@ def checked(file: Path) -> Campaign:
     """The campaign of a file; of a sweep, every field is a number of its plan.
 
     Raises:
-        CampaignError: see `campaign_file.read`; a swept plan that is none is refused here, since no world could be made of it.
+        CampaignError: see `campaign_file.read`; a swept plan that is none is refused here, since no world could be made of it, and
+            so are a field that is named twice and a range whose steps are equal once they are written.
     """
     campaign = read(file)
     if campaign.sweep is None:
@@ -32,8 +34,23 @@ def checked(file: Path) -> Campaign:
         raise CampaignError(
             f"its plan cannot be swept: {error.cause}", place=error.place, next_move=error.next_move
         ) from error
-    for name in campaign.sweep.fields:
-        path_of(document, name)
+    named: dict[tuple[str | int, ...], str] = {}
+    for name, axis in campaign.sweep.fields.items():
+        path = path_of(document, name)
+        if path in named:
+            raise CampaignError(
+                f"`{named[path]}` and `{name}` are one number of the plan: it can be swept once",
+                place=str(file),
+                next_move="leave one of them",
+            )
+        named[path] = name
+        if places := points.equal_neighbours(axis):
+            raise CampaignError(
+                f"`{name}`: {axis.steps:,} steps from {axis.start:.17g} to {axis.to:.17g} lie so close that values {places[0]} and "
+                f"{places[1]} are both {points.along(axis, places[0]):.17g}, of {points.LAID_DIGITS} digits",
+                place=str(file),
+                next_move="take fewer steps, or ends further apart",
+            )
     return campaign
 
 
@@ -45,23 +62,18 @@ def limited(campaign: Campaign, workers: int | None, by: str | None, address: st
 
 
 def begun(campaign: Campaign, file: Path, folder: Path | None, approved: bool) -> Store:
-    """The folder of a campaign, begun or gone on with."""
+    """The folder of a campaign, begun or gone on with; `approved`: whoever calls gives a person's word for all its plans."""
+    from ..contract import harnesses
+
     store = Store(folder or Path("runs") / str(campaign.name))
-    store.begin(campaign, file, approved)
+    store.begin(campaign, file, came.by_command(harnesses.around()) if approved else None)
     return store
 
 
 def changed(store: Store, workers: int | None, by: str | None, address: str | None) -> Store:
     """The same campaign with other hands."""
-    from worldkit.files import write_json
-
-    from .campaign_store import ABOUT
-
     about = store.begun
-    campaign = limited(about.campaign, workers, by, address)
-    if campaign != about.campaign:
-        now = about.model_copy(update={"campaign": campaign})
-        write_json(store.folder / ABOUT, now.model_dump(mode="json", by_alias=True))
+    store.change(about, about.model_copy(update={"campaign": limited(about.campaign, workers, by, address)}))
     return store
 
 

@@ -29,6 +29,8 @@ class Ended(Frozen):
     """How its worker ended, when that did not come back; the row is on disk otherwise."""
     over_time: bool = False
     """It was ended because it took too long."""
+    seconds: float = 0.0
+    """For so long a worker was at it that left no row."""
 
 
 class Hands(Protocol):
@@ -53,6 +55,13 @@ class _Worker:
     pipe: Connection
     at: Task | None = None
     deadline: float = float("inf")
+    began: float | None = None
+    """Monotonic; None before it said so."""
+
+    @property
+    def seconds(self) -> float:
+        """For how long it has been at its world."""
+        return 0.0 if self.began is None else time.monotonic() - self.began
 
 
 class Processes:
@@ -77,7 +86,11 @@ class Processes:
     def take(self, task: Task) -> None:
         """See `Hands`."""
         idle = next((worker for worker in self._workers if worker.at is None), None) or self._new()
-        idle.at, idle.deadline = task, float("inf")  # its seconds begin when the worker does: a new one starts first
+        idle.at, idle.deadline, idle.began = (
+            task,
+            float("inf"),
+            None,
+        )  # its seconds begin when the worker does: a new one starts first
         with contextlib.suppress(OSError):  # it died while it was idle: `ended` finds it
             idle.pipe.send(task)
 
@@ -97,7 +110,8 @@ class Processes:
                 with contextlib.suppress(EOFError, OSError):
                     said = worker.pipe.recv() if worker.pipe.poll() else None
                 if said == BEGUN:
-                    worker.deadline = time.monotonic() + self._seconds
+                    worker.began = time.monotonic()
+                    worker.deadline = worker.began + self._seconds
                     continue
                 worker.at = None
                 if said == task.world:
@@ -105,11 +119,11 @@ class Processes:
                 else:
                     worker.process.join()
                     self._bury(worker)
-                    yield Ended(task=task, died=_how(worker.process.exitcode))
+                    yield Ended(task=task, died=_how(worker.process.exitcode), seconds=worker.seconds)
             elif worker.deadline <= time.monotonic():
                 worker.at = None
                 self._bury(worker)
-                yield Ended(task=task, over_time=True)
+                yield Ended(task=task, over_time=True, seconds=worker.seconds)
 
     def drop(self) -> list[Task]:
         """See `Hands`."""

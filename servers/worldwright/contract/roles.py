@@ -213,6 +213,8 @@ ON_REQUEST = (
     "stage.campaign_start", "stage.campaign_wait", "stage.campaign_status", "stage.campaign_cancel", "stage.campaign_results",
 )  # fmt: skip
 """Tools for whoever runs many worlds; no role needs them for one, so they cost no role a word."""
+SKILLS_ON_REQUEST = ("campaign",)
+"""The skills that say how; the main thread may read them beside what a person types."""
 RESERVED = ("stamp.describe", "stamp.review", "stage.draft", "place.resolve", "place.settle", "retrieve.begin",
     "lint.complete_plan",
 )  # fmt: skip

@@ -1,11 +1,11 @@
 """A campaign comes to its end whatever dies on the way: nothing is paid twice, and one bad world is one row."""
 
+import fcntl
 import json
 import multiprocessing as mp
 import os
 import signal
 import time
-from pathlib import Path
 
 import pytest
 
@@ -15,6 +15,9 @@ from worldwright.campaign import conducting, setting_out
 from worldwright.campaign.campaign_file import CampaignError
 from worldwright.campaign.campaign_store import Store
 from worldwright.campaign.one_world import task
+from worldwright.contract import harnesses
+from worldwright.model import try_lock
+from worldwright.model.evidence.came import Came
 
 
 @pytest.fixture
@@ -59,6 +62,7 @@ def test_a_world_without_end_is_given_up(begun, monkeypatch):
     store = begun([SLEEPS, 1], per_world={"seconds": 5})
     end = conducting.conduct(store, stub_worlds.do)
     assert end.outcomes == {"gave_up": 1, "held": 1} and end.causes == {"over_time": 1}
+    assert end.seconds >= 5 + 1 and conducting.standing(store).seconds == end.seconds, "what hung was paid, too"
 
 
 def test_a_worker_that_dies_before_it_begins_is_not_started_for_ever(begun):
@@ -119,6 +123,9 @@ def test_worlds_of_one_outcome_are_begun_again(begun):
     assert sorted(paid(store.folder).values()) == [1, 2]
     with pytest.raises(CampaignError, match="no world ended as `x`"):
         conducting.forget(store, "x")
+    with store.driving(), pytest.raises(CampaignError, match="at work already"):
+        conducting.forget(store, "held")
+    assert len(list(store.rows())) == 2, "a driver counted them"
 
 
 def test_a_damaged_row_is_made_again(begun):
@@ -126,21 +133,62 @@ def test_a_damaged_row_is_made_again(begun):
     conducting.conduct(store, stub_worlds.do)
     first = next(store.rows())
     store.row_path(first.world).write_text("{")
-    store.row_path(first.world).unlink()
-    assert conducting.conduct(store, stub_worlds.do).done == 2
+    assert conducting.conduct(store, stub_worlds.do).done == 2 and store.row(first.world).values == first.values
+    assert sorted(paid(store.folder).values()) == [1, 2]
 
 
 def test_a_folder_keeps_its_campaign(begun, tmp_path):
     store = begun([1, 2])
     with pytest.raises(CampaignError, match="another campaign"):
         begun([1, 2, 3])
-    (tmp_path / "plan.md").write_text("no plan any more")
-    assert begin_again(store, tmp_path).bases == store.begun.bases
+    begins = store.begun
+    for edited in ("no plan any more", None):
+        (tmp_path / "plan.md").write_text(edited) if edited else (tmp_path / "plan.md").unlink()
+        with pytest.raises(CampaignError, match="no longer what this campaign began with") as refused:
+            store.begin(begins.campaign, tmp_path / "c.yaml")
+        assert "--folder" in refused.value.next_move and "resume" in refused.value.next_move
+    assert store.begun == begins and (store.base(0) / "plan.md").is_file()
 
 
-def begin_again(store: Store, tmp_path: Path):
-    campaign = store.begun.campaign
-    return store.begin(campaign, tmp_path / "c.yaml", approved=False)
+def test_a_word_that_was_given_stands_as_it_was_given(begun, tmp_path, monkeypatch):
+    store, file = begun([1]), tmp_path / "c.yaml"
+    assert not store.begun.approved and store.begun.word.how == "automation"
+    monkeypatch.setattr(harnesses, "around", lambda: "Codex")
+    given = setting_out.begun(setting_out.checked(file), file, store.folder, approved=True).begun
+    assert given.approved and given.word == Came(how="command_line", client="Codex")
+    monkeypatch.setattr(harnesses, "around", lambda: "")
+    for approved in (False, True):
+        assert setting_out.begun(setting_out.checked(file), file, store.folder, approved).begun == given
+
+
+def test_while_it_is_driven_only_limits_change(begun, tmp_path):
+    store, file = begun([1]), tmp_path / "c.yaml"
+    with store.driving():
+        for change in ({"report": True}, {"hands": "auto"}):
+            with pytest.raises(CampaignError, match=r"only its limits change \(budget, per_world, workers\)"):
+                begun([1], **change)
+        with pytest.raises(CampaignError, match="only its limits"):
+            setting_out.changed(store, None, "auto", None)
+        begun([1])
+        with pytest.raises(CampaignError, match="only its limits"):
+            setting_out.begun(setting_out.checked(file), file, store.folder, approved=True)
+        begun([1], workers=1, budget={"runs": 7})
+    assert store.begun.campaign.budget.runs == 7 and not store.begun.approved
+    assert begun([1], report=True).begun.campaign.report
+
+
+def test_who_asks_whether_it_is_at_work_does_not_refuse_a_driver(begun, monkeypatch):
+    store, answers, real = begun([1]), [False, False], try_lock.taken
+    monkeypatch.setattr(try_lock, "taken", lambda handle: answers.pop() if answers else real(handle))
+    with store.driving():
+        assert not answers and store.driven
+
+    def writable(handle):
+        assert fcntl.fcntl(handle, fcntl.F_GETFL) & os.O_ACCMODE == os.O_RDWR
+        return True
+
+    monkeypatch.setattr(try_lock, "taken", writable)
+    assert not store.driven
 
 
 def test_the_first_world_does_not_wait_for_the_thousandth(begun):

@@ -28,7 +28,7 @@ class StandIn(types.ModuleType):
     def __init__(self, dies=(), silent=()):
         super().__init__("ray")
         self.dies, self.silent, self.asked, self.tasks = dict(dies), set(silent), {}, {}
-        self.shut = 0
+        self.shut, self.holds = 0, [{"CPU": 4.0, "memory": 8e9}]
 
     def is_initialized(self):
         return False
@@ -38,8 +38,9 @@ class StandIn(types.ModuleType):
         if words["address"] == "nobody:1":
             raise ConnectionError("Could not connect to nobody:1\nmore words")
 
-    def cluster_resources(self):
-        return {"CPU": 4.0, "memory": 8e9}
+    def nodes(self):
+        dead = {"Alive": False, "Resources": {"CPU": 64.0, "memory": 8e12}}
+        return [{"Alive": True, "Resources": each} for each in self.holds] + [dead]
 
     def remote(self, **words):
         self.asked["remote"] = words
@@ -127,6 +128,22 @@ def test_a_cluster_is_asked_by_its_address_and_for_the_memory_that_worlds_took(b
     assert on_ray.Tasks(None, stub_worlds.do).free() == 3, "a processor is left to Ray"
 
 
+@pytest.mark.parametrize(
+    ("holds", "fits"),
+    [
+        ([{"CPU": 4.0, "memory": 64e9}] * 2, 8),
+        ([{"CPU": 4.0, "memory": 9e9}] * 2, 4),
+        ([{"CPU": 4.0, "memory": 7e9}, {"memory": 64e9}], 2),
+        ([{"CPU": 4.0}], 4),
+        ([{"CPU": 0.5, "memory": 1e9}], 1),
+    ],
+)
+def test_no_more_is_handed_out_than_the_nodes_hold_at_once(ray, holds, fits):
+    ray().holds = holds
+    wanted = 4e9 / 2**20 - on_ray.SPARE_MB
+    assert on_ray.Tasks(50, stub_worlds.do, memory_mb=wanted).free() == fits
+
+
 def test_a_dead_worker_is_tried_again_and_in_the_end_given_up(begun, ray):
     ray(dies={2.0: 1, 3.0: 9})
     store = begun([1, 2, 3], per_world={"begun": 2})
@@ -142,6 +159,7 @@ def test_a_task_without_end_is_given_up(begun, ray, monkeypatch):
     ray(silent=[2.0])
     end = conducting.conduct(begun([1, 2], per_world={"seconds": 0.2}), stub_worlds.do)
     assert end.outcomes == {"gave_up": 1, "held": 1} and end.causes == {"over_time": 1}
+    assert end.seconds >= 1 + 0.2
 
 
 def test_what_is_under_way_is_cancelled_with_the_campaign(ray):

@@ -13,6 +13,8 @@ from worldwright.campaign.campaign_store import Store
 from worldwright.campaign.one_world import task
 from worldwright.cli import main
 from worldwright.model.errors import NotFoundError
+from worldwright.model.evidence import came
+from worldwright.model.evidence.run import Run
 
 BOTTOM = "topology.scene_predicates[0].params.bottom"
 
@@ -94,6 +96,16 @@ def test_python_loads_a_world(fallen):
         next(world.frames())
     with pytest.raises(NotFoundError, match="no world `7`"):
         campaign.world(7)
+
+
+def test_an_approval_of_the_campaign_says_how_the_word_came(tmp_path, short, monkeypatch):
+    began = started(tmp_path, short, sweep={"fields": {BOTTOM: {"values": [0.45]}}}).begun
+    seen = []
+    monkeypatch.setattr("worldwright.stamp.tools.approve", lambda run, by, auto: seen.append((came.current(), auto)))
+    word = came.Came(how="command_line", client="Codex")
+    for begun in (began, began.model_copy(update={"approved": True, "word": word})):
+        one_world._granting(Run(tmp_path), begun)()
+    assert seen == [(came.Came(how="automation"), True), (word, False)]
 
 
 def test_a_plan_that_a_value_breaks_says_so_and_costs_nothing(tmp_path, short):

@@ -1,10 +1,12 @@
 """The points of a sweep: each a function of its number, within what was asked for, and the same tomorrow."""
 
+import json
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.campaign import points
+from worldwright.campaign import points, setting_out
 from worldwright.campaign.campaign_file import Axis, CampaignError, Sweep, parse
 from worldwright.campaign.plan_fields import numbers, path_of
 from worldwright.model.plan.plan_text import parse_plan
@@ -49,6 +51,41 @@ def test_a_million_points_are_counted_without_being_made():
     assert points.at(campaign.sweep, 999_999) == {"x": 1.0, "y": 1.0}
 
 
+def test_steps_that_are_equal_once_they_are_written_are_found():
+    close = {"from": 1, "to": 1.00000000001, "steps": 12}
+    near = {
+        "none": {"from": 0, "to": 5e-324, "steps": 3},
+        "log": {**close, "spacing": "log"},
+        "linear": close,
+        "falling": {**close, "from": close["to"], "to": 1},
+    }
+    for axis in sweep(**near).fields.values():
+        first, second = points.equal_neighbours(axis)
+        assert points.along(axis, first) == points.along(axis, second)
+    fine = sweep(
+        a={"from": 1, "to": 1.00000000001, "steps": 2}, b={"from": -1, "to": 1, "steps": 1_000_000}, c={"values": [1, 2]},
+        d={"from": 0, "to": 1e-300, "steps": 9}, e={"uniform": [0, 1]}, f={"from": 0, "to": 0, "steps": 1},
+        g={"from": 1, "to": 1e9, "steps": 1_000_000, "spacing": "log"},
+    )  # fmt: skip
+    assert not any(map(points.equal_neighbours, fine.fields.values()))
+
+
+def test_one_number_is_swept_once_and_by_steps_that_differ(small_plan, tmp_path):
+    (tmp_path / "plan.md").write_text(small_plan, encoding="utf-8")
+    file, ball = tmp_path / "c.yaml", "simulation_parameters.masses.ball"
+    for fields, cause in (
+        (
+            {"scene_objects.ball.size[0]": {"values": [1]}, "scene_objects[0].size[0]": {"values": [2]}},
+            "are one number",
+        ),
+        ({ball: {"from": 1, "to": 1.00000000001, "steps": 12}}, "12 steps from 1 to 1.0000000000"),
+    ):
+        file.write_text(json.dumps({"plan": "plan.md", "sweep": {"fields": fields}}))
+        with pytest.raises(CampaignError, match=cause) as refused:
+            setting_out.checked(file)
+        assert all(name in refused.value.cause for name in fields) and refused.value.next_move
+
+
 def test_a_number_of_a_plan_is_found_by_its_path(small_plan):
     document = parse_plan(small_plan)
     assert path_of(document, "simulation_parameters.masses.ball") == ("simulation_parameters", "masses", "ball")
@@ -60,7 +97,7 @@ def test_a_number_of_a_plan_is_found_by_its_path(small_plan):
 @pytest.mark.parametrize(
     "field",
     ["", "x", "simulation_parameters.mass.ball", "scene_objects[4].size[0]", "scene_objects.ball.name", "simulation_parameters",
-     "scene_objects.ball.size[2]x", "scene_objects..ball", "plan_type", "scene_objects.ball.size[-1]"],
+     "scene_objects.ball.size[2]x", "scene_objects..ball", "plan_type", "scene_objects.ball.size[-1]", f"scene_objects[{'9' * 5000}].size[0]"],
 )  # fmt: skip
 def test_what_is_no_number_of_the_plan_is_answered_with_those_that_are(small_plan, field):
     with pytest.raises(CampaignError) as refused:

@@ -81,6 +81,25 @@ def test_the_page_groups_failures_draws_margins_and_links_reports(store):
     assert 'x1="50.00"' in page, "where 0 lies is drawn"
 
 
+def test_two_may_write_the_table_at_once_and_none_leaves_a_draft(tmp_path):
+    def interrupted():
+        yield row(0)
+        campaign_table.write([row(7)], [], tmp_path)
+        yield row(1)
+
+    campaign_table.write(interrupted(), [], tmp_path)
+    assert campaign_table.read(tmp_path)["number"].to_pylist() == [0, 1]
+
+    def damaged():
+        yield row(2)
+        raise OSError("the disk is gone")
+
+    with pytest.raises(OSError, match="gone"):
+        campaign_table.write(damaged(), [], tmp_path)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["table.csv", "table.parquet"]
+    assert campaign_table.read(tmp_path)["number"].to_pylist() == [0, 1]
+
+
 def test_a_campaign_of_which_nothing_is_done_has_a_page(store):
     page = wall.write(store)[-1].read_text()
     assert "0 of 5 worlds" in page and campaign_table.read(store.folder).num_rows == 0

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 
 from worldwright import cli, expose
 from worldwright.contract import command, generated, guard, harnesses
-from worldwright.contract.roles import COMMANDS, MAIN_TOOLS, ON_REQUEST, RESERVED, ROLES, SERVERS
+from worldwright.contract.roles import COMMANDS, MAIN_TOOLS, ON_REQUEST, RESERVED, ROLES, SERVERS, SKILLS_ON_REQUEST
 
 REPO = Path(__file__).parents[3]
 TOOLS = {f"{server}.{function.__name__}" for server in expose.SERVERS for function in expose.tools(server)}
@@ -153,10 +153,20 @@ def test_opencode_permissions_end_with_what_is_allowed():
         assert allowed == {t.replace(".", "_") for t in role.tools}
 
 
+def test_opencode_lends_what_runs_many_worlds_to_an_agent_of_its_own():
+    """Its patterns deny what they do not name, skills included; what is allowed is loaded, so one world's threads have none of it."""
+    config = json.loads(generated.files()[".opencode/opencode.json"])
+    asked, lent = {tool.replace(".", "_") for tool in ON_REQUEST}, config["agent"]["campaign"]
+    assert lent["permission"] == dict.fromkeys(asked, "allow") and lent["mode"] == "primary"
+    assert not asked & set(config["permission"]) and config["permission"]["stage_*"] == "deny"
+    assert config["permission"]["skill"]["campaign"] == "allow" and (REPO / "skills/campaign/SKILL.md").is_file()
+    assert not any(set(ON_REQUEST) & set(role.tools) for role in ROLES)
+
+
 def test_the_contract_costs_little_context():
     """In the harness that loads most, OpenCode: every tool of the main thread in full (`make test-harness` measures all)."""
     loaded = [(REPO / "AGENTS.md").read_text()]
-    for name in COMMANDS:
+    for name in (*COMMANDS, *SKILLS_ON_REQUEST):
         header = yaml.safe_load((REPO / "skills" / name / "SKILL.md").read_text().split("---\n")[1])
         loaded.append(f"{header['name']}: {header['description']}" + 200 * " ")  # what lists it, and its path
     loaded += [f"{role.agent}: {role.purpose}" for role in ROLES]

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..generated import COMMAND, GENERATED, GUARD, PERSONAL, instructions
-from ..roles import COMMANDS, MAIN_TOOLS, RUNS, SERVERS, Role
+from ..roles import COMMANDS, MAIN_TOOLS, ON_REQUEST, RUNS, SERVERS, SKILLS_ON_REQUEST, Role
 from ..tool_names import ToolNames
 
 if TYPE_CHECKING:
@@ -124,8 +124,16 @@ def _config() -> dict[str, object]:
         "permission": {
             "edit": {"*": "ask", f"{RUNS}/**": "deny"},
             "external_directory": "deny",
-            "skill": {"*": "deny", **dict.fromkeys(COMMANDS, "allow")},
+            "skill": {"*": "deny", **dict.fromkeys((*COMMANDS, *SKILLS_ON_REQUEST), "allow")},
             **_tools(MAIN_TOOLS),
             **{tool.replace(".", "_"): "ask" for tool in PERSONAL},
+        },
+        # Every tool that is allowed is loaded in full. Who builds one world is not told of these; a person picks this agent for many.
+        "agent": {
+            "campaign": {
+                "description": "Run many worlds at once (skill `campaign`).",
+                "mode": "primary",
+                "permission": {tool.replace(".", "_"): "allow" for tool in ON_REQUEST},
+            }
         },
     }
