@@ -28,7 +28,11 @@ def tank() -> mujoco.MjSpec:
 
 
 def run(
-    folder: Path, spec: mujoco.MjSpec | None = None, floats: tuple[str, ...] = ("ball",), steps: int = STEPS, **constants: float
+    folder: Path,
+    spec: mujoco.MjSpec | None = None,
+    floats: tuple[str, ...] = ("ball",),
+    steps: int = STEPS,
+    **constants: float,
 ) -> tuple[mujoco.MjModel, stored.Recording]:
     model = (spec or tank()).compile()
     prepare(model)
@@ -101,7 +105,9 @@ def barge(welded: bool) -> mujoco.MjSpec:
     hull = spec.worldbody.add_body(name="hull", pos=(0, 0, 0.3), quat=(0.98, 0.15, 0.1, 0))
     hull.add_freejoint()
     hull.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.1, 0.06, 0.03), mass=0.4)
-    owner, at = (hull.add_body(name="cargo", pos=(0.04, 0.01, 0.03)), (0, 0, 0.01)) if welded else (hull, (0.04, 0.01, 0.04))
+    owner, at = (
+        (hull.add_body(name="cargo", pos=(0.04, 0.01, 0.03)), (0, 0, 0.01)) if welded else (hull, (0.04, 0.01, 0.04))
+    )
     owner.add_geom(size=(0.015, 0, 0), pos=at, mass=0.35, contype=0, conaffinity=0)
     waters.fill(spec, "water", container="tank", level=0.2, drops=2)
     return spec
@@ -111,5 +117,7 @@ def test_what_is_welded_to_a_body_is_carried_as_its_own(tmp_path: Path) -> None:
     one, welded = (run(tmp_path / f"{flag}", barge(flag), ("hull",), 250)[1] for flag in (False, True))
     first, second = (each.body("hull") for each in (one, welded))
     assert welded.pos[:, second] == pytest.approx(one.pos[:, first], abs=1e-5)
-    assert np.abs((welded.quat[:, second] * one.quat[:, first]).sum(axis=1)) == pytest.approx(np.ones(len(one)), abs=1e-7)
+    assert np.abs((welded.quat[:, second] * one.quat[:, first]).sum(axis=1)) == pytest.approx(
+        np.ones(len(one)), abs=1e-7
+    )
     assert one.pos[-1, first, 2] == pytest.approx(0.2, abs=0.04), "and it floats"
