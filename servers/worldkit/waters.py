@@ -21,6 +21,8 @@ RINGS = 12
 """Of corners down the walls."""
 DROPS = 90
 """Beads, each of which can be a drop."""
+MOST_DROPS = 1000
+"""Of 12 corners each, which are recorded."""
 INTO_M, INTO = 2e-4, 0.002
 """So far it reaches into the walls, m, and of its half width: no gap is seen, and in glass light passes from one to the other."""
 FREE_M = 1e-3
@@ -59,10 +61,14 @@ def fill(
         drops: how many can fly at a time.
 
     Raises:
-        ProgramError: the container is not there, moves, is open at the level or below it, or has no floor under it.
+        ProgramError: the container is not there, has no shape, moves, is open at the level or below it, or has no floor under it;
+            the drops are no number from 0 on, or too many to be recorded.
     """
     import numpy as np
 
+    if not (0 <= drops <= MOST_DROPS and drops == int(drops)):
+        cause = f"{drops} drops cannot fly"
+        raise ProgramError(cause, f"waters.fill({container})", f"let drops be a whole number from 0 to {MOST_DROPS}")
     vessel = measure(spec, container, level)
     points, triangles = _mesh(vessel)
     beads, faces = _beads(vessel, drops)
@@ -88,6 +94,8 @@ def measure(spec: "mujoco.MjSpec", container: str, level: float) -> Vessel:
     if model.body_weldid[body] != 0:
         raise ProgramError(f"{container} can move, and its water could not", place, "give it `fixed: true`")
     mine = model.geom_bodyid == body
+    if not mine.any():
+        raise ProgramError(f"{container} has no shape, and holds nothing", place, "name the body that has the walls")
     drawn = mine & (model.geom_contype == 0) & (model.geom_conaffinity == 0)
     model.geom_group[:] = 0
     model.geom_group[drawn if drawn.any() else mine] = 5  # what is seen; else what is touched

@@ -121,3 +121,11 @@ def test_a_colour_is_not_mixed_with_none() -> None:
     halfway = lain.mixed(times, numbers, 0.5)
     assert halfway == pytest.approx(np.array([(0.5, 0, 0.5), (1, 0, 0), (-1, -1, -1)]))
     assert lain.mixed(times, numbers, 1.0) == pytest.approx(point_colours.shares(numbers[1]))
+
+
+@pytest.mark.parametrize("shown", [[{"bodies": []}], 7, [{"law": "water"}], [None]])
+def test_what_is_said_to_be_shown_and_makes_no_sense_is_named(both: stored.Recording, shown) -> None:
+    damaged = stored.open(both.folder)
+    damaged.meta = {**damaged.meta, "shown": shown}
+    with pytest.raises(RecordingError, match=r"`shown` in the recording's meta.json makes no sense"):
+        Replay(wet().compile(), damaged)

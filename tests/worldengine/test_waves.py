@@ -6,12 +6,14 @@ import mujoco
 import numpy as np
 import pytest
 
+from hung_springs import world
 from worldengine.clock.beside import Beside
 from worldengine.clock.simulate import prepare, simulate
 from worldengine.recording import describing, stored
 from worldengine.recording.record import Recorder
 from worldengine.recording.replay import Replay
 from worldengine.solvers import Row, water
+from worldengine.waves.shown_water import ShownWater
 from worldkit import bodies, scene, waters
 from worldkit.errors import ProgramError
 from worldkit.world import start
@@ -90,12 +92,27 @@ def test_a_wind_ruffles_it_and_its_level_stays() -> None:
         ({"density": 998.0, "level": 0.21}, "water", "shows it at"),
         ({"density": 0.0, "level": 0.2}, "water", "needs a density"),
         ({"density": 998.0, "level": 0.2}, "ball", "is shown by"),
+        ({"density": 998.0, "level": float("nan")}, "water", "constant level of the solver water is nan"),
+        ({"density": float("inf"), "level": 0.2}, "water", "density of the solver water is inf"),
     ],
 )
 def test_what_makes_no_sense_is_refused(constants: dict, shown_by: str, says: str) -> None:
     model = tank().compile()
     with pytest.raises(ProgramError, match=says):
         Beside(model, start(model), [Row("water", ("ball",), constants, shown_by)])
+
+
+def test_a_line_of_points_is_no_water() -> None:
+    with pytest.raises(ProgramError, match="no surface of triangles"):
+        ShownWater(world().compile(), 0)
+
+
+def test_a_pond_for_itself_has_a_wind_and_no_body(tmp_path: Path) -> None:
+    _, recording = run(tmp_path / "out", floats=(), steps=40, wind=20.0)
+    told = recording.channels("water")
+    assert "immersed" not in told and told["energy"][1:] == pytest.approx(np.zeros(40), abs=1e-4)
+    place = recording.media.place.reshape(11, -1, 3)[:, :500, 2]
+    assert place.std() > 2e-5 and np.abs(place[-1] - place[0]).max() > 2e-5, "waves go on"
 
 
 def barge(welded: bool) -> mujoco.MjSpec:

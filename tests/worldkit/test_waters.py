@@ -52,3 +52,19 @@ def test_a_round_glass_is_filled_to_its_round_wall() -> None:
 def test_what_cannot_hold_water_is_refused(changes: dict, level: float, container: str, says: str) -> None:
     with pytest.raises(ProgramError, match=says):
         waters.fill(basin(**changes), "water", container=container, level=level)
+
+
+@pytest.mark.parametrize("drops", [-1, 0.5, 10**6, float("nan")])
+def test_drops_are_a_number_that_can_fly(drops: float) -> None:
+    with pytest.raises(ProgramError, match="cannot fly"):
+        waters.fill(basin(), "water", container="basin", level=0.2, drops=drops)
+    spec = basin()
+    waters.fill(spec, "water", container="basin", level=0.2, drops=0)
+    assert ShownWater(spec.compile(), 0).beads == 0
+
+
+def test_a_body_without_a_shape_holds_nothing() -> None:
+    spec = basin()
+    spec.worldbody.add_body(name="idea", pos=(0, 0, 1))
+    with pytest.raises(ProgramError, match="idea has no shape"):
+        waters.fill(spec, "water", container="idea", level=1.0)

@@ -26,7 +26,7 @@ class ShownWater:
         flex: its number.
 
     Raises:
-        ProgramError: it has no surface that lies level and has a shore.
+        ProgramError: it is of no triangles, or has no surface that lies level and has a shore.
     """
 
     def __init__(self, model: "mujoco.MjModel", flex: int) -> None:
@@ -34,6 +34,10 @@ class ShownWater:
         from scipy.sparse.csgraph import connected_components
 
         first, count = int(model.flex_vertadr[flex]), int(model.flex_vertnum[flex])
+        if int(model.flex_dim[flex]) != 2:
+            raise ProgramError(
+                "what shows the water is no surface of triangles", "interventions", "make it by waters.fill"
+            )
         start, faces = int(model.flex_elemdataadr[flex]), int(model.flex_elemnum[flex])
         self._rest = _corners(model, first, count)
         triangles = model.flex_elem[start : start + 3 * faces].reshape(-1, 3)
@@ -53,7 +57,7 @@ class ShownWater:
         if len(self.outline) < 3:
             raise ProgramError("what shows the water has no level surface", "interventions", "make it by waters.fill")
         others = [np.flatnonzero(part == one) for one in range(number) if one != main]
-        self._beads = np.stack(others) if others and len({len(o) for o in others}) == 1 else np.zeros((0, 0), int)
+        self._beads = np.stack(others) if others and len({len(o) for o in others}) == 1 else np.zeros((0, 1), int)
         own = self._rest[self._beads]
         away = own - own.mean(axis=1, keepdims=True)
         self._ball = away / np.maximum(np.linalg.norm(away, axis=2, keepdims=True), 1e-12)
