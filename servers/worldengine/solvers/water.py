@@ -256,7 +256,9 @@ def _shape(model: "mujoco.MjModel", data: "mujoco.MjData", shown_by: str) -> "tu
 
 def _grid(outline: "np.ndarray", half: float) -> Any:
     """The cells of the surface, as fine as the smallest body asks for, whose half width is `half`, m, or as many as there may be."""
-    from ..waves.wet_grid import WetGrid, area, rectangle
+    from worldkit.polygons import area
+
+    from ..waves.wet_grid import WetGrid, rectangle
 
     most = MOST_CELLS if rectangle(outline) else MOST_CELLS_CUT
     wanted = max(LEAST_CELL, half / CELLS_A_HALF)

@@ -75,16 +75,6 @@ def closed(model: mujoco.MjModel, flex: int) -> bool:
     return len(np.unique(there)) == len(there) and bool(np.array_equal(np.sort(there), np.sort(back)))
 
 
-def at_rest(model: mujoco.MjModel) -> np.ndarray:
-    """(n, 3) m: the points of all flexes as the world is built."""
-    import mujoco
-
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_flex(model, data)
-    return np.array(data.flexvert_xpos)
-
-
 def _triangles(model: mujoco.MjModel, flex: int) -> np.ndarray:
     first = int(model.flex_elemdataadr[flex])
     return np.asarray(model.flex_elem[first : first + 3 * int(model.flex_elemnum[flex])]).reshape(-1, 3)

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from worldkit.moved_shapes import at_rest
+
 from ....recording import point_colours
-from .closed_flexes import ClosedFlex, at_rest, closed
+from .closed_flexes import ClosedFlex, closed
 
 if TYPE_CHECKING:
     import mujoco
@@ -147,8 +149,7 @@ class SoftShapes:
         """A flex that is drawn as what it encloses."""
         made = self._closed[flex]
         if made is None:
-            first, count = int(self.model.flex_vertadr[flex]), int(self.model.flex_vertnum[flex])
-            made = self._closed[flex] = ClosedFlex(self.model, flex, at_rest(self.model)[first : first + count])
+            made = self._closed[flex] = ClosedFlex(self.model, flex, at_rest(self.model, flex))
         return made
 
     def _of_flex(
