@@ -12,6 +12,7 @@ from .errors import ProgramError
 
 if TYPE_CHECKING:
     import mujoco
+    import numpy as np
 
 THIN_M = 2e-4
 """Half of what a surface is thick by itself."""
@@ -44,6 +45,18 @@ def surface(spec: "mujoco.MjSpec", name: str, points: Any, triangles: Any, look:
     if look is not None:
         flex.material = [materials.add(spec, look)]
     return flex
+
+
+def at_rest(model: "mujoco.MjModel", flex: int) -> "np.ndarray":
+    """(n, 3) m: the points of a flex as the world is built, world frame."""
+    import mujoco
+    import numpy as np
+
+    data = mujoco.MjData(model)
+    mujoco.mj_kinematics(model, data)
+    mujoco.mj_flex(model, data)
+    first = int(model.flex_vertadr[flex])
+    return np.array(data.flexvert_xpos[first : first + int(model.flex_vertnum[flex])])
 
 
 def tube(rings: int, around: int) -> "list[tuple[int, int, int]]":

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import moved_shapes
 from .errors import ProgramError
 from .naming import names
+from .polygons import area, inside
 
 if TYPE_CHECKING:
     import mujoco
@@ -21,6 +22,8 @@ RINGS = 12
 """Of corners down the walls."""
 DROPS = 90
 """Beads, each of which can be a drop."""
+MOST_DROPS = 1000
+"""Of 12 corners each, which are recorded."""
 INTO_M, INTO = 2e-4, 0.002
 """So far it reaches into the walls, m, and of its half width: no gap is seen, and in glass light passes from one to the other."""
 FREE_M = 1e-3
@@ -59,10 +62,14 @@ def fill(
         drops: how many can fly at a time.
 
     Raises:
-        ProgramError: the container is not there, moves, is open at the level or below it, or has no floor under it.
+        ProgramError: the container is not there, has no shape, moves, is open at the level or below it, or has no floor under it;
+            the drops are no number from 0 on, or too many to be recorded.
     """
     import numpy as np
 
+    if not (0 <= drops <= MOST_DROPS and drops == int(drops)):
+        cause = f"{drops} drops cannot fly"
+        raise ProgramError(cause, f"waters.fill({container})", f"let drops be a whole number from 0 to {MOST_DROPS}")
     vessel = measure(spec, container, level)
     points, triangles = _mesh(vessel)
     beads, faces = _beads(vessel, drops)
@@ -77,6 +84,8 @@ def measure(spec: "mujoco.MjSpec", container: str, level: float) -> Vessel:
     import mujoco
     import numpy as np
 
+    from .cameras.subjects import corners
+
     model = spec.copy().compile()
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -88,6 +97,8 @@ def measure(spec: "mujoco.MjSpec", container: str, level: float) -> Vessel:
     if model.body_weldid[body] != 0:
         raise ProgramError(f"{container} can move, and its water could not", place, "give it `fixed: true`")
     mine = model.geom_bodyid == body
+    if not mine.any():
+        raise ProgramError(f"{container} has no shape, and holds nothing", place, "name the body that has the walls")
     drawn = mine & (model.geom_contype == 0) & (model.geom_conaffinity == 0)
     model.geom_group[:] = 0
     model.geom_group[drawn if drawn.any() else mine] = 5  # what is seen; else what is touched
@@ -97,7 +108,8 @@ def measure(spec: "mujoco.MjSpec", container: str, level: float) -> Vessel:
         return float(mujoco.mj_ray(model, data, np.array([x, y, z]), way, group, True, -1, hit))
 
     down = np.array([0.0, 0.0, -1.0])
-    low, high = _extents(model, data, np.flatnonzero(model.geom_group == 5))
+    around_it = corners(model, data, np.flatnonzero(model.geom_group == 5))
+    low, high = around_it.min(axis=0), around_it.max(axis=0)
     x, y = (low[:2] + high[:2]) / 2
     # Beside the middle, where the triangles of what a lathe turned meet in one corner, which a ray may slip through.
     beside = 0.01 * (high[:2] - low[:2]) * (0.7, 0.4)
@@ -116,12 +128,10 @@ def measure(spec: "mujoco.MjSpec", container: str, level: float) -> Vessel:
         np.clip(2 * np.pi * max(wide, depth, 1e-3) / np.sqrt(np.pi * max(wide, 1e-3) ** 2 / SURFACE_POINTS), 48, 176)
     )
     angles = yaw + 2 * np.pi * np.arange(around) / around
-    beside_it = [np.column_stack([np.cos(angles + a), np.sin(angles + a), np.zeros(around)]) for a in SLIPS]
-    ways = np.column_stack([np.cos(angles), np.sin(angles)])
 
-    def ring(z: float) -> "np.ndarray":
+    def ring(z: float, angles: "np.ndarray" = angles) -> "np.ndarray":
         """(P,) m: how far the wall is at a height, the nearest of some rays, as one may slip through an edge; 0 where there is none."""
-        found = np.array([[far(x, y, z, way) for way in some] for some in beside_it])
+        found = np.array([[far(x, y, z, np.array([np.cos(a + s), np.sin(a + s), 0.0])) for a in angles] for s in SLIPS])
         return np.where((found > 0).any(axis=0), np.where(found > 0, found, np.inf).min(axis=0), 0.0)
 
     for height, where in ((level, "at"), (level + FREE_M, "just above")):
@@ -133,32 +143,27 @@ def measure(spec: "mujoco.MjSpec", container: str, level: float) -> Vessel:
             )
             raise ProgramError(cause, place, "lower the level, or close the walls")
     heights = level - depth * np.arange(RINGS) / (RINGS - 1) * (1 - 1e-3)
-    rings: list[np.ndarray] = []
-    for z in heights:
-        reach = ring(z)
-        last = rings[-1] if rings else reach
-        reach = np.where(reach > 0, reach, last)  # a hole below the level is small, or the floor is higher there
-        rings.append(reach)
-    grow = INTO_M + INTO * float(np.median(rings[0]))
-    outlines = [np.array([x, y]) + (reach + grow)[:, None] * ways for reach in rings]
-    if (corners := _four(outlines[0], np.array([x, y]), yaw)) is not None:
-        outlines = [_sides(_four(outline, np.array([x, y]), yaw), around) for outline in outlines] if all(
-            _four(outline, np.array([x, y]), yaw) is not None for outline in outlines
-        ) else [_sides(corners, around)] * RINGS  # fmt: skip
-    return Vessel(np.array([x, y]), floor, level, np.array(outlines), heights)
+    middle = np.array([x, y])
 
+    def outlines(angles: "np.ndarray") -> "list[np.ndarray]":
+        """(P, 2) m of each ring, a little into the walls."""
+        rings: list[np.ndarray] = []
+        for z in heights:
+            reach = ring(z, angles)
+            rings.append(
+                np.where(reach > 0, reach, rings[-1] if rings else reach)
+            )  # a hole below is small, or the floor is higher
+        grow = INTO_M + INTO * float(np.median(rings[0]))
+        ways = np.column_stack([np.cos(angles), np.sin(angles)])
+        return [middle + (reach + grow)[:, None] * ways for reach in rings]
 
-def _extents(model: "mujoco.MjModel", data: "mujoco.MjData", geoms: "np.ndarray") -> "tuple[np.ndarray, np.ndarray]":
-    """The lowest and highest corner (3,), m, of some geoms."""
-    import numpy as np
-
-    signs = np.array([[i, j, k] for i in (-1, 1) for j in (-1, 1) for k in (-1, 1)])
-    corners = [
-        (model.geom_aabb[g, :3] + signs * model.geom_aabb[g, 3:]) @ data.geom_xmat[g].reshape(3, 3).T
-        + data.geom_xpos[g]
-        for g in geoms
-    ]
-    return np.min([c.min(axis=0) for c in corners], axis=0), np.max([c.max(axis=0) for c in corners], axis=0)
+    rings = outlines(angles)
+    four = [_four(outline, middle, yaw) for outline in rings]
+    if four[0] is not None:  # its corners are looked for; where it is no rectangle farther down, in the same directions
+        shore = _sides(four[0], around)
+        own = rings if all(one is not None for one in four) else outlines(np.arctan2(*(shore - middle).T[::-1]))
+        rings = [outline if one is None else _sides(one, around) for one, outline in zip(four, own, strict=True)]
+    return Vessel(middle, floor, level, np.array(rings), heights)
 
 
 def _four(outline: "np.ndarray", middle: "np.ndarray", yaw: float) -> "np.ndarray | None":
@@ -189,9 +194,7 @@ def _mesh(vessel: Vessel) -> "tuple[np.ndarray, np.ndarray]":
     from scipy.spatial import Delaunay, cKDTree
 
     shore = vessel.rings[0]
-    x, y = shore.T
-    area = abs(float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))) / 2
-    gap = float(np.sqrt(area / SURFACE_POINTS))
+    gap = float(np.sqrt(area(shore) / SURFACE_POINTS))
     low, high = shore.min(axis=0), shore.max(axis=0)
     rows = np.arange(low[1] + gap / 2, high[1], gap * 0.866)
     inner = np.concatenate(
@@ -199,41 +202,25 @@ def _mesh(vessel: Vessel) -> "tuple[np.ndarray, np.ndarray]":
          for i, row in enumerate(rows)]
     )  # fmt: skip
     dense = np.concatenate([shore + t * (np.roll(shore, -1, axis=0) - shore) for t in (0.0, 0.25, 0.5, 0.75)])
-    inner = inner[_within(shore, inner) & (cKDTree(dense).query(inner)[0] > 0.55 * gap)]
+    inner = inner[inside(shore, inner) & (cKDTree(dense).query(inner)[0] > 0.55 * gap)]
     flat = np.concatenate([shore, inner])
     faces = Delaunay(flat).simplices
-    faces = faces[_within(shore, flat[faces].mean(axis=1))]
+    faces = faces[inside(shore, flat[faces].mean(axis=1))]
     a, b, c = (flat[faces[:, i]] for i in range(3))
     turned = (b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0]
     faces = np.where((turned < 0)[:, None], faces[:, ::-1], faces)[np.abs(turned) > 1e-6 * gap**2]
     points = [np.column_stack([flat, np.full(len(flat), vessel.level)])]
     count, round_it = len(flat), len(shore)
     rim, triangles = np.arange(round_it), [faces]
-    if float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) < 0:
-        rim = rim[::-1]
     for ring, z in zip(vessel.rings[1:], vessel.heights[1:], strict=True):
         points.append(np.column_stack([ring, np.full(round_it, z)]))
         lower = count + np.arange(round_it)
-        if rim[0] != 0 and rim[0] < round_it:
-            lower = lower[::-1]
         n, m = np.roll(rim, -1), np.roll(lower, -1)
         triangles += [np.column_stack([rim, lower, n]), np.column_stack([n, lower, m])]
         rim, count = lower, count + round_it
     points.append(np.array([[*vessel.middle, vessel.heights[-1]]]))
     triangles.append(np.column_stack([np.roll(rim, -1), rim, np.full(round_it, count)]))
     return np.concatenate(points), np.concatenate(triangles)
-
-
-def _within(outline: "np.ndarray", points: "np.ndarray") -> "np.ndarray":
-    """(n,) whether points are within an outline."""
-    import numpy as np
-
-    a, b = outline, np.roll(outline, -1, axis=0)
-    x, y = points[:, 0, None], points[:, 1, None]
-    cut = (a[:, 0] <= x) != (b[:, 0] <= x)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        at = a[:, 1] + (x - a[:, 0]) / (b[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
-    return np.asarray((cut & (at < y)).sum(axis=1) % 2 == 1)
 
 
 def _beads(vessel: Vessel, drops: int) -> "tuple[np.ndarray, np.ndarray]":

@@ -8,6 +8,7 @@ from small_worlds import ball, empty, floor, lay_film, record
 from worldengine.film import described, dressed, motion_facts, one_surface, renderers
 from worldengine.film.described import FilmError
 from worldengine.film.directed import Screening
+from worldengine.recording import point_colours
 from worldkit import portable
 from worldkit.errors import ProgramError
 from worldkit.filming import Film, Recorded, still
@@ -158,6 +159,19 @@ def test_particles_can_be_a_surface_too(poured):
     surface.place(data)
     assert (surface._vertices[:, 2] > -100).sum() > 100
     assert renderers.USUAL == "preview"
+
+
+def test_a_law_that_stops_telling_colours_leaves_none(poured):
+    told = poured.film()
+    model = dressed.dress(poured.folder / "world.mjz", told)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    (surface,) = dressed.surfaces(model, told)
+    colours = point_colours.of(model)
+    for given, seen in ((0.5, 0.5), (-1.0, -1.0)):
+        colours.geom[:] = given
+        surface.place(data)
+        assert colours.skin == pytest.approx(np.full_like(colours.skin, seen))
 
 
 @pytest.mark.gl

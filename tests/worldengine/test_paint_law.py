@@ -1,4 +1,4 @@
-"""The worked law of the skill media, poured for a second and a half: volume, weight, flow and mixing, and how it is drawn."""
+"""The worked law of the skill media, poured for a second and a half: volume, weight, flow and mixing."""
 
 import re
 import types
@@ -39,7 +39,6 @@ def canvas(law: types.ModuleType) -> mujoco.MjSpec:
         name="canvas", pos=(0, 0, 0.1), quat=(np.cos(np.radians(7)), np.sin(np.radians(7)), 0, 0)
     )
     board.add_geom(name="canvas", type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.3, 0.22, 0.01), rgba=(0.9, 0.9, 0.87, 1))
-    spec.worldbody.add_camera(name="above", pos=(0, -0.35, 0.62), xyaxes=(1, 0, 0, 0, 0.8, 0.6), fovy=50)
     law.film(spec)
     return spec
 

@@ -9,6 +9,7 @@ import pytest
 from hung_springs import Springs, run, world
 from small_worlds import empty
 from worldengine.film.drawn_frames import Frames
+from worldengine.film.renderers.preview.soft_shapes import SoftShapes
 from worldengine.recording import point_colours, stored
 from worldengine.recording.replay import Replay
 from worldkit import moved_shapes
@@ -98,3 +99,34 @@ def test_both_renderers_draw_them_from_corner_to_corner(renderer: str) -> None:
     assert row[30:66, 0].max() < 110, "nothing of the look's own red"
     centre = second[SIZE[1] // 2, SIZE[0] // 2]
     assert centre[0] > 120 and centre[1] > 120 and centre[2] < 90, "and they change"
+
+
+def octahedra() -> mujoco.MjModel:
+    """A large closed surface of a law's points, and a small one beside it, a bead."""
+    spec = empty()
+    ball = np.concatenate([np.eye(3), -np.eye(3)])
+    faces = np.array([(0, 1, 2), (1, 3, 2), (3, 4, 2), (4, 0, 2), (1, 0, 5), (3, 1, 5), (4, 3, 5), (0, 4, 5)])
+    points = np.concatenate([0.3 * ball, 0.1 * ball + (0.55, 0, 0)])
+    moved_shapes.surface(spec, "ball", points, np.concatenate([faces, faces + 6]), look="paint_red")
+    spec.worldbody.add_camera(name="above", pos=(0, 0, 1.5))
+    return spec.compile()
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize("renderer", ["preview", "traced"])
+def test_a_closed_surface_has_the_colours_of_its_corners_and_so_has_its_bead(renderer: str) -> None:
+    model = octahedra()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    own = point_colours.of(model).flex
+    own[:6] = np.where(data.flexvert_xpos[:6, :1] < -0.1, (0.0, 0.9, 0.0), (0.0, 0.0, 0.9))
+    own[6:] = (0.9, 0.9, 0.0)
+    with Frames(model, *SIZE, renderer) as frames:
+        image = frames.image(data, 0, "still" if renderer == "preview" else 8).astype(int)
+        assert frames.renderer == renderer, frames.reason
+    assert SoftShapes(model).is_closed(0)
+    row = image[SIZE[1] // 2 - 1]
+    left, right = (row[at : at + 3].mean(axis=0) for at in (34, 54))
+    assert left[1] > left[2] + 20 and right[2] > right[1] + 60, (left, right)
+    bead = row[72:76].mean(axis=0)
+    assert min(bead[:2]) > bead[2] + 60, bead

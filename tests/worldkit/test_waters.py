@@ -52,3 +52,41 @@ def test_a_round_glass_is_filled_to_its_round_wall() -> None:
 def test_what_cannot_hold_water_is_refused(changes: dict, level: float, container: str, says: str) -> None:
     with pytest.raises(ProgramError, match=says):
         waters.fill(basin(**changes), "water", container=container, level=level)
+
+
+@pytest.mark.parametrize("drops", [-1, 0.5, 10**6, float("nan")])
+def test_drops_are_a_number_that_can_fly(drops: float) -> None:
+    with pytest.raises(ProgramError, match="cannot fly"):
+        waters.fill(basin(), "water", container="basin", level=0.2, drops=drops)
+    spec = basin()
+    waters.fill(spec, "water", container="basin", level=0.2, drops=0)
+    assert ShownWater(spec.compile(), 0).beads == 0
+
+
+def test_a_body_without_a_shape_holds_nothing() -> None:
+    spec = basin()
+    spec.worldbody.add_body(name="idea", pos=(0, 0, 1))
+    with pytest.raises(ProgramError, match="idea has no shape"):
+        waters.fill(spec, "water", container="idea", level=1.0)
+
+
+def test_a_square_rim_over_what_narrows_holds_water_of_both_shapes() -> None:
+    """A square of walls over a smaller one that is turned by an eighth."""
+    spec = scene.new("sink", time_step=0.002)
+    sink = spec.worldbody.add_body(name="sink")
+    box = mujoco.mjtGeom.mjGEOM_BOX
+    sink.add_geom(type=box, size=(0.3, 0.3, 0.01), pos=(0, 0, 0.01))
+    for half, low, high, turn in ((0.12, 0.02, 0.12, np.pi / 4), (0.25, 0.12, 0.3, 0.0)):
+        for angle in turn + np.pi / 2 * np.arange(4):
+            at = (half + 0.02) * np.array([np.cos(angle), np.sin(angle)])
+            sink.add_geom(
+                type=box, size=(0.02, half + 0.04, (high - low) / 2), pos=(*at, (low + high) / 2),
+                quat=(np.cos(angle / 2), 0, 0, np.sin(angle / 2)),
+            )  # fmt: skip
+    vessel = waters.measure(spec, "sink", 0.25)
+    reach = np.hypot(*vessel.rings.transpose(2, 0, 1))
+    assert reach[0].max() == pytest.approx(0.25 * np.sqrt(2), abs=3e-3), "to its corners"
+    assert reach[-1].max() == pytest.approx(0.12 * np.sqrt(2), abs=5e-3) and reach[-1].min() < 0.125
+    waters.fill(spec, "water", container="sink", level=0.25, drops=1)
+    model = spec.compile()
+    assert closed_flexes.closed(model, 0) and len(ShownWater(model, 0).outline) == vessel.rings.shape[1]

@@ -72,7 +72,7 @@ class Beside:
                 )
             taken |= set(mine)
             running = solver.start(model, data, mine, row.constants, row.shown_by)
-            self._solvers.append((np.array(mine), running, _shares(mine, hold)))
+            self._solvers.append((np.array(mine, int), running, _shares(mine, hold)))
             if isinstance(running, Shown) and running.points() is not None:
                 self._shown.append((Medium(name, row.bodies, row.shown_by), running))
             self.channels |= {_named(name, column): array for column, array in running.channels.items()}
@@ -159,4 +159,6 @@ def _shares(bodies: Sequence[int], hold: "Hold | None") -> "np.ndarray":
     import numpy as np
 
     kept: Mapping[tuple[str, int], float] = hold.inputs if hold else {}
-    return np.array([[kept.get(("xfrc_applied", 6 * body + i), 1.0) for i in range(6)] for body in bodies])
+    return np.array([[kept.get(("xfrc_applied", 6 * body + i), 1.0) for i in range(6)] for body in bodies]).reshape(
+        -1, 6
+    )

@@ -4,6 +4,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from worldkit.laws import PLAIN
+
 from ..recording import point_colours
 
 if TYPE_CHECKING:
@@ -60,6 +62,7 @@ class Surface:
         """Mix the colours of the particles around each corner, as paints: by what each takes from light."""
         told = self._told[self._geoms]
         if not self._blended and (not len(told) or told.min() < 0):
+            self._own[:] = PLAIN
             return
         own = np.array([seen_rgb(self._model, geom) for geom in self._geoms]).reshape(-1, 3) if self._blended else told
         own = np.where(told < 0, own, told)

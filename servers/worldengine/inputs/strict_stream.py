@@ -15,18 +15,20 @@ from worldkit.speaking import HELD
 from worldkit.watch import LOOKS, Edit
 
 from ..recording import point_colours
-from ..recording.columns import FORETOLD_COLUMNS, OF_MEDIA, TABLES, arrow_schema
+from ..recording.columns import FORETOLD_COLUMNS, LATER, OF_MEDIA, TABLES, arrow_schema
+from ..recording.stored import by_laws
 from .ports import Ports, flat
 
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
 
-    from ..recording.stored import Recording, Replayable
+    from ..recording.stored import Recording, Replayable, Table
     from .declared_media import Media
 
 SUMS = ("mass", "momentum", "energy", "weight", "stored", "volume", "held")
 """The columns of `balances` in the order in which a law tells them."""
+ANOTHER = "it is of another medium than is due"
 REMEDY = "restore it as it was recorded, or record the world anew"
 
 
@@ -128,8 +130,8 @@ class Recorded:
 class Rows:
     """The rows of one file, by their steps, and the words for what is wrong with one of them."""
 
-    def __init__(self, path: Path, steps: "np.ndarray") -> None:
-        self._path, self.steps = path, steps
+    def __init__(self, path: Path, steps: "np.ndarray", numbers: "np.ndarray | None" = None) -> None:
+        self._path, self.steps, self._numbers = path, steps, numbers
 
     def due(self, steps: int, every: int) -> None:
         """Refuse steps that are not in their order, that the run never takes, or at which nobody is asked."""
@@ -146,7 +148,8 @@ class Rows:
         """Refuse the first row that is bad, with what it holds."""
         if bad.any():
             row = int(bad.argmax())
-            where = f"{self._path.name}, row {row} (step {self.steps[row]})"
+            number = row if self._numbers is None else int(self._numbers[row])
+            where = f"{self._path.name}, row {number} (step {self.steps[row]})"
             raise RecordingError(f"{where}: {cause}: {told[row]}", str(self._path), REMEDY)
 
 
@@ -159,21 +162,26 @@ def _told(recording: "Recording | Replayable", media: "Media", steps: int, every
         due = np.append(due, steps)
     points, sums = recording.media, recording.balances
     count, mediums = sum(media.counts), len(media.counts)
-    for name, table, each in (("media", points, count), ("balances", sums, mediums)):
-        rows = Rows(recording.folder / f"{name}.arrows", np.asarray(table["step"]))
+    mine = np.flatnonzero(by_laws(points, mediums))
+    _behind(Rows(recording.folder / "media.arrows", np.asarray(points["step"])), points, mediums)
+    for name, table, each, numbers in (
+        ("media", points, count, mine),
+        ("balances", sums, mediums, np.arange(len(sums))),
+    ):
+        rows = Rows(recording.folder / f"{name}.arrows", np.asarray(table["step"])[numbers], numbers)
         which = np.repeat(np.arange(mediums), media.counts) if name == "media" else np.arange(mediums)
-        if len(table) != each * len(due):
-            cause = f"{name}.arrows has {len(table)} rows, and {len(due)} steps at which {each} are due"
+        if len(numbers) != each * len(due):
+            cause = f"{name}.arrows has {len(numbers)} rows, and {len(due)} steps at which {each} are due"
             raise RecordingError(cause, str(recording.folder), REMEDY)
         rows.refuse(rows.steps != np.repeat(due, each), "it is of a step at which nothing is due", rows.steps)
-        kinds = np.asarray(table["medium"])
-        rows.refuse(kinds != np.tile(which, len(due)), "it is of another medium than is due", kinds)
-    rows = Rows(recording.folder / "media.arrows", np.asarray(points["step"]))
-    order = np.concatenate([np.arange(n) for n in media.counts])
-    rows.refuse(points["point"] != np.tile(order, len(due)), "it is of another point than is due", points["point"])
-    place = np.asarray(points["place"], float)
+        kinds = np.asarray(table["medium"])[numbers]
+        rows.refuse(kinds != np.tile(which, len(due)), ANOTHER, kinds)
+    rows = Rows(recording.folder / "media.arrows", np.asarray(points["step"])[mine], mine)
+    order, point = np.concatenate([np.arange(n) for n in media.counts]), np.asarray(points["point"])[mine]
+    rows.refuse(point != np.tile(order, len(due)), "it is of another point than is due", point)
+    place = np.asarray(points["place"], float)[mine]
     rows.refuse(~(np.abs(place) < HUGE).all(axis=1), "it lies nowhere", place)
-    colour = np.asarray(points["colour"], float)
+    colour = np.asarray(points["colour"], float)[mine]
     rows.refuse(point_colours.wrong(colour), "its colour is none", colour)
     rows = Rows(recording.folder / "balances.arrows", np.asarray(sums["step"]))
     columns = [np.asarray(sums[name], float).reshape(len(sums), -1) for name in SUMS]
@@ -197,6 +205,21 @@ def _told(recording: "Recording | Replayable", media: "Media", steps: int, every
     }
 
 
+def _behind(rows: "Rows", points: "Table", mediums: int) -> None:
+    """Refuse rows that are neither of a law nor of what a solver moves: that comes behind the laws at each step, from its first
+    point on; a replay reckons it anew.
+    """
+    import numpy as np
+
+    medium, point = (np.asarray(points[name]) for name in ("medium", "point"))
+    beside = medium >= mediums
+    follows = np.zeros(len(medium), bool)
+    follows[1:] = (np.diff(rows.steps) == 0) & (np.diff(medium) == 0) & (np.diff(point) == 1)
+    before = np.zeros(len(medium), bool)
+    before[:-1] = (np.diff(rows.steps) == 0) & ~beside[1:]
+    rows.refuse((medium < 0) | beside & (before | ~follows & (point != 0)), ANOTHER, medium)
+
+
 def _whole(path: Path, name: str) -> None:
     """Refuse a file that is torn, or that is no such table; one that is not there says that nothing was sent."""
     import pyarrow as pa
@@ -205,7 +228,8 @@ def _whole(path: Path, name: str) -> None:
         return
     try:
         with pa.memory_map(str(path)) as file, pa.ipc.open_stream(file) as reader:
-            forms = (TABLES[name], FORETOLD_COLUMNS) if name == "inputs" else (TABLES[name],)
+            earlier = tuple(column for column in TABLES[name] if (name, column.name) not in LATER)
+            forms = (TABLES[name], FORETOLD_COLUMNS if name == "inputs" else earlier)
             if not any(reader.schema.equals(arrow_schema(form)) for form in forms):
                 raise RecordingError(f"{path.name} is no table of {name}: its columns are others", str(path), REMEDY)
             for batch in reader:

@@ -160,6 +160,8 @@ TABLES: Mapping[str, tuple[Column, ...]] = {
 """The tables beside the state, each in `<name>.arrows`."""
 OF_MEDIA = ("media", "balances")
 """Those that only a world has with an author's law (`worldengine.inputs.declared_media`), or a solver that moves a flex."""
+LATER = {("media", "colour"): -1}
+"""Columns that an earlier version did not record, by table and name, and what stood in them then."""
 
 
 def arrow_schema(columns: tuple[Column, ...]) -> Any:

@@ -1,6 +1,5 @@
 """Lay what shows an author's laws where its points lay: between two recorded instants on the straight way from one to the next."""
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from worldkit.errors import ProgramError, RecordingError
@@ -37,19 +36,19 @@ class Lain:
         except ProgramError as error:
             raise RecordingError(error.cause, str(recording.folder), "draw it with the world that it is of") from error
         step, medium = np.asarray(media.step), np.asarray(media.medium)
-        steps = np.unique(step)
-        self.times = steps * recording.time_step
-        """(F,) s: when they lay there."""
+        self.times: list[np.ndarray] = []
+        """Of each medium (F,) s: when its points lay there; what a solver moves has instants of its own."""
         self.points: list[np.ndarray] = []
         """Of each medium (F, n, 3) m."""
         self.colours: list[np.ndarray | None] = []
         """Of each medium (F, n), each as one number; None where it has none."""
         for number, (row, place) in enumerate(zip(rows, self._places, strict=True)):
-            mine = np.asarray(media.place)[medium == number]
+            mine, steps = np.asarray(media.place)[medium == number], np.unique(step[medium == number])
             whole = len(mine) // max(1, place.count)  # a torn recording ends within an instant
             if not whole or (len(mine) != place.count * len(steps) and recording.complete):
                 cause = f"the recording has {len(mine)} places of the law {row.name}, {place.count} points at {len(steps)} instants"
                 raise RecordingError(cause, str(recording.folder), "run the physics pass again")
+            self.times.append(steps[:whole] * recording.time_step)
             self.points.append(mine[: whole * place.count].reshape(whole, place.count, 3))
             told = np.asarray(media.colour)[medium == number] if "colour" in media.columns else np.empty(0)
             own = told[: whole * place.count]
@@ -59,22 +58,34 @@ class Lain:
 
     def show(self, data: "mujoco.MjData") -> None:
         """Lay them as they were at the data's time."""
-        for place, points, colours in zip(self._places, self.points, self.colours, strict=True):
-            times, at = self.times[: len(points)], float(data.time)
-            shown = None if colours is None else between(times, colours, at, point_colours.shares)
-            place.show(data, between(times, points, at), shown)
+        at = float(data.time)
+        for place, times, points, colours in zip(self._places, self.times, self.points, self.colours, strict=True):
+            place.show(data, between(times, points, at), None if colours is None else mixed(times, colours, at))
 
 
-def between(
-    times: "np.ndarray", points: "np.ndarray", at: float, read: "Callable[[np.ndarray], np.ndarray]" = lambda one: one
-) -> "np.ndarray":
-    """(n, 3) m: the points at an instant, s, from those (F, n, 3) at the times (F,), as they are read; the first before, the last
-    after.
-    """
+def between(times: "np.ndarray", points: "np.ndarray", at: float) -> "np.ndarray":
+    """(n, 3) m: the points at an instant, s, from those (F, n, 3) at the times (F,); the first before, the last after."""
     import numpy as np
 
-    after = int(np.clip(np.searchsorted(times, at), 1, max(1, len(times) - 1)))
+    before, after, share = _around(times, at)
+    return np.asarray(points[before] * (1.0 - share) + points[after] * share)
+
+
+def mixed(times: "np.ndarray", colours: "np.ndarray", at: float) -> "np.ndarray":
+    """(n, 3) sRGB at an instant, s, from the numbers (F, n) at the times (F,): where one of the two around it is none, the earlier."""
+    import numpy as np
+
+    before, after, share = _around(times, at)
+    first, second = (point_colours.shares(colours[n]) for n in (before, after))
+    whole = (first >= 0) & (second >= 0)
+    return np.where(whole, first * (1.0 - share) + second * share, second if share == 1.0 else first)
+
+
+def _around(times: "np.ndarray", at: float) -> tuple[int, int, float]:
+    """The instants before and after one, and how far it is on the way."""
+    import numpy as np
+
     if len(times) == 1:
-        return np.asarray(read(points[0]))
-    share = float(np.clip((at - times[after - 1]) / (times[after] - times[after - 1]), 0.0, 1.0))
-    return np.asarray(read(points[after - 1]) * (1.0 - share) + read(points[after]) * share)
+        return 0, 0, 0.0
+    after = int(np.clip(np.searchsorted(times, at), 1, len(times) - 1))
+    return after - 1, after, float(np.clip((at - times[after - 1]) / (times[after] - times[after - 1]), 0.0, 1.0))

@@ -86,11 +86,12 @@ def _shown(model: "mujoco.MjModel", recording: "Recording") -> "Iterator[tuple[S
     """The solvers that are drawn, each with its geom and its channels."""
     from worldkit.naming import names
 
+    from ..inputs.told_laws import told
     from ..solvers import Row, called, check
 
     rows = [Row.read(row) for row in recording.meta.get("solvers", ())]
     geoms = names(model, "geom", model.ngeom)
-    moved = {row["law"]["shown_by"] for row in recording.meta.get("shown", ())}
+    moved = {row.shown_by for row in told(recording.meta, str(recording.folder), "shown")}
     for name, row in zip(called(rows), rows, strict=True):
         if row.shown_by and row.shown_by not in moved:
             if row.shown_by not in geoms:

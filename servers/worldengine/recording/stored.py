@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.errors import RecordingError
 
 from . import push_blocks
-from .columns import CAMERAS_FILE, OF_MEDIA, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
+from .columns import CAMERAS_FILE, LATER, OF_MEDIA, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
 from .foretold import BYTES, WEIGHTS, Forecast, weights_of
 from .record import HASHED, combine
 
@@ -58,6 +58,11 @@ class Table:
     def __getitem__(self, name: str) -> "np.ndarray":
         """A column by name; unknown names list the known ones."""
         if name not in self._made:
+            later = LATER.get((self._path.stem, name))
+            if later is not None and not self.holds(name):
+                import numpy as np
+
+                return np.full(self._length, later, np.int32)
             if name not in self.columns:
                 raise AttributeError(f"{self._path.name} has no column {name!r}; it has: {', '.join(self.columns)}")
             self._made[name] = self._column(self.columns[name])
@@ -65,6 +70,10 @@ class Table:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self.columns]
+
+    def holds(self, name: str) -> bool:
+        """Whether its file has this column."""
+        return name in (self._batches[0].schema.names if self._batches else self.columns)
 
     def take(self, columns: "Mapping[str, np.ndarray]") -> None:
         """Have these columns, if any, in place of the file's."""
@@ -302,14 +311,26 @@ class Replayable:
 
 
 def inputs_digest(folder: Path) -> str:
-    """SHA-256 of what was sent to a world, the rows of `inputs`, `edits` and a law's tables; empty when nothing was sent."""
-    found = Replayable(folder)
-    digest = hashlib.sha256()
-    told = tuple((name, table) for name in OF_MEDIA if len(table := getattr(found, name)))
-    for name, table in (("inputs", found.inputs), ("edits", found.edits), *told):
+    """SHA-256 of what was sent to a world, the rows of `inputs`, `edits` and of its laws; empty when nothing was sent."""
+    found, digest = Replayable(folder), hashlib.sha256()
+    of_laws = by_laws(found.media, int(found.balances.medium.max(initial=-1)) + 1)
+    media = [("media", found.media)] if of_laws.any() else []
+    balances = [("balances", found.balances)] if len(found.balances) else []
+    for name, table in [("inputs", found.inputs), ("edits", found.edits), *media, *balances]:
         for column in (c for c in TABLES[name] if c.name not in ("time", "row")):
-            digest.update(f"\n{name}.{column.name} {len(table)} ".encode() + _content(table[column.name]))
-    return digest.hexdigest() if told or len(found.inputs) or len(found.edits) else ""
+            if (name, column.name) not in LATER or table.holds(column.name):
+                values = table[column.name][of_laws] if name == "media" else table[column.name]
+                digest.update(f"\n{name}.{column.name} {len(values)} ".encode() + _content(values))
+    return digest.hexdigest() if media or balances or len(found.inputs) or len(found.edits) else ""
+
+
+def by_laws(media: Table, laws: int) -> "np.ndarray":
+    """(rows,) bool: which points are of the first so many media, the author's laws; those behind are what solvers of the suite move,
+    which nobody sends.
+    """
+    import numpy as np
+
+    return np.asarray(media.medium) < laws
 
 
 def open(folder: Path | str) -> Recording:

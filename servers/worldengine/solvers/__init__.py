@@ -8,6 +8,7 @@ The folder is the list: a module that defines what `Solver` names is a solver. A
 row of `simulation_parameters.interventions` of the kind `solver`, which names its bodies and the constants that it reads.
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
@@ -156,4 +157,7 @@ def check(row: Row) -> Solver:
             raise ProgramError(
                 f"the solver {row.solver} {what} {', '.join(sorted(names))}", "interventions", f"it reads: {needed}"
             )
+    if wild := [name for name, value in row.constants.items() if not math.isfinite(value)]:
+        cause = f"the constant {wild[0]} of the solver {row.solver} is {row.constants[wild[0]]}"
+        raise ProgramError(cause, "interventions", "let it be a finite number")
     return solver

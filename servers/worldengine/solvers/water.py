@@ -35,6 +35,8 @@ MOST_CELLS, MOST_CELLS_CUT = 9_000, 1_700
 """Of a rectangle, whose waves cost little, and of any other shore."""
 CELLS_A_HALF, FEWEST_CELLS = 6.0, 900
 """Cells over half the width of the smallest body, and in all, at least."""
+HALF_M = 0.1
+"""Half the width of a body, as far as the grid goes, where there is none: a pond for itself."""
 LEAST_CELL = 0.0008
 """m."""
 LONGEST_S = 0.01
@@ -119,7 +121,7 @@ class Pool:
         if abs(level - told["level"]) > AGREED_M:
             cause = f"the plan says the water's level is at {told['level']:g} m, and {shown_by} shows it at {level:g} m"
             raise ProgramError(cause, "interventions", "say the same in both")
-        grid = _grid(outline, float(hulls.size.min()))
+        grid = _grid(outline, float(hulls.size.min(initial=HALF_M)))
         depth = _depth(model, data, grid, level, floor, bodies)
         self.water = Water(
             grid, level, depth, Liquid(told["density"], told["viscosity"], told["tension"]), hulls, gravity
@@ -137,7 +139,7 @@ class Pool:
         self.every = max(1, round(1.0 / (DRAWN_HZ * step)))
         """Steps from one record of what shows it to the next."""
         immersed = Column("immersed", (len(bodies),), "m^3", "of each of its bodies, under water")
-        columns = (LEVEL, HIGHEST, VOLUME, ENERGY, DROPS, immersed)
+        columns = (LEVEL, HIGHEST, VOLUME, ENERGY, DROPS, *([immersed] if bodies else []))
         self.channels = {column: np.zeros(column.shape) for column in columns}
         self._place = data.xipos[list(bodies)].copy()
         self._down = np.zeros(len(hulls.owner))
@@ -207,7 +209,7 @@ class Pool:
             float((self.spray.radius > 0).sum()),
             water.hulls.summed(water.hulls.volume * met.felt.share_under),
         )
-        for array, value in zip(self.channels.values(), values, strict=True):
+        for array, value in zip(self.channels.values(), values, strict=False):  # of no bodies, nothing is told of them
             array[...] = np.asarray(value)
 
 
@@ -254,7 +256,9 @@ def _shape(model: "mujoco.MjModel", data: "mujoco.MjData", shown_by: str) -> "tu
 
 def _grid(outline: "np.ndarray", half: float) -> Any:
     """The cells of the surface, as fine as the smallest body asks for, whose half width is `half`, m, or as many as there may be."""
-    from ..waves.wet_grid import WetGrid, area, rectangle
+    from worldkit.polygons import area
+
+    from ..waves.wet_grid import WetGrid, rectangle
 
     most = MOST_CELLS if rectangle(outline) else MOST_CELLS_CUT
     wanted = max(LEAST_CELL, half / CELLS_A_HALF)

@@ -11,6 +11,7 @@ import numpy as np
 
 from .body_of_water import ADDED, Felt, Water
 from .hull_samples import cross
+from .welded import Wholes
 
 if TYPE_CHECKING:
     import mujoco
@@ -30,7 +31,7 @@ class Met:
     wrench: Array
     """(n, 6) N and N m on the bodies, at their centres of mass."""
     speed: Array
-    """(n, 3) m/s, of these."""
+    """(n, 3) m/s, of the centre of mass of each with what is welded to it."""
     moved: Array
     """(n,) kg: the mass of water that goes along."""
     down: Array
@@ -52,8 +53,9 @@ class Afloat:
     def __init__(self, model: "mujoco.MjModel", water: Water) -> None:
         self._model, self._water = model, water
         bodies = water.hulls.bodies
-        self._mass = model.body_mass[bodies].copy()
-        self._inertia = np.maximum(model.body_inertia[bodies], 1e-12)
+        self._wholes = Wholes.of(model, bodies)
+        self._mass = self._wholes.mass
+        self._inertia = np.maximum(self._wholes.inertia, 1e-12)
         self._weight = self._mass[:, None] * model.opt.gravity
         self._drag = 0.5 * water.liquid.density * water.hulls.drag * water.hulls.volume
         nu = water.liquid.viscosity / water.liquid.density
@@ -70,17 +72,14 @@ class Afloat:
 
     def meet(self, data: "mujoco.MjData") -> Met:
         """What the water does to the bodies as they are now; nothing of it is kept."""
-        from ..inputs.pushes import twist
-
         water, hulls, step = self._water, self._water.hulls, float(self._model.opt.timestep)
         density, gravity = water.liquid.density, water.gravity
         if self._dry(data):
             return self._nothing(data)
         points = hulls.at(data)
         felt = water.weigh(points)
-        arm = points - data.xipos[hulls.bodies][hulls.owner]
-        moves = np.array([twist(self._model, data, int(body)) for body in hulls.bodies])
-        speed, spin = moves[:, :3], moves[:, 3:]
+        speed, spin, lies = self._moves(data)
+        arm = points - (data.xipos[hulls.bodies] + lies)[hulls.owner]
         under = hulls.volume * felt.share_under
         lift = -density * gravity * under[:, None] * felt.slope
         lift[:, 2] += density * gravity * under
@@ -108,7 +107,7 @@ class Afloat:
         given = np.where(held[:, None], given, 0.0)
         # What turns in water is braked, about each of its own axes, no further than to rest.
         brake = -hulls.summed(cross(arm, rate[:, None] * cross(spin[hulls.owner], arm)))
-        own = data.ximat[hulls.bodies].reshape(-1, 3, 3)
+        own = data.ximat[hulls.bodies].reshape(-1, 3, 3) @ self._wholes.axes
         stop = hulls.summed(rate * (arm**2).sum(axis=1))[:, None] * step / self._inertia
         torque += np.einsum("nij,nj->ni", own, np.einsum("nji,nj->ni", own, brake) / (1 + stop))
         resist = drag * after[:, 2] - rises_dragged + gains * (after[:, 2] - rises)
@@ -116,10 +115,20 @@ class Afloat:
         through_it[:, 2] -= rises
         square = (through_it**2).sum(axis=1)
         down = -resist[hulls.owner] * under / np.maximum(wet, 1e-12)[hulls.owner]
+        torque = torque * held[:, None] + cross(lies, given)  # at the body's own centre, where the engine takes it
         return Met(
-            felt, np.concatenate([given, torque * held[:, None]], axis=1), speed, moved, down,
+            felt, np.concatenate([given, torque], axis=1), speed, moved, down,
             0.5 * gains * square, np.sqrt(square),
         )  # fmt: skip
+
+    def _moves(self, data: "mujoco.MjData") -> "tuple[Array, Array, Array]":
+        """(n, 3) m/s and rad/s: how each whole moves; (n, 3) m: from its body's own centre of mass to that of the whole."""
+        from ..inputs.pushes import twist
+
+        bodies = self._water.hulls.bodies
+        moves = np.array([twist(self._model, data, int(body)) for body in bodies]).reshape(-1, 6)
+        lies = np.einsum("nij,nj->ni", data.ximat[bodies].reshape(-1, 3, 3), self._wholes.middle)
+        return moves[:, :3] + cross(moves[:, 3:], lies), moves[:, 3:], lies
 
     def _dry(self, data: "mujoco.MjData") -> bool:
         """Whether all bodies are over the highest wave, and were so before."""
@@ -129,11 +138,9 @@ class Afloat:
 
     def _nothing(self, data: "mujoco.MjData") -> Met:
         """What water does to bodies over it."""
-        from ..inputs.pushes import twist
-
         hulls = self._water.hulls
         n, lumps = len(hulls.bodies), len(hulls.owner)
-        speed = np.array([twist(self._model, data, int(body))[:3] for body in hulls.bodies])
+        speed, _, _ = self._moves(data)
         cells = np.zeros((lumps, 4), int)
         none = np.zeros(lumps)
         felt = Felt(

@@ -35,7 +35,9 @@ class Hulls:
 
     def __init__(self, model: "mujoco.MjModel", bodies: Sequence[int]) -> None:
         solid = (model.geom_contype != 0) | (model.geom_conaffinity != 0)
-        places, volumes, owners, rises, sizes, drags = [], [], [], [], [], []
+        none = np.zeros(0)  # water may be there for itself
+        places, volumes, owners = [np.zeros((0, 3))], [none], [np.zeros(0, int)]
+        rises, sizes, drags = [none], [none], [none]
         for order, body in enumerate(bodies):
             mine = np.flatnonzero((model.geom_bodyid == body) & solid)
             if not len(mine):
@@ -54,7 +56,7 @@ class Hulls:
                 sizes.append(np.full(len(points), float(half[1])))
                 across = _face(int(model.geom_type[geom]), model.geom_size[geom], half)
                 drags.append(np.full(len(points), DRAG.get(int(model.geom_type[geom]), 1.0) * across / volume))
-        self.bodies = np.array(bodies)
+        self.bodies = np.array(bodies, int)
         self.place, self.volume, self.owner = (np.concatenate(part) for part in (places, volumes, owners))
         """(L, 3) m in the body's frame, (L,) m^3, (L,) which of the n bodies."""
         self.rise, self.size, self.drag = (np.concatenate(part) for part in (rises, sizes, drags))

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from worldkit.errors import ProgramError
+from worldkit.moved_shapes import at_rest
 
 from .wet_grid import WetGrid
 
@@ -26,16 +27,20 @@ class ShownWater:
         flex: its number.
 
     Raises:
-        ProgramError: it has no surface that lies level and has a shore.
+        ProgramError: it is of no triangles, or has no surface that lies level and has a shore.
     """
 
     def __init__(self, model: "mujoco.MjModel", flex: int) -> None:
         from scipy.sparse import coo_matrix
         from scipy.sparse.csgraph import connected_components
 
-        first, count = int(model.flex_vertadr[flex]), int(model.flex_vertnum[flex])
+        count = int(model.flex_vertnum[flex])
+        if int(model.flex_dim[flex]) != 2:
+            raise ProgramError(
+                "what shows the water is no surface of triangles", "interventions", "make it by waters.fill"
+            )
         start, faces = int(model.flex_elemdataadr[flex]), int(model.flex_elemnum[flex])
-        self._rest = _corners(model, first, count)
+        self._rest = at_rest(model, flex)
         triangles = model.flex_elem[start : start + 3 * faces].reshape(-1, 3)
         pairs = np.concatenate([triangles[:, :2], triangles[:, 1:]])
         graph = coo_matrix((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
@@ -53,7 +58,7 @@ class ShownWater:
         if len(self.outline) < 3:
             raise ProgramError("what shows the water has no level surface", "interventions", "make it by waters.fill")
         others = [np.flatnonzero(part == one) for one in range(number) if one != main]
-        self._beads = np.stack(others) if others and len({len(o) for o in others}) == 1 else np.zeros((0, 0), int)
+        self._beads = np.stack(others) if others and len({len(o) for o in others}) == 1 else np.zeros((0, 1), int)
         own = self._rest[self._beads]
         away = own - own.mean(axis=1, keepdims=True)
         self._ball = away / np.maximum(np.linalg.norm(away, axis=2, keepdims=True), 1e-12)
@@ -78,16 +83,6 @@ class ShownWater:
             where = np.where(flies[:, None], place, idle)
             out[self._beads] = where[:, None] + np.where(flies, radius, HIDDEN)[:, None, None] * self._ball
         return out
-
-
-def _corners(model: "mujoco.MjModel", first: int, count: int) -> Array:
-    """(n, 3) m: the corners of a flex at rest, world frame."""
-    import mujoco
-
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_flex(model, data)
-    return np.array(data.flexvert_xpos[first : first + count])
 
 
 def _rim(triangles: Array) -> Array:

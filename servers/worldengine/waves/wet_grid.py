@@ -11,6 +11,8 @@ from functools import cached_property
 import numpy as np
 from scipy.fft import next_fast_len
 
+from worldkit.polygons import area, inside
+
 LEAST_SHARE = 0.3
 """A cell with less water belongs to its neighbours, or the quickest waves would be those of a sliver."""
 FINER = 8
@@ -115,12 +117,6 @@ class WetGrid:
         return tuple(np.concatenate(part) for part in zip(*pairs, strict=True))  # type: ignore[return-value]
 
 
-def area(outline: Array) -> float:
-    """m^2, of a polygon."""
-    x, y = outline.T
-    return float(abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2)
-
-
 def crossed(outline: Array, x: float, ys: Array) -> Array:
     """(n,) whether the points (x, y) for ascending y are within a polygon: where its edges cross that line changes it."""
     a, b = outline, np.roll(outline, -1, axis=0)
@@ -128,19 +124,6 @@ def crossed(outline: Array, x: float, ys: Array) -> Array:
     a, b = a[cut], b[cut]
     at = np.sort(a[:, 1] + (x - a[:, 0]) / (b[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1]))
     return np.asarray(np.searchsorted(at, ys) % 2 == 1)
-
-
-def inside(outline: Array, points: Array) -> Array:
-    """(n,) whether points (n, 2) are within a polygon, some at a time."""
-    a, b = outline, np.roll(outline, -1, axis=0)
-    found = np.zeros(len(points), bool)
-    for part in np.array_split(np.arange(len(points)), max(1, len(points) * len(outline) // 2_000_000 + 1)):
-        x, y = points[part, 0, None], points[part, 1, None]
-        cut = (a[:, 0] <= x) != (b[:, 0] <= x)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            at = a[:, 1] + (x - a[:, 0]) / (b[:, 0] - a[:, 0]) * (b[:, 1] - a[:, 1])
-        found[part] = (cut & (at < y)).sum(axis=1) % 2 == 1
-    return found
 
 
 def rectangle(outline: Array) -> bool:

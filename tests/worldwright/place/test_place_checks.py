@@ -580,3 +580,43 @@ def test_of_a_model_the_whole_is_seen(tmp_path):
     # 0.52 m at 3 m: 720 px of 2 * 3.03 tan(22.5 deg) = 2.51 m
     assert found.views[0].length_px == pytest.approx(0.52 / 2.51 * 720, rel=0.03)
     assert not [f for f in found.findings if f.code == "WP328"]
+
+
+@pytest.mark.parametrize(
+    ("level", "says"),
+    [
+        (0.2, ""),
+        (0.3, "would stand at 0.3 m, 0 m over the rim; it reaches from 0 m to 0.3 m"),
+        (0.45, "would stand at 0.45 m, 0.15 m over the rim"),
+        (-0.1, "would stand at -0.1 m, 0.1 m under the bottom"),
+    ],
+)
+def test_water_that_no_wall_holds_is_named_with_its_number(level, says):
+    tub = {"name": "tub", "primitive": "box_container", "size": [0.6, 0.4, 0.3], "wall_thickness": 0.02, "fixed": True}
+    said = {"name": "water", "constants": {"level": "tub_level"}, "container": "tub"}
+    row = {"kind": "solver", "bodies": [], "law": "Airy", "source": "the prompt's tub", "solver": said}
+    constant = {"value": level, "unit": "m", "source": "the prompt's tub"}
+    asked = {
+        "time_step": 0.002,
+        "simulation_duration": 1.0,
+        "interventions": [row],
+        "constants": {"tub_level": constant},
+    }
+    found = report([tub], [("tub", "PLACE-ON-BASE", None, {"x": 0, "y": 0})], simulation_parameters=asked)
+    told = codes(found).get("WP329", [])
+    assert [says in one for one in told] == ([True] if says else [])
+    if says:
+        (finding,) = [one for one in found.findings if one.code == "WP329"]
+        assert finding.severity == "error" and "`tub_level`" in finding.fix
+
+
+def test_water_without_a_container_or_a_level_is_no_matter_of_its_rim():
+    tub = {"name": "tub", "primitive": "box_container", "size": [0.6, 0.4, 0.3], "wall_thickness": 0.02, "fixed": True}
+    for said in ({"constants": {}, "container": "tub"}, {"constants": {"level": "high"}, "container": "lake"}):
+        row = {"kind": "solver", "bodies": [], "law": "Airy", "source": "s", "solver": {"name": "water", **said}}
+        asked = {
+            "time_step": 0.002, "simulation_duration": 1.0, "interventions": [row],
+            "constants": {"high": {"value": 9.0, "unit": "m", "source": "s"}},
+        }  # fmt: skip
+        found = report([tub], [("tub", "PLACE-ON-BASE", None, {"x": 0, "y": 0})], simulation_parameters=asked)
+        assert "WP329" not in codes(found)

@@ -47,17 +47,21 @@ class ClosedFlex:
             rows.append(mine[i])
             columns.append(faces[j])
         row, column = np.concatenate(rows), np.concatenate(columns)
-        self._beads = _beads(self._triangles, count)
-        """(F,) which triangles are of beads: all pieces but the largest."""
+        beads = _beads(self._triangles, count)
         self._smooth = csr_matrix((np.ones(len(row)), (row, column)), shape=(len(corner), len(self._triangles)))
+        self._parts = [~beads, beads] if beads.any() else [~beads]
+        self.corners = [self._triangles[part].ravel() for part in self._parts]
+        """Of each piece that `read` gives (3 F,) which of the flex's points its corners are."""
+        low, high = points.min(axis=0), points.max(axis=0)
+        self.half, self.middle = float((high - low)[:2].mean() / 2), (low + high) / 2
+        """Half the width, m, and the middle (3,), m, at the start: drops that fly do not count."""
 
     def read(self, data: mujoco.MjData) -> list[tuple[np.ndarray, np.ndarray]]:
         """(3 F, 3) m and (3 F, 3): the corners and their normals in a state, of its largest piece, and of its beads where it has some."""
         points = data.flexvert_xpos[self._rows][self._triangles]
         normals = self._smooth @ _areas(points)
         normals = (normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)).reshape(-1, 3, 3)
-        parts = [~self._beads, self._beads] if self._beads.any() else [~self._beads]
-        return [(points[part].reshape(-1, 3), normals[part].reshape(-1, 3)) for part in parts]
+        return [(points[part].reshape(-1, 3), normals[part].reshape(-1, 3)) for part in self._parts]
 
 
 def closed(model: mujoco.MjModel, flex: int) -> bool:
@@ -69,16 +73,6 @@ def closed(model: mujoco.MjModel, flex: int) -> bool:
     most = int(faces.max(initial=0)) + 1
     there, back = sides @ (most, 1), sides @ (1, most)
     return len(np.unique(there)) == len(there) and bool(np.array_equal(np.sort(there), np.sort(back)))
-
-
-def at_rest(model: mujoco.MjModel) -> np.ndarray:
-    """(n, 3) m: the points of all flexes as the world is built."""
-    import mujoco
-
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    mujoco.mj_flex(model, data)
-    return np.array(data.flexvert_xpos)
 
 
 def _triangles(model: mujoco.MjModel, flex: int) -> np.ndarray:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import copy
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from worldkit.moved_shapes import at_rest
+
 from ....recording import point_colours
-from .closed_flexes import ClosedFlex, at_rest, closed
+from .closed_flexes import ClosedFlex, closed
 
 if TYPE_CHECKING:
     import mujoco
@@ -103,15 +106,18 @@ class SoftShapes:
                 strands.append(Strand(material, rgba, np.array(geom.pos, dtype=float), turn, *size))
             elif geom.type == kinds.mjGEOM_FLEX and scene.flexfaceused[number]:
                 first, count = int(scene.flexfaceadr[number]), int(scene.flexfaceused[number])
-                pieces = self._solid(number, data) if number in self._closed else [
-                    tuple(np.array(values).reshape(-1, 9)[first : first + count].reshape(-1, 3) for values in (scene.flexface, scene.flexnormal))
-                ]  # fmt: skip
+                if number in self._closed:
+                    pieces, corners = self._solid(number).read(data), self._solid(number).corners
+                else:
+                    pieces, corners = [
+                        tuple(np.array(values).reshape(-1, 9)[first : first + count].reshape(-1, 3) for values in (scene.flexface, scene.flexnormal))
+                    ], None  # fmt: skip
                 if material < 0:  # MuJoCo 4 keeps one for each element, and its scene names none; the first one counts
                     material = int(model.flex_matid[model.flex_elemadr[number]])
-                colours = None if number in self._closed else self._of_flex(number, data)
-                for piece, (points, normals) in enumerate(pieces):
+                colours = self._of_flex(number, data, corners)
+                for piece, ((points, normals), own) in enumerate(zip(pieces, colours, strict=True)):
                     key = ("flex", number, piece)
-                    patches.append(Patch(key, points, normals, None, material, rgba, FLEX - number, colours))
+                    patches.append(Patch(key, points, normals, None, material, rgba, FLEX - number, own))
             elif geom.type == kinds.mjGEOM_SKIN:
                 first, count = int(scene.skinvertadr[number]), int(scene.skinvertnum[number])
                 points, normals = (
@@ -136,28 +142,31 @@ class SoftShapes:
 
     def around(self, flex: int) -> tuple[float, np.ndarray]:
         """Half the width, m, and the middle (3,), m, of a flex that is closed, as it is built: drops that fly do not count."""
-        first, count = int(self.model.flex_vertadr[flex]), int(self.model.flex_vertnum[flex])
-        points = at_rest(self.model)[first : first + count]
-        low, high = points.min(axis=0), points.max(axis=0)
-        return float((high - low)[:2].mean() / 2), (low + high) / 2
+        made = self._solid(flex)
+        return made.half, made.middle
 
-    def _solid(self, flex: int, data: mujoco.MjData) -> list[tuple[np.ndarray, np.ndarray]]:
-        """The corners of a flex that is drawn as what it encloses, and their normals, of each of its pieces."""
+    def _solid(self, flex: int) -> ClosedFlex:
+        """A flex that is drawn as what it encloses."""
         made = self._closed[flex]
         if made is None:
-            first, count = int(self.model.flex_vertadr[flex]), int(self.model.flex_vertnum[flex])
-            made = self._closed[flex] = ClosedFlex(self.model, flex, at_rest(self.model)[first : first + count])
-        return made.read(data)
+            made = self._closed[flex] = ClosedFlex(self.model, flex, at_rest(self.model, flex))
+        return made
 
-    def _of_flex(self, number: int, data: mujoco.MjData) -> np.ndarray | None:
-        """(3 N, 3) the colours of the corners of a flex's triangles as the scene has them; None where its points have none."""
+    def _of_flex(
+        self, number: int, data: mujoco.MjData, corners: list[np.ndarray] | None
+    ) -> Sequence[np.ndarray | None]:
+        """Of each piece of a flex (3 N, 3) the colours of its corners, which are of these points, or those that the scene has; None
+        where its points have none.
+        """
         first, count = (int(a[number]) for a in (self.model.flex_vertadr, self.model.flex_vertnum))
         colours = point_colours.linear(point_colours.of(self.model).flex[first : first + count])
         if colours is None:
-            return None
-        if self._corners is None:
-            self._corners = self._points_of_corners(data)
-        return np.asarray(colours[self._corners[number] - first])
+            return [None] * len(corners or (0,))
+        if corners is None:
+            if self._corners is None:
+                self._corners = self._points_of_corners(data)
+            corners = [self._corners[number] - first]
+        return [np.asarray(colours[which]) for which in corners]
 
     def _points_of_corners(self, data: mujoco.MjData) -> list[np.ndarray]:
         """Of each flex, (3 N,) which of the model's flex points each corner of its triangles in the scene is of: asked of the
