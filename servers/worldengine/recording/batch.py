@@ -59,7 +59,8 @@ class Batch:
         self.carries = bool(model.neq or model.ntendon)
         # Views into MjData stay valid for its lifetime, except those of the contact and constraint arena.
         self._buffers: dict[str, np.ndarray] = {}
-        self.before = self._mirror(
+        self._momentum = mujoco.mj_subtreeVel
+        self._before = self._mirror(
             {
                 **{name: getattr(data, name) for name in PLAIN if name not in ("actuator_force", "sensordata")},
                 "xpos": data.xpos[1:],
@@ -74,7 +75,7 @@ class Batch:
             }
         )
         self.controls = (self._buffers["ctrl"], data.ctrl) if data.ctrl.size else None
-        self.after = self._mirror(
+        self._after = self._mirror(
             {
                 "actuator_force": data.actuator_force,
                 "sensordata": data.sensordata,
@@ -104,6 +105,24 @@ class Batch:
     def buffer(self, name: str) -> "np.ndarray":
         """The filled rows of a mirrored array."""
         return self._buffers[name][: self.rows]
+
+    def copy_before(self, data: "mujoco.MjData") -> None:
+        """Copy what derives from positions and velocities into the row that is open."""
+        self._momentum(self._model, data)
+        self.time[self.rows] = data.time
+        for buffer, source in self._before:
+            buffer[self.rows] = source
+
+    def copy_after(self, data: "mujoco.MjData") -> None:
+        """Copy what derives from forces, and end the row."""
+        row = self.rows
+        for buffer, source in self._after:
+            buffer[row] = source
+        self.nisland[row] = data.nisland
+        self.add_contacts(row, data)
+        if self.carries:
+            self.add_loads(row, data)
+        self.rows = row + 1
 
     def add_contacts(self, row: int, data: "mujoco.MjData") -> None:
         """Append this step's contacts and constraint forces (strided copies, no loop over contacts)."""

@@ -68,16 +68,13 @@ class Recorder:
         batch_rows: int | None = None,
         channels: "Mapping[Column, np.ndarray] | None" = None,
     ) -> None:
-        import mujoco
-
-        self._model, self._data, self._folder = model, data, Path(folder)
+        self._data, self._folder = data, Path(folder)
         if (self._folder / "meta.json").exists():
             raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
         sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
         self._channels = dict(channels or {})
         self.columns = (*state_columns(sizes), *self._channels)
         self._derived = Derived(model, tuple(column.name for column in self._channels))
-        self._momentum = mujoco.mj_subtreeVel
         row_bytes = 8 * (model.nq + model.nv + 22 * model.nbody + 200)
         self.batch_rows = batch_rows or max(8, min(1024, BATCH_BYTES // row_bytes))
         live = {column.name: array for column, array in self._channels.items()}
@@ -132,24 +129,14 @@ class Recorder:
 
     def before(self) -> None:
         """Copy the state and what derives from positions and velocities (after `mj_step1`, before the step)."""
-        batch, row = self._batch, self._batch.rows
-        self._momentum(self._model, self._data)
-        batch.time[row] = self._data.time
-        for buffer, source in batch.before:
-            buffer[row] = source
+        self._batch.copy_before(self._data)
 
     def after(self) -> None:
         """Copy what derives from forces (after `mj_step2`, or after `mj_forward`), and end the row."""
-        batch, row, data = self._batch, self._batch.rows, self._data
-        for buffer, source in batch.after:
-            buffer[row] = source
-        batch.nisland[row] = data.nisland
-        batch.add_contacts(row, data)
-        if batch.carries:
-            batch.add_loads(row, data)
-        batch.rows = row + 1
+        batch = self._batch
+        batch.copy_after(self._data)
         now = time.perf_counter()
-        if row == 0:
+        if batch.rows == 1:
             self._started = now
         if batch.rows == batch.capacity or now - self._started > FLUSH_S:
             self.flush()

@@ -33,11 +33,8 @@ class Episode:
     """
 
     def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", meta: dict[str, Any], most: int) -> None:
-        import mujoco
-
-        self._model, self._data, self._meta = model, data, meta
+        self._data, self._meta = data, meta
         self._batch, self._derived = Batch(model, data, most), Derived(model)
-        self._momentum = mujoco.mj_subtreeVel
         sizes = {"bodies": model.nbody - 1, **{name: int(getattr(model, name)) for name in SIZES}}
         self._columns = state_columns(sizes, empty=True)
 
@@ -47,22 +44,11 @@ class Episode:
 
     def before(self) -> None:
         """Copy what derives from positions and velocities, once the action is written."""
-        row = self._batch.rows
-        self._momentum(self._model, self._data)
-        self._batch.time[row] = self._data.time
-        for buffer, source in self._batch.before:
-            buffer[row] = source
+        self._batch.copy_before(self._data)
 
     def after(self) -> None:
         """Copy what derives from forces, and end the row."""
-        batch, row, data = self._batch, self._batch.rows, self._data
-        for buffer, source in batch.after:
-            buffer[row] = source
-        batch.nisland[row] = data.nisland
-        batch.add_contacts(row, data)
-        if batch.carries:
-            batch.add_loads(row, data)
-        batch.rows = row + 1
+        self._batch.copy_after(self._data)
 
     def __len__(self) -> int:
         return self._batch.rows
