@@ -162,7 +162,12 @@ def test_bodies_stand_where_they_stood_whatever_is_drawn(made):
     assert not model.geom_contype[drawn].any()
     assert not model.geom_conaffinity[drawn].any()
     assert model.body_mass == pytest.approx(made.plain.body_mass)
-    assert film.told(24)["drawn_only"] == ["hat (on first)", "wall", "grass", "dust (5 particles)"]
+    assert film.told(24)["drawn_only"] == [
+        "hat (on first, 0.2 m, as large as second)",
+        "wall",
+        "grass",
+        "dust (5 particles)",
+    ]
 
 
 def test_recorded_colours_reach_their_own_geom_wherever_additions_shifted_it(made):
@@ -613,6 +618,22 @@ def test_spaces_and_line_ends_of_a_caption_stay():
     together, apart, below = columns("12 J 9 J"), columns("12 J      9 J"), columns("12 J\n9 J")
     assert apart[0] > together[0] + 10 and apart[1] == together[1]
     assert below[0] < together[0] and below[1] > 1.8 * together[1]
+
+
+def test_however_much_a_corner_has_to_say_the_speed_stands_in_it():
+    black = np.zeros((270, 480, 3), np.uint8)
+    names = "drawn: " + ", ".join(["a cloud of dust that is as large as the ball that flies through it"] * 3)
+    usual, slow, again, alone = (
+        letter(black, 1.0, [], *said)
+        for said in ((1.0, False, names), (0.2, False, names), (0.2, True, names), (0.2, False))
+    )
+    assert (usual != slow).any() and (slow != again).any()
+    for picture in (usual, slow, again):
+        assert picture[:, :9].max() == 0  # nothing runs over the edge
+    wide = [np.flatnonzero((picture.max(axis=2) > 128).any(axis=0)) for picture in (slow, alone)]
+    first = [columns[0] for columns in wide]
+    span = int(np.ptp(wide[1])) - 1
+    assert np.allclose(slow[:, first[0] : first[0] + span], alone[:, first[1] : first[1] + span], atol=60)
 
 
 def test_captions_come_and_go():

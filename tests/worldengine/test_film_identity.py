@@ -44,6 +44,18 @@ def test_all_that_films_import_of_worldkit_is_part_of_their_identity() -> None:
     assert not NOT_SEEN & covered
 
 
+def test_a_folder_whose_name_is_a_pattern_is_read_all_the_same(tmp_path, monkeypatch) -> None:
+    servers, found = Path(worldengine.film.__file__).parents[2], set()
+    for room in (tmp_path / "plain", tmp_path / "plain[2]"):
+        room.mkdir()
+        for name in ("worldengine", "worldkit"):
+            (room / name).symlink_to(servers / name)
+        monkeypatch.setattr(identity, "__file__", str(room / "worldengine" / "film" / "identity.py"))
+        monkeypatch.setattr(worldkit, "__file__", str(room / "worldkit" / "__init__.py"))
+        found.add(identity.identity("classic").sha256)
+    assert len(found) == 1
+
+
 def test_what_lays_the_laws_of_an_author_is_part_of_it() -> None:
     assert "inputs/declared_media.py" in identity.REPLAYED_BY
     engine = Path(worldengine.film.__file__).parents[1]

@@ -1,12 +1,17 @@
 """A film says in its picture's corner, its statement and its report what it shows otherwise than it was."""
 
+from types import SimpleNamespace
+
+import mujoco
 import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, lay_film, record
-from worldengine.film import camera_roll, described, motion_facts, stand_ins, time_map
+from worldengine.film import camera_roll, described, motion_facts, stand_ins, time_map, unseen
 from worldengine.film.described import FilmError
 from worldengine.film.dressed import dress
+from worldengine.film.renderers.preview.things import Things
+from worldengine.recording.seen import visible
 from worldkit import portable
 from worldkit.errors import ProgramError
 from worldkit.filming import Film, Recorded, Surface, still
@@ -17,12 +22,14 @@ FPS = 24
 class Made:
     """A ball that rolls for four seconds over a floor, recorded, and films of it."""
 
+    MOVERS = ("ball",)
+
     def __init__(self, folder):
         self.folder = folder
         self.recording = record(self.world(), folder / "trajectory", 2000, before=self.push)
-        self.recording.meta["movers"] = ["ball"]
+        self.recording.meta["movers"] = list(self.MOVERS)
         portable.write(self.world(), folder / "world.mjz")
-        facts = {"fps": FPS, "size": [96, 54], "movers": ["ball"]}
+        facts = {"fps": FPS, "size": [96, 54], "movers": list(self.MOVERS)}
         motion_facts.write(self.recording, folder / "motion.npz", facts)
         with np.load(folder / "motion.npz") as arrays:
             self.seen = Recorded(dict(arrays))
@@ -46,6 +53,23 @@ class Made:
 
     def said(self, film, frame):
         return [time_map.words(film, frame, FPS), camera_roll.words(film, frame), stand_ins.words(film, frame)]
+
+
+class Among(Made):
+    """The same ball beside a large one, a point of mass without a shape, and two posts, one of which it rolls by."""
+
+    MOVERS = ("ball", "large", "point")
+
+    def world(self):
+        spec = super().world()
+        ball(spec, "large", (0, 2, 0.3), radius=0.3)
+        heavy = {"mass": 0.1, "inertia": (1e-4, 1e-4, 1e-4), "ipos": (0, 0, 0), "explicitinertial": True}
+        point = spec.worldbody.add_body(name="point", pos=(0, 4, 1), **heavy)
+        point.add_freejoint()
+        for name, y in (("post", 0.1), ("far post", -2)):
+            post = spec.worldbody.add_body(name=name, pos=(0.4, y, 0))
+            post.add_geom(size=(0.01, 0, 0), contype=0, conaffinity=0)
+        return spec
 
 
 SIDE = still((0.2, -2.5, 0.6), (0.2, 0, 0.1))
@@ -127,6 +151,76 @@ def test_a_thing_in_a_mover_s_place_is_told_and_scenery_is_not(made):
     assert drawn(to="ball") == (["other (on ball, 0.21 m, as large as ball, and in its place)"], "drawn: other")
     assert drawn(pos=(0.4, 1.0, 0.1)) == (["other"], "")
     assert drawn(to="ball", pos=(0, 0, 0.2)) == (["other (on ball)"], "")
+
+
+@pytest.fixture(scope="module")
+def among(tmp_path_factory):
+    return Among(tmp_path_factory.mktemp("among"))
+
+
+@pytest.mark.parametrize(
+    ("size", "where", "said"),
+    [
+        (0.21, {"to": "large", "pos": (0, 0, 0.6)}, ["other (on large, 0.21 m, as large as ball)"]),
+        (0.05, {"to": "large", "pos": (0, 0, 0.6)}, ["other (on large)"]),
+        (0.5, {"to": "ball", "pos": (0, 0, 0.6)}, ["other (on ball, 0.5 m, as large as large)"]),
+        (0.21, {"to": "ball", "pos": (0, 0, 0.2)}, ["other (on ball)"]),
+        (0.21, {"to": "post", "pos": (0, -0.1, 0.1)}, ["other (on post, 0.21 m, as large as ball, and in its place)"]),
+        (0.21, {"to": "far post", "pos": (0, -0.1, 0.1)}, ["other (on far post)"]),
+    ],
+)
+def test_a_twin_that_rides_on_another_mover_is_told_and_one_on_what_stands_where_it_stands(among, size, where, said):
+    film = among.film(lambda f: f.draw("other", "sphere", size, **where))
+    assert film.drawn_only() == said
+    assert among.said(film, 3)[2] == ("drawn: other" if "as large" in said[0] else "")
+
+
+def test_what_moves_without_a_shape_of_its_own_has_no_size_to_be_as_large_as(among):
+    assert "point" in stand_ins.movers(among.recording)
+    film = among.film(flying(0.02))
+    assert film.drawn_only() == ["dust (1 particles)"] and among.said(film, 3)[2] == ""
+
+
+@pytest.mark.parametrize("frames", [1, 2, 24, 25, 26, 47, 48, 49])
+def test_the_time_map_is_as_long_as_the_film(frames):
+    times = 0.002 * np.arange(frames) ** 2.0  # each second of film is faster than the one before
+    rows = time_map.paces(SimpleNamespace(frames=frames, arrays={"time": times}), FPS)
+    assert sum(row["seconds"] for row in rows) == pytest.approx(frames / FPS, abs=1e-3)
+    assert all(row["pace"] > 0 for row in rows) or frames == 1
+    assert [row["film_s"] for row in rows] == [float(second) for second in range(max(frames - 2, 0) // FPS + 1)]
+
+
+def test_a_speck_on_a_clear_mover_does_not_show_it(made):
+    clear = {"rgb": [1, 1, 1], "roughness": 0.5, "metallic": 0, "glow": 0, "opacity": 0.05, "tile_m": 1}
+
+    def specked(facts, _, **more):
+        facts["looks"].update(ball=clear)
+        facts["things"][0] |= more
+
+    for name, more in (("speck", {}), ("speck", {"instead": True}), ("a/speck", {})):
+        film = made.film(
+            lambda f, name=name: f.draw(name, "sphere", 0.002, to="ball"),
+            lambda *told, more=more: specked(*told, **more),
+        )
+        with pytest.raises(FilmError, match="makes 'ball', which can move, nearly clear"):
+            dress(made.folder / "world.mjz", film)
+
+
+@pytest.mark.parametrize(
+    ("pane", "own", "shown"), [(0.0, 1.0, True), (1.0, 0.0, False), (0.0, None, False), (1.0, None, True)]
+)
+def test_a_colour_of_its_own_wins_over_a_material_s_whoever_asks(pane, own, shown):
+    spec = empty()
+    spec.add_material(name="pane", rgba=(1, 1, 1, pane))
+    ball(spec, "ball", (0, 0, 1), material="pane", **({} if own is None else {"rgba": (1, 0, 0, own)}))
+    model = spec.compile()
+    drawn = mujoco.MjvScene(model, 10)
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    catch = int(mujoco.mjtCatBit.mjCAT_ALL)
+    mujoco.mjv_updateScene(model, data, mujoco.MjvOption(), None, mujoco.MjvCamera(), catch, drawn)
+    assert [geom.rgba[3] > 0.02 for geom in drawn.geoms[: drawn.ngeom]].count(True) == shown  # as the engine draws it
+    assert bool(visible(model)[0]) == (len(Things(model).geoms) == 1) == ("ball" in unseen.seen(spec)) == shown
 
 
 def test_no_look_makes_a_mover_unseen(made):

@@ -343,7 +343,12 @@ def _thing(told: dict[str, Any], arrays: "dict[str, np.ndarray]", bodies: set[st
         raise _refuse(
             f"{name!r} is fixed to {to!r}, which is no body", f"name one of: {', '.join(sorted(bodies)[:10])}"
         )
-    found: dict[str, Any] = {"name": name, "shape": shape, "to": to, "instead": bool(told["instead"]) and bool(to)}
+    found: dict[str, Any] = {
+        "name": name,
+        "shape": shape,
+        "to": to,
+        "instead": bool(told["instead"] and to and shape == "mesh" and "ways" not in told),
+    }
     for key, length in (("size", 3), ("pos", 3), ("quat", 4)):
         numbers = [float(v) for v in told[key]]
         if len(numbers) != length or not np.isfinite(numbers).all() or max(map(abs, numbers)) > bounds.FAR_M:

@@ -10,6 +10,7 @@ from worldkit import materials, portable
 from worldkit.lights import LIGHT_GAIN
 
 from ..recording.replay import Replay
+from ..recording.seen import UNSET_RGBA
 from . import one_surface, panel_lights, sward_normals, swaying, unseen
 from .described import Described, FilmError
 
@@ -95,7 +96,7 @@ def _relook(spec: "mujoco.MjSpec", name: str, material: str) -> None:
     body = spec.body(name)
     geoms = [geom for geom in body.geoms if geom.group <= 2] if body is not None else [spec.geom(name)]
     for geom in geoms:
-        geom.material, geom.rgba = material, (0.5, 0.5, 0.5, 1.0)
+        geom.material, geom.rgba = material, UNSET_RGBA
 
 
 def _add(spec: "mujoco.MjSpec", film: Described, thing: dict[str, Any]) -> None:

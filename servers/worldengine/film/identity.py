@@ -5,7 +5,7 @@ import json
 import os
 from dataclasses import dataclass
 from functools import lru_cache
-from glob import glob
+from glob import escape, glob
 from pathlib import Path
 
 import worldkit
@@ -76,7 +76,7 @@ def _code(name: str) -> str:
     it draws on, and which may take over from it."""
     film, kit = Path(__file__).parent, Path(worldkit.__file__ or "").parent
     # Plain texts: each step of a run asks this of some hundred files.
-    patterns = [str(film / "*.py"), *(str(kit / pattern) for pattern in DRAWN_FROM)]
+    patterns = [f"{escape(str(film))}/*.py", *(f"{escape(str(kit))}/{pattern}" for pattern in DRAWN_FROM)]
     own = [path for pattern in patterns for path in glob(pattern, recursive=True)]  # noqa: PTH207
     own += [renderers.__file__ or "", *(str(film.parent / name) for name in REPLAYED_BY)]
     drawn: list[str] = []

@@ -1,5 +1,6 @@
 """Write words on a picture: captions, and how fast the film runs and what else is not as it was, which no author can leave out."""
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -43,7 +44,7 @@ def letter(
     """
     import numpy as np
 
-    words = ", ".join(word for word in ("again" if again else "", pace(speed), *more) if word)
+    words = ", ".join(word for word in (pace(speed), "again" if again else "", *more) if word)
     active = [c for c in captions if c["start_s"] <= film_s < c["end_s"]]
     if not words and not active:
         return image
@@ -118,15 +119,24 @@ def _caption(image: "np.ndarray", text: str, place: str, strength: float) -> Non
         _write(image, line, (x, top + number * step), size, weight, (250, 248, 244), strength)
 
 
+def _cut(text: str, size: int, weight: int, most: int) -> str:
+    """A text no wider than `most` pixels: what does not fit is left out at its end, where `…` tells of it."""
+    if _extent(text, size, weight)[0] <= most:
+        return text
+    short = [f"{text[:count].rstrip(', ')}…" for count in range(len(text))]
+    return short[max(bisect_right(short, most, key=lambda one: _extent(one, size, weight)[0]) - 1, 0)]
+
+
 def _badge(image: "np.ndarray", words: str) -> None:
-    """Write how fast the film runs on a dark tag in the upper right corner."""
+    """Write how fast the film runs, and what fits beside it, on a dark tag in the upper right corner."""
     import cv2
     import numpy as np
 
     height, width = image.shape[:2]
     size = max(round(height * 0.036), 11)
-    wide, tall = _extent(words, size, 500)
     pad, edge = round(size * 0.55), round(height * 0.035)
+    words = _cut(words, size, 500, width - 2 * (edge + pad))
+    wide, tall = _extent(words, size, 500)
     x0, y0, x1, y1 = width - edge - wide - 2 * pad, edge, width - edge, edge + tall + 2 * pad
     tag = np.zeros((height, width), np.uint8)
     radius = min(pad, (y1 - y0) // 2)

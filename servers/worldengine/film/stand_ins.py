@@ -1,4 +1,4 @@
-"""What is drawn only and could be taken for a mover: as large as it, and flying about, or standing in its place.
+"""What is drawn only and could be taken for a mover: as large as it, and flying or riding about, or standing in its place.
 
 It may be drawn, and says so: its size in statement and report, its name in the picture's corner.
 """
@@ -34,44 +34,64 @@ def told(
     """The drawn things, with `like`, such as `0.2 m, as large as ball`, of each that could be taken for a mover."""
     import numpy as np
 
+    from worldkit.turning import turned
+
     from .motion_facts import boxes
 
-    names = movers(recording)
+    moving = movers(recording)
+    shaped = {geom["body"] for geom in recording.meta["geoms"] if geom["type"] != "plane"}
+    names = [name for name in moving if name in shaped]  # a vertex of a cloth has no size of its own
     if not names or not things:
         return things
     index = [recording.names.index(name) for name in names]
     middle, half = (found[index] for found in boxes(recording))
     ways = np.array(recording.pos[:: max(len(recording.time) // ROWS, 1)], dtype=float)[:, index]
-    return tuple(thing | _like(thing, _extent(thing, arrays), names, middle, half, ways) for thing in things)
+    found = []
+    for thing in things:
+        (size, centre), rides = _extent(thing, arrays), thing["to"] in moving
+        if thing["to"] and not rides:  # it stands where the body stands that carries it
+            row = recording.names.index(thing["to"])
+            centre = (
+                turned(np.array(recording.quat[0, row], dtype=float)[None], centre[None])[0] + recording.pos[0, row]
+            )
+        found.append(thing | _like(thing, rides, (size, centre), names, middle, half, ways))
+    return tuple(found)
 
 
 def _like(
     thing: dict[str, Any],
+    rides: bool,
     extent: "tuple[np.ndarray, np.ndarray]",
     names: list[str],
     middle: "np.ndarray",
     half: "np.ndarray",
     ways: "np.ndarray",
 ) -> dict[str, str]:
-    """`like` of one thing of some sides and middle, beside movers (M) with their boxes (M, 3), m, and ways (R, M, 3), m."""
+    """`like` of one thing of some sides and middle beside movers (M) with their boxes (M, 3), m, and ways (R, M, 3), m.
+
+    What flies, and what `rides` on a mover, goes about: there its size tells, and where it is only of the mover that carries it.
+    """
     import numpy as np
 
     if thing["instead"]:  # a skin has its body's size and place, and is told as one
         return {}
     (size, centre), largest, away = extent, 2 * half.max(axis=1), np.linalg.norm(half, axis=1)
-    same = size.max() >= LIKE * largest
-    if thing["to"] and not thing.get("ways"):
-        near = np.linalg.norm(middle - centre, axis=1) < 0.5 * away
-        whole = (np.sort(size) >= COVERS * np.sort(2 * half, axis=1)).all(axis=1)
-        same = near & whole & (np.array(names) == thing["to"])
-    elif not thing.get("ways"):
+    same, there = size.max() >= LIKE * largest, np.zeros(len(names), bool)
+    if not thing.get("ways"):
         same &= size.max() <= largest / LIKE
-        some = np.flatnonzero(same)
-        same[some] = (np.linalg.norm(ways[:, some] - centre, axis=2) < away[some]).any(axis=0)
-    if not same.any():
-        return {}
-    where = "" if thing.get("ways") else ", and in its place"
-    return {"like": f"{size.max():.2g} m, as large as {names[int(np.argmax(same))]}{where}"}
+        if rides:
+            own = np.array(names) == thing["to"]
+            whole = (np.sort(size) >= COVERS * np.sort(2 * half, axis=1)).all(axis=1)
+            there = own & whole & (np.linalg.norm(middle - centre, axis=1) < 0.5 * away)
+            same &= ~own
+        else:
+            some = np.flatnonzero(same)
+            there[some] = (np.linalg.norm(ways[:, some] - centre, axis=2) < away[some]).any(axis=0)
+            same = there
+    for some, where in ((there, ", and in its place"), (same, "")):
+        if some.any():
+            return {"like": f"{size.max():.2g} m, as large as {names[int(np.argmax(some))]}{where}"}
+    return {}
 
 
 def _extent(thing: dict[str, Any], arrays: "dict[str, np.ndarray]") -> "tuple[np.ndarray, np.ndarray]":

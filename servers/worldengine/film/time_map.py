@@ -57,7 +57,8 @@ def paces(film: Any, fps: float) -> list[dict[str, float]]:
     for low in range(0, max(film.frames - 1, 1), step):
         high = min(low + step, film.frames - 1)
         now = round(_pace(film, low, high, fps), 2) if high > low else 0.0
-        seconds = round((min(low + step, film.frames) - low) / fps, 4)
+        end = film.frames if high == film.frames - 1 else high  # a frame that is left over has no second of its own
+        seconds = round((end - low) / fps, 4)
         if found and found[-1]["pace"] == now:
             found[-1]["seconds"] = round(found[-1]["seconds"] + seconds, 4)
         else:

@@ -3,10 +3,12 @@
 A wall may be cut away, which its look tells; a mover stays in the picture, by its own shapes, a skin or a surface.
 """
 
+from collections.abc import Container
 from typing import TYPE_CHECKING, Any
 
 from worldkit.filming.film_bounds import SEEN
 
+from ..recording.seen import shown_rgba
 from .described import FilmError, opacity
 
 if TYPE_CHECKING:
@@ -15,9 +17,13 @@ if TYPE_CHECKING:
 FIX = "give it a look with an opacity of 0.2 or more; to show what is behind it, place the camera elsewhere"
 
 
-def seen(spec: "mujoco.MjSpec") -> set[str]:
-    """Bodies that can move and are seen: one shape that is drawn, and opaque enough, or a surface over theirs."""
-    return {body.name for body in spec.bodies if _moves(body) and any(_opaque(spec, geom) for geom in body.geoms)}
+def seen(spec: "mujoco.MjSpec", beside: Container[str] = ()) -> set[str]:
+    """Bodies that can move and are seen by a shape that is drawn, and opaque enough, and not named among those `beside` theirs."""
+    return {
+        body.name
+        for body in spec.bodies
+        if _moves(body) and any(_opaque(spec, geom) for geom in body.geoms if not _is_of(geom.name, beside))
+    }
 
 
 def refuse(spec: "mujoco.MjSpec", film: Any, before: set[str]) -> None:
@@ -27,7 +33,8 @@ def refuse(spec: "mujoco.MjSpec", film: Any, before: set[str]) -> None:
         FilmError: naming the body.
     """
     covered = {name: one for one in film.surfaces for name in one["of"]}
-    shown = seen(spec) | {name for name, one in covered.items() if opacity(one["look"]) >= SEEN}
+    beside = {f"drawn.{thing['name']}" for thing in film.things if not thing["instead"]}
+    shown = seen(spec, beside) | {name for name, one in covered.items() if opacity(one["look"]) >= SEEN}
     for name in sorted(before - shown):
         raise FilmError(
             f"the film makes {name!r}, which can move, nearly clear: what happened to it is unseen", "film.py", FIX
@@ -42,8 +49,13 @@ def _moves(body: Any) -> bool:
     return False
 
 
+def _is_of(name: str, things: Container[str]) -> bool:
+    """Whether a geom is one of these things, or one of the copies of it: `drawn.dust` and `drawn.dust/3`."""
+    return name in things or name.rpartition("/")[0] in things
+
+
 def _opaque(spec: "mujoco.MjSpec", geom: Any) -> bool:
     if geom.group > 2:
         return False
     material = spec.material(geom.material) if geom.material else None
-    return float(geom.rgba[3] if material is None else material.rgba[3]) >= SEEN
+    return float(shown_rgba(geom.rgba, geom.rgba if material is None else material.rgba)[3]) >= SEEN

@@ -17,6 +17,7 @@ from worldwright.lint.compiled.fetch import Outcome
 from worldwright.lint.compiled.measure import facts
 from worldwright.lint.compiled.view import ModelView
 from worldwright.lint.harm import outcome_of
+from worldwright.lint.rules.model.acting import standing_differs
 from worldwright.lint.rules.model.acting._twins import PLAN, changed
 from worldwright.model.errors import JobError
 from worldwright.model.storage import StorageError
@@ -189,6 +190,22 @@ OPTIONS_ELSEWHERE = {
     "enableflags": "flag by flag",
     "disableflags": "flag by flag",
 }
+
+
+def test_of_two_parts_the_one_that_leans_most_alike_is_named():
+    """Built: a level board that sags by half a degree, and a ramp; it is held against the board, however short what is said of the ramp."""
+
+    def world(sag):
+        spec = mujoco.MjSpec()
+        shelf = spec.worldbody.add_body(name="shelf")
+        for name, tilt in (("board", sag), ("ramp", 30)):
+            shelf.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=(1, 0.3, 0.1), euler=(0, tilt, 0))
+        return view_of(spec.compile())
+
+    built = world(0.56)
+    built.planned = world(0)
+    (problem,) = standing_differs.check(built)
+    assert "board leans by 0.56 degrees where the plan lays it level" in problem.message
 
 
 def read_by_a_rule() -> str:

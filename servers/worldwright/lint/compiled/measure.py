@@ -44,7 +44,6 @@ KEPT = [
     "light_ambient",
     "light_bodyid",
     "light_type",
-    "mat_rgba",
     "mesh_vertnum",
     "mesh_facenum",
 ]
@@ -118,7 +117,7 @@ def _mesh_sha256(model: mujoco.MjModel, mesh: int) -> str:
 
 def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
     """The start: poses, velocities, contacts, residuals, effective inverse inertias."""
-    from worldengine.recording.seen import skinned, visible
+    from worldengine.recording.seen import geom_rgba, skinned, visible
 
     shown = np.asarray(visible(model), bool)
     contact = data.contact
@@ -146,6 +145,7 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "cam_xmat": data.cam_xmat.reshape(-1, 3, 3).copy(),
         "cvel": data.cvel.copy(),
         "visible": shown,
+        "geom_alpha": geom_rgba(model)[:, 3],
         "skinned": skinned(model),
         "contact_geom": np.array(contact.geom).reshape(-1, 2),
         "contact_depth": -np.array(contact.dist).reshape(-1),

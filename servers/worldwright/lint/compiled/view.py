@@ -112,6 +112,12 @@ class ModelView:
         return frozenset() if planned is None else frozenset(filter(None, planned.texts["names"]["body"]))
 
     @cached_property
+    def things(self) -> frozenset[str]:
+        """Names of the plan's objects and of all bodies of its own world, be it this one or the one that this is held against."""
+        bodies = (self.planned or self).texts["names"]["body"]
+        return frozenset(filter(None, bodies)) | set(self.plan.object_names() if self.plan else ())
+
+    @cached_property
     def moving(self) -> np.ndarray:
         """(nbody,) bool: whether a body has degrees of freedom, its own or those of what carries it."""
         return self.body_treeid >= 0

@@ -13,8 +13,6 @@ from worldkit.materials.look import Look
 if TYPE_CHECKING:
     import mujoco
 
-DEFAULT_RGBA = (0.5, 0.5, 0.5, 1.0)
-
 
 def linear(rgb: np.ndarray | tuple[float, ...]) -> np.ndarray:
     """Convert sRGB to scene-linear colour, by the same power as the shaders."""

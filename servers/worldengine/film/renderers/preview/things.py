@@ -12,10 +12,10 @@ import numpy as np
 
 from worldkit.materials.look import Look
 
-from ....recording.seen import skinned
+from ....recording.seen import UNSET_RGBA, geom_rgba, shown_rgba, skinned
 from ... import swaying
 from . import mean_chord
-from .finish import DEFAULT_RGBA, Finish, linear, of_material, plain
+from .finish import Finish, linear, of_material, plain
 
 if TYPE_CHECKING:
     import mujoco
@@ -90,9 +90,8 @@ class Things:
         self._skinned = skinned(model)
         kinds = mujoco.mjtGeom
         self._pieces = pieces(model)
-        self._finishes = {-1: plain(DEFAULT_RGBA)} | {i: of_material(model, i) for i in range(model.nmat)}
-        alpha = np.array([self._rgba(g)[3] for g in range(model.ngeom)])
-        shown = np.isin(model.geom_group, VISIBLE_GROUPS) & (alpha > 0.003) if model.ngeom else np.zeros(0, bool)
+        self._finishes = {-1: plain(UNSET_RGBA)} | {i: of_material(model, i) for i in range(model.nmat)}
+        shown = np.isin(model.geom_group, VISIBLE_GROUPS) & (geom_rgba(model)[:, 3] > 0.003)
         self.geoms = np.flatnonzero(shown)
         self.rows = np.zeros((len(self.geoms), FLOATS), dtype=np.float32)
         self.batches: list[Batch] = []
@@ -142,11 +141,8 @@ class Things:
         self._supports_of_fixed = False
 
     def _rgba(self, geom: int) -> np.ndarray:
-        material = int(self.model.geom_matid[geom])
-        own = self.model.geom_rgba[geom]
-        if material < 0 or not np.allclose(own, DEFAULT_RGBA):
-            return own
-        return self.model.mat_rgba[material]
+        material, own = int(self.model.geom_matid[geom]), self.model.geom_rgba[geom]
+        return np.asarray(own if material < 0 else shown_rgba(own, self.model.mat_rgba[material]))
 
     def finish(self, geom: int) -> Finish:
         """The finish of a geom."""

@@ -36,29 +36,24 @@ def uncovered(view: ModelView, geoms: list[int], body: int, other: ModelView, he
     return None
 
 
-def halves(view: ModelView, geom: int) -> np.ndarray:
-    """(3,) half extents of a geom along its own axes, m."""
-    size, kind = view.geom_size[geom], view.geom_kind[geom]
-    if kind == "sphere":
-        return np.full(3, size[0])
-    if kind in ("cylinder", "capsule"):
-        return np.array([size[0], size[0], size[1] + (size[0] if kind == "capsule" else 0.0)])
-    return np.array(size, float)
+def away(view: ModelView, geom: int, body: int, points: np.ndarray) -> np.ndarray:
+    """(n,) distances of points, in the frame of a body, from the box along the axes of one of its geoms, m; 0 inside."""
+    off = np.abs(_in_geom(view, geom, body, points) - view.geom_aabb[geom, :3]) - view.geom_aabb[geom, 3:]
+    return np.asarray(np.linalg.norm(np.maximum(off, 0.0), axis=1))
 
 
 def _in_body(view: ModelView, geom: int, body: int) -> np.ndarray:
     """(n, 3) points just inside a geom, in the frame of a body, m."""
     shape = CORNERS if view.geom_kind[geom] == "box" else TIPS
-    world = view.geom_xpos[geom] + (INSET * shape * halves(view, geom)) @ view.geom_xmat[geom].T
+    world = view.geom_xpos[geom] + (INSET * shape * view.geom_aabb[geom, 3:]) @ view.geom_xmat[geom].T
     found: np.ndarray = (world - view.xpos[body]) @ view.xmat[body]
     return found
 
 
 def _holds(view: ModelView, geom: int, body: int, points: np.ndarray) -> np.ndarray:
     """(n,) bool: which points, in the frame of a body, lie in one of its geoms."""
-    world = view.xpos[body] + points @ view.xmat[body].T
-    off = np.abs((world - view.geom_xpos[geom]) @ view.geom_xmat[geom])
-    half, kind = halves(view, geom), view.geom_kind[geom]
+    off = np.abs(_in_geom(view, geom, body, points))
+    half, kind = view.geom_aabb[geom, 3:], view.geom_kind[geom]
     half = half + np.maximum(SHARE * half, LEAST_M)
     if kind == "box":
         found = (off <= half).all(axis=1)
@@ -70,3 +65,9 @@ def _holds(view: ModelView, geom: int, body: int, points: np.ndarray) -> np.ndar
     else:
         found = ((off / half) ** 2).sum(axis=1) <= 1
     return np.asarray(found)
+
+
+def _in_geom(view: ModelView, geom: int, body: int, points: np.ndarray) -> np.ndarray:
+    """(n, 3) points in the frame of a geom, of such in the frame of its body, m."""
+    world = view.xpos[body] + points @ view.xmat[body].T
+    return np.asarray((world - view.geom_xpos[geom]) @ view.geom_xmat[geom])

@@ -133,12 +133,10 @@ def yields(solref: np.ndarray, solimp: np.ndarray, planned: tuple[np.ndarray, np
     return time > 1.5 * max(wanted, ENGINE_S) or damping < 0.9 * min(planned_damping, 1.0) or bool(soft.any())
 
 
-def owner(view: ModelView, body: int) -> str:
-    """The thing of the plan that a body belongs to: itself or the nearest that carries it; else the ground."""
-    assert view.planned is not None and view.plan is not None
-    known = view.planned_bodies | set(view.plan.object_names())
+def holder(view: ModelView, body: int) -> str:
+    """The thing of the plan that a body belongs to, in either world: itself or the nearest that carries it; else the ground."""
     bodies = view.texts["names"]["body"]
-    while body > 0 and bodies[body] not in known:
+    while body > 0 and bodies[body] not in view.things:
         body = int(view.body_parentid[body])
     return str(bodies[body]) if body > 0 else GROUND
 

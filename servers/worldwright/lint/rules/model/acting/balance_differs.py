@@ -17,7 +17,7 @@ from worldkit.turning import matrices
 from ....compiled.view import ModelView
 from ....harm import Measured, model_of
 from ....problem import Problem
-from ._twins import SOUND, changed, owner, shown, twins
+from ._twins import SOUND, changed, holder, shown, twins
 
 CODE = "WM162"
 SEVERITY = "error"
@@ -46,7 +46,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     assert view.planned is not None
     parts: dict[str, list[int]] = {}
     for body in range(1, len(view.body_mass)):
-        parts.setdefault(owner(view, body), []).append(body)
+        parts.setdefault(holder(view, body), []).append(body)
     for body, twin in twins(view, "body"):
         name = view.texts["names"]["body"][body]
         if body == 0 or not view.moving[body] or not view.planned.moving[twin]:

@@ -18,7 +18,7 @@ from .....model.plan.committed import Plan
 from ....compiled.view import ModelView
 from ....harm import Measured, height_after
 from ....problem import Problem
-from ._twins import SOUND, acted_on, changed, owner
+from ._twins import SOUND, acted_on, changed, holder
 
 CODE = "WM163"
 SEVERITY = "error"
@@ -49,11 +49,11 @@ def check(view: ModelView) -> Iterator[Problem]:
             continue
         twin = index.get(name)
         gravcomp = 0.0 if twin is None else float(planned.body_gravcomp[twin])
-        excused = _lifted(view, view.plan, {name, owner(view, body)}, body)
+        excused = _lifted(view, view.plan, {name, holder(view, body)}, body)
         if not np.isclose(view.body_gravcomp[body], gravcomp) and view.moving[body] and not excused:
             share = float(view.body_gravcomp[body])
             yield view.at("body", body, f"{share:.4g} of the weight of {view.name('body', body)} is taken away", FIX)
-        guided = not {name, owner(view, body)}.isdisjoint(moved)
+        guided = not {name, holder(view, body)}.isdisjoint(moved)
         if view.body_mocapid[body] >= 0 and not guided and (twin is None or planned.body_mocapid[twin] < 0):
             yield view.at("body", body, f"{view.name('body', body)} is a mocap body: it moves as it is told", FIX)
         tree = int(view.body_treeid[body])
@@ -61,7 +61,7 @@ def check(view: ModelView) -> Iterator[Problem]:
         if first and int(view.tree_sleep_policy[tree]) == INIT and "sleep" in (*view.enabled, "sleep"):
             yield view.at("body", body, f"{view.name('body', body)} starts asleep", "let it start awake")
     for geom in np.flatnonzero(np.abs(view.geom_fluid).reshape(len(view.geom_bodyid), -1).any(axis=1)):
-        name = owner(view, int(view.geom_bodyid[geom]))
+        name = holder(view, int(view.geom_bodyid[geom]))
         medium = view.option["density"] or view.option["viscosity"]
         if medium and name not in afloat and not planned.geom_fluid.any():
             yield view.at("geom", int(geom), f"a fluid acts on {name} by a model of its own (fluidshape)", FIX)

@@ -15,6 +15,7 @@ m/s or rad/s.
 """
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -25,7 +26,8 @@ from ....compiled.touching import Touch, Touching
 from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
-from ._twins import GROUND, SOUND, changed, owner, rebounds_otherwise, shown, stated, twins
+from ._part_points import away
+from ._twins import SOUND, changed, holder, rebounds_otherwise, shown, stated, twins
 
 CODE = "WM160"
 SEVERITY = "error"
@@ -33,18 +35,33 @@ SCOPE = "acts"
 PAIR = "spec.add_pair(geomname1='crate', geomname2='ground', condim=3, friction=[0.01, 0.01, 0, 0, 0])"
 
 
-def _block(foot: str, top: str) -> tuple[str, dict[str, object]]:
-    """A case with a block that by its plan has a foot of lead and a top of rubber, built of these two."""
+Bar = tuple[float, float, float, str]
+"""Half the length of a bar, and where its middle is along x and z, m; its surface."""
+EVEN: tuple[Bar, ...] = ((0.15, 0, -0.05, "LEAD"), (0.15, 0, 0.05, "RUBBER"))
+KNOBBED: tuple[Bar, ...] = ((0.5, 0, -0.05, "LEAD"), (0.05, 0.4, 0.05, "RUBBER"))
+"""A long foot, and a small knob upon its end."""
+
+
+def _block(wanted: tuple[Bar, ...], *built: Bar) -> tuple[str, dict[str, object]]:
+    """A case with a block that by its plan has a foot of lead and a top of rubber, built of these bars."""
     text, plan = changed(
         "LEAD, RUBBER = (contacts.surface(friction=0.3, restitution=r, time_constant=0.004) for r in (0.05, 0.85))",
         "b = spec.worldbody.add_body(name='block', pos=(0, 3, 0.6))",
         "b.add_freejoint(name='block')",
-        f"b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(.15, .15, .05), pos=(0, 0, -.05), mass=1, **{foot})",
-        f"b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(.15, .15, .05), pos=(0, 0, .05), mass=1, **{top})",
+        *(
+            f"b.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=({half}, .15, .05), pos=({x}, 0, {z}), mass=1, **{surface})"
+            for half, x, z, surface in built
+        ),
     )
     parts = [
-        {"name": name, "primitive": "box", "size": [0.3, 0.3, 0.1], "offset": [0, 0, z], "material": material}
-        for name, z, material in (("foot", 0.05, "lead"), ("top", 0.15, "rubber"))
+        {
+            "name": name,
+            "primitive": "box",
+            "size": [2 * half, 0.3, 0.1],
+            "offset": [x, 0, 0.1 + z],
+            "material": material,
+        }
+        for (half, x, z, _), name, material in zip(wanted, ("foot", "top"), ("lead", "rubber"), strict=True)
     ]
     row = {"name": "block", "primitive": "compound", "material": "lead", "parts": parts}
     known: dict = plan["simulation_parameters"] | {}  # type: ignore[operator]
@@ -69,14 +86,16 @@ def _running(constant: str, unit: str) -> tuple[str, dict[str, object]]:
 GOOD = (
     *SOUND,
     _running("belt_speed", "m/s"),
-    _block("LEAD", "RUBBER"),
+    _block(EVEN, *EVEN),
+    _block(KNOBBED, (0.25, -0.25, -0.05, "LEAD"), (0.25, 0.25, -0.05, "LEAD"), KNOBBED[1]),
     changed(
         "spec.geom('crate').solref = (-1 / 0.008**2, 0)",
         "spec.geom('crate').solref[1] = spec.geom('ground').solref[1] / 2",
     ),
 )
 BAD = (
-    _block("RUBBER", "LEAD"),
+    _block(EVEN, (0.15, 0, -0.05, "RUBBER"), (0.15, 0, 0.05, "LEAD")),
+    _block(KNOBBED, (0.25, -0.25, -0.05, "LEAD"), (0.25, 0.25, -0.05, "RUBBER"), KNOBBED[1]),
     changed(PAIR),
     changed("spec.geom('crate').priority = 1", "spec.geom('crate').friction = (0.05, 0.005, 0.0001)"),
     changed("spec.geom('ground').friction[0] = 1.0"),
@@ -115,9 +134,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     """Check pairs of bodies whose contacts are not the plan's, or not there."""
     assert view.planned is not None
     planned_view = view.planned
-    built = Touching(view, lambda body: owner(view, body))
-    plan_names = planned_view.texts["names"]["body"]
-    planned = Touching(planned_view, lambda body: plan_names[body] if body else GROUND)
+    built, planned = (Touching(world, partial(holder, world)) for world in (view, planned_view))
     yield from _swapped(view, built, planned)
     known, seen = set(planned.geoms), set()
     for one in built.suspects(planned):
@@ -134,7 +151,11 @@ def check(view: ModelView) -> Iterator[Problem]:
 
 
 def _swapped(view: ModelView, built: Touching, planned: Touching) -> Iterator[Problem]:
-    """Bodies with several surfaces of which one part has another's: each geom is compared with the plan's nearest to it."""
+    """Bodies with several surfaces of which one part has another's.
+
+    Each geom is compared with that of the plan's in whose box its middle lies, or whose box is nearest: a long part may be built
+    of several, whose middles lie far from its own.
+    """
     twin_view = planned.view
     for body, twin in twins(view, "body"):
         mine, theirs = (
@@ -143,10 +164,13 @@ def _swapped(view: ModelView, built: Touching, planned: Touching) -> Iterator[Pr
         )
         if body == 0 or not len(mine) or len({planned.kind(geom) for geom in theirs.tolist()}) < 2:
             continue
-        own, seen = owner(view, body), set[tuple[int, int]]()
+        own, seen = holder(view, body), set[tuple[int, int]]()
         others = sorted({*planned.geoms} & {*built.geoms} - {own})
         for geom in mine.tolist():
-            near = int(theirs[np.argmin(((twin_view.geom_pos[theirs] - view.geom_pos[geom]) ** 2).sum(axis=1))])
+            middle = view.geom_pos[geom][None]
+            from_box = [round(float(away(twin_view, one, twin, middle)[0]), 6) for one in theirs.tolist()]
+            from_middle = np.linalg.norm(twin_view.geom_pos[theirs] - middle, axis=1)
+            near = int(theirs[np.lexsort((from_middle, from_box))[0]])
             alike = (built.kind(geom), planned.kind(near))
             if alike in seen and not (built.is_paired(geom) or planned.is_paired(near)):
                 continue

@@ -19,7 +19,7 @@ from worldkit.filming.film_bounds import SEEN
 from ....compiled.view import ModelView
 from ....harm import Measured, outcome_of
 from ....problem import Problem
-from ._twins import SOUND, changed, owner
+from ._twins import SOUND, changed, holder
 
 CODE = "WM174"
 SEVERITY = "error"
@@ -29,11 +29,19 @@ DOT = "spec.body('crate').add_geom(size=(.001, 0, 0), contype=0, conaffinity=0, 
 BOX = (
     "spec.body('crate').add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(.2, .15, .1), contype=0, conaffinity=0, mass=0)"
 )
-GOOD = (*SOUND, changed(CLEAR.format(0), BOX), changed(CLEAR.format(0.25)))
+OWN = "[setattr(g, 'rgba', {}) for g in spec.body('crate').geoms]"
+PANE = (
+    "spec.add_material(name='pane', rgba=(1, 1, 1, 0))",
+    "[setattr(g, 'material', 'pane') for g in spec.body('crate').geoms]",
+)
+"""A clear material, over which a colour of its own wins."""
+GOOD = (*SOUND, changed(CLEAR.format(0), BOX), changed(CLEAR.format(0.25)), changed(*PANE, OWN.format("(1, 0, 0, 1)")))
 BAD = (
     changed(CLEAR.format(0)),
     changed(CLEAR.format(0.1)),
     changed(CLEAR.format(0), DOT),
+    changed(*PANE),
+    changed(OWN.format("(1, 0, 0, 0.1)")),
     changed("[setattr(g, 'group', 4) for g in spec.body('crate').geoms]"),
 )
 LEAST = 0.25
@@ -45,8 +53,8 @@ def check(view: ModelView) -> Iterator[Problem]:
     """Check each object of the plan that the plan's own world draws."""
     planned, plan = view.planned, view.plan
     assert planned is not None and plan is not None
-    here, there = _by_name(view, view), _by_name(planned, view)
-    others = {owner(view, int(body)) for body in (*view.flex_vertbodyid, *np.flatnonzero(view.skinned))}
+    here, there = _by_name(view), _by_name(planned)
+    others = {holder(view, int(body)) for body in (*view.flex_vertbodyid, *np.flatnonzero(view.skinned))}
     others |= {row.name for row in plan.scene_objects if row.visual_only}  # a law may show it in a way of its own
     for name in plan.object_names():
         body = view.root_named(name)
@@ -59,15 +67,11 @@ def check(view: ModelView) -> Iterator[Problem]:
             yield view.at("body", body, f"{name} is {wanted:.2g} m long, and {said} drawn so that it is seen", FIX)
 
 
-def _by_name(view: ModelView, owned_by: ModelView) -> dict[str, list[int]]:
-    """The geoms of each thing of the plan, in a world, by what carries them."""
-    known = owned_by.planned_bodies
+def _by_name(view: ModelView) -> dict[str, list[int]]:
+    """The geoms of each thing of the plan, in a world."""
     found: dict[str, list[int]] = {}
-    names = view.texts["names"]["body"]
     for geom, body in enumerate(view.geom_bodyid.tolist()):
-        while body > 0 and names[body] not in known:
-            body = int(view.body_parentid[body])
-        found.setdefault(names[body], []).append(geom)
+        found.setdefault(holder(view, body), []).append(geom)
     return found
 
 
@@ -75,9 +79,7 @@ def drawn_m(view: ModelView, geoms: list[int]) -> float:
     """The longest side, m, of the box around those of some geoms that can be seen; planes have none."""
     corners = [np.zeros((0, 3))]
     for geom in geoms:
-        material = int(view.geom_matid[geom])
-        alpha = view.geom_rgba[geom, 3] if material < 0 else view.mat_rgba[material, 3]
-        if view.visible[geom] and alpha >= SEEN and view.geom_kind[geom] != "plane":
+        if view.visible[geom] and view.geom_alpha[geom] >= SEEN and view.geom_kind[geom] != "plane":
             box = view.geom_aabb[geom].reshape(2, 3)
             local = box[0] + box[1] * np.array(list(product((-1, 1), repeat=3)))
             corners.append(local @ view.geom_xmat[geom].T + view.geom_xpos[geom])

@@ -35,7 +35,7 @@ SHELF = changed(
 
 
 def _shelf(tilt: float) -> tuple[str, dict[str, object]]:
-    """A case with a fixed shelf that the plan has, too, and whose geom leans by `tilt` rad."""
+    """A case with a fixed shelf that the plan has, too, and whose geom leans by `tilt` degrees."""
     text, plan = SHELF[0].replace("TILT", str(tilt)), SHELF[1]
     row = {"name": "shelf", "primitive": "box", "size": [2, 0.6, 0.5], "fixed": True, "material": "wood"}
     place = {"shelf": {"x": 0, "y": 3, "z": 0.5}}
@@ -52,6 +52,7 @@ GOOD = (*SOUND, _shelf(0.0), changed("spec.geom('ground').quat = (0.8, 0, 0, 0.6
 BAD = (
     changed(LEANS),
     changed(SLIGHTLY),
+    _shelf(0.56),
     _shelf(0.0098),
     changed("spec.geom('ground').pos = (0, 0, -0.02)"),
     changed(*HILL),
@@ -120,9 +121,11 @@ def _leaning_parts(view: ModelView, planned: ModelView) -> Iterator[Problem]:
         for geom in np.flatnonzero((view.geom_bodyid == body) & view.collides):
             kind = view.geom_kind[geom]
             alike = [g for g in np.flatnonzero(planned.geom_bodyid == twin) if planned.geom_kind[g] == kind in SIDED]
-            said = [_describe_lean(_steepness(view, int(geom)), _steepness(planned, int(g))) for g in alike]
+            up = _steepness(view, int(geom))
+            alike.sort(key=lambda g: float(np.linalg.norm(up - _steepness(planned, int(g)))))
+            said = [_describe_lean(up, _steepness(planned, int(g))) for g in alike]
             if said and all(said):
-                yield view.at("geom", int(geom), f"{view.name('geom', int(geom))} {min(said, key=len)}", FIX)
+                yield view.at("geom", int(geom), f"{view.name('geom', int(geom))} {said[0]}", FIX)
 
 
 def _steepness(view: ModelView, geom: int) -> np.ndarray:

@@ -17,7 +17,7 @@ import numpy as np
 from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
-from ._twins import PLAN, SOUND, changed, compared, missing, names, owner, shown, twins, unplanned, yields
+from ._twins import PLAN, SOUND, changed, compared, holder, missing, names, shown, twins, unplanned, yields
 
 CODE = "WM166"
 SEVERITY = "error"
@@ -122,10 +122,7 @@ def _points(view: ModelView, index: int) -> list[tuple[str, np.ndarray]]:
             found.append((f"{int(view.wrap_type[wrap])}", np.array([float(target), float(view.wrap_prm[wrap]), 0.0])))
             continue
         body = int(view.site_bodyid[target])
-        holder = (
-            owner(view, body) if view.planned is not None else (view.texts["names"]["body"][body] if body else "ground")
-        )
-        found.append((holder, view.home_xpos[body] + view.home_xmat[body] @ view.site_pos[target]))
+        found.append((holder(view, body), view.home_xpos[body] + view.home_xmat[body] @ view.site_pos[target]))
     return found
 
 

@@ -18,7 +18,7 @@ from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
 from ._part_points import FORMED, uncovered
-from ._twins import SOUND, changed, owner, shown, twins
+from ._twins import SOUND, changed, holder, shown, twins
 
 CODE = "WM170"
 SEVERITY = "error"
@@ -142,14 +142,14 @@ def _part_differs(view: ModelView, body: int, planned: ModelView, twin: int, nam
 
 
 def _touchable(view: ModelView, name: str) -> list[int]:
-    return [int(g) for g in np.flatnonzero(view.collides) if _holder(view, int(view.geom_bodyid[g])) == name]
+    return [int(g) for g in np.flatnonzero(view.collides) if holder(view, int(view.geom_bodyid[g])) == name]
 
 
 def _volumes(view: ModelView) -> dict[str, float]:
     """The volume inside the colliding geoms of each thing, m^3."""
     found: dict[str, float] = {}
     for geom in np.flatnonzero(view.collides):
-        name = _holder(view, int(view.geom_bodyid[geom]))
+        name = holder(view, int(view.geom_bodyid[geom]))
         found[name] = found.get(name, 0.0) + float(view.geom_solid[geom])
     return found
 
@@ -179,9 +179,5 @@ def _meshes(view: ModelView, name: str) -> set[str]:
     return {
         view.texts["mesh_sha256"][int(view.geom_dataid[geom])]
         for geom in np.flatnonzero(view.collides)
-        if view.geom_kind[geom] == "mesh" and _holder(view, int(view.geom_bodyid[geom])) == name
+        if view.geom_kind[geom] == "mesh" and holder(view, int(view.geom_bodyid[geom])) == name
     }
-
-
-def _holder(view: ModelView, body: int) -> str:
-    return owner(view, body) if view.planned is not None else str(view.texts["names"]["body"][body])

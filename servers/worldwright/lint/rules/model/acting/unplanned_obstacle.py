@@ -17,7 +17,7 @@ import numpy as np
 from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
-from ._twins import GROUND, SOUND, acted_on, changed, owner
+from ._twins import GROUND, SOUND, acted_on, changed, holder
 
 CODE = "WM169"
 SEVERITY = "error"
@@ -74,7 +74,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     ground = {name for name, body in zip(there, view.planned.geom_bodyid, strict=True) if body == 0}
     for geom in np.flatnonzero(view.collides):
         body = int(view.geom_bodyid[geom])
-        known = owner(view, body) != GROUND or (body == 0 and view.texts["names"]["geom"][geom] in ground)
+        known = holder(view, body) != GROUND or (body == 0 and view.texts["names"]["geom"][geom] in ground)
         if not known and view.texts["names"]["body"][body] not in named:
             kind = view.geom_kind[geom]
             seen = "" if view.visible[geom] else ", which nobody can see,"
@@ -82,10 +82,10 @@ def check(view: ModelView) -> Iterator[Problem]:
             yield view.at("geom", int(geom), message, FIX)
     for body in range(1, len(view.body_mass)):
         loose = view.moving[body] and int(view.body_parentid[body]) == 0 and body not in flexed
-        if loose and owner(view, body) == GROUND and view.texts["names"]["body"][body] not in named:
+        if loose and holder(view, body) == GROUND and view.texts["names"]["body"][body] not in named:
             yield view.at("body", body, f"{view.name('body', body)} can move, and is nothing of the plan's", FIX)
     planned = {*view.planned.texts["names"]["flex"]}
-    solid = {owner(view, int(body)) for body in view.geom_bodyid[view.collides]}
+    solid = {holder(view, int(body)) for body in view.geom_bodyid[view.collides]}
     for flex, name in enumerate(view.texts["names"]["flex"]):
         touchable = view.flex_contype[flex] or view.flex_conaffinity[flex]
         things = named - solid if touchable else named
