@@ -1,6 +1,6 @@
 """What moves as one with a body: its cargo, welded on or a body without joints, has mass and inertia that water has to move, too."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -26,7 +26,7 @@ class Wholes:
     """(n, 3) kg m^2, about them."""
 
     @classmethod
-    def of(cls, model: "mujoco.MjModel", bodies: Sequence[int]) -> "Wholes":
+    def of(cls, model: "mujoco.MjModel", bodies: Iterable[int]) -> "Wholes":
         """Those of some bodies of a world; one that stands fast is its own whole."""
         import mujoco
 
