@@ -138,7 +138,7 @@ def main() -> int:
         began = time.perf_counter()
         conducting.conduct(many, stub_worlds.do)
         each = (time.perf_counter() - began) / DONE
-        room = [sys.intern(f"room-{n}") for n in range(300_000)]  # its table of names would else grow at some moment
+        room = [sys.intern(f"room-{n}") for n in range(400_000)]  # its table of names would else grow at some moment
         peak(campaign(Path(scratch) / "warm", 10))  # what is loaded and kept once
         few, most = (peak(campaign(Path(scratch) / f"driven-{worlds}", worlds)) for worlds in (DRIVEN // 10, DRIVEN))
         del room
