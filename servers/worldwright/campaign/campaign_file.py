@@ -81,9 +81,10 @@ class Axis(Frozen):
             low, high = getattr(self, name) or (0, 1)
             if low >= high:
                 raise ValueError(f"`{name}` is [low, high] with low < high")
-        for name, (low, high) in (("from, to", (self.start or 0, self.to or 0)), ("uniform", self.uniform or (0, 0))):
-            if math.isinf(high - low):
-                raise ValueError(f"`{name}` is wider than a number can say: from {low:g} to {high:g}")
+        laid = None if self.start is None or self.to is None else (self.start, self.to)
+        for name, span in (("from, to", laid), ("uniform", self.uniform)):
+            if span and math.isinf(span[1] - span[0]):
+                raise ValueError(f"`{name}` is wider than a number can say: from {span[0]:g} to {span[1]:g}")
         if self.normal and math.isinf(abs(self.normal[0]) + FAR * self.normal[1]):
             raise ValueError(f"`normal` draws what is no number: mean {self.normal[0]:g}, deviation {self.normal[1]:g}")
         if self.spacing == "log" and self.start and self.to and not 0 < self.to / self.start < math.inf:

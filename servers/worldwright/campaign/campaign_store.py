@@ -206,10 +206,11 @@ class Store:
         return row
 
     def rows(self) -> Iterator[Row]:
-        """Every row, one after the other, in the order of the worlds' hashes."""
-        for path in sorted((self.folder / "rows").glob("*/*.json")):
-            if (row := self.row(path.stem)) is not None:
-                yield row
+        """Every row, one after the other, in the order of the worlds' hashes; one folder's names are held at a time."""
+        for inner in sorted((self.folder / "rows").glob("*")):
+            for path in sorted(inner.glob("*.json")):
+                if (row := self.row(path.stem)) is not None:
+                    yield row
 
     def forget(self, row: Row) -> None:
         """Take a row away, so that its world is begun again, as often as any other."""

@@ -1,8 +1,8 @@
 """The table of a campaign: one row a world, flat, for whatever loads Parquet or CSV.
 
 Columns are fixed, but for one `vary.FIELD` a swept field, one `minutes.STEP` a step and, for each expectation, `margin.N.NAME`
-(N: its objective, counted from 0) with `measured.N.NAME`; a cell that has nothing to say is empty. Written a stretch at a time,
-so that memory does not grow with the campaign.
+(N: its objective, counted from 0) with `measured.N.NAME`; a cell that has nothing to say is empty. Written a stretch at a time:
+of all rows, no more is held than each one's place and address.
 """
 
 import secrets
@@ -28,16 +28,11 @@ NUMBERS = ("seconds", "margin", "memory_mb")
 
 
 def columns(rows: Iterable[Row]) -> list[str]:
-    """The columns that rows differ in, in a steady order."""
-    found: dict[str, None] = {}
-    for row in rows:
-        found |= dict.fromkeys(name for name in flat(row) if "." in name)
-    return ordered(found)
-
-
-def ordered(found: Iterable[str]) -> list[str]:
-    """Such columns in their order: what was swept, minutes, margins, what was measured."""
+    """The columns that rows differ in: what was swept, minutes, margins, what was measured, each by name."""
     kinds = ("vary.", "minutes.", "margin.", "measured.")
+    found: set[str] = set()
+    for row in rows:
+        found.update(name for name in flat(row) if "." in name)
     return sorted(found, key=lambda name: (next(n for n, kind in enumerate(kinds) if name.startswith(kind)), name))
 
 

@@ -92,11 +92,19 @@ class Count:
         self.memory_mb = max(self.memory_mb, row.memory_mb)
 
 
-def standing(store: Store) -> Standing:
-    """How far a campaign is, by its files."""
-    begun, count = store.begun, Count()
+def counted(store: Store) -> Count:
+    """What all rows add up to."""
+    count = Count()
     for row in store.rows():
         count.add(row)
+    return count
+
+
+def standing(store: Store, count: Count | None = None) -> Standing:
+    """How far a campaign is, by its files; `count`: what its rows add up to, by whoever has just read them."""
+    begun = store.begun
+    if count is None:
+        count = counted(store)
     cancelled = "cancelled" if store.cancelled.exists() and count.done < begun.campaign.size else ""
     return told(store, begun, count, at_work=store.driven, stopped=cancelled)
 
@@ -160,9 +168,7 @@ def conduct(store: Store, work: Work = perform, say: Say = lambda _: None, watch
         CampaignError: another driver is at work, or nobody can do the work.
     """
     with store.driving():
-        begun, count = store.begun, Count()
-        for row in store.rows():
-            count.add(row)
+        begun, count = store.begun, counted(store)
         crew = crew_of(begun.campaign, work, count.memory_mb, say)
         try:
             return _Conducting(store, begun, count, crew, watch).go()

@@ -16,7 +16,8 @@ from pydantic import Field
 from ..expose import Positional, reads
 from ..model.frozen import Frozen
 from ..model.progress import Progress, silent
-from .conducting import Standing, standing
+from .conducting import Count, Standing, standing
+from .world_row import Row
 
 Name = Annotated[str, Field(description="The campaign's folder, or its name under runs/.")]
 LOG = "driver.log"
@@ -49,7 +50,7 @@ class Results(Frozen):
     said: dict[str, str] = {}
     """Of each kind of cause, what one world says."""
     results: tuple[Result, ...] = ()
-    """Of the worlds that were asked for, by number; at most 2000."""
+    """Of the worlds that were asked for, the first 2000 by number."""
     files: tuple[str, ...] = ()
     """The table (Parquet, CSV) and the page, as they are now."""
 
@@ -139,9 +140,11 @@ def campaign_results(
     from . import wall
     from .campaign_store import Store
 
-    store, said = Store.find(campaign), dict[str, str]()
+    store, said, count = Store.find(campaign), dict[str, str](), Count()
     found: list[Result] = []
-    for row in store.rows():
+
+    def see(row: Row) -> None:
+        count.add(row)
         kind = row.cause.kind if row.cause else ""
         if row.cause is not None:
             said.setdefault(kind, f"{row.cause.said.splitlines()[0]} (world {row.number})")
@@ -157,9 +160,9 @@ def campaign_results(
                     folder=row.folder,
                 )
             )
-    found.sort(key=lambda one: one.number)
-    files = tuple(str(path) for path in wall.write(store))
-    return Results(standing=standing(store), said=said, results=tuple(found), files=files)
+
+    files = tuple(str(path) for path in wall.write(store, see))
+    return Results(standing=standing(store, count), said=said, results=tuple(found), files=files)
 
 
 TOOLS = (campaign_start, campaign_wait, campaign_status, campaign_cancel, campaign_results)

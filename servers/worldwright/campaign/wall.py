@@ -1,13 +1,14 @@
 """The page of a campaign: what came of it, failures grouped by cause, histograms of margins, and a wall of its worlds.
 
-`index.html` lies in the campaign's folder and reads nothing but the posters and reports beside it. Rows are gone through twice,
-once for the columns and the page, once for the table; of a very large campaign the page shows the worlds that come first.
+`index.html` lies in the campaign's folder and reads nothing but the posters and reports beside it. Rows are gone through twice:
+once for the columns and the order, then by number for the table, the page and whoever else looks at each; of a very large campaign
+the page shows the worlds that come first.
 """
 
 import json
 import math
 from collections import Counter, defaultdict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -67,21 +68,19 @@ class Group:
 
 @dataclass
 class Seen:
-    """What one pass over the rows gathers."""
+    """What the page says of the rows."""
 
     outcomes: Counter[str] = field(default_factory=Counter)
     groups: dict[tuple[str, str], Group] = field(default_factory=dict)
     margins: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
     units: dict[str, str] = field(default_factory=dict)
     shown: list[Row] = field(default_factory=list)
-    columns: dict[str, None] = field(default_factory=dict)
     total: int = 0
 
     def add(self, row: Row) -> None:
         """One row more."""
         self.total += 1
         self.outcomes[row.outcome] += 1
-        self.columns |= dict.fromkeys(name for name in campaign_table.flat(row) if "." in name)
         if row.cause is not None:
             group = self.groups.setdefault((row.cause.kind, row.cause.step), Group(row.cause.kind, row.cause.step))
             group.count += 1
@@ -97,13 +96,29 @@ class Seen:
             self.shown.append(row)
 
 
-def write(store: Store) -> list[Path]:
-    """Write `table.parquet`, `table.csv` and `index.html` of what is done so far; returns their paths."""
-    seen = Seen()
-    for row in store.rows():
-        seen.add(row)
-    seen.shown.sort(key=lambda row: row.number)
-    table = campaign_table.write(store.rows(), campaign_table.ordered(seen.columns), store.folder)
+def write(store: Store, see: Callable[[Row], None] = lambda _: None) -> list[Path]:
+    """Write `table.parquet`, `table.csv` and `index.html` of what is done so far, each by the worlds' numbers; returns their paths.
+
+    Args:
+        store: a campaign.
+        see: shown each row that the table has, in its order.
+    """
+    seen, places = Seen(), list[tuple[int, str]]()
+
+    def placed() -> Iterator[Row]:
+        for row in store.rows():
+            places.append((row.number, row.world))
+            yield row
+
+    def by_number() -> Iterator[Row]:
+        for _, world in sorted(places):
+            if (row := store.row(world)) is not None:
+                seen.add(row)
+                see(row)
+                yield row
+
+    columns = campaign_table.columns(placed())
+    table = campaign_table.write(by_number(), columns, store.folder)
     page = store.folder / PAGE
     write_atomic(page, render(store, seen))
     return [*table, page]

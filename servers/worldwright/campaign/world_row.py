@@ -34,8 +34,8 @@ class Margin(Frozen):
     unit: str = ""
 
 
-class Row(Frozen):
-    """What came of one world."""
+class Row(Frozen, cache_strings="keys"):
+    """What came of one world; no text of it is kept for the next one, since hardly any comes again."""
 
     world: str
     """Sixteen hexadecimal digits: the hash of what it is made of and of how far it is taken."""

@@ -100,6 +100,26 @@ def test_two_may_write_the_table_at_once_and_none_leaves_a_draft(tmp_path):
     assert campaign_table.read(tmp_path)["number"].to_pylist() == [0, 1]
 
 
+def test_table_page_and_whoever_looks_have_the_worlds_by_number(store, monkeypatch):
+    monkeypatch.setattr(wall, "MOST_SHOWN", 2)
+    for number in range(5):
+        store.keep(row(number, world=f"{9 - number:02x}{0:014x}"))
+    seen = []
+    page = wall.write(store, lambda row: seen.append(row.number))[-1].read_text()
+    assert seen == campaign_table.read(store.folder)["number"].to_pylist() == [0, 1, 2, 3, 4]
+    tiles = json.loads(re.search(r'id="rows">(.*?)</script>', page, re.DOTALL)[1])
+    assert [tile["n"] for tile in tiles] == [0, 1]
+
+
+def test_rows_are_listed_a_folder_at_a_time(store):
+    for world in ("00" * 8, "11" * 8):
+        store.keep(row(0, world=world))
+    rows = store.rows()
+    assert next(rows).world == "00" * 8
+    store.keep(row(1, world="11" + "00" * 7))
+    assert [row.number for row in rows] == [1, 0], "the second folder was not looked into before the first was read"
+
+
 def test_a_campaign_of_which_nothing_is_done_has_a_page(store):
     page = wall.write(store)[-1].read_text()
     assert "0 of 5 worlds" in page and campaign_table.read(store.folder).num_rows == 0
