@@ -6,7 +6,8 @@ import pytest
 
 from worldengine.film.drawn_frames import Frames
 from worldengine.film.renderers.preview import mean_chord
-from worldengine.film.renderers.traced import variant, walked
+from worldengine.film.renderers.traced import absorbed, variant, walked
+from worldengine.film.renderers.traced.tracing import Tracing
 from worldkit import materials, scene
 from worldkit.materials.catalogue import LIBRARY
 from worldkit.materials.look import NOTHING
@@ -41,7 +42,7 @@ def eye(mi, side: int = 8):
 
 def test_what_absorbs_nothing_is_walked_as_mitsuba_does(mi) -> None:
     world, pane = slab(mi, 1.5)
-    mine = walked.light(world, eye(mi), 8, 16, 3, absorbing=[(pane, NOTHING)])
+    mine = walked.light(world, eye(mi), 8, 16, 3, clear=[(pane, NOTHING)])
     assert np.allclose(mine, walked.light(world, eye(mi), 8, 16, 3), rtol=1e-4)  # the two are compiled apart
     where = np.eye(8, dtype=bool)
     some = walked.light(world, eye(mi), 8, 16, 3, where, [(pane, NOTHING)])
@@ -51,7 +52,7 @@ def test_what_absorbs_nothing_is_walked_as_mitsuba_does(mi) -> None:
 @pytest.mark.parametrize("thick", [0.02, THICK_M])
 def test_light_keeps_what_beer_and_lambert_say(mi, thick) -> None:
     world, pane = slab(mi, 1.0001, thick)
-    seen = walked.light(world, eye(mi), 8, 4, 0, absorbing=[(pane, ABSORBS)]).reshape(-1, 3)
+    seen = walked.light(world, eye(mi), 8, 4, 0, clear=[(pane, ABSORBS)]).reshape(-1, 3)
     assert seen.mean(axis=0) == pytest.approx(np.exp(-np.array(ABSORBS) * thick), rel=0.01)
     assert np.ptp(seen, axis=0).max() < 1e-3, "it has no noise of its own"
 
@@ -64,7 +65,7 @@ def test_things_within_each_other_absorb_both(mi) -> None:
         {"type": "scene", "around": {"type": "constant"}, "one": inner, "other": outer}, optimize=False
     )
     one, other = world.shapes()
-    seen = walked.light(world, eye(mi), 8, 4, 0, absorbing=[(one, ABSORBS), (other, (0.0, 7.0, 0.0))])
+    seen = walked.light(world, eye(mi), 8, 4, 0, clear=[(one, ABSORBS), (other, (0.0, 7.0, 0.0))])
     assert seen.mean(axis=(0, 1))[1] == pytest.approx(np.exp(-(5.0 + 7.0) * 0.04), rel=0.01)
 
 
@@ -79,7 +80,7 @@ def test_light_that_meets_something_on_its_way_fades_both_ways(mi) -> None:
     }
     world = mi.load_dict({"type": "scene", "pane": pane, "sheet": sheet}, optimize=False)
     shape = next(shape for shape in world.shapes() if not shape.is_emitter())
-    seen = walked.light(world, eye(mi), 8, 4, 0, absorbing=[(shape, ABSORBS)]).mean(axis=(0, 1))
+    seen = walked.light(world, eye(mi), 8, 4, 0, clear=[(shape, ABSORBS)]).mean(axis=(0, 1))
     assert seen == pytest.approx(np.exp(-np.array(ABSORBS) * THICK_M / 2), rel=0.01)
 
 
@@ -101,11 +102,125 @@ def test_light_of_a_lamp_fades_on_its_way_to_what_is_in_the_water(mi) -> None:
         if "Dielectric" in type(shape.bsdf()).__name__ or "dielectric" in str(shape.bsdf()).lower()
     )
     plain, dyed = (
-        walked.light(world, eye(mi), 3, 64, 0, absorbing=[(block, absorbs)]).mean(axis=(0, 1))
+        walked.light(world, eye(mi), 3, 64, 0, clear=[(block, absorbs)]).mean(axis=(0, 1))
         for absorbs in (NOTHING, (0.0, 2.0, 5.0))
     )
     way = 0.5 + np.hypot(0.3, 0.3)  # from the lamp to the sheet, and from there to the eye's side
     assert dyed / plain == pytest.approx(np.exp(-np.array((0.0, 2.0, 5.0)) * way), rel=0.05)
+
+
+def behind(mi, *between: dict, lamp: dict | None = None, depth: int = 2):
+    """Light of a white wall, seen from beside what stands before it, 1 m from a lamp without a size."""
+    wall = {
+        "type": "rectangle", "to_world": mi.ScalarTransform4f().translate([0, 1, 0]).rotate([1, 0, 0], 90).scale(2),
+        "bsdf": {"type": "diffuse", "reflectance": {"type": "rgb", "value": 0.5}},
+    }  # fmt: skip
+    point = {"type": "point", "position": [0.0, -1.0, 0.0], "intensity": {"type": "rgb", "value": 1.0}}
+    told = {"type": "scene", "wall": wall, "lamp": lamp or point}
+    world = mi.load_dict(told | {f"thing{number}": one for number, one in enumerate(between)}, optimize=False)
+    things = [shape for shape in world.shapes() if absorbed.lets_through(shape.bsdf())]
+    look = mi.ScalarTransform4f().look_at([1.5, 0.2, 0], [0, 1, 0], [0, 0, 1])
+    film = {"type": "hdrfilm", "width": 8, "height": 8, "rfilter": {"type": "box"}, "pixel_format": "rgb"}
+    side = mi.load_dict({"type": "perspective", "fov": 2.0, "to_world": look, "film": film})
+    clear = [(shape, ABSORBS if shape.bsdf().id() == "tea" else NOTHING) for shape in things]
+    return walked.light(world, side, depth, 16, 0, clear=clear or ()).mean(axis=(0, 1))
+
+
+def plate(mi, half: float, bsdf: dict, at: float = 0.0):
+    """A plate across the way of the light, so thick either way of its middle."""
+    return {
+        "type": "cube",
+        "to_world": mi.ScalarTransform4f().translate([0, at, 0]).scale([0.4, half, 0.4]),
+        "bsdf": bsdf,
+    }
+
+
+def dielectric(index: float, name: str = "") -> dict:
+    return {"type": "dielectric", "int_ior": index, "ext_ior": 1.0} | ({"id": name} if name else {})
+
+
+def mirrored(index: float) -> float:
+    return ((index - 1) / (index + 1)) ** 2
+
+
+def lamps(mi) -> dict[str, dict]:
+    aim = mi.ScalarTransform4f().look_at([0, -1, 0], [0, 0, 0], [0, 0, 1])
+    white = {"type": "rgb", "value": 1.0}
+    slide = {"type": "bitmap", "bitmap": mi.Bitmap(np.ones((4, 4, 3), np.float32)), "raw": True}
+    return {
+        "point": {"type": "point", "position": [0.0, -1.0, 0.0], "intensity": white},
+        "spot": {"type": "spot", "to_world": aim, "intensity": white},
+        "directional": {"type": "directional", "to_world": aim, "irradiance": white},
+        "projector": {"type": "projector", "to_world": aim, "irradiance": slide, "fov": 40.0},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", ["point", "spot", "directional", "projector"])
+def test_a_light_without_a_size_shines_through_a_pane_less_what_it_mirrors(mi, kind) -> None:
+    lamp = lamps(mi)[kind]
+    bare, glass, wood = (
+        behind(mi, *things, lamp=lamp)
+        for things in ((), [plate(mi, 0.01, dielectric(1.5))], [plate(mi, 0.01, {"type": "diffuse"})])
+    )
+    assert bare.min() > 0.01 and wood.max() < 1e-6 * bare.min(), "what is opaque still throws its shadow"
+    assert glass / bare == pytest.approx(np.full(3, (1 - mirrored(1.5)) ** 2), rel=0.02)
+
+
+def test_what_is_partly_there_lets_through_the_rest(mi) -> None:
+    partly = {"type": "mask", "opacity": 0.3, "nested": {"type": "diffuse"}}
+    sheet = {"type": "rectangle", "to_world": mi.ScalarTransform4f().rotate([1, 0, 0], 90).scale(0.4), "bsdf": partly}
+    assert behind(mi, sheet) / behind(mi) == pytest.approx(np.full(3, 0.7), rel=0.01)
+
+
+def test_light_fades_in_a_body_on_its_way_to_the_wall(mi) -> None:
+    tea = behind(mi, plate(mi, THICK_M / 2, dielectric(1.33, "tea"))) / behind(mi)
+    assert tea == pytest.approx((1 - mirrored(1.33)) ** 2 * np.exp(-np.array(ABSORBS) * THICK_M), rel=0.02)
+
+
+def test_water_in_a_glass_mirrors_only_where_there_is_air(mi) -> None:
+    """The water reaches a little into both walls of its glass."""
+    walls = [plate(mi, 0.01, dielectric(1.5), at) for at in (-0.1, 0.1)]
+    full, empty = behind(mi, *walls, plate(mi, 0.095, dielectric(1.33))), behind(mi, *walls)
+    assert full / behind(mi) == pytest.approx(np.full(3, (1 - mirrored(1.5)) ** 2), rel=0.02)
+    assert empty / behind(mi) == pytest.approx(np.full(3, (1 - mirrored(1.5)) ** 4), rel=0.02)
+
+
+def test_what_lies_in_water_is_lit_from_outside(mi) -> None:
+    """The wall itself is under water, and is seen through its side."""
+    deep = {"type": "cube", "to_world": mi.ScalarTransform4f().translate([0, 1, 0]).scale([3, 0.5, 3]), "bsdf": dielectric(1.33)}  # fmt: skip
+    dyed = deep | {"bsdf": dielectric(1.33, "tea")}
+    clear, tea = behind(mi, deep, depth=3), behind(mi, dyed, depth=3)
+    assert clear.min() > 0.01
+    # 0.5 m from the side to the wall, and the way back to the eye, which water makes steeper
+    out = np.array([1.5, 0.8]) / np.hypot(1.5, 0.8)
+    back = 0.5 / np.sqrt(1 - (out[0] / 1.33) ** 2)
+    assert np.log(tea / clear) == pytest.approx(-np.array(ABSORBS) * (0.5 + back), rel=0.03)
+
+
+@pytest.mark.gl
+@pytest.mark.parametrize(("look", "lit"), [("glass_clear", True), ("water_clear", True), ("plaster", False)])
+def test_behind_clear_things_of_a_world_its_lamps_light_the_wall(mi, look, lit) -> None:
+    def light(things: bool) -> float:
+        spec = scene.new("lit", time_step=0.002, setting="dark", floor="paper")
+        kind = mujoco.mjtLightType.mjLIGHT_POINT
+        spec.worldbody.add_light(name="lamp", type=kind, pos=(0, -0.5, 0.5), diffuse=(9, 9, 9))
+        box = mujoco.mjtGeom.mjGEOM_BOX
+        if things:
+            spec.worldbody.add_geom(
+                type=box, size=(0.2, 0.02, 0.2), pos=(0, 0, 0.5), material=materials.add(spec, look)
+            )
+        paper = materials.add(spec, "plaster")
+        spec.worldbody.add_geom(type=box, size=(2, 0.01, 1), pos=(0, 0.51, 0.5), material=paper)
+        spec.worldbody.add_camera(name="eye", pos=(0, 0.1, 0.5), xyaxes=(1, 0, 0, 0, 0, 1), fovy=20)
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        drawing = Tracing(model, 16, 12)
+        view, _, drawn, _ = drawing._seen(data, 0)
+        return float(drawing.trace(data, view, drawn, 16, 0).light.mean())
+
+    share = light(True) / light(False)
+    assert share > 0.6 if lit else share < 0.4, share
 
 
 def standing(kind: str, look: str):

@@ -329,7 +329,7 @@ def test_a_held_frame_is_of_its_own_shot_where_that_has_any_and_else_has_the_wor
 def test_why_no_frame_is_reckoned_any_more_is_told():
     film = refining.OfTheAuthor.__new__(refining.OfTheAuthor)
     film.shots, film._unreckoned, film._fps, film.renderer = [range(3)], "", 24, "traced"
-    frames = SimpleNamespace(told=lambda: "traced 1")
+    frames = SimpleNamespace(told=lambda: {"name": "traced", "version": "1"})
     film._screening = SimpleNamespace(frames=frames)
     film._film = SimpleNamespace(told=lambda fps: {}, shutter=0.0)
 
@@ -343,6 +343,20 @@ def test_why_no_frame_is_reckoned_any_more_is_told():
     assert film.told()["unreckoned"] == "RuntimeError: no context"
     told = {"frames": 3, "drawn": 2, "reckoned": 0, "samples": {"least": 2, "most": 2}, "taken_over": 0, "rest_s": 1}
     assert "(RuntimeError: no context)" in refined.said(told | film.told())
+
+
+def test_why_a_plainer_renderer_drew_is_told():
+    told = {
+        "frames": 3,
+        "drawn": 3,
+        "reckoned": 0,
+        "samples": {"least": 2, "most": 2},
+        "taken_over": 0,
+        "complete": True,
+    }
+    stepped_in = {"name": "preview", "instead_of": "traced", "because": "RuntimeError: no memory"}
+    assert "`preview`, since `traced` failed (RuntimeError: no memory)" in refined.said(told | {"renderer": stepped_in})
+    assert "failed" not in refined.said(told | {"renderer": {"name": "traced"}})
 
 
 def test_light_that_flashes_between_two_traced_frames_is_not_mixed_from_them(monkeypatch):

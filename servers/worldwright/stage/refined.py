@@ -75,6 +75,11 @@ def said(summary: dict[str, Any]) -> str:
     parts = [
         f"{drawn} of its {count} frames are drawn, with {samples['least']:g} to {samples['most']:g} samples a pixel"
     ]
+    by = summary.get("renderer", {})
+    if why := by.get("because"):
+        parts.append(
+            f"they are drawn by `{by['name']}`, since `{by['instead_of']}` failed ({why}); worldwright doctor tells more"
+        )
     parts += [f"{reckoned} are reckoned between them by how all that is seen moves"] if reckoned else []
     parts += [f"{held} show the nearest drawn one"] if held else []
     parts += [f"none could be reckoned any more ({summary['unreckoned']})"] if summary.get("unreckoned") else []

@@ -15,6 +15,7 @@ from ...panel_lights import of_model
 from ..preview import unit_shapes
 from ..preview.things import EXACT_UV, FLAT_UV, Things
 from . import rounded, rubbed
+from .absorbed import lets_through
 from .coatings import CLEAR, CORNERS, Coatings
 from .ground_rings import rings
 from .leaning import facing, upright
@@ -280,9 +281,9 @@ class Figures:
         sizes[balls] = self.model.geom_size[balls, 0] / np.maximum(self._sizes[balls], 1e-12)
         return bool(sum([figure.place(data, sizes, breeze) for figure in self.all]))
 
-    def absorbing(self) -> list[tuple[Any, tuple[float, float, float]]]:
-        """The shapes in which light fades, with what it loses, 1/m."""
-        return [(figure.shape, figure.absorbs) for figure in self.all if figure.absorbs != NOTHING]
+    def passing(self) -> list[tuple[Any, tuple[float, float, float]]]:
+        """The shapes that light goes through, with what it loses there, 1/m."""
+        return [(figure.shape, figure.absorbs) for figure in self.all if lets_through(figure.coating)]
 
     def poses(self) -> tuple[np.ndarray, ...]:
         """Where all figures stand."""

@@ -7,11 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from worldkit.materials.look import NOTHING
-
 from ..preview.finish import linear, of_material, plain
 from ..preview.soft_shapes import Patch, SoftShapes, Strand
 from . import rounded
+from .absorbed import lets_through
 from .coatings import Coatings
 from .figures import fill, mesh_of
 
@@ -31,8 +30,8 @@ class Strands:
         self.shapes: list[Any] = []
         self.clear = False
         """One of them is glass or water."""
-        self.absorbing: list[tuple[Any, tuple[float, float, float]]] = []
-        """Those in which light fades, with what it loses, 1/m."""
+        self.passing: list[tuple[Any, tuple[float, float, float]]] = []
+        """Those that light goes through, with what it loses there, 1/m."""
         self._params: dict[tuple[str, int, int], tuple[Any, int]] = {}
         self.points: dict[tuple[str, int, int], np.ndarray] = {}
         """Where the corners of each are, (V, 3) m."""
@@ -62,8 +61,8 @@ class Strands:
         shape, params = mesh_of(room, faces, uv, coating, np.zeros(3), coloured)
         self._params[patch.key] = (params, room)
         self.shapes.append(shape)
-        if finish.look.absorbs != NOTHING:
-            self.absorbing.append((shape, finish.look.absorbs))
+        if lets_through(coating):
+            self.passing.append((shape, finish.look.absorbs))
 
     def _read(self, data: mujoco.MjData) -> list[Patch]:
         """Everything that is soft, the strands of one material together."""

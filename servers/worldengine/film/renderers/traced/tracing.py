@@ -82,7 +82,7 @@ class Tracing:
         """Scenes that do not know yet that something has moved."""
         self._denoiser: tuple[Any, Denoiser] | None = None
         self._depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
-        self._absorbing = [*self.figures.absorbing(), *self._strands.absorbing] if self.figures.coatings.fades else []
+        self._clear = [*self.figures.passing(), *self._strands.passing] if self.figures.coatings.fades else []
         self._plates = plates.Shelf()
         self._plain: Drawing | None = None
         self.figures.place(rest)
@@ -191,7 +191,7 @@ class Tracing:
     ) -> Rays:
         """Trace the picture of `data`, with these walls, or some of it; its light `coarser` times smaller each way."""
         scene, eye = self._placed(data, view, faces), self._sensor(view, "rgb", coarser)
-        light = walked.light(scene, eye, self._depth, samples, seed, where, self._absorbing)
+        light = walked.light(scene, eye, self._depth, samples, seed, where, self._clear)
         rays = walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
 
         def again() -> tuple[np.ndarray, np.ndarray]:
@@ -316,7 +316,7 @@ class Tracing:
         for moment in moments:
             scene = self._placed(moment(), view, drawn)
             eye = self._sensor(view, "rgb", plates.SIDE)
-            light = walked.light(scene, eye, self._depth, plates.SAMPLES, 0, absorbing=self._absorbing)
+            light = walked.light(scene, eye, self._depth, plates.SAMPLES, 0, clear=self._clear)
             sights.append(Sight(light, self.figures.poses(), dict(self._strands.points)))
         return tuple(sights)
 

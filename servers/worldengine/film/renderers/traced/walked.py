@@ -14,7 +14,7 @@ from . import absorbed
 
 AT_ONCE = 64
 """Samples a pixel that are traced in one go, since the memory they take grows with them."""
-Absorbing = Sequence[tuple[Any, tuple[float, float, float]]]
+Clear = Sequence[tuple[Any, tuple[float, float, float]]]
 
 
 class Rays(NamedTuple):
@@ -60,7 +60,7 @@ def light(
     samples: int,
     seed: int,
     where: np.ndarray | None = None,
-    absorbing: Absorbing = (),
+    clear: Clear = (),
 ) -> np.ndarray:
     """Scene light (H, W, 3) of paths of at most `depth` turns; where a coarser mask does not have it, nothing.
 
@@ -70,13 +70,13 @@ def light(
         samples: a pixel.
         seed: of their chances.
         where: (h, w) of the pixels that are walked, a mask of any size.
-        absorbing: shapes in which light fades, with how much of each colour, 1/m.
+        clear: shapes that light goes through, with how much of each colour fades there, 1/m.
     """
     import mitsuba as mi
 
     path = (
-        absorbed.walker(depth, absorbing)
-        if absorbing
+        absorbed.walker(depth, clear)
+        if clear
         else mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": absorbed.LONGEST})
     )
     total: Any = np.float32(0)
