@@ -109,9 +109,11 @@ class SoftShapes:
                 if number in self._closed:
                     pieces, corners = self._solid(number).read(data), self._solid(number).corners
                 else:
-                    pieces, corners = [
-                        tuple(np.array(values).reshape(-1, 9)[first : first + count].reshape(-1, 3) for values in (scene.flexface, scene.flexnormal))
-                    ], None  # fmt: skip
+                    points, normals = (
+                        np.array(values).reshape(-1, 9)[first : first + count].reshape(-1, 3)
+                        for values in (scene.flexface, scene.flexnormal)
+                    )
+                    pieces, corners = [(points, normals)], None
                 if material < 0:  # MuJoCo 4 keeps one for each element, and its scene names none; the first one counts
                     material = int(model.flex_matid[model.flex_elemadr[number]])
                 colours = self._of_flex(number, data, corners)
