@@ -17,6 +17,7 @@ PACKAGES = ("av", "opencv-python-headless")
 
 DRAWN_FROM = (
     "cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "lights.py", "model_text.py", "turning.py", "forms/lattice.py",
+    "laws.py", "moved_shapes.py",
 )  # fmt: skip
 """What of `worldkit` decides how a recorded world looks when it is drawn, and from where."""
 REPLAYED_BY = (
