@@ -219,6 +219,19 @@ def test_no_picture_or_recording_lies_elsewhere_than_where_it_is_used():
     ] == []
 
 
+def test_no_python_that_we_start_imports_from_where_it_is_started():
+    """`-c` and `-m` put the working folder first: one that agents write, such as a run's, would bring its own `mujoco`."""
+    found, checked = [], 0
+    for path in SERVERS.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.List) and node.elts and ast.unparse(node.elts[0]) == "sys.executable":
+                words = {word.value for word in node.elts if isinstance(word, ast.Constant)}
+                checked += 1
+                if words & {"-c", "-m"} and not words & {"-P", "-I"}:
+                    found.append(f"{path.relative_to(SERVERS)}:{node.lineno}")
+    assert checked > 10 and not found, f"add -P: {', '.join(found)}"
+
+
 def test_the_top_level_is_what_the_customer_fixed():
     top = {name.split("/")[0] for name in tracked()}
     fixed = {

@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 from .bodies import pose_below
 from .joints import Joint
 from .joints import attach as attach_joint
+from .model_references import outside
 
 if TYPE_CHECKING:
     import mujoco
@@ -167,8 +168,11 @@ def _checked(text: str, name: str) -> None:
         raise ValueError(f"model {name}: it is not XML: {error}") from error
     if tree.tag not in ("robot", "mujoco"):
         raise ValueError(f"model {name}: its root is <{tree.tag}>; a URDF starts with <robot>, an MJCF with <mujoco>")
-    if any(node.tag == "include" for node in tree.iter()):
-        raise ValueError(f"model {name}: it includes another file; write its content there")
+    for line, found in outside(text):
+        raise ValueError(
+            f"model {name}: line {line}: {found} reads another file; write its content there. Files are named by the `file` of "
+            "<mesh>, <texture> and <hfield> alone, and lie in the catalog"
+        )
     waiting = [tree] if tree.tag == "robot" else []
     while waiting:
         node = waiting.pop()

@@ -19,6 +19,7 @@ from worldengine.solvers import water
 from worldengine.waves.body_of_water import Liquid, Water
 from worldengine.waves.hull_samples import Hulls
 from worldengine.waves.wet_grid import WetGrid
+from worldkit.skins import Gas, Skin, Wall, ball
 
 GRAVITY = 9.81
 TUB = '<geom name="tub" type="box" size="{0} {0} 0.15" pos="0 0 0.15" contype="0" conaffinity="0"/>'
@@ -154,6 +155,35 @@ def sinking() -> float:
     return abs(-float(data.qvel[2]) / np.sqrt(200 * 4 / 3 * 0.004 * GRAVITY * 2 / (1000 * 0.47)) - 1)
 
 
+def settled(skin: Skin, steps: int) -> Skin:
+    """A skin in empty space, after so many steps of 10 ms."""
+    model = mujoco.MjModel.from_xml_string('<mujoco><option gravity="0 0 0"/></mujoco>')
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    skin.start(model, data)
+    for _ in range(steps):
+        skin.step(model, data, 0.01)
+    return skin
+
+
+def balloon() -> float:
+    """The overpressure of a balloon twice its size, against 2 mu t / r0 (1 / a - 1 / a^7), a the stretch that it comes to from 1.5."""
+    wall = Wall(young=9e5, thickness=3e-4, density=950.0, rubber=True, stretched=1.5, damping=0.01)
+    skin = settled(Skin(ball(0.1), wall, Gas(pressure=2.41e5)), 25)
+    grown = 1.5 * float(np.cbrt(skin.room / (4 / 3 * np.pi * 0.1**3)))
+    book = 2 * 3e5 * 3e-4 / (0.1 / 1.5) * (1 / grown - grown**-7)
+    return abs((skin.pressure - skin.gas.outside) / book - 1)
+
+
+def cooling() -> float:
+    """The room of gas in a slack skin after the time that cooling takes: V / V0 = T / T0, T = T1 + (T0 - T1) / e."""
+    wall = Wall(young=2e3, thickness=1e-4, density=950.0, rubber=True)
+    skin = Skin(ball(0.1, finer=2), wall, Gas(warm=350.0, around=250.0, takes=0.3))
+    room = skin.room
+    settled(skin, 30)
+    return abs(skin.room / room / ((250 + 100 / np.e) / 350) - 1)
+
+
 CASES = (
     Case("A sphere half as dense as water floats half under", "Archimedes, On Floating Bodies, I.5", sphere_afloat, 0.02),
     Case("An upright cylinder draws its share of its height", "Archimedes, On Floating Bodies, I.5", cylinder_afloat, 0.02),
@@ -165,6 +195,8 @@ CASES = (
     Case("Energy only falls without wind", "Lamb, Hydrodynamics, section 11", energy_falls, 0.01),
     Case("A light ball let go under water takes half of its water along", "Lamb, Hydrodynamics, section 92", released, 0.03),
     Case("A ball sinks as fast as drag lets it", "Hoerner, Fluid-Dynamic Drag, section 3-8", sinking, 0.03),
+    Case("A balloon twice its size has the pressure of its rubber", "Müller and Strehlow, Rubber and Rubber Balloons, chapter 3", balloon, 0.01),
+    Case("Gas that cools in a slack skin shrinks with its temperature", "Newton 1701; p V = n R T", cooling, 0.005),
 )  # fmt: skip
 
 

@@ -1,0 +1,80 @@
+"""A skin pressed on one geom: stiff against going in, rubbing along it, as energies that a step makes least.
+
+Friction is Coulomb's of the pressure as the step began; below a speed of `CREEPS` it is a drag, so what is stuck creeps by less.
+"""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from . import met_geoms
+
+if TYPE_CHECKING:
+    import mujoco
+
+Array = np.ndarray
+CREEPS = 2e-3
+"""m/s."""
+
+
+class Met:
+    """One geom, and what pressing into it and sliding along it costs during a step of `h` s.
+
+    Args:
+        row: of its body, among those of the law.
+        geom: number of it.
+        hard: (n,) N/m of each point.
+        friction: Coulomb's.
+        points: (n, 3) m, where the step begins.
+    """
+
+    def __init__(
+        self,
+        row: int,
+        geom: int,
+        hard: Array,
+        friction: float,
+        points: Array,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        h: float,
+    ) -> None:
+        import mujoco
+
+        self.row, self.hard, self.kind = row, hard, int(model.geom_type[geom])
+        self.size, self.middle = model.geom_size[geom].copy(), data.geom_xpos[geom].copy()
+        self.turn = data.geom_xmat[geom].reshape(3, 3).copy()
+        body, moves = int(model.geom_bodyid[geom]), np.zeros(6)
+        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, moves, 0)
+        far, self.out = self.far(points)
+        self.grip = friction * self.hard * np.maximum(-far, 0)  # as it was pressed when the step began
+        self.from_ = points + h * (moves[3:] + np.cross(moves[:3], points - data.xipos[body]))
+        self.least = h * CREEPS
+
+    def far(self, x: Array) -> tuple[Array, Array]:
+        """(n,) m, negative within, and (n, 3) the way out."""
+        far, out = met_geoms.distance(self.kind, self.size, (x - self.middle) @ self.turn)
+        return far, out @ self.turn.T
+
+    def _slid(self, x: Array) -> tuple[Array, Array]:
+        way = x - self.from_
+        way = way - (way * self.out).sum(axis=1, keepdims=True) * self.out
+        return way, np.maximum(np.linalg.norm(way, axis=1), self.least)
+
+    def value(self, x: Array) -> float:
+        """J that it costs to be at `x`."""
+        far, _ = self.far(x)
+        way, long = self._slid(x)
+        slides = long / 2 + (way * way).sum(axis=1) / (2 * long)
+        return float((self.hard * np.minimum(far, 0) ** 2).sum() / 2 + (self.grip * slides).sum())
+
+    def add(self, x: Array, slope: Array, each: Array | None) -> None:
+        """Add its slope (n, 3) N, and its stiffness (n, 3, 3) N/m."""
+        far, out = self.far(x)
+        way, long = self._slid(x)
+        drags = (self.grip / long)[:, None]
+        slope += (self.hard * np.minimum(far, 0))[:, None] * out + drags * way
+        if each is not None:
+            within = np.where(far < 0, self.hard, 0.0)
+            each += within[:, None, None] * out[:, :, None] * out[:, None]
+            each += drags[:, :, None] * (np.eye(3) - self.out[:, :, None] * self.out[:, None])

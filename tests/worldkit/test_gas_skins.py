@@ -1,0 +1,151 @@
+"""Skins with gas inside: their slopes, what they keep, whom they push, and what is refused."""
+
+import mujoco
+import numpy as np
+import pytest
+
+from worldkit.errors import ProgramError
+from worldkit.skins import Gas, Skin, Wall, ball, closed_shapes, met_geoms, revolved, thin_elements
+
+CAN = [(0, 0), (0.02, 0.0), (0.03, 0.01), (0.03, 0.04), (0.02, 0.05), (0, 0.05)]
+RUBBER = Wall(young=9e5, thickness=3e-4, density=950.0, rubber=True, stretched=1.5, damping=0.002, hard=1e6)
+SHAPES = (ball(1.0, finer=1), revolved([(0, 0), (0.5, 0), (0.8, 0.3), (0.8, 0.8), (0.5, 1.1), (0, 1.2)], 9))
+
+
+class Balloon(Skin):
+    name, bodies, shown_by = "balloon", ("crate", "world"), "balloon"
+
+
+def at_rest(world: str) -> tuple[mujoco.MjModel, mujoco.MjData]:
+    model = mujoco.MjModel.from_xml_string(f"<mujoco>{world}</mujoco>")
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    return model, data
+
+
+FLOOR = (
+    '<worldbody><geom type="plane" size="1 1 1"/><body name="crate" pos="0 0 0.219"><freejoint/>'
+    '<geom type="box" size="0.05 0.05 0.02" density="200"/></body></worldbody>'
+)
+
+
+@pytest.mark.parametrize("shape", SHAPES, ids=["ball", "revolved"])
+def test_a_shape_is_closed_and_turned_outwards(shape: closed_shapes.Shape) -> None:
+    points, triangles = shape
+    a, b, c = points[triangles].transpose(1, 0, 2)
+    normal = np.cross(b - a, c - a)
+    assert np.allclose(normal.sum(axis=0), 0, atol=1e-12)
+    middle = points.mean(axis=0)
+    assert (((a + b + c) / 3 - middle) * normal).sum(axis=1).min() > 0
+    assert len(points) - len(triangles) / 2 == 2, "Euler's of a sphere"
+
+
+@pytest.mark.parametrize("rubber", [False, True])
+@pytest.mark.parametrize("shape", SHAPES, ids=["ball", "revolved"])
+def test_forces_are_the_slopes_of_what_is_stored(shape: closed_shapes.Shape, rubber: bool) -> None:
+    points = shape[0]
+    wall = Wall(young=2.0, thickness=0.1, density=1.0, poisson=0.3, rubber=rubber)
+    skin = Skin(shape, wall, Gas())
+    random = np.random.default_rng(0)
+    x, way, h = points + 0.05 * random.normal(size=points.shape), random.normal(size=points.shape), 1e-6
+    assert (skin._walls(x + h * way) - skin._walls(x - h * way)) / (2 * h) == pytest.approx(
+        float((skin._pulls(x) * way).sum()), rel=1e-6
+    )
+    assert (skin._room(x + h * way) - skin._room(x - h * way)) / (2 * h) == pytest.approx(
+        float((skin._grows(x) * way).sum()), rel=1e-6
+    )
+    before, after = (skin.sheet.strain(x + s * h * way) for s in (-1, 1))
+    change = (skin.sheet.stress(after) - skin.sheet.stress(before)) / (2 * h)
+    strain = skin.sheet.strain(x)
+    tangent = (skin.sheet.stiff(strain) @ ((after - before) / (2 * h))[:, :, None])[:, :, 0]
+    assert change == pytest.approx(tangent, rel=1e-4, abs=1e-5)
+
+
+def test_a_crease_beyond_the_yield_strain_stays() -> None:
+    points, triangles = ball(1.0, finer=1)
+    thickness = np.full(len(triangles), 0.1)
+    hinges = thin_elements.Hinges(points, triangles, 1.0, 0.3, thickness, yields=0.01)
+    dented = points.copy()
+    dented[0] *= 0.7
+    hinges.flow(dented)
+    left = np.abs(hinges.bent(hinges.angle(dented)))
+    assert left == pytest.approx(np.minimum(left, hinges.most)) and left.max() > 0.5 * hinges.most.min()
+    assert np.abs(hinges.bent(hinges.angle(points))).max() > hinges.most.max(), "what it was before is bent now"
+
+
+@pytest.mark.parametrize(
+    ("kind", "size", "point", "far", "out"),
+    [
+        (met_geoms.PLANE, (1, 1, 1), (3, 4, -0.5), -0.5, (0, 0, 1)),
+        (met_geoms.SPHERE, (1, 0, 0), (0, 3, 4), 4.0, (0, 0.6, 0.8)),
+        (met_geoms.CAPSULE, (1, 2, 0), (0, 3, 6), 4.0, (0, 0.6, 0.8)),
+        (met_geoms.CYLINDER, (1, 2, 0), (0, 4, 6), 5.0, (0, 0.6, 0.8)),
+        (met_geoms.CYLINDER, (1, 2, 0), (0, 0.5, -1.8), -0.2, (0, 0, -1)),
+        (met_geoms.BOX, (1, 2, 3), (0, 5, 7), 5.0, (0, 0.6, 0.8)),
+        (met_geoms.BOX, (1, 2, 3), (-0.9, 0, 0), -0.1, (-1, 0, 0)),
+    ],
+)
+def test_how_far_a_geom_is(kind: int, size: tuple, point: tuple, far: float, out: tuple) -> None:
+    found, way = met_geoms.distance(kind, np.array(size, float), np.array([point], float))
+    assert found[0] == pytest.approx(far) and way[0] == pytest.approx(out, abs=1e-12)
+
+
+def test_momentum_is_kept_with_a_crate_on_it_and_each_time_the_bits_are_the_same() -> None:
+    ends = []
+    for _ in range(2):
+        model, data = at_rest(FLOOR)
+        skin = Balloon(ball(0.1, (0, 0, 0.0995), finer=1), RUBBER, Gas())
+        skin.start(model, data)
+        pushed = np.zeros(6)
+        for _ in range(25):
+            before = skin.mass @ skin.velocities
+            wrench = skin.step(model, data, 0.004)
+            gave = skin.mass @ skin.velocities - before
+            assert gave + 0.004 * wrench[:, :3].sum(axis=0) == pytest.approx(
+                0.004 * skin.mass.sum() * skin._pull, abs=1e-12
+            )
+            data.xfrc_applied[1] = wrench[0]
+            mujoco.mj_step(model, data, 2)
+            pushed += wrench[0]
+        assert pushed[2] > 0, "it carries"
+        ends.append(skin.points.copy())
+    assert (ends[0] == ends[1]).all()
+
+
+def test_warm_gas_that_cools_draws_a_skin_in_and_no_energy_is_made() -> None:
+    model, data = at_rest("<option gravity='0 0 0'/>")
+    skin = Skin(revolved(CAN, 10), Wall(2e7, 1e-4, 1350.0, yields=0.02), Gas(warm=360.0, around=290.0, takes=0.05))
+    skin.start(model, data)
+    room, energies = skin.room, []
+    for _ in range(40):
+        skin.step(model, data, 0.005)
+        energies.append(skin.energy() + 0.5 * float((skin.mass[:, None] * skin.velocities**2).sum()))
+    assert skin.room < 0.9 * room
+    assert skin.pressure * skin.room == pytest.approx(skin.moles * 8.314462618 * skin.gas.temperature(skin.time))
+    assert np.diff(energies).max() < 0.02 * np.ptp(energies)
+
+
+def test_pinned_points_stay_and_the_world_carries_them() -> None:
+    skin = Balloon(ball(0.1, finer=1), RUBBER, Gas(), pinned=[0, 1, 4])
+    model, data = at_rest(FLOOR.replace('type="plane"', 'type="plane" pos="0 0 -3"'))
+    skin.start(model, data)
+    begun, held = skin.points.copy(), np.zeros(3)
+    for _ in range(30):
+        held = skin.step(model, data, 0.01)[1, :3]
+    assert (skin.points[[0, 1, 4]] == begun[[0, 1, 4]]).all()
+    assert held == pytest.approx(skin.mass.sum() * skin._pull, rel=0.02, abs=0.02 * 9.81 * skin.mass.sum())
+
+
+def test_what_is_no_skin_is_refused() -> None:
+    points, triangles = ball(0.1, finer=1)
+    with pytest.raises(ProgramError, match="not closed"):
+        Skin((points, triangles[1:]), RUBBER, Gas())
+    with pytest.raises(ProgramError, match="sweeps no closed surface"):
+        revolved(CAN[1:], 10)
+    Balloon.bodies = ("crate",)
+    with pytest.raises(ProgramError, match="world"):
+        Balloon((points, triangles), RUBBER, Gas(), pinned=[0])
+    Balloon.bodies = ("crate", "world")
+    model, data = at_rest('<worldbody><geom name="egg" type="ellipsoid" size="1 1 2"/></worldbody>')
+    with pytest.raises(ProgramError, match="egg"):
+        Skin((points, triangles), RUBBER, Gas()).start(model, data)
