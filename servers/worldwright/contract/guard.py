@@ -10,6 +10,8 @@ help.
   whose name the harness' file does not list is denied to it. It has no shell, unless the harness offers no other way to look
   at files (Codex).
 - The main thread, and any agent that is none of our roles, writes nothing under `runs/` with a file tool.
+- The tool of another MCP server is given no path of a run. A command that such a tool runs is not read, either.
+- Nobody's file tool writes a list of known keys or the person's data folder, nor reads the signing key there (`users_data`).
 
 It does not read commands, as a shell can spell a name in a thousand ways. The kernel decides what a shell may write:
 Claude Code's own sandbox keeps it from `runs/` and the suite, and in Codex and OpenCode the guard has the
@@ -35,11 +37,14 @@ from pathlib import Path
 if not __package__:  # it was started as a program
     sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from worldwright.contract import harnesses
+from worldwright.contract import harnesses, users_data
 from worldwright.contract.roles import BY_AGENT, RESERVED, RUNS, SERVERS, Role
 from worldwright.contract.tool_names import ToolNames
 
 PATCHED = re.compile(r"^\*\*\* (?:Add|Update|Delete) File: (.+)$|^\*\*\* Move to: (.+)$", re.MULTILINE)
+NAMES_A_FILE = ("file_path", "filePath", "path", "notebook_path", "filename")
+MOST_OF_A_PATH = 4096
+"""The kernel's limit, bytes."""
 STARTER = Path(__file__).with_name("shell.py")
 
 
@@ -61,12 +66,18 @@ def judge(event: dict, project: Path, names: ToolNames) -> bool:
     agent = str(event.get("agent_type") or event.get("agent_name") or "")
     role = BY_AGENT.get(agent.rsplit(":", 1)[-1].lower())
     kind = tool.lower()
+    base = Path(str(event.get("cwd") or project))
     if kind.startswith("mcp__"):
-        return _judge_mcp(kind, role)
+        own = _judge_mcp(kind, role)
+        if not own and kind.split("__")[1] not in SERVERS:
+            _judge_stranger(kind, event.get("tool_input"), base, project)
+        return own
     if kind in names.writers:
         for path in _targets(event.get("tool_input")):
-            _judge_write(path, Path(str(event.get("cwd") or project)), project, role)
+            _judge_write(path, base, project, role)
         return role is not None
+    if kind in names.readers:
+        _judge_read(event.get("tool_input"), base)
     if role is not None:
         _judge_other(kind, role, names)
     return False
@@ -115,6 +126,24 @@ def _judge_mcp(kind: str, role: Role | None) -> bool:
     return name != "stamp.approve"  # the person is asked whether a plan is approved
 
 
+def _judge_stranger(kind: str, given: object, base: Path, project: Path) -> None:
+    """Of another server's tool nobody knows whether it reads or writes: it is given no file of a run, no key and no proof."""
+    if isinstance(given, dict | list):
+        for value in given.values() if isinstance(given, dict) else given:
+            _judge_stranger(kind, value, base, project)
+    elif isinstance(given, str) and "\n" not in given and len(given) < MOST_OF_A_PATH:
+        try:
+            target = _real(given.removeprefix("file://"), base)
+        except (ValueError, RuntimeError):
+            return  # a text that can be no path
+        inside = _inside(target, project)
+        if users_data.shut(target, project) or (inside and (len(inside.parts) > 1 or target.exists())):
+            raise DeniedError(
+                f"`{kind}` is no tool of ours, and {given} belongs to a run or says whose word counts: look at it with your own "
+                "tools; a run's files are written by its roles and our servers"
+            )
+
+
 def _refuse_reserved(name: str) -> None:
     if name in RESERVED:
         raise DeniedError(f"{name} is not a tool of the main thread: spawn the role whose it is, and let it report")
@@ -124,7 +153,7 @@ def _targets(given: object) -> list[str]:
     """Every path that a writing tool names; without any, the call is denied."""
     found: list[str] = []
     if isinstance(given, dict):
-        for key in ("file_path", "filePath", "path", "notebook_path", "filename"):
+        for key in NAMES_A_FILE:
             if isinstance(given.get(key), str):
                 found.append(given[key])
         for key in ("input", "patch", "patchText", "command", "content_patch"):
@@ -139,8 +168,23 @@ def _targets(given: object) -> list[str]:
     return [path.strip() for path in found]
 
 
+def _judge_read(given: object, base: Path) -> None:
+    """Whoever has read the signing key signs as this machine; a search of a folder that holds it reads it, too."""
+    named = [given[key] for key in NAMES_A_FILE if isinstance(given.get(key), str)] if isinstance(given, dict) else []
+    for path in named or ["."]:
+        if users_data.key().is_relative_to(_real(path, base)):
+            raise DeniedError(
+                f"{path} is or holds the signing key, which no agent reads: name the file or folder you need"
+            )
+
+
 def _judge_write(path: str, base: Path, project: Path, role: Role | None) -> None:
     target = _real(path, base)
+    if users_data.shut(target, project):
+        raise DeniedError(
+            f"{path} says whose signature and which proof count, and no agent writes it: a person calls a key known, in a "
+            "terminal of theirs, with `worldwright keys trust`"
+        )
     inside = _inside(target, project)
     if role is None:
         if inside is not None:

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 RUNS = "runs"
 """The folder of all runs, relative to the project."""
 SUITE = (
-    "servers", "catalog", "skills", "commands", ".venv",
+    "servers", "catalog", "skills", "commands", "examples", ".venv",
     ".claude", ".codex", ".opencode", ".agents", ".mcp.json", "AGENTS.md", "CLAUDE.md",
 )  # fmt: skip
-"""The files that judge and start the runs, which no shell of an agent may change."""
+"""The files that judge and start the runs, which no shell of an agent may change; `examples` has the keys that sign them."""
 SERVERS = ("retrieve", "lint", "place", "stage", "scan", "stamp")
 """Our MCP servers, as in `expose.py`, which imports too much for a hook."""
 PREFIX = "world-"

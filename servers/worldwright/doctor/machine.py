@@ -31,7 +31,7 @@ def python() -> Diagnosis:
 def simulator() -> Diagnosis:
     """Check that MuJoCo 4 imports and reports its version."""
     code = "import mujoco; print(mujoco.__version__)"
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False)
+    done = subprocess.run([sys.executable, "-P", "-c", code], capture_output=True, text=True, timeout=60, check=False)
     found = done.stdout.strip() or last_line(done.stderr)
     fix = f"{sys.executable} -m pip install --force-reinstall 'mujoco>=4,<5'"
     return Diagnosis("mujoco", done.returncode == 0 and found.startswith("4."), found, fix)
@@ -68,7 +68,7 @@ def opengl() -> Diagnosis:
     tried = []
     for backend in ("egl", "osmesa"):
         environment = {**os.environ, "MUJOCO_GL": backend}
-        call = [sys.executable, "-c", RENDER]
+        call = [sys.executable, "-P", "-c", RENDER]
         done = subprocess.run(call, env=environment, capture_output=True, text=True, timeout=120, check=False)
         if done.returncode == 0:
             return Diagnosis("opengl", True, f"renders with {backend}")

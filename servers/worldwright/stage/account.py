@@ -41,7 +41,16 @@ def with_account(run: Run, status: JobStatus) -> JobStatus:
     except WorldwrightError:
         return status  # without a recording, or with a damaged one, the pass itself says so
     plan = _plan(snapshot if snapshot.is_file() else run.plan)
-    return status.model_copy(update={"account": tuple(account(trajectory, plan, _summary(folder)))})
+    told = tuple(account(trajectory, plan, _summary(folder)))
+    return status.model_copy(update={"account": (*_unconfined(status.sandbox), *told)})
+
+
+def _unconfined(level: str) -> Iterator[str]:
+    if level == "rlimits":
+        yield (
+            "NO SANDBOX confined the program: it could read and write all that you may; `worldwright doctor` says why none "
+            "does here"
+        )
 
 
 def account(trajectory: Trajectory, plan: Plan | None, summary: dict[str, Any]) -> Iterator[str]:

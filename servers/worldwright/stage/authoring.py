@@ -58,4 +58,4 @@ def place(source: Path) -> dict[str, Any]:
 def call(program: Path, motion: Path, out: Path | str) -> list[str]:
     """The command line that lets the author describe the film."""
     words = [str(program), "--motion", str(motion), "--out", str(out)]
-    return [sys.executable, "-s", "-m", "worldkit.filming.telling", *words]
+    return [sys.executable, "-s", "-P", "-m", "worldkit.filming.telling", *words]

@@ -20,7 +20,7 @@ from ..model.errors import GateError, JobError
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
-from . import bare_models, family, gates, refined
+from . import bare_models, family, gates, plain, refined
 from .job import Job, JobStatus, Spec
 
 STILL_S = 180.0
@@ -133,8 +133,9 @@ def launch(
             created=time.time(),
         )
         for left in end_orphans(run):
-            shutil.rmtree(left.scratch, ignore_errors=True)
-            shutil.rmtree(left.out, ignore_errors=True)
+            for folder in (left.scratch, left.out):
+                if plain.link_on_the_way(run.folder, folder) is None:
+                    shutil.rmtree(folder, ignore_errors=True)
         job = Job.create(run, spec)
         _detach(job)
         return job.read()

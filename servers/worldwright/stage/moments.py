@@ -12,6 +12,8 @@ from itertools import pairwise
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..model import mp4_file
+
 if TYPE_CHECKING:
     import numpy as np
 
@@ -85,11 +87,10 @@ def of_recording(folder: Path) -> Moments:
 
 def of_film(film: Path) -> Moments:
     """Choose moments by how much the pictures of a film change; thumbnails are enough."""
-    import av
     import numpy as np
 
     times, pictures = [], []
-    with av.open(str(film)) as container:
+    with mp4_file.opened(film) as container:
         for frame in container.decode(video=0):
             times.append(float(frame.time or 0.0))
             pictures.append(frame.reformat(width=96, height=54, format="gray").to_ndarray().astype(np.float32))

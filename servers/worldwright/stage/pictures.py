@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from ..model import mp4_file
 from ..model.errors import NotFoundError
 from ..model.frozen import Frozen
 from ..model.picture import Illustrated, Picture
@@ -141,9 +142,7 @@ def _images(
 
 def moments(film: Path, count: int, window_s: tuple[float, float] = (0.0, 1e9)) -> list[tuple[float, Any]]:
     """(time in seconds, RGB uint8 (H, W, 3)) at `count` evenly spread moments of a window, its ends included."""
-    import av
-
-    with av.open(str(film)) as container:
+    with mp4_file.opened(film) as container:
         stream = container.streams.video[0]
         total = stream.frames or sum(1 for _ in container.decode(stream))
         rate = float(stream.average_rate or 24)
@@ -154,10 +153,8 @@ def moments(film: Path, count: int, window_s: tuple[float, float] = (0.0, 1e9)) 
 
 def at(film: Path, times_s: list[float]) -> list[tuple[float, Any]]:
     """(time in seconds, RGB uint8 (H, W, 3)) of the frames nearest to some ascending times, one for each."""
-    import av
-
     found: list[tuple[float, Any]] = []
-    with av.open(str(film)) as container:
+    with mp4_file.opened(film) as container:
         last = None
         for frame in container.decode(video=0):
             while len(found) < len(times_s) and float(frame.time or 0.0) >= times_s[len(found)] - 1e-3:

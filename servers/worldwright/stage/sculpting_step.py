@@ -72,7 +72,7 @@ def _made(root: Path, file: str, names: set[str], cancelled: Callable[[], bool])
     with tempfile.TemporaryDirectory(prefix="worldwright-sculpt-") as folder:
         for path, content in files.items():
             write_atomic(Path(folder) / path, content)
-        call = [sys.executable, "-s", "-m", "worldkit.sculpt.made_ahead", folder, file, "{out}", *sorted(names)]
+        call = [sys.executable, "-s", "-P", "-m", "worldkit.sculpt.made_ahead", folder, file, "{out}", *sorted(names)]
         ended = confined.run(
             call, reads=(Path(folder),), wanted=(KEYS,), wall_s=WALL_S, memory_mb=MEMORY_MB, file_mb=512,
             sculpts=Given((place,), place), cancelled=cancelled,

@@ -89,7 +89,7 @@ def drawn(thing: str) -> Illustrated:
         files = needed(root, inside)
         for path, content in files.items():
             write_atomic(source / path, content)
-        call = [sys.executable, "-s", "-m", "worldkit.sculpt.showing", str(source / inside), "--name", name]
+        call = [sys.executable, "-s", "-P", "-m", "worldkit.sculpt.showing", str(source / inside), "--name", name]
         call += ["--root", str(source), "--out", "{out}"]
         try:
             made = run_process(call, (source,), (WORLD, PROGRAM, FACTS), sculpts=given(files), **LIMITS)

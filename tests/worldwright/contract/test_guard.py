@@ -9,10 +9,13 @@ from pathlib import Path
 
 import pytest
 
-from worldwright.contract import guard, harnesses
+from worldkit.assets import root
+from worldwright.contract import guard, harnesses, users_data
 from worldwright.contract.roles import ROLES, SUITE
+from worldwright.stamp import keyring
 
 REPO = Path(__file__).parents[3]
+CLAUDE = json.loads((REPO / ".claude/settings.json").read_text())["sandbox"]["filesystem"]
 
 
 @pytest.fixture
@@ -162,6 +165,32 @@ def test_a_tool_that_nobody_knows_is_denied_to_a_role(project, harness, agent):
         )  # the main thread's are the person's and the harness' business
 
 
+@pytest.mark.parametrize("agent", ["", "general-purpose"])
+def test_another_servers_tool_is_given_no_file_of_a_run(project, data, agent):
+    tool = "mcp__filesystem__write_file"
+    (project / "by").symlink_to(project / "runs/ball")
+    for path in (
+        "runs/ball/evidence/k/scan.json",
+        "by/plan.md",
+        f"file://{project}/runs/ball/new",
+        "runs/ball",
+        data / "known_keys",
+    ):
+        for given in ({"path": str(path)}, {"edits": [{"destination": str(path)}]}):
+            assert "is no tool of ours" in verdict(project, tool, given, agent)
+    for text in (
+        "runs",
+        "src/notes.md",
+        "The ball runs/rolls well",
+        "runs/ball/plan.md is\nthe plan",
+        "x" * 9000,
+        "a\0b",
+        "~5 kg",
+        3,
+    ):
+        assert (verdict(project, tool, {"path": text}, agent) is None) == (text != "runs"), text
+
+
 TRIES = [
     "echo x > runs/ball/evidence/k/scan.json",
     "mkdir -p runs/new/evidence",
@@ -221,6 +250,80 @@ def shell(project, command, through=(), env=None):
     assert changed["description"] == "try"
     words = [*through, "sh", "-c", changed["command"]]
     return subprocess.run(words, cwd=project, capture_output=True, text=True, timeout=60, env=env)
+
+
+@pytest.fixture
+def data(tmp_path_factory, monkeypatch):
+    """A person's data folder, with a key that signs."""
+    folder = tmp_path_factory.mktemp("person") / "data"
+    (folder / "assets").mkdir(parents=True)
+    (folder / "proofs").mkdir()
+    (folder / "signing-key.pem").write_text("secret\n")
+    monkeypatch.setenv("WORLDWRIGHT_DATA", str(folder))
+    return folder
+
+
+PLANTS = [
+    "cat $D/signing-key.pem; cat $D/proofs/../signing-key.pem; tail -c 9 /proc/self/root$D/signing-key.pem",
+    "cp -r $D src/; ln $D/signing-key.pem src/key; mv $D/signing-key.pem src/key; ln -s $D src/d; cat src/d/signing-key.pem",
+    "echo x > $D/known_keys; mkdir $D/proofs/0; echo x > $D/proofs/0; echo x > $D/sandbox-landlock-0.json; mv $D src/other",
+    "echo x > examples/known_keys; echo x >> examples/a/stamp.json; rm -r examples",
+]
+
+
+@pytest.mark.parametrize("command", PLANTS)
+def test_a_confined_shell_neither_reads_the_key_nor_says_whose_word_counts(project, data, command):
+    (project / "examples/a").mkdir(parents=True)
+    (project / "examples/known_keys").write_text("")
+
+    def kept():
+        files = [path for top in (data, project / "examples") for path in top.rglob("*")]
+        return {path: path.is_file() and path.read_bytes() for path in files}
+
+    before = kept()
+    done = shell(project, f"D={data}\n{command}\necho mine > $D/assets/a && cat $D/assets/a <(echo piped)")
+    assert "secret" not in done.stdout and done.stdout.endswith("mine\npiped\n"), done.stderr
+    (data / "assets/a").unlink()
+    assert kept() == before and not (project / "src/key").exists()
+
+
+def test_a_data_folder_that_is_not_there_yet_is_not_made_by_a_confined_shell(project, tmp_path, monkeypatch):
+    monkeypatch.setenv("WORLDWRIGHT_DATA", str(tmp_path / "home/share/data"))
+    (tmp_path / "home").mkdir()
+    done = shell(project, f"mkdir -p {tmp_path}/home/share/data; echo it ran")
+    assert done.stdout == "it ran\n" and not (tmp_path / "home/share").exists()
+
+
+def test_the_guard_means_the_data_folder_that_the_suite_means(tmp_path, monkeypatch):
+    for named, value in (
+        ("WORLDWRIGHT_DATA", str(tmp_path)),
+        ("XDG_DATA_HOME", str(tmp_path)),
+        ("HOME", str(tmp_path)),
+    ):
+        for name in ("WORLDWRIGHT_DATA", "XDG_DATA_HOME"):
+            monkeypatch.delenv(name, raising=False)
+        monkeypatch.setenv(named, value)
+        assert users_data.folder() == keyring.folder().resolve()
+    assert users_data.KEY == keyring.OWN and REPO / users_data.KNOWN_HERE == keyring.SHIPPED
+    assert users_data.folder() / users_data.ASSETS == root.own_root().resolve()
+    assert CLAUDE["denyRead"] == ["~/.local/share/worldwright/" + keyring.OWN]
+
+
+@pytest.mark.parametrize("agent", ["", "general-purpose", "world-plan", "world-code"])
+def test_no_file_tool_takes_the_key_or_says_whose_word_counts(project, data, agent):
+    (project / "link").symlink_to(data)
+    for path in ("link/signing-key.pem", data / "signing-key.pem", data, data.parent):
+        for tool in ("Read", "Grep"):
+            assert "signing key" in verdict(
+                project, tool, {"file_path" if tool == "Read" else "path": str(path)}, agent
+            )
+    assert "signing key" in verdict(project, "Grep", {"pattern": "PRIVATE"}, agent, cwd=data)
+    assert verdict(project, "Grep", {"pattern": "ball"}, agent) is None
+    assert verdict(project, "Read", {"file_path": str(data / "assets/a")}, agent) is None
+    for path in ("examples/known_keys", "link/known_keys", data / "proofs/0/proof/plan.md", data / "signing-key.pem"):
+        assert "no agent writes it" in verdict(project, "Write", write(path), agent)
+    if not agent:
+        assert verdict(project, "Write", write(data / "assets/cup/asset.yaml")) is None
 
 
 def test_where_the_harness_confines_its_shell_the_guard_leaves_it_as_it_is(project):

@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from worldwright import cli, doctor
 from worldwright.contract import generated, harnesses
 from worldwright.contract.command import project
-from worldwright.doctor import coding_harnesses, servers
+from worldwright.doctor import coding_harnesses, machine, servers
 from worldwright.doctor.diagnosis import Diagnosis
 
 REPO = Path(__file__).parents[3]
@@ -42,6 +42,13 @@ def program(folder: Path, name: str, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(f"#!/bin/sh\n{text}\n")
     path.chmod(0o755)
+
+
+def test_the_doctor_asks_the_installed_engine_and_no_module_of_the_folder_it_is_called_in(tmp_path, monkeypatch):
+    (tmp_path / "mujoco.py").write_text("import pathlib\npathlib.Path('ran').touch()\n__version__ = '4.liar'\n")
+    monkeypatch.chdir(tmp_path)
+    found = machine.simulator()
+    assert found.ok and "liar" not in found.found and not (tmp_path / "ran").exists()
 
 
 def test_the_servers_really_answer():

@@ -244,3 +244,32 @@ def test_a_removal_that_is_killed_leaves_no_part_under_its_name_and_is_finished_
     assert len([path for path in old.iterdir() if path.name.startswith(disk.GOING)]) == 1
     disk.free(run, key_of(run), dry=False)
     assert sorted(path.name for path in old.iterdir()) == ["key.json", "lint.json", "source"]
+
+
+def test_nothing_behind_a_link_is_removed(make, tmp_path):
+    run = make("one = 1")
+    recorded(run)
+    run.program.write_text("two = 2")
+    recorded(run)
+    evidence, elsewhere = run.folder / "evidence", tmp_path / "papers"
+    evidence.rename(elsewhere)
+    evidence.symlink_to(elsewhere)
+    before = sorted(elsewhere.rglob("*"))
+    assert disk.used(run, key_of(run)).freeable_mb == 0
+    with pytest.raises(GateError, match="evidence is a link") as refused:
+        disk.free(run, key_of(run), dry=False)
+    assert refused.value.place == str(evidence) and sorted(elsewhere.rglob("*")) == before
+    evidence.unlink()
+    elsewhere.rename(evidence)
+    assert disk.free(run, key_of(run), dry=False).removed
+
+
+def test_what_an_ended_job_was_given_stays_where_its_folder_is_a_link(make, tmp_path):
+    run = make("one = 1")
+    first, _ = job(run, 1), job(run, 2)
+    (tmp_path / "world.mjz").write_bytes(b"mine")
+    first.inputs.rename(tmp_path / "given")
+    first.inputs.symlink_to(tmp_path)
+    with pytest.raises(GateError, match="inputs is a link"):
+        disk.free(run, key_of(run), dry=False)
+    assert (tmp_path / "world.mjz").read_bytes() == b"mine"

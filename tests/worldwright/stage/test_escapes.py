@@ -5,6 +5,8 @@ import json
 import os
 import secrets
 import socket
+import subprocess
+import sys
 import sysconfig
 from contextlib import ExitStack
 from pathlib import Path
@@ -157,13 +159,38 @@ def test_there_is_no_way_out(level, name, outcomes):
 
 def test_what_one_installation_has_tried_another_does_not_make_it_try_again(tmp_path, monkeypatch):
     tried = []
-    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    monkeypatch.setenv("WORLDWRIGHT_DATA", str(tmp_path / "data"))
     monkeypatch.setitem(sandbox.LADDER, "landlock", SimpleNamespace(unavailable=lambda: ""))
-    monkeypatch.setattr(sandbox.probe, "ways_out", lambda level: tried.append(level) or (["UDP"], 14, ""))
+    monkeypatch.setattr(sandbox.probe, "ways_out", lambda level: tried.append(level) or ([], 14, ""))
     for installation in ("one", "another", "one", "another"):
         monkeypatch.setattr(sandbox, "_state", lambda installation=installation: installation)
-        assert "UDP" in sandbox.unusable("landlock")
+        assert not sandbox.unusable("landlock")
     assert len(tried) == 2
+
+
+def test_no_file_says_that_a_level_does_not_work(tmp_path, monkeypatch):
+    """What a shell of an agent leaves in the user's folders, or what fails in that shell alone, takes no protection away."""
+    monkeypatch.setenv("WORLDWRIGHT_DATA", str(tmp_path))
+    monkeypatch.setenv("WORLDWRIGHT_CACHE", str(tmp_path))
+    monkeypatch.setitem(sandbox.LADDER, "landlock", SimpleNamespace(unavailable=lambda: ""))
+    for outcome in ((["UDP"], 14, ""), ([], 0, "the kernel forbids it here"), ([], 14, "")):
+        monkeypatch.setattr(sandbox.probe, "ways_out", lambda level, outcome=outcome: outcome)
+        assert bool(sandbox.unusable("landlock")) == (outcome != ([], 14, ""))
+        lie = {"tried": [{"state": sandbox._state(), "reason": "the kernel forbids it here", "attempts": 1}]}
+        for name in sandbox.CONFINING:
+            (tmp_path / f"sandbox-{name}-{os.geteuid()}.json").write_text(json.dumps(lie))
+    assert not sandbox.unusable("landlock")
+
+
+def test_a_shell_that_gave_rights_up_is_another_state():
+    """bubblewrap works outside of it and not inside: neither may hear from the other that it does."""
+    asked = (
+        "import sys; sys.path.insert(0, sys.argv[1]); from worldwright.stage import sandbox; print(sandbox._state())"
+    )
+    call = [sys.executable, "-P", "-c", asked, str(Path(sandbox.__file__).parents[3])]
+    inside = ["setpriv", "--no-new-privs", *call]
+    said = [subprocess.run(words, capture_output=True, text=True, check=True).stdout for words in (call, inside)]
+    assert said[0] != said[1] and all(said)
 
 
 def test_a_broken_wall_is_noticed(tmp_path):

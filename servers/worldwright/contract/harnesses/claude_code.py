@@ -27,6 +27,8 @@ READERS = ("Read", "Glob", "Grep")
 WRITERS = ("Write", "Edit")
 CONFINES = ("bwrap", "socat")
 """Programs that its sandbox needs on Linux."""
+DEFAULT_KEY = "~/.local/share/worldwright/signing-key.pem"
+"""The signing key where nothing names another data folder. Beyond the project its shell writes nothing by itself."""
 TOOLS = ToolNames(
     writers=frozenset({"write", "edit", "multiedit", "notebookedit"}),
     readers=frozenset({"read", "glob", "grep", "ls", "notebookread", "skill"}),
@@ -49,7 +51,7 @@ def files() -> dict[str, str]:
         "sandbox": {
             "enabled": True,
             "allowUnsandboxedCommands": False,
-            "filesystem": {"denyWrite": [f"./{name}" for name in (RUNS, *SUITE)]},
+            "filesystem": {"denyWrite": [f"./{name}" for name in (RUNS, *SUITE)], "denyRead": [DEFAULT_KEY]},
         },
         "hooks": {"PreToolUse": [{"matcher": "*", "hooks": [judged]}]},
     }

@@ -11,10 +11,10 @@ import os
 from functools import lru_cache
 from pathlib import Path
 
+from worldkit.assets.root import data_root
 from worldkit.files import write_json
 
 from ...model.errors import JobError
-from ...model.evidence.file_hashes import cache_folder
 from . import bubblewrap, landlock, probe, rlimits
 from .confinement import Confinement
 
@@ -22,7 +22,7 @@ LADDER = {"bubblewrap": bubblewrap, "landlock": landlock, "rlimits": rlimits}
 CONFINING = ("bubblewrap", "landlock")
 """Levels that must withstand the probe; the lowest one only limits accidents."""
 REMEMBERED = 8
-"""Outcomes of the probe that are kept, the newest first."""
+"""So many states in which a level works are kept, the newest first."""
 
 __all__ = ["CONFINING", "LADDER", "Confinement", "level", "unusable"]
 
@@ -59,27 +59,28 @@ def level() -> str:
 def unusable(name: str) -> str:
     """Why a level does not work here; empty when a program inside it tried to get out and failed.
 
-    The answer is remembered until the machine, the user, bubblewrap or our own sources change; those of several
-    installations are, side by side, since each of their jobs asks.
+    That a level works is remembered, in the user's data folder, which no agent's shell writes, until the machine, the user,
+    bubblewrap, our own sources or what this process may do change; those of several installations are, side by side, since
+    each of their jobs asks. That it does not is never believed from a file: it would take the protection away.
     """
     if reason := LADDER[name].unavailable():
         return reason
     if name not in CONFINING:
         return ""
-    kept = cache_folder() / f"sandbox-{name}-{os.geteuid()}.json"
+    kept = data_root() / f"sandbox-{name}-{os.geteuid()}.json"
     state = _state()
     try:
-        known = list(json.loads(kept.read_text(encoding="utf-8"))["tried"])
-        reasons = {str(row["state"]): str(row["reason"]) for row in known}
+        known = [str(one) for one in json.loads(kept.read_text(encoding="utf-8"))["works"]]
     except (OSError, ValueError, KeyError, TypeError):
-        known, reasons = [], {}
-    if state in reasons:
-        return reasons[state]
-    possible, tried, broken = probe.ways_out(LADDER[name])
+        known = []
+    if state in known:
+        return ""
+    possible, _, broken = probe.ways_out(LADDER[name])
     reason = broken or (f"a confined program could: {', '.join(possible)}" if possible else "")
-    with contextlib.suppress(OSError):  # with a read-only home the probe runs again: it costs time, not safety
-        newest = {"state": state, "reason": reason, "attempts": tried}
-        write_json(kept, {"tried": [newest, *known][:REMEMBERED]})
+    if not reason:
+        with contextlib.suppress(OSError):  # with a read-only home the probe runs again: it costs time, not safety
+            kept.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+            write_json(kept, {"works": [state, *known][:REMEMBERED]})
     return reason
 
 
@@ -93,6 +94,10 @@ def _state() -> str:
         digest.update(path.read_bytes())
     for path in (Path("/proc/sys/kernel/random/boot_id"), Path("/proc/version")):
         digest.update(path.read_bytes() if path.exists() else b"")
+    # An agent's shell, and what it starts, may mount nothing: there bubblewrap does not work, and outside of it does.
+    with contextlib.suppress(OSError):
+        lines = Path("/proc/self/status").read_text(encoding="utf-8").splitlines()
+        digest.update("\n".join(line for line in lines if line.startswith(("NoNewPrivs", "Seccomp:"))).encode())
     for program in (shutil.which("bwrap"), sys.executable):
         if program:
             stat = Path(program).stat()
