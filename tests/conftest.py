@@ -15,6 +15,9 @@ from collections.abc import Generator
 from pathlib import Path
 
 os.environ.setdefault("MUJOCO_GL", "egl")
+os.environ.setdefault(
+    "OPENBLAS_NUM_THREADS", "1"
+)  # as in the sandbox: on small matrices its threads only wait for each other
 # No test signs with the key of the person who runs it, nor trusts a key in their name. Workers have one key together, so
 # that each knows what another has signed.
 os.environ["WORLDWRIGHT_DATA"] = (

@@ -13,14 +13,15 @@ from .model.evidence.run import Run
 @click.argument("first", required=False)
 @click.argument("second", required=False)
 @click.option("--restore", metavar="VERSION", help="Bring this one back; what stands now is kept.")
-def command(run: str, first: str | None, second: str | None, restore: str | None) -> None:
+@click.option("--anybody", is_flag=True, help="Bring it back though no key that is known here signed it.")
+def command(run: str, first: str | None, second: str | None, restore: str | None, anybody: bool) -> None:
     """List the accepted versions of a run, or compare two (the second is the one that stands unless you name it)."""
     from .stamp import versions
 
     def work() -> bool:
         found = Run.find(run)
         if restore:
-            version = versions.restore(found, restore)
+            version = versions.restore(found, restore, anybody=anybody)
             click.echo(f"{version} stands again\n  next: worldwright stamp status {found.folder}")
             return True
         known = versions.known(found)

@@ -21,6 +21,7 @@ from typing import Any
 import click
 
 from . import expose
+from .model import printable
 from .model.errors import WorldwrightError
 from .model.evidence import came
 
@@ -282,13 +283,13 @@ def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
             click.echo(json.dumps(error.to_dict(), ensure_ascii=False, indent=2))
         else:
             for finding in getattr(error, "findings", ()):
-                click.echo(str(finding), err=True)
-            click.echo(f"{error.code}: {error}", err=True)
+                click.echo(printable.words(str(finding)), err=True)
+            click.echo(printable.words(f"{error.code}: {error}"), err=True)
         sys.exit(2)
     except Exception as error:  # it is a defect of ours; the traceback is for those who ask
         if os.environ.get("WORLDWRIGHT_DEBUG"):
             raise
-        click.echo(f"internal: {type(error).__name__}: {error}", err=True)
+        click.echo(printable.words(f"internal: {type(error).__name__}: {error}"), err=True)
         click.echo(
             "  next: this is a defect of ours; WORLDWRIGHT_DEBUG=1 shows where. Your files are untouched.", err=True
         )
@@ -301,7 +302,7 @@ def report_errors(action: Callable[[], Any], style: str = "text") -> Any:
 def show(result: Any, style: str) -> None:
     """Print a result: JSON, a format of its own, or its `text()`, in colours on a terminal."""
     if style == "json":
-        click.echo(expose.to_json(result))
+        click.echo(printable.words(expose.to_json(result)))
         return
     data = getattr(result, "data", result)
     if style != "text":
@@ -312,7 +313,7 @@ def show(result: Any, style: str) -> None:
 
         Console(soft_wrap=True, highlight=False).print(data.rich())
         return
-    click.echo(data.text() if hasattr(data, "text") else expose.to_json(data))
+    click.echo(printable.words(data.text()) if hasattr(data, "text") else expose.to_json(data))
 
 
 def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter:

@@ -18,6 +18,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .model import mp4_file
 from .model.errors import NotFoundError, RecordingError
 from .model.evidence.reports import ExpectReport, ScanReport
 from .model.evidence.run import Run
@@ -141,8 +142,6 @@ class World:
         Args:
             camera: a camera of the plan, or `film` for the author's; the first film by name without it.
         """
-        import av
-
         films = {path.stem: path for path in sorted((self.folder / "video").glob("*.mp4"))}
         path = films.get(camera) if camera else next(iter(films.values()), None)
         if path is None:
@@ -153,7 +152,7 @@ class World:
                 if films
                 else f"worldwright stage start {self.run.folder} --pass video",
             )
-        with av.open(str(path)) as container:
+        with mp4_file.opened(path) as container:
             for frame in container.decode(video=0):
                 yield frame.to_ndarray(format="rgb24")
 

@@ -32,7 +32,7 @@ def cut(vertices: Array, faces: Array, closed: bool, limit_s: int = LIMIT_S) -> 
     with tempfile.TemporaryDirectory() as folder:
         given, made = Path(folder) / "given.npz", Path(folder) / "made.npz"
         np.savez(given, vertices=vertices, faces=faces, closed=closed)
-        call = [sys.executable, "-s", "-m", "worldkit.intake.cutting", str(given), str(made), str(limit_s)]
+        call = [sys.executable, "-s", "-P", "-m", "worldkit.intake.cutting", str(given), str(made), str(limit_s)]
         done = subprocess.run(call, capture_output=True, check=False)
         if done.returncode or not made.is_file():
             last = (

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..model import mp4_file
 from ..model.errors import NotFoundError
 from .ros_messages import Told, definition
 
@@ -113,24 +114,14 @@ def _pictures(told: Told, film: Path) -> Iterator[Row]:
     """The frames of a film of a plan's camera: frame k shows the world at k / fps."""
     import cv2
 
-    reader = cv2.VideoCapture(str(film))
-    fps = reader.get(cv2.CAP_PROP_FPS)
-    if not reader.isOpened() or not fps > 0:
-        raise NotFoundError(
-            f"there is no film {film.name} to be read",
-            place=str(film),
-            next_move="worldwright stage start RUN --stage video, or name another camera",
-        )
-    try:
-        number = 0
-        while (read := reader.read())[0]:
-            ns = round(number / fps * 1e9)
-            data = cv2.imencode(".jpg", read[1], [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1].tobytes()
+    with mp4_file.opened(film) as reader:
+        stream = reader.streams.video[0]
+        fps = float(stream.average_rate or 0)
+        for number, frame in enumerate(reader.decode(stream) if fps > 0 else ()):
+            ns, picture = round(number / fps * 1e9), frame.to_ndarray(format="bgr24")
+            data = cv2.imencode(".jpg", picture, [cv2.IMWRITE_JPEG_QUALITY, QUALITY])[1].tobytes()
             name = f"/camera/{topic(film.stem)}"
             yield ns, name, "sensor_msgs/msg/CompressedImage", told.picture(ns, data, film.stem)
-            number += 1
-    finally:
-        reader.release()
 
 
 def topic(name: str) -> str:

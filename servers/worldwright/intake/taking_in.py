@@ -228,7 +228,7 @@ def _confined(file: Path, given: Path) -> dict[str, bytes]:
     """What the confined process leaves, by name."""
     size = sum(path.stat().st_size for path in given.rglob("*") if path.is_file())
     own = min(MOST_S, LEAST_S + S_A_MB * size / (1 << 20))
-    call = [sys.executable, "-s", "-m", "worldkit.intake.confined_intake", str(given / "request.json"), "{out}"]
+    call = [sys.executable, "-s", "-P", "-m", "worldkit.intake.confined_intake", str(given / "request.json"), "{out}"]
     ended = confined.run(
         call, reads=(given,), wanted=(*FILES, *WORLD, "error.json"), wall_s=own, memory_mb=MEMORY_MB, file_mb=256
     )

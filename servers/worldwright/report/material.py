@@ -1,7 +1,7 @@
 """Everything a report shows, gathered from the run folder; what is not there is named, never fatal.
 
-The evidence of the current program, plan and environment comes first. Where there is none (a fresh clone of an
-accepted world, on another machine), the evidence that the accepted folder carries stands in.
+What is shown of an accepted run is what was accepted, wherever the accepted folder has it: what lies beside it may have been
+changed since. The rest is the evidence of the current program, plan and environment.
 """
 
 from dataclasses import dataclass, field
@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel
 
-from ..model.errors import WorldwrightError
+from ..model.errors import RecordingError, WorldwrightError
 from ..model.evidence.audits import Acting, CausesReport, InterventionReport, RefineReport, RobustReport
 from ..model.evidence.handed_in import HandedIn, HandedInError
 from ..model.evidence.handed_in import of as film_handed_in
@@ -92,18 +92,20 @@ def gather(run: Run) -> Material:
 
         found.stamp, found.stamp_sha256 = accepted, sha256_file(run.stamped / STAMP)
         found.signer = signing.check(run.stamped, STAMP).text()
+        if prompt := _accepted(found, run.prompt.name):
+            found.prompt = _text(prompt)
     if state.key and state.folder.is_dir():
         found.origin = "current"
-        _evidence(found, state.folder, state.folder, "result.json")
+        _evidence(found, state.folder)
         found.shown_key = state.key.key
     elif found.stamp:
         found.origin = "accepted"
         found.shown_key = found.stamp.predicate.source.key
-        _evidence(found, run.stamped / "evidence", run.stamped, "")
+        _evidence(found, None)
     elif earlier := _newest(state):
         found.origin = "earlier"
         found.shown_key = earlier.name
-        _evidence(found, earlier, earlier, "result.json")
+        _evidence(found, earlier)
     environment = found.stamp.predicate.environment if found.stamp else state.environment
     if environment:
         found.environment = environment.model_dump()
@@ -126,11 +128,33 @@ def _newest(state: State) -> Path | None:
     return max(kept, key=lambda path: path.stat().st_mtime).parents[1] if kept else None
 
 
-def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
-    """Fill in the reports and the pictures."""
+def _accepted(found: Material, name: str) -> Path | None:
+    """A file of the accepted folder, which its stamp lists; None where there is none."""
+    path = found.run.stamped / name
+    return path if found.stamp and found.stamp.digest_of(name) and path.is_file() else None
+
+
+def _pictures(found: Material, folder: Path | None, kind: str, ending: str) -> dict[str, Path]:
+    """Pictures by name: the accepted ones, or else those of the evidence; none by a link."""
+    names = [s.name for s in found.stamp.subject] if found.stamp else []
+    listed = [name for name in names if name.startswith(f"{kind}/") and name.endswith(ending)]
+    if accepted := [path for name in listed if (path := _accepted(found, name))]:
+        return {path.stem: path for path in sorted(accepted)}
+    drawn = sorted((folder / kind).glob(f"*{ending}")) if folder else []
+    if found.stamp and drawn and not listed:
+        found.missing[kind] = "drawn since it was accepted: its stamp says nothing of them"
+    return {path.stem: path for path in drawn if path.resolve() == path}
+
+
+def _evidence(found: Material, folder: Path | None) -> None:
+    """Fill in the reports and the pictures: of an accepted run the accepted ones, the others from the evidence of a key."""
 
     def read(name: str, model: type[T]) -> T | None:
-        path = reports / (f"{name}/{result}" if result and model is PassResult else f"{name}.json")
+        path = _accepted(found, f"evidence/{name}.json")
+        if path is None:
+            if folder is None:
+                return None
+            path = folder / (f"{name}/result.json" if model is PassResult else f"{name}.json")
         kept = Kept.read(path, model)
         if kept.problem:
             found.missing[name] = kept.problem
@@ -146,8 +170,8 @@ def _evidence(found: Material, reports: Path, media: Path, result: str) -> None:
     found.robust = read("robust", RobustReport)
     found.visual = read("visual", VisualDescription)
     found.review = read("review", Verdict)
-    found.stills = {p.stem: p for p in sorted((media / "stills").glob("*.png"))}
-    found.videos = {p.stem: p for p in sorted((media / "video").glob("*.mp4"))}
+    found.stills = _pictures(found, folder, "stills", ".png")
+    found.videos = _pictures(found, folder, "video", ".mp4")
     video = read("video", PassResult)
     found.film = dict(video.summary.get("film") or {}) if video else {}
     order = ["film"] if found.film else []
@@ -165,6 +189,10 @@ def _motion(found: Material, state: State) -> None:
     recording = state.run.evidence(found.shown_key or "none") / "physics" / "trajectory"
     if recording.is_dir():
         try:
+            if found.stamp and _another(found, recording):
+                raise RecordingError(
+                    "the recording is another than the accepted one: drawn is what the stamp has of it"
+                )
             found.motion = series.read(recording, movers)
             found.ledger = acted(recording, declared)
             if (recording / "balances.arrows").is_file():
@@ -182,6 +210,15 @@ def _motion(found: Material, state: State) -> None:
             return
         if sampled:
             found.motion = series.from_samples(sampled, found.physics.summary if found.physics else {})
+
+
+def _another(found: Material, recording: Path) -> bool:
+    """Whether a recording is not the one that the accepted report of the physics pass is about."""
+    from worldengine.recording import stored
+
+    accepted = _accepted(found, "evidence/physics.json") and found.physics
+    said = accepted.summary.get("trajectory_sha256") if accepted else None
+    return said is not None and said != stored.digest(stored.open(recording))
 
 
 def acting(material: Material) -> tuple[Acting, ...] | tuple[Acted, ...] | None:

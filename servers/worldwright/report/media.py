@@ -4,6 +4,8 @@ import base64
 from pathlib import Path
 from typing import Any
 
+from ..model import mp4_file
+
 BUDGET = 20 * 2**20
 """Bytes of video that one page may carry; above that, videos are encoded again, smaller."""
 SHOWN = {".mp4": "video/mp4", ".webm": "video/webm"}
@@ -86,7 +88,7 @@ def frames(path: Path, count: int = 6, width: int = 320) -> list[tuple[float, st
     import av
 
     try:
-        with av.open(str(path)) as container:
+        with mp4_file.opened(path) as container:
             stream = container.streams.video[0]
             total = stream.frames or sum(1 for _ in container.decode(stream))
             container.seek(0)
@@ -109,7 +111,7 @@ def _smaller(path: Path) -> bytes:
     width, quality = SMALL
     target = io.BytesIO()
     try:
-        with av.open(str(path)) as source, av.open(target, "w", format="mp4") as made:
+        with mp4_file.opened(path) as source, av.open(target, "w", format="mp4") as made:
             stream = source.streams.video[0]
             height = 2 * round(stream.height * width / stream.width / 2)
             out = made.add_stream("libx264", rate=stream.average_rate or 24)

@@ -27,6 +27,7 @@ _TABLE = """
     air      ; wind, blow, blown, breez*, draught, carried away, carried off, parachut*, feather, leaf, flutter*, sail, flag, kite, windmill, gust, air ; reaches_terminal_speed ; fluid-drag-and-wind
     water    ; water, float, sink, swim, boat, ship, raft, river, wave, buoy* ; floats, sinks, surfaces ; fluid-drag-and-wind
     flowing  ; pour*, flow, flows, flowing, flowed, spill*, splash*, drip*, ooz*, honey, syrup, caramel, batter, molten ; pours_into ; media
+    inflated ; balloon, inflat*, deflat*, airbag, bottle deform*, bottle cool*, bottle collaps*, bottle crush*, bottle shrink*, vacuum ; ; media
     soft     ; cloth, flag, curtain, towel, jelly, rubber, sponge, soft*, bend, bent, hose, cable, branch, bough, twig, reed, tree ; sags, bends, stretches, keeps_new_shape, returns_to_shape ; flex-cloth-soft-rods
     breaking ; break, broke, broken, snap, shatter*, crack, tear, torn, burst, fractur*, collaps* ; breaks, breaks_at, comes_apart ; breakable-things
     figure   ; person, man, woman, child, dancer, gymnast, doll, puppet, walk, acrobat ; ; articulated-figures
@@ -82,9 +83,15 @@ def _means(word: str, part: str) -> bool:
     """Whether a word is one of the table: in a simple form of it, or beginning with it where it ends with `*`."""
     if part.endswith("*"):
         return word.startswith(part[:-1])
+    return word == part or _forms(part).fullmatch(word) is not None
+
+
+@cache
+def _forms(part: str) -> re.Pattern[str]:
+    """What a word of the table is spoken as besides itself."""
     last = re.escape(part[-1])
     stem, ending = (re.escape(part[:-1]), "e") if part.endswith("e") else (re.escape(part), "")
-    return re.fullmatch(rf"{stem}(?:{ending}s?|es|ed|er|ers|ing|{last}ed|{last}ing)", word) is not None or word == part
+    return re.compile(rf"{stem}(?:{ending}s?|es|ed|er|ers|ing|{last}ed|{last}ing)")
 
 
 def of_plan(plan: Plan) -> tuple[str, ...]:

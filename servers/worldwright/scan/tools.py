@@ -216,10 +216,8 @@ def _scanned(run: str, report: ScanReport, **more: Any) -> Scanned:
         )
         for a in report.anomalies
     )  # fmt: skip
-    skipped = tuple(c for c in report.checks if c.status == "skipped")
-    return Scanned.model_validate(
-        {**report.model_dump(), **more, "file": run, "findings": found, "skipped": [c.model_dump() for c in skipped]}
-    )
+    skipped = [c.model_dump() for c in report.checks if c.status == "skipped"]
+    return Scanned.model_validate({**report.model_dump(), **more, "file": run, "findings": found, "skipped": skipped})
 
 
 @reads
@@ -282,8 +280,7 @@ def compare(
 
     Fewer blocking anomalies decide first, then objectives, then the margins of the expectations.
     """
-    folder = Run.find(run)
-    return compare_reports(folder, first, second)
+    return compare_reports(Run.find(run), first, second)
 
 
 def argument_problem(name: str, arguments: object) -> tuple[str, str] | None:
@@ -342,6 +339,13 @@ def finish_robust(run: Run) -> bool:
     return key is not None and plan is not None and unasked_audit.finish(run, key, plan, trajectory) is not None
 
 
+def unlike_trials(run: Run, said: dict[str, Any]) -> list[str]:
+    """For acceptance (no tool): see `audits.reproduced.unlike`."""
+    from .audits import reproduced
+
+    return list(reproduced.unlike(run, *_subject(str(run.folder))[2:], said))
+
+
 def repair_target(code: str) -> str:
     """What a repair changes where the anomaly check of this code finds something; for other servers, no tool."""
     from .anomalies.engine import CHECKS
@@ -363,7 +367,7 @@ def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Tr
     path = Path(run)
     if path.suffix == ".npz" or (path / "meta.json").is_file():
         return None, None, None, read_trajectory(path)
-    from ..model.evidence import environment
+    from ..model.evidence import drawn_stills, environment
     from ..model.plan.plan_text import read_plan
 
     folder = Run.find(run)
@@ -375,8 +379,6 @@ def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Tr
             place=str(recording.parent),
             next_move=f"worldwright stage start {folder.folder} --stage physics",
         )
-    from ..model.evidence import drawn_stills
-
     trajectory = read_trajectory(recording)
     stills = drawn_stills.read(folder, folder.evidence(key), trajectory.sha256)
     return folder, key, read_plan(folder.plan).plan, replace(trajectory, stills=stills) if stills else trajectory

@@ -5,7 +5,6 @@ import shutil
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Literal
@@ -14,7 +13,6 @@ from worldkit.files import write_atomic
 
 from ..model.errors import GateError
 from ..model.evidence import came, handed_in, pictures_of
-from ..model.evidence.journal import Journal
 from ..model.evidence.reports import Environment
 from ..model.frozen import Frozen
 from ..model.plan.committed import Plan
@@ -27,16 +25,19 @@ from . import (
     drawn_by_program,
     exactness,
     gates,
+    judged,
     keyring,
     poster,
     private,
     processor,
+    redrawn,
     repeats,
     sampled,
     signing,
     versions,
     world_facts,
 )
+from .judged import Judged
 from .proof import FACTS, WORLD, Proved, driven_by, lay_out, prove
 from .state import State
 from .statement import (
@@ -53,12 +54,6 @@ from .statement import (
 from .steps import handed_in_since, steps
 from .strip import Stripped, strip
 from .taken import Taken, take
-
-REPORTS = ("key", "lint", "scan", "expect", "interventions", "causes", "refine", "robust", "visual", "review")
-
-
-LARGEST = 4 << 30
-"""A film or a report is at most so large, bytes."""
 
 
 class Accepted(Frozen):
@@ -117,10 +112,10 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             if key is not None:
                 signing.sign(state.run.stamped, bundle.STAMP, signer)
             return _again(state)
+        shown = judged.take(state)
         gates.pass_through("accept", state)
         taken.still(state.run)  # what the gates saw
-        for _, path in _published(state):
-            _plain(state, path)  # now, rather than after the proof run
+        shown.still(state)
         handed_in.of(state.run.folder)
         stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
         program, plan = stripped.source.encode(), state.plan_bytes or b""
@@ -152,7 +147,8 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
         folder = bundle.draft_folder(state.run)
         try:
-            statement = _assemble(state, stripped, proved, taken, folder)
+            statement = _assemble(state, stripped, proved, taken, shown, folder)
+            _look(state, proved, folder)
             stamp_sha256 = bundle.seal(folder, statement)
             signing.sign(folder, bundle.STAMP, signer)
             bundle.publish(folder, state.run.accepted, versions.aside(state.run))
@@ -185,7 +181,7 @@ def _as_planned(state: State, proved: Proved) -> None:
         )
 
 
-def _assemble(state: State, stripped: Stripped, proved: Proved, taken: Taken, folder: Path) -> Statement:
+def _assemble(state: State, stripped: Stripped, proved: Proved, taken: Taken, shown: Judged, folder: Path) -> Statement:
     """Fill the draft folder and say what is in it."""
     taken.lay(folder)
     write_atomic(folder / "simulation.py", stripped.source.encode())
@@ -197,18 +193,27 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, taken: Taken, fo
         for path in driven_by(proved):
             write_atomic(folder / bundle.WORLD / path.name, path.read_bytes())
     evidence = {}
-    for name, path in _published(state):
-        content = _plain(state, path)
+    for name, path in shown.files.items():
+        content = shown.content(state, name)
         write_atomic(folder / name, content)
         if path.suffix == ".json":
             evidence[str(path.relative_to(state.folder))] = Digest(sha256=hashlib.sha256(content).hexdigest())
-    if (film := handed_in.find(state.run.folder)) is not None:
-        write_atomic(folder / film.name, handed_in.content(film))
     filmed = _filmed(state, taken)
     cameras = [camera.name for camera in state.plan.cameras()] if state.plan else []
     poster.write(folder, cameras, filmed.shots if filmed else ())
-    predicate = _predicate(state, stripped, proved, taken, evidence, folder)
+    predicate = _predicate(state, stripped, proved, taken, shown, evidence, folder)
     return Statement(subject=bundle.subjects(folder), predicate=predicate)
+
+
+def _look(state: State, proved: Proved, folder: Path) -> None:
+    """Refuse pictures that show another world (`GateError`): that they are as their pass wrote them says a journal without secrets."""
+    for found in redrawn.glance(folder, proved):
+        stage = "video" if ".mp4" in found.split()[0] else "stills"
+        raise GateError(
+            found,
+            place=str(state.folder / stage),
+            next_move=f"rm -r {state.folder / stage} && worldwright stage start {state.place} --stage {stage}",
+        )
 
 
 def _factual(state: State, stripped: Stripped, facts: Path) -> None:
@@ -226,7 +231,7 @@ def _factual(state: State, stripped: Stripped, facts: Path) -> None:
             )
 
 
-def _proof(state: State, proved: Proved) -> Proof:
+def _proof(proved: Proved, shown: Judged) -> Proof:
     """What the proof run was, and of which kind it proves each channel."""
     return Proof(
         trajectory_sha256=proved.trajectory_sha256,
@@ -238,37 +243,19 @@ def _proof(state: State, proved: Proved) -> Proof:
         world_sha256=proved.world_sha256,
         content_sha256=proved.content_sha256,
         inputs_sha256=proved.inputs_sha256,
-        channels=exactness.channels(proved, (name for name, _ in _published(state))),
+        channels=exactness.channels(proved, shown.files),
         marks=exactness.marks(proved),
     )
 
 
-def _published(state: State) -> Iterator[tuple[str, Path]]:
-    """Files of the evidence that are copied, by their names in the accepted folder: reports, results and pictures."""
-    kept = {f"{name}.json": state.folder / f"{name}.json" for name in REPORTS}
-    kept |= {f"{name}.json": state.folder / name / "result.json" for name in state.passes}
-    yield from ((f"evidence/{name}", path) for name, path in kept.items() if path.is_file())
-    for stage, pattern in (("stills", "*.png"), ("video", "*.mp4")):
-        yield from ((f"{stage}/{path.name}", path) for path in sorted((state.folder / stage).glob(pattern)))
-
-
-def _plain(state: State, path: Path) -> bytes:
-    """The content of a file of the evidence; what is no plain file may be somebody else's, and is not published."""
-    from ..stage import tools as stage
-
-    content = stage.read_plain(path, LARGEST)
-    if content is None:
-        raise GateError(
-            f"{path.relative_to(state.run.folder)} is no plain file of at most {LARGEST >> 30} GB: a link, or one with "
-            "another name elsewhere, is not copied",
-            place=str(path),
-            next_move=f"put the file itself there, or remove it and make it again: worldwright stamp status {state.place}",
-        )
-    return content
-
-
 def _predicate(
-    state: State, stripped: Stripped, proved: Proved, taken: Taken, evidence: dict[str, Digest], folder: Path
+    state: State,
+    stripped: Stripped,
+    proved: Proved,
+    taken: Taken,
+    shown: Judged,
+    evidence: dict[str, Digest],
+    folder: Path,
 ) -> Acceptance:
     from .. import __version__
 
@@ -288,9 +275,9 @@ def _predicate(
             plan_sha256=key.plan_sha256,
             prompt_sha256="" if taken.prompt is None else hashlib.sha256(taken.prompt).hexdigest(),
             stripped_lines=stripped.removed,
-            materials=_materials(state, taken, environment),
+            materials=_materials(state, taken, shown, environment),
         ),
-        proof=_proof(state, proved),
+        proof=_proof(proved, shown),
         film=_filmed(state, taken),
         drawn_only=_drawn_only(proved, plan),
         handed_in=handed_in.of(folder),
@@ -320,7 +307,7 @@ def _predicate(
             f"{row.kind} on {', '.join(row.bodies)}: {row.law} (trigger: {row.trigger}; source: {row.source})"
             for row in plan.declared()
         ),
-        journal_head=Journal(state.run.journal).head(),
+        journal_head=shown.journal.head(),
         reviewer=review.reviewer,
         review_came=state.came("review"),
         described_by=visual.author,
@@ -350,12 +337,15 @@ def _filmed(state: State, taken: Taken) -> Filmed | None:
     return Filmed(**{name: told[name] for name in Filmed.model_fields if name in told} | {"sha256": sha256})
 
 
-def _materials(state: State, taken: Taken, environment: Environment) -> dict[str, Digest]:
+def _materials(state: State, taken: Taken, shown: Judged, environment: Environment) -> dict[str, Digest]:
     """What the world was made from, by name: the run's own files, the engine, the code, its assets and the film."""
     reference = [p for p in state.run.folder.glob("reference.*") if p.is_file()]
-    files = (state.run.journal, *reference)
-    found = {path.name: Digest(sha256=bundle.sha256_file(path)) for path in files if path.is_file()}
-    bytes_of = {state.run.program.name: state.program_bytes, state.run.plan.name: state.plan_bytes}
+    found = {path.name: Digest(sha256=bundle.sha256_file(path)) for path in reference}
+    bytes_of = {
+        state.run.journal.name: shown.journal.held,
+        state.run.program.name: state.program_bytes,
+        state.run.plan.name: state.plan_bytes,
+    }
     bytes_of |= {state.run.prompt.name: taken.prompt, pictures_of.FILM: taken.film.get(pictures_of.FILM)}
     found |= {
         name: Digest(sha256=hashlib.sha256(held).hexdigest()) for name, held in bytes_of.items() if held is not None

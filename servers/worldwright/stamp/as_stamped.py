@@ -6,7 +6,7 @@ from pathlib import Path
 from ..model.evidence.journal import Journal
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
-from . import bundle, signing
+from . import bundle, lies_beside, signing
 from .kept import Kept
 from .state import State
 from .statement import Statement
@@ -20,6 +20,8 @@ class Check(Frozen):
     detail: str
     open: bool = False
     """Not `ok`, and not refuted either: it cannot be shown here."""
+    note: bool = False
+    """Nothing was checked: it tells what no check speaks of."""
     next_move: str = ""
 
 
@@ -32,12 +34,19 @@ def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:
     return [
         *_static(run, folder, kept.value),
         Check(name="signature", ok=signed.holder != "broken", detail=signed.text()),
-        *_beside(run, folder),
+        *_beside(run, folder, kept.value),
     ]
 
 
-def _beside(run: Run, folder: Path) -> Iterator[Check]:
-    """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan."""
+def _beside(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
+    """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan.
+
+    What else lies beside what was stamped is told by its name.
+    """
+    if unlisted := bundle.beside_small(folder, statement):
+        yield Check(
+            name="beside", ok=True, note=True, detail=f"{_some(unlisted)}: in no list, this stamp says nothing of it"
+        )
     if folder == run.folder or not run.plan.is_file():
         return
     if run.plan.read_bytes() != (folder / run.plan.name).read_bytes():
@@ -45,6 +54,14 @@ def _beside(run: Run, folder: Path) -> Iterator[Check]:
             f"the plan of the run is another than the stamped one in {folder.name}/, which this stamp says nothing of"
         )
         yield Check(name="beside", ok=False, detail=detail)
+    if changed := list(lies_beside.other(run, statement)):
+        detail = f"{_some(changed)}: another than what was accepted, which is in {folder.name}/"
+        yield Check(name="beside", ok=True, note=True, detail=detail)
+
+
+def _some(names: list[str]) -> str:
+    """Names, the first of them where there are many."""
+    return ", ".join(names[:8]) + (f" and {len(names) - 8} more" if len(names) > 8 else "")
 
 
 def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from contextlib import suppress
 from typing import Literal
 
-from ..model.errors import WorldwrightError
-from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport
+from ..model.errors import CallOverError, WorldwrightError
+from ..model.evidence.audits import CausesReport, InterventionReport, RefineReport, RobustReport
 from ..model.evidence.run import Run
 from .kept import Kept
 from .refusal import Refusal
@@ -57,6 +57,30 @@ def refusals(state: State) -> Iterator[Refusal]:
     yield from _of(state, "interventions", state.interventions, again, needed="every acceptance rests on it")
     yield from _of(state, "causes", state.causes, f"{again} --causes", needed=why_causes(state))
     yield from _of(state, "refine", state.refine, f"{again} --refine", needed="")
+
+
+def unshown(state: State) -> Iterator[Refusal]:
+    """Refusals for audits that say otherwise than their kept repetitions show; nothing is simulated."""
+    from ..scan import tools as scan
+
+    robust = Kept.read(state.folder / "robust.json", RobustReport)
+    if robust.sha256:
+        state.sees(robust.path, robust.sha256)
+    given = {"causes": state.causes.value, "refine": state.refine.value, "robust": robust.value}
+    said = {name: report for name, report in given.items() if report is not None}
+    try:
+        found = scan.unlike_trials(state.run, said) if said else []
+    except CallOverError:
+        raise  # it tells nothing of the audits
+    except WorldwrightError as error:
+        yield Refusal(cause=f"the audits cannot be judged again: {error.cause}", next_move=error.next_move)
+        return
+    for sentence in found:
+        name = sentence.partition(".")[0]
+        yield Refusal(
+            cause=sentence,
+            next_move=f"rm {state.folder}/{name}.json && worldwright scan scan {state.place} --{name}",
+        )
 
 
 def robust_beside(run: Run) -> str:

@@ -51,8 +51,12 @@ def only_one(run: Run) -> Iterator[None]:
 
 
 def files_in(folder: Path) -> list[str]:
-    """Every file below `folder`, relative, sorted."""
-    return sorted(str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file())
+    """Everything below `folder` that is no folder, relative, sorted; a link is named itself, and never gone through."""
+    found: list[Path] = []
+    for inside, folders, names in os.walk(folder):
+        links = [name for name in folders if (Path(inside) / name).is_symlink()]
+        found += [Path(inside) / name for name in (*names, *links)]
+    return sorted(str(path.relative_to(folder)) for path in found)
 
 
 def subjects(folder: Path) -> tuple[Subject, ...]:
@@ -82,6 +86,31 @@ def sums(listed: Iterable[Subject], stamp_sha256: str) -> str:
 def is_small(folder: Path) -> bool:
     """Whether a folder is the small form of an accepted world: its stamp stands beside the journal."""
     return (folder / STAMP).is_file() and (folder / "journal.jsonl").is_file()
+
+
+def unlisted(folder: Path, statement: Statement) -> list[str]:
+    """What lies in an accepted folder and its stamp does not list; in a small form, besides the journal and a handed-in film."""
+    known = {*(s.name for s in statement.subject), *UNLISTED}
+    if is_small(folder):  # where the run itself stands accepted, one handed in since lies in it
+        known |= {"journal.jsonl", *handed_in.NAMES}
+    return [name for name in files_in(folder) if name not in known]
+
+
+def beside_small(folder: Path, statement: Statement) -> list[str]:
+    """What lies beside the listed files of a small form, as a build leaves it there, each file or folder once; the stamp
+    says nothing of it. Nothing in another folder, where all that is not listed is damage."""
+    if not is_small(folder):
+        return []
+    shown = (
+        f"{name.split('/')[0]}{'/' * ('/' in name)}" for name in unlisted(folder, statement) if _left(folder, name)
+    )
+    return [*dict.fromkeys(shown)]
+
+
+def _left(folder: Path, name: str) -> bool:
+    """Whether something unlisted in a small form is what a build leaves there: of evidence, folders by key; no link."""
+    top, *below = name.split("/")
+    return top in BESIDE and (len(below) > 1 or top != "evidence") and not (folder / top).is_symlink()
 
 
 def left_by_builds(statement: Statement | None) -> set[str]:
@@ -155,7 +184,8 @@ def _exchanged(one: Path, other: Path) -> bool:
 def damage(folder: Path, statement: Statement) -> list[str]:
     """How an accepted folder differs from its stamp, one line each; empty when every byte is as stamped.
 
-    In the small form, what a build makes again may be missing; what is there must be as stamped.
+    In the small form, what a build makes again may be missing; what is there must be as stamped, and beside it may lie what
+    a build leaves there (`beside_small`).
     """
     found: list[str] = []
     small = is_small(folder)
@@ -171,12 +201,9 @@ def damage(folder: Path, statement: Statement) -> list[str]:
         except OSError as cause:
             found.append(f"{name} cannot be read ({cause.strerror or cause})")
     try:
-        known = {*(s.name for s in statement.subject), *UNLISTED}
-        known |= (
-            set(handed_in.NAMES) if small else set()
-        )  # where the run itself stands accepted, one handed in since lies in it
-        extra = [name for name in files_in(folder) if name not in known]
-        found += [f"{name} is not in the stamp" for name in extra if not small or name.split("/")[0] not in BESIDE]
+        extra = [name for name in unlisted(folder, statement) if not (small and _left(folder, name))]
+        links = {name for name in extra if (folder / name).is_symlink()}
+        found += [f"{name} is {'a link, and ' * (name in links)}not in the stamp" for name in extra]
         summed = [s for s in present if not small or s.name not in handed_in.NAMES]  # the small form's never name it
         if (folder / SUMS).read_bytes() != sums(summed, sha256_file(folder / STAMP)).encode():
             found.append(f"{SUMS} and {STAMP} do not match")

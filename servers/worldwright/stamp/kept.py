@@ -1,5 +1,6 @@
 """Reading a piece of evidence, whatever state its file is in."""
 
+import hashlib
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Generic, TypeVar
@@ -18,6 +19,8 @@ class Kept(Generic[T]):
     value: T | None = None
     problem: str = ""
     """Why an existing file cannot be used; empty when it is absent or fine."""
+    sha256: str = ""
+    """Of the bytes that were read; empty where none were."""
 
     @classmethod
     def read(cls, path: Path, model: type[T]) -> "Kept[T]":
@@ -27,7 +30,8 @@ class Kept(Generic[T]):
                 return cls(path)
             if path.stat().st_size > LARGEST:
                 return cls(path, problem=f"{path.name} is larger than {LARGEST // 2**20} MiB")
-            return cls(path, model.model_validate_json(path.read_bytes()))
+            content = path.read_bytes()
+            return cls(path, model.model_validate_json(content), sha256=hashlib.sha256(content).hexdigest())
         except OSError as cause:
             return cls(path, problem=f"{path.name} cannot be read: {cause.strerror or cause}")
         except ValidationError as cause:

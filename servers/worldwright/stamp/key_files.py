@@ -63,6 +63,13 @@ def public_key(path: Path) -> "Ed25519PublicKey":
     return key
 
 
+def public_text(key: "Ed25519PublicKey") -> str:
+    """The public key as PEM."""
+    from cryptography.hazmat.primitives.serialization import Encoding, PublicFormat
+
+    return key.public_bytes(Encoding.PEM, PublicFormat.SubjectPublicKeyInfo).decode()
+
+
 def fingerprint(key: "Ed25519PublicKey") -> str:
     """SHA-256 of the raw public key, hexadecimal."""
     return hashlib.sha256(key.public_bytes_raw()).hexdigest()

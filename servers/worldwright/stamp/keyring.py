@@ -2,13 +2,15 @@
 
 Both are in the user's data folder: `signing-key.pem`, made on first use and readable by its owner only, and `known_keys`,
 one `sha256:FINGERPRINT NAME` a line. A key gets onto that list by `worldwright keys trust` alone, never by being met. The
-checkout that this code runs from may list the keys of its own examples in `examples/known_keys`: whoever can change that
-file can change the code that reads it.
+checkout that this code runs from may list the keys of its own examples in `examples/known_keys`. An agent's shell in a harness
+can neither write there nor read the signing key (`contract/users_data.py`): it signs nothing, and knows this machine's key
+by `signing-key.pub` beside it.
 """
 
 import os
 import re
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -17,12 +19,12 @@ from worldkit.assets.root import data_root
 from worldkit.files import write_atomic
 
 from ..model.storage import writing
-from .key_files import SigningError, fingerprint, private_key
+from .key_files import SigningError, fingerprint, private_key, public_key, public_text
 
 if TYPE_CHECKING:
     from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
-OWN, KNOWN = "signing-key.pem", "known_keys"
+OWN, PUBLIC, KNOWN = "signing-key.pem", "signing-key.pub", "known_keys"
 SHIPPED = Path(__file__).resolve().parents[3] / "examples" / KNOWN
 LINE = re.compile(r"sha256:([0-9a-f]{64})(?:\s+(.*))?")
 Holder = Literal["own", "known", "unknown"]
@@ -58,13 +60,34 @@ def own() -> "Ed25519PrivateKey":
             place=str(path),
             next_move=f"chmod 600 {path}, if nobody else has read it; else move it away, and a new one is made",
         )
-    return private_key(path)
+    try:
+        path.open("rb").close()
+    except PermissionError as cause:
+        raise SigningError(
+            "this process may not read the signing key; the shell of an agent may not, so that none signs in this machine's name",
+            place=str(path),
+            next_move="let the tool `stamp.accept` sign, whose server runs outside of that shell, or type `worldwright stamp "
+            "accept RUN` in a terminal of your own",
+        ) from cause
+    key = private_key(path)
+    with suppress(OSError, SigningError):  # read where the key may not be
+        beside, text = path.with_name(PUBLIC), public_text(key.public_key())
+        if not beside.is_file() or beside.read_text(encoding="utf-8") != text:
+            write_atomic(beside, text)
+    return key
 
 
 def own_fingerprint() -> str:
     """The fingerprint of this machine's signing key; empty when there is none yet or it cannot be used."""
+    if not (folder() / OWN).exists():
+        return ""
     try:
-        return fingerprint(own().public_key()) if (folder() / OWN).exists() else ""
+        return fingerprint(own().public_key())
+    except SigningError as no:
+        if not isinstance(no.__cause__, PermissionError):
+            return ""
+    try:
+        return fingerprint(public_key(folder() / PUBLIC))
     except SigningError:
         return ""
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import click
 
 from ..cli import report_errors
+from ..model.printable import line
 
 
 @click.group("keys")
@@ -21,7 +22,7 @@ def show() -> None:
     def work() -> None:
         click.echo(f"sha256:{signing.fingerprint(keyring.own().public_key())} this machine ({keyring.folder()})")
         for key in keyring.known():
-            click.echo(f"sha256:{key.fingerprint} {key.name}")
+            click.echo(line(f"sha256:{key.fingerprint} {key.name}"))
 
     report_errors(work)
 

@@ -10,6 +10,7 @@ from typing import Any
 
 from worldkit.files import write_atomic
 
+from ..model import mp4_file
 from . import digest
 
 NAME = "poster.webp"
@@ -80,7 +81,7 @@ def _picture(path: Path, time_s: float) -> Any:
         return cv2.imread(str(path), cv2.IMREAD_COLOR)
     frame = None
     try:
-        with av.open(str(path)) as container:
+        with mp4_file.opened(path) as container:
             for frame in container.decode(video=0):
                 if float(frame.time or 0.0) >= time_s:
                     break

@@ -1,10 +1,12 @@
 """Where proof runs and verifications happen: in the user's data folder, outside of every run.
 
 Whoever writes the program also writes the run folder. A proof kept there could be forged beforehand, and acceptance,
-which continues a proof that was begun, would accept the forgery.
+which continues a proof that was begun, would accept the forgery. Nor can an agent's shell in a harness write there
+(`contract/users_data.py`): what it verifies begins anew, in a folder of its own (`verification`).
 """
 
 import hashlib
+import tempfile
 from pathlib import Path
 
 from ..model.evidence.run import Run
@@ -22,4 +24,6 @@ def proofs(run: Run, key: str) -> Path:
     path = folder() / "proofs" / identity
     with writing("the proof", path):
         path.mkdir(mode=0o700, parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=path):  # one that is there already may yet be shut to this process
+            pass
     return path

@@ -1,18 +1,21 @@
-"""Whether stamped pictures show the stamped world: stills, and frames of films by chance, are drawn again and compared.
+"""Whether pictures show the world they are stamped with: stills, and frames of films by chance, are drawn again and compared.
 
-A signature of somebody known vouches for them; this is for a stamp that nobody known signed, where whoever sent it could have
-laid any picture beside an honest world. Which frames are compared is drawn anew each time, so that nobody can spare them.
+A signature of somebody known vouches for them, so whoever signs looks before (`glance`). Of a stamp that nobody known signed,
+where whoever sent it could have laid any picture beside an honest world, all are looked at (`differ`). Which frames are
+compared is drawn anew each time, so that nobody can spare them.
 """
 
 import json
 import math
 import random
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from worldkit.files import write_atomic
 
+from ..model import mp4_file
 from ..model.errors import CallOverError, WorldwrightError
 from ..model.evidence import handed_in, pictures_of
 from ..model.evidence.run import Run
@@ -27,6 +30,8 @@ if TYPE_CHECKING:
 PICTURES = (".png", ".mp4", ".webp")
 FRAMES = 2
 """Frames of each film that are drawn again; each takes about a second."""
+GLANCE_S = 20.0
+"""For so long an acceptance begins to look at further pictures, s."""
 CELLS = (32, 18)
 """The mosaic that two pictures are compared in: fine detail differs between drivers and by the film's compression."""
 APART = 40.0
@@ -35,24 +40,52 @@ APART = 40.0
 
 def differ(folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
     """A sentence for each stamped picture in `folder` that another picture of the proof run's recording contradicts."""
-    run = proved.run
-    for name, content in pictures_of.files(Run(folder)).items():
-        write_atomic(run.folder / name, content)
+    _film_of(folder, proved.run)
     taken = [
         s.name for s in statement.subject if s.name not in handed_in.NAMES
     ]  # of `video/handed_in.mp4` the camera is so called
     for path in (folder / name for name in taken if (folder / name).is_file()):
-        try:
-            if path.name == poster.NAME:
-                yield from _poster(path, folder, statement, proved)
-            elif path.suffix == ".png" and path.parent.name == "stills":
-                yield from _picture(path, run, 0.0, path.stem)
-            elif path.suffix == ".mp4":
-                yield from _film(path, run)
-        except CallOverError:
-            raise  # it tells nothing of the picture
-        except WorldwrightError as error:
-            yield f"{path.name} cannot be drawn again: {error}"
+        if path.name == poster.NAME:
+            yield from _told(path, lambda path: _poster(path, folder, statement, proved))
+        else:
+            yield from _drawn(path, proved, FRAMES)
+
+
+def glance(folder: Path, proved: Proved, within_s: float = GLANCE_S) -> Iterator[str]:
+    """The same of the stills, and of one frame of each film, in an order by chance; at least one of them, and no other
+    picture is begun after `within_s` seconds.
+    """
+    _film_of(folder, proved.run)
+    paths = [*(folder / "stills").glob("*.png"), *(folder / "video").glob("*.mp4")]
+    random.SystemRandom().shuffle(paths)
+    began = time.monotonic()
+    for path in paths:
+        yield from _drawn(path, proved, 1)
+        if time.monotonic() - began > within_s:
+            return
+
+
+def _film_of(folder: Path, run: Run) -> None:
+    """Lay the author's film beside the recording of the proof run."""
+    for name, content in pictures_of.files(Run(folder)).items():
+        write_atomic(run.folder / name, content)
+
+
+def _drawn(path: Path, proved: Proved, frames: int) -> Iterator[str]:
+    """Compare a still, or so many frames of a film; other files are no pictures."""
+    if path.suffix == ".png" and path.parent.name == "stills":
+        yield from _told(path, lambda path: _picture(path, proved.run, 0.0, path.stem))
+    elif path.suffix == ".mp4":
+        yield from _told(path, lambda path: _film(path, proved, frames))
+
+
+def _told(path: Path, look: Callable[[Path], Iterator[str]]) -> Iterator[str]:
+    try:
+        yield from look(path)
+    except CallOverError:
+        raise  # it tells nothing of the picture
+    except WorldwrightError as error:
+        yield f"{path.name} cannot be drawn again: {error}"
 
 
 def _poster(path: Path, folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
@@ -68,7 +101,7 @@ def _poster(path: Path, folder: Path, statement: Statement, proved: Proved) -> I
     at_s = poster.moment(folder) if films else 0.0
     if cameras[0] == poster.FILM:
         at_s = poster.filmed(filmed.shots if filmed else (), at_s)
-    fps = json.loads((proved.recording.parent / "program.json").read_bytes())["fps"]
+    fps = _fps(proved)
     yield from _picture(path, run, math.ceil(at_s * fps - 1e-6) / fps, cameras[0])
 
 
@@ -78,19 +111,54 @@ def _picture(path: Path, run: Run, at_s: float, camera: str) -> Iterator[str]:
     yield from _compared(path.name, cv2.imread(str(path)), run, at_s, camera)
 
 
-def _film(path: Path, run: Run) -> Iterator[str]:
-    import cv2
+def _film(path: Path, proved: Proved, frames: int = FRAMES) -> Iterator[str]:
+    """Compare frames by chance; refuse a film whose frames are not, one after the other, as many as it says and should be."""
+    import av
 
-    film = cv2.VideoCapture(str(path))
     try:
-        count, fps = int(film.get(cv2.CAP_PROP_FRAME_COUNT)), film.get(cv2.CAP_PROP_FPS)
-        for number in sorted(random.SystemRandom().sample(range(count), min(FRAMES, count))) or [0]:
-            film.set(cv2.CAP_PROP_POS_FRAMES, number)
-            shown = film.read()[1]
-            at_s = number / fps if fps else 0.0
-            yield from _compared(f"{path.name} at {at_s:.2f} s", shown, run, at_s, path.stem)
-    finally:
-        film.release()
+        with mp4_file.opened(path) as film:
+            stream = film.streams.video[0]
+            fps, said = float(stream.average_rate or 0), stream.frames
+            if odd := _paced(path, proved, fps, said):
+                yield f"{path.name} is not as it was drawn: {odd}"
+                return
+            chosen, taken, count = random.SystemRandom().sample(range(said), min(frames, said)), {}, 0
+            for count, frame in enumerate(film.decode(stream), 1):
+                if count > said or abs(float(frame.time or 0.0) - (count - 1) / fps) > 0.5 / fps:
+                    break
+                if count - 1 in chosen:
+                    taken[count - 1] = frame.to_ndarray(format="bgr24")
+            if count != said or len(taken) != len(chosen):
+                yield f"{path.name} is not as it was drawn: it says {said} frames, {fps:g} a second, and has others"
+                return
+    except (av.FFmpegError, mp4_file.NoFilmError) as cause:
+        yield getattr(cause, "cause", "") or f"{path.name} is no film to be shown: {cause}"
+        return
+    for number, shown in sorted(taken.items()):
+        at_s = number / fps
+        yield from _compared(f"{path.name} at {at_s:.2f} s", shown, proved.run, at_s, path.stem)
+
+
+def _paced(path: Path, proved: Proved, fps: float, said: int) -> str:
+    """How the rate and the number of frames that a film tells contradict the recording; empty where they do not.
+
+    Of the author's own film, whose cuts are its own, only the rate is known.
+    """
+    from worldengine.recording import stored
+    from worldengine.recording.replay import frame_rows
+
+    full = _fps(proved)
+    if fps not in (full, max(1, round(full / 2))):  # half as often beside an author's film
+        return f"it shows {fps:g} frames a second, the program asks for {full}"
+    wanted = said if path.stem == poster.FILM else len(frame_rows(stored.open(proved.recording).time, fps))
+    if said != wanted or said < 1:
+        return f"it says {said} frames, and the recording has {wanted}"
+    return ""
+
+
+def _fps(proved: Proved) -> int:
+    """Frames a second that the program asks for."""
+    return int(json.loads((proved.recording.parent / "program.json").read_bytes())["fps"])
 
 
 def _compared(what: str, shown: "np.ndarray | None", run: Run, at_s: float, camera: str) -> Iterator[str]:

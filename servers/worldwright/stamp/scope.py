@@ -89,18 +89,19 @@ def _reports(state: State) -> Iterator[Refusal]:
         if entry.get("key") == key and entry.get("action") == "stage" and entry.get("result_sha256"):
             vouched[str(entry.get("stage"))] = str(entry["result_sha256"])
     for name, command in AGAIN.items():
-        yield from _vouched(state.folder / f"{name}.json", vouched.get(name), command.format(place=state.place))
+        yield from _vouched(state, state.folder / f"{name}.json", vouched.get(name), command.format(place=state.place))
     for stage in state.passes:
         again = f"rm -r {state.folder / stage} && worldwright stage start {state.place} --stage {stage}"
-        yield from _vouched(state.folder / stage / "result.json", vouched.get(stage), again)
+        yield from _vouched(state, state.folder / stage / "result.json", vouched.get(stage), again)
 
 
-def _vouched(path: Path, wanted: Any, command: str) -> Iterator[Refusal]:
+def _vouched(state: State, path: Path, wanted: Any, command: str) -> Iterator[Refusal]:
     name = path.name if path.name != "result.json" else f"{path.parent.name}/{path.name}"
     try:
         found = sha256_file(path)
     except OSError:
         return  # the steps report what is missing
+    state.sees(path, found)
     if wanted is None:
         yield Refusal(cause=f"no line of the journal vouches for {name}", next_move=command)
     elif found != wanted:

@@ -47,6 +47,9 @@ class State:
 
     def __init__(self, run: Run) -> None:
         self.run = run
+        self.unsteady: list[Path] = []
+        """Files of the evidence that were read with two contents: somebody writes there meanwhile."""
+        self._seen: dict[Path, str] = {}
 
     @classmethod
     def find(cls, name: str) -> "State":
@@ -173,8 +176,17 @@ class State:
         """The evidence folder of the current key (it need not exist)."""
         return self.run.evidence(self.key or "none")
 
+    def sees(self, path: Path, sha256: str) -> None:
+        """Remember with which hash a file of the evidence was read."""
+        if self._seen.setdefault(path, sha256) != sha256:
+            self.unsteady.append(path)
+
     def _read(self, name: str, model: type[T]) -> Kept[T]:
-        return Kept.read(self.folder / name, model) if self.key else Kept(self.folder / name)
+        path = self.folder / name
+        kept = Kept.read(path, model) if self.key else Kept(path)
+        if kept.sha256:
+            self.sees(path, kept.sha256)
+        return kept
 
     @cached_property
     def lint(self) -> Kept[LintReport]:

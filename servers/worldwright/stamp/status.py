@@ -4,6 +4,7 @@ from typing import Any, Literal
 
 from ..model.evidence.build_steps import STEPS, StepName
 from ..model.frozen import Frozen
+from ..model.printable import line
 from . import bundle, gates, iterations, scope
 from .refusal import Refusal
 from .state import State
@@ -34,10 +35,10 @@ class Status(Frozen):
 
     def text(self) -> str:
         """The status as a person reads it."""
-        lines = [f"{self.run}: {self.state}" + (f" (key {self.key})" if self.key else "")]
-        lines += [f"  {MARKS[s.status]} {s.name:<10}{s.detail}" for s in self.steps]
-        lines += [f"  blocked: {self.cause}"] if self.cause else []
-        lines += [f"  note: {note}" for note in self.notes]
+        lines = [line(f"{self.run}: {self.state}" + (f" (key {self.key})" if self.key else ""))]
+        lines += [f"  {MARKS[s.status]} {s.name:<10}{line(s.detail)}" for s in self.steps]
+        lines += [f"  blocked: {line(self.cause)}"] if self.cause else []
+        lines += [f"  note: {line(note)}" for note in self.notes]
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
 
 

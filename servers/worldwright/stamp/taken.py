@@ -1,5 +1,6 @@
 """The files beside a program, its plan and its film, read once as an acceptance begins: what is proved is what is published."""
 
+import os
 from pathlib import Path
 from typing import NamedTuple
 
@@ -9,6 +10,9 @@ from ..model.errors import GateError
 from ..model.evidence import pictures_of
 from ..model.evidence.run import Run
 from .proof import beside
+
+LARGEST = 4 << 30
+"""A film or a report is at most so large, bytes."""
 
 
 class Taken(NamedTuple):
@@ -45,6 +49,26 @@ class Taken(NamedTuple):
 
 
 def take(run: Run) -> Taken:
-    """Read them as they are now."""
-    prompt = run.prompt.read_bytes() if run.prompt.is_file() else None
+    """Read them as they are now; refuse (`GateError`) what is reached by a link, which is somebody else's to publish."""
+    for path in (run.plan, run.program, run.folder / pictures_of.FILM):
+        if os.path.lexists(path):
+            plain(run, path)
+    prompt = plain(run, run.prompt) if os.path.lexists(run.prompt) else None
     return Taken(beside(run.folder), pictures_of.files(run), prompt)
+
+
+def plain(run: Run, path: Path) -> bytes:
+    """The content of a file of a run; what is no plain file may be somebody else's, and is not published (`GateError`)."""
+    from ..stage import tools as stage
+
+    content = (
+        stage.read_plain(path, LARGEST) if path.resolve() == path else None
+    )  # no folder on the way is a link either
+    if content is None:
+        raise GateError(
+            f"{path.relative_to(run.folder)} is no plain file of at most {LARGEST >> 30} GB: a link, or one with "
+            "another name elsewhere, is not copied",
+            place=str(path),
+            next_move=f"put the file itself there, or remove it and make it again: worldwright stamp status {run.folder}",
+        )
+    return content

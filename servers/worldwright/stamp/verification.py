@@ -20,6 +20,7 @@ from ..model.evidence.reports import Environment
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..model.plan.plan_text import read_plan
+from ..model.printable import line
 from ..model.progress import Progress, silent
 from ..model.storage import StorageError, writing
 from . import (
@@ -30,6 +31,7 @@ from . import (
     exactness,
     law_check,
     measured_again,
+    nobodys_words,
     private,
     redrawn,
     signing,
@@ -74,10 +76,13 @@ class Verification(Frozen):
         """The answer as a person reads it."""
         who = f", {'' if self.signature.vouched else 'but '}{self.signature.text()}" if self.signature else ""
         state = "not shown here" if self.state == "not_shown" else self.state
-        lines = [f"{self.run}: {state}" + (f" ({self.mode})" if self.mode else "") + who]
-        lines += [f"  {'ok  ' if c.ok else 'open' if c.open else 'FAIL'} {c.name}: {c.detail}" for c in self.checks]
-        lines += [f"  differs here: {text}" for text in self.environment_differences]
-        return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
+        lines = [line(f"{self.run}: {state}" + (f" ({self.mode})" if self.mode else "") + who)]
+        lines += [
+            f"  {'note' if c.note else 'ok  ' if c.ok else 'open' if c.open else 'FAIL'} {c.name}: {line(c.detail)}"
+            for c in self.checks
+        ]
+        lines += [f"  differs here: {line(text)}" for text in self.environment_differences]
+        return "\n".join(lines + ([f"  next: {line(self.next_move)}"] if self.next_move else []))
 
 
 def verify(
@@ -162,6 +167,7 @@ def _prove_again(
         checks += measured_again.checks(folder, statement, proved, mode == "bitwise")
         if not vouched and all(c.ok for c in checks):  # what moves otherwise is refuted, however it looks
             checks += _pictures(folder, statement, proved)
+            checks.append(nobodys_words.told(statement))
     shutil.rmtree(scratch, ignore_errors=True)
     if not all(c.ok for c in checks):
         return _refuted(run, checks, differences, mode)

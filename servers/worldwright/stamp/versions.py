@@ -20,6 +20,7 @@ from ..model.errors import GateError, NotFoundError
 from ..model.evidence import handed_in, pictures_of
 from ..model.evidence.run import DAMAGED, EARLIER, SOURCE, Run, sha256_file
 from ..model.frozen import Frozen
+from ..model.printable import line
 from ..model.storage import writing
 from . import bundle, digest, poster, signing
 from .kept import Kept
@@ -42,7 +43,9 @@ class Version(NamedTuple):
     def __str__(self) -> str:
         said = self.statement.predicate
         claims = [o.status for o in said.objectives]
-        return f"{self.name}, accepted {said.accepted_at}: {claims.count('proved')} of {len(claims)} claims proved"
+        return line(
+            f"{self.name}, accepted {said.accepted_at}: {claims.count('proved')} of {len(claims)} claims proved"
+        )
 
 
 class Compared(Frozen):
@@ -54,7 +57,7 @@ class Compared(Frozen):
 
     def text(self) -> str:
         """Both, and one line for each difference."""
-        return "\n".join([f"from {self.first}\nto   {self.second}", *(f"- {said}" for said in self.differences)])
+        return "\n".join([f"from {self.first}\nto   {self.second}", *(f"- {line(said)}" for said in self.differences)])
 
 
 def known(run: Run) -> list[Version]:
@@ -97,20 +100,30 @@ def compare(first: Version, second: Version) -> Compared:
     )
 
 
-def restore(run: Run, name: str) -> Version:
+def restore(run: Run, name: str, *, anybody: bool = False) -> Version:
     """Bring a version back: its plan, program and film, and its stamp; what stood there is kept under `earlier/`.
+
+    Args:
+        run: whose version it is.
+        name: of the version, or the beginning of it.
+        anybody: bring it back whoever signed it, and if nobody did.
 
     Raises:
         NotFoundError: there is no such version.
-        GateError: it is not whole, it was not accepted here, or the run is being accepted.
+        GateError: it is not whole, it was not accepted here, no key that is known here signed it, or the run is being accepted.
     """
     version = find(run, name)
-    if broken := _unfit(run, version):
-        raise GateError(
-            f"version {version.name} {broken}",
-            place=str(version.folder),
-            next_move=f"bring another one back: worldwright versions {run.folder}",
+    other = f"bring another one back: worldwright versions {run.folder}"
+    broken, move = _unfit(run, version), other
+    signature = signing.check(version.folder, bundle.STAMP)
+    if not broken and not (signature.vouched or anybody):
+        broken = f"is {signature.text()}" if signature.holder == "unsigned" else f"was {signature.text()}"
+        move = (
+            f"{other}; or see whether its world is proved: `worldwright stamp verify {version.folder}`, then, if who accepted it "
+            f"does not matter, `worldwright versions {run.folder} --restore {version.name} --anybody`"
         )
+    if broken:
+        raise GateError(f"version {version.name} {broken}", place=str(version.folder), next_move=move)
     with writing("the accepted version", run.folder), bundle.only_one(run):
         content = _made_of(run, version)
         _put(run, content)

@@ -114,10 +114,13 @@ def test_what_was_left_out_must_be_as_stamped_where_it_is_there(small: Path, acc
 
 def test_a_file_that_nobody_stamped_is_named_and_a_build_beside_is_not(small: Path, copy: Copy) -> None:
     folder = copy(small)
-    (folder / "evidence").mkdir()
-    (folder / "evidence" / "anything.json").write_text("{}")
+    (folder / "evidence" / "0123456789ab").mkdir(parents=True)
+    (folder / "evidence" / "0123456789ab" / "anything.json").write_text("{}")
     (folder / "report.html").write_text("<p>")
     assert checks(folder) == {}
+    (folder / "evidence" / "robust.json").write_text("{}")
+    assert "evidence/robust.json is not in the stamp" in checks(folder)["checksums"]
+    (folder / "evidence" / "robust.json").unlink()
     (folder / "numpy.py").write_text("raise SystemExit")
     assert "numpy.py is not in the stamp" in checks(folder)["checksums"]
 

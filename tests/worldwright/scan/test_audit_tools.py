@@ -62,6 +62,10 @@ def test_both_audits_end_in_evidence_and_go_on_where_they_stopped(run):
     assert len(json.dumps(found.model_dump(mode="json"))) < 20_000
     actions = [entry["action"] for entry in Run(run).entries()]
     assert "refine" in actions and "causes" in actions
+    assert tools.unlike_trials(Run(run), {"refine": refined, "causes": causes}) == []
+    told = refined.model_copy(update={"refined_sha256": "0" * 64})
+    (found,) = tools.unlike_trials(Run(run), {"refine": told})
+    assert found.startswith("refine.json says refined_sha256 is 0000")
 
 
 def test_a_repetition_that_fails_ends_the_audit_with_its_reason(run, tmp_path):

@@ -4,8 +4,14 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+import pytest
 
+from worldwright.model.errors import GateError
+from worldwright.model.evidence.run import Run
+from worldwright.stamp import acceptance, redrawn
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.proof import Proved
+from worldwright.stamp.state import State
 
 from . import forging
 
@@ -66,3 +72,19 @@ def test_pictures_by_code_that_is_not_here_are_said_to_be_uncompared(accepted: P
     told = stamp.verify(str(run), timeout_s=120, anybody=True)
     assert told.ok, told.text()
     assert "NOT compared with this world" in told.text()
+
+
+def test_whoever_signs_looks_at_the_pictures_first(accepted: Path, copy) -> None:
+    """Hashes in a journal without secrets say nothing of them: a still is painted, and every frame of a film."""
+    run = Run(copy(accepted))
+    state = State(run)
+    recording = state.folder / "physics" / "trajectory"
+    proved = Proved(run, state.passes["physics"].value, state.lint.value, recording)
+    assert list(redrawn.glance(run.accepted, proved)) == []
+    painted(run.accepted / "stills" / "overview.png")
+    another_film(run.accepted / "video" / "side.mp4")
+    found = sorted(redrawn.glance(run.accepted, proved))
+    assert [said.split()[0] for said in found] == ["overview.png", "side.mp4"]
+    with pytest.raises(GateError, match="does not show this world"):
+        acceptance._look(state, proved, run.accepted)
+    assert len(list(redrawn.glance(run.accepted, proved, within_s=0.0))) <= 1

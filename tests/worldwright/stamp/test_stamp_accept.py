@@ -290,8 +290,9 @@ def test_an_undeclared_intervention_is_refused(planned: Path, copy: Copy, prepar
 
 CRASHING = """
 import os, sys
-from worldwright.stamp import bundle, tools
+from worldwright.stamp import bundle, redrawn, tools
 run, assemble, seen = sys.argv[1], bundle.draft_folder, 0
+redrawn.glance = lambda *_: ()  # how many pictures it draws is up to chance and time
 
 def armed(folder):
     os.write(1, b"proved\\n")
@@ -434,7 +435,7 @@ def test_another_machine_is_compared_within_a_tolerance(accepted: Path, copy: Co
         other.unlink()
     result = stamp.verify(str(folder), timeout_s=60, anybody=True)
     assert result.ok, result.text()
-    assert result.mode == "tolerance" and result.checks[-1].name == "pictures"
+    assert result.mode == "tolerance" and [c.name for c in result.checks[-2:]] == ["pictures", "words of nobody"]
     assert any("some other processor" in text for text in result.environment_differences)
 
     motion = digest.Motion.model_validate_json((inner / "motion.json").read_bytes())

@@ -89,8 +89,8 @@ def test_a_claim_that_the_time_step_decides_is_refused(reviewed: Path, copy: Cop
     report = RefineReport(
         trajectory_sha256=recording(folder), refined_sha256="1" * 64, time_step=0.002, refined_time_step=0.001
     )
-    spoil(folder, "refine", report)
-    assert refused(folder) == ""
+    spoil(folder, "refine", report)  # it names no fault, and was never made
+    assert "refine.json is told, not shown: of the repetition `time-step-factor 0.5`" in refused(folder)
     spoil(folder, "refine", report.model_copy(update={"anomalies": (anomaly("WS311", "numerical_artefact"),)}))
     assert "falls holds at 2 ms and fails at 1 ms" in refused(folder)
     page = render(gather(Run(folder)))
@@ -141,5 +141,9 @@ def test_a_named_cause_is_taken_away_before_acceptance(
     assert stamp.accept(str(folder), timeout_s=60).ok
     assert "evidence/causes.json" in (folder / "accepted" / "SHA256SUMS").read_text()
     page = render(gather(Run(folder)))
+    state = State.find(str(folder))
+    assert state.causes.value
+    told = state.causes.value.model_copy(update={"trials": ()})
+    assert scan.unlike_trials(Run(folder), {"causes": told})
     assert "<b>gravity</b> causes falls" in page
     assert "1/1" in page

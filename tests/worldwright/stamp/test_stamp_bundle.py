@@ -171,3 +171,48 @@ def test_what_report_export_and_watch_leave_beside_a_small_form_does_not_break_i
     assert bundle.damage(folder, statement) == []
     (folder / "out.txt").write_bytes(b"left by somebody")
     assert bundle.damage(folder, statement) == ["out.txt is not in the stamp"]
+
+
+@pytest.fixture
+def small(tmp_path: Path) -> tuple[Path, Statement]:
+    """The small form of an accepted world, and its stamp."""
+    folder = tmp_path / "kept"
+    shutil.copytree(
+        EXAMPLES / "bouncing-basketball", folder, ignore=shutil.ignore_patterns("accepted", "evidence", "jobs")
+    )
+    return folder, Statement.model_validate_json((folder / bundle.STAMP).read_bytes())
+
+
+@pytest.mark.parametrize("name", ["video", "stills", "jobs", "evidence", "evidence/0123"])
+def test_a_link_in_a_stamped_folder_is_refused_wherever_it_leads(
+    small: tuple[Path, Statement], tmp_path: Path, name: str
+) -> None:
+    folder, statement = small
+    (tmp_path / "elsewhere").mkdir()
+    (tmp_path / "elsewhere" / "another.mp4").write_bytes(b"another film")
+    (folder / name).parent.mkdir(exist_ok=True)
+    (folder / name).symlink_to(tmp_path / "elsewhere")
+    assert bundle.damage(folder, statement) == [f"{name} is a link, and not in the stamp"]
+
+
+def test_what_a_stamp_does_not_list_is_refused_in_its_folders_and_named_beside_them(
+    small: tuple[Path, Statement],
+) -> None:
+    folder, statement = small
+    for name in (
+        "evidence/robust.json",
+        "stills/another.png",
+        "video/another.mp4",
+        "report.html",
+        "evidence/0123/key.json",
+    ):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(b"{}")
+    refused = ["evidence/robust.json", "stills/another.png", "video/another.mp4"]
+    assert bundle.damage(folder, statement) == [f"{name} is not in the stamp" for name in refused]
+    for name in refused:
+        (folder / name).unlink()
+    checks = static(Run(folder), folder)
+    assert all(check.ok for check in checks)
+    (told,) = [check.detail for check in checks if check.note]
+    assert told.startswith("evidence/, report.html: in no list")

@@ -35,6 +35,25 @@ def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]
     return folder
 
 
+def test_where_the_key_may_not_be_read_nothing_is_signed_and_its_owner_is_still_known(elsewhere, monkeypatch) -> None:
+    """So it is in the shell of an agent, which root cannot be kept from by a file's mode: the opening itself is refused."""
+    mine = signing.fingerprint(keyring.own().public_key())
+    real = Path.open
+
+    def refused(path: Path, *words: Any, **named: Any) -> Any:
+        if path.name == keyring.OWN:
+            raise PermissionError(13, "Permission denied")
+        return real(path, *words, **named)
+
+    monkeypatch.setattr(Path, "open", refused)
+    with pytest.raises(signing.SigningError, match="shell of an agent may not") as no:
+        keyring.own()
+    assert "stamp.accept" in no.value.next_move and "terminal of your own" in no.value.next_move
+    assert keyring.holder(mine) == ("own", "this machine") and keyring.own_fingerprint() == mine
+    (elsewhere / keyring.PUBLIC).unlink()
+    assert keyring.holder(mine) == ("unknown", "")
+
+
 def forge(folder: Path, edit: Edit, program: str = "") -> None:
     """Change the stamp of a small form and recompute every hash and the whole journal, as one who has no key can."""
     path = folder / "simulation.py"
@@ -111,7 +130,7 @@ def test_the_key_is_made_once_and_its_owners_alone(elsewhere: Path) -> None:
     path = elsewhere / keyring.OWN
     assert stat.S_IMODE(path.stat().st_mode) == 0o600
     assert keyring.own().private_bytes_raw() == key.private_bytes_raw()
-    assert [p.name for p in elsewhere.iterdir()] == [keyring.OWN]
+    assert sorted(p.name for p in elsewhere.iterdir()) == [keyring.OWN, keyring.PUBLIC]
     path.chmod(0o640)
     with pytest.raises(signing.SigningError, match="others may read"):
         keyring.own()

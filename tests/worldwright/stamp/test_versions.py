@@ -164,3 +164,17 @@ def test_a_version_that_was_never_accepted_here_or_whose_signature_is_broken_doe
     (run.accepted / signing.ENVELOPE).write_text("{}")
     with pytest.raises(GateError, match="signature that does not hold"):
         versions.restore(run, standing.name)
+
+
+def test_a_version_that_nobody_known_signed_comes_back_only_when_anybody_may_have(accepted: Path, copy: Copy) -> None:
+    """A journal has no secret: a line for a stamp can be added by whoever lays the stamp there."""
+    run = Run(copy(accepted))
+    name = accepted_anew(run)
+    for signed in (signing.ENVELOPE, signing.PUBLIC):
+        (run.folder / "earlier" / name / signed).unlink(missing_ok=True)
+    before = run.plan.read_bytes()
+    refused = CliRunner().invoke(accepted_versions.command, [str(run.folder), "--restore", name])
+    assert refused.exit_code == 2 and run.plan.read_bytes() == before
+    assert "is UNSIGNED" in refused.output and f"--restore {name} --anybody" in refused.output
+    back = CliRunner().invoke(accepted_versions.command, [str(run.folder), "--restore", name, "--anybody"])
+    assert back.exit_code == 0 and run.plan.read_bytes() != before

@@ -47,10 +47,11 @@ class Line:
 
 
 class Journal:
-    """A journal file; it need not exist yet."""
+    """A journal file; it need not exist yet. With `held`, bytes that were read of it before, it tells those alone."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, held: bytes | None = None) -> None:
         self.path = path
+        self.held = held
 
     def append(self, entry: dict[str, Any]) -> str:
         """Write one entry, of at least one field, and flush it to the disk; returns the new head of the chain.
@@ -86,6 +87,10 @@ class Journal:
         """The chain of the last whole line; empty for a journal without any."""
         return _head(self._bytes()) if self.path.is_file() else ""
 
+    def goes_on(self) -> bool:
+        """Whether the chain holds in what is held, and the file still begins with it: lines may have been added since."""
+        return not self.breaks() and Journal(self.path)._bytes().startswith(self._bytes())
+
     def heads(self) -> Iterator[str]:
         """Every head the journal ever had, as far as its chain holds."""
         yield from (line.chain for line in _lines(self._bytes()) if line.chain)
@@ -115,6 +120,8 @@ class Journal:
         return found
 
     def _bytes(self) -> bytes:
+        if self.held is not None:
+            return self.held
         try:
             return self.path.read_bytes()
         except (FileNotFoundError, IsADirectoryError):  # `breaks` names a folder in its place

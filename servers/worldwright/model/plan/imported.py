@@ -200,7 +200,7 @@ def _facts(text: str, name: str, folder: str | None) -> dict[str, Any]:
     request = json.dumps({"text": text, "name": name, "folder": folder})
     try:
         done = subprocess.run(
-            [sys.executable, "-m", "worldkit.models"],
+            [sys.executable, "-P", "-m", "worldkit.models"],
             input=request.encode(),
             capture_output=True,
             cwd=servers,

@@ -2,8 +2,9 @@
 
 Needed: an approved and unchanged plan, a clean lint, all passes, no blocking anomaly, no refuted or unproved objective,
 a passing review whose evidence still exists, evidence files as the passes left them, no undeclared intervention, every
-declared cause shown to be one, and no claim that a finer time step was found to change. Before all that: plan, program
-and reports are what the last legal step left, by the hashes in the journal, and the folder is no rehearsal.
+declared cause shown to be one, no claim that a finer time step was found to change, and audits that say what their kept
+repetitions show. Before all that: plan, program and reports are what the last legal step left, by the hashes in the
+journal, and the folder is no rehearsal.
 
 Why: an accepted world is one that a stranger can trust without having watched it being made.
 """
@@ -36,6 +37,7 @@ def check(state: State) -> Iterator[Refusal]:
         yield from bindings.problems(state, state.review.value)
     yield from _changed(state)
     found = list(audited.refusals(state))
+    yield from found or audited.unshown(state)
     yield from found or _undeclared(state)  # the recording itself is read too: a report can be written by hand
 
 
@@ -60,7 +62,9 @@ def _changed(state: State) -> Iterator[Refusal]:
     for stage, kept in state.passes.items():
         for name, wanted in (kept.value.files if kept.value else {}).items():
             try:
-                same = sha256_file(state.folder / stage / name) == wanted
+                found = sha256_file(state.folder / stage / name)
+                state.sees(state.folder / stage / name, found)
+                same = found == wanted
             except OSError:
                 same = False
             if not same:
