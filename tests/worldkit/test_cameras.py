@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from worldkit import cameras
+from worldkit import cameras, moved_shapes
 
 coordinate = st.floats(-4, 4)
 SPHERE, BOX, PLANE = mujoco.mjtGeom.mjGEOM_SPHERE, mujoco.mjtGeom.mjGEOM_BOX, mujoco.mjtGeom.mjGEOM_PLANE
@@ -202,6 +202,21 @@ def test_mistakes_list_what_is_known():
         cameras.add(spec, "eye")
     with pytest.raises(ValueError, match="positions must be"):
         cameras.aim(spec.compile(), np.zeros((3, 5, 3)))
+
+
+@pytest.mark.parametrize("others", [(), ("ball",)])
+def test_what_a_law_moves_is_a_subject_though_no_body_carries_it(others):
+    spec = mujoco.MjSpec()
+    spec.worldbody.add_geom(type=PLANE, size=(0, 0, 1))
+    add(spec, "ball", SPHERE, (0.1, 0, 0), (0.8, 0, 0.1))
+    add(spec, "far", SPHERE, (0.1, 0, 0), (9, 0, 0.1))
+    film = np.array([[-0.5, -0.4, 0.2], [0.5, -0.4, 0.2], [0.5, 0.4, 0.3], [-0.5, 0.4, 0.3]])
+    moved_shapes.surface(spec, "film", film, [[0, 1, 2], [0, 2, 3]])
+    cameras.add(spec, "shot", view="perspective", subjects=("film", *others))
+    model = spec.compile()
+    cameras.aim(model)
+    shown = np.abs(project(model, posed(model), "shot", film))
+    assert 0.5 < shown.max() < 1.0
 
 
 def test_a_recording_with_nan_is_aimed_by_what_is_sound():

@@ -101,17 +101,19 @@ def _shot(
     orientations: np.ndarray | None = None,
 ) -> Shot:
     from .aiming import choose
-    from .subjects import crossing, resolve
+    from .subjects import crossing, drawn, resolve, with_drawn
 
     fovy = float(intent["fovy"])
     if intent["position"] is not None and intent["target"] is not None:
         return Shot(look(np.array(intent["position"]), np.array(intent["target"]), fovy))
     data = _rest(model)
-    bodies = resolve(model, tuple(intent["subjects"]))
-    if not bodies:
+    subjects = tuple(intent["subjects"])
+    bodies = resolve(model, subjects)
+    way = crossing(model, data, bodies, positions, orientations) if bodies else None
+    way = with_drawn(way, drawn(model, subjects))
+    if way is None:
         eye = intent["position"] or (2.4, -1.9, 1.4)
         return Shot(look(np.array(eye, dtype=float), np.array([0.0, 0.0, 0.3]), fovy))
-    way = crossing(model, data, bodies, positions, orientations)
     if intent["position"] is not None:
         middle = 0.5 * (way.points.min(axis=0) + way.points.max(axis=0))
         return Shot(look(np.array(intent["position"]), middle, fovy))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -48,20 +48,59 @@ def known_bodies(model: mujoco.MjModel) -> list[str]:
 def resolve(model: mujoco.MjModel, names: tuple[str, ...]) -> tuple[int, ...]:
     """Body numbers of the subjects; without names: all that moves, or else every body that can be seen.
 
-    Raises ValueError, listing the bodies, for a name that is none.
+    A flex stands for the bodies that carry it; one that no body carries is `drawn` only.
+
+    Raises ValueError, listing the bodies, for a name that is neither.
     """
     import mujoco
 
     if names:
-        numbers = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) for name in names]
-        if missing := [name for name, number in zip(names, numbers, strict=True) if number < 0]:
-            raise ValueError(
-                f"there is no body {', '.join(missing)}; known: {', '.join(known_bodies(model)) or 'none'}"
-            )
+        numbers: list[int] = []
+        for name in names:
+            number = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
+            flex = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_FLEX, name) if number < 0 else -1
+            if number < 0 and flex < 0:
+                missing = [n for n in names if not _is_there(model, n)]
+                known = ", ".join((*known_bodies(model), *(model.flex(f).name for f in range(model.nflex)))) or "none"
+                raise ValueError(f"there is no body {', '.join(missing)}; known: {known}")
+            numbers += [number] if flex < 0 else _carriers(model, flex)
         return tuple(dict.fromkeys(numbers))
     seen = [b for b in range(1, model.nbody) if len(_geoms(model, b))]
     moving = [b for b in seen if model.body_weldid[b] != 0]
     return tuple(moving or seen)
+
+
+def _is_there(model: mujoco.MjModel, name: str) -> bool:
+    import mujoco
+
+    return any(
+        mujoco.mj_name2id(model, kind, name) >= 0 for kind in (mujoco.mjtObj.mjOBJ_BODY, mujoco.mjtObj.mjOBJ_FLEX)
+    )
+
+
+def _carriers(model: mujoco.MjModel, flex: int) -> list[int]:
+    """The bodies, the world excepted, that carry a flex's shape."""
+    first, node = int(model.flex_vertadr[flex]), int(model.flex_nodeadr[flex])
+    owners = model.flex_vertbodyid[first : first + int(model.flex_vertnum[flex])].tolist()
+    nodes = model.flex_nodebodyid[node : node + int(model.flex_nodenum[flex])].tolist() if node >= 0 else []
+    return [int(body) for body in (*nodes, *owners) if body > 0]
+
+
+def drawn(model: mujoco.MjModel, names: tuple[str, ...]) -> np.ndarray:
+    """Corners (8 F, 3) m of the boxes around the subjects that no body carries, as the world is built: what an author's law moves."""
+    import mujoco
+
+    from ..moved_shapes import at_rest
+
+    found = [np.zeros((0, 3))]
+    for name in names:
+        flex = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_FLEX, name)
+        body = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name)
+        if body < 0 <= flex and not _carriers(model, flex):
+            points = at_rest(model, flex)
+            low, high = points.min(axis=0), points.max(axis=0)
+            found.append(0.5 * (low + high) + 0.5 * _SIGNS * (high - low))
+    return np.concatenate(found)
 
 
 def _family(model: mujoco.MjModel, body: int) -> list[int]:
@@ -156,6 +195,17 @@ def crossing(
     points = np.concatenate([clouds[member].reshape(-1, 3) for member in everyone])
     where = np.stack(places, axis=1)
     return Crossing(points, where.mean(axis=1), where, np.array(sizes), bodies)
+
+
+def with_drawn(way: Crossing | None, points: np.ndarray) -> Crossing | None:
+    """A crossing, with the corners (8 F, 3) m of what is only drawn; of these alone where nothing else is a subject."""
+    if not len(points):
+        return way
+    if way is not None:
+        return replace(way, points=np.concatenate([way.points, points]))
+    low, high = points.min(axis=0), points.max(axis=0)
+    middle = 0.5 * (low + high)[None]
+    return Crossing(points, middle, middle[None], np.array([np.linalg.norm(high - low) / 2]), ())
 
 
 def _ball(model: mujoco.MjModel, body: int) -> float:

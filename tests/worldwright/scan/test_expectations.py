@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from worldkit.turning import about, product
 from worldwright.model.plan.committed import Objective
+from worldwright.model.recording.shown_points import Lay, ShownPoints
 from worldwright.scan.audits.moment import event_s
 from worldwright.scan.known.analytic import bouncing, falling, resting, sliding
 from worldwright.scan.known.motions import thrown
@@ -90,7 +91,20 @@ def test_a_short_beginning_never_ends_in_a_traceback(entry, maker, arguments, go
         assert "the expectation itself failed" not in result.message, result.message
 
 
-ABSOLUTE = {"place", "direction", "center", "about", "low", "high", "axis", "at_m", "surface_m", "along", "camera"}
+ABSOLUTE = {
+    "place",
+    "direction",
+    "center",
+    "about",
+    "low",
+    "high",
+    "axis",
+    "at_m",
+    "surface_m",
+    "along",
+    "camera",
+    "ground",
+}
 
 
 RELATIVE = [case for case in CASES if not ABSOLUTE & set(case.values[2])]
@@ -119,8 +133,10 @@ def moved(trajectory, yaw, shift):
             normal=contacts.normal @ turn.T,
             position=contacts.position @ turn.T + [*shift, 0],
         )
+    media = {name: Lay(lay.t, lay.flat @ turn.T + [*shift, 0]) for name, lay in trajectory.media.known.items()}
     return replace(
         trajectory,
+        media=ShownPoints(media),
         pos=trajectory.pos @ turn.T + [*shift, 0],
         linvel=trajectory.linvel @ turn.T,
         angvel=trajectory.angvel @ turn.T,

@@ -20,9 +20,13 @@ def of(meta: Mapping[str, Any], place: str = "meta.json") -> "tuple[Medium, ...]
 
 def drawn(meta: Mapping[str, Any], place: str = "meta.json") -> frozenset[str]:
     """The names of what only shows the points of a law, or the water of a solver of the suite; errors as of `of`."""
-    shown = meta.get("shown")
-    of_solvers = () if shown is None else _read({"laws": shown}, place)
-    return frozenset(medium.shown_by for medium in (*of(meta, place), *of_solvers))
+    return frozenset(shown(meta, place))
+
+
+def shown(meta: Mapping[str, Any], place: str = "meta.json") -> tuple[str, ...]:
+    """What shows each medium of a recording, in the order of its points: laws first, then solvers; errors as of `of`."""
+    others = () if meta.get("shown") is None else _read({"laws": meta["shown"]}, place)
+    return tuple(medium.shown_by for medium in (*of(meta, place), *others))
 
 
 def _read(meta: Mapping[str, Any], place: str) -> "tuple[Medium, ...]":

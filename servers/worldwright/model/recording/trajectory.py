@@ -29,6 +29,7 @@ from .law_balances import LawBalance
 from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
+from .shown_points import ShownPoints
 from .stills import Lens, Stills
 
 Array = np.ndarray
@@ -83,6 +84,8 @@ class Trajectory:
     """Joint positions, tendon lengths, constraint violations."""
     balances: tuple[LawBalance, ...] = ()
     """What each of the author's own laws gives and takes."""
+    media: ShownPoints = field(default_factory=ShownPoints)
+    """Where the points of laws lay."""
     mechanics: Mechanics = field(default_factory=Mechanics)
     meta: Mapping[str, Any] = field(default_factory=dict)
     model: Any = None

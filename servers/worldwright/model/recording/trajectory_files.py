@@ -14,6 +14,7 @@ from .coordinates import Coordinates
 from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
+from .shown_points import ShownPoints
 from .stills import Lens, lenses
 from .trajectory import OPTIONAL_SHAPES, SHAPES, Trajectory
 
@@ -164,6 +165,7 @@ def from_recording(recording: Any) -> Trajectory:
         contacts=contacts,
         interventions=ledger,
         balances=law_balances.read(recording, ledger, _gravity(recording, mechanics)),
+        media=ShownPoints(recording=recording),
         warnings=tuple(
             (float(time), str(name), int(count))
             for time, name, count in zip(warned.time, warned.warning, warned.count, strict=True)

@@ -1,8 +1,13 @@
-"""An author's own law whose sums are known: a mass on a spring between it and a body."""
+"""An author's own law of which all is known: the sums of a mass on a spring, the points of a paint that comes to cover a plate."""
 
 import numpy as np
 
+from worldkit.turning import matrices
+
 from ...model.recording.law_balances import LawBalance
+from ...model.recording.shown_points import Lay, ShownPoints
+from ...model.recording.trajectory import Trajectory
+from .analytic import clock, motion
 
 
 def spring(
@@ -49,3 +54,26 @@ def spring(
         pushed=kept * float(np.abs(np.diff(own[:, 0])).sum()),
         gravity=gravity,
     )
+
+
+def pouring(share: float = 1.0, begins: float = 0.0, depth: float = 0.002, tilt_deg: float = 0.0) -> Trajectory:
+    """A plate `body` of 0.4 by 0.2 by 0.02 m, its upper side 0.05 m high, which `paint` comes to cover from one end within 2 s.
+
+    Args:
+        share, begins: what of it is covered in the end, and at the start; what is dry lies 0.3 mm below the surface.
+        depth: of the paint, m.
+        tilt_deg: by which plate and paint are turned about y.
+    """
+    t = clock(2.0, 0.1)
+    half = np.radians(tilt_deg) / 2
+    turned = np.tile((np.cos(half), 0.0, np.sin(half), 0.0), (len(t), 1, 1))
+    x, y = np.meshgrid(np.linspace(-0.199, 0.199, 161), np.linspace(-0.099, 0.099, 81))
+    front = -0.2 + 0.4 * (begins + (share - begins) * t / t[-1])
+    high = 0.01 + np.where(x.ravel() < front[:, None], depth, -3e-4)
+    flat = np.stack([np.tile(x.ravel(), (len(t), 1)), np.tile(y.ravel(), (len(t), 1)), high], axis=2)
+    middle = np.array([0.0, 0.0, 0.04])
+    places = middle + flat @ matrices(turned[0, 0]).T
+    plate = {"body": "body", "type": "box", "pos": [0, 0, 0], "quat": [1, 0, 0, 0], "aabb": [0, 0, 0, 0.2, 0.1, 0.01]}
+    pos = np.tile(middle, (len(t), 1))
+    media = ShownPoints({"paint": Lay(t, places.reshape(-1, 3))})
+    return motion(t, pos, 0 * pos, quat=turned, meta={"geoms": [plate]}, media=media)

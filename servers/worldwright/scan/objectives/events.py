@@ -48,7 +48,7 @@ def told(event: dict[str, Any]) -> str:
     return " ".join([name, *(str(v) for v in shown)])
 
 
-SPEAKS_OF = ("body", "bodies", "other", "joint", "tendon", "constraint", "parts")
+SPEAKS_OF = ("body", "bodies", "other", "joint", "tendon", "constraint", "parts", "medium")
 
 
 def moment_s(trajectory: Trajectory, event: dict[str, Any]) -> float | None:

@@ -41,7 +41,7 @@ BAD: Changes = (
     },
 )
 EVIDENCE = Argued("an expectation that nothing implements is answered `unknown` by scan, whatever the run did")
-BODY_KEYS = ("body", "bodies", "support", "other", "others", "by", "on")
+BODY_KEYS = ("body", "bodies", "support", "other", "others", "by", "on", "medium")
 SCENERY = ("ground", "world", "base", "floor")
 
 

@@ -1,0 +1,61 @@
+"""Where the points of a medium lay: what an author's law moves, or a solver of the suite, by the name of what shows it."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from ..errors import NotFoundError
+from . import laws_told
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True)
+class Lay:
+    """The points of one medium at F recorded instants, world frame."""
+
+    t: Array
+    """(F,) s."""
+    flat: Array
+    """(F n, 3) m: instant after instant; memory-mapped, so that who asks for one instant reads one."""
+
+    def at(self, time_s: float) -> Array:
+        """(n, 3) m at the last recorded instant up to a time; at the first where that is earlier."""
+        count = len(self.flat) // len(self.t)
+        one = max(0, int(np.searchsorted(self.t, time_s + 1e-9, side="right")) - 1)
+        return np.asarray(self.flat[one * count : (one + 1) * count], dtype=float)
+
+
+@dataclass(frozen=True)
+class ShownPoints:
+    """The media of one recording, each read when it is asked for."""
+
+    known: Mapping[str, Lay] = field(default_factory=dict)
+    """Those that are there already; else they come out of the recording."""
+    recording: Any = None
+
+    def of(self, name: str) -> Lay:
+        """The points that a flex, a body of grains or a skin shows.
+
+        Raises:
+            NotFoundError: no medium is shown by this name.
+            RecordingError: what the recording says of its media makes no sense.
+        """
+        if name in self.known:
+            return self.known[name]
+        shown = () if self.recording is None else laws_told.shown(self.recording.meta, str(self.recording.folder))
+        if name not in shown:
+            known = ", ".join((*self.known, *shown)) or "(none: no law ran)"
+            raise NotFoundError(
+                f"nothing called '{name}' shows the points of a law", next_move=f"name what shows one: {known}"
+            )
+        media = self.recording.media
+        mine = np.asarray(media.medium) == shown.index(name)
+        steps, places = np.asarray(media.step)[mine], media.place[mine]
+        instants, counts = np.unique(steps, return_counts=True)
+        whole = int((counts == counts.max(initial=0)).sum())  # a torn recording ends within an instant
+        if not whole:
+            raise NotFoundError(f"no point of '{name}' was recorded", next_move="run the physics pass again")
+        return Lay(instants[:whole] * float(self.recording.time_step), places[: whole * int(counts.max())])
