@@ -194,8 +194,14 @@ def _skin(model: "mujoco.MjModel", f: int, bodies: list[str]) -> dict[str, Any]:
     """The closed surface of a solid flex: `shell`, triples of vertices, outwards; and what the vertices follow.
 
     That is `owners`, the body of each vertex; or, of a flex that a lattice of bodies carries, `lattice`: how many `cells` it
-    has along x, y, z, its `nodes` (bodies, z fastest) and the place of each vertex `at`, 0 to 1 across the whole lattice.
+    has along x, y, z, its `nodes` (bodies, z fastest) and the place of each vertex `at`, 0 to 1 across the whole lattice. Of a
+    surface that no body carries, for a law moves it, `faces`: triples of vertices.
     """
+    if model.flex_dim[f] == 2 and not model.flex_interp[f]:
+        first, count = int(model.flex_vertadr[f]), int(model.flex_vertnum[f])
+        if not model.flex_vertbodyid[first : first + count].any():
+            start, triangles = int(model.flex_elemdataadr[f]), int(model.flex_elemnum[f])
+            return {"faces": model.flex_elem[start : start + 3 * triangles].tolist()}
     if model.flex_dim[f] != 3 or model.flex_interp[f] > 1:  # a quadratic cell has nodes between its corners
         return {}
     first, count = int(model.flex_vertadr[f]), int(model.flex_vertnum[f])

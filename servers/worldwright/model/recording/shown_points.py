@@ -36,6 +36,12 @@ class ShownPoints:
     """Those that are there already; else they come out of the recording."""
     recording: Any = None
 
+    @property
+    def names(self) -> tuple[str, ...]:
+        """What shows each medium; errors as of `of`."""
+        told = () if self.recording is None else laws_told.shown(self.recording.meta, str(self.recording.folder))
+        return (*self.known, *told)
+
     def of(self, name: str) -> Lay:
         """The points that a flex, a body of grains or a skin shows.
 
@@ -45,9 +51,9 @@ class ShownPoints:
         """
         if name in self.known:
             return self.known[name]
-        shown = () if self.recording is None else laws_told.shown(self.recording.meta, str(self.recording.folder))
+        shown = self.names[len(self.known) :]
         if name not in shown:
-            known = ", ".join((*self.known, *shown)) or "(none: no law ran)"
+            known = ", ".join(self.names) or "(none: no law ran)"
             raise NotFoundError(
                 f"nothing called '{name}' shows the points of a law", next_move=f"name what shows one: {known}"
             )

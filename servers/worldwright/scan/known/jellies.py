@@ -1,10 +1,11 @@
-"""Soft bodies: blocks that swell and are squeezed, as a lattice of bodies under a surface."""
+"""Soft bodies: blocks that swell and are squeezed, as a lattice of bodies under a surface; a skin that a law moves."""
 
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from ...model.recording.shown_points import Lay, ShownPoints
 from ...model.recording.trajectory import Trajectory
 from .analytic import clock, motion
 
@@ -31,3 +32,14 @@ def block(grows: float = 1.0, squeezed: float = 0.0, side: float = 0.2, **more: 
     lattice = {"cells": [1, 1, 1], "nodes": list(names), "at": [list(map(float, c)) for c in np.ndindex(2, 2, 2)]}
     flex = {"name": "jelly", "bodies": list(names), "shell": [v for face in CUBE for v in face], "lattice": lattice}
     return replace(made, meta={**made.meta, "flexes": [flex]})
+
+
+def caving(keeps: float = 0.5, side: float = 0.2, open_at: int = 0) -> Trajectory:
+    """A skin `walls` around a cube, moved by a law, beside a body at rest: within 1 s it gets `keeps` times as high; `open_at` faces lack."""
+    t = clock(1.0, 0.05)
+    corners = (np.array(list(np.ndindex(2, 2, 2)), dtype=float) - 0.5) * side
+    high = 1 + (keeps - 1) * t / t[-1]
+    lay = Lay(t, (corners * np.stack([high**0, high**0, high], axis=1)[:, None]).reshape(-1, 3))
+    pos = np.zeros((len(t), 3))
+    flex = {"name": "walls", "bodies": [], "faces": [v for face in CUBE[open_at:] for v in face]}
+    return motion(t, pos, pos, meta={"flexes": [flex]}, media=ShownPoints({"walls": lay}))

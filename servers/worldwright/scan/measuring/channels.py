@@ -104,7 +104,9 @@ def group(trajectory: Trajectory, parts: str | Sequence[str]) -> list[int]:
 class OfParts(Windowed):
     """A body made of parts."""
 
-    parts: str | tuple[Name, ...] = Field(description="a flex, a pattern such as `rope_*`, or a list of bodies")
+    parts: str | tuple[Name, ...] = Field(
+        description="a flex, what shows a law's points, a pattern such as `rope_*`, or bodies"
+    )
 
     @model_validator(mode="after")
     def _some(self) -> "OfParts":

@@ -1,4 +1,4 @@
-"""The surface of a soft body over time, and the volume inside it."""
+"""The surface of a soft body, or of a skin that a law moves, over time, and the volume inside it."""
 
 from typing import Any
 
@@ -12,7 +12,8 @@ Array = np.ndarray
 
 
 def skin(trajectory: Trajectory, name: str, rows: Array) -> tuple[Array, Array]:
-    """The vertices (R, V, 3), m, of a solid flex at these rows, and the triangles (F, 3) of its closed surface, outwards.
+    """The vertices (R, V, 3), m, of a solid flex at these rows, and the triangles (F, 3) of its closed surface, outwards; or of
+    a closed surface that an author's law moves.
 
     Of a flex that a lattice of bodies carries, a vertex lies where its cell's eight corners put it (trilinear).
 
@@ -25,6 +26,13 @@ def skin(trajectory: Trajectory, name: str, rows: Array) -> tuple[Array, Array]:
     if flex is None:
         known = ", ".join(str(row.get("name")) for row in flexes) or "(none)"
         raise NotFoundError(f"there is no soft body '{name}' in this recording", next_move=f"name one of: {known}")
+    if "faces" in flex and name in trajectory.media.names:
+        triangles, lay = np.array(flex["faces"], dtype=int).reshape(-1, 3), trajectory.media.of(name)
+        if not _closed(triangles):
+            raise UnknowableError(
+                f"'{name}' is open: it has no inside", next_move="measure its size, or what it covers"
+            )
+        return np.stack([lay.at(float(time)) for time in trajectory.t[rows]]), triangles
     if "shell" not in flex:
         raise UnknowableError(
             f"'{name}' has no recorded surface around a volume: it is a cloth, a rod or quadratic",
@@ -45,6 +53,12 @@ def skin(trajectory: Trajectory, name: str, rows: Array) -> tuple[Array, Array]:
         x, y, z = (cell + corner).T
         found += weight[:, None] * nodes[:, (x * (cells[1] + 1) + y) * (cells[2] + 1) + z]
     return found, triangles
+
+
+def _closed(triangles: Array) -> bool:
+    """Whether each edge has a triangle on either side, with one winding."""
+    edges = {(int(a), int(b)) for a, b, c in triangles for a, b in ((a, b), (b, c), (c, a))}
+    return len(edges) == 3 * len(triangles) and all((b, a) in edges for a, b in edges)
 
 
 def volume(vertices: Array, triangles: Array) -> Array:

@@ -1,8 +1,8 @@
 """A soft body, or a crowd, is so large: how wide a dough spreads, how high a foam stands, how far a cloth reaches.
 
 Measures the extent of its parts along x, y, z, or across (the largest along any direction), metres: its least, mean or
-largest over the window, or that at its end. Of a solid flex the surface counts, else the origins of the bodies. Source:
-geometry.
+largest over the window, or that at its end. Of a solid flex the surface counts, of a law its points, else the origins of the
+bodies. Source: geometry.
 """
 
 from typing import Literal
@@ -13,9 +13,10 @@ from pydantic import Field, model_validator
 from .....model.recording.trajectory import Trajectory
 from ....known.flow import crowd
 from ....known.jellies import block
-from ....measuring.channels import AXES, OfParts, group
+from ....known.own_laws import pouring
+from ....measuring.channels import AXES, OfParts
+from ....measuring.clouds import cloud
 from ....measuring.measured import Measured, between, window
-from ....measuring.solids import skin
 
 CODE = "WE228"
 MOST_ROWS = 400
@@ -42,11 +43,7 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     chosen = np.unique(np.linspace(rows.start, rows.stop - 1, min(MOST_ROWS, rows.stop - rows.start)).astype(int))
     if given.of == "final":
         chosen = chosen[-1:]
-    solid = any(row.get("name") == given.parts and "shell" in row for row in trajectory.meta.get("flexes") or ())
-    if solid:
-        points = skin(trajectory, str(given.parts), chosen)[0]
-    else:
-        points = trajectory.pos[chosen][:, group(trajectory, given.parts)]
+    points = cloud(trajectory, given.parts, chosen)
     if given.along == "across":
         sizes = np.array([_across(cloud) for cloud in points])
     else:
@@ -69,6 +66,7 @@ GOOD = (
     (lambda: block(squeezed=0.5), {"parts": "jelly", "min_m": 0.099, "max_m": 0.101}),
     (lambda: block(grows=2.0), {"parts": "jelly", "of": "max", "min_m": 0.399}),
     (lambda: crowd(3.0), {"parts": "grain_*", "along": "across", "min_m": 0.83, "max_m": 0.85}),
+    (pouring, {"parts": "paint", "along": "z", "of": "max", "min_m": 0.0022, "max_m": 0.0024}),
 )
 BAD = (
     (block, {"parts": "jelly", "max_m": 0.19}),

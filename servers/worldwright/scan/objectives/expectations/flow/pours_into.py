@@ -1,4 +1,4 @@
-"""A crowd of bodies gets into a box of space: water into a glass, sand into the lower bulb.
+"""A crowd of bodies, or a medium of points, gets into a box of space: water into a glass, sand into the lower bulb.
 
 Measures the share of them that is outside at the start of the window and inside at its end. A side that is null is
 open. Source: kinematics; conservation of mass.
@@ -8,7 +8,8 @@ from pydantic import Field, model_validator
 
 from .....model.recording.trajectory import Trajectory
 from ....known.flow import crowd
-from ....measuring.channels import OfParts, group
+from ....measuring.channels import OfParts
+from ....measuring.clouds import cloud
 from ....measuring.measured import Measured, at_least, window
 from .stays_contained import Corner, inside
 
@@ -33,7 +34,7 @@ class Given(OfParts):
 def measure(trajectory: Trajectory, given: Given) -> Measured:
     """Measure the share that gets in."""
     rows = window(trajectory, given.window_s)
-    ends = trajectory.pos[[rows.start, rows.stop - 1]][:, group(trajectory, given.parts)]
+    ends = cloud(trajectory, given.parts, (rows.start, rows.stop - 1))
     before, after = inside(ends, given.low, given.high)
     share = float((after & ~before).mean())
     message = f"{share:.1%} of {given.told()} gets in; {after.mean():.1%} is there in the end"

@@ -1,7 +1,7 @@
 """A crowd of bodies spreads: a puddle, a heap, an opening rack of balls.
 
-Measures the radius of gyration of their origins seen from above, at the end of the window relative to its start.
-Source: statistics of point sets; diffusion and collapse of granular columns.
+Measures the radius of gyration of their origins, or of the points of a law, seen from above, at the end of the window
+relative to its start. Source: statistics of point sets; diffusion and collapse of granular columns.
 """
 
 import numpy as np
@@ -9,7 +9,8 @@ from pydantic import Field
 
 from .....model.recording.trajectory import Trajectory
 from ....known.flow import crowd
-from ....measuring.channels import OfParts, group
+from ....measuring.channels import OfParts
+from ....measuring.clouds import cloud
 from ....measuring.measured import Measured, UnknowableError, at_least, window
 
 CODE = "WE264"
@@ -25,12 +26,13 @@ class Given(OfParts):
 def measure(trajectory: Trajectory, given: Given) -> Measured:
     """Measure the growth."""
     rows = window(trajectory, given.window_s)
-    bodies = group(trajectory, given.parts)
-    ends = trajectory.pos[[rows.start, rows.stop - 1]][:, bodies, :2]
+    ends = cloud(trajectory, given.parts, (rows.start, rows.stop - 1))[:, :, :2]
     apart = ends - ends.mean(axis=1, keepdims=True)
     radius = np.sqrt((apart**2).sum(axis=2).mean(axis=1))
-    if len(bodies) < 2 or radius[0] <= 0:
-        raise UnknowableError(f"{given.told()} has no extent at the start", next_move="name several bodies")
+    if ends.shape[1] < 2 or radius[0] <= 0:
+        raise UnknowableError(
+            f"{given.told()} has no extent at the start", next_move="name several bodies, or the points of a law"
+        )
     ratio = float(radius[1] / radius[0])
     message = f"{given.told()} spreads from {radius[0]:.4f} to {radius[1]:.4f} m"
     return at_least(ratio, given.min_ratio, "1", message)

@@ -1,4 +1,4 @@
-"""A crowd of bodies stays inside a box of space: a glass that holds its water, a tray its beads.
+"""A crowd of bodies, or a medium of points, stays inside a box of space: a glass that holds its water, a tray its beads.
 
 Measures the least share of them inside at any moment. A side that is null is open. Source: kinematics.
 """
@@ -8,7 +8,8 @@ from pydantic import Field, model_validator
 
 from .....model.recording.trajectory import Trajectory
 from ....known.flow import crowd
-from ....measuring.channels import OfParts, group
+from ....measuring.channels import OfParts
+from ....measuring.clouds import cloud
 from ....measuring.measured import Measured, at_least, window
 
 CODE = "WE266"
@@ -40,7 +41,7 @@ def inside(points: np.ndarray, low: Corner, high: Corner) -> np.ndarray:
 def measure(trajectory: Trajectory, given: Given) -> Measured:
     """Measure the least share inside."""
     rows = window(trajectory, given.window_s)
-    share = inside(trajectory.pos[rows][:, group(trajectory, given.parts)], given.low, given.high).mean(axis=1)
+    share = inside(cloud(trajectory, given.parts, rows), given.low, given.high).mean(axis=1)
     worst = int(share.argmin())
     message = f"at {trajectory.t[rows][worst]:.3f} s {share[worst]:.1%} of {given.told()} is inside, the least of all"
     return at_least(float(share[worst]), given.min_share, "1", message)
