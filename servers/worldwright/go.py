@@ -115,10 +115,23 @@ def go(run: Run, options: Options, say: Say) -> bool:
         if gone.under_way or (gone.ok and options.until):
             say("next", "waiting", gone.next_move)
         return gone.ok and (options.until or walk.groups[-1][-1]) in gone.held
+    except KeyboardInterrupt:
+        for line in _goes_on(run):
+            say("running", "waiting", line)
+        raise
     finally:
         from .report import write
 
         say("report", "done", str(write(run)))
+
+
+def _goes_on(run: Run) -> Iterator[str]:
+    """What a walk that was interrupted leaves at work: jobs outlive whoever asked for them, so that nothing is paid twice."""
+    from .stage.job import Job
+
+    still = [job for job in Job.all(run) if not job.read().ended]
+    for job in still:
+        yield f"{job.read().text().splitlines()[0]}\nit goes on; `worldwright stage cancel {run.folder} --job {job.folder.name}` ends it"
 
 
 @contextmanager

@@ -3,6 +3,7 @@
 import shutil
 import time
 from collections import Counter
+from types import SimpleNamespace
 
 import pytest
 from click.testing import CliRunner
@@ -17,6 +18,7 @@ from worldwright.model.evidence.reports import LintReport
 from worldwright.model.evidence.run import Run
 from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
+from worldwright.stage.job import Job
 from worldwright.stamp import going
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
@@ -196,3 +198,19 @@ def test_no_pose_is_written_into_a_plan_that_still_stands_as_copied(fresh):
     assert "place" in gone.held and (fresh / "plan.md").read_bytes() == before
     with pytest.raises(WorldwrightError, match="still as copied"):
         stamp.approve(str(fresh), by="tester")
+
+
+def test_an_interrupted_walk_says_what_goes_on_and_how_to_end_it(fresh, monkeypatch):
+    def stopped(walk):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(going.Going, "go", stopped)
+    jobs = [Job(fresh / "jobs" / name) for name in ("video-2", "physics-1")]
+    at_work = {"video-2": True, "physics-1": False}
+    monkeypatch.setattr(Job, "all", lambda run: jobs)
+    monkeypatch.setattr(
+        Job, "read", lambda job: SimpleNamespace(ended=not at_work[job.folder.name], text=lambda: "video running")
+    )
+    said = CliRunner().invoke(cli.main, ["go", str(fresh)])
+    assert said.exit_code == 130 and f"worldwright stage cancel {fresh} --job video-2" in said.output
+    assert "physics-1" not in said.output
