@@ -35,7 +35,7 @@ if TYPE_CHECKING:
 
     from .. import Before, Drawing, Moment, Quality
 
-DEPTH, CLEAR_DEPTH = 4, 8
+DEPTH, CLEAR_DEPTH = 4, 12
 """The longest paths, and those where light goes through glass."""
 SEEDS_APART = 1 << 16
 """Moments have chances of their own."""
@@ -192,7 +192,7 @@ class Tracing:
         """Trace the picture of `data`, with these walls, or some of it; its light `coarser` times smaller each way."""
         scene, eye = self._placed(data, view, faces), self._sensor(view, "rgb", coarser)
         light = walked.light(scene, eye, self._depth, samples, seed, where, self._clear)
-        rays = walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
+        rays = walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where, self._clear))
 
         def again() -> tuple[np.ndarray, np.ndarray]:
             covered = walked.covered(scene, self._sensor(view, "rgba", coarser), samples, seed, where)
