@@ -63,10 +63,14 @@ class Met:
 
     def value(self, x: Array) -> float:
         """J that it costs to be at `x`."""
-        far, _ = self.far(x)
         way, long = self._slid(x)
         slides = long / 2 + (way * way).sum(axis=1) / (2 * long)
-        return float((self.hard * np.minimum(far, 0) ** 2).sum() / 2 + (self.grip * slides).sum())
+        return self.stored(x) + float((self.grip * slides).sum())
+
+    def stored(self, x: Array) -> float:
+        """J of that which come back as it springs off."""
+        far, _ = self.far(x)
+        return float((self.hard * np.minimum(far, 0) ** 2).sum() / 2)
 
     def add(self, x: Array, slope: Array, each: Array | None) -> None:
         """Add its slope (n, 3) N, and its stiffness (n, 3, 3) N/m."""
