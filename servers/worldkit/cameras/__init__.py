@@ -39,7 +39,7 @@ def add(
 ) -> mujoco.MjsCamera:
     """Add a camera to the world body, posed for the scene as it stands; add cameras after the bodies they show.
 
-    `view` names a template of `VIEWS` ("perspective" unless a position is given); `subjects` are body names, none meaning
+    `view` names a template of `VIEWS` ("perspective" unless a position is given); `subjects` are bodies or flexes, none meaning
     everything that moves. With `position` (m) the camera stays there and looks at `target` (m) or at its subjects.
     `fovy` is the vertical field of view, degrees. `follow` keeps the subjects in place in the frame as they move.
 
@@ -101,17 +101,18 @@ def _shot(
     orientations: np.ndarray | None = None,
 ) -> Shot:
     from .aiming import choose
-    from .subjects import crossing, resolve
+    from .subjects import crossing, resolve, surfaces
 
     fovy = float(intent["fovy"])
     if intent["position"] is not None and intent["target"] is not None:
         return Shot(look(np.array(intent["position"]), np.array(intent["target"]), fovy))
     data = _rest(model)
-    bodies = resolve(model, tuple(intent["subjects"]))
+    names = tuple(intent["subjects"])
+    bodies = resolve(model, names)
     if not bodies:
         eye = intent["position"] or (2.4, -1.9, 1.4)
         return Shot(look(np.array(eye, dtype=float), np.array([0.0, 0.0, 0.3]), fovy))
-    way = crossing(model, data, bodies, positions, orientations)
+    way = crossing(model, data, bodies, positions, orientations, surfaces(model, names))
     if intent["position"] is not None:
         middle = 0.5 * (way.points.min(axis=0) + way.points.max(axis=0))
         return Shot(look(np.array(intent["position"]), middle, fovy))

@@ -46,22 +46,44 @@ def known_bodies(model: mujoco.MjModel) -> list[str]:
 
 
 def resolve(model: mujoco.MjModel, names: tuple[str, ...]) -> tuple[int, ...]:
-    """Body numbers of the subjects; without names: all that moves, or else every body that can be seen.
+    """Body numbers of the subjects, less what is a surface; without bodies: all that moves, or else every body that can be seen.
 
     Raises ValueError, listing the bodies, for a name that is none.
     """
     import mujoco
 
-    if names:
-        numbers = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) for name in names]
-        if missing := [name for name, number in zip(names, numbers, strict=True) if number < 0]:
+    numbers = [mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_BODY, name) for name in names]
+    flexes = [_flex(model, name) for name in names]
+    if not all(number < 0 <= flex for number, flex in zip(numbers, flexes, strict=True)):
+        named = list(zip(names, numbers, flexes, strict=True))
+        if missing := [name for name, number, flex in named if number < 0 > flex]:
             raise ValueError(
                 f"there is no body {', '.join(missing)}; known: {', '.join(known_bodies(model)) or 'none'}"
             )
-        return tuple(dict.fromkeys(numbers))
+        return tuple(dict.fromkeys(number for number in numbers if number >= 0))
     seen = [b for b in range(1, model.nbody) if len(_geoms(model, b))]
     moving = [b for b in seen if model.body_weldid[b] != 0]
     return tuple(moving or seen)
+
+
+def _flex(model: mujoco.MjModel, name: str) -> int:
+    """Number of the flex of this name, -1 where there is none."""
+    import mujoco
+
+    return int(mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_FLEX, name))
+
+
+def surfaces(model: mujoco.MjModel, names: tuple[str, ...]) -> np.ndarray:
+    """Corners (8 F, 3), m, of the boxes around those subjects that are flexes, such as the water in a glass, at the start."""
+    from ..moved_shapes import at_rest
+
+    boxes = [np.zeros((0, 3))]
+    for flex in (_flex(model, name) for name in names):
+        if flex >= 0:
+            points = at_rest(model, flex)
+            low, high = points.min(axis=0), points.max(axis=0)
+            boxes.append(0.5 * (low + high) + 0.5 * _SIGNS * (high - low))
+    return np.concatenate(boxes)
 
 
 def _family(model: mujoco.MjModel, body: int) -> list[int]:
@@ -113,8 +135,9 @@ def crossing(
     bodies: tuple[int, ...],
     positions: np.ndarray | None,
     orientations: np.ndarray | None = None,
+    beside: np.ndarray | None = None,
 ) -> Crossing:
-    """Where `bodies`, and what hangs on them, are: at rest (`data`), or over time.
+    """Where `bodies`, and what hangs on them, are: at rest (`data`), or over time; and points `beside` them (N, 3), m.
 
     `positions` (T, B, 3) are the origins of all bodies but the world, `orientations` (T, B, 4) their quaternions, w
     first; without these a body may be turned in any way, so it takes up a ball.
@@ -153,7 +176,9 @@ def crossing(
         own = [radii[member] for member in family]
         spread = float(np.linalg.norm(high - low, axis=1).max()) / 2.0
         sizes.append(own[0] if len(family) == 1 else spread)
-    points = np.concatenate([clouds[member].reshape(-1, 3) for member in everyone])
+    points = np.concatenate(
+        [*(clouds[member].reshape(-1, 3) for member in everyone), *([] if beside is None else [beside])]
+    )
     where = np.stack(places, axis=1)
     return Crossing(points, where.mean(axis=1), where, np.array(sizes), bodies)
 
