@@ -184,7 +184,7 @@ class Skin:
             if moved < CLOSE * self._side:
                 break
         self.velocities, wrench = task.ends(x)
-        self._pressed = sum(met.stored(x) for met in task.met)
+        self._pressed = sum(met.left(x) for met in task.met)
         self.points = x
         self.given += (over + self.pressure - self.gas.outside) / 2 * (self.room - room)
         self.hinges.flow(x)
