@@ -54,7 +54,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
             cameras.track(model, data)
             for name in names:
                 image = frames.image(data, name, quality="video")
-                readings[name].append(reading(model, image, frames.segmentation(data, name), given.movers))
+                readings[name].append(reading(model, image, frames.layers(data, name), given.movers))
                 cells[name].append(labelled(image, f"{word} {at:.2f} s".strip()))
                 tick(sum(map(len, cells.values())))
         renderer = frames.told()

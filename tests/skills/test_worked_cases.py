@@ -53,7 +53,7 @@ class Filmed:
         film = described.read(self.folder, self.recording)
         with Screening(world, portable.read(world), self.recording, film, SIZE, 24, "preview") as screening:
             return [
-                light_meter.reading(screening.model, picture, screening.segmentation(), self.plan.movers())
+                light_meter.reading(screening.model, picture, screening.layers(), self.plan.movers())
                 for picture in (screening.picture(film.frames * quarter // 4) for quarter in (1, 2, 3))
             ]
 

@@ -226,3 +226,24 @@ def test_a_recording_with_nan_is_aimed_by_what_is_sound():
     model = spec.compile()
     cameras.aim(model, np.array([[[0.0, 0, 0.1]], [[np.nan, 0, 0]]]))
     assert np.isfinite(model.cam_pos).all()
+
+
+def test_a_surface_can_be_framed_beside_a_body_and_a_name_of_neither_is_refused():
+    """Water in a glass and a balloon are no bodies, and what a plan's camera looks at may be one."""
+    from worldkit import moved_shapes
+    from worldkit.skins import ball
+
+    spec = mujoco.MjSpec()
+    body = spec.worldbody.add_body(name="crate", pos=(0, 0, 0.6))
+    body.add_freejoint()
+    body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.05, 0.05, 0.05))
+    moved_shapes.surface(spec, "balloon", *ball(0.4, (0.8, 0, 0.4), finer=1))
+    for name, subjects in (("crate", ("crate",)), ("both", ("balloon", "crate")), ("alone", ("balloon",))):
+        cameras.add(spec, name, view="side_minus_y", subjects=subjects)
+    model = spec.compile()
+    cameras.aim(model)
+    near, both, alone = (model.cam_pos[model.camera(name).id] for name in ("crate", "both", "alone"))
+    assert -both[1] > -2 * near[1] and both[0] > near[0] + 0.2
+    assert np.isfinite(alone).all() and alone[0] > near[0] + 0.2
+    with pytest.raises(ValueError, match="there is no body cloud"):
+        cameras.add(spec, "other", subjects=("balloon", "cloud"))

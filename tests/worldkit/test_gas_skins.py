@@ -1,5 +1,7 @@
 """Skins with gas inside: their slopes, what they keep, whom they push, and what is refused."""
 
+from dataclasses import replace
+
 import mujoco
 import numpy as np
 import pytest
@@ -123,6 +125,43 @@ def test_warm_gas_that_cools_draws_a_skin_in_and_no_energy_is_made() -> None:
     assert skin.room < 0.9 * room
     assert skin.pressure * skin.room == pytest.approx(skin.moles * 8.314462618 * skin.gas.temperature(skin.time))
     assert np.diff(energies).max() < 0.02 * np.ptp(energies)
+
+
+def test_what_springs_off_the_floor_makes_no_energy() -> None:
+    """What it is pressed into the floor by is stored while it is there, and comes back."""
+    model, data = at_rest('<worldbody><geom type="plane" size="1 1 1"/></worldbody>')
+    skin = Skin(ball(0.1, (0, 0, 0.1), finer=1), replace(RUBBER, hard=2e5), Gas(), longest=0.001)
+    skin.bodies = ("world",)
+    skin.start(model, data)
+    skin.velocities[:, 2] = -1.0
+    energies, speeds = [], []
+    for _ in range(40):
+        skin.step(model, data, 0.002)
+        motion = 0.5 * float((skin.mass[:, None] * skin.velocities**2).sum())
+        weight = 9.81 * float((skin.mass * skin.points[:, 2]).sum())
+        energies.append(skin.energy() + motion + weight)
+        speeds.append(float(skin.mass @ skin.velocities[:, 2]))
+    assert max(speeds) > 0, "it came back"
+    made = (np.array(energies) - np.minimum.accumulate(energies)).max()
+    assert made < 0.03 * np.ptp(energies), (made, np.ptp(energies))
+
+
+def test_a_crate_that_it_throws_back_gains_no_energy() -> None:
+    """The crate moves on between two steps of the skin, which must not push it from where it was."""
+    model, data = at_rest('<option timestep="0.001"/>' + FLOOR.replace('density="200"', 'mass="0.06"'))
+    skin = Balloon(ball(0.1, (0, 0, 0.1), finer=1), RUBBER, Gas(), longest=0.002)
+    skin.start(model, data)
+    data.qvel[2] = -1.4
+    energies = []
+    for _ in range(70):
+        data.xfrc_applied[1] = skin.step(model, data, 0.001)[0]
+        mujoco.mj_step(model, data)
+        crate = 0.06 * (0.5 * float(data.qvel[:3] @ data.qvel[:3]) + 9.81 * data.qpos[2])
+        motion = 0.5 * float((skin.mass[:, None] * skin.velocities**2).sum())
+        energies.append(skin.energy() + motion + crate + 9.81 * float((skin.mass * skin.points[:, 2]).sum()))
+    assert data.qvel[2] > 0.3, "it is thrown back"
+    made = (np.array(energies) - np.minimum.accumulate(energies)).max()
+    assert made < 0.06 * 0.5 * 0.06 * 1.4**2, "a twentieth of what the crate brought; it would be an eighth"
 
 
 def test_pinned_points_stay_and_the_world_carries_them() -> None:

@@ -55,7 +55,7 @@ def of_film(
             started = time.perf_counter()
             image = screening.picture(number, quality)
             spent += time.perf_counter() - started
-            read = reading(screening.model, image, screening.segmentation(), given.movers)
+            read = reading(screening.model, image, screening.layers(), given.movers)
             shown = {"film_s": number / given.fps, "recorded_s": float(film.arrays["time"][number])}
             rows.append(shown | {"shot": film.shot(number) + 1, "word": word, "reading": read})
             if options.shots:
@@ -101,7 +101,7 @@ def through_a_camera(
                 free(model, data, name, options)
             image = frames.image(data, name, quality)
             write_png(options.out / picture_name(done), image)
-            read = reading(model, image, frames.segmentation(data, name), given.movers)
+            read = reading(model, image, frames.layers(data, name), given.movers)
             rows.append({"recorded_s": float(recording.time[row] - recording.time[0]), "reading": read})
         said = frames.told()
     seen_by = name if options.eye is None else FREE

@@ -341,8 +341,13 @@ class Screening:
         return found
 
     def segmentation(self) -> "np.ndarray":
-        """Geom numbers of the dressed world in the frame drawn last: int32 (height, width), of what sways as in calm air or blown."""
+        """The first of `layers`."""
         return self.frames.segmentation(self._replay.data, self._camera)
+
+    def layers(self) -> "list[np.ndarray]":
+        """Geom numbers of the dressed world in the frame drawn last, and without what is see-through, if anything is: int32 (height,
+        width), of what sways as in calm air or blown."""
+        return self.frames.layers(self._replay.data, self._camera)
 
     def close(self) -> None:
         """Free the graphics contexts."""

@@ -157,6 +157,12 @@ class Frames:
         """Geom number behind each pixel, -1 where there is none: int32 (height, width), row 0 the top."""
         return self._open.segmentation(data, _camera_index(self.model, camera))
 
+    def layers(self, data: "mujoco.MjData", camera: str | int) -> "list[np.ndarray]":
+        """As `segmentation`, and where something is see-through another one, without it."""
+        through = getattr(self._open, "seen_through", None)
+        behind = None if through is None else through(data, _camera_index(self.model, camera))
+        return [self.segmentation(data, camera), *([] if behind is None else [behind])]
+
     def shared(self) -> bytes:
         """What the model's other cameras add to the picture of any one of them."""
         shared = getattr(self._drawing, "shared", None)

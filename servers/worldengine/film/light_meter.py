@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
     import mujoco
     import numpy as np
@@ -55,6 +55,11 @@ def subjects(model: mujoco.MjModel, geoms: np.ndarray, names: Iterable[str]) -> 
     return found
 
 
-def reading(model: mujoco.MjModel, image: np.ndarray, geoms: np.ndarray, names: Iterable[str]) -> dict[str, Any]:
-    """Both readings of one picture, with `subjects` among the rest."""
-    return {**read(image), "subjects": subjects(model, geoms, names)}
+def reading(
+    model: mujoco.MjModel, image: np.ndarray, layers: Sequence[np.ndarray], names: Iterable[str]
+) -> dict[str, Any]:
+    """Both readings of one picture, with `subjects` among the rest: of each the most pixels in any of some segmentations, such as
+    that through the glass that it is in."""
+    bodies = tuple(names)
+    found = [subjects(model, geoms, bodies) for geoms in layers]
+    return {**read(image), "subjects": {name: max(one[name] for one in found) for name in found[0]}}

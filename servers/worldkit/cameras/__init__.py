@@ -39,7 +39,7 @@ def add(
 ) -> mujoco.MjsCamera:
     """Add a camera to the world body, posed for the scene as it stands; add cameras after the bodies they show.
 
-    `view` names a template of `VIEWS` ("perspective" unless a position is given); `subjects` are body names, none meaning
+    `view` names a template of `VIEWS` ("perspective" unless a position is given); `subjects` are bodies or flexes, none meaning
     everything that moves. With `position` (m) the camera stays there and looks at `target` (m) or at its subjects.
     `fovy` is the vertical field of view, degrees. `follow` keeps the subjects in place in the frame as they move.
 

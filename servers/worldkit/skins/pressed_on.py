@@ -1,6 +1,7 @@
 """A skin pressed on one geom: stiff against going in, rubbing along it, as energies that a step makes least.
 
-Friction is Coulomb's of the pressure as the step began; below a speed of `CREEPS` it is a drag, so what is stuck creeps by less.
+A body moves on after the skin has: it is met where it will be in the middle of the step, or what it is pushed by would lag behind
+it and make energy. Friction is Coulomb's of the pressure as the step began; below a speed of `CREEPS` it is a drag, so what is stuck creeps by less.
 """
 
 from typing import TYPE_CHECKING
@@ -42,13 +43,16 @@ class Met:
         import mujoco
 
         self.row, self.hard, self.kind = row, hard, int(model.geom_type[geom])
-        self.size, self.middle = model.geom_size[geom].copy(), data.geom_xpos[geom].copy()
-        self.turn = data.geom_xmat[geom].reshape(3, 3).copy()
+        self.size, self.turn = model.geom_size[geom].copy(), data.geom_xmat[geom].reshape(3, 3).copy()
         body, moves = int(model.geom_bodyid[geom]), np.zeros(6)
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, moves, 0)
+        at, whole = data.geom_xpos[geom], data.xipos[body]
+        self.middle = at + h / 2 * (moves[3:] + np.cross(moves[:3], at - whole))
         far, self.out = self.far(points)
         self.grip = friction * self.hard * np.maximum(-far, 0)  # as it was pressed when the step began
-        self.from_ = points + h * (moves[3:] + np.cross(moves[:3], points - data.xipos[body]))
+        self.goes = h * (moves[3:] + np.cross(moves[:3], points - whole))
+        """(n, 3) m: how far the body goes on meanwhile, at each point."""
+        self.from_ = points + self.goes
         self.least = h * CREEPS
 
     def far(self, x: Array) -> tuple[Array, Array]:
@@ -63,10 +67,18 @@ class Met:
 
     def value(self, x: Array) -> float:
         """J that it costs to be at `x`."""
-        far, _ = self.far(x)
         way, long = self._slid(x)
         slides = long / 2 + (way * way).sum(axis=1) / (2 * long)
-        return float((self.hard * np.minimum(far, 0) ** 2).sum() / 2 + (self.grip * slides).sum())
+        return self.stored(x) + float((self.grip * slides).sum())
+
+    def stored(self, x: Array) -> float:
+        """J of that which comes back as it springs off."""
+        far, _ = self.far(x)
+        return float((self.hard * np.minimum(far, 0) ** 2).sum() / 2)
+
+    def left(self, x: Array) -> float:
+        """J of it at the end of the step, to which the body has gone on."""
+        return self.stored(x - self.goes / 2)
 
     def add(self, x: Array, slope: Array, each: Array | None) -> None:
         """Add its slope (n, 3) N, and its stiffness (n, 3, 3) N/m."""

@@ -73,7 +73,7 @@ class Skin:
         at = self.triangles.ravel()
         self.mass = np.bincount(at, np.repeat(self.sheet.matter * wall.density / 3, 3), minlength=count)
         self._hard = wall.hard * np.bincount(at, np.repeat(self.sheet.area / 3, 3), minlength=count)
-        self.velocities, self.time, self.given = np.zeros((count, 3)), 0.0, 0.0
+        self.velocities, self.time, self.given, self._pressed = np.zeros((count, 3)), 0.0, 0.0, 0.0
         self._free = ~np.isin(np.arange(count), self._pinned)
         self._band = Banded(count, [np.arange(count)[:, None], self.triangles, self.hinges.at])
         self._side = float(np.sqrt(self.sheet.area.mean()))
@@ -95,8 +95,9 @@ class Skin:
         return np.asarray(sum(self._advance(model, data, seconds / parts) for _ in range(parts)) / parts)
 
     def energy(self) -> float:
-        """J in its walls, less what gas and air outside gave since the start: heat too comes from that store."""
-        return self._walls(self.points) - self.given
+        """J in its walls and where it is pressed on bodies, less what gas and air outside gave since the start: heat too comes
+        from that store."""
+        return self._walls(self.points) + self._pressed - self.given
 
     def colours_by(self, low: Any, high: Any, strain: float) -> Array:
         """(n, 3) sRGB from `low` where the wall is unstretched to `high` where its area grew by `strain`."""
@@ -183,6 +184,7 @@ class Skin:
             if moved < CLOSE * self._side:
                 break
         self.velocities, wrench = task.ends(x)
+        self._pressed = sum(met.left(x) for met in task.met)
         self.points = x
         self.given += (over + self.pressure - self.gas.outside) / 2 * (self.room - room)
         self.hinges.flow(x)

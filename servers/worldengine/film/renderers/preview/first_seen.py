@@ -30,15 +30,15 @@ class FirstSeen:
         self._surfaces: dict[int, gl.Target] = {}
         self._surface_at: gl.Program | None = None
 
-    def numbers(self, data: mujoco.MjData, camera: int) -> np.ndarray:
-        """Geom number of each pixel, -1 for none, flexes from -2 down: int32 (H, W), row 0 the top."""
+    def numbers(self, data: mujoco.MjData, camera: int, clear: bool | None = None) -> np.ndarray:
+        """Geom number of each pixel, -1 for none, flexes from -2 down: int32 (H, W), row 0 the top; `clear` False: of what is opaque."""
         if self._number is None:
             self._number = gl.Target(self.width, self.height, GL.GL_R32I, depth=True, linear=False)
             self._ident = gl.Program("thing.vert", "ident.frag", FULL=0)
         self.painter.upload(data)
         self._number.bind()
         GL.glClearBufferiv(GL.GL_COLOR, 0, np.array([-1, 0, 0, 0], dtype=np.int32))
-        self._draw(self._ident.use(), of_camera(self.model, data, camera, self.width, self.height))
+        self._draw(self._ident.use(), of_camera(self.model, data, camera, self.width, self.height), clear)
         raw = GL.glReadPixels(0, 0, self.width, self.height, GL.GL_RED_INTEGER, GL.GL_INT)
         return np.frombuffer(raw, dtype=np.int32).reshape(self.height, self.width)[::-1].copy()
 

@@ -378,6 +378,10 @@ class Pipeline:
         """Geom number of each pixel, -1 for none, flexes from -2 down: int32 (H, W), row 0 the top."""
         return self._first_seen.numbers(data, camera)
 
+    def seen_through(self, data: mujoco.MjData, camera: int) -> np.ndarray | None:
+        """The same without all that is see-through; None where nothing is."""
+        return self._first_seen.numbers(data, camera, clear=False) if self.painter.clear() else None
+
     def surfaces(self, data: mujoco.MjData, camera: int, coarser: int = 1) -> Surfaces:
         """What each pixel shows first, be it glass, and how far away; `coarser` times smaller each way, and then also behind it."""
         return self._first_seen.surfaces(data, camera, coarser)

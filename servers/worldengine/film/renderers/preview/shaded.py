@@ -53,6 +53,11 @@ class Shaded:
         self._context.make_current()
         return self._pipeline.segmentation(data, camera)
 
+    def seen_through(self, data: "mujoco.MjData", camera: int) -> "np.ndarray | None":
+        """As `segmentation`, without all that is see-through; None where nothing is."""
+        self._context.make_current()
+        return self._pipeline.seen_through(data, camera)
+
     def surfaces(self, data: "mujoco.MjData", camera: int, coarser: int = 1) -> "Surfaces":
         """What each pixel shows and how far away, `coarser` times smaller each way."""
         self._context.make_current()

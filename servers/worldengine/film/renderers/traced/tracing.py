@@ -12,6 +12,7 @@ from worldkit.settings import STUDIO, Light
 
 from ...panel_lights import of_model
 from ...treatment import PLAIN, Treatment
+from ..classic import Classic
 from ..preview.eye import View, of_camera
 from ..preview.finish import Finish, linear
 from ..preview.lighting import relight
@@ -33,9 +34,9 @@ if TYPE_CHECKING:
 
     import mujoco
 
-    from .. import Before, Drawing, Moment, Quality
+    from .. import Before, Moment, Quality
 
-DEPTH, CLEAR_DEPTH = 4, 8
+DEPTH, CLEAR_DEPTH = 4, 12
 """The longest paths, and those where light goes through glass."""
 SEEDS_APART = 1 << 16
 """Moments have chances of their own."""
@@ -84,7 +85,7 @@ class Tracing:
         self._depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
         self._clear = [*self.figures.passing(), *self._strands.passing] if self.figures.coatings.fades else []
         self._plates = plates.Shelf()
-        self._plain: Drawing | None = None
+        self._plain: Classic | None = None
         self.figures.place(rest)
         self._strands.place(rest)
         self._relight()
@@ -192,7 +193,7 @@ class Tracing:
         """Trace the picture of `data`, with these walls, or some of it; its light `coarser` times smaller each way."""
         scene, eye = self._placed(data, view, faces), self._sensor(view, "rgb", coarser)
         light = walked.light(scene, eye, self._depth, samples, seed, where, self._clear)
-        rays = walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where))
+        rays = walked.ordered(light, walked.guides(scene, self._sensor(view, "rgba"), guides, where, self._clear))
 
         def again() -> tuple[np.ndarray, np.ndarray]:
             covered = walked.covered(scene, self._sensor(view, "rgba", coarser), samples, seed, where)
@@ -364,11 +365,18 @@ class Tracing:
 
     def segmentation(self, data: mujoco.MjData, camera: int) -> np.ndarray:
         """Geom number of each pixel, or -1: int32 (height, width), by MuJoCo's own renderer."""
-        if self._plain is None:
-            from .. import classic
+        return self._by_numbers.segmentation(data, camera)
 
-            self._plain = classic.take(self.model, self.width, self.height)
-        return self._plain.segmentation(data, camera)
+    def seen_through(self, data: mujoco.MjData, camera: int) -> np.ndarray | None:
+        """The same without all that is see-through; None where nothing is."""
+        return self._by_numbers.seen_through(data, camera)
+
+    @property
+    def _by_numbers(self) -> Classic:
+        """MuJoCo's own renderer."""
+        if self._plain is None:
+            self._plain = Classic(self.model, self.width, self.height)
+        return self._plain
 
     def close(self) -> None:
         """Free what it holds."""

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import absorbed
+from . import absorbed, behind_glass
 
 AT_ONCE = 64
 """Samples a pixel that are traced in one go, since the memory they take grows with them."""
@@ -90,11 +90,18 @@ def light(
     return np.asarray(total)
 
 
-def guides(scene: Any, sensor: Any, samples: int, where: np.ndarray | None = None) -> np.ndarray:
+def guides(scene: Any, sensor: Any, samples: int, where: np.ndarray | None = None, clear: Clear = ()) -> np.ndarray:
     """Red, green, blue, share of things, colour of the surface, normal, place (H, W, 13); a second walk, which around the
-    path tracer itself would double its time."""
+    path tracer itself would double its time. Colours and normals are those behind what is `clear`."""
     import mitsuba as mi
 
+    if clear:
+        through = behind_glass.walker(absorbed.media(clear))
+        if where is not None:
+            return _some(scene, sensor, through, samples, 0, where)[..., -behind_glass.CHANNELS :]
+        return np.array(mi.render(scene, sensor=sensor, integrator=through, spp=samples, seed=0))[
+            ..., -behind_glass.CHANNELS :
+        ]
     guide = mi.load_dict({"type": "aov", "aovs": "a:albedo,n:sh_normal,p:position", "any": {"type": "depth"}})
     if where is not None:
         return _some(scene, sensor, guide, samples, 0, where)[..., 3:]

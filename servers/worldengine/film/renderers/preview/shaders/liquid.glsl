@@ -14,17 +14,23 @@ vec3 through_liquid(vec3 p, vec3 v, vec3 n, vec3 middle, float half_width) {
         vec3 inward = vec3(-normalize(out_at.xy - middle.xy + 1e-9), 0.0);
         vec3 onward = refract(d, inward, index);
         if (dot(onward, onward) < 0.5) onward = reflect(d, inward);
-        // What stands in it is met before the far side.
-        vec4 within = to_clip * vec4(p + d * 0.5 * t, 1.0);
-        vec2 at = within.xy / within.w * 0.5 + 0.5;
-        float met = distance_at(at);
-        vec2 q = at;
+        // What stands in it is met before the far side, where the ray goes in behind what the picture shows, not far behind it.
+        const int steps = 20;
         float before = (to_clip * vec4(out_at, 1.0)).w;
-        if (met > before) {
-            float far = min(met - before, 12.0 * half_width);
-            vec4 there = to_clip * vec4(out_at + onward * max(far, 0.3 * half_width), 1.0);
-            q = there.xy / there.w * 0.5 + 0.5;
+        for (int i = 1; i <= steps; i++) {
+            vec4 within = to_clip * vec4(p + d * (t * float(i) / float(steps)), 1.0);
+            vec2 at = within.xy / within.w * 0.5 + 0.5;
+            float met = distance_at(at);
+            if (met > clip.w && met < within.w && within.w - met < 2.0 * t / float(steps))
+                return textureLod(behind, clamp(at, 0.002, 0.998), 0.0).rgb * exp(-absorbs * t * float(i) / float(steps));
         }
+        vec4 leaves = to_clip * vec4(out_at, 1.0);
+        vec2 q = clip.xy / clip.w * 0.5 + 0.5;
+        float behind_it = max(distance_at(leaves.xy / leaves.w * 0.5 + 0.5), distance_at(q));
+        float far = clamp(behind_it - before, 0.3 * half_width, 12.0 * half_width);
+        vec4 there = to_clip * vec4(out_at + onward * far, 1.0);
+        vec2 wanted = there.xy / there.w * 0.5 + 0.5;
+        if (distance_at(wanted) > before) q = wanted;  // else what it holds hides that place in the picture
         return textureLod(behind, clamp(q, 0.002, 0.998), 0.0).rgb * exp(-absorbs * t);
     }
     vec2 q = clip.xy / clip.w * 0.5 + 0.5;

@@ -379,6 +379,8 @@ void main() {
         vec3 tint = pow(own, vec3(BALL == 1 ? 0.9 : 0.5 + 0.9 * (1.0 - nv)));
         if (dot(absorbs, vec3(1.0)) > 0.0)
             tint = exp(-absorbs * way_within(local, through * rotation, more.w, misc.w, dip));
+        // A wall seen along itself turns light far aside: glass has dark outlines.
+        if (BALL == 0) tint *= 1.0 - 0.6 * pow(1.0 - nv, 3.0);
         c = textureLod(behind, q, 0.0).rgb * tint * (1.0 - f) + mirror * f + shine;
         alpha = more.y > 0.0 ? 1.0 : base.a;
         if (more.y <= 0.0) c = light + shine + env + albedo * misc.y;

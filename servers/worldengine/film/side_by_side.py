@@ -1,0 +1,145 @@
+"""Draw one film by several processes side by side: each draws every n-th frame, and the first of them writes the file.
+
+Drawing by software takes one core, however many there are. The same state, camera and quality always give the same picture, so it
+does not matter who drew a frame. What another process cannot draw, or draws by another renderer, the first draws itself.
+"""
+
+import contextlib
+import json
+import os
+import queue
+import struct
+import subprocess
+import sys
+import threading
+from collections.abc import Sequence
+from types import TracebackType
+from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+
+if TYPE_CHECKING:
+    import numpy as np
+
+    from .directed import Screening
+
+LEAST_FRAMES = 36
+"""A process is worth its start, of some seconds, for so many frames of its own."""
+MOST = 4
+"""So many at most: each holds the world, its meshes and its textures, half a gigabyte."""
+AHEAD = 2
+"""Frames that another process may have ready."""
+HEAD = struct.Struct("<II")
+"""Bytes of the words of a frame, and of its picture."""
+
+
+class Drawn(NamedTuple):
+    """A frame, and what was told of it."""
+
+    picture: "np.ndarray"
+    """uint8 (height, width, 3)."""
+    hidden: list[str]
+
+
+def processes(frames: int) -> int:
+    """How many processes draw a film of so many frames on this machine."""
+    return max(1, min(MOST, len(os.sched_getaffinity(0)), frames // LEAST_FRAMES))
+
+
+class Others:
+    """The other processes that draw a film; a context manager.
+
+    Args:
+        words: the command line of this process, behind `python -m worldengine`; without it there are none.
+        frames: of the film.
+        size: of a picture, pixels.
+        renderer: by which this process draws.
+    """
+
+    def __init__(self, words: Sequence[str], frames: int, size: tuple[int, int], renderer: str) -> None:
+        self.count = processes(frames) if words else 1
+        self._size, self._renderer = size, renderer
+        self._hands: list[_Hand] = []
+        with contextlib.suppress(OSError):  # a sandbox that lets nothing more be born: then this one draws all
+            for number in range(1, self.count):
+                self._hands.append(_Hand([*words, "--share", f"{number}/{self.count}"]))
+
+    def take(self, frame: int) -> Drawn | None:
+        """A frame that another process drew; None where this one has to."""
+        number = frame % self.count
+        hand = self._hands[number - 1] if 0 < number <= len(self._hands) else None
+        if hand is None or (answer := hand.next()) is None:
+            return None
+        import numpy as np
+
+        told, data = answer
+        width, height = self._size
+        if told.get("frame") != frame or told.get("renderer") != self._renderer or len(data) != 3 * width * height:
+            hand.end()  # it is not what was asked for, and nothing of it is believed any more
+            return None
+        return Drawn(np.frombuffer(data, np.uint8).reshape(height, width, 3), [str(name) for name in told["hidden"]])
+
+    def __enter__(self) -> "Others":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        for hand in self._hands:
+            hand.end()
+
+
+class _Hand:
+    """One other process, whose frames a thread reads ahead."""
+
+    def __init__(self, words: Sequence[str]) -> None:
+        there, here = os.pipe()
+        call = [sys.executable, "-s", "-P", "-m", "worldengine", *words, "--to", str(here)]
+        try:
+            self._process = subprocess.Popen(call, pass_fds=(here,), stdout=subprocess.DEVNULL)
+        except OSError:
+            os.close(there)
+            raise
+        finally:
+            os.close(here)
+        self._ready: queue.Queue[tuple[dict[str, object], bytes] | None] = queue.Queue(AHEAD)
+        self._ended = False
+        self._thread = threading.Thread(target=self._read, args=(os.fdopen(there, "rb"),), daemon=True)
+        self._thread.start()
+
+    def _read(self, pipe: BinaryIO) -> None:
+        with pipe:
+            while len(head := pipe.read(HEAD.size)) == HEAD.size and not self._ended:
+                words, picture = HEAD.unpack(head)
+                told, data = pipe.read(words), pipe.read(picture)
+                if len(told) + len(data) < words + picture:
+                    break
+                self._ready.put((json.loads(told), data))
+        self._ready.put(None)
+
+    def next(self) -> "tuple[dict[str, object], bytes] | None":
+        """The next frame; None when there is none any more."""
+        if self._ended:
+            return None
+        answer = self._ready.get()
+        self._ended = answer is None
+        return answer
+
+    def end(self) -> None:
+        """Let it go, whatever it is doing."""
+        self._ended = True
+        self._process.kill()
+        self._process.wait()
+        while self._thread.is_alive():
+            with contextlib.suppress(queue.Empty):
+                self._ready.get(timeout=0.05)
+        self._thread.join()
+
+
+def share(screening: "Screening", number: int, count: int, pipe: BinaryIO) -> None:
+    """Draw every `count`-th frame from `number` on into a pipe, as one of the others; ends when nobody reads any more."""
+    with contextlib.suppress(BrokenPipeError):
+        for frame in range(number, screening.film.frames, count):
+            picture = screening.picture(frame).tobytes()
+            told = {"frame": frame, "renderer": screening.frames.renderer, "hidden": screening.hidden()}
+            words = json.dumps(told).encode()
+            pipe.write(HEAD.pack(len(words), len(picture)) + words + picture)
+            pipe.flush()
