@@ -6,7 +6,7 @@ was that high. What acts `while hand touches box` does so when they do not touch
 
 Formula: for a switch (`constraint` in the ledger) declared with a trigger `QUANTITY [of NAME] > NUMBER UNIT`, the recorded
 quantity at the switch against the number, and the time since it first crossed it. Quantities: `load` (force of the
-equality that is switched, N), `tension` (of a tendon, N), `contact force` (summed on a body, N), `speed` (m/s), `height`
+equality that is switched, N), `stress` (of a bond that is switched, Pa), `tension` (of a tendon, N), `contact force` (summed on a body, N), `speed` (m/s), `height`
 (m), `distance` is not known. `while A touches B`: the time from each entry of the ledger that is not nil to their nearest
 contact, before or after.
 Threshold: 2 % of the number; 20 ms, or three recorded rows, of delay. Blocking.
@@ -48,9 +48,10 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         if asked is None or history is None:
             continue
         now = max(0, int(np.searchsorted(trajectory.t, time - 1e-9)) - 1)  # the row before the switch took effect
-        if asked.quantity == "load" and value[1] > 0:  # what it carried when it was let go, which no row shows
+        carried = value[{"load": 1, "stress": 2}.get(asked.quantity, 0)]
+        if asked.quantity in ("load", "stress") and carried > 0:  # when it was let go, which no row shows
             history = history.copy()
-            history[min(now + 1, len(history) - 1)] = value[1]
+            history[min(now + 1, len(history) - 1)] = carried
         sign = 1.0 if asked.rising else -1.0
         beyond = sign * (history / asked.number - 1.0)
         clearly = np.flatnonzero(beyond[: now + 1] > TOLERANCE)
@@ -130,12 +131,15 @@ def measured(trajectory: Trajectory, asked: Threshold, switched: str) -> np.ndar
     loads, name = trajectory.loads, asked.name or switched
     if loads is None:
         return None
-    if asked.quantity in ("load", "tension"):
-        for key, forces in (("equalities", loads.eq_force), ("tendons", loads.tendon_force)):
+    if asked.quantity in ("load", "stress", "tension"):
+        ties = loads.eq_stress if asked.quantity == "stress" else loads.eq_force
+        for key, forces in (("equalities", ties), ("tendons", loads.tendon_force)):
+            if forces is None:
+                continue
             names = [row["name"] for row in trajectory.meta.get(key) or ()]
             if name in names and forces.shape[1] == len(names):
                 return np.abs(forces[:, names.index(name)])
-        if name != switched and asked.quantity == "load":
+        if name != switched and asked.quantity in ("load", "stress"):
             return measured(trajectory, asked._replace(name=switched), switched)
         return None
     if name not in trajectory.names:
