@@ -19,11 +19,15 @@ if TYPE_CHECKING:
     from .section import Section
 
 FIELD = "bonds of "
-"""A tuple of this name and the thing's lists the equalities, a numeric field holds `WIDTH` numbers for each."""
+"""A tuple of this name and the thing's lists the equalities (1: a hold, 0: between pieces), a numeric field holds `WIDTH` numbers for each."""
 WIDTH = 14
 """Nine of its axes in the frame of the second body, area, three moduli, strength: m^2, m^3, Pa."""
 YIELDING = 1e-4
 """One minus the impedance of the widest bond: the engine's own bound."""
+HARD = (0.999, 0.9999, 0.001, 0.5, 2.0)
+"""Impedance of the contacts of pieces, which counts a hundred times that of what they touch."""
+GRIPS = 1e6
+"""Section moduli of a hold, m^3: a bead or a clamp lets go by force alone; where an edge bends too much, the piece inside breaks."""
 SOFTEST = 0.05
 """One minus the impedance of the smallest."""
 
@@ -56,26 +60,31 @@ def add(
         tilt_deg: about its own x: 90 lays a rod along y.
         mass: kg of the whole, shared by volume; None: volume times density.
         look: of its old skin; None: the material's.
-        inside: look of the faces that it breaks along; None: the same.
+        inside: look of the faces that it breaks along; None: the same, and none where that is clear, so that no crack shows before.
         surface: contact properties (`worldkit.contacts.surface`); None: the material's friction.
-        held: what holds it by its outer faces: the body (`world`, `frame`) and the directions, of the thing's frame, into which those faces look.
+        held: what holds it by its outer faces: the body (`world`, `frame`) and directions, before `yaw_deg`, into which those faces look.
         held_pa: the strength of that hold, Pa; None: the material's.
 
     Raises:
-        ValueError: an unknown material, holding body or look, or a direction in which it has no face.
+        ValueError: an unknown material, holding body (or one of its own pieces) or look, or a direction in which it has no face.
     """
     import mujoco
     import numpy as np
 
     from .. import contacts, materials
-    from ..turning import about, matrices, product
+    from ..turning import about, matrices
 
     stuff = material(of) if isinstance(of, str) else of
-    quat = product(about((0.0, 0.0, 1.0), np.radians(yaw_deg)), about((1.0, 0.0, 0.0), np.radians(tilt_deg)))
+    fragments = fragments.tilted(tilt_deg)
+    quat = about((0.0, 0.0, 1.0), np.radians(yaw_deg))
     turn = matrices(quat)
     density = stuff.density if mass is None else mass / fragments.volume
     properties = surface or contacts.surface(friction=stuff.friction, time_constant=2 * spec.option.timestep)
+    # The engine makes a contact as stiff as the touched body is heavy, and a shard is light beside what it is bonded to.
+    properties = {**properties, "solimp": HARD, "solmix": 100.0}
     drawn = {False: materials.add(spec, look or stuff.look), True: materials.add(spec, inside or look or stuff.look)}
+    # Two faces of clear glass that touch are none: drawn, they would show the cracks of a whole pane.
+    drawn_inside = inside is not None or not materials.look(look or stuff.look).clear
     made = []
     for number, piece in enumerate(fragments.pieces, start=1):
         body = spec.worldbody.add_body(name=f"{name}_{number}", pos=np.array(pos) + turn @ piece.centre, quat=quat)
@@ -85,7 +94,7 @@ def add(
         hull = bodies.mesh(spec, piece.hull - piece.centre)
         kind = mujoco.mjtGeom.mjGEOM_MESH
         body.add_geom(name=f"{name}_{number}", type=kind, meshname=hull, **properties, **bodies.COLLIDES)
-        for within, label in ((False, "look"), (True, "inside")):
+        for within, label in ((False, "look"), *([(True, "inside")] if drawn_inside else [])):
             skin = piece.skin(within)
             if skin is not None:
                 shown = bodies.mesh(spec, skin[0] - piece.centre, _flat(*skin), skin[1])
@@ -97,7 +106,7 @@ def add(
         ends = (f"{name}_{one + 1}", f"{name}_{other + 1}")
         bonds.append((f"{ends[0]}/{ends[1]}", *ends, section, stuff.strength_pa))
     for frame, directions in (held or {}).items():
-        if frame != "world" and spec.body(frame) is None:
+        if frame != "world" and (spec.body(frame) is None or frame.startswith(f"{name}_")):
             known = ", ".join(b.name for b in spec.bodies)
             raise ValueError(f"{name} is held by {frame!r}, which is not in the world yet; known: {known}")
         for way in directions:
@@ -105,7 +114,7 @@ def add(
             if not rim:
                 raise ValueError(f"{name} has no outer face that looks along {way}: name a direction of its own frame")
             for one, section in rim:
-                end = f"{name}_{one + 1}"
+                end, section = f"{name}_{one + 1}", section._replace(moduli=np.full(3, GRIPS))
                 bonds.append((f"{end}/{frame}_{len(bonds)}", end, frame, section, held_pa or stuff.strength_pa))
     _tie(spec, name, bonds, np.array(pos, float), turn)
     return made
@@ -144,8 +153,9 @@ def _tie(
         rows += [*axes.ravel(), section.area, *section.moduli, strength]
     spec.add_numeric(name=FIELD + name, size=len(rows), data=rows)
     labels = [label for label, *_ in bonds]
+    holds = [0.0 if other.startswith(f"{name}_") else 1.0 for _, _, other, *_ in bonds]
     kinds = [int(mujoco.mjtObj.mjOBJ_EQUALITY)] * len(labels)
-    spec.add_tuple(name=FIELD + name, objtype=kinds, objname=labels, objprm=[0.0] * len(labels))
+    spec.add_tuple(name=FIELD + name, objtype=kinds, objname=labels, objprm=holds)
 
 
 def _flat(points: "np.ndarray", triangles: "np.ndarray") -> "np.ndarray":

@@ -191,7 +191,7 @@ def _struck(rng: np.random.Generator, centre: Array, half: Array, count: int) ->
     spokes = max(5, round(np.sqrt(count) * 1.3))
     rings = 1
     while True:
-        radii = far * np.geomspace(0.06, 0.9, rings)
+        radii = far * np.geomspace(0.14, 0.9, rings)
         found = [centre[None] + rng.normal(0, 1e-4, (1, 2)) * half]
         for k, radius in enumerate(radii):
             turn = (np.arange(spokes) + 0.5 * (k % 2) + rng.uniform(-0.28, 0.28, spokes)) * 2 * np.pi / spokes

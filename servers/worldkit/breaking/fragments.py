@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ..forms import Form
+from ..parts import rotation
 from ..turning import cross
 from .convex_cells import OUTSIDE, Cell, Face, cells
 from .section import Section, section
@@ -57,6 +58,17 @@ class Fragments(NamedTuple):
     def volume(self) -> float:
         """m^3."""
         return float(sum(piece.volume for piece in self.pieces))
+
+    def tilted(self, deg_x: float) -> "Fragments":
+        """Turned about x by so many degrees, in the frame of the box around it then."""
+        if not deg_x:
+            return self
+        turn = np.array(rotation(deg_x=deg_x))
+        groups = [
+            [Cell(tuple(f._replace(corners=f.corners @ turn.T) for f in cell.faces)) for cell in piece.cells]
+            for piece in self.pieces
+        ]
+        return joined(groups, [piece.hull @ turn.T for piece in self.pieces])
 
     def rim(self, normal: Array) -> list[tuple[int, Section]]:
         """Pieces with outer faces that look along `normal` (3,), and the section by which something may hold each there."""

@@ -101,15 +101,12 @@ def pieces(row: Any) -> list[Piece]:
     """
     import numpy as np
 
-    from worldkit.turning import about, matrices
-
     if row.fixed or row.visual_only or row.hollow or row.count > 1:
         raise ValueError(
             f"`{row.name}` breaks: it cannot be fixed, hollow, visual_only or counted; `held` says what holds it"
         )
-    made = fragments(row)
-    turn = matrices(about((1.0, 0.0, 0.0), np.radians(row.deg_x)))
-    clouds = [np.concatenate([f.corners for cell in p.cells for f in cell.faces]) @ turn.T for p in made.pieces]
+    made = fragments(row).tilted(row.deg_x)
+    clouds = [np.concatenate([f.corners for cell in p.cells for f in cell.faces]) for p in made.pieces]
     lowest = min(float(cloud[:, 2].min()) for cloud in clouds)
     found = []
     for piece, cloud in zip(made.pieces, clouds, strict=True):
