@@ -118,6 +118,27 @@ def pieces(row: Any) -> list[Piece]:
     return found
 
 
+def check(plan: Any) -> None:
+    """Refuse objects that break at a constant, or are held by an object, that the plan does not have.
+
+    Raises:
+        ValueError: the message names it.
+    """
+    constants, there = plan.simulation_parameters.constants, {"world", *(row.name for row in plan.scene_objects)}
+    for row in plan.scene_objects:
+        if row.breaks is None:
+            continue
+        strength = constants.get(row.breaks.strength)
+        if strength is None or isinstance(strength.value, tuple) or strength.unit != "Pa" or not strength.value > 0:
+            raise ValueError(
+                f"`{row.name}` breaks at `{row.breaks.strength}`: add it to simulation_parameters.constants, one number above 0 in Pa"
+            )
+        if unknown := [name for name in row.breaks.held if name not in there - {row.name}]:
+            raise ValueError(
+                f"`{row.name}` is held by `{unknown[0]}`: name an object of the plan that stands before it, or `world`"
+            )
+
+
 def as_objects(row: Any) -> list[Any]:
     """The pieces of a scene object as scene objects: boxes of their extents."""
     plain = {

@@ -16,7 +16,7 @@ from typing import Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from ..frozen import Frozen
-from . import copies
+from . import breakage, copies
 from .declared_inputs import Constant, Intervention
 from .drives import Actuator, Tendon
 from .implementation_steps import CameraRow, Step, seen_as_in_image
@@ -272,6 +272,7 @@ class Plan(Frozen):
     @model_validator(mode="after")
     def _copied(self) -> "Plan":
         if copied := copies.families(self):
+            breakage.check(self)
             broken = {row.name: row for row in self.scene_objects if row.breaks is not None}
             self.__dict__.update(copies.changes(self, copied), families=copied, broken=broken)
         self.visualization.hung(self.families)
