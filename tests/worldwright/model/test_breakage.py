@@ -10,6 +10,9 @@ from worldwright.draft import draft
 from worldwright.model.plan.committed import Plan
 from worldwright.model.plan.trigger import threshold
 from worldwright.place.engine import resolve
+from worldwright.scan.anomalies.checks import should_move
+from worldwright.scan.anomalies.sign import Context
+from worldwright.scan.known import analytic
 
 PANE = {
     "name": "pane",
@@ -117,6 +120,23 @@ def test_an_intervention_on_it_opens_its_bonds() -> None:
 def test_a_stress_can_be_a_trigger() -> None:
     assert threshold("stress > 45 MPa") == ("stress", "", True, 45e6)
     assert threshold("stress of pane_1/pane_2 exceeds 300 kPa") == ("stress", "pane_1/pane_2", True, 3e5)
+
+
+def test_what_breaks_moves_where_one_of_its_pieces_does() -> None:
+    """The rest may stay in its frame; where none moves, one finding tells it."""
+    made = plan(PANE)
+    still, falls = analytic.resting(), analytic.falling()
+    names = made.families["pane"][:2]
+
+    rows = min(len(still.t), len(falls.t))
+
+    def told(second: str) -> list[str]:
+        other = falls if second == "falls" else still
+        pos, vel = (np.concatenate([getattr(s, f)[:rows] for s in (still, other)], axis=1) for f in ("pos", "linvel"))
+        both = analytic.motion(still.t[:rows], pos, vel, names=names, free=False)
+        return [sign.body for sign in should_move.check(both, Context.of(made)) if sign.body in names]
+
+    assert told("falls") == [] and told("stays") == [names[0]]
 
 
 REFUSED = {

@@ -35,5 +35,5 @@ class Loads:
     def before(self, row: int) -> "Loads":
         """The channels up to `row`, exclusive."""
         cut = {f.name: getattr(self, f.name)[:row] for f in fields(self)[:5]}
-        also = {n: None if (a := getattr(self, n)) is None else a[:row] for n in ("eq_torque", "eq_stress")}
-        return replace(self, **cut, **also)
+        torque, stress = (None if a is None else a[:row] for a in (self.eq_torque, self.eq_stress))
+        return replace(self, **cut, eq_torque=torque, eq_stress=stress)
