@@ -199,6 +199,9 @@ class _Reader:
                 self.spoiled |= set(names)
                 cause = f"{row.predicate} gives no place that `spread` could go around"
                 fix = "spread a row PLACE-ON-BASE (x, y), PLACE-ON or PLACE-IN (offset)"
+                if row.subject in self.plan.broken:
+                    cause = f"{row.predicate} gives no place for the pieces of `{row.subject}`"
+                    fix = "place what breaks by one row PLACE-ON-BASE (x, y), PLACE-ON or PLACE-IN (offset); it is not turned"
                 self.problems.add("WP202", "bad_params", cause, fix, path)
                 return
             yield from self.statement(PREDICATES, path, name, row.predicate, row.object, params)
