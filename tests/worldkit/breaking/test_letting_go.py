@@ -2,12 +2,15 @@
 
 import math
 from collections.abc import Callable
+from pathlib import Path
 
 import mujoco
 import numpy as np
 import pytest
 
 from worldkit import bodies, breaking, scene
+from worldkit.mirror import Mirror, address
+from worldkit.strays import Derived
 
 STEP = 0.001
 
@@ -122,6 +125,26 @@ def test_what_is_loose_collides_with_what_was_its_neighbour() -> None:
     data.eq_active[model.equality("bar_1/bar_2").id] = 0
     mujoco.mj_step(model, data, 100)
     assert data.body("bar_2").xpos[2] > 0.32  # it stands on the lower piece
+
+
+def test_solving_for_the_forces_again_is_no_stray(tmp_path: Path) -> None:
+    """The rule changes what the engine derives, which nobody has to be told; its switches are the input."""
+    program = tmp_path / "simulation.py"
+    program.write_text(
+        "from worldkit import breaking\nLET_GO = breaking.LettingGo()\ndef control(model, data):\n    LET_GO(model, data)\n"
+    )
+    space: dict = {}
+    exec(compile(program.read_text(), str(program), "exec"), space)
+    model = pane().compile()
+    data = mujoco.MjData(model)
+    mirror = Mirror(model, data)
+    memory = np.zeros(mirror.size // 8 + 1)
+    mujoco.mj_step1(model, data)
+    mirror.send(address(memory))
+    space["control"](model, data)
+    derived = Derived(data, mirror, space["control"])
+    assert data.qacc.any()
+    assert list(derived.written(address(memory), mirror.buffer_in(address(memory)), sample=True)) == []
 
 
 def test_a_hold_that_is_not_there_is_refused() -> None:

@@ -163,8 +163,10 @@ def weights(rows: Any, parameters: Any) -> dict[str, float]:
         material = parameters.materials.get(row.material or "")
         mass, density = parameters.masses.get(row.name), material.density if material else None
         for name, piece in zip(row.instances, pieces(row), strict=True):
-            if mass is not None or density:
-                found[name] = piece.share * mass if mass is not None else piece.volume * density
+            if mass is not None:
+                found[name] = piece.share * mass
+            elif density:
+                found[name] = piece.volume * density
     return found
 
 

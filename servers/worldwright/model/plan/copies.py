@@ -68,7 +68,7 @@ def _spelled(values: Mapping[str, Any], copied: Families) -> dict[str, Any]:
     return whole | {name: value for name, value in values.items() if name not in copied}
 
 
-def _parameters(row: Written, copied: Families, pieces: Mapping[str, float]) -> Written:
+def _parameters(row: Written, copied: Families, pieces: dict[str, float]) -> Written:
     acting = tuple(i.model_copy(update={"bodies": named(i.bodies, copied)}) for i in row.interventions)
     masses, starts = _spelled(row.masses, copied), _spelled(row.initial_motion, copied)
     pairs = _between(row.pairs, copied)
