@@ -132,8 +132,9 @@ class Ledger:
         mujoco.mj_forwardSkip(self._model, past, mujoco.mjtStage.mjSTAGE_NONE, 1)
         mine = past.efc_id[: past.ne] == equality
         force = float(np.sqrt((past.efc_force[: past.ne][mine] ** 2).sum()))
-        bond = np.flatnonzero(self._bonds.equality == equality) if self._bonds else ()
-        return (force, float(stresses(self._bonds, past)[bond[0]])) if self._bonds and len(bond) else (force,)
+        bonds = self._bonds
+        mine = np.flatnonzero(bonds.equality == equality) if bonds is not None else np.zeros(0, int)
+        return (force, float(stresses(bonds, past)[mine[0]])) if bonds is not None and len(mine) else (force,)
 
     def _written(self, positions: "np.ndarray", velocities: "np.ndarray") -> None:
         """Note written poses and velocities of joints: displacement, change of velocity, jump in energy."""
