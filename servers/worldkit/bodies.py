@@ -152,7 +152,7 @@ def formed(spec: "mujoco.MjSpec", name: str, *, form: "Form", **common: Any) -> 
     body, properties = _body(spec, name, **common)
     material = properties.pop("material")
     vertices, normals, faces = shape.drawn()
-    drawn = _mesh(spec, vertices, normals, faces)
+    drawn = mesh(spec, vertices, normals, faces)
     look = {**DRAWN, "contype": 0, "conaffinity": 0, "material": material}
     _geom(body, f"{name}/look", "mjGEOM_MESH", (0, 0, 0), meshname=drawn, **look)
     if common.get("visual_only"):
@@ -167,7 +167,7 @@ def formed(spec: "mujoco.MjSpec", name: str, *, form: "Form", **common: Any) -> 
     for number, piece in enumerate(shape.pieces, start=1):
         label = name if len(shape.pieces) == 1 else f"{name}/{number}"
         if isinstance(piece, np.ndarray):
-            _geom(body, label, "mjGEOM_MESH", (0, 0, 0), meshname=_mesh(spec, piece), **properties, **COLLIDES)
+            _geom(body, label, "mjGEOM_MESH", (0, 0, 0), meshname=mesh(spec, piece), **properties, **COLLIDES)
             continue
         ball = not (piece.end - piece.start).any()
         kind = "mjGEOM_SPHERE" if ball else "mjGEOM_CAPSULE" if piece.capped else "mjGEOM_CYLINDER"
@@ -176,7 +176,7 @@ def formed(spec: "mujoco.MjSpec", name: str, *, form: "Form", **common: Any) -> 
     return body
 
 
-def _mesh(spec: "mujoco.MjSpec", vertices: "np.ndarray", normals: "np.ndarray | None" = None, faces: Any = None) -> str:
+def mesh(spec: "mujoco.MjSpec", vertices: "np.ndarray", normals: "np.ndarray | None" = None, faces: Any = None) -> str:
     """The name of a mesh asset of these vertices (N, 3), m, added once; without faces it is their convex hull."""
     import mujoco
     import numpy as np

@@ -35,6 +35,8 @@ DERIVED = (
 )  # fmt: skip
 """What the engine derives, and a person could take for an input."""
 MOST_DERIVED = 64 << 10
+SOLVES = ("mj_", "LettingGo")
+"""How the names begin of what lets the engine compute again."""
 
 
 class Strays:
@@ -125,7 +127,7 @@ class Derived:
         tree = _tree(control)
         known = [name for name in DERIVED if hasattr(data, name) and getattr(data, name).size]
         names = [*known, "time", "contact"]
-        if any(isinstance(node, ast.Attribute) and node.attr.startswith("mj_") for node in ast.walk(tree)):
+        if any(isinstance(node, ast.Attribute) and node.attr.startswith(SOLVES) for node in ast.walk(tree)):
             said = {node.attr for node in ast.walk(tree) if isinstance(node, ast.Attribute)}
             # A search for each array in a long program would take longer than starting its process.
             names = [name for name in names if said.intersection(_words(name)) and any(_written(tree, name))]

@@ -19,6 +19,7 @@ from worldengine.solvers import water
 from worldengine.waves.body_of_water import Liquid, Water
 from worldengine.waves.hull_samples import Hulls
 from worldengine.waves.wet_grid import WetGrid
+from worldkit import bodies, breaking, contacts, joints, scene
 from worldkit.skins import Gas, Skin, Wall, ball
 
 GRAVITY = 9.81
@@ -184,6 +185,61 @@ def cooling() -> float:
     return abs(skin.room / room / ((250 + 100 / np.e) / 350) - 1)
 
 
+def at_break(spec: mujoco.MjSpec, load: "Callable[[mujoco.MjModel, mujoco.MjData], float]", seconds: float) -> float:
+    """The load under which the first bond of a world breaks; none at all within the time is no number."""
+    model = spec.compile()
+    data, let_go = mujoco.MjData(model), breaking.LettingGo()
+    while data.time < seconds:
+        mujoco.mj_step1(model, data)
+        force = load(model, data)
+        if let_go(model, data):
+            return force
+        mujoco.mj_step2(model, data)
+    return float("nan")
+
+
+def torn() -> float:
+    """A stick of chalk, whose cracks run aslant, pulled along its axis: F = sigma pi d^2 / 4."""
+    spec = scene.new("torn", time_step=0.001, gravity=(0, 0, 0))
+    breaking.add(
+        spec, "chalk", breaking.rod(0.01, 0.1, 5, 1, skew=1), "chalk", pos=(0, 0, 1), held={"world": ((0, 0, 1),)}
+    )
+
+    def pulled(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+        force, body = 1000 * data.time, model.body("chalk_1").id
+        arm = np.array([0, 0, data.xipos[body, 2]]) - data.xipos[body]
+        data.xfrc_applied[body] = [0, 0, -force, *np.cross(arm, [0, 0, -force])]
+        return force
+
+    return abs(at_break(spec, pulled, 1.0) / (3e6 * np.pi * 0.01**2 / 4) - 1)
+
+
+def bent() -> float:
+    """A bar on two piers, pressed in the middle by a ram that touches it: F = sigma 2 b h^2 / (3 L)."""
+    b, h, span = 0.04, 0.01, 0.2
+    spec = scene.new("bent", time_step=0.001, gravity=(0, 0, 0))
+    edges = np.linspace(-0.11, 0.11, 9)
+    corners = [(x, y, z) for x in (-0.11, 0.11) for y in (-b / 2, b / 2) for z in (-h / 2, h / 2)]
+    bar = breaking.convex(corners, [(x, 0, 0) for x in (edges[1:] + edges[:-1]) / 2])
+    breaking.add(spec, "bar", bar, "chalk", pos=(0, 0, 0.3 + h / 2))
+    round_one = {
+        "diameter": 0.01,
+        "height": 0.1,
+        "tilt_deg": 90,
+        "surface": contacts.surface(friction=0.1, time_constant=0.004),
+    }
+    for side, x in (("left", -span / 2), ("right", span / 2)):
+        bodies.cylinder(spec, side, pos=(x, 0, 0.295), fixed=True, **round_one)
+    ram = joints.Slide("ram", axis=(0, 0, -1))
+    bodies.cylinder(spec, "press", pos=(0, 0, 0.3051 + h), mass=0.01, joint=ram, **round_one)
+
+    def pressed(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+        data.qfrc_applied[model.joint("ram").dofadr[0]] = 40 * data.time
+        return 40 * float(data.time)
+
+    return abs(at_break(spec, pressed, 1.5) / (3e6 * 2 * b * h**2 / (3 * span)) - 1)
+
+
 CASES = (
     Case("A sphere half as dense as water floats half under", "Archimedes, On Floating Bodies, I.5", sphere_afloat, 0.02),
     Case("An upright cylinder draws its share of its height", "Archimedes, On Floating Bodies, I.5", cylinder_afloat, 0.02),
@@ -196,6 +252,8 @@ CASES = (
     Case("A light ball let go under water takes half of its water along", "Lamb, Hydrodynamics, section 92", released, 0.03),
     Case("A ball sinks as fast as drag lets it", "Hoerner, Fluid-Dynamic Drag, section 3-8", sinking, 0.03),
     Case("A balloon twice its size has the pressure of its rubber", "Müller and Strehlow, Rubber and Rubber Balloons, chapter 3", balloon, 0.01),
+    Case("A rod pulled apart breaks at strength times section", "Rankine; F = sigma A", torn, 0.01),
+    Case("A bar bent on two piers breaks at its modulus of rupture", "Navier 1826; M = sigma b h^2 / 6", bent, 0.02),
     Case("Gas that cools in a slack skin shrinks with its temperature", "Newton 1701; p V = n R T", cooling, 0.005),
 )  # fmt: skip
 

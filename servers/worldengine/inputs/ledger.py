@@ -13,6 +13,7 @@ Work, in joules, done on the system:
 
 from typing import TYPE_CHECKING, Any
 
+from worldkit.breaking.letting_go import bonds_of, stresses
 from worldkit.naming import names
 from worldkit.speaking import HELD
 from worldkit.watch import Edit, owner_of
@@ -48,6 +49,7 @@ class Ledger:
         recorder.before_flush.append(self._flush)
         self._bodies, self._joints = names(model, "body", model.nbody), names(model, "joint", model.njnt)
         self._equalities = names(model, "equality", model.neq)
+        self._bonds = bonds_of(model)
         self._signature, offset = 0, 0
         self._part: dict[str, slice] = {}
         for name in PARTS:
@@ -100,8 +102,8 @@ class Ledger:
             self._carried.append((self._data.time, body, self._displacement(body)))
         for equality in switched:
             value = self._new[self._part["EQ_ACTIVE"]][equality]
-            load = 0.0 if value else self._load(int(equality))
-            self._record("constraint", self._equalities[equality], (value, load))
+            carried = (0.0,) if value else self._carried_by(int(equality))
+            self._record("constraint", self._equalities[equality], (value, *carried))
         for name, target in (("ACT", "act"), ("PLASTIC", "plastic"), ("USERDATA", "userdata")):
             for index in changed(name)[:MOST_ELEMENTS]:
                 part = self._part[name]
@@ -120,8 +122,8 @@ class Ledger:
         mujoco.mj_energyPos(self._model, self._past)
         mujoco.mj_energyVel(self._model, self._past)
 
-    def _load(self, equality: int) -> float:
-        """The norm of the force, N, that an equality exerted in the remembered state; no row shows it once it is off."""
+    def _carried_by(self, equality: int) -> tuple[float, ...]:
+        """What an equality carried in the remembered state, which no row shows once it is off: N and, of a bond, Pa."""
         import mujoco
         import numpy as np
 
@@ -129,7 +131,10 @@ class Ledger:
         assert past is not None
         mujoco.mj_forwardSkip(self._model, past, mujoco.mjtStage.mjSTAGE_NONE, 1)
         mine = past.efc_id[: past.ne] == equality
-        return float(np.sqrt((past.efc_force[: past.ne][mine] ** 2).sum()))
+        force = float(np.sqrt((past.efc_force[: past.ne][mine] ** 2).sum()))
+        bonds = self._bonds
+        mine = np.flatnonzero(bonds.equality == equality) if bonds is not None else np.zeros(0, int)
+        return (force, float(stresses(bonds, past)[mine[0]])) if bonds is not None and len(mine) else (force,)
 
     def _written(self, positions: "np.ndarray", velocities: "np.ndarray") -> None:
         """Note written poses and velocities of joints: displacement, change of velocity, jump in energy."""

@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from worldkit.breaking.letting_go import bonds_of, stresses
+
 from .columns import TABLES
 
 if TYPE_CHECKING:
@@ -55,6 +57,8 @@ class Batch:
         self._welds = model.eq_type == mujoco.mjtEq.mjEQ_WELD
         # Those rows act on half the rotation (a quaternion's vector part) times the weld's torque scale, `data[10]`.
         self._turning = 0.5 * model.eq_data[:, 10]
+        self.eq_stress = np.zeros((capacity, model.neq))
+        self.bonds = bonds_of(model)
         self.tendon_limit = np.zeros((capacity, model.ntendon))
         self.carries = bool(model.neq or model.ntendon)
         # Views into MjData stay valid for its lifetime, except those of the contact and constraint arena.
@@ -169,6 +173,8 @@ class Batch:
                 self.eq_torque[row] = torque * self._turning
                 loads = loads * ~turning
             self.eq_force[row] = np.sqrt(np.bincount(owners, loads, minlength=equalities))
+            if self.bonds:
+                self.eq_stress[row, self.bonds.equality] = stresses(self.bonds, data)
         if tendons:
             limits = slice(count + data.nf, count + data.nf + data.nl)
             mine = data.efc_type[limits] == LIMIT_TENDON

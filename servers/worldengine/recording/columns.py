@@ -40,7 +40,7 @@ def state_columns(sizes: Mapping[str, int], empty: bool = False) -> tuple[Column
 
     Args:
         sizes: `bodies` (all but the world), and MuJoCo's nq, nv, na, nu, nmocap, neq, ntendon, nsensordata,
-            nplastic.
+            nplastic; `stressed`, the number of equalities where some are bonds.
         empty: also list the columns without numbers.
 
     Columns without numbers (no actuators, say) are left out of the file; the reader returns them with zero width.
@@ -67,6 +67,12 @@ def state_columns(sizes: Mapping[str, int], empty: bool = False) -> tuple[Column
             (sizes["neq"],),
             "N m",
             "norm of a weld's torque; 0 while switched off, and for other constraints",
+        ),
+        Column(
+            "eq_stress",
+            (sizes.get("stressed", 0),),
+            "Pa",
+            "largest tension in each bond (`worldkit.breaking`); 0 while switched off, and for other constraints",
         ),
         Column("tendon_length", (sizes.get("ntendon", 0),), "m, rad", "tendon lengths"),
         Column("tendon_force", (sizes.get("ntendon", 0),), "N, N m", "tension by spring, damper and limit, no motors"),
@@ -98,9 +104,9 @@ INTERVENTION_COLUMNS = (
     Column(
         "value",
         (VALUES,),
-        "N, N m | control, force | m, rad | m/s, rad/s | parameter's",
+        "N, N m | control, force | m, rad | m/s, rad/s | 1, N, Pa | parameter's",
         "force and torque on the body; control and actuator force; displacement and rotation vector; change of linear "
-        "and angular velocity; new state of the constraint and what it carried; first new values of the parameter; zero-padded",
+        "and angular velocity; new state of the constraint, what it carried and, of a bond, its stress; first new values of the parameter; zero-padded",
     ),
     Column("work_j", (), "J", "work done on the system; 0 where none can be attributed"),
 )

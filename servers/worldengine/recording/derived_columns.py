@@ -37,6 +37,8 @@ class Derived:
             "eq_torque": batch.eq_torque[:n],
             "tendon_length": batch.buffer("ten_length"),
         }
+        if batch.bonds:
+            columns["eq_stress"] = batch.eq_stress[:n]
         columns["tendon_force"] = derive.tension(
             self._model, columns["tendon_length"], batch.buffer("ten_velocity"), batch.tendon_limit[:n]
         )

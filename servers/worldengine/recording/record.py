@@ -21,6 +21,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from worldkit.breaking.letting_go import bonds_of
 from worldkit.errors import RecordingError
 from worldkit.files import write_json
 from worldkit.speaking import ARRAYS
@@ -72,6 +73,7 @@ class Recorder:
         if (self._folder / "meta.json").exists():
             raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
         sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
+        sizes["stressed"] = model.neq if bonds_of(model) else 0
         self._channels = dict(channels or {})
         self.columns = (*state_columns(sizes), *self._channels)
         self._derived = Derived(model, tuple(column.name for column in self._channels))

@@ -4,7 +4,7 @@ from ..model.plan.committed import Intervention, Plan, SimulationParameters
 from ..model.plan.drives import Actuator
 from ..model.plan.fastening import point
 from ..model.plan.layout import Scene
-from ..model.plan.trigger import always
+from ..model.plan.trigger import always, threshold
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
 
@@ -46,6 +46,7 @@ def control(plan: Plan, needs: Needs) -> str:
     driven = {row.name: row for row in plan.topology.actuators if row.control is not None}
     if not interventions and not driven:
         return ""
+    bonded = {name for whole in plan.broken for name in plan.families[whole]}
     lines = ["\ndef control(model: mujoco.MjModel, data: mujoco.MjData) -> None:"]
     lines.append('    """What the plan declares to act on the state besides the engine."""')
     for name, row in driven.items():
@@ -56,8 +57,15 @@ def control(plan: Plan, needs: Needs) -> str:
         if item.kind == "control" and driven and set(item.bodies) <= driven_names(plan, driven):
             lines.insert(2, comment(text))
             continue
+        if item.kind == "constraint" and set(item.bodies) <= bonded and threshold(item.trigger) is not None:
+            whole = [name for name, row in plan.broken.items() if {*row.instances} & {*item.bodies}]
+            lines += [comment(f"constraint on {', '.join(whole)}: {item.law} ({item.trigger})")]
+            lines += [] if "    LET_GO(model, data)" in lines else ["    LET_GO(model, data)"]
+            continue
         needs.leave(f"declared intervention: {text}", "its law, in control()")
         lines.append(comment(f"AUTHOR: {text}"))
+    if "    LET_GO(model, data)" in lines:
+        lines.insert(0, "\nLET_GO = breaking.LettingGo()\n")
     return "\n".join(lines) + "\n"
 
 

@@ -8,7 +8,7 @@ from ..model.plan.committed import AssetRow, Joint, Plan, SceneObject
 from ..model.plan.declared_inputs import Beside
 from ..model.plan.formed import arguments
 from ..model.plan.layout import Scene
-from . import imports
+from . import breakables_text, imports
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
 from .stances import Stances
@@ -29,11 +29,16 @@ class Objects(Stances):
     def written(self) -> str:
         """The text of every scene object and asset."""
         parts, looped = [], set()
+        of = {name: whole for whole in self.plan.broken for name in self.plan.families[whole]}
         for item in self.ordered():
             if not isinstance(item, SceneObject):
                 parts.append(imports.written(self, item))
             elif item.name in self.waters:
                 continue
+            elif (broken := of.get(item.name)) is not None:
+                if broken not in looped:
+                    looped.add(broken)
+                    parts.append(breakables_text.written(self.plan, self.scene, self.needs, self.plan.broken[broken]))
             elif (family := self.alike.get(item.name)) is None:
                 parts.append(self.scene_object(item))
             elif family not in looped:

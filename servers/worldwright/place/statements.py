@@ -9,9 +9,10 @@ from difflib import get_close_matches
 from typing import Any
 
 from ..model.finding import Finding
+from ..model.plan.breakage import pieces
 from ..model.plan.committed import TO_CLARIFY, Plan, PredicateRow, RelationRow
 from ..model.plan.plan_references import GROUND, WORLD
-from ..model.plan.spread import moved
+from ..model.plan.spread import Stand, moved
 from ..shelf import Entry
 from .anchors import Box, CannotResolveError
 from .parameters import read
@@ -183,17 +184,24 @@ class _Reader:
             cause = f"`spread` tells copies apart, and `{row.subject}` has no `count`"
             self.problems.add("WP202", "bad_params", cause, "give the scene object a `count`, or remove `spread`", path)
             return
-        if row.spread is None:
+        if row.subject in self.plan.broken:
+            stands = [Stand(*p.offset[:2], p.low_m, None) for p in pieces(self.plan.broken[row.subject])]
+        elif row.spread is not None:
+            stands = row.spread.stands(len(names))
+        else:
             for name in names:
                 if self.exists(name, path):
                     yield from self.statement(PREDICATES, path, name, row.predicate, row.object, row.params)
             return
-        for name, stand in zip(names, row.spread.stands(len(names)), strict=True):
+        for name, stand in zip(names, stands, strict=True):
             params = moved(row.predicate, row.params, stand)
             if params is None:
                 self.spoiled |= set(names)
                 cause = f"{row.predicate} gives no place that `spread` could go around"
                 fix = "spread a row PLACE-ON-BASE (x, y), PLACE-ON or PLACE-IN (offset)"
+                if row.subject in self.plan.broken:
+                    cause = f"{row.predicate} gives no place for the pieces of `{row.subject}`"
+                    fix = "place what breaks by one row PLACE-ON-BASE (x, y), PLACE-ON or PLACE-IN (offset); it is not turned"
                 self.problems.add("WP202", "bad_params", cause, fix, path)
                 return
             yield from self.statement(PREDICATES, path, name, row.predicate, row.object, params)

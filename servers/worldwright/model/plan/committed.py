@@ -16,7 +16,7 @@ from typing import Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from ..frozen import Frozen
-from . import copies
+from . import breakage, copies
 from .declared_inputs import Constant, Intervention
 from .drives import Actuator, Tendon
 from .implementation_steps import CameraRow, Step, seen_as_in_image
@@ -260,6 +260,11 @@ class Plan(Frozen):
         return {}
 
     @cached_property
+    def broken(self) -> dict[str, SceneObject]:
+        """The objects that break, as they are written, by their names; their pieces stand in their place."""
+        return {}
+
+    @cached_property
     def source_rows(self) -> tuple[int, ...]:
         """The row of `scene_objects`, as it is written, of each scene object; empty where none has a `count`."""
         return ()
@@ -267,7 +272,9 @@ class Plan(Frozen):
     @model_validator(mode="after")
     def _copied(self) -> "Plan":
         if copied := copies.families(self):
-            self.__dict__.update(copies.changes(self, copied), families=copied)
+            breakage.check(self)
+            broken = {row.name: row for row in self.scene_objects if row.breaks is not None}
+            self.__dict__.update(copies.changes(self, copied), families=copied, broken=broken)
         self.visualization.hung(self.families)
         return self
 

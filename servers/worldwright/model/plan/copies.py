@@ -7,6 +7,7 @@ rope that holds it. A copy of a joint or tendon has the number of its body.
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from .breakage import as_objects, weights
 from .drives import Tendon
 from .implementation_steps import CameraRow, Step
 from .object_parts import Vec3
@@ -19,7 +20,7 @@ Families = Mapping[str, tuple[str, ...]]
 
 def families(plan: Written) -> dict[str, tuple[str, ...]]:
     """Of the scene objects of a plan as it is written."""
-    return {row.name: row.instances for row in plan.scene_objects if row.count > 1}
+    return {row.name: row.instances for row in plan.scene_objects if row.count > 1 or row.breaks is not None}
 
 
 def changes(plan: Written, copied: Families) -> dict[str, Any]:
@@ -30,9 +31,13 @@ def changes(plan: Written, copied: Families) -> dict[str, Any]:
     """
     objects, sources = [], []
     for index, row in enumerate(plan.scene_objects):
-        for name in row.instances:
-            objects.append(row.model_copy(update={"name": name, "count": 1}) if row.count > 1 else row)
-            sources.append(index)
+        if row.breaks is not None:
+            objects += as_objects(row)
+        else:
+            same = row.count == 1
+            objects += [row if same else row.model_copy(update={"name": n, "count": 1}) for n in row.instances]
+        sources += [index] * len(row.instances)
+    pieces = weights([row for row in plan.scene_objects if row.breaks is not None], plan.simulation_parameters)
     joints = [made for row in plan.topology.joints for made in _joint(row, copied)]
     hung = {
         row.name: tuple(f"{row.name}_{k + 1}" for k in range(len(copied[row.child])))
@@ -46,7 +51,7 @@ def changes(plan: Written, copied: Families) -> dict[str, Any]:
     return {
         "scene_objects": tuple(objects),
         "topology": topology,
-        "simulation_parameters": _parameters(plan.simulation_parameters, {**copied, **hung}),
+        "simulation_parameters": _parameters(plan.simulation_parameters, {**copied, **hung}, pieces),
         "implementation_steps": tuple(_step(step, copied) for step in plan.implementation_steps),
         "source_rows": tuple(sources),
     }
@@ -63,11 +68,11 @@ def _spelled(values: Mapping[str, Any], copied: Families) -> dict[str, Any]:
     return whole | {name: value for name, value in values.items() if name not in copied}
 
 
-def _parameters(row: Written, copied: Families) -> Written:
+def _parameters(row: Written, copied: Families, pieces: dict[str, float]) -> Written:
     acting = tuple(i.model_copy(update={"bodies": named(i.bodies, copied)}) for i in row.interventions)
     masses, starts = _spelled(row.masses, copied), _spelled(row.initial_motion, copied)
     pairs = _between(row.pairs, copied)
-    changed = {"masses": masses, "initial_motion": starts, "interventions": acting, "pairs": pairs}
+    changed = {"masses": masses | pieces, "initial_motion": starts, "interventions": acting, "pairs": pairs}
     return row.model_copy(update=changed)
 
 

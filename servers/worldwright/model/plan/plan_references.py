@@ -294,7 +294,8 @@ def _part_names(data: dict[str, Any]) -> Iterator[tuple[str, Path]]:
 
 def _instances(data: dict[str, Any], section: str = "assets") -> Iterator[tuple[str, Path]]:
     for row, path in _rows(data, section):
-        name, count = row.get("name"), row.get("count", 1)
+        breaks = row.get("breaks")
+        name, count = row.get("name"), breaks.get("pieces", 1) if isinstance(breaks, dict) else row.get("count", 1)
         if not isinstance(name, str):
             continue
         if isinstance(count, int) and 1 < count <= 100_000:

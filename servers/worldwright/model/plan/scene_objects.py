@@ -11,6 +11,7 @@ from pydantic import Field, field_validator, model_validator
 from worldkit.parts import Whole, laid_out, plus, rotation, turned
 
 from ..frozen import Frozen
+from .breakage import Breaks
 from .formed import BY_POINTS, NUMBERS, foreign, form
 from .object_parts import ObjectPart, Vec3
 
@@ -82,6 +83,8 @@ class SceneObject(Frozen):
     """Metres along y, of a `hill`."""
     smooth: int = Field(0, ge=0, le=24)
     """Points put between each two of `profile` or `path`, on a smooth curve through them."""
+    breaks: Breaks | None = None
+    """How it breaks, if it can: its pieces are called `name_1` … `name_N`."""
     deg_x: float = Field(0.0, ge=-180, le=180)
     """Tilt about its own x, degrees, before any yaw: 90 lays a cylinder along y. Not for containers and planes."""
     hollow: bool = False
@@ -168,7 +171,8 @@ class SceneObject(Frozen):
     @property
     def instances(self) -> tuple[str, ...]:
         """Object names: `name` alone, or `name_1` … `name_N`."""
-        return (self.name,) if self.count == 1 else tuple(f"{self.name}_{i + 1}" for i in range(self.count))
+        count = self.breaks.pieces if self.breaks is not None else self.count
+        return (self.name,) if count == 1 else tuple(f"{self.name}_{i + 1}" for i in range(count))
 
     def whole(self, deg_x: float | None = None) -> Whole:
         """The parts of a compound in the frame of their box, by default after its tilt."""

@@ -1,6 +1,6 @@
 """A trigger that can be checked: `QUANTITY [of NAME] > NUMBER UNIT` or `while A touches B`, as a plan's intervention states it.
 
-Quantities: `load` (force of the equality that is switched, N), `tension` (of a tendon, N), `contact force` (summed on a
+Quantities: `load` (force of the equality that is switched, N), `stress` (of a bond that is switched, Pa), `tension` (of a tendon, N), `contact force` (summed on a
 body, N), `speed` (m/s), `height` (m).
 """
 
@@ -8,9 +8,9 @@ import re
 from typing import NamedTuple
 
 TRIGGER = re.compile(
-    r"\b(?P<quantity>load|tension|contact force|speed|height)\b(?:\s+(?:of|on|in)\s+(?:the\s+)?(?P<name>[\w./-]+))?"
+    r"\b(?P<quantity>load|stress|tension|contact force|speed|height)\b(?:\s+(?:of|on|in)\s+(?:the\s+)?(?P<name>[\w./-]+))?"
     r"\s*(?P<sign>>=?|<=?|exceeds|above|over|below|under)\s*(?P<number>\d+(?:\.\d*)?(?:e-?\d+)?)\s*"
-    r"(?P<unit>kN|N|mm|cm|m/s|m)?\b",
+    r"(?P<unit>kN|N|kPa|MPa|Pa|mm|cm|m/s|m)?\b",
     re.IGNORECASE,
 )
 TOUCH = re.compile(r"\bwhile\s+(?:the\s+)?([\w./-]+)\s+touches\s+(?:the\s+)?([\w./-]+)", re.IGNORECASE)
@@ -19,7 +19,7 @@ ALWAYS = re.compile(
     r"from (the )?(very )?(start|beginning)( (on|to the end))?|(at )?(t|time)\s*(>=?|≥)\s*0+(\.0*)?\s*(s|seconds)?|)\s*\.?\s*$",
     re.IGNORECASE,
 )
-SCALE = {"kn": 1e3, "mm": 1e-3, "cm": 1e-2}
+SCALE = {"kn": 1e3, "kpa": 1e3, "mpa": 1e6, "mm": 1e-3, "cm": 1e-2}
 
 
 class Threshold(NamedTuple):

@@ -25,6 +25,8 @@ class Loads:
     """(T, U)."""
     eq_torque: Array | None = None
     """(T, E) N·m: norm of each weld's torque, 0 for other equalities; None in recordings that do not have it."""
+    eq_stress: Array | None = None
+    """(T, E) Pa: the largest tension in each bond (`worldkit.breaking`), 0 for other equalities; None where there is no bond."""
     edits: Sequence[tuple[float, str, int, float]] = ()
     """Time in s, name of the model array, flat index, new value: every edit of the model, looks included."""
     overlaps: Sequence[dict[str, Any]] | None = None
@@ -33,4 +35,5 @@ class Loads:
     def before(self, row: int) -> "Loads":
         """The channels up to `row`, exclusive."""
         cut = {f.name: getattr(self, f.name)[:row] for f in fields(self)[:5]}
-        return replace(self, **cut, eq_torque=None if self.eq_torque is None else self.eq_torque[:row])
+        torque, stress = (None if a is None else a[:row] for a in (self.eq_torque, self.eq_stress))
+        return replace(self, **cut, eq_torque=torque, eq_stress=stress)

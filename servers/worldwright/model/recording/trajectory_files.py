@@ -215,6 +215,7 @@ def _loads(recording: Any) -> Loads:
     return Loads(
         eq_force=recording.eq_force,
         eq_torque=getattr(recording, "eq_torque", None),
+        eq_stress=stress if (stress := getattr(recording, "eq_stress", None)) is not None and stress.size else None,
         eq_active=recording.eq_active.astype(bool),
         tendon_force=recording.tendon_force,
         actuator_force=recording.actuator_force,

@@ -12,12 +12,16 @@ from .checked_layout import OVERLAP_M, CheckedLayout
 def check(layout: CheckedLayout) -> None:
     """Report WP302 for each pair that penetrates by more than a millimetre, or than the plan lets it; WP327 for what it may not let.
 
-    Parts on joints may overlap each other.
+    Parts on joints may overlap each other, and so may the boxes around the pieces of what breaks: the pieces themselves fit.
     """
     held = layout.held
     _too_much(layout)
 
+    whole = {piece: name for name in layout.plan.broken for piece in layout.plan.families[name]}
+
     def deep(pair: tuple[str, str, float]) -> bool:
+        if pair[0] in whole and whole[pair[0]] == whole.get(pair[1]):
+            return False
         return pair[2] > max(OVERLAP_M, layout.belonging.allowed_m(*pair[:2]))
 
     pairs = [p for p in layout.close if deep(p) and not (p[0] in held and p[1] in held)]

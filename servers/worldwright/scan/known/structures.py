@@ -125,6 +125,13 @@ def breaking(load_n: float | None = 100.0, rate: float = 200.0, **more: Any) -> 
     return with_channels(made, equalities={"bolt": (whole, load), "pin": (always, 10.0 + 0 * t)})
 
 
+def stressed(stress_pa: float) -> Trajectory:
+    """As `breaking` at 100 N, where the bolt is a bond whose stress grows with its force, up to `stress_pa`."""
+    made = breaking(100.0)
+    assert made.loads is not None
+    return replace(made, loads=replace(made.loads, eq_stress=made.loads.eq_force * stress_pa / 100.0))
+
+
 def twisted(torque_nm: float, rate: float = 200.0) -> Trajectory:
     """As `breaking` at 100 N, where the bolt is a weld whose torque grows with its force, up to `torque_nm`."""
     made = breaking(100.0, rate)

@@ -77,6 +77,14 @@ def constraint_torque(trajectory: Trajectory, name: str) -> Channel:
     return Channel(trajectory.loads.eq_torque[:, index], "N m", name)
 
 
+def bond_stress(trajectory: Trajectory, name: str) -> Channel:
+    """The largest tension in a bond between the pieces of what breaks, Pa; 0 once it is broken."""
+    index, _ = _row(trajectory, "equalities", "constraint", name)
+    if trajectory.loads is None or trajectory.loads.eq_stress is None:
+        raise UnknowableError(f"no stress was recorded of {name}: `worldkit.breaking` makes bonds that have one")
+    return Channel(trajectory.loads.eq_stress[:, index], "Pa", name)
+
+
 def distance(trajectory: Trajectory, one: str, other: str) -> Channel:
     """The distance between the origins of two bodies, m."""
     ends = [trajectory.pos[:, body_index(trajectory, name)] for name in (one, other)]

@@ -10,6 +10,7 @@ Why: in auto mode nobody reads the plan before the code is written, so what was 
 import re
 from collections.abc import Iterator
 
+from ...model.plan.breakage import stated_masses
 from ...model.plan.committed import Plan
 from ..refusal import Refusal
 from ..state import State
@@ -44,7 +45,11 @@ def _chosen(plan: Plan) -> Iterator[tuple[str, list[float]]]:
             yield name, [value]
     if parameters.gravity_vector[2] not in STANDARD_GRAVITY or any(parameters.gravity_vector[:2]):
         yield "gravity", [abs(v) for v in parameters.gravity_vector if v]
+    pieces = {piece for name in plan.broken for piece in plan.families[name]}
     for name, mass in parameters.masses.items():
+        if name not in pieces:
+            yield f"masses.{name}", [mass]
+    for name, mass in stated_masses(plan).items():  # pieces have their shares of it
         yield f"masses.{name}", [mass]
     for name, motion in parameters.initial_motion.items():
         numbers = [*motion.linear, *motion.angular, motion.joint_position or 0.0, motion.joint_velocity or 0.0]

@@ -45,10 +45,17 @@ def check(view: PlanView) -> Iterator[Problem]:
                 if not found and name not in of_the_world:
                     return
                 named |= found
+    broken = {name: view.plan.families[name] for name in view.plan.broken}
+    families = {piece: {name, f"{name}_*", *pieces} for name, pieces in broken.items() for piece in pieces}
     for index, step in enumerate(view.plan.implementation_steps):
         for number, mover in enumerate(step.motion_expectations):
             described = view.rows.get(mover)
-            meant = any(fnmatchcase(mover, name) for name in named)  # a crowd may be named by a pattern, `grain_*`
+            meant = not named.isdisjoint(
+                families.get(mover, ())
+            )  # of what breaks: a claim about one piece is about the thing
+            meant = meant or any(
+                fnmatchcase(mover, name) for name in named
+            )  # a crowd may be named by a pattern, `grain_*`
             if not meant and (described is None or described.name not in named):
                 place = ("implementation_steps", index, "motion_expectations", number)
                 yield view.at(

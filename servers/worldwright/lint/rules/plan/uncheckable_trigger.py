@@ -1,8 +1,8 @@
 """An intervention's trigger is a condition that nothing can check.
 
 What it does: reads the triggers of constraints and other interventions that state a condition (`when`, `if`, `once`, `>`,
-`exceeds` …), and tries the form that scan can compare with the recording: `load > 400 N`, `tension of rope > 30 N`,
-`contact force on plate > 50 N`, `speed of cart > 2 m/s`, `height of ball < 0.1 m`.
+`exceeds` …), and tries the form that scan can compare with the recording: `load > 400 N`, `stress > 45 MPa` (of bonds), `tension
+of rope > 30 N`, `contact force on plate > 50 N`, `speed of cart > 2 m/s`, `height of ball < 0.1 m`.
 
 Why is this bad: a fastener that lets go at a moment of the author's choosing looks like one that broke. Only a threshold
 in a recorded quantity can tell them apart.
@@ -31,6 +31,7 @@ def _with(trigger: str) -> dict[str, object]:
 
 GOOD: Changes = (
     _with("load > 400 N"),
+    _with("stress > 45 MPa"),
     _with("at t = 1.0 s"),
     _with("always"),
     _with("speed of crate exceeds 2 m/s"),

@@ -6,7 +6,7 @@ picture shows, the event did not happen.
 Formula: the largest distance from its first position, and the largest turn from its first orientation.
 Threshold: 2 % of the bounding radius and 2 degrees: less cannot be seen. Blocking: the plan lists the body under
 `motion_expectations`. A part that is welded to another body moves as far as that carries it, and turns as it does; a flex
-moves where one of its points does.
+moves where one of its points does, and what breaks where one of its pieces does.
 Source: the reference paper's plan format, `motion_expectations`.
 """
 
@@ -29,7 +29,10 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     if not context.movers:
         raise SkipError("no plan says which bodies move")
     whole = (trajectory.t[0], trajectory.t[-1])
+    still = _whole_things_that_stay(trajectory, context)
     for name in context.movers:
+        if name in still and not still[name]:
+            continue
         if points := trajectory.flex_points.get(name):
             yield from _of_flex(trajectory, name, points)
             continue
@@ -44,6 +47,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             turns = f"{np.degrees(turned):.2g} degrees"
             message = f"the plan expects {name} to move, but it moves {moved:.3g} m and turns {turns}"
             yield Sign(name, whole, moved, limit, "m", "blocking", message)
+
+
+def _whole_things_that_stay(trajectory: Trajectory, context: Context) -> dict[str, bool]:
+    """Of each piece of what breaks, whether it is the one to tell of: none of all moves, and it is the first."""
+    told: dict[str, bool] = {}
+    for name in context.plan.broken if context.plan is not None else ():
+        assert context.plan is not None
+        pieces = [p for p in context.plan.families[name] if p in trajectory.names]
+        moves = any(not stays_put(trajectory, trajectory.names.index(piece)) for piece in pieces)
+        told |= {piece: not moves and piece == pieces[0] for piece in pieces}
+    return told
 
 
 def _of_flex(trajectory: Trajectory, name: str, points: tuple[str, ...]) -> Iterator[Sign]:

@@ -1,0 +1,156 @@
+"""A thing holds like one body until the stress in a bond is its strength, and breaks there, once, for good."""
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+import mujoco
+import numpy as np
+import pytest
+
+from worldkit import bodies, breaking, scene
+from worldkit.mirror import Mirror, address
+from worldkit.strays import Derived
+
+STEP = 0.001
+
+
+def loaded(
+    spec: mujoco.MjSpec, load: Callable[[mujoco.MjModel, mujoco.MjData], float], most_s: float
+) -> tuple[float, list[str], mujoco.MjModel, mujoco.MjData]:
+    """Step a world under a load until a bond breaks: the load then, names of what broke, the world."""
+    model = spec.compile()
+    data, let_go = mujoco.MjData(model), breaking.LettingGo()
+    while data.time < most_s:
+        mujoco.mj_step1(model, data)
+        force = load(model, data)
+        if let_go(model, data):
+            broken = [model.equality(n).name for n in range(model.neq) if not data.eq_active[n]]
+            return force, broken, model, data
+        mujoco.mj_step2(model, data)
+    return force, [], model, data
+
+
+def pulled(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+    """A force that grows by 5 kN/s, down the axis of the lowest piece."""
+    force, body = 5000.0 * data.time, model.body("chalk_1").id
+    arm = np.array([0, 0, data.xipos[body, 2]]) - data.xipos[body]
+    data.xfrc_applied[body] = [0, 0, -force, *np.cross(arm, [0, 0, -force])]
+    return force
+
+
+@pytest.mark.parametrize("skew", [0.0, 1.0])
+def test_a_rod_pulled_apart_breaks_at_strength_times_section(skew: float) -> None:
+    """Cut straight or aslant: the largest tension in the material is the same."""
+    spec = scene.new("pull", time_step=STEP, gravity=(0, 0, 0))
+    rod = breaking.rod(0.01, 0.1, pieces=4, seed=1, skew=skew)
+    breaking.add(spec, "chalk", rod, "chalk", pos=(0, 0, 1), held={"world": ((0, 0, 1),)})
+    force, broken, _, _ = loaded(spec, pulled, 0.2)
+    exact = 3e6 * math.pi * 0.005**2
+    assert broken and exact <= force <= exact + 2 * 5000.0 * STEP
+
+
+def test_a_bent_bar_breaks_in_the_middle_at_its_modulus_of_rupture() -> None:
+    """Three-point bending: sigma = 3 F L / (2 b h^2)."""
+    b, h, span = 0.04, 0.01, 0.2
+    spec = scene.new("bend", time_step=STEP, gravity=(0, 0, 0))
+    edges = np.linspace(-0.11, 0.11, 7)
+    corners = [(x, y, z) for x in (-0.11, 0.11) for y in (-b / 2, b / 2) for z in (-h / 2, h / 2)]
+    bar = breaking.convex(corners, [(x, 0, 0) for x in (edges[1:] + edges[:-1]) / 2])
+    breaking.add(spec, "bar", bar, "chalk", pos=(0, 0, 0.3))
+    for side, x in (("left", -span / 2), ("right", span / 2)):
+        bodies.cylinder(spec, side, diameter=0.01, height=0.1, pos=(x, 0, 0.29), tilt_deg=90, fixed=True)
+
+    def pressed(model: mujoco.MjModel, data: mujoco.MjData) -> float:
+        force = 100.0 * data.time
+        for n in (3, 4):  # half on either side of the middle, so that the moment there is F L / 4
+            body = model.body(f"bar_{n}").id
+            arm = np.array([0, 0, 0.305]) - data.xipos[body]
+            data.xfrc_applied[body] = [0, 0, -force / 2, *np.cross(arm, [0, 0, -force / 2])]
+        return force
+
+    force, broken, _, _ = loaded(spec, pressed, 0.6)
+    assert broken == ["bar_3/bar_4"]
+    assert force == pytest.approx(3e6 * 2 * b * h**2 / (3 * span), rel=0.02)
+
+
+def pane(step: float = STEP, of: str = "glass") -> mujoco.MjSpec:
+    spec = scene.new("pane", time_step=step)
+    made = breaking.plate((0.4, 0.003, 0.4), 16, seed=3, struck_at=(0, 0, 0))
+    breaking.add(spec, "pane", made, of, pos=(0, 0, 0.6), held={"world": ((1, 0, 0), (-1, 0, 0))})
+    return spec
+
+
+def test_pieces_weigh_as_much_as_the_whole() -> None:
+    model = pane().compile()
+    assert model.body_mass.sum() == pytest.approx(0.4 * 0.4 * 0.003 * 2500, rel=1e-12)
+
+
+@pytest.mark.parametrize("step", [0.002, 0.0005])
+def test_what_is_whole_neither_sags_nor_trembles_nor_touches_itself(step: float) -> None:
+    model = pane(step).compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    first = data.xpos.copy()
+    mujoco.mj_step(model, data, 40)
+    assert np.abs(data.xpos - first).max() < 1e-6
+    assert np.abs(data.qvel).max() < 1e-5
+    assert data.ncon == 0
+
+
+def test_a_load_below_the_strength_breaks_nothing_and_one_above_breaks_for_good() -> None:
+    spec = scene.new("pull", time_step=STEP, gravity=(0, 0, 0))
+    rod = breaking.rod(0.01, 0.1, pieces=3, seed=1)
+    breaking.add(spec, "chalk", rod, "chalk", pos=(0, 0, 1), held={"world": ((0, 0, 1),)})
+    model = spec.compile()
+    data, let_go = mujoco.MjData(model), breaking.LettingGo()
+    counts = []
+    for share in (0.9, 1.1, 0.0, 0.0):
+        data.xfrc_applied[model.body("chalk_1").id, 2] = -share * 3e6 * math.pi * 0.005**2
+        for _ in range(3):
+            mujoco.mj_step1(model, data)
+            counts.append(let_go(model, data))
+            mujoco.mj_step2(model, data)
+    assert sum(counts[:3]) == 0 and sum(counts[3:6]) > 0
+    assert not data.eq_active.all()
+
+
+def test_what_is_loose_collides_with_what_was_its_neighbour() -> None:
+    spec = scene.new("fall", time_step=STEP, gravity=(0, 0, -9.81))
+    breaking.add(
+        spec, "bar", breaking.rod(0.02, 0.1, 2, skew=0), "chalk", pos=(0, 0, 0.3), held={"world": ((0, 0, -1),)}
+    )
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    data.eq_active[model.equality("bar_1/bar_2").id] = 0
+    mujoco.mj_step(model, data, 100)
+    assert data.body("bar_2").xpos[2] > 0.32  # it stands on the lower piece
+
+
+def test_solving_for_the_forces_again_is_no_stray(tmp_path: Path) -> None:
+    """The rule changes what the engine derives, which nobody has to be told; its switches are the input."""
+    program = tmp_path / "simulation.py"
+    program.write_text(
+        "from worldkit import breaking\nLET_GO = breaking.LettingGo()\ndef control(model, data):\n    LET_GO(model, data)\n"
+    )
+    space: dict = {}
+    exec(compile(program.read_text(), str(program), "exec"), space)
+    model = pane().compile()
+    data = mujoco.MjData(model)
+    mirror = Mirror(model, data)
+    memory = np.zeros(mirror.size // 8 + 1)
+    mujoco.mj_step1(model, data)
+    mirror.send(address(memory))
+    space["control"](model, data)
+    derived = Derived(data, mirror, space["control"])
+    assert data.qacc.any()
+    assert list(derived.written(address(memory), mirror.buffer_in(address(memory)), sample=True)) == []
+
+
+def test_a_hold_that_is_not_there_is_refused() -> None:
+    spec = scene.new("pane", time_step=STEP)
+    made = breaking.plate((0.4, 0.003, 0.4), 5)
+    with pytest.raises(ValueError, match="not in the world yet"):
+        breaking.add(spec, "pane", made, "glass", pos=(0, 0, 1), held={"frame": ((1, 0, 0),)})
+    with pytest.raises(ValueError, match="no outer face"):
+        breaking.add(spec, "pain", made, "glass", pos=(0, 0, 1), held={"world": ((1, 1, 1),)})
