@@ -44,8 +44,8 @@ HOLLOW = 0.3
 """A tube's bore is at least this share of its width."""
 ROUND = 0.05
 """And as wide as deep but for this share."""
-REACH = 6.0
-"""So many widths of a tube from a magnet, its currents are below a hundred thousandth."""
+REACH = 3.5
+"""So many of its radii away from a magnet, what a tube brakes is below a thousandth."""
 
 _BALL = 1.3 / MU0 * 4 / 3 * math.pi * 0.005**3
 """A m^2: the moment of a ball of 1 cm."""
@@ -121,6 +121,7 @@ class Magnets:
                 soft += [(row, g) for g in solid]
             if kinds[2]:
                 self._nets.append((row, body, *_conductor(model, body, solid, conducts[row], name)))
+        self._half = {geom: float(np.linalg.norm(own.at, axis=1).max()) for _, geom, own in self._magnets}
         self._soft = np.array([g for _, g in soft], int)
         self._soft_of = np.array([row for row, _ in soft], int)
         self._volume = 4 / 3 * np.pi * model.geom_size[self._soft, 0] ** 3
@@ -132,14 +133,14 @@ class Magnets:
         import numpy as np
 
         from worldkit.fields import magnetism
-        from worldkit.fields.filaments import Filaments
+        from worldkit.fields.filaments import Filaments, cross
 
         wrench = np.zeros((len(self._bodies), 6))
         middles = data.xipos[self._bodies]
 
         def push(row: int, at: "np.ndarray", forces: "np.ndarray", turned: Any = 0.0) -> None:
             wrench[row, :3] += forces.sum(axis=0)
-            wrench[row, 3:] += (np.cross(at - middles[row], forces) + turned).sum(axis=0)
+            wrench[row, 3:] += (cross(at - middles[row], forces) + turned).sum(axis=0)
 
         placed = []
         energy = 0.0
@@ -148,7 +149,7 @@ class Magnets:
             magnet = Filaments(data.geom_xpos[geom] + own.at @ turn, own.current @ turn, own.smeared)
             placed.append((row, geom, magnet))
             moment = own.moment @ turn
-            wrench[row, 3:] += np.cross(moment, self._uniform)
+            wrench[row, 3:] += cross(moment, self._uniform)
             energy -= float(moment @ self._uniform)
         for n, (row, _, magnet) in enumerate(placed):
             for other, _, second in placed[:n]:
@@ -189,7 +190,9 @@ class Magnets:
         near = [magnet for magnet in placed if magnet[0] != row]
         world = data.xmat[body].reshape(3, 3)
         middle = data.xpos[body] + world @ place
-        used = conductor.near([_into(data.geom_xpos[geom] - middle, world @ turn) for _, geom, _ in near], far)
+        used = conductor.near(
+            [((data.geom_xpos[geom] - middle) @ (world @ turn), self._half[geom]) for _, geom, _ in near], far
+        )
         if not len(used.at):
             return 0.0
         at, along = middle + used.at @ (world @ turn).T, used.along @ (world @ turn).T
@@ -210,13 +213,9 @@ class Magnets:
 
 def _moves(twist: "np.ndarray", middle: "np.ndarray", at: "np.ndarray") -> "np.ndarray":
     """(p, 3) m/s of the places of a body that moves so about its middle."""
-    import numpy as np
+    from worldkit.fields.filaments import cross
 
-    return np.asarray(twist[:3] + np.cross(twist[3:], at - middle))
-
-
-def _into(way: "np.ndarray", turn: "np.ndarray") -> "np.ndarray":
-    return way @ turn
+    return twist[:3] + cross(twist[3:], at - middle)
 
 
 def _magnet(filaments: Any, model: "mujoco.MjModel", geom: int, remanence: float, name: str) -> "Filaments":

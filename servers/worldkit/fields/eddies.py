@@ -37,16 +37,16 @@ class Net:
         """(e,) A by (e,) V."""
         if self.conducts.ndim == 1:
             return np.repeat(self.conducts * driven.reshape(-1, AROUND).sum(axis=1), AROUND)
-        return np.asarray(self.conducts @ driven)
+        return np.einsum("ef,f->e", self.conducts, driven)
 
-    def near(self, magnets: "list[Array]", reach: float) -> "Net":
-        """Of a tube the rings whose middles are nearer to one of these places (3,), m, than `reach`; of a plate all."""
+    def near(self, magnets: "list[tuple[Array, float]]", reach: float) -> "Net":
+        """Of a tube the rings whose middles are nearer than `reach` to magnets, each a place (3,) and half its width, m; of a plate all."""
         if self.conducts.ndim > 1:
             return self
         heights = self.at[::AROUND, 2]
         kept = np.zeros(len(heights), bool)
-        for place in magnets:
-            kept |= (heights - place[2]) ** 2 + place[0] ** 2 + place[1] ** 2 < reach**2
+        for place, half in magnets:
+            kept |= (heights - place[2]) ** 2 + place[0] ** 2 + place[1] ** 2 < (reach + half) ** 2
         pieces = np.repeat(kept, AROUND)
         return Net(self.at[pieces], self.along[pieces], self.conducts[kept])
 

@@ -75,14 +75,15 @@ def _flat(at: Array) -> Array:
 
 
 def field(at: Array, magnets: Filaments) -> Array:
-    """(p, 3) T: what all of them give together."""
+    """(p, 3) T: what all of them give together. No matrix product here, whose last digit depends on a processor's threads."""
     middle = magnets.at.mean(axis=0)  # near which squares of distances lose no digits
     here, there = at - middle, magnets.at - middle
-    far = (here**2).sum(axis=1)[:, None] - 2 * here @ there.T
+    far = (here**2).sum(axis=1)[:, None] - 2 * np.einsum("pk,nk->pn", here, there)
     far += (there**2).sum(axis=1) + magnets.smeared**2
     share = MU0 / (4 * np.pi) / (far * np.sqrt(far))
     # sum of J x (p - x) / r^3 = (sum of J / r^3) x p - sum of J x x / r^3
-    return np.asarray(cross(share @ magnets.current, here) - share @ cross(magnets.current, there))
+    carried, turned = (np.einsum("pn,nk->pk", share, each) for each in (magnets.current, cross(magnets.current, there)))
+    return np.asarray(cross(carried, here) - turned)
 
 
 def cross(a: Array, b: Array) -> Array:

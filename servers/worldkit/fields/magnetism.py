@@ -47,9 +47,10 @@ def between(one: Filaments, other: Filaments) -> Felt:
     way = one.at[:, None] - other.at
     far = np.einsum("ijk,ijk->ij", way, way) + one.smeared[:, None] ** 2 + other.smeared**2
     near = SHARE / np.sqrt(far)
-    alike = one.current @ other.current.T * near
+    alike = np.einsum("ik,jk->ij", one.current, other.current) * near
     pairs = (alike / far)[..., None] * way
-    turned = [cross(one.current, near @ other.current), cross(other.current, near.T @ one.current)]
+    potentials = np.einsum("ij,jk->ik", near, other.current), np.einsum("ij,ik->jk", near, one.current)
+    turned = [cross(one.current, potentials[0]), cross(other.current, potentials[1])]
     forces = np.concatenate([-pairs.sum(axis=1), pairs.sum(axis=0)])
     return Felt(forces, np.concatenate(turned), np.zeros((0, 3)), -float(alike.sum()))
 

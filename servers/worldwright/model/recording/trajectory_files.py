@@ -14,6 +14,7 @@ from .coordinates import Coordinates
 from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
+from .solver_channels import SolverChannels
 from .stills import Lens, lenses
 from .trajectory import OPTIONAL_SHAPES, SHAPES, Trajectory
 
@@ -175,6 +176,7 @@ def from_recording(recording: Any) -> Trajectory:
             tendon_length=recording.tendon_length,
             eq_residual=recording.eq_residual,
         ),
+        beside=SolverChannels.of(recording),
         mechanics=mechanics,
         meta=recording.meta,
         time_step=float(recording.time_step),
