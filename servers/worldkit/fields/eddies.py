@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 
 Array = np.ndarray
-AROUND = 20
+AROUND = 14
 """Pieces of a ring."""
-RINGS_A_RADIUS = 3.0
+RINGS_A_RADIUS = 5.0
 """Rings of a tube for each of its inner radius."""
-LAYERS = 2
-"""Rings in a wall, by Gauss and Legendre."""
+THIN = 1.3
+"""A wall whose outer radius is less than this many times the inner is one layer of rings, any other two, by Gauss and Legendre."""
 CELLS = 14
 """Loops along the longer side of a plate."""
 
@@ -53,19 +53,23 @@ class Net:
 
 def tube(inner: float, outer: float, length: float, conductivity: float) -> Net:
     """A tube along z, its middle in the middle; m and S/m."""
-    nodes, weights = np.polynomial.legendre.leggauss(LAYERS)
+    nodes, weights = np.polynomial.legendre.leggauss(2)
+    layers = [
+        (inner + (node + 1) / 2 * (outer - inner), weight / 2) for node, weight in zip(nodes, weights, strict=True)
+    ]
+    if outer < THIN * inner:  # where it brakes a dipole as the whole wall does
+        layers = [((3 * (outer - inner) / (inner**-3 - outer**-3)) ** 0.25, 1.0)]
     count = max(3, round(length / inner * RINGS_A_RADIUS))
     turn = 2 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
     heights = (np.arange(count) + 0.5) / count * length - length / 2
     at, along, conducts = [], [], []
     chord = 2 * np.pi / AROUND
-    for node, weight in zip(nodes, weights, strict=True):
-        radius = (inner + outer) / 2 + node * (outer - inner) / 2
+    for radius, share in layers:
         ring = np.column_stack([np.cos(turn), np.sin(turn), np.zeros(AROUND)])
         for height in heights:
             at.append(radius * ring + (0, 0, height))
             along.append(radius * chord * np.column_stack([-np.sin(turn), np.cos(turn), np.zeros(AROUND)]))
-        area = weight * (outer - inner) / 2 * length / count
+        area = share * (outer - inner) * length / count
         conducts += [conductivity * area / (2 * np.pi * radius)] * count
     return Net(np.concatenate(at), np.concatenate(along), np.array(conducts))
 

@@ -17,6 +17,8 @@ SIDE = 4
 """Currents on each side of a bar's loop."""
 SMEARED = 0.25
 """Of the distance of two neighbours, around or along, whichever is less."""
+BLOCK = 96
+"""Places whose field is worked out at once."""
 SMALL = 0.02
 """Of a ball's radius: that of the loop that makes its dipole."""
 
@@ -77,13 +79,21 @@ def _flat(at: Array) -> Array:
 def field(at: Array, magnets: Filaments) -> Array:
     """(p, 3) T: what all of them give together. No matrix product here, whose last digit depends on a processor's threads."""
     middle = magnets.at.mean(axis=0)  # near which squares of distances lose no digits
-    here, there = at - middle, magnets.at - middle
-    far = (here**2).sum(axis=1)[:, None] - 2 * np.einsum("pk,nk->pn", here, there)
-    far += (there**2).sum(axis=1) + magnets.smeared**2
+    there = magnets.at - middle
+    told = (there**2).sum(axis=1) + magnets.smeared**2, cross(magnets.current, there)
+    blocks = [at[n : n + BLOCK] - middle for n in range(0, len(at), BLOCK)]  # few at a time stay in the cache
+    return (
+        np.concatenate([_near(here, there, magnets.current, *told) for here in blocks]) if blocks else np.zeros((0, 3))
+    )
+
+
+def _near(here: Array, there: Array, current: Array, size: Array, turned: Array) -> Array:
+    far = np.einsum("pk,nk->pn", -2 * here, there)
+    far += (here**2).sum(axis=1)[:, None]
+    far += size
     share = MU0 / (4 * np.pi) / (far * np.sqrt(far))
     # sum of J x (p - x) / r^3 = (sum of J / r^3) x p - sum of J x x / r^3
-    carried, turned = (np.einsum("pn,nk->pk", share, each) for each in (magnets.current, cross(magnets.current, there)))
-    return np.asarray(cross(carried, here) - turned)
+    return cross(np.einsum("pn,nk->pk", share, current), here) - np.einsum("pn,nk->pk", share, turned)
 
 
 def cross(a: Array, b: Array) -> Array:

@@ -71,7 +71,23 @@ def _filled(container: str = "ramp", level: str = "level", **ramp: Any) -> dict[
     return {"scene_objects": objects, "simulation_parameters": {"constants": constants, "interventions": [row]}}
 
 
-GOOD: Changes = ({}, _with(), _banded("crate"), _banded("crate", "world"), _filled())
+def _charged(*charges: float, bodies: tuple[str, ...] = ("crate", "ramp")) -> dict[str, Any]:
+    """Charges on a crate and on what stands fast, one of each."""
+    change = _banded("crate")
+    constants = {"charges": {"value": charges, "unit": "C", "source": "the prompt"}}
+    said = {"name": "charges", "constants": {"charge": "charges"}}
+    row = {"kind": "solver", "bodies": bodies, "law": "Coulomb", "source": "constants.charges", "solver": said}
+    return {**change, "simulation_parameters": {"constants": constants, "interventions": [row]}}
+
+
+GOOD: Changes = (
+    {},
+    _with(),
+    _banded("crate"),
+    _banded("crate", "world"),
+    _filled(),
+    _charged(1e-6, -2e-6),
+)
 BAD: Changes = (
     _with(name="tide"),
     _with(constants={}),
@@ -90,6 +106,8 @@ BAD: Changes = (
     _filled("lake"),
     _filled("crate"),
     _filled(level=""),
+    _charged(1e-6, -2e-6, 0.0),
+    _charged(1e-6, -2e-6, bodies=("crate", "whale")),
 )
 
 
