@@ -54,7 +54,7 @@ class Net:
 def tube(inner: float, outer: float, length: float, conductivity: float) -> Net:
     """A tube along z, its middle in the middle; m and S/m."""
     nodes, weights = np.polynomial.legendre.leggauss(2)
-    layers = [
+    layers: list[tuple[float, float]] = [
         (inner + (node + 1) / 2 * (outer - inner), weight / 2) for node, weight in zip(nodes, weights, strict=True)
     ]
     if outer < THIN * inner:  # where it brakes a dipole as the whole wall does
@@ -79,7 +79,9 @@ def plate(width: float, depth: float, thickness: float, conductivity: float) -> 
     side = max(width, depth) / CELLS
     nx, ny = max(2, round(width / side)), max(2, round(depth / side))
     dx, dy = width / nx, depth / ny
-    at, along, resists = [], [], []
+    at: list[tuple[float, float, float]] = []
+    along: list[tuple[float, float, float]] = []
+    resists: list[float] = []
     flat: dict[tuple[str, int, int], int] = {}
     for i in range(nx + 1):
         for j in range(ny + 1):

@@ -36,7 +36,8 @@ class SolverChannels:
         except (KeyError, TypeError, ValueError, AttributeError) as cause:
             what = f"what it says of its solvers makes no sense: {cause!r}"
             raise RecordingError(what, place=str(recording.folder), next_move="run the physics pass again") from cause
-        values, bodies = {}, {}
+        values: dict[str, Array] = {}
+        bodies: dict[str, Sequence[str]] = {}
         for name, row in zip(called(rows), rows, strict=True):
             bodies[name] = row.bodies
             values |= {f"{name}.{own}": channel for own, channel in recording.channels(name).items()}
@@ -60,7 +61,8 @@ class SolverChannels:
             return channel, unit
         if channel.ndim == 1:
             raise NotFoundError(f"'{name}' is one number, not one of each body", next_move="leave `body` out")
-        if body not in owners or channel.ndim != 2 or channel.shape[1] != len(owners):
+        if body is None or body not in owners or channel.ndim != 2 or channel.shape[1] != len(owners):
             what = f"'{name}' has a number for each of its bodies, and {body or 'none'} was named"
             raise NotFoundError(what, next_move=f"name as `body` one of: {', '.join(owners)}")
-        return channel[:, list(owners).index(body)], unit
+        column: int = list(owners).index(body)
+        return np.asarray(channel[:, column]), unit
