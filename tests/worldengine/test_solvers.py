@@ -98,6 +98,16 @@ def test_without_its_force_it_does_nothing(tmp_path: Path) -> None:
     assert not len(recording.interventions)
 
 
+def test_a_solver_is_taken_away_by_its_own_name(tmp_path: Path) -> None:
+    by_force = run(pond(z=0.5), tmp_path / "force", 100, Variant(without=("force:duck", "torque:duck")))
+    by_name = run(pond(z=0.5), tmp_path / "solver", 100, Variant(without=("solver:duck",)))
+    weaker = run(pond(z=0.5), tmp_path / "weaker", 100, Variant(weaken=(("solver:duck", 0.5),)))
+    assert by_name.sha256 == by_force.sha256 and not len(by_name.interventions)
+    assert weaker.pos[-1, 0, 2] > by_name.pos[-1, 0, 2]
+    with pytest.raises(ProgramError, match="there is no body goose"):
+        run(pond(), tmp_path / "none", 1, Variant(without=("solver:goose",)))
+
+
 def test_a_box_rights_itself_not_but_is_pushed_at_its_middle(tmp_path: Path) -> None:
     """Two geoms of one body: the one under water turns it."""
     spec = empty(time_step=0.002)
