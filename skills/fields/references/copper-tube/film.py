@@ -1,4 +1,4 @@
-"""One still shot that holds the tube from mouth to mat: the slug is down at once, and the magnet is still on its way."""
+"""One still place that holds the tube from over its mouth to the mat: the slug is down at once, the magnet still on its way."""
 
 from worldkit.filming import Film, still
 
@@ -7,7 +7,6 @@ def film(film: Film) -> None:
     """Tell what is shown."""
     film.set("kitchen_counter")
     film.panel("side window", (-0.5, 0.3, 0.5), (0.5, 0.5), towards=(0, 0, 0.1), strength=1.4, seen=False)
-    film.shot(
-        still((-0.12, -0.46, 0.15), (-0.02, 0.0, 0.083), lens_mm=60, focus=0.47, aperture=16),
-        until=film.recorded.duration,
-    )
+    eye = still((-0.1, -0.5, 0.17), (-0.018, 0.0, 0.086), lens_mm=50, focus=0.51, aperture=16)
+    film.shot(eye, until=0.25, speed=0.3)
+    film.shot(eye, until=film.recorded.duration)
