@@ -224,9 +224,9 @@ def _magnet(filaments: Any, model: "mujoco.MjModel", geom: int, remanence: float
 
     kind, size = int(model.geom_type[geom]), model.geom_size[geom]
     if kind == SPHERE:
-        return filaments.ball(size[0], remanence)  # type: ignore[no-any-return]
+        return filaments.ball(size[0], remanence)
     if kind == CYLINDER:
-        return filaments.cylinder(size[0], 2 * size[1], remanence)  # type: ignore[no-any-return]
+        return filaments.cylinder(size[0], 2 * size[1], remanence)
     if kind != BOX:
         what = f"the magnet {name!r} has a geom that is no ball, cylinder or box"
         raise ProgramError(what, "interventions", "make it of these, each magnetised along its axis or longest side")
@@ -234,7 +234,7 @@ def _magnet(filaments: Any, model: "mujoco.MjModel", geom: int, remanence: float
     order = [(long + 1) % 3, (long + 2) % 3, long]  # its own z is the longest side
     made = filaments.bar(*(2 * size[order]), remanence)
     back = np.argsort(order)
-    return made._replace(at=made.at[:, back], current=made.current[:, back])  # type: ignore[no-any-return]
+    return made._replace(at=made.at[:, back], current=made.current[:, back])
 
 
 def _conductor(
@@ -251,7 +251,8 @@ def _conductor(
         thin = int(np.argmin(size))
         order = [(thin + 1) % 3, (thin + 2) % 3, thin]
         turn = matrices(model.geom_quat[geoms[0]]) @ np.eye(3)[:, order]
-        return eddies.plate(*size[order], conductivity), model.geom_pos[geoms[0]].copy(), turn, np.inf
+        width, depth, thickness = map(float, size[order])
+        return eddies.plate(width, depth, thickness, conductivity), model.geom_pos[geoms[0]].copy(), turn, np.inf
     meshes = [g for g in geoms if model.geom_type[g] == MESH]
     corners = [_corners(model, g) for g in meshes]
     if len(meshes) == len(geoms) and corners:
