@@ -13,13 +13,15 @@ if __name__ == "__main__":
 
 import mujoco
 import numpy as np
-from scipy.special import jnp_zeros, jv
+from scipy.integrate import quad
+from scipy.special import j1, jnp_zeros, jv
 
-from worldengine.solvers import water
+from worldengine.solvers import SEAM, water
 from worldengine.waves.body_of_water import Liquid, Water
 from worldengine.waves.hull_samples import Hulls
 from worldengine.waves.wet_grid import WetGrid
 from worldkit import bodies, breaking, contacts, joints, scene
+from worldkit.fields import MU0, eddies, filaments, magnetism
 from worldkit.skins import Gas, Skin, Wall, ball
 
 GRAVITY = 9.81
@@ -240,6 +242,127 @@ def bent() -> float:
     return abs(at_break(spec, pressed, 1.5) / (3e6 * 2 * b * h**2 / (3 * span)) - 1)
 
 
+def ran_beside(
+    name: str, world: str, bodies: "list[str]", constants: "dict[str, object]", seconds: float
+) -> "tuple[mujoco.MjData, dict[str, np.ndarray]]":
+    """The state of a world and the channels of a solver of the suite after so long."""
+    model = mujoco.MjModel.from_xml_string(f"<mujoco>{world}</mujoco>")
+    data = mujoco.MjData(model)
+    numbers = [model.body(body).id for body in bodies]
+    running = SEAM.find(name).start(model, data, numbers, constants)
+    for _ in range(round(seconds / model.opt.timestep)):
+        mujoco.mj_step1(model, data)
+        data.xfrc_applied[numbers] = running.look(data)
+        mujoco.mj_step2(model, data)
+        running.advance(float(model.opt.timestep))
+    mujoco.mj_forward(model, data)
+    running.look(data)
+    return data, {column.name: array for column, array in running.channels.items()}
+
+
+DIPOLE = filaments.ball(0.005, 1.3)
+TUBE = " ".join(
+    f"{r * np.cos(a):.9f} {r * np.sin(a):.9f} {z}"
+    for r in (0.0075, 0.0095) for z in (-0.2, 0.2) for a in 2 * np.pi * np.arange(32) / 32
+)  # fmt: skip
+EMPTY = '<option timestep="{}" gravity="0 0 0"/>'
+
+
+def dipoles() -> float:
+    """The pull of two dipoles on one axis, 3 mu0 m^2 / (2 pi r^4), where they are two widths apart."""
+    far = DIPOLE._replace(at=DIPOLE.at + np.array([0, 0, 0.02]))
+    pull = magnetism.between(DIPOLE, far).currents[: len(DIPOLE.at)].sum(axis=0)[2]
+    return abs(float(pull / (3 * MU0 * DIPOLE.moment[2] ** 2 / (2 * np.pi * 0.02**4))) - 1)
+
+
+def cylinders() -> float:
+    """The pull of two cylinder magnets on one axis, half a radius apart: discs of charge, by Bessel functions."""
+    radius, length, gap, charge = 0.006, 0.012, 0.003, 1.3 / MU0
+    one = filaments.cylinder(radius, length, 1.3)
+    pull = magnetism.between(one, one._replace(at=one.at + np.array([0, 0, length + gap]))).currents[: len(one.at)]
+
+    def discs(apart: float) -> float:
+        found = quad(lambda k: j1(k * radius) ** 2 / k * np.exp(-k * apart), 0, 40 / apart, limit=2000)[0]
+        return float(MU0 * np.pi * (radius * charge) ** 2 * found)
+
+    book = discs(gap) - 2 * discs(gap + length) + discs(gap + 2 * length)
+    return abs(float(pull.sum(axis=0)[2]) / book - 1)
+
+
+def ball_pulled() -> float:
+    """The speed of a ball of soft iron that a dipole, held fast, has drawn from 8 to 5 cm, by the field's energy, V 3 B^2 / (2 mu0)."""
+    world = EMPTY.format(0.001) + (
+        '<worldbody><body name="m"><geom size="0.01" mass="0.03"/></body><body name="b" pos="0 0 0.08"><joint type="slide" axis="0 0 1"/>'
+        '<geom size="0.008" mass="0.017"/></body></worldbody>'
+    )
+    moment, volume = 1.3 / MU0 * 4 / 3 * np.pi * 0.01**3, 4 / 3 * np.pi * 0.008**3
+    data, _ = ran_beside("magnets", world, ["m", "b"], {"remanence": (1.3, 0.0), "saturation": (0.0, 2.0)}, 1.06)
+
+    def well(z: float) -> float:
+        return float(volume * 1.5 * (MU0 * moment / (2 * np.pi * z**3)) ** 2 / MU0)
+
+    z = float(data.xpos[2, 2])
+    return abs(-float(data.qvel[0]) / np.sqrt(2 * (well(z) - well(0.08)) / 0.017) - 1)
+
+
+def copper_tube() -> float:
+    """The speed at which a ball magnet falls in a copper tube, m g / (15 mu0^2 m^2 sigma (1 / a^3 - 1 / b^3) / 1024)."""
+    world = (
+        f'<option timestep="0.0005"/><asset><mesh name="m" vertex="{TUBE}"/></asset><worldbody><body name="tube">'
+        '<geom type="mesh" mesh="m" contype="0" conaffinity="0"/></body><body name="a" pos="0 0 0.1"><freejoint/>'
+        '<geom size="0.005" mass="0.004" contype="0" conaffinity="0"/></body></worldbody>'
+    )
+    data, _ = ran_beside("magnets", world, ["a", "tube"], {"remanence": (1.3, 0.0), "conductivity": (0.0, 5.8e7)}, 0.6)
+    drag = 15 / 1024 * (MU0 * DIPOLE.moment[2]) ** 2 * 5.8e7 * (0.0075**-3 - 0.0095**-3)
+    return abs(-float(data.qvel[2]) / (0.004 * GRAVITY / drag) - 1)
+
+
+def over_a_plate() -> float:
+    """The drag on an upright dipole that passes slowly over a thin sheet: 3 mu0^2 m^2 sigma t v / (128 pi h^4)."""
+    net, height = eddies.plate(0.16, 0.16, 0.0005, 5.8e7), 0.02
+    field = filaments.field(net.at, DIPOLE._replace(at=DIPOLE.at + np.array([0, 0, height])))
+    current = net.currents(np.einsum("ej,ej->e", np.cross([-1.0, 0, 0], field), net.along))
+    drag = float(np.cross(current[:, None] * net.along, field).sum(axis=0)[0])
+    book = 3 * (MU0 * DIPOLE.moment[2]) ** 2 * 5.8e7 * 0.0005 / (128 * np.pi * height**4)
+    return abs(drag / book - 1)
+
+
+def charges_fly() -> float:
+    """The relative speed of two charges that have flown apart from rest, by the energy q q' / (4 pi epsilon0) (1 / r0 - 1 / r)."""
+    world = EMPTY.format(0.0005) + (
+        '<worldbody><body name="a"><freejoint/><geom size="0.01" mass="0.01"/></body>'
+        '<body name="b" pos="0.1 0 0"><freejoint/><geom size="0.01" mass="0.03"/></body></worldbody>'
+    )
+    data, _ = ran_beside("charges", world, ["a", "b"], {"charge": (1e-6, 2e-6)}, 0.2)
+    gone = 2e-12 / (4 * np.pi * 8.8541878188e-12) * (1 / 0.1 - 1 / float(data.xpos[2, 0] - data.xpos[1, 0]))
+    return abs(float(data.qvel[6] - data.qvel[0]) / np.sqrt(2 * gone / 0.0075) - 1)
+
+
+def newton_cools() -> float:
+    """The temperature of a copper ball in moving air after one of its times: a share 1 / e of the difference is left."""
+    area, heat = 4 * np.pi * 0.02**2, 0.3 * 385.0
+    world = '<option timestep="0.05" gravity="0 0 0"/><worldbody><body name="a"><geom size="0.02" mass="0.3"/></body></worldbody>'
+    told = {"warm": 373.15, "around": 293.15, "specific_heat": 385.0, "cooling": 2000.0}
+    _, found = ran_beside("heat", world, ["a"], told, heat / (2000.0 * area))
+    return abs((float(found["temperature"][0]) - 293.15) / (80.0 / np.e) - 1)
+
+
+def ice_melts() -> float:
+    """How long 10 g of ice at its melting point take in a warm room: m L / (h A (T - T_m)); the share molten at half of it."""
+    world = '<option timestep="0.5" gravity="0 0 0"/><worldbody><body name="ice"><geom type="box" size="0.011 0.011 0.011" mass="0.01"/></body></worldbody>'
+    told = {
+        "warm": 273.15,
+        "around": 298.15,
+        "specific_heat": 2090.0,
+        "cooling": 20.0,
+        "melts": 273.15,
+        "latent": 334e3,
+    }
+    takes = 0.01 * 334e3 / (20.0 * 6 * 0.022**2 * 25.0)
+    _, found = ran_beside("heat", world, ["ice"], told, takes / 2)
+    return abs(float(found["melted"][0]) / 0.5 - 1)
+
+
 CASES = (
     Case("A sphere half as dense as water floats half under", "Archimedes, On Floating Bodies, I.5", sphere_afloat, 0.02),
     Case("An upright cylinder draws its share of its height", "Archimedes, On Floating Bodies, I.5", cylinder_afloat, 0.02),
@@ -255,6 +378,14 @@ CASES = (
     Case("A rod pulled apart breaks at strength times section", "Rankine; F = sigma A", torn, 0.01),
     Case("A bar bent on two piers breaks at its modulus of rupture", "Navier 1826; M = sigma b h^2 / 6", bent, 0.02),
     Case("Gas that cools in a slack skin shrinks with its temperature", "Newton 1701; p V = n R T", cooling, 0.005),
+    Case("Two dipoles on one axis pull each other", "Griffiths, Introduction to Electrodynamics, problem 6.3", dipoles, 0.001),
+    Case("Two cylinder magnets on one axis, half a radius apart", "Jackson, Classical Electrodynamics, section 5.10", cylinders, 0.02),
+    Case("A magnet draws a ball of soft iron", "Jackson, Classical Electrodynamics, section 5.11", ball_pulled, 0.01),
+    Case("A magnet falls through a copper tube", "Saslow, Am. J. Phys. 60, 693 (1992)", copper_tube, 0.01),
+    Case("A magnet passes over a sheet of copper", "Reitz, J. Appl. Phys. 41, 2067 (1970)", over_a_plate, 0.05),
+    Case("Two charges fly apart", "Jackson, Classical Electrodynamics, section 1.11", charges_fly, 0.002),
+    Case("A copper ball cools", "Newton 1701", newton_cools, 0.002),
+    Case("Ice melts in a warm room", "Incropera and DeWitt, Heat and Mass Transfer, chapter 5", ice_melts, 0.002),
 )  # fmt: skip
 
 

@@ -98,6 +98,16 @@ def test_without_its_force_it_does_nothing(tmp_path: Path) -> None:
     assert not len(recording.interventions)
 
 
+def test_a_solver_is_taken_away_by_its_own_name(tmp_path: Path) -> None:
+    by_force = run(pond(z=0.5), tmp_path / "force", 100, Variant(without=("force:duck", "torque:duck")))
+    by_name = run(pond(z=0.5), tmp_path / "solver", 100, Variant(without=("solver:duck",)))
+    weaker = run(pond(z=0.5), tmp_path / "weaker", 100, Variant(weaken=(("solver:duck", 0.5),)))
+    assert by_name.sha256 == by_force.sha256 and not len(by_name.interventions)
+    assert weaker.pos[-1, 0, 2] > by_name.pos[-1, 0, 2]
+    with pytest.raises(ProgramError, match="there is no body goose"):
+        run(pond(), tmp_path / "none", 1, Variant(without=("solver:goose",)))
+
+
 def test_a_box_rights_itself_not_but_is_pushed_at_its_middle(tmp_path: Path) -> None:
     """Two geoms of one body: the one under water turns it."""
     spec = empty(time_step=0.002)
@@ -186,6 +196,16 @@ def test_two_of_a_kind_have_channels_of_their_own() -> None:
         (Row("basin", ("duck",), {**WATER, "salt": 1.0}), "does not know salt"),
         (Row("basin", ("duck",), {k: v for k, v in WATER.items() if k != "area"}), "lacks area"),
         (Row("basin", ("duck",), {**WATER, "area": 0.0}), "positive density and area"),
+        (Row("basin", ("duck",), {**WATER, "area": (1.0,)}), "reads one number as its area"),
+        (Row("charges", ("duck",), {"charge": (1e-6, 1e-6)}), "has 1 bodies, and 2 numbers"),
+        (Row("charges", ("duck",), {"charge": (math.nan,)}), "the constant charge"),
+        (Row("heat", ("duck",), {"warm": -1.0, "around": 290.0, "specific_heat": 400.0}), "below 0 K"),
+        (Row("heat", ("duck",), {"warm": 290.0, "around": 290.0, "specific_heat": 0.0}), "no specific heat"),
+        (
+            Row("magnets", ("duck",), {"remanence": 1.0, "saturation": 2.0}),
+            "a magnet, soft iron and a conductor at once",
+        ),
+        (Row("magnets", ("duck",), {"remanence": 0.0, "conductivity": 5.8e7}), "neither a straight tube"),
     ],
 )
 def test_a_row_that_makes_no_sense_is_refused_with_what_would(row: Row, said: str) -> None:
@@ -203,6 +223,40 @@ def test_a_body_has_one_who_pushes_it() -> None:
         Beside(model, data, [row], Ports(model, (("force", frozenset({"duck"})),)))
     with pytest.raises(ProgramError, match="'duck' would be pushed"):
         Beside(model, data, [row, row])
+
+
+def test_what_pushes_nothing_shares_its_bodies() -> None:
+    """A magnet may have a temperature, too; and what is read is what was written."""
+    warm = Row("heat", ("duck",), {"warm": (350.0,), "around": 290.0, "specific_heat": 400.0, "cooling": 50.0})
+    row = Row.read(json.loads(json.dumps(warm.written())))
+    assert row == warm
+    model = pond().compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    beside = Beside(model, data, [Row("basin", ("duck",), WATER), row])
+    assert {column.name for column in beside.channels} > {"basin.level", "heat.temperature"}
+
+
+def test_what_stands_fast_is_pushed_back(tmp_path: Path) -> None:
+    """A magnet over a steel ball that is part of the world: the ledger has both forces, opposite, and the work is the field's."""
+    spec = mujoco.MjSpec.from_string(
+        '<mujoco><option timestep="0.001" gravity="0 0 0"/><worldbody><body name="post"><geom size="0.01"/></body>'
+        '<body name="m" pos="0 0 0.06"><freejoint/><geom type="cylinder" size="0.01 0.01" mass="0.05"/></body></worldbody></mujoco>'
+    )
+    model = spec.compile()
+    prepare(model)
+    data = start(model)
+    rows = [Row("magnets", ("m", "post"), {"remanence": (1.2, 0.0), "saturation": (0.0, 2.0)})]
+    beside = Beside(model, data, rows)
+    with Recorder(model, data, tmp_path / "out", describing.describe(model), channels=beside.channels) as recorder:
+        simulate(model, data, recorder, 100, beside=beside)
+    recording = stored.open(tmp_path / "out")
+    ledger = recording.interventions
+    push = {name: ledger.value[(ledger.target == name) & (ledger.kind == "force"), :3] for name in ("m", "post")}
+    assert push["m"][:, 2].max() < 0 < push["post"][:, 2].min()
+    assert push["m"] == pytest.approx(-push["post"])
+    gained, lost = recording.energy[-1, 1], np.ptp(recording.channels("magnets")["energy"])
+    assert gained == pytest.approx(lost, rel=0.02) and gained == pytest.approx(ledger.work_j.sum(), rel=1e-6)
 
 
 @pytest.mark.parametrize("name", SEAM.names())

@@ -64,13 +64,14 @@ class Beside:
                     f"name one of: {', '.join(bodies[1:])}",
                 )
             mine = [bodies.index(body) for body in row.bodies]
-            if twice := taken.intersection(mine):
+            pushes = getattr(solver, "PUSHES", True)
+            if pushes and (twice := taken.intersection(mine)):
                 raise ProgramError(
                     f"{bodies[min(twice)]!r} would be pushed by the solver {row.solver} and by another",
                     "interventions",
                     "let one of them push it: of two forces on one body, nobody could tell whose work is whose",
                 )
-            taken |= set(mine)
+            taken |= set(mine) if pushes else set()
             running = solver.start(model, data, mine, row.constants, row.shown_by)
             self._solvers.append((np.array(mine, int), running, _shares(mine, hold)))
             if isinstance(running, Shown) and running.points() is not None:

@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     import numpy as np
 
 
+Number = float | tuple[float, ...]
+"""A constant: one number, or one for each of its bodies, in their order."""
+
+
 @dataclass(frozen=True)
 class Row:
     """A plan's row about one solver."""
@@ -30,7 +34,7 @@ class Row:
     solver: str
     """The name of the solver's file."""
     bodies: tuple[str, ...]
-    constants: Mapping[str, float] = field(default_factory=dict)
+    constants: "Mapping[str, Number]" = field(default_factory=dict)
     """The constants, by the solver's own names."""
     shown_by: str = ""
     """A drawn-only geom that the solver may move; empty for none."""
@@ -39,12 +43,13 @@ class Row:
     def read(cls, row: Mapping[str, Any]) -> "Row":
         """Read a row of `inputs.json`; raises KeyError, TypeError or ValueError when it makes no sense."""
         said = row["solver"]
-        constants = {str(name): float(value) for name, value in said["constants"].items()}
+        constants = {str(name): _number(value) for name, value in said["constants"].items()}
         return cls(str(said["name"]), tuple(map(str, row["bodies"])), constants, str(said.get("shown_by") or ""))
 
     def written(self) -> dict[str, Any]:
         """The row as `inputs.json` and a recording's `meta.json` have it."""
-        said = {"name": self.solver, "constants": dict(self.constants), "shown_by": self.shown_by}
+        told = {name: list(value) if isinstance(value, tuple) else value for name, value in self.constants.items()}
+        said = {"name": self.solver, "constants": told, "shown_by": self.shown_by}
         return {"kind": "solver", "bodies": list(self.bodies), "solver": said}
 
 
@@ -55,7 +60,7 @@ class Case:
     world: str
     """MJCF; without a floor, so that nothing but the solver and gravity acts."""
     bodies: tuple[str, ...]
-    constants: Mapping[str, float]
+    constants: Mapping[str, Number]
     seconds: float
     channel: str
     """The channel whose first number is checked at the end."""
@@ -103,7 +108,8 @@ class Solver(Protocol):
 
     CONSTANTS: Mapping[str, tuple[str, str]]
     """The constants that its row in a plan must give: name, with unit and meaning. Those that it may give are in `OPTIONAL`, where
-    a module has that."""
+    a module has that, those that may have a number for each body in `EACH`. `PUSHES = False`: it pushes nothing; `STANDING = True`:
+    its bodies may stand fast."""
     CASES: tuple[Case, ...]
     """Worlds with a known outcome, which every integrator and half the time step must give."""
 
@@ -112,7 +118,7 @@ class Solver(Protocol):
         model: "mujoco.MjModel",
         data: "mujoco.MjData",
         bodies: Sequence[int],
-        constants: Mapping[str, float],
+        constants: Mapping[str, Any],
         shown_by: str = "",
     ) -> Running:
         """Start the solver at the initial state; `shown_by` names what shows it.
@@ -142,6 +148,28 @@ def reads(solver: Solver) -> dict[str, tuple[str, str]]:
     return {**solver.CONSTANTS, **getattr(solver, "OPTIONAL", {})}
 
 
+def odd_list(solver: Solver, name: str, value: tuple[float, ...], bodies: int) -> str:
+    """What is wrong with giving this constant as a list for so many bodies; empty where nothing is."""
+    if name not in getattr(solver, "EACH", ()):
+        return f"reads one number as its {name}, and is given {len(value)}"
+    return f"has {bodies} bodies, and {len(value)} numbers as its {name}" if len(value) != bodies else ""
+
+
+def each(value: Number, bodies: int) -> "np.ndarray":
+    """(n,) a constant for each of so many bodies; one number is that of all."""
+    import numpy as np
+
+    return np.broadcast_to(np.asarray(value, float), bodies).copy()
+
+
+def _list(value: Number) -> tuple[float, ...]:
+    return value if isinstance(value, tuple) else (value,)
+
+
+def _number(value: Any) -> Number:
+    return tuple(map(float, value)) if isinstance(value, list | tuple) else float(value)
+
+
 def check(row: Row) -> Solver:
     """The solver that a row asks for; raises `ProgramError` when there is none, or its constants do not fit."""
     if row.solver not in SEAM.names():
@@ -157,7 +185,10 @@ def check(row: Row) -> Solver:
             raise ProgramError(
                 f"the solver {row.solver} {what} {', '.join(sorted(names))}", "interventions", f"it reads: {needed}"
             )
-    if wild := [name for name, value in row.constants.items() if not math.isfinite(value)]:
+    for name, value in row.constants.items():
+        if isinstance(value, tuple) and (cause := odd_list(solver, name, value, len(row.bodies))):
+            raise ProgramError(f"the solver {row.solver} {cause}", "interventions", "correct that constant")
+    if wild := [name for name, value in row.constants.items() if not all(map(math.isfinite, _list(value)))]:
         cause = f"the constant {wild[0]} of the solver {row.solver} is {row.constants[wild[0]]}"
         raise ProgramError(cause, "interventions", "let it be a finite number")
     return solver

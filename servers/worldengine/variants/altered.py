@@ -16,6 +16,7 @@ Taken away (`--without NAME`):
     gravity, wind, control (everything the program's control writes; laws of the author's own go on, and it is not called)
     force:BODY torque:BODY pose:BODY velocity:BODY mocap:BODY control:ACTUATOR constraint:EQUALITY parameter:OWNER
                     one intervention, as the ledger calls it, is undone each time it is made
+    solver:BODY     force and torque of what steps beside the engine
 
 Made weaker (`--weaken NAME=FACTOR`, 0 < FACTOR):
     body      mass, weight's acceleration, initial and surface speed, and the accelerations its own motors and the
@@ -23,7 +24,7 @@ Made weaker (`--weaken NAME=FACTOR`, 0 < FACTOR):
               `BODY.velocity`, `BODY.weight`
     joint     spring, motors, initial velocity      actuator  its force and what it is asked for
     tendon    spring, damper, motors                gravity, wind
-    force: torque: pose: velocity: mocap: control: parameter:    what is written, times FACTOR
+    force: torque: solver: pose: velocity: mocap: control: parameter:    what is written, times FACTOR
 
 A little otherwise (`--vary friction|masses|start=FACTOR`): see `varied`.
 
@@ -44,6 +45,8 @@ if TYPE_CHECKING:
 
 OBJECTS = ("body", "geom", "joint", "actuator", "equality", "tendon", "flex")
 WORLD = ("gravity", "wind", "control")
+BESIDE = {"solver": ("force", "torque")}
+"""What a law or a solver beside the engine does to a body, as the ledger calls it."""
 WRITES = ("force", "torque", "pose", "velocity", "mocap", "control", "constraint", "parameter")
 ASPECTS = ("mass", "velocity", "weight")
 MOST_NAMES = 40
@@ -152,8 +155,9 @@ def resolve(model: "mujoco.MjModel", name: str, place: str = "") -> list[tuple[s
     if name in WORLD:
         return [(name, -1)]
     kind, colon, target = name.partition(":")
-    if colon and kind in WRITES:
-        return [(f"write {kind}", target)] if _writable(model, kind, target, place) else []
+    if colon and (kind in WRITES or kind in BESIDE):
+        kinds = BESIDE.get(kind, (kind,))
+        return [(f"write {each}", target) for each in kinds if _writable(model, each, target, place)]
     if colon and kind in OBJECTS:
         known = names(model, kind, _count(model, kind))
         if target in known:

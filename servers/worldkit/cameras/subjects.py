@@ -61,13 +61,19 @@ def resolve(model: mujoco.MjModel, names: tuple[str, ...]) -> tuple[int, ...]:
             flex = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_FLEX, name) if number < 0 else -1
             if number < 0 and flex < 0:
                 missing = [n for n in names if not _is_there(model, n)]
-                known = ", ".join((*known_bodies(model), *(model.flex(f).name for f in range(model.nflex)))) or "none"
+                known = ", ".join((*known_bodies(model), *_flexes(model))) or "none"
                 raise ValueError(f"there is no body {', '.join(missing)}; known: {known}")
             numbers += [number] if flex < 0 else _carriers(model, flex)
         return tuple(dict.fromkeys(numbers))
     seen = [b for b in range(1, model.nbody) if len(_geoms(model, b))]
     moving = [b for b in seen if model.body_weldid[b] != 0]
     return tuple(moving or seen)
+
+
+def _flexes(model: mujoco.MjModel) -> list[str]:
+    from ..naming import names
+
+    return names(model, "flex", model.nflex)
 
 
 def _is_there(model: mujoco.MjModel, name: str) -> bool:

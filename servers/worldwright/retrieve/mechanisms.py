@@ -32,7 +32,9 @@ _TABLE = """
     breaking ; break, broke, broken, snap, shatter*, crack, tear, torn, burst, fractur*, collaps* ; breaks, breaks_at, comes_apart ; breakable-things
     figure   ; person, man, woman, child, dancer, gymnast, doll, puppet, walk, acrobat ; ; articulated-figures
     vehicle  ; car, truck, cart, bicycl*, bike, train, wagon, vehicl*, tractor, skateboard* ; ; vehicles
-    force    ; magnet*, attract*, repel*, electr*, planet*, thrust, rocket, charge ; ; custom-forces
+    force    ; attract*, repel*, planet*, thrust, rocket ; ; custom-forces
+    field    ; magnet*, electr*, eddy, charge, charged, copper tube, copper pipe ; has_reading ; fields
+    heat     ; melt*, heat*, warms, cools, temperature, red-hot ; has_reading ; fields
     model    ; urdf, mjcf, humanoid, quadruped ; ; importing-models
 """
 

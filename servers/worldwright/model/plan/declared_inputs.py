@@ -55,6 +55,5 @@ class Intervention(Frozen):
             return {}
         if self.solver.file:
             return {"law": {"name": self.solver.name, "file": self.solver.file, "shown_by": self.solver.shown_by}}
-        named = {own: constants[name].value for own, name in self.solver.constants.items() if name in constants}
-        values = {own: value for own, value in named.items() if not isinstance(value, tuple)}
+        values = {own: constants[name].value for own, name in self.solver.constants.items() if name in constants}
         return {"solver": {"name": self.solver.name, "constants": values, "shown_by": self.solver.shown_by}}

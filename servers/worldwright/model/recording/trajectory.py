@@ -30,6 +30,7 @@ from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
 from .shown_points import ShownPoints
+from .solver_channels import SolverChannels
 from .stills import Lens, Stills
 
 Array = np.ndarray
@@ -86,6 +87,7 @@ class Trajectory:
     """What each of the author's own laws gives and takes."""
     media: ShownPoints = field(default_factory=ShownPoints)
     """Where the points of laws lay."""
+    beside: SolverChannels = field(default_factory=SolverChannels)
     mechanics: Mechanics = field(default_factory=Mechanics)
     meta: Mapping[str, Any] = field(default_factory=dict)
     model: Any = None
@@ -230,7 +232,7 @@ class Trajectory:
             cut["loads"] = self.loads.before(row)
         if self.coordinates is not None:
             cut["coordinates"] = self.coordinates.before(row)
-        made = replace(self, **cut)
+        made = replace(self, **cut, beside=self.beside.before(row))
         made.__dict__[CUT_OF] = (self, row)
         if self.__dict__.get("finite"):
             made.__dict__["finite"] = True  # what is true of all rows is true of the first ones

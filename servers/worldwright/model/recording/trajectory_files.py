@@ -15,6 +15,7 @@ from .loads import Loads
 from .mechanics import Mechanics
 from .records import Contacts, Interventions
 from .shown_points import ShownPoints
+from .solver_channels import SolverChannels
 from .stills import Lens, lenses
 from .trajectory import OPTIONAL_SHAPES, SHAPES, Trajectory
 
@@ -177,6 +178,7 @@ def from_recording(recording: Any) -> Trajectory:
             tendon_length=recording.tendon_length,
             eq_residual=recording.eq_residual,
         ),
+        beside=SolverChannels.of(recording),
         mechanics=mechanics,
         meta=recording.meta,
         time_step=float(recording.time_step),

@@ -1,8 +1,8 @@
 """A solver beside the engine does not exist, or is not given what it reads.
 
 What it does: for each row of `interventions` with a `solver`: compares its name with the solvers that are installed, its
-`constants` with what that solver reads, each with the plan's constant of that name and its unit, its `bodies` with the
-plan's moving objects, and `shown_by` with the objects that are only drawn. A row with a `file` is the author's own law: the file
+`constants` with what that solver reads, each with the plan's constant of that name, its unit and how many numbers it has, its `bodies`
+with the plan's objects (those that move, but of a field or of heat), and `shown_by` with the objects that are only drawn. A row with a `file` is the author's own law: the file
 is called after it, it has no `constants` (they stand in the file), its `bodies` are objects of the plan or `world`, each named once,
 something shows it, and it is the only row of its name. A `container` is an object that stands still, filled to a `level`, and shown.
 
@@ -71,7 +71,23 @@ def _filled(container: str = "ramp", level: str = "level", **ramp: Any) -> dict[
     return {"scene_objects": objects, "simulation_parameters": {"constants": constants, "interventions": [row]}}
 
 
-GOOD: Changes = ({}, _with(), _banded("crate"), _banded("crate", "world"), _filled())
+def _charged(*charges: float, bodies: tuple[str, ...] = ("crate", "ramp")) -> dict[str, Any]:
+    """Charges on a crate and on what stands fast, one of each."""
+    change = _banded("crate")
+    constants = {"charges": {"value": charges, "unit": "C", "source": "the prompt"}}
+    said = {"name": "charges", "constants": {"charge": "charges"}}
+    row = {"kind": "solver", "bodies": bodies, "law": "Coulomb", "source": "constants.charges", "solver": said}
+    return {**change, "simulation_parameters": {"constants": constants, "interventions": [row]}}
+
+
+GOOD: Changes = (
+    {},
+    _with(),
+    _banded("crate"),
+    _banded("crate", "world"),
+    _filled(),
+    _charged(1e-6, -2e-6),
+)
 BAD: Changes = (
     _with(name="tide"),
     _with(constants={}),
@@ -90,6 +106,8 @@ BAD: Changes = (
     _filled("lake"),
     _filled("crate"),
     _filled(level=""),
+    _charged(1e-6, -2e-6, 0.0),
+    _charged(1e-6, -2e-6, bodies=("crate", "whale")),
 )
 
 
@@ -126,7 +144,7 @@ def check(view: PlanView) -> Iterator[Problem]:
 
 
 def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[Problem]:
-    from worldengine.solvers import SEAM, reads
+    from worldengine.solvers import SEAM, odd_list, reads
 
     said, rows = row.solver, view.rows
     assert said is not None
@@ -150,11 +168,16 @@ def _row_problems(view: PlanView, row: Intervention, place: Place) -> Iterator[P
         elif (found := own.get(said.constants[name])) is None:
             what = f"the {name} of `{said.name}` is `{said.constants[name]}`, which is no constant of the plan"
             yield view.at(place, what, f"known: {', '.join(own) or '(none)'}")
-        elif found.unit != read[name][0] or isinstance(found.value, tuple):
+        elif found.unit != read[name][0]:
             what = f"`{said.name}` reads its {name} in {read[name][0]}, and {said.constants[name]} is in {found.unit}"
-            yield view.at(place, what, f"give one number, in {read[name][0]}")
+            yield view.at(place, what, f"give it in {read[name][0]}")
+        elif isinstance(found.value, tuple) and (
+            odd := odd_list(SEAM.find(said.name), name, found.value, len(row.bodies))
+        ):
+            yield view.at(place, f"`{said.name}` {odd}", "give one number, or where it reads that one for each body")
+    standing = getattr(SEAM.find(said.name), "STANDING", False)
     for body in row.bodies:
-        if body not in rows or not view.moves(rows[body]):
+        if body not in rows or not (standing or view.moves(rows[body])):
             yield view.at(place, f"`{said.name}` acts on `{body}`, which does not move", "name objects that can move")
     if said.container:
         yield from _container_problems(view, said, place)
