@@ -64,7 +64,10 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     except Exception as error:
-        report_failure(error, "", None, options.out)
+        if (
+            options.share is None
+        ):  # else the process that asked draws what this one could not, and tells why if it cannot
+            report_failure(error, "", None, options.out)
         return 1
     return 0
 
@@ -74,6 +77,13 @@ def _size(text: str) -> tuple[int, int]:
     if not (16 <= width <= 8192 and 16 <= height <= 8192):
         raise ValueError(text)
     return width, height
+
+
+def _share(text: str) -> tuple[int, int]:
+    number, count = (int(part) for part in text.split("/"))
+    if not 0 <= number < count:
+        raise ValueError(text)
+    return number, count
 
 
 def _point(text: str) -> tuple[float, float, float]:
@@ -114,7 +124,10 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--reuse", action="append", default=[], type=Path, help="an earlier pass that may hold the same"
     )
+    parser.add_argument("--share", type=_share, help="K/N: only every N-th frame of the film, from K on (video)")
+    parser.add_argument("--to", type=int, help="descriptor that such frames are written to")
     options = parser.parse_args(argv)
+    options.words = list(sys.argv[1:] if argv is None else argv)
     options.at = options.at or [0.0]
     if options.run == "final" and options.film is None:
         parser.error("the final pass draws a film: name the folder of its description with --film")

@@ -51,6 +51,9 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     same = fingerprint(model) == recording.meta["model"]["fingerprint"]
     started = time.perf_counter()
     film = None if options.film is None else described.read(options.film, recording, lights.of(model))
+    if options.share and film is not None:
+        draw_share(model, recording, film, given, options)
+        return
     if options.run == "frame":
         summary = frame(model, recording, film, given, options)
     elif options.run == "still":
@@ -237,7 +240,11 @@ def directed(
     name = f"{FILM}.mp4"
     known = Known(model, recording, {"quality": "film", "size": given.size, "fps": given.fps}, options.reuse)
     earlier = known.film(options.film, name, options.out)
-    told = earlier["film"] if earlier else screen(model, recording, film, given, options.out, tick)
+    told = (
+        earlier["film"]
+        if earlier
+        else screen(model, recording, film, given, options.out, tick, getattr(options, "words", ()))
+    )
     return {"film": told, "drawn": 0 if earlier else film.frames, **known.told(told["renderer"])}
 
 
@@ -248,22 +255,43 @@ def screen(
     given: "Given",
     out: Path,
     tick: Callable[[int], object],
+    words: Sequence[str] = (),
 ) -> dict[str, Any]:
-    """Draw `film.mp4`, the recording as the film's author shows it; returns its entry for the result."""
+    """Draw `film.mp4`, the recording as the film's author shows it; returns its entry for the result.
+
+    With the `words` of this process's own command line, other processes draw a part of it.
+    """
     from .directed import Screening
+    from .side_by_side import Drawn, Others
 
     with (
         Screening(given.world, model, recording, film, given.size, given.fps) as screening,
+        Others(words, film.frames, given.size, screening.frames.renderer) as others,
         Video(out / f"{FILM}.mp4", *given.size, given.fps) as film_file,
     ):
         hidden: Counter[str] = Counter()
         for number in range(film.frames):
-            film_file.add(screening.picture(number))
-            hidden.update(screening.hidden())
+            drawn = others.take(number) or Drawn(screening.picture(number), screening.hidden())
+            film_file.add(drawn.picture)
+            hidden.update(drawn.hidden)
             tick(number + 1)
         renderer = screening.frames.told()
     said = {"frames": film.frames, "seconds": film.frames / given.fps, "renderer": renderer, **film.told(given.fps)}
     return said | {"hidden": {what: round(count / given.fps, 3) for what, count in sorted(hidden.items())}}
+
+
+def draw_share(
+    model: "mujoco.MjModel", recording: "Recording", film: "Described", given: "Given", options: argparse.Namespace
+) -> None:
+    """Draw a share of a film for the process that asked for it (`side_by_side`)."""
+    from .directed import Screening
+    from .side_by_side import share
+
+    with (
+        Screening(given.world, model, recording, film, given.size, given.fps) as screening,
+        os.fdopen(options.to, "wb") as pipe,
+    ):
+        share(screening, *options.share, pipe)
 
 
 def frame(

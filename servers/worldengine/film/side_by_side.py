@@ -13,6 +13,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Sequence
+from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, BinaryIO, NamedTuple
 
@@ -23,8 +24,8 @@ if TYPE_CHECKING:
 
 LEAST_FRAMES = 36
 """A process is worth its start, of some seconds, for so many frames of its own."""
-MOST = 4
-"""So many at most: each holds the world, its meshes and its textures, half a gigabyte."""
+MOST, MOST_BYTES = 4, 3 << 30
+"""So many at most, and no more than have room together: each holds the world, its meshes and its textures."""
 AHEAD = 2
 """Frames that another process may have ready."""
 HEAD = struct.Struct("<II")
@@ -39,9 +40,18 @@ class Drawn(NamedTuple):
     hidden: list[str]
 
 
-def processes(frames: int) -> int:
-    """How many processes draw a film of so many frames on this machine."""
-    return max(1, min(MOST, len(os.sched_getaffinity(0)), frames // LEAST_FRAMES))
+def processes(frames: int, each_bytes: int) -> int:
+    """How many processes draw a film of so many frames on this machine, each as large as this one is."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return max(1, min(MOST, cores, frames // LEAST_FRAMES, MOST_BYTES // max(each_bytes, 1)))
+
+
+def _resident_bytes() -> int:
+    """The memory that this process holds; where nobody tells, so much that it stays alone."""
+    try:
+        return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * os.sysconf("SC_PAGE_SIZE")
+    except OSError:
+        return MOST_BYTES
 
 
 class Others:
@@ -55,7 +65,7 @@ class Others:
     """
 
     def __init__(self, words: Sequence[str], frames: int, size: tuple[int, int], renderer: str) -> None:
-        self.count = processes(frames) if words else 1
+        self.count = processes(frames, _resident_bytes()) if words else 1
         self._size, self._renderer = size, renderer
         self._hands: list[_Hand] = []
         with contextlib.suppress(OSError):  # a sandbox that lets nothing more be born: then this one draws all
