@@ -122,7 +122,7 @@ def each(
 
     The stage is set once for all of a size, that of the film apart. `drawn` has the places of those that were drawn, from 0.
     """
-    until, drawn = time.perf_counter() + options.within, []
+    until, drawn = time.perf_counter() + options.within, list[int]()
     stages: dict[tuple[bool, tuple[int, int]], list[int]] = {}
     for place, (size, _, camera) in enumerate(options.seen):
         stages.setdefault((camera == FILM, size), []).append(place)
@@ -169,17 +169,15 @@ def _seen(
     from worldkit import cameras
 
     from .drawn_frames import Frames
-    from .passes import choose_cameras
 
     replay = Replay(model, recording)
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     frames = stack.enter_context(Frames(model, *size))
 
     def draw(at_s: float, camera: str) -> "np.ndarray":
-        (name,) = choose_cameras(model, [camera])
         data = replay.show(_row(recording, at_s))
         cameras.track(model, data)
-        return frames.image(data, name, "video")
+        return frames.image(data, camera, "video")
 
     return draw
 

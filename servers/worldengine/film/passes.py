@@ -277,6 +277,8 @@ def frame(
     from . import chosen_frames
 
     if options.seen:
+        if planned := [camera for *_, camera in options.seen if film is None or camera != FILM]:
+            choose_cameras(model, planned)
         return chosen_frames.each(model, recording, film, given, options)
     if film is not None and not options.cameras and options.eye is None:
         return chosen_frames.of_film(model, recording, film, given, options)
