@@ -8,6 +8,7 @@ in DIR, or `error.json` with exit status 1, and `progress.json` on the way.
 """
 
 import argparse
+import math
 import os
 import sys
 from collections.abc import Sequence
@@ -91,6 +92,11 @@ def _point(text: str) -> tuple[float, float, float]:
     return x, y, z
 
 
+def _seen(text: str) -> tuple[tuple[int, int], float, str]:
+    size, at_s, camera = text.split(":", 2)
+    return _size(size), float(at_s), camera
+
+
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m worldengine", description="Own a world while it runs.")
     parser.add_argument("run", choices=PASSES)
@@ -108,6 +114,16 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--minutes", type=float, default=5.0, help="time for drawing (final)")
     parser.add_argument("--at", type=float, action="append", help="seconds of the film, or of the recording (frame)")
     parser.add_argument("--shots", action="store_true", help="three moments of every shot of the film (frame)")
+    parser.add_argument(
+        "--seen",
+        action="append",
+        default=[],
+        type=_seen,
+        help="one of several pictures: WIDTHxHEIGHT:SECONDS:CAMERA, the camera `film` for the film's own (frame)",
+    )
+    parser.add_argument(
+        "--within", type=float, default=math.inf, help="no further picture is begun after so many s (--seen)"
+    )
     parser.add_argument("--samples", type=float, help="paths a pixel, by the final pass's renderer (frame)")
     parser.add_argument("--size", type=_size, help="WIDTHxHEIGHT in pixels (frame, sheet)")
     parser.add_argument("--eye", type=_point, help="where an unplanned camera stands: X,Y,Z in m (frame)")

@@ -186,7 +186,7 @@ def _checked(text: str, name: str) -> None:
 def _found(file: str, child: "mujoco.MjSpec", name: str, folder: str) -> Path:
     """A file of a model in the catalog."""
     from .assets.catalog import take
-    from .assets.root import catalog_root
+    from .data_folders import catalog_root
 
     home = (catalog_root() / folder).resolve()
     stem = file.removeprefix("package://")

@@ -9,7 +9,6 @@ import importlib
 import importlib.util
 import pkgutil
 from functools import cache
-from importlib.metadata import entry_points
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar, cast
@@ -90,4 +89,6 @@ class Seam(Generic[P]):
 @cache
 def _foreign(package: str) -> dict[str, str]:
     """Modules of third parties by name: a running process has one installation."""
+    from importlib.metadata import entry_points  # half of what a pass would otherwise load before the simulator
+
     return {point.name: point.value for point in entry_points(group=package)}

@@ -1,11 +1,13 @@
 """A film shows the recording: its bodies stand where they stood, and what it may not do it is refused."""
 
+import math
 import shutil
 from argparse import Namespace
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 
+import cv2
 import mujoco
 import numpy as np
 import pytest
@@ -122,6 +124,39 @@ def test_every_shot_is_seen_on_one_sheet_and_several_moments_in_one_call(made, t
     )
     assert [row["film_s"] for row in chosen["moments"]] == pytest.approx([7 / 24, 2 / 24])
     assert {"frame.png", "frame-2.png"} <= {path.name for path in tmp_path.iterdir()}
+
+
+@pytest.mark.gl
+def test_pictures_of_several_cameras_and_sizes_come_from_one_process_as_from_their_own(made, tmp_path):
+    film = made.film(two_shots)
+    given = SimpleNamespace(
+        world=made.folder / "world.mjz",
+        model=lambda: portable.read(made.folder / "world.mjz"),
+        size=SIZE,
+        fps=24,
+        movers=("first", "second"),
+    )
+    seen = [((64, 36), 0.1, "side"), (SIZE, 0.3, "film"), ((32, 18), 0.0, "side"), ((64, 36), 0.4, "side")]
+    told = chosen_frames.each(
+        made.plain, made.recording, film, given, Namespace(out=tmp_path, seen=seen, within=math.inf)
+    )
+    assert told["drawn"] == [0, 3, 1, 2] and told["cameras"] == ["side", "film"]
+    drawn = [cv2.imread(str(tmp_path / chosen_frames.picture_name(place))) for place in range(len(seen))]
+    assert [picture.shape[1::-1] for picture in drawn] == [size for size, *_ in seen]
+    assert np.abs(drawn[0].astype(int) - drawn[3]).max() > 40, "the balls fell on"
+
+    alone = tmp_path / "alone"
+    alone.mkdir()
+    options = Namespace(out=alone, size=None, shots=False, at=[0.3], samples=None)
+    chosen_frames.of_film(made.plain, made.recording, film, given, options)
+    assert np.array_equal(cv2.imread(str(alone / "frame.png")), drawn[1])
+    options = Namespace(out=alone, size=(64, 36), at=[0.4], samples=None, eye=None)
+    chosen_frames.through_a_camera(made.plain, made.recording, "side", given, options)
+    apart = np.abs(cv2.imread(str(alone / "frame.png")).astype(int) - drawn[3])
+    assert apart.mean() < 0.5 < np.abs(drawn[0].astype(int) - drawn[3]).mean(), "the moment that was asked for"
+
+    late = chosen_frames.each(made.plain, made.recording, None, given, Namespace(out=tmp_path, seen=seen, within=-1.0))
+    assert late["drawn"] == [0], "the first is drawn however late it is"
 
 
 def looking(film, until=0.4):

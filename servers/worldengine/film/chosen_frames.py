@@ -4,6 +4,8 @@ for on one sheet. The stage is set once for all of them, which takes longer than
 import argparse
 import math
 import time
+from collections.abc import Callable
+from contextlib import ExitStack
 from typing import TYPE_CHECKING, Any
 
 from worldkit.files import write_atomic
@@ -16,6 +18,7 @@ from .renderers import FINAL, Quality
 
 if TYPE_CHECKING:
     import mujoco
+    import numpy as np
 
     from ..given import Given
     from ..recording.stored import Recording
@@ -94,7 +97,7 @@ def through_a_camera(
     rows = []
     with Frames(model, size[0], size[1], renderer) as frames:
         for done, at in enumerate(options.at):
-            row = int(abs(recording.time - recording.time[0] - at).argmin())
+            row = _row(recording, at)
             data = replay.show(row)
             cameras.track(model, data)
             if options.eye is not None:
@@ -106,6 +109,82 @@ def through_a_camera(
         said = frames.told()
     seen_by = name if options.eye is None else FREE
     return {"cameras": [seen_by], "size": list(size), "renderer": said, **rows[0], "moments": rows}
+
+
+def each(
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    film: "Described | None",
+    given: "Given",
+    options: argparse.Namespace,
+) -> dict[str, Any]:
+    """Draw the pictures `options.seen`, of one size, moment and camera each; none is begun after `options.within` s but the first.
+
+    The stage is set once for all of a size, that of the film apart. `drawn` has the places of those that were drawn, from 0.
+    """
+    until, drawn = time.perf_counter() + options.within, list[int]()
+    stages: dict[tuple[bool, tuple[int, int]], list[int]] = {}
+    for place, (size, _, camera) in enumerate(options.seen):
+        stages.setdefault((camera == FILM, size), []).append(place)
+    for (filmed, size), places in stages.items():
+        if drawn:
+            if time.perf_counter() > until:
+                break
+            model = given.model()  # cameras of another shape are aimed anew, as in a process of their own
+        with ExitStack() as stack:
+            draw = (
+                _screened(stack, model, recording, film, given, size)
+                if film is not None and filmed
+                else _seen(stack, model, recording, size)
+            )
+            for place in places:
+                if drawn and time.perf_counter() > until:
+                    break
+                _, at_s, camera = options.seen[place]
+                write_png(options.out / picture_name(place), draw(at_s, camera))
+                drawn.append(place)
+    return {"cameras": list(dict.fromkeys(options.seen[place][2] for place in drawn)), "drawn": drawn}
+
+
+def _screened(
+    stack: ExitStack,
+    model: "mujoco.MjModel",
+    recording: "Recording",
+    film: "Described",
+    given: "Given",
+    size: tuple[int, int],
+) -> "Callable[[float, str], np.ndarray]":
+    """What draws the film's frame at a moment of it, s."""
+    from .directed import Screening
+
+    screening = stack.enter_context(Screening(given.world, model, recording, film, size, given.fps))
+    screening.alone = True
+    return lambda at_s, _: screening.picture(_frame(at_s, film, given.fps))
+
+
+def _seen(
+    stack: ExitStack, model: "mujoco.MjModel", recording: "Recording", size: tuple[int, int]
+) -> "Callable[[float, str], np.ndarray]":
+    """What draws a recorded moment, s, through a camera of the plan."""
+    from worldkit import cameras
+
+    from .drawn_frames import Frames
+
+    replay = Replay(model, recording)
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
+    frames = stack.enter_context(Frames(model, *size))
+
+    def draw(at_s: float, camera: str) -> "np.ndarray":
+        data = replay.show(_row(recording, at_s))
+        cameras.track(model, data)
+        return frames.image(data, camera, "video")
+
+    return draw
+
+
+def _row(recording: "Recording", at_s: float) -> int:
+    """The recorded row nearest to a moment, s."""
+    return int(abs(recording.time - recording.time[0] - at_s).argmin())
 
 
 def free(model: "mujoco.MjModel", data: "mujoco.MjData", name: str, options: argparse.Namespace) -> None:

@@ -301,9 +301,13 @@ def frame(
     given: "Given",
     options: argparse.Namespace,
 ) -> dict[str, Any]:
-    """Draw the moments `options.at`, s, of the film, or of the recording through a camera; see `chosen_frames`."""
+    """Draw the moments `options.at`, s, of the film, or of the recording through a camera, or `options.seen`; see `chosen_frames`."""
     from . import chosen_frames
 
+    if options.seen:
+        if planned := [camera for *_, camera in options.seen if film is None or camera != FILM]:
+            choose_cameras(model, planned)
+        return chosen_frames.each(model, recording, film, given, options)
     if film is not None and not options.cameras and options.eye is None:
         return chosen_frames.of_film(model, recording, film, given, options)
     name = choose_cameras(model, options.cameras)[0]

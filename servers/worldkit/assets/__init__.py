@@ -11,11 +11,11 @@ plane at `z`, put its centre at `z + h / 2`. To rest something inside or on anot
 the supporting plane is at `other_z - other_h / 2 + other.support(name, height=other_h).z`.
 """
 
+from ..data_folders import catalog_root, own_root, relative
 from .catalog import UnknownAssetError, entries, files, find, keys
 from .entry import Asset, Piece, Support
 from .instance import add
 from .reading import AssetError
-from .root import catalog_root, own_root, relative
 
 __all__ = [
     "Asset",

@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from functools import lru_cache
 from pathlib import Path
 
+from ..data_folders import catalog_root
 from .entry import Asset
 from .reading import AssetError
-from .root import catalog_root
 from .sources import SEAM
 
 OWN = "own_folder"

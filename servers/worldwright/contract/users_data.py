@@ -2,7 +2,7 @@
 
 It holds the key that signs what is accepted here, the list of the keys that the person calls known, the proofs under way and
 what the sandbox's probe found: whoever writes there says what is proved. Only the standard library is imported, for the guard
-and the shells that it starts; `worldkit.assets.root` says the same of the folder to the rest of the suite.
+and the shells that it starts; `worldkit.data_folders` says the same of the folder to the rest of the suite.
 """
 
 from __future__ import annotations

@@ -5,7 +5,7 @@ from typing import Annotated
 import click
 from pydantic import Field
 
-from worldkit.assets.root import own_root
+from worldkit.data_folders import own_root
 
 from ..adding_assets import add_asset
 from ..cli import verb

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from worldkit import assets
 from worldkit.assets.reading import AssetError, read_asset
-from worldkit.assets.root import data_root
+from worldkit.data_folders import data_root
 from worldkit.files import write_atomic
 
 from ..model.errors import WorldwrightError

@@ -116,9 +116,9 @@ SOURCE = '''"""AUTHOR: whose assets these are, in one sentence, and what lies wh
 
 from pathlib import Path
 
+from ...data_folders import catalog_root
 from ..entry import Asset
 from ..reading import AssetError
-from ..root import catalog_root
 
 
 def keys() -> tuple[str, ...]:

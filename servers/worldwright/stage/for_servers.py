@@ -145,6 +145,16 @@ def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]
     return draw(run, run.evidence_key(environment.current().sha256()), at_s, camera, size).pictures[0].data
 
 
+def draw_moments(
+    run: Run, wanted: "Sequence[tuple[float, str, tuple[int, int]]]", within_s: float
+) -> "list[bytes | None]":
+    """For other servers (no tool): moments through cameras as PNG, in one process; see `stage.one_frame.each`."""
+    from ..model.evidence import environment
+    from .one_frame import each
+
+    return each(run, run.evidence_key(environment.current().sha256()), wanted, within_s)
+
+
 def look_at_start(run: Run, camera: str | None, eye: str | None, target: str | None, fov_deg: float) -> "Illustrated":
     """For another command (no tool): the world as it would start, unrecorded; see `stage.first_look.at_start`."""
     from .first_look import at_start

@@ -1,5 +1,6 @@
 """Draw moments of a run at once, of its author's film or through any camera, or three of every shot; no picture is kept."""
 
+import math
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +17,7 @@ from ..model.picture import Illustrated, Picture
 from . import authoring, gates, plain
 from .kept_sculpts import given
 from .pictures import BUDGET_BYTES, Shown, jpeg
-from .short_runs import engine, run_process
+from .short_runs import WALL_S, engine, run_process
 
 SIZE, SHOT_WIDTH = (640, 360), 432
 """Of a moment, and across each on a sheet of shots, pixels."""
@@ -65,6 +66,34 @@ def draw(
         share = BUDGET_BYTES // len(pictures)
         pictures = [Picture(_smaller(one.data, share), one.caption, "jpeg") for one in pictures]
     return Illustrated(Shown(cameras=tuple(said["cameras"]), captions=tuple(lines)), tuple(pictures))
+
+
+def each(
+    run: Run, key: EvidenceKey, wanted: Sequence[tuple[float, str, tuple[int, int]]], within_s: float = math.inf
+) -> list[bytes | None]:
+    """Draw pictures of many cameras in one process: PNG of each, None of those that would have begun after `within_s` seconds.
+
+    Args:
+        run: the run with its program and plan, and its film if it has one.
+        key: the hashes of the recording.
+        wanted: of each its moment, s (of the film for its own camera, `film`, else of the recording), its camera and its size, pixels.
+        within_s: the first one is drawn all the same.
+
+    Raises:
+        GateError: nothing is recorded of this program and plan.
+        JobError: one of them cannot be drawn, or the film cannot be described; nothing is drawn then.
+        NotFoundError: too many pictures.
+    """
+    if not 0 < len(wanted) <= MOST_MOMENTS:
+        raise NotFoundError(f"{len(wanted)} pictures cannot be drawn at once", next_move=f"name 1 to {MOST_MOMENTS}")
+    words = [] if within_s == math.inf else ["--within", str(within_s)]
+    for at_s, camera, (width, height) in wanted:
+        words += ["--seen", f"{width}x{height}:{float(at_s)}:{camera}"]
+    filmed = any(camera == FILM for _, camera, _ in wanted)
+    limits = {"wall_s": WALL_S * len(wanted)}
+    found = draw_frame(run, recorded(run, key), (), SIZE, filmed, words, words, (FRAME[:-4] + "*.png",), **limits)
+    names = [FRAME, *(f"frame-{number}.png" for number in range(2, len(wanted) + 1))]
+    return [found.get(name) for name in names]
 
 
 def shots(run: Run, key: EvidenceKey) -> Illustrated:
@@ -131,6 +160,7 @@ def draw_frame(
     through: Sequence[str],
     more: Sequence[str] = (),
     wanted: Sequence[str] = (FRAME, "frame-*.png"),
+    **limits: float,
 ) -> dict[str, Any]:
     """What the engine tells and leaves (`FRAME`, `frame-2.png` …) of moments of the film where it is `filmed`, else `through` a camera.
 
@@ -143,6 +173,7 @@ def draw_frame(
         through: the engine's words for a camera; the first of the plan when empty.
         more: further words for the engine, of a film.
         wanted: names of what the engine must leave, or patterns of what it may.
+        limits: of the process, if they are not the usual ones; see `short_runs`.
     """
     moments = [at_s] if isinstance(at_s, int | float) else at_s
     with tempfile.TemporaryDirectory(prefix="worldwright-frame-") as folder:
@@ -150,7 +181,7 @@ def draw_frame(
         words = ["frame", *given_words(physics), "--size", f"{size[0]}x{size[1]}"]
         words += [word for at in moments for word in ("--at", str(float(at)))]
         words += ["--film", str(told[0]), *more] if told else through
-        return engine(words, (physics, *told), wanted)
+        return engine(words, (physics, *told), wanted, **limits)
 
 
 def recorded(run: Run, key: EvidenceKey) -> Path:

@@ -15,7 +15,7 @@ from ..model.progress import Progress, silent
 from .disk import Disk, used
 from .for_servers import (
     declared_inputs,
-    draw_moment,
+    draw_moments,
     free_earlier,
     latest,
     look_at_start,
@@ -37,7 +37,7 @@ from .job import Job, JobStatus
 __all__ = [
     "TOOLS",
     "declared_inputs",
-    "draw_moment",
+    "draw_moments",
     "free_earlier",
     "latest",
     "look_at_start",

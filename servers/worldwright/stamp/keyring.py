@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
-from worldkit.assets.root import data_root
+from worldkit.data_folders import data_root
 from worldkit.files import write_atomic
 
 from ..model.storage import writing

@@ -9,7 +9,8 @@ import json
 import math
 import random
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -29,7 +30,9 @@ if TYPE_CHECKING:
 
 PICTURES = (".png", ".mp4", ".webp")
 FRAMES = 2
-"""Frames of each film that are drawn again; each takes about a second."""
+"""Frames of each film that are drawn again."""
+AT_ONCE = 12
+"""Pictures that one process draws: to begin one costs more than most pictures."""
 GLANCE_S = 20.0
 """For so long an acceptance begins to look at further pictures, s."""
 CELLS = (32, 18)
@@ -38,17 +41,50 @@ APART = 40.0
 """Of 255: how far one cell may differ. Honest pictures stay below 10 (33 at 160 pixels); a body painted in or out exceeds it."""
 
 
+@dataclass(frozen=True)
+class Shown:
+    """What a stamped picture shows, and of which moment through which camera it says it is."""
+
+    name: str
+    """The file's."""
+    what: str
+    """The picture, for a sentence about it."""
+    cells: "np.ndarray"
+    size: tuple[int, int]
+    """Pixels."""
+    at_s: float
+    camera: str
+
+    @classmethod
+    def of(cls, picture: "np.ndarray", name: str, what: str, at_s: float, camera: str) -> "Shown":
+        """A picture as it was read, uint8 (height, width, 3)."""
+        return cls(name, what, _mosaic(picture), (picture.shape[1], picture.shape[0]), at_s, camera)
+
+    def against(self, drawn: bytes) -> str:
+        """How the picture drawn again, an encoded one, contradicts it; empty where it does not."""
+        import cv2
+        import numpy as np
+
+        now = cv2.imdecode(np.frombuffer(drawn, np.uint8), cv2.IMREAD_COLOR)
+        apart = 255.0 if now is None else np.abs(self.cells - _mosaic(now)).max()
+        if apart <= APART:
+            return ""
+        return f"{self.what} does not show this world: a part of it differs by {apart:.0f} of 255 from the picture drawn again"
+
+
 def differ(folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
     """A sentence for each stamped picture in `folder` that another picture of the proof run's recording contradicts."""
     _film_of(folder, proved.run)
     taken = [
         s.name for s in statement.subject if s.name not in handed_in.NAMES
     ]  # of `video/handed_in.mp4` the camera is so called
+    found: list[Shown | str] = []
     for path in (folder / name for name in taken if (folder / name).is_file()):
         if path.name == poster.NAME:
-            yield from _told(path, lambda path: _poster(path, folder, statement, proved))
+            found += _told(path, lambda path: _poster(path, folder, statement, proved))
         else:
-            yield from _drawn(path, proved, FRAMES)
+            found += _shown(path, proved, FRAMES)
+    yield from _compared(found, proved.run)
 
 
 def glance(folder: Path, proved: Proved, within_s: float = GLANCE_S) -> Iterator[str]:
@@ -58,11 +94,12 @@ def glance(folder: Path, proved: Proved, within_s: float = GLANCE_S) -> Iterator
     _film_of(folder, proved.run)
     paths = [*(folder / "stills").glob("*.png"), *(folder / "video").glob("*.mp4")]
     random.SystemRandom().shuffle(paths)
-    began = time.monotonic()
+    until, found = time.monotonic() + within_s, list[Shown | str]()
     for path in paths:
-        yield from _drawn(path, proved, 1)
-        if time.monotonic() - began > within_s:
-            return
+        if found and time.monotonic() > until:
+            break
+        found += _shown(path, proved, 1)
+    yield from _compared(found, proved.run, until)
 
 
 def _film_of(folder: Path, run: Run) -> None:
@@ -71,15 +108,15 @@ def _film_of(folder: Path, run: Run) -> None:
         write_atomic(run.folder / name, content)
 
 
-def _drawn(path: Path, proved: Proved, frames: int) -> Iterator[str]:
-    """Compare a still, or so many frames of a film; other files are no pictures."""
+def _shown(path: Path, proved: Proved, frames: int) -> "Iterator[Shown | str]":
+    """What a still shows, or so many frames of a film, or why it shows nothing; other files are no pictures."""
     if path.suffix == ".png" and path.parent.name == "stills":
-        yield from _told(path, lambda path: _picture(path, proved.run, 0.0, path.stem))
+        yield from _told(path, lambda path: _picture(path, 0.0, path.stem))
     elif path.suffix == ".mp4":
         yield from _told(path, lambda path: _film(path, proved, frames))
 
 
-def _told(path: Path, look: Callable[[Path], Iterator[str]]) -> Iterator[str]:
+def _told(path: Path, look: "Callable[[Path], Iterator[Shown | str]]") -> "Iterator[Shown | str]":
     try:
         yield from look(path)
     except CallOverError:
@@ -88,13 +125,13 @@ def _told(path: Path, look: Callable[[Path], Iterator[str]]) -> Iterator[str]:
         yield f"{path.name} cannot be drawn again: {error}"
 
 
-def _poster(path: Path, folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
-    """Compare it with the author's film, or else with the plan's first camera, at the moment that `poster` takes."""
+def _poster(path: Path, folder: Path, statement: Statement, proved: Proved) -> "Iterator[Shown | str]":
+    """It is to show what the author's film does, or else the plan's first camera, at the moment that `poster` takes."""
     names = [Path(s.name) for s in statement.subject if s.name not in handed_in.NAMES]
     films = {name.stem for name in names if name.suffix == ".mp4"}
     drawn = films or {name.stem for name in names if name.suffix == ".png"}
-    run, filmed = proved.run, statement.predicate.film
-    cameras = [c.name for c in read_plan(run.plan).plan.cameras() if c.name in drawn]
+    filmed = statement.predicate.film
+    cameras = [c.name for c in read_plan(proved.run.plan).plan.cameras() if c.name in drawn]
     cameras = [poster.FILM, *cameras] if poster.FILM in films else cameras
     if not cameras:
         return
@@ -102,17 +139,18 @@ def _poster(path: Path, folder: Path, statement: Statement, proved: Proved) -> I
     if cameras[0] == poster.FILM:
         at_s = poster.filmed(filmed.shots if filmed else (), at_s)
     fps = _fps(proved)
-    yield from _picture(path, run, math.ceil(at_s * fps - 1e-6) / fps, cameras[0])
+    yield from _picture(path, math.ceil(at_s * fps - 1e-6) / fps, cameras[0])
 
 
-def _picture(path: Path, run: Run, at_s: float, camera: str) -> Iterator[str]:
+def _picture(path: Path, at_s: float, camera: str) -> "Iterator[Shown | str]":
     import cv2
 
-    yield from _compared(path.name, cv2.imread(str(path)), run, at_s, camera)
+    picture = cv2.imread(str(path))
+    yield f"{path.name} is no picture" if picture is None else Shown.of(picture, path.name, path.name, at_s, camera)
 
 
-def _film(path: Path, proved: Proved, frames: int = FRAMES) -> Iterator[str]:
-    """Compare frames by chance; refuse a film whose frames are not, one after the other, as many as it says and should be."""
+def _film(path: Path, proved: Proved, frames: int = FRAMES) -> "Iterator[Shown | str]":
+    """Frames by chance; refuse a film whose frames are not, one after the other, as many as it says and should be."""
     import av
 
     try:
@@ -136,7 +174,7 @@ def _film(path: Path, proved: Proved, frames: int = FRAMES) -> Iterator[str]:
         return
     for number, shown in sorted(taken.items()):
         at_s = number / fps
-        yield from _compared(f"{path.name} at {at_s:.2f} s", shown, proved.run, at_s, path.stem)
+        yield Shown.of(shown, path.name, f"{path.name} at {at_s:.2f} s", at_s, path.stem)
 
 
 def _paced(path: Path, proved: Proved, fps: float, said: int) -> str:
@@ -161,21 +199,33 @@ def _fps(proved: Proved) -> int:
     return int(json.loads((proved.recording.parent / "program.json").read_bytes())["fps"])
 
 
-def _compared(what: str, shown: "np.ndarray | None", run: Run, at_s: float, camera: str) -> Iterator[str]:
-    import cv2
-    import numpy as np
+def _compared(found: "Sequence[Shown | str]", run: Run, until: float = math.inf) -> Iterator[str]:
+    """The sentences among what was found, and one for each picture that another one contradicts, in their order."""
+    shown = [one for one in found if isinstance(one, Shown)]
+    apart = iter(_apart(shown, run, until))
+    yield from filter(None, (one if isinstance(one, str) else next(apart) for one in found))
 
+
+def _apart(shown: "Sequence[Shown]", run: Run, until: float, at_once: int = AT_ONCE) -> list[str]:
+    """What contradicts each picture; empty where nothing does, and of those that would be begun after `until`, but the first."""
     from ..stage import tools as stage
 
-    if shown is None:
-        yield f"{what} is no picture"
-        return
-    height, width = shown.shape[:2]
-    drawn = stage.draw_moment(run, at_s, camera, (width, height))
-    now = cv2.imdecode(np.frombuffer(drawn, np.uint8), cv2.IMREAD_COLOR)
-    apart = 255.0 if now is None else np.abs(_mosaic(shown) - _mosaic(now)).max()
-    if apart > APART:
-        yield f"{what} does not show this world: a part of it differs by {apart:.0f} of 255 from the picture drawn again"
+    said: list[str] = []
+    for first in range(0, len(shown), at_once):
+        left_s = until - time.monotonic()
+        if said and left_s < 0:
+            break
+        some = shown[first : first + at_once]
+        try:
+            drawn = stage.draw_moments(run, [(one.at_s, one.camera, one.size) for one in some], max(left_s, 0.0))
+        except CallOverError:
+            raise  # it tells nothing of the pictures
+        except WorldwrightError as error:
+            alone = len(some) == 1  # else each is drawn for itself, which tells whose fault it is
+            said += [f"{some[0].name} cannot be drawn again: {error}"] if alone else _apart(some, run, until, 1)
+        else:
+            said += ["" if data is None else one.against(data) for one, data in zip(some, drawn, strict=True)]
+    return [*said, *[""] * (len(shown) - len(said))]
 
 
 def _mosaic(picture: "np.ndarray") -> "np.ndarray":

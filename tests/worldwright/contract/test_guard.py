@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from worldkit.assets import root
+from worldkit import data_folders
 from worldwright.contract import guard, harnesses, users_data
 from worldwright.contract.roles import ROLES, SUITE
 from worldwright.stamp import keyring
@@ -305,7 +305,7 @@ def test_the_guard_means_the_data_folder_that_the_suite_means(tmp_path, monkeypa
         monkeypatch.setenv(named, value)
         assert users_data.folder() == keyring.folder().resolve()
     assert users_data.KEY == keyring.OWN and REPO / users_data.KNOWN_HERE == keyring.SHIPPED
-    assert users_data.folder() / users_data.ASSETS == root.own_root().resolve()
+    assert users_data.folder() / users_data.ASSETS == data_folders.own_root().resolve()
     assert CLAUDE["denyRead"] == ["~/.local/share/worldwright/" + keyring.OWN]
 
 

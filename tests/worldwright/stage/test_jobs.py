@@ -280,7 +280,9 @@ def test_unknown_runs_jobs_and_levels_list_the_known(make, monkeypatch):
 
 
 def test_a_supervisor_starts_without_what_reads_plans_and_assets():
-    """Every pass pays for its start, and most of them never ask what the plan or an asset says."""
+    """Every pass pays for its start, and most of them never ask what the plan or an asset says, only where assets lie."""
     unused = ("worldwright.model.plan", "worldkit.assets", "yaml", "numpy")
-    code = f"import sys, worldwright.stage.supervisor; print([m for m in sys.modules if m.startswith({unused})])"
+    code = "import sys, worldwright.stage.supervisor\nfrom worldwright.stage.sandbox import confinement\n"
+    code += "confinement.runtime_paths(), confinement.environment('/tmp')\n"
+    code += f"print([m for m in sys.modules if m.startswith({unused})])"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "[]\n"

@@ -17,9 +17,9 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from ...data_folders import catalog_root
 from ..entry import Asset, Piece
 from ..reading import CONTACT, AssetError
-from ..root import catalog_root
 
 FOLDER = "meshes"
 NEEDED = ("description", "category", "source", "licence", "height", "friction")

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
+from ...data_folders import own_root
 from .. import folders
 from ..entry import Asset
 from ..reading import read_asset
-from ..root import own_root
 from . import recipes
 
 

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
+from ...data_folders import catalog_root
 from .. import folders
 from ..entry import Asset
 from ..reading import read_asset
-from ..root import catalog_root
 
 CUBE = "".join(f"v {x} {y} {z}\n" for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)) + "".join(
     f"f {a} {b} {c}\n"

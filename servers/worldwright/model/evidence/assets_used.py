@@ -92,7 +92,7 @@ def _known() -> dict[str, bool]:
 
 
 def _root() -> Path | None:
-    from worldkit.assets.root import catalog_root
+    from worldkit.data_folders import catalog_root
 
     try:
         return catalog_root()

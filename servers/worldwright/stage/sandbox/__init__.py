@@ -11,6 +11,7 @@ import os
 from functools import lru_cache
 from pathlib import Path
 
+from worldkit.data_folders import data_root
 from worldkit.files import write_json
 
 from ...model.errors import JobError
@@ -66,8 +67,6 @@ def unusable(name: str) -> str:
         return reason
     if name not in CONFINING:
         return ""
-    from worldkit.assets.root import data_root  # here: whoever only starts a pass never asks, and assets are costly
-
     kept = data_root() / f"sandbox-{name}-{os.geteuid()}.json"
     state = _state()
     try:

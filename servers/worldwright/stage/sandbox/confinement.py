@@ -66,17 +66,16 @@ def runtime_paths() -> tuple[Path, ...]:
     where they do not hold the user's data folder, the user's own assets."""
     import worldengine
     import worldkit
-    from worldkit import assets
-    from worldkit.assets.root import data_root
+    from worldkit.data_folders import catalog_root, data_root, own_root
 
     paths = [Path(sys.prefix), Path(sys.base_prefix), Path(sysconfig.get_path("purelib"))]
     paths += [Path(sys.executable).resolve().parent.parent]
     # An environment may borrow another's packages (a .pth file, or the system's).
     paths += [path for path in map(Path, sys.path) if path.name in ("site-packages", "dist-packages")]
     paths += [Path(next(iter(package.__path__))) for package in (worldkit, worldengine)]
-    paths += [Path(assets.catalog_root())]
-    if not data_root().resolve().is_relative_to(assets.own_root().resolve()):  # the signing key lies in there
-        paths += [assets.own_root()]
+    paths += [Path(catalog_root())]
+    if not data_root().resolve().is_relative_to(own_root().resolve()):  # the signing key lies in there
+        paths += [own_root()]
     own = (
         Path("/"),
         Path.home(),
@@ -93,7 +92,7 @@ def devices() -> list[Path]:
 
 def environment(scratch: str, lock: str = "") -> dict[str, str]:
     """The environment variables of a job: of the user's own only the choice of renderer, and the lock."""
-    from worldkit.assets.root import own_root
+    from worldkit.data_folders import own_root
 
     # One thread for linear algebra: a sum split between threads is not the same sum.
     keep = {
