@@ -132,7 +132,7 @@ def _handed_in(found: Material) -> None:
         beside = None
         found.missing["handed-in film"] = error.cause
     if found.stamp is None:
-        found.handed_in, found.handed_in_path = beside, beside and found.run.folder / beside.name
+        found.handed_in, found.handed_in_path = beside, found.run.folder / beside.name if beside else None
     elif listed is not None:
         found.handed_in = listed
         found.handed_in_path = _accepted(found, listed.name) or found.run.folder / listed.name

@@ -18,7 +18,7 @@ def told(journal: Journal, keys: Iterable["Ed25519PublicKey"]) -> str:
     found = [(seals.by(journal, key), signing.fingerprint(key)) for key in keys]
     if not found:
         return "no key lies there by which its lines could be sealed"
-    most, name = max(found, key=lambda one: one[0].count)
+    most, name = max(found, key=lambda one: one[0].many)
     return most.text(f"key sha256:{name[:16]}")
 
 

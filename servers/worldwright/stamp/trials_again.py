@@ -10,7 +10,7 @@ import secrets
 from collections.abc import Iterator
 from pathlib import Path
 from time import monotonic
-from typing import TYPE_CHECKING
+from typing import Any
 
 from worldkit.files import write_atomic
 
@@ -21,11 +21,9 @@ from .as_stamped import Check
 from .kept import Kept
 from .proof import Proved
 
-if TYPE_CHECKING:
-    from ..scan.audits.repeated import Part
-
+Part = Any
+"""`scan.audits.repeated.Part`."""
 NAME = "audits"
-REPORTS = {"causes": CausesReport, "refine": RefineReport, "robust": RobustReport}
 DRAWN = "drawn"
 
 
@@ -54,7 +52,12 @@ def checks(
     """
     from ..scan import tools as scan
 
-    kept = {name: Kept.read(folder / "evidence" / f"{name}.json", model) for name, model in REPORTS.items()}
+    inside = folder / "evidence"
+    kept: dict[str, Kept[CausesReport] | Kept[RefineReport] | Kept[RobustReport]] = {
+        "causes": Kept.read(inside / "causes.json", CausesReport),
+        "refine": Kept.read(inside / "refine.json", RefineReport),
+        "robust": Kept.read(inside / "robust.json", RobustReport),
+    }
     if problem := next((k.problem for k in kept.values() if k.problem), ""):
         return [Check(name=NAME, ok=False, detail=problem)]
     said = {name: k.value for name, k in kept.items() if k.value is not None}
@@ -80,7 +83,7 @@ def checks(
     return wrong or [Check(name=NAME, ok=True, detail=f"simulated again and as reported: {names} ({how})")]
 
 
-def _wrong(chosen: "list[Part]", *, exact: bool, vouched: bool) -> Iterator[Check]:
+def _wrong(chosen: list[Part], *, exact: bool, vouched: bool) -> Iterator[Check]:
     """A check for each part that says otherwise, or that could not be made here."""
     from ..scan import tools as scan
 
@@ -110,6 +113,6 @@ def _drawn(scratch: Path) -> str:
     return path.read_text(encoding="utf-8")
 
 
-def _place(folder: Path, drawn: str, part: "Part") -> str:
+def _place(folder: Path, drawn: str, part: Part) -> str:
     words = "\n".join((bundle.sha256_file(folder / bundle.STAMP), drawn, part.name))
     return hashlib.sha256(words.encode()).hexdigest()

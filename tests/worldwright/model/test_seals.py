@@ -40,7 +40,7 @@ def test_what_was_changed_moved_or_invented_is_not_sealed(tmp_path: Path, key) -
     for entry in (*entries, {"action": "describe", "seal": entries[0]["seal"]}):
         Journal(run.journal).append(entry)  # it drops seals and chains that it is given
     journal = Journal(run.journal)
-    assert journal.breaks() == [] and seals.by(journal, key).count == 0
+    assert journal.breaks() == [] and seals.by(journal, key).many == 0
     assert told(run) == "NOT sealed: whoever can write the folder can have written it"
     run.log("stamp", "accept")
     assert told(run).endswith("; not sealed: 1 (approve), 2 (review), 3 (describe)")
@@ -49,7 +49,7 @@ def test_what_was_changed_moved_or_invented_is_not_sealed(tmp_path: Path, key) -
     moved = json.loads(lines[3])
     stolen = Journal(tmp_path / "stolen.jsonl")
     stolen.append({k: v for k, v in moved.items() if k not in ("seal", "chain")}, lambda *_: moved["seal"])
-    assert stolen.breaks() == [] and seals.by(stolen, key).count == 0
+    assert stolen.breaks() == [] and seals.by(stolen, key).many == 0
 
 
 def test_without_a_key_of_its_own_a_process_seals_nothing_and_writes_all_the_same(
@@ -64,5 +64,5 @@ def test_without_a_key_of_its_own_a_process_seals_nothing_and_writes_all_the_sam
     run.log("stamp", "review")
     path.unlink()
     run.log("stamp", "accept")
-    assert Journal(run.journal).breaks() == [] and seals.by(Journal(run.journal), key).count == 0
+    assert Journal(run.journal).breaks() == [] and seals.by(Journal(run.journal), key).many == 0
     assert [entry["action"] for entry in run.entries()] == ["approve", "review", "accept"]

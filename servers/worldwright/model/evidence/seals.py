@@ -23,18 +23,18 @@ MOST_NAMED = 4
 class Sealed(NamedTuple):
     """The lines of a journal that one key has sealed."""
 
-    count: int
+    many: int
     of: int
     others: tuple[tuple[int, str], ...]
     """Number and action of each line that it has not."""
 
     def text(self, key: str) -> str:
         """One clause; `key` names it."""
-        if not self.count:
+        if not self.many:
             return "NOT sealed: whoever can write the folder can have written it"
         named = ", ".join(f"{number} ({action})" for number, action in self.others[:MOST_NAMED])
         more = f" and {len(self.others) - MOST_NAMED} more" if len(self.others) > MOST_NAMED else ""
-        return f"{self.count} of {self.of} lines sealed by {key}" + (f"; not sealed: {named}{more}" if named else "")
+        return f"{self.many} of {self.of} lines sealed by {key}" + (f"; not sealed: {named}{more}" if named else "")
 
 
 def made(previous: str, body: str) -> str:

@@ -6,11 +6,13 @@ believed but what is simulated now, of a run whose physics pass was proved.
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ...model.evidence.audits import Acting, CausesReport, RefineReport, RobustReport, Trial
 from ...model.evidence.run import Run
+from ...model.frozen import Frozen
 from ...model.plan.committed import Plan
 from ...model.progress import Progress, silent
 from ...model.recording.trajectory import Trajectory
@@ -106,25 +108,20 @@ def _of_causes(run: Run, plan: Plan, trajectory: Trajectory, report: CausesRepor
         for cause in objective.cause:
             causal = _fresh(run, plan, trajectory, acted)
             causal.ask(cause)
-            said = next((_json(c) for c in report.causes if (c.objective, c.cause) == (index, cause)), None)
-            yield Part(
-                f"causes: {cause} of objective {index}",
-                causal.trials,
-                report.trials,
-                lambda said=said, causal=causal, at=(index, cause): (said, _json(causal.cause(*at))),
-                ("outcome",),
-            )
+            said = next((c for c in report.causes if (c.objective, c.cause) == (index, cause)), None)
+            rows = partial(_compared, said, partial(causal.cause, index, cause))
+            yield Part(f"causes: {cause} of objective {index}", causal.trials, report.trials, rows, ("outcome",))
     for row in _fresh(run, plan, trajectory, acted).helpers():
         causal = _fresh(run, plan, trajectory, acted)
         causal.ask_without(row)
-        told = next((_json(h) for h in report.helpers if (h.kind, h.target) == (row.kind, row.target)), None)
-        yield Part(
-            f"causes: without the {row.kind} on {row.target}",
-            causal.trials,
-            report.trials,
-            lambda told=told, causal=causal, row=row: (told, _json(causal.helper(row))),
-            ("needed_by",),
-        )
+        told = next((h for h in report.helpers if (h.kind, h.target) == (row.kind, row.target)), None)
+        rows = partial(_compared, told, partial(causal.helper, row))
+        name = f"causes: without the {row.kind} on {row.target}"
+        yield Part(name, causal.trials, report.trials, rows, ("needed_by",))
+
+
+def _compared(said: Frozen | None, show: Callable[[], Frozen]) -> Rows:
+    return (None if said is None else _json(said)), _json(show())
 
 
 def _all_causes(run: Run, plan: Plan, trajectory: Trajectory, report: CausesReport) -> Part:
@@ -178,5 +175,5 @@ def _of_refine(run: Run, plan: Plan, trajectory: Trajectory, report: RefineRepor
     return Part("refine", trials, (Trial(label=finer, trajectory_sha256=report.refined_sha256),), rows, ("held",))
 
 
-def _json(row: Any) -> Any:
+def _json(row: Frozen) -> Any:
     return row.model_dump(mode="json")
