@@ -65,6 +65,8 @@ def test_each_part_is_what_its_repetitions_show(tmp_path: Path) -> None:
     assert (
         "says of `without gravity`: crashed, and here: it ran" in wrong(causes=silent)["causes: gravity of objective 0"]
     )
+    limited = cause.model_copy(update={"trials": changed(cause, "without gravity", failed="out_of_memory: too large")})
+    assert wrong(causes=limited) == {}  # a larger machine shows what that one could not
     blamed = robust.model_copy(
         update={"claims": (robust.claims[0].model_copy(update={"not_in": ("vary masses=1.01",)}),)}
     )

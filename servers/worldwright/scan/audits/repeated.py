@@ -22,7 +22,7 @@ from . import acting, robustness
 from .causes import Causes
 from .refine import refine
 from .reproduced import FINER, Report, apart
-from .trials import Trials, label_of
+from .trials import LIMITS, Trials, label_of
 
 Rows = tuple[Any, Any]
 """What the report says, and what the repetitions show, as JSON has it."""
@@ -83,6 +83,8 @@ def unlike(part: Part, *, exact: bool) -> str:
         if other is None:
             return f"tells nothing of the repetition `{row.label}`"
         codes = [one.failed.partition(":")[0] for one in (other, row)]
+        if codes[0] in LIMITS:  # it says itself that a machine's limit kept it from being shown
+            return ""
         if codes[0] != codes[1]:
             return f"says of `{row.label}`: {codes[0] or 'it ran'}, and here: {codes[1] or 'it ran'}"
         if row.failed:
