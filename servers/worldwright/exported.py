@@ -1,23 +1,19 @@
 """`worldwright export RUN --format gltf|usd|mcap`: the recorded motion for other programs, drawn or as messages, and for the report."""
 
 import json
-import struct
 from pathlib import Path
-from typing import Any
 
 import click
 
 from worldkit.files import write_atomic
 
+from . import made_scenes
 from .cli import report_errors
 from .model.errors import GateError, NotFoundError
 from .model.evidence.reports import EvidenceKey
 from .model.evidence.run import Run
 
 FORMATS = {"gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap"}
-RECORDING = "recording_sha256"
-
-
 RATE_HZ = 25.0
 
 
@@ -57,10 +53,28 @@ def write(
             stored.open(physics / "trajectory"), target, rate_hz=rate, plan=run.source.read_bytes(), film=film
         )
         return target
+    recording_sha256 = _sha256(physics / "trajectory")
     words = ["scene", *given_words(physics), "--format", kind]
     found = engine(words, (physics,), (name,), again=f"worldwright export RUN --format {kind}")
     write_atomic(target, found[name])
+    if target == run.folder / FORMATS["gltf"]:
+        made_scenes.note(run.folder, found[name], recording_sha256)
     return target
+
+
+def _sha256(recording: Path) -> str:
+    """The hash of what is recorded, computed here; a `GateError` where it is another than the recording says."""
+    from worldengine.recording import stored
+
+    opened = stored.open(recording)
+    found = stored.digest(opened)
+    if found != opened.sha256:
+        raise GateError(
+            f"the recording says it is {opened.sha256[:16]}, and what it holds is {found[:16]}",
+            place=str(recording),
+            next_move="run the physics pass again: worldwright stage start RUN --stage physics --force",
+        )
+    return found
 
 
 def _film(run: Run, key: EvidenceKey, camera: str) -> Path:
@@ -82,22 +96,41 @@ def _film(run: Run, key: EvidenceKey, camera: str) -> Path:
     return run.evidence(key) / "video" / f"{camera}.mp4"
 
 
-def scene(run: Run) -> bytes | None:
-    """The scene of the present recording that lies beside a run's report; None where there is none, or of another."""
+def scene(run: Run, accepted_sha256: str = "") -> tuple[bytes | None, str]:
+    """The scene that lies beside a run's report, as it was written here, and else why it is not shown; both empty where none
+    lies there.
+
+    Args:
+        run: its folder.
+        accepted_sha256: of an accepted run, the hash of the accepted recording, which the scene must be of; else of the present.
+    """
+    path = run.folder / FORMATS["gltf"]
     try:
-        data = (run.folder / FORMATS["gltf"]).read_bytes()
-        long = struct.unpack_from("<I", data, 12)[0]
-        told: dict[str, Any] = json.loads(data[20 : 20 + long])["asset"]["extras"]
-    except (OSError, struct.error, ValueError, KeyError, TypeError):
-        return None
+        data = path.read_bytes()
+    except OSError:
+        return None, ""
+    of = made_scenes.recording_of(run.folder, data)
+    if not of:
+        return (
+            None,
+            f"{path.name} was not written here by `worldwright report`, so nothing says what it shows: left out",
+        )
+    if accepted_sha256:
+        return (
+            (data, "")
+            if of == accepted_sha256
+            else (None, f"{path.name} is of another recording than the accepted one")
+        )
     from .model.evidence import environment
 
     recording = run.evidence(run.evidence_key(environment.current().sha256())) / "physics" / "trajectory"
     try:
         ended = json.loads((recording / "complete.json").read_bytes())
     except (OSError, ValueError):
-        return None
-    return data if ended.get("sha256") == told.get(RECORDING) else None
+        return None, ""
+    return (
+        (data, "") if ended.get("sha256") == of else (None, f"{path.name} is of another recording than the present one")
+    )
 
 
 @click.command("export")

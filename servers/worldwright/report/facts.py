@@ -3,13 +3,14 @@
 from dataclasses import dataclass
 from typing import Any
 
-from ..model.evidence import approval, rounding
+from ..model.evidence import approval, came, rounding
 from ..model.evidence.reports import ExpectationResult
+from ..stamp.statement import Proof
 from . import film_facts
 from .chart import quantity
 from .material import Material, acting
 
-QUIET = ("time", "actor", "action", "chain", "reports", "result_sha256")
+QUIET = ("time", "actor", "action", "chain", "seal", "reports", "result_sha256")
 """Fields of a journal line that the page leaves out: it shows them elsewhere, or only machines use them."""
 HASHES = ("program_sha256", "plan_sha256")
 UNITS = {
@@ -121,16 +122,17 @@ def provenance(material: Material) -> dict[str, list[tuple[str, str]]]:
             ("program as run", source.program_sha256),
             ("program accepted", material.stamp.digest_of("simulation.py")),
             ("plan", source.plan_sha256),
-            ("proof run", f"{proof.wall_s:.1f} s in the {proof.sandbox or 'unknown'} sandbox"),
+            ("proof run", _proof_run(proof)),
             ("described by", _word(material.stamp.predicate.described_by, material.stamp.predicate.description_came)),
             ("reviewed by", _word(material.stamp.predicate.reviewer, material.stamp.predicate.review_came)),
             ("not looked at", ", ".join(f"objective {i}" for i in material.stamp.not_looked_at)),
             ("drawn by the program, not simulated", ", ".join(material.stamp.predicate.drawn_only)),
             ("signature", material.signer),
+            ("journal", material.stamp.predicate.journal_seal),
             (
-                "approved by",
+                "approved",
                 (
-                    f"{_word(material.stamp.predicate.approval.who, material.stamp.predicate.approval.came)}, "
+                    f"{_word(material.stamp.predicate.approval.told, material.stamp.predicate.approval.came)}, "
                     f"{material.stamp.predicate.approval.time}"
                 ),
             ),
@@ -170,9 +172,9 @@ def _actor(entry: dict[str, Any]) -> str:
     return approval.who(actor, auto=True) if entry.get("action") == "approve" and entry.get("auto") else actor
 
 
-def _word(name: str, came: str) -> str:
-    """The person or role that gave an approval or a review, and the way it was sent."""
-    return f"{name} ({came})" if name and came else name
+def _word(name: str, said: str) -> str:
+    """The name that an approval or a review gives, and the way it was sent."""
+    return f"{name} ({came.told(said)})" if name and said else name
 
 
 def strength(result: ExpectationResult) -> float:
@@ -211,3 +213,10 @@ def _short(value: Any) -> str:
     if len(text) == 64 and all(c in "0123456789abcdef" for c in text):
         return text[:12]
     return text if len(text) <= 160 else text[:160] + "…"
+
+
+def _proof_run(proof: Proof) -> str:
+    when = f", begun {proof.began}" if proof.began else ""
+    key = f", evidence key {proof.key}" if proof.key else ""
+    earlier = ": an earlier call's than the one that stamped it" if proof.earlier else ""
+    return f"{proof.wall_s:.1f} s in the {proof.sandbox or 'unknown'} sandbox{when}{key}{earlier}"

@@ -4,6 +4,7 @@ What is shown of an accepted run is what was accepted, wherever the accepted fol
 changed since. The rest is the evidence of the current program, plan and environment.
 """
 
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -50,7 +51,11 @@ class Material:
     film: dict[str, Any] = field(default_factory=dict)
     """What the video pass says of the author's film: what is drawn only, looks of its own, shots; empty without one."""
     handed_in: HandedIn | None = None
-    """A film that the author drew with a renderer of their own."""
+    """A film that the author drew with a renderer of their own: of an accepted run the listed one."""
+    handed_in_path: Path | None = None
+    """Where it lies."""
+    scene: bytes | None = None
+    """The recorded motion to be turned by hand, glTF, as it was written here."""
     scan: ScanReport | None = None
     expect: ExpectReport | None = None
     interventions: InterventionReport | None = None
@@ -113,11 +118,37 @@ def gather(run: Run) -> Material:
             found.environment["cpu"] = found.stamp.predicate.cpu
     _motion(found, state)
     _layout(found)
-    try:
-        found.handed_in = film_handed_in(run.folder)
-    except HandedInError as error:
-        found.missing["handed-in film"] = error.cause
+    _handed_in(found)
+    _scene(found)
     return found
+
+
+def _handed_in(found: Material) -> None:
+    """Fill in the film that was handed in; of an accepted run no other than its stamp lists."""
+    listed = found.stamp.predicate.handed_in if found.stamp else None
+    try:
+        beside = film_handed_in(found.run.folder)
+    except HandedInError as error:
+        beside = None
+        found.missing["handed-in film"] = error.cause
+    if found.stamp is None:
+        found.handed_in, found.handed_in_path = beside, found.run.folder / beside.name if beside else None
+    elif listed is not None:
+        found.handed_in = listed
+        found.handed_in_path = _accepted(found, listed.name) or found.run.folder / listed.name
+    if found.stamp and beside and (listed is None or beside.sha256 != listed.sha256):
+        found.missing["handed-in film"] = f"the {beside.name} in the run is none that its stamp lists: left out"
+
+
+def _scene(found: Material) -> None:
+    """Fill in the scene beside the report: no other than was written here, of the accepted or else the present recording."""
+    from .. import exported
+
+    accepted = found.stamp.predicate.proof.trajectory_sha256 if found.stamp else ""
+    with suppress(WorldwrightError):  # without a program there is no recording to be of
+        found.scene, why = exported.scene(found.run, accepted)
+        if why:
+            found.missing["scene to be turned by hand"] = why
 
 
 def _newest(state: State) -> Path | None:

@@ -1,6 +1,7 @@
 """Pictures and videos small enough to live inside a page."""
 
 import base64
+import hashlib
 from pathlib import Path
 from typing import Any
 
@@ -73,14 +74,16 @@ def videos(paths: dict[str, Path]) -> dict[str, str]:
     return found
 
 
-def handed_in(path: Path) -> str:
-    """A film as a data URI; empty if it is too large for a page, or no browser's, and the page links the file beside it."""
+def handed_in(path: Path, sha256: str) -> str:
+    """A film of this hash as a data URI; empty if it is another, too large for a page, or no browser's, and the page names the
+    file."""
     if path.suffix not in SHOWN:
         return ""
     try:
-        return data_uri(path.read_bytes(), SHOWN[path.suffix]) if path.stat().st_size <= BUDGET // 2 else ""
+        data = path.read_bytes() if path.stat().st_size <= BUDGET // 2 else b""
     except OSError:
         return ""
+    return data_uri(data, SHOWN[path.suffix]) if hashlib.sha256(data).hexdigest() == sha256 else ""
 
 
 def frames(path: Path, count: int = 6, width: int = 320) -> list[tuple[float, str]]:

@@ -60,7 +60,9 @@ def _context(material: Material) -> dict[str, Any]:
         "title": (material.plan.title if material.plan else "") or material.run.name,
         "lede": _lede(material),
         "films": films,
-        "handed_in": media.handed_in(material.run.folder / material.handed_in.name) if material.handed_in else "",
+        "handed_in": media.handed_in(material.handed_in_path, material.handed_in.sha256)
+        if material.handed_in and material.handed_in_path
+        else "",
         "stills": stills,
         "strip": media.frames(material.videos[first]) if first else [],
         "charts": _charts(material),

@@ -19,10 +19,13 @@ from ..model.picture import Illustrated, Picture
 from ..model.progress import Progress, silent
 from .comparing import Comparison, compare_reports
 from .query.answered import Answer
+from .repeating import begin_robust, repeat_part, trial_parts, unlike_part
 
 if TYPE_CHECKING:
     from ..model.plan.committed import Plan
     from ..model.recording.trajectory import Trajectory
+
+__all__ = ["TOOLS", "begin_robust", "repeat_part", "trial_parts", "unlike_part"]
 
 RunName = Annotated[
     str, Field(description="A run folder or its name; or a recording: a trajectory folder or .npz file.")
@@ -321,14 +324,6 @@ def smallest(run: Run) -> str:
     _, _, plan, trajectory = _subject(str(run.folder))
     least = min(largest(trajectory, plan), key=lambda seen: seen.pixels, default=None) if plan else None
     return told(least.name, least.pixels, least.camera, plan.recording_mode.size[0]) if plan and least else ""
-
-
-def begin_robust(run: Run) -> str:
-    """For the walk of another server (no tool): see `audits.unasked_audit.begin`; says in a line how it stands."""
-    from ..model.evidence import environment
-    from .audits import unasked_audit
-
-    return unasked_audit.begin(run, run.evidence_key(environment.current().sha256()))
 
 
 def finish_robust(run: Run) -> bool:

@@ -17,12 +17,13 @@ from worldkit import lock
 from worldkit.files import write_atomic, write_json
 
 from ..model import companions, try_lock
-from ..model.errors import NotFoundError
+from ..model.errors import GateError, NotFoundError
 from ..model.evidence import pictures_of
 from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from .gates import folder_name, passed
+from .plain import link_on_the_way
 from .sandbox.confinement import gl_backend
 
 CANCEL_S = 10.0
@@ -156,13 +157,17 @@ class Job:
 
     @classmethod
     def all(cls, run: Run) -> "list[Job]":
-        """Every readable job, newest first: by their numbers, since a clock may jump."""
-        return [cls(path.parent) for path in sorted(run.jobs.glob("*/spec.json"), key=_number, reverse=True)]
+        """Every readable job, newest first: by their numbers, since a clock may jump.
+
+        Raises:
+            GateError: the folder of the jobs is a link: what lies behind it is no job of this run.
+        """
+        return [cls(path.parent) for path in sorted(_specs(run), key=_number, reverse=True)]
 
     @classmethod
     def next_number(cls, run: Run) -> int:
         """The number after the newest job's."""
-        return max((_number(path) for path in run.jobs.glob("*/spec.json")), default=0) + 1
+        return max(map(_number, _specs(run)), default=0) + 1
 
     @classmethod
     def find(cls, run: Run, name: str | None) -> "Job":
@@ -241,6 +246,17 @@ class Job:
                 return not try_lock.taken(handle.fileno())
         except OSError:
             return False
+
+
+def _specs(run: Run) -> list[Path]:
+    """The specifications of a run's jobs; what is reached by a link is somebody else's."""
+    if run.jobs.is_symlink():
+        raise GateError(
+            "jobs/ is a link: what lies behind it is no job of this run",
+            place=str(run.jobs),
+            next_move="remove the link; a folder is made in its place, and evidence is untouched",
+        )
+    return [path for path in run.jobs.glob("*/spec.json") if link_on_the_way(run.jobs, path) is None]
 
 
 def _number(spec: Path) -> int:

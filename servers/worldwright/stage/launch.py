@@ -202,8 +202,9 @@ def _writable(run: Run) -> Iterator[None]:
 @contextmanager
 def one_at_a_time(run: Run) -> Iterator[None]:
     """Let callers in one after the other, so that two who ask at once get one job."""
+    Job.all(run)  # refuses a link in the folder's place
     run.jobs.mkdir(parents=True, exist_ok=True)
-    folder = os.open(run.jobs, os.O_RDONLY | os.O_DIRECTORY)
+    folder = os.open(run.jobs, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW)
     try:
         fcntl.flock(folder, fcntl.LOCK_EX)
         yield

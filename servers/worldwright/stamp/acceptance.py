@@ -7,14 +7,13 @@ import time
 from collections import Counter
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Literal
+from typing import TYPE_CHECKING
 
 from worldkit.files import write_atomic
 
 from ..model.errors import GateError
 from ..model.evidence import came, handed_in, pictures_of
 from ..model.evidence.reports import Environment
-from ..model.frozen import Frozen
 from ..model.plan.committed import Plan
 from ..model.progress import Progress, silent
 from ..model.storage import writing
@@ -29,14 +28,17 @@ from . import (
     keyring,
     poster,
     private,
+    private_copy,
     processor,
     redrawn,
     repeats,
     sampled,
+    sealed,
     signing,
     versions,
     world_facts,
 )
+from .accepted import Accepted
 from .judged import Judged
 from .proof import FACTS, WORLD, Proved, driven_by, lay_out, prove
 from .state import State
@@ -55,45 +57,8 @@ from .steps import handed_in_since, steps
 from .strip import Stripped, strip
 from .taken import Taken, take
 
-
-class Accepted(Frozen):
-    """The answer of `accept`."""
-
-    state: Literal["accepted", "proving"]
-    """`proving`: the proof run needs longer than this call may take; it goes on by itself."""
-    run: str
-    folder: str = ""
-    stamp_sha256: str = ""
-    signature: signing.Signature | None = None
-    """The signature on the stamp, and whose key made it."""
-    trajectory_sha256: str = ""
-    stripped_lines: int = 0
-    files: tuple[str, ...] = ()
-    not_looked_at: tuple[int, ...] = ()
-    """Indices of objectives that only a picture can show, and whose pictures nobody has looked at."""
-    already: bool = False
-    """This exact program and plan had been accepted before."""
-    next_move: str = ""
-
-    @property
-    def ok(self) -> bool:
-        """Whether the world is stamped."""
-        return self.state == "accepted"
-
-    def text(self) -> str:
-        """The answer as a person reads it."""
-        if not self.ok:
-            return f"{self.run}: the proof run goes on\n  next: {self.next_move}"
-        stripped = f", {self.stripped_lines} lines of instrumentation taken out" if self.stripped_lines else ""
-        unseen = ", ".join(map(str, self.not_looked_at))
-        blind = f"  NOT LOOKED AT      objective {unseen}: claimed for the eye, counted only\n" if unseen else ""
-        return (
-            f"{self.run}: {'already ' * self.already}accepted in {self.folder} ({len(self.files)} files{stripped})\n"
-            f"  stamp sha256       {self.stamp_sha256}\n"
-            f"  {self.signature.text() if self.signature else 'unsigned'}\n"
-            f"  trajectory sha256  {self.trajectory_sha256}\n"
-            f"{blind}  next: {self.next_move}"
-        )
+if TYPE_CHECKING:
+    from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
 
 def accept(state: State, timeout_s: float, progress: Progress = silent, key: Path | None = None) -> Accepted:
@@ -110,7 +75,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         listed = not handed_in_since(state)
         if listed and steps(state)["accept"].holds and signing.check(state.run.stamped, bundle.STAMP).vouched:
             if key is not None:
-                signing.sign(state.run.stamped, bundle.STAMP, signer)
+                _signed_anew(state, signer)
             return _again(state)
         shown = judged.take(state)
         gates.pass_through("accept", state)
@@ -145,19 +110,30 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         driven = repeats.driven_again(work / "again", program, plan, proved, timeout_s=left, progress=progress)
         if driven is None:
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
-        folder = bundle.draft_folder(state.run)
+        made = work / "accepted"  # what is signed lies where nobody else writes, until it is signed
         try:
-            statement = _assemble(state, stripped, proved, taken, shown, folder)
-            _look(state, proved, folder)
-            stamp_sha256 = bundle.seal(folder, statement)
-            signing.sign(folder, bundle.STAMP, signer)
-            bundle.publish(folder, state.run.accepted, versions.aside(state.run))
+            shutil.rmtree(made, ignore_errors=True)
+            statement = _assemble(state, stripped, proved, taken, shown, made, signer)
+            _look(state, proved, made)
+            stamp_sha256 = bundle.seal(made, statement)
+            signing.sign(made, bundle.STAMP, signer)
+            bundle.publish_copy(made, state.run, versions.aside(state.run))
         finally:
-            shutil.rmtree(folder, ignore_errors=True)
-        _log(state, stamp_sha256)
+            shutil.rmtree(made, ignore_errors=True)
+        _log(state, stamp_sha256, proof_began=proved.began, proof_earlier=proved.earlier)
         state.run.blocked.unlink(missing_ok=True)
         shutil.rmtree(work, ignore_errors=True)
     return _answer(state, statement, stamp_sha256)
+
+
+def _signed_anew(state: State, signer: "Ed25519PrivateKey") -> None:
+    """Sign the stamp that stands with another key: of a copy that nobody else can change, so that it is the vouched one."""
+    with private_copy.of(state.run) as copy:
+        if not signing.check(copy.stamped, bundle.STAMP).vouched:
+            raise GateError("the accepted folder changed meanwhile", place=state.place, next_move="accept it again")
+        signing.sign(copy.stamped, bundle.STAMP, signer)
+        for name in (signing.PUBLIC, signing.ENVELOPE):
+            write_atomic(state.run.stamped / name, (copy.stamped / name).read_bytes())
 
 
 def _kept(state: State, folder: Path) -> Path | None:
@@ -181,8 +157,16 @@ def _as_planned(state: State, proved: Proved) -> None:
         )
 
 
-def _assemble(state: State, stripped: Stripped, proved: Proved, taken: Taken, shown: Judged, folder: Path) -> Statement:
-    """Fill the draft folder and say what is in it."""
+def _assemble(
+    state: State,
+    stripped: Stripped,
+    proved: Proved,
+    taken: Taken,
+    shown: Judged,
+    folder: Path,
+    signer: "Ed25519PrivateKey",
+) -> Statement:
+    """Fill a private folder and say what is in it."""
     taken.lay(folder)
     write_atomic(folder / "simulation.py", stripped.source.encode())
     write_atomic(folder / "plan.md", state.plan_bytes or b"")
@@ -202,6 +186,8 @@ def _assemble(state: State, stripped: Stripped, proved: Proved, taken: Taken, sh
     cameras = [camera.name for camera in state.plan.cameras()] if state.plan else []
     poster.write(folder, cameras, filmed.shots if filmed else ())
     predicate = _predicate(state, stripped, proved, taken, shown, evidence, folder)
+    seals = sealed.told(shown.journal, [signer.public_key(), *sealed.known()])
+    predicate = predicate.model_copy(update={"journal_seal": seals})
     return Statement(subject=bundle.subjects(folder), predicate=predicate)
 
 
@@ -238,6 +224,9 @@ def _proof(proved: Proved, shown: Judged) -> Proof:
         rows=proved.physics.summary.get("rows"),
         simulated_s=proved.physics.summary.get("final_time"),
         wall_s=proved.physics.wall_s,
+        began=proved.began,
+        key=proved.key,
+        earlier=proved.earlier,
         sandbox=proved.physics.sandbox,
         confinement=proved.physics.confinement,
         world_sha256=proved.world_sha256,
@@ -365,18 +354,22 @@ def _again(state: State) -> Accepted:
     return _answer(state, state.stamp.value, stamp_sha256, already=True)
 
 
-def _log(state: State, stamp_sha256: str) -> None:
-    state.run.log("stamp", "accept", key=state.key.key if state.key else "", stamp_sha256=stamp_sha256)
+def _log(state: State, stamp_sha256: str, **proof: object) -> None:
+    state.run.log("stamp", "accept", key=state.key.key if state.key else "", stamp_sha256=stamp_sha256, **proof)
 
 
 def _answer(state: State, statement: Statement, stamp_sha256: str, already: bool = False) -> Accepted:
+    proof = statement.predicate.proof
     return Accepted(
         state="accepted",
         run=state.run.name,
         folder=state.place if state.run.stamped == state.run.folder else f"{state.place}/accepted",
         stamp_sha256=stamp_sha256,
         signature=signing.check(state.run.stamped, bundle.STAMP),
-        trajectory_sha256=statement.predicate.proof.trajectory_sha256,
+        trajectory_sha256=proof.trajectory_sha256,
+        proof_earlier=already or proof.earlier,
+        proof_began=proof.began,
+        proof_key=proof.key,
         stripped_lines=len(statement.predicate.source.stripped_lines),
         files=tuple(s.name for s in statement.subject),
         already=already,

@@ -6,7 +6,7 @@ from pathlib import Path
 from ..model.evidence.journal import Journal
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
-from . import bundle, lies_beside, signing
+from . import bundle, lies_beside, sealed, signing
 from .kept import Kept
 from .state import State
 from .statement import Statement
@@ -25,8 +25,8 @@ class Check(Frozen):
     next_move: str = ""
 
 
-def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:
-    """The checks of an accepted folder that need no simulation."""
+def static(run: Run, folder: Path, signer: Path | None = None, live: Run | None = None) -> list[Check]:
+    """The checks of an accepted folder that need no simulation; `live`: the run that `run` is a private copy of."""
     kept = Kept.read(folder / bundle.STAMP, Statement)
     if kept.value is None:
         return [Check(name="stamp", ok=False, detail=kept.problem or "there is no stamp.json")]
@@ -34,14 +34,14 @@ def static(run: Run, folder: Path, signer: Path | None = None) -> list[Check]:
     return [
         *_static(run, folder, kept.value),
         Check(name="signature", ok=signed.holder != "broken", detail=signed.text()),
-        *_beside(run, folder, kept.value),
+        *_beside(run, folder, kept.value, live or run),
     ]
 
 
-def _beside(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
+def _beside(run: Run, folder: Path, statement: Statement, live: Run) -> Iterator[Check]:
     """Check that the plan beside an accepted folder is the stamped one: a genuine stamp proves nothing about another plan.
 
-    What else lies beside what was stamped is told by its name.
+    What else lies beside what was stamped is told by its name, by a look at the run itself: no answer rests on it.
     """
     if unlisted := bundle.beside_small(folder, statement):
         yield Check(
@@ -54,7 +54,7 @@ def _beside(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
             f"the plan of the run is another than the stamped one in {folder.name}/, which this stamp says nothing of"
         )
         yield Check(name="beside", ok=False, detail=detail)
-    if changed := list(lies_beside.other(run, statement)):
+    if changed := list(lies_beside.other(live, statement)):
         detail = f"{_some(changed)}: another than what was accepted, which is in {folder.name}/"
         yield Check(name="beside", ok=True, note=True, detail=detail)
 
@@ -79,7 +79,9 @@ def _static(run: Run, folder: Path, statement: Statement) -> Iterator[Check]:
             yield Check(name=what, ok=False, detail=f"{name} is not the one that was approved")
     wrong = _journal(run, statement, bundle.sha256_file(folder / bundle.STAMP)) if run.journal.is_file() else None
     if wrong is not None:
-        yield Check(name="journal", ok=not wrong, detail=wrong or "unbroken, and it knows this stamp")
+        seals = sealed.told(Journal(run.journal), sealed.known(folder / signing.PUBLIC))
+        told = f"unbroken, and it knows this stamp; {seals}"
+        yield Check(name="journal", ok=not wrong, detail=wrong or told)
 
 
 def _journal(run: Run, statement: Statement, stamped: str) -> str | None:

@@ -130,12 +130,22 @@ def of_world(name: str) -> bool:
 
 
 def draft_folder(run: Run) -> Path:
-    """A new empty folder to assemble a bundle in; leftovers of killed attempts are removed (call under the lock)."""
+    """A new empty folder beside what is accepted; leftovers of killed attempts are removed (call under the lock)."""
     for leftover in run.folder.glob(f"{PREFIX}*"):
         shutil.rmtree(leftover, ignore_errors=True)
     folder = run.folder / f"{PREFIX}{uuid.uuid4().hex[:8]}"
     folder.mkdir()
     return folder
+
+
+def publish_copy(made: Path, run: Run, aside: Path | None) -> None:
+    """Make a copy of a finished folder, which lies elsewhere, the run's accepted one."""
+    draft = draft_folder(run)
+    try:
+        shutil.copytree(made, draft, dirs_exist_ok=True)
+        publish(draft, run.accepted, aside)
+    finally:
+        shutil.rmtree(draft, ignore_errors=True)
 
 
 def publish(folder: Path, target: Path, aside: Path | None = None) -> None:
@@ -187,13 +197,13 @@ def damage(folder: Path, statement: Statement) -> list[str]:
     In the small form, what a build makes again may be missing; what is there must be as stamped, and beside it may lie what
     a build leaves there (`beside_small`).
     """
-    found: list[str] = []
+    found = [f"{folder.name} is a link"] if folder.is_symlink() else []
     small = is_small(folder)
     present = [s for s in statement.subject if not small or not may_be_missing(s.name) or (folder / s.name).exists()]
     for subject in present:
         name, path = subject.name, folder / subject.name
-        if not _inside(path, folder):
-            found.append(f"{name} leads outside the folder")
+        if path.is_symlink() or not _inside(path, folder):
+            found.append(f"{name} is a link" if path.is_symlink() else f"{name} leads outside the folder")
             continue
         try:
             if sha256_file(path) != subject.digest.sha256:

@@ -10,7 +10,7 @@ def newest_failure(jobs: Path, stage: str, key: str) -> str:
     """`code: message` of the newest job of this pass and key when it did not succeed; empty otherwise."""
     newest: dict[str, Any] = {}
     try:
-        folders = list(jobs.iterdir())
+        folders = [] if jobs.is_symlink() else [folder for folder in jobs.iterdir() if not folder.is_symlink()]
     except OSError:
         return ""
     for folder in folders:

@@ -18,13 +18,14 @@ from typing import TYPE_CHECKING, Literal
 from worldkit.data_folders import data_root
 from worldkit.files import write_atomic
 
+from ..model.evidence import seals
 from ..model.storage import writing
 from .key_files import SigningError, fingerprint, private_key, public_key, public_text
 
 if TYPE_CHECKING:
     from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
-OWN, PUBLIC, KNOWN = "signing-key.pem", "signing-key.pub", "known_keys"
+OWN, PUBLIC, KNOWN = seals.KEY, "signing-key.pub", "known_keys"
 SHIPPED = Path(__file__).resolve().parents[3] / "examples" / KNOWN
 LINE = re.compile(r"sha256:([0-9a-f]{64})(?:\s+(.*))?")
 Holder = Literal["own", "known", "unknown"]

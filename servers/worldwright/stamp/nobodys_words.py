@@ -7,11 +7,12 @@ was confined, and reports that nothing repeats rest on the signature alone.
 
 from collections.abc import Iterator
 
+from ..model.evidence import came
 from .as_stamped import Check
 from .statement import Acceptance, Statement
 
 REPORTS = ("visual", "review", "robust", "causes", "refine", "interventions")
-"""Reports of the evidence that verification does not make again."""
+"""Reports of the evidence that verification does not make again, or only in part (`trials_again`)."""
 
 
 def told(statement: Statement) -> Check:
@@ -22,7 +23,7 @@ def told(statement: Statement) -> Check:
 
 
 def _words(said: Acceptance, listed: set[str]) -> Iterator[str]:
-    yield f"approved by {said.approval.who or 'nobody'}{_how(said.approval.came)}"
+    yield f"approved {said.approval.told}{_how(said.approval.came)}"
     if said.described_by:
         yield f"described by {said.described_by}{_how(said.description_came)}"
     if said.reviewer:
@@ -32,5 +33,5 @@ def _words(said: Acceptance, listed: set[str]) -> Iterator[str]:
         yield f"its reports {', '.join(reports)}"
 
 
-def _how(came: str) -> str:
-    return f" ({came})" if came else ""
+def _how(said: str) -> str:
+    return f" ({came.told(said)})" if said else ""

@@ -42,6 +42,18 @@ class Proved:
     """The file of the world that was simulated."""
     rebuilt: str = ""
     """How the world that the program builds now compares with the one that was kept; empty when none was."""
+    earlier: bool = False
+    """An earlier call had it simulated: this one found the result."""
+
+    @property
+    def began(self) -> str:
+        """When it was simulated, ISO 8601, UTC."""
+        return self.physics.started
+
+    @property
+    def key(self) -> str:
+        """The evidence key that it was simulated under."""
+        return self.recording.parents[1].name
 
     @property
     def world_sha256(self) -> str:
@@ -251,7 +263,7 @@ def _followed(
     run: Run, job: Any, lint: LintReport, deadline: float, progress: Progress, what: str = "the program"
 ) -> Proved | None:
     """Follow a physics job to its end, and look at what it left; None when it needs longer."""
-    key = run.evidence_key(_environment_sha256())
+    key, earlier = run.evidence_key(_environment_sha256()), bool(job.cached)
     job = _ended(run, job, deadline, progress)
     if job is None:
         return None
@@ -266,6 +278,7 @@ def _followed(
         physics=result.value,
         lint=lint,
         recording=recording,
+        earlier=earlier,
     )
     recorded = _recorded_sha256(recording)
     if recorded != proved.trajectory_sha256:

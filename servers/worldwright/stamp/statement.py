@@ -49,6 +49,12 @@ class Proof(Frozen):
     rows: int | None = None
     simulated_s: float | None = None
     wall_s: float = 0.0
+    began: str = ""
+    """When it was simulated, ISO 8601, UTC; empty in older stamps."""
+    key: str = ""
+    """The evidence key that it was simulated under; empty in older stamps."""
+    earlier: bool = False
+    """The call that stamped it found it as an earlier call's result, and simulated nothing itself."""
     sandbox: str = ""
     """Level of confinement at which it ran."""
     confinement: dict[str, str] = {}
@@ -110,20 +116,20 @@ class ObjectiveOutcome(Frozen):
 
 
 class Approval(Frozen):
-    """The person who approved the plan, if anybody did, and the time."""
+    """In whose name the plan was approved, if it was in anybody's, and the time."""
 
     by: str
-    """The name that the approval gives; see `who`."""
+    """The name that the approval gives, which its sender chose; see `told`."""
     time: str
     auto: bool = False
     """Whether nobody read the plan."""
     came: str = ""
-    """How the approval was sent: by a person at a terminal, a harness, a command line or automation."""
+    """How the approval was sent: at a terminal, by a harness, a command line or automation."""
 
     @property
-    def who(self) -> str:
-        """The name, or that it was nobody's."""
-        return approval.who(self.by, auto=self.auto)
+    def told(self) -> str:
+        """In whose name, or that it was nobody's, as a clause."""
+        return approval.told(self.by, auto=self.auto)
 
 
 class Acceptance(Frozen):
@@ -155,6 +161,8 @@ class Acceptance(Frozen):
     declared_interventions: tuple[str, ...] = ()
     journal_head: str = ""
     """Chain of the journal's last line when the run was accepted; it binds every line before it."""
+    journal_seal: str = ""
+    """How many of its lines which key had sealed then, and which it had not (`seals`); empty in older stamps."""
     reviewer: str = ""
     """The name that the review gives."""
     review_came: str = ""

@@ -89,9 +89,9 @@ def _approve(state: State) -> Answer:
     if not state.plan_sha256:
         return "missing", "there is no plan to approve", f"write {state.place}/plan.md"
     if state.approval:
-        who = approval.who(str(state.approval.get("by", "")), auto=bool(state.approval.get("auto")))
+        who = approval.told(str(state.approval.get("by", "")), auto=bool(state.approval.get("auto")))
         how = _how(came.of(state.approval))
-        return "holds", f"by {who}{how}, {state.approval.get('time', '')}", ""
+        return "holds", f"{who}{how}, {state.approval.get('time', '')}", ""
     if names := approval.changed(state.journal, state.plan_sha256, state.model_hashes):
         return "missing", f"{', '.join(names)}, which the plan names, changed after it was approved", command
     if any(entry.get("action") == "approve" for entry in state.journal):

@@ -1,5 +1,6 @@
 """The tools of the stamp server."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Annotated
 
@@ -7,12 +8,13 @@ from pydantic import Field
 
 from ..expose import reads
 from ..model import call_time
+from ..model.errors import WorldwrightError
 from ..model.evidence.build_steps import StepName
 from ..model.evidence.reports import EvidenceKey, VisualDescription
 from ..model.evidence.verdict import Verdict
 from ..model.frozen import Frozen
 from ..model.progress import Progress, silent
-from .acceptance import Accepted
+from .accepted import Accepted
 from .gone import Gone
 from .state import Blocked, State
 from .status import Status
@@ -83,7 +85,7 @@ def approve(
     word; in auto mode, values that neither the prompt nor a source states must be listed in `inferred`.
     """
     from ..model.evidence import approval
-    from . import gates
+    from . import gates, keyring
 
     state = State.find(run)
     gates.pass_through("approve", state)
@@ -92,9 +94,11 @@ def approve(
     facts: dict[str, object] = {"models": state.model_hashes} if state.model_hashes else {}
     facts["came"] = _came()
     who = approval.who(by, auto=auto)
+    with suppress(WorldwrightError):  # made on first use, so that the journal is sealed from here on
+        keyring.own()
     state.run.log(who, "approve", plan_sha256=state.plan_sha256, by=who, auto=auto, repairs=repairs, **facts)
     what = "".join(f", with {name}" for name in state.model_hashes)
-    return _recorded(run, f"plan {state.plan_sha256[:16]} approved by {who}{what}")
+    return _recorded(run, f"plan {state.plan_sha256[:16]} approved {approval.told(by, auto=auto)}{what}")
 
 
 def describe(
@@ -209,18 +213,21 @@ def verify(
     signer: Annotated[Path | None, Field(description="Public key that must have signed the stamp")] = None,
     anybody: Annotated[bool, Field(description="A yes also when nobody known here signed it")] = False,
     rebuild: Annotated[bool, Field(description="Run the program, also where its world is kept as a file")] = False,
+    every_trial: Annotated[
+        bool, Field(description="Simulate all repetitions of its audits again, not a drawn part")
+    ] = False,
     progress: Progress = silent,
 ) -> Verification:
     """Prove an accepted world again: every checksum, then the world simulated anew, in the sandbox.
 
     A world kept as a file is driven by its recorded inputs, which its program must send again if nobody known here signed;
     where none is kept (a small form, over 1 MB), or with `rebuild`, its program builds it again. Who signed is said first; it
-    is no yes while nobody known here did. Exact on the same build
-    and processor, elsewhere within a tolerance. `running`: call again.
+    is no yes while nobody known here did. One part of its audits, drawn by chance, is simulated again, too. Exact on the
+    same build and processor, elsewhere within a tolerance. `running`: call again.
     """
     from .verification import verify as prove_again
 
-    return prove_again(run, call_time.waiting_s(timeout_s), progress, signer, anybody, rebuild)
+    return prove_again(run, call_time.waiting_s(timeout_s), progress, signer, anybody, rebuild, every_trial)
 
 
 def _came() -> dict[str, object]:

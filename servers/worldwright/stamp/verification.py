@@ -4,7 +4,7 @@ Of a stamp that nobody known here signed, the program must also send the recorde
 
 On the stamped build and processor family the trajectory must repeat bit for bit. Elsewhere the sampled motion must stay
 within a stated tolerance and every expectation must come out as stamped; differences are listed. The accepted folder is
-only read: the program runs from a copy in a private temporary folder.
+read once, into a private copy by which all of it is judged (`private_copy`); nothing is written there.
 """
 
 import shutil
@@ -33,8 +33,10 @@ from . import (
     measured_again,
     nobodys_words,
     private,
+    private_copy,
     redrawn,
     signing,
+    trials_again,
     world_facts,
 )
 from .as_stamped import Check, static
@@ -92,15 +94,18 @@ def verify(
     signer: Path | None = None,
     anybody: bool = False,
     rebuild: bool = False,
+    every: bool = False,
 ) -> Verification:
     """Check and re-run an accepted world: a run folder, its small form, or an accepted folder itself.
 
     With `signer`, a public key, the stamp must have been signed with it. With `anybody`, a world that nobody known here
     vouches for is a yes too, when it is proved again. With `rebuild`, the program is run even where its world is kept.
+    With `every`, every repetition of its audits is simulated again, not one part of them that is drawn (`trials_again`).
     """
-    run, folder = _locate(name)
-    found = _prove_again(name, run, folder, timeout_s, progress, signer, rebuild)
-    signature = None if found.state == "refuted" else signing.check(folder, bundle.STAMP, signer)
+    live = _locate(name)
+    with private_copy.of(live) as run:
+        found = _prove_again(name, live, run, timeout_s, progress, signer, rebuild, every)
+        signature = None if found.state == "refuted" else signing.check(run.stamped, bundle.STAMP, signer)
     unknown = signature is not None and not signature.vouched and not anybody and found.state == "proved"
     return found.model_copy(
         update={
@@ -122,10 +127,18 @@ def _vouch(signature: signing.Signature | None, name: str) -> str:
 
 
 def _prove_again(
-    name: str, run: Run, folder: Path, timeout_s: float, progress: Progress, signer: Path | None, rebuild: bool
+    name: str,
+    live: Run,
+    run: Run,
+    timeout_s: float,
+    progress: Progress,
+    signer: Path | None,
+    rebuild: bool,
+    every: bool,
 ) -> Verification:
-    deadline = time.monotonic() + timeout_s
-    checks, statement = static(run, folder, signer), Kept.read(folder / bundle.STAMP, Statement).value
+    """`verify`, of a copy (`run`) of what lies in a folder (`live`)."""
+    deadline, folder = time.monotonic() + timeout_s, run.stamped
+    checks, statement = static(run, folder, signer, live), Kept.read(folder / bundle.STAMP, Statement).value
     if statement is None or not all(c.ok for c in checks):
         return _refuted(run, checks)
     here = _here(folder)
@@ -138,7 +151,7 @@ def _prove_again(
     if runs and not vouched and (unconfined := law_check.unconfined()):
         return _refuted(run, [*checks, unconfined], differences)
     with writing("the copy to be run", Path(tempfile.gettempdir())):
-        scratch = _scratch(folder, here, rebuild)
+        scratch = _scratch(live.stamped, bundle.sha256_file(folder / bundle.STAMP), here, rebuild)
     with writing("the copy to be run", scratch), bundle.only_one(Run(scratch)):
         try:
             if _kept(folder) and not rebuild:
@@ -165,6 +178,20 @@ def _prove_again(
         asked = law.same if law else runs and not asks
         checks += _kinds(statement, proved, asked=asked)
         checks += measured_again.checks(folder, statement, proved, mode == "bitwise")
+        if all(c.ok for c in checks):
+            audits = trials_again.checks(
+                folder,
+                scratch,
+                proved,
+                exact=not differences,
+                vouched=vouched,
+                every=every,
+                deadline=deadline,
+                progress=progress,
+            )
+            if audits is None:
+                return _running(run, name, checks, differences)
+            checks += audits
         if not vouched and all(c.ok for c in checks):  # what moves otherwise is refuted, however it looks
             checks += _pictures(folder, statement, proved)
             checks.append(nobodys_words.told(statement))
@@ -266,7 +293,7 @@ def _acts(folder: Path, proved: Proved, older: bool) -> Iterator[Check]:
     yield Check(name="acts", ok=older or not found, detail=detail)
 
 
-def _locate(name: str) -> tuple[Run, Path]:
+def _locate(name: str) -> Run:
     state = State.find(name)
     run = state.run
     if not run.stamped.is_dir():
@@ -275,7 +302,7 @@ def _locate(name: str) -> tuple[Run, Path]:
             place=str(run.accepted),
             next_move=f"worldwright stamp status {state.place}",
         )
-    return run, run.stamped
+    return run
 
 
 def _motion(
@@ -357,9 +384,9 @@ def _here(folder: Path) -> Environment:
     return environment.current().model_copy(update={"catalog_sha256": used})
 
 
-def _scratch(folder: Path, here: Environment, rebuild: bool) -> Path:
+def _scratch(folder: Path, stamp_sha256: str, here: Environment, rebuild: bool) -> Path:
     """A private folder that a later call of the same verification finds again and that nobody else could have filled."""
-    identity = "\n".join((bundle.sha256_file(folder / bundle.STAMP), here.sha256(), "rebuilt" * rebuild))
+    identity = "\n".join((stamp_sha256, here.sha256(), "rebuilt" * rebuild))
     try:
         return private.proofs(Run(folder), identity)
     except StorageError:  # a user without a writable data folder can still verify

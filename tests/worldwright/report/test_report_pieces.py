@@ -148,6 +148,6 @@ def test_a_plan_that_nobody_read_was_approved_by_nobody() -> None:
 
     found = gather(Run(EXAMPLES / "ladder-leans"))
     assert found.stamp is not None and found.stamp.predicate.approval.auto
-    ((name, said),) = [row for row in provenance(found)["Stamp"] if row[0] == "approved by"]
-    assert (name, said.split(",")[0].split(" (")[0]) == ("approved by", "nobody: auto mode")
+    ((name, said),) = [row for row in provenance(found)["Stamp"] if row[0] == "approved"]
+    assert (name, said.split(",")[0].split(" (")[0]) == ("approved", "by nobody: auto mode")
     assert {e.actor for e in story(found) if e.action == "approve"} == {"nobody: auto mode"}

@@ -1,13 +1,18 @@
 """The page of an accepted run shows what was accepted, whatever lies beside it since."""
 
 import hashlib
+import json
+import shutil
 from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
 
+from worldwright import exported, made_scenes
+from worldwright.model.errors import GateError
+from worldwright.model.evidence.handed_in import HandedIn
 from worldwright.model.evidence.run import Run
-from worldwright.report import material
+from worldwright.report import material, media
 from worldwright.stamp import lies_beside
 from worldwright.stamp.statement import Digest, Statement, Subject
 
@@ -82,3 +87,54 @@ def test_what_differs_from_the_accepted_is_told(found: SimpleNamespace, name: st
     path.unlink()
     path.symlink_to(found.run.folder / "elsewhere")
     assert list(lies_beside.other(found.run, found.stamp)) == [name]
+
+
+def film(content: bytes) -> HandedIn:
+    return HandedIn(name="handed_in.mp4", sha256=hashlib.sha256(content).hexdigest(), seconds=1.0, size=(64, 36))
+
+
+def test_another_film_than_the_listed_one_is_left_out_and_said_to_be(
+    found: SimpleNamespace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever was handed in since, the stamp lists one film, and its bytes alone are put into the page."""
+    beside = found.run.folder / "handed_in.mp4"
+    beside.write_bytes(b"another film")
+    monkeypatch.setattr(material, "film_handed_in", lambda _: film(b"another film"))
+    found.handed_in = found.handed_in_path = None
+    found.stamp.predicate.handed_in = None
+    material._handed_in(found)
+    assert found.handed_in is None and "none that its stamp lists" in found.missing.pop("handed-in film")
+    found.stamp.predicate.handed_in = film(b"the listed film")
+    material._handed_in(found)
+    assert (
+        found.handed_in == film(b"the listed film") and "none that its stamp lists" in found.missing["handed-in film"]
+    )
+    assert media.handed_in(found.handed_in_path, found.handed_in.sha256) == ""
+    beside.write_bytes(b"the listed film")
+    assert media.handed_in(found.handed_in_path, found.handed_in.sha256).startswith("data:video/mp4;base64,")
+
+
+def test_a_scene_that_was_not_written_here_or_is_of_another_recording_is_left_out(tmp_path: Path) -> None:
+    """It says of itself which recording it shows; whoever writes one can write that, too."""
+    run, accepted = Run(tmp_path), "a" * 64
+    assert exported.scene(run, accepted) == (None, "")
+    forged = b'glTF....{"asset":{"extras":{"recording_sha256":"' + accepted.encode() + b'"}}}'
+    (tmp_path / "scene.glb").write_bytes(forged)
+    data, why = exported.scene(run, accepted)
+    assert data is None and "was not written here" in why
+    made_scenes.note(tmp_path, b"an honest scene", accepted)
+    assert exported.scene(run, accepted)[0] is None
+    (tmp_path / "scene.glb").write_bytes(b"an honest scene")
+    made_scenes._MADE.clear()  # another process
+    assert exported.scene(run, accepted) == (b"an honest scene", "")
+    data, why = exported.scene(run, "b" * 64)
+    assert data is None and "of another recording than the accepted one" in why
+
+
+def test_no_scene_is_made_of_a_recording_that_calls_itself_another(reviewed: Path, tmp_path: Path) -> None:
+    recording = shutil.copytree(next(reviewed.glob("evidence/*/physics/trajectory")), tmp_path / "trajectory")
+    exported._sha256(recording)
+    ended = json.loads((recording / "complete.json").read_bytes())
+    (recording / "complete.json").write_text(json.dumps(ended | {"sha256": "0" * 64}))
+    with pytest.raises(GateError, match="what it holds is"):
+        exported._sha256(recording)

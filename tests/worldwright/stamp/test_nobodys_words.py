@@ -25,7 +25,7 @@ def test_invented_people_and_reports_are_named(forged: Statement) -> None:
     assert told.ok and told.note
     for words in (
         "nobody known here signed",
-        "Jane Doe (a person at a terminal)",
+        "approved in the name of Jane Doe (confirmed at a terminal)",
         "Richard Roe",
         "Janie Doe",
         "robust",

@@ -89,7 +89,7 @@ def test_verify_proves_it_again_and_touches_nothing(accepted: Path) -> None:
 def test_a_verification_works_outside_of_the_run_where_nobody_else_may_look(accepted: Path) -> None:
     """So nobody can plant there what it would find."""
     folder = accepted / "accepted"
-    scratch = verification._scratch(folder, verification._here(folder), False)
+    scratch = verification._scratch(folder, "0" * 64, verification._here(folder), False)
     assert not scratch.resolve().is_relative_to(accepted.resolve())
     assert stat.S_IMODE(scratch.stat().st_mode) == 0o700
 
@@ -290,17 +290,17 @@ def test_an_undeclared_intervention_is_refused(planned: Path, copy: Copy, prepar
 
 CRASHING = """
 import os, sys
-from worldwright.stamp import bundle, redrawn, tools
-run, assemble, seen = sys.argv[1], bundle.draft_folder, 0
+from worldwright.stamp import acceptance, redrawn, tools
+run, assemble, seen = sys.argv[1], acceptance._assemble, 0
 redrawn.glance = lambda *_: ()  # how many pictures it draws is up to chance and time
 
-def armed(folder):
+def armed(*words):
     os.write(1, b"proved\\n")
     for line in sys.stdin:
         child = os.fork()
         if child == 0:
             watch(int(line))
-            return assemble(folder)
+            return assemble(*words)
         if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 9:
             os.write(1, b"died\\n")
     os._exit(0)
@@ -315,7 +315,7 @@ def watch(at):
 
     sys.addaudithook(crash)
 
-bundle.draft_folder = armed
+acceptance._assemble = armed
 try:
     told = [tools.accept(run, timeout_s=60)]
     while not told[-1].ok and len(told) < 5:

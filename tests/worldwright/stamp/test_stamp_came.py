@@ -40,7 +40,7 @@ def test_code_that_calls_by_itself_is_automation(planned: Path, copy: Copy) -> N
     folder = copy(planned)
     stamp.approve(str(folder), by="user")
     assert last(folder, "approve") == "automation"
-    assert "by user (automation)" in stamp.status(str(folder)).text()
+    assert "in the name of user (automation)" in stamp.status(str(folder)).text()
 
 
 def typed(folder: Path, terminal: bool, **environment: str) -> str:
@@ -60,11 +60,25 @@ def typed(folder: Path, terminal: bool, **environment: str) -> str:
     return last(folder, "approve")
 
 
-def test_a_terminal_has_a_person_at_it_unless_a_harness_opened_it(planned: Path, copy: Copy) -> None:
+def test_who_sits_at_a_terminal_is_not_known_unless_a_harness_opened_it(planned: Path, copy: Copy) -> None:
+    """This test opens one itself, as any program can."""
     folder = copy(planned)
-    assert typed(folder, True) == "a person at a terminal"
+    assert typed(folder, True) == "confirmed at a terminal"
+    assert "in the name of user (confirmed at a terminal)" in stamp.status(str(folder)).text()
     assert typed(folder, False) == "a command line without a terminal"
     assert typed(folder, True, CLAUDECODE="1") == "a command line without a terminal, inside Claude Code"
+
+
+def test_a_harness_is_known_by_the_shell_above_whatever_a_program_takes_from_its_own_variables() -> None:
+    """`env -u CLAUDECODE` in an agent's shell, which began with it, makes no terminal of a person's."""
+    ask = "from worldwright.contract import harnesses; print(harnesses.around())"
+    shell = ["sh", "-c", 'env -u CLAUDECODE "$0" -c "$1"; true', sys.executable, ask]
+    clean = {name: value for name, value in os.environ.items() if name not in INSIDE}
+    said = [
+        subprocess.run(shell, env=clean | more, capture_output=True, text=True, check=True).stdout.strip()
+        for more in ({"CLAUDECODE": "1"}, {})
+    ]
+    assert said == ["Claude Code", harnesses.around()]
 
 
 def test_a_client_is_named_and_its_role_by_the_hooks_word(

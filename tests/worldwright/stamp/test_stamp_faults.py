@@ -124,11 +124,11 @@ class Enough(Exception):  # noqa: N818 - how a test stops what it watches
 def proved(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the proof run end, so that what follows is only writing."""
 
-    def stop(_: Run) -> Path:
+    def stop(*_: object) -> None:
         raise Enough
 
     with monkeypatch.context() as patch, pytest.raises(Enough):  # noqa: PT012 - it is called until it stops
-        patch.setattr(bundle, "draft_folder", stop)
+        patch.setattr(acceptance, "_assemble", stop)
         while stamp.accept(str(folder), timeout_s=60):
             pass
 

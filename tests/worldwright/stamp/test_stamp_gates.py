@@ -188,8 +188,8 @@ def test_an_older_approval_in_auto_mode_is_nobody_s_too(planned: Path, copy: Cop
     run = Run(folder)
     run.log("user", "approve", by="user", auto=True, repairs=12)
     assert "by nobody: auto mode, " in stamp.status(str(folder)).text()
-    assert Approval(by="user", time="then", auto=True).who == "nobody: auto mode"
-    assert Approval(by="user", time="then").who == "user"
+    assert Approval(by="user", time="then", auto=True).told == "by nobody: auto mode"
+    assert Approval(by="user", time="then").told == "in the name of user"
 
 
 def test_a_reviewed_run_holds_every_step_but_the_last(reviewed: Path) -> None:

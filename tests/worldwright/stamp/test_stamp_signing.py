@@ -122,7 +122,14 @@ def test_accept_signs_with_this_machines_key_and_verify_names_it(accepted: Path)
 def test_the_signed_statement_holds_the_journals_head(accepted: Path) -> None:
     envelope = json.loads((accepted / "accepted" / signing.ENVELOPE).read_bytes())
     signed = Statement.model_validate_json(base64.b64decode(envelope["payload"]))
-    assert signed.predicate.journal_head in list(Journal(accepted / "journal.jsonl").heads())
+    journal = Journal(accepted / "journal.jsonl")
+    assert signed.predicate.journal_head in list(journal.heads())
+    key = f"lines sealed by key sha256:{keyring.own_fingerprint()[:16]}"
+    lines = len(list(journal.entries()))
+    (check,) = [c for c in static(Run(accepted), accepted / "accepted") if c.name == "journal"]
+    # The last line is about the stamp itself; the first may be older than the key, which an approval makes.
+    for said, of in ((signed.predicate.journal_seal, lines - 1), (check.detail, lines)):
+        assert said.endswith((f"{of} of {of} {key}", f"{of - 1} of {of} {key}; not sealed: 1 (resolve)"))
 
 
 def test_the_key_is_made_once_and_its_owners_alone(elsewhere: Path) -> None:
@@ -139,7 +146,10 @@ def test_the_key_is_made_once_and_its_owners_alone(elsewhere: Path) -> None:
 @pytest.mark.parametrize("attack", ATTACKS)
 def test_a_forged_folder_with_the_old_signature_is_refuted(small: Path, attack: str) -> None:
     forge(small, *ATTACKS[attack])
-    failing = {c.name: c.detail for c in static(Run(small), small) if not c.ok}
+    checks = static(Run(small), small)
+    (journal,) = [c for c in checks if c.name == "journal"]
+    assert journal.ok and journal.detail.endswith("NOT sealed: whoever can write the folder can have written it")
+    failing = {c.name: c.detail for c in checks if not c.ok}
     assert failing == {"signature": "another stamp was signed"}  # every hash of the attacker's own is right
     assert first_line(small) == (False, f"{small.name}: refuted")
     assert stamp.status(str(small)).state != "accepted"

@@ -10,6 +10,8 @@ from __future__ import annotations
 import importlib
 import os
 import pkgutil
+from collections.abc import Iterator
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol, cast
 
@@ -26,7 +28,7 @@ class Harness(Protocol):
     NAME: str
     """The name that people give it."""
     SHELL_SETS: tuple[str, ...]
-    """Environment variables that it sets in its shells: no person sits at a terminal there."""
+    """Environment variables that it sets in its shells: a terminal that was opened there is its own."""
     PROGRAM: str
     """The command that starts it."""
     PACKAGE: str
@@ -55,9 +57,26 @@ def known() -> dict[str, Harness]:
 
 
 def around() -> str:
-    """The name of the harness in whose shell this process runs; empty when there is none."""
-    found = (harness for harness in known().values() if any(map(os.environ.get, harness.SHELL_SETS)))
+    """The name of the harness in whose shell this process, or one that it descends from, began; empty when there is none.
+
+    A process that let its parent die before, and a shell whose variables were taken away from its beginning, are not told.
+    """
+    began = [{name for name, value in os.environ.items() if value}, *_above()]
+    found = (harness for harness in known().values() if any(names & {*harness.SHELL_SETS} for names in began))
     return next((harness.NAME for harness in found), "")
+
+
+def _above() -> Iterator[set[str]]:
+    """The names of the variables that each process above this one began with, as far as they can be read."""
+    pid = os.getppid()
+    with suppress(OSError, ValueError, IndexError):
+        while pid > 1:
+            folder = Path("/proc") / str(pid)
+            yield {
+                word.partition(b"=")[0].decode(errors="replace")
+                for word in (folder / "environ").read_bytes().split(b"\0")
+            }
+            pid = int((folder / "stat").read_text().rpartition(")")[2].split()[1])
 
 
 def find(name: str) -> Harness:

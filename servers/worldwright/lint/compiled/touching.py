@@ -154,6 +154,16 @@ class Touching:
                     found.add(touch)
         return found
 
+    def of_flex(self, flex: int, other: str) -> set[Touch]:
+        """Every way in which a flex can touch the geoms of an owner; by the engine's rules it mixes as a geom does."""
+        view = self.view
+        if view.contacts_off:
+            return set()
+        columns = [np.ravel(getattr(view, f"flex_{name}")[flex]) for name in (*GEOM, "friction", "solref", "solimp")]
+        row = np.concatenate([*columns, np.zeros(self.rows.shape[1] - sum(map(len, columns)))]).astype(float)
+        kinds = {kind for counted in self.geoms.get(other, {}).values() for kind in counted}
+        return {touch for kind in kinds if (touch := self._mix(row, self.rows[kind])) is not None}
+
     def of_geom(self, geom: int, other: str) -> set[Touch]:
         """Every way in which one geom can touch another owner: what `between` says of all of a body, said of a part."""
         view, listed = self.view, dict[int, int]()
@@ -193,7 +203,11 @@ class Touching:
     @lru_cache(maxsize=100_000)  # noqa: B019 (lives as long as one comparison)
     def _mixed(self, k: int, m: int) -> Touch | None:
         """The contact of two kinds of geoms, or None when their masks never match."""
-        one, other = self.rows[k], self.rows[m]
+        return self._mix(self.rows[k], self.rows[m])
+
+    @staticmethod
+    def _mix(one: np.ndarray, other: np.ndarray) -> Touch | None:
+        """The same of their rows."""
         if not (int(one[0]) & int(other[1]) or int(other[0]) & int(one[1])):
             return None
         condim, friction, solref, solimp = 2, slice(7, 10), slice(10, 12), slice(12, 17)

@@ -23,6 +23,11 @@ def who(by: str, *, auto: bool) -> str:
     return NOBODY if auto else by or "unknown"
 
 
+def told(by: str, *, auto: bool) -> str:
+    """The same as a clause: who typed a name is not known, only that it was given."""
+    return f"by {NOBODY}" if auto else f"in the name of {by or 'nobody'}"
+
+
 def model_hashes(run: Run) -> dict[str, str]:
     """SHA-256 of each model file beside the plan that the plan names, by path relative to it."""
     from ..plan import imported

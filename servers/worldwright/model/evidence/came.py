@@ -1,7 +1,8 @@
 """How an approval, a description or a review was sent.
 
-The name in it (`by`, `author`, `reviewer`) is what its sender claims. How it was sent is what the receiver saw: a terminal
-with a person at it, a command line without one, a harness over MCP, or code that called by itself. The role inside a harness
+The name in it (`by`, `author`, `reviewer`) is what its sender claims. How it was sent is what the receiver saw: a terminal,
+at which a person or a program may sit (anybody can open a pseudo-terminal), a command line without one, a harness over MCP,
+or code that called by itself. The role inside a harness
 is known where its hook ran: before the call, the write-scope guard leaves a note with the role's name under `runs/.spoken`,
 which the server takes away. None of this stops somebody who controls the machine; it keeps an agent's approval from
 standing in the stamp as a person's.
@@ -21,6 +22,9 @@ from ..frozen import Frozen
 SPOKEN = Path(__file__).resolve().parents[4] / "runs" / ".spoken"
 """Where the guard leaves its notes: one file a call, `TOOL-TIME.json`, with `agent` and `run`."""
 FRESH_S = 60.0
+TERMINAL = "confirmed at a terminal"
+OLDER = "a person at a terminal"
+"""How older versions told it, who could not know."""
 
 
 class Came(Frozen):
@@ -35,7 +39,7 @@ class Came(Frozen):
     def text(self) -> str:
         """A few words for the stamp, the status and the report."""
         if self.how == "terminal":
-            return "a person at a terminal"
+            return TERMINAL
         if self.how == "command_line":
             return "a command line without a terminal" + (f", inside {self.client}" if self.client else "")
         if self.how == "automation":
@@ -63,12 +67,12 @@ def entered(came: Came) -> Iterator[None]:
 
 
 def by_command(inside: str) -> Came:
-    """How a command came: a person sits at a terminal, unless a harness opened it, whose name is then `inside`."""
+    """How a command came: at a terminal, unless a harness opened it, whose name is then `inside`."""
     try:
-        person = sys.stdin.isatty() and sys.stdout.isatty()
+        terminal = sys.stdin.isatty() and sys.stdout.isatty()
     except (AttributeError, ValueError):  # closed, or not there
-        person = False
-    return Came(how="terminal") if person and not inside else Came(how="command_line", client=inside)
+        terminal = False
+    return Came(how="terminal") if terminal and not inside else Came(how="command_line", client=inside)
 
 
 def by_client(name: str, tool: str, arguments: Mapping[str, Any], folder: Path | None = None) -> Came:
@@ -99,3 +103,8 @@ def of(entry: Mapping[str, Any] | None) -> str:
         return Came.model_validate((entry or {})["came"]).text()
     except (KeyError, ValueError):
         return ""
+
+
+def told(said: str) -> str:
+    """The words of a stamp, which may be an older version's, as they are said now."""
+    return TERMINAL if said == OLDER else said

@@ -2,7 +2,8 @@
 
 A line is a JSON object whose last field, `chain`, is the SHA-256 of the previous line's `chain`, a newline, and the line
 itself without that field. So a line that was edited, taken out or slipped in breaks the chain at the next one, and the
-stamp holds the chain's head at acceptance, which binds the last line too. What stood in the file before its first
+stamp holds the chain's head at acceptance, which binds the last line too. The field before it is its `seal`, where one was
+given (`seals`). What stood in the file before its first
 chained line (journals of older versions) is bound as a whole: its hash takes the place of the previous `chain`.
 
 A crash can tear the last line. A torn line is skipped, the next writer starts a new line after it, and the chain goes on
@@ -13,13 +14,15 @@ import fcntl
 import hashlib
 import json
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-CHAIN = "chain"
-_MARK = f', "{CHAIN}": "'
+CHAIN, SEAL = "chain", "seal"
+_MARK, _SEAL_MARK = f', "{CHAIN}": "', f', "{SEAL}": "'
+Sealing = Callable[[str, str], str]
+"""The seal of a line, from the chain before it and its text; empty for none."""
 
 
 @dataclass(frozen=True)
@@ -42,8 +45,17 @@ class Line:
     @property
     def body(self) -> str:
         """The line without its chain."""
-        head, mark, _ = self.text.rpartition(_MARK)
-        return f"{head}}}" if mark else self.text
+        return _without(self.text, _MARK)
+
+    @property
+    def seal(self) -> str:
+        """The signature on it; empty where there is none."""
+        return str((self.entry or {}).get(SEAL, ""))
+
+    @property
+    def unsealed(self) -> str:
+        """The line without its chain and its seal: what was sealed."""
+        return _without(self.body, _SEAL_MARK) if self.seal else self.body
 
 
 class Journal:
@@ -53,19 +65,22 @@ class Journal:
         self.path = path
         self.held = held
 
-    def append(self, entry: dict[str, Any]) -> str:
+    def append(self, entry: dict[str, Any], sealing: Sealing | None = None) -> str:
         """Write one entry, of at least one field, and flush it to the disk; returns the new head of the chain.
 
         Writers in other processes wait for each other. A write that the disk does not take whole is taken back, and
         its `OSError` is raised.
         """
-        body = json.dumps({k: v for k, v in entry.items() if k != CHAIN}, ensure_ascii=False, default=str)
+        body = json.dumps({k: v for k, v in entry.items() if k not in (CHAIN, SEAL)}, ensure_ascii=False, default=str)
         handle = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | os.O_CLOEXEC, 0o644)
         try:
             fcntl.flock(handle, fcntl.LOCK_EX)
             size = os.fstat(handle).st_size
             before = _read(handle, size)
-            chain = _next(_head(before), body)
+            previous = _head(before)
+            if sealing is not None and (seal := sealing(previous, body)):
+                body = f'{body[:-1]}{_SEAL_MARK}{seal}"}}'
+            chain = _next(previous, body)
             torn = b"" if not before or before.endswith(b"\n") else b"\n"
             line = torn + f'{body[:-1]}{_MARK}{chain}"}}\n'.encode()
             try:
@@ -98,6 +113,14 @@ class Journal:
     def vouched(self, key: str) -> dict[str, str]:
         """The hashes of the reports of an evidence key, by name, as the last line about each says."""
         return reports(self.entries(), key)
+
+    def bound(self) -> Iterator[tuple[Line, str]]:
+        """Each chained line, and the chain that it is bound to."""
+        content, previous = self._bytes(), ""
+        for line in _lines(content):
+            if line.chain:
+                yield line, previous or _before(content, line.start)
+                previous = line.chain
 
     def breaks(self) -> list[str]:
         """Where lines were edited, taken out or slipped in; empty when the chain holds."""
@@ -136,6 +159,12 @@ def reports(entries: Iterable[dict[str, Any]], key: str) -> dict[str, str]:
         if entry.get("key") == key and isinstance(said, dict):
             found |= said
     return found
+
+
+def _without(text: str, mark: str) -> str:
+    """A line without its last field, which begins with this mark."""
+    head, found, _ = text.rpartition(mark)
+    return f"{head}}}" if found else text
 
 
 def _next(previous: str, body: str) -> str:

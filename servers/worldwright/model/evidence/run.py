@@ -11,7 +11,7 @@ from worldkit.files import json_text, write_atomic, write_json
 from .. import companions
 from ..errors import NotFoundError
 from ..storage import writing
-from . import assets_used
+from . import assets_used, seals
 from .journal import Journal
 from .reports import EvidenceKey
 
@@ -175,7 +175,8 @@ class Run:
         """Append one line to the journal; returns the head of its chain.
 
         Every line says how the program and the plan stood when it was written (`program_sha256`, `plan_sha256`), and
-        the SHA-256 of the reports kept since the line before (`reports`), so that later changes can be told.
+        the SHA-256 of the reports kept since the line before (`reports`), so that later changes can be told. It is sealed
+        where this process may use this machine's key.
         """
         entry = {
             "time": datetime.now(UTC).isoformat(timespec="milliseconds"),
@@ -190,7 +191,7 @@ class Run:
             entry["reports"] = dict(self._reports)
         with writing("the journal", self.journal):
             self.folder.mkdir(parents=True, exist_ok=True)
-            head = Journal(self.journal).append(entry)
+            head = Journal(self.journal).append(entry, seals.made)
         self._reports.clear()
         return head
 

@@ -3,7 +3,6 @@
 import base64
 from typing import Any
 
-from ... import exported
 from ..material import Material
 
 CODE = "RS025"
@@ -13,6 +12,6 @@ MOST_BYTES = 12 * 2**20
 
 
 def context(material: Material) -> dict[str, Any]:
-    """The scene, base64; None where there is none of the present recording, or it is too large."""
-    data = exported.scene(material.run)
+    """The scene, base64; None where there is none that may be shown, or it is too large."""
+    data = material.scene
     return {"replay": base64.b64encode(data).decode() if data and len(data) <= MOST_BYTES else None}

@@ -55,22 +55,31 @@ class Causes:
         step = self.trajectory.time_step or self.trajectory.interval_s
         for objective in self.plan.objectives:
             for cause in objective.cause:
-                for words in (_without(cause), *(_weaker(cause, factor) for factor in WEAKER)):
-                    self.trials.ask(*words)
+                self.ask(cause)
         if any(not (row.declared and row.when != "state") for row in triggers.discrete(self.acting, step)):
             for factor in triggers.SLOWER:
                 if words := triggers.slower(self.plan, self.trajectory, factor):
                     self.trials.ask(*words)
-        for row in self._helpers():
-            self.trials.ask("--without", self._switch(row))
+        for row in self.helpers():
+            self.ask_without(row)
 
-    def _helpers(self) -> list[Acting]:
+    def ask(self, cause: str) -> None:
+        """Ask for the repetitions that one cause needs."""
+        for words in (_without(cause), *(_weaker(cause, factor) for factor in WEAKER)):
+            self.trials.ask(*words)
+
+    def ask_without(self, row: Acting) -> None:
+        """Ask for the repetition without one intervention."""
+        self.trials.ask("--without", self._switch(row))
+
+    def helpers(self) -> list[Acting]:
+        """The declared interventions that are switched off."""
         return [row for row in self.acting if row.declared][:MOST_HELPERS]
 
     def report(self) -> CausesReport:
         """The judgement; every repetition must have been made or have failed."""
         step = self.trajectory.time_step or self.trajectory.interval_s
-        causes = tuple(self._cause(i, cause) for i, o in enumerate(self.plan.objectives) for cause in o.cause)
+        causes = tuple(self.cause(i, cause) for i, o in enumerate(self.plan.objectives) for cause in o.cause)
         tested = {label: made for label, made in self.trials.made.items() if label.startswith("weaken")}
         found = tuple(triggers.judge(self.trajectory, row, tested) for row in triggers.discrete(self.acting, step))
         anomalies = [*self._anomalies(causes), *triggers.anomalies(found)]
@@ -79,13 +88,14 @@ class Causes:
             trials=self.trials.told(),
             causes=causes,
             triggers=found,
-            helpers=tuple(self._helper(row) for row in self._helpers()),
+            helpers=tuple(self.helper(row) for row in self.helpers()),
             anomalies=tuple(anomalies),
         )
 
     # -- one objective -----------------------------------------------------------------------------------------------
 
-    def _cause(self, index: int, cause: str) -> CauseResult:
+    def cause(self, index: int, cause: str) -> CauseResult:
+        """The judgement of one; its repetitions must have been made or have failed."""
         objective, known = self.plan.objectives[index], self.expected.objectives[index]
         effects = self._effects(index, cause)
         facts = {
@@ -204,7 +214,8 @@ class Causes:
             return f"actuator:{name.partition('[')[0]}"
         return f"{row.kind}:{row.target}"
 
-    def _helper(self, row: Acting) -> HelperResult:
+    def helper(self, row: Acting) -> HelperResult:
+        """Which claims need it; its repetition must have been made or have failed."""
         label = f"without {self._switch(row)}"
         facts = {"kind": row.kind, "target": row.target, "law": row.law}
         if label not in self.trials.made:

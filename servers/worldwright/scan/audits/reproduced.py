@@ -73,8 +73,13 @@ def _fill(trials: Trials, told: tuple[Trial, ...]) -> str:
 
 
 def _apart(said: Frozen, shown: Frozen) -> str:
-    for place, one, other in _differences(said.model_dump(mode="json"), shown.model_dump(mode="json"), ""):
-        return f"says {place} is {str(one)[:80]}, and its repetitions show {str(other)[:80]}"
+    return apart(said.model_dump(mode="json"), shown.model_dump(mode="json"))
+
+
+def apart(said: Any, shown: Any) -> str:
+    """The first place where two reports, as JSON has them, differ by more than another machine's last digits, as a clause."""
+    for place, one, other in _differences(said, shown, ""):
+        return f"says {place or 'this'} is {str(one)[:80]}, and its repetitions show {str(other)[:80]}"
     return ""
 
 

@@ -42,11 +42,11 @@ def report(trajectory: Trajectory, plan: Plan, trials: Trials) -> RobustReport:
     return RobustReport(
         trajectory_sha256=trajectory.sha256,
         worlds=tuple(told[label] for label in labels),
-        claims=tuple(_claims(expecting.expect(trajectory, plan), made, diverged)),
+        claims=tuple(claims(expecting.expect(trajectory, plan), made, diverged)),
     )
 
 
-def _claims(planned: ExpectReport, made: dict[str, ExpectReport], diverged: dict[str, str]) -> Iterator[Held]:
+def claims(planned: ExpectReport, made: dict[str, ExpectReport], diverged: dict[str, str]) -> Iterator[Held]:
     """One row for every expectation that holds as planned; what only a still can show is left out.
 
     `diverged`: the labels of worlds that came to no end, and how.

@@ -10,8 +10,8 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
-from . import rlimits, seccomp
-from .confinement import SYSTEM, Confinement, devices, runtime_paths
+from . import host_facts, rlimits, seccomp
+from .confinement import DEVICES, SYSTEM, Confinement, devices, runtime_paths
 
 SETTINGS = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/proc/fs", "/proc/acpi", "/proc/scsi")
 
@@ -29,10 +29,12 @@ def command(call: list[str], confinement: Confinement, denial: int) -> list[str]
     return [
         shutil.which("bwrap") or "bwrap",
         *("--unshare-all", "--die-with-parent", "--new-session", "--clearenv", "--cap-drop", "ALL"),
+        *("--hostname", host_facts.HOST_NAME),
         *_system(),
         *("--proc", "/proc", "--dev", "/dev"),
         # To the kernel's own settings, root's job is still root, whatever capabilities it lacks.
         *(word for path in SETTINGS if Path(path).exists() for word in ("--ro-bind", path, path)),
+        *_hidden(),
         *(word for path in devices() for word in ("--dev-bind", str(path), str(path))),
         *("--size", str(confinement.shared_bytes), "--tmpfs", "/dev/shm", "--remount-ro", "/dev"),
         *binds,
@@ -59,13 +61,21 @@ def before_exec(confinement: Confinement) -> Callable[[], None]:
 def _system() -> list[str]:
     """System folders, read-only; those that are links stay links."""
     words: list[str] = []
-    for name in SYSTEM:
+    for name in (*SYSTEM, *DEVICES):
         path = Path(name)
         if path.is_symlink():
             words += ["--symlink", str(path.readlink()), name]
         elif path.exists():
             words += ["--ro-bind", name, name]
     return words
+
+
+def _hidden() -> list[str]:
+    """Cover what tells of this very machine."""
+    words = [word for path in host_facts.folders() for word in ("--tmpfs", str(path), "--remount-ro", str(path))]
+    return words + [
+        word for name in host_facts.BOOT if Path(name).exists() for word in ("--ro-bind", "/dev/null", name)
+    ]
 
 
 def _outermost(paths: list[Path]) -> list[Path]:

@@ -21,11 +21,10 @@ SYSTEM = (
     "/etc/fonts",
     "/etc/OpenCL",
     "/etc/localtime",
-    "/sys/dev",
-    "/sys/devices",
-    "/sys/class",
 )
-"""Parts of the system that any job may read: programs, libraries, and the description of the graphics stack."""
+"""Parts of the system that any job may read: programs and libraries; what it may know of the devices, each level says."""
+DEVICES = ("/sys/dev", "/sys/devices", "/sys/class")
+"""Where the kernel describes the devices, the graphics among them, and much that is nobody's business (`host_facts`)."""
 
 
 def processes() -> int:

@@ -13,7 +13,7 @@ import struct
 from collections.abc import Callable
 from pathlib import Path
 
-from . import rlimits, seccomp
+from . import host_facts, rlimits, seccomp
 from .confinement import SYSTEM, Confinement, devices, runtime_paths
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF = 444, 445, 446
@@ -70,7 +70,7 @@ def _rules(confinement: Confinement) -> list[tuple[Path, int]]:
     everything = sum(RIGHTS_BY_ABI.values())
     rules = [(Path(name), RUN) for name in SYSTEM]
     rules += [(path, RUN) for path in runtime_paths()]
-    rules += [(path, READ) for path in confinement.reads]
+    rules += [(path, READ) for path in (*host_facts.graphics(), *confinement.reads)]
     # The import system lists the folder of worldkit; it may read nothing else there.
     rules += [(WORLD, READ_DIR)]
     rules += [(path, everything & ~EXECUTE & ~IOCTL_DEVICE) for path in (confinement.out, confinement.scratch)]

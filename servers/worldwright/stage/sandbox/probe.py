@@ -59,7 +59,16 @@ def attempts(outside: Path, parent: int) -> dict[str, Callable[[], object]]:
         "io_uring": lambda: call(425, 1, 0),
         "kernel settings": lambda: os.close(os.open("/proc/sys/kernel/core_pattern", os.O_WRONLY)),
         "raise a limit": lambda: _raise_limit(),
+        "hardware addresses": lambda: _addresses(),
     }
+
+
+def _addresses() -> list[str]:
+    """What tells this machine from every other; a FileNotFoundError when no network device is seen."""
+    names = [path / "address" for path in Path("/sys/class/net").iterdir()]
+    if not names:
+        raise FileNotFoundError(errno.ENOENT, "no network device is seen")
+    return [name.read_text() for name in names]
 
 
 def _raise_limit() -> None:

@@ -64,6 +64,17 @@ def changed(*lines: str) -> tuple[str, dict[str, object]]:
     return HAND_MADE.replace("    CHANGES\n", "".join(f"    {line}\n" for line in lines)), PLAN
 
 
+def sheet(*also: str) -> tuple[str, dict[str, object]]:
+    """A case with a sheet of foam that by the plan is a thing like another, and that is built as a flex; `also`: of the flex `f`."""
+    made = "f = spec.worldbody.make_flex('sheet', type='grid', dim=3, count=(2, 2, 2), spacing=(.1, .1, .1), mass=9, pos=(0, 3, 1))"
+    text, plan = changed(made, "f.radius, f.friction[0] = 0.02, 0.3", *also)
+    topology: dict = plan["topology"]  # type: ignore[assignment]
+    places = topology["body_positions"] | {"sheet": {"x": 0, "y": 3, "z": 1}}
+    row = {"name": "sheet", "primitive": "box", "size": [0.1, 0.1, 0.1], "material": "wood"}
+    more = {"scene_objects": [*plan["scene_objects"], row], "topology": topology | {"body_positions": places}}  # type: ignore[misc]
+    return text, plan | more
+
+
 SOUND = (changed(),)
 """The hand-made world itself, which acts as its plan says although it is written otherwise."""
 
@@ -104,6 +115,18 @@ def missing(view: ModelView, kind: str) -> Iterator[str]:
 def acted_on(plan: Plan, *kinds: str) -> set[str]:
     """The names in the plan's interventions of these kinds: one that declares a motor's control excuses no hidden weld."""
     return {name for item in plan.simulation_parameters.interventions if item.kind in kinds for name in item.bodies}
+
+
+def flexed(view: ModelView) -> dict[str, list[int]]:
+    """The flexes of each thing of the plan that is built of nothing else that can be touched: those that bear its name, or one
+    that begins with it."""
+    found: dict[str, list[int]] = {}
+    things = view.things - {holder(view, int(body)) for body in view.geom_bodyid[view.collides]}
+    for flex, name in enumerate(view.texts["names"]["flex"]):
+        of = [it for it in things if name == it or name.startswith((f"{it}_", f"{it}/"))]
+        if of:
+            found.setdefault(max(of, key=len), []).append(flex)
+    return found
 
 
 def rebounds_otherwise(ratio: float, planned: float) -> bool:

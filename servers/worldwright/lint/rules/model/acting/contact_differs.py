@@ -3,7 +3,8 @@
 What it does: works out, by the engine's own rules, how each pair of bodies touches (masks, exclusions, priorities, mixing,
 explicit pairs), and compares sliding, torsional and rolling friction, rebound, softness, margin, adhesion and the speed of
 surfaces with the world of the plan's draft; of a body of several surfaces part by part. Our own pairs against hopping count
-as the contacts they replace. A stiffer contact of the same rebound is free; without a stated rebound MuJoCo's own contact is,
+as the contacts they replace. Of a thing that is built as a flex, whether it touches and how it slides counts: its rebound is its
+own elasticity's. A stiffer contact of the same rebound is free; without a stated rebound MuJoCo's own contact is,
 too.
 
 Why is this bad: the friction that is written on a geom need not act: a pair or a priority overrides it, and a crate slides
@@ -27,7 +28,7 @@ from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
 from ._part_points import away
-from ._twins import SOUND, changed, holder, rebounds_otherwise, shown, stated, twins
+from ._twins import SOUND, changed, flexed, holder, rebounds_otherwise, sheet, shown, stated, twins
 
 CODE = "WM160"
 SEVERITY = "error"
@@ -85,6 +86,8 @@ def _running(constant: str, unit: str) -> tuple[str, dict[str, object]]:
 
 GOOD = (
     *SOUND,
+    sheet(),
+    sheet("spec.worldbody.add_body(name='sheet', pos=(0, 3, 1)).add_geom(size=(.01, 0, 0), contype=0, conaffinity=0)"),
     _running("belt_speed", "m/s"),
     _block(EVEN, *EVEN),
     _block(KNOBBED, (0.25, -0.25, -0.05, "LEAD"), (0.25, 0.25, -0.05, "LEAD"), KNOBBED[1]),
@@ -94,6 +97,9 @@ GOOD = (
     ),
 )
 BAD = (
+    sheet("f.friction[0] = 1.0"),
+    sheet("f.contype = f.conaffinity = 0"),
+    sheet("spec.geom('crate').solref = (-250000, -20)", "f.name = 'crate_drawn'", "f.contype = f.conaffinity = 0"),
     _block(EVEN, (0.15, 0, -0.05, "RUBBER"), (0.15, 0, 0.05, "LEAD")),
     _block(KNOBBED, (0.25, -0.25, -0.05, "LEAD"), (0.25, 0.25, -0.05, "RUBBER"), KNOBBED[1]),
     changed(PAIR),
@@ -136,10 +142,12 @@ def check(view: ModelView) -> Iterator[Problem]:
     planned_view = view.planned
     built, planned = (Touching(world, partial(holder, world)) for world in (view, planned_view))
     yield from _swapped(view, built, planned)
-    known, seen = set(planned.geoms), set()
+    soft = flexed(view)
+    yield from _soft(view, built, planned, soft)
+    known, seen = set(planned.geoms) - soft.keys(), set()
     for one in built.suspects(planned):
         shown_pairs = 0
-        for other in sorted(known & {*built.geoms} - {one}):
+        for other in sorted(known & {*built.geoms} - {one}) if one not in soft else ():
             ends = Touching.ends(one, other)
             if ends in seen or shown_pairs >= MOST:
                 continue
@@ -148,6 +156,22 @@ def check(view: ModelView) -> Iterator[Problem]:
             if message:
                 shown_pairs += 1
                 yield _problem_of(view, one, other, message)
+
+
+def _soft(view: ModelView, built: Touching, planned: Touching, soft: dict[str, list[int]]) -> Iterator[Problem]:
+    """Things that are built as flexes and slide otherwise than the plan says, or touch what they should not, or nothing.
+
+    How they rebound and give way is the matter's own doing, which no contact of a solid thing can be held against.
+    """
+    for one, flexes in soft.items():
+        for other in sorted({*planned.geoms} & {*built.geoms} - {one, *soft}):
+            touches = set[Touch]().union(*(built.of_flex(flex, other) for flex in flexes), built.between(one, other))
+            message = _difference(view, touches, planned.between(one, other), solid=False)
+            if message:
+                said = message.format(f"{one} and {other}")
+                yield view.at(
+                    "flex", flexes[0], said, "give the flex the friction of the plan's material, and its masks"
+                )
 
 
 def _swapped(view: ModelView, built: Touching, planned: Touching) -> Iterator[Problem]:
@@ -190,20 +214,21 @@ def _problem_of(view: ModelView, one: str, other: str, message: str) -> Problem:
     return view.at("body", bodies.index(name) if name in bodies else 0, said, "give both geoms the plan's material")
 
 
-def _difference(view: ModelView, built: set[Touch], planned: set[Touch]) -> str:
-    """What differs between the contacts of two bodies, with a place for their names; empty when nothing does."""
+def _difference(view: ModelView, built: set[Touch], planned: set[Touch], *, solid: bool = True) -> str:
+    """What differs between the contacts of two bodies, with a place for their names; empty when nothing does. `solid`: both
+    are, so how they rebound and give way counts, too."""
     if planned and not built:
         return "{} pass through each other, by the plan they touch"
     if built and not planned:
         return "{} touch, by the plan they pass through each other or hold together"
     for touch in sorted(built, key=repr):
-        said = [_describe_difference(view, touch, twin) for twin in planned]
+        said = [_describe_difference(view, touch, twin, solid=solid) for twin in planned]
         if all(said):
             return min(said, key=len)
     return ""
 
 
-def _describe_difference(view: ModelView, built: Touch, planned: Touch) -> str:
+def _describe_difference(view: ModelView, built: Touch, planned: Touch, *, solid: bool) -> str:
     """How one contact differs from what the plan makes it; empty when it does not."""
     assert view.plan is not None
     slide, across, spin, roll = built.acting
@@ -213,6 +238,8 @@ def _describe_difference(view: ModelView, built: Touch, planned: Touch) -> str:
     ):
         here = shown(slide) if slide == across else f"{shown(slide)} one way and {shown(across)} across it"
         return f"between {{}} a friction of {here} acts, by the plan {shown(theirs[0])}"
+    if not solid:
+        return ""
     for word, mine, planned_m, free in (("torsional", spin, theirs[2], SPIN_M), ("rolling", roll, theirs[3], ROLL_M)):
         if abs(mine - planned_m) > max(1e-6, 0.05 * planned_m) and not (mine == 0 and planned_m <= free):
             return f"between {{}} a {word} friction of {shown(mine)} m acts, by the plan {shown(planned_m)} m"
