@@ -75,7 +75,7 @@ test-semantic: .venv/.semantic ## Ranking by meaning with torch and LanceDB in p
 	WORLDWRIGHT_SEMANTIC=1 $(PYTEST) tests/worldwright/retrieve -p no:xdist
 
 test-ray: .venv/.dev ## Campaigns on Ray itself, on this machine
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,cluster,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,scenes,cluster,dev]'
 	WORLDWRIGHT_RAY=1 PYTHONPATH=tests $(PYTEST) tests/worldwright/campaign/test_on_ray.py -p no:xdist
 
 lock: .venv/.dev ## Pin what is installed now
@@ -96,11 +96,11 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,scenes,gym,mcap,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev
-	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,semantic,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,scenes,semantic,gym,mcap,dev]'
 	@touch $@
 
 clean: ## Remove the environment and caches; runs are kept

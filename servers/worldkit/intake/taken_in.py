@@ -8,7 +8,7 @@ import yaml
 
 from ..errors import IntakeError
 from ..files import write_atomic
-from . import declared_sizes, drawn_pieces, mending, shown_meshes, touchable, upright
+from . import declared_sizes, drawn_pieces, mending, shown_meshes, told_frames, touchable, upright
 from .drawn_pieces import Array
 from .mending import Solid
 
@@ -35,7 +35,8 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
     suffix = file.suffix.lower()
     declared_sizes.check(file)
     pieces, said = drawn_pieces.read(file)
-    turn, assumed = upright.turn(suffix, asked.get("up", ""), asked.get("front", ""))
+    told = told_frames.of(file)
+    turn, assumed = upright.turn(suffix, asked.get("up", ""), asked.get("front", ""), told)
     turn = turn @ np.asarray(asked.get("rotation") or np.eye(3), float)
     pieces = [piece.moved(turn, np.zeros(3)) for piece in pieces]
     low, high = _box([piece.vertices[np.unique(piece.faces)] for piece in pieces])
@@ -43,7 +44,7 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
         raise IntakeError(
             "zero_volume", "it is flat: it has no height", file.name, "give it thickness, or name another --up"
         )
-    factor, height_source, more = upright.scale(suffix, high - low, asked)
+    factor, height_source, more = upright.scale(suffix, high - low, asked, told)
     pieces = [piece.moved(np.diag(factor), -factor * (low + high) / 2) for piece in pieces]
     solid = mending.solid_of(pieces, file.name)
     rows, hulls, how = touchable.pieces(solid)

@@ -7,13 +7,13 @@ import zlib
 from pathlib import Path, PurePosixPath
 
 from ..errors import IntakeError
-from .declared_sizes import MOST_BYTES, PICTURES, SUFFIXES
+from .declared_sizes import MOST_BYTES, PICTURES, SUFFIXES, USD
 
-ARCHIVES = (".zip",)
+ARCHIVES = (".zip", ".usdz")
 WANTED = (*SUFFIXES, ".mtl", *PICTURES)
 MOST_FILES = 2_000
 CHUNK = 1 << 20
-FIRST = (".glb", ".obj", ".ply", ".off", ".stl")
+FIRST = (".glb", ".usdc", ".usd", ".usda", ".dae", ".obj", ".ply", ".off", ".stl")
 """Of one mesh in several formats, the one that says most."""
 
 
@@ -60,6 +60,10 @@ def unpack(archive: Path, folder: Path) -> Path:
             archive.name,
             "get it once more, or unpack it yourself",
         ) from error
+    if archive.suffix.lower() == ".usdz":  # whose first layer is the scene, by its specification
+        scene = [row.filename for row in wanted if PurePosixPath(row.filename).suffix.lower() in USD]
+        if scene:
+            return folder / scene[0]
     return the_mesh(folder, archive.name)
 
 

@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from worldkit.files import write_json
 from worldkit.intake import unpacked
-from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, SUFFIXES
+from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, SUFFIXES, USD
 
 from ..model.errors import JobError, NotFoundError
 from ..model.frozen import Frozen
@@ -32,6 +32,8 @@ FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png")
 WORLD = ("world.mjz", "program.json")
 PASSED = ("height", "units", "up", "front", "mass", "extents", "rotation", "built_up")
 """What the confined process is asked as it stands."""
+BELONGING = {".obj": (".mtl", *PICTURES), ".dae": PICTURES, **dict.fromkeys(USD, (*USD, *PICTURES))}
+"""What a file of a format may read of what lies beside it: materials, pictures, other layers."""
 AGAIN = "worldwright asset add FILE"
 
 
@@ -75,8 +77,8 @@ def add(
     """Take in a mesh file as an asset.
 
     Args:
-        file: GLB, OBJ, STL, PLY or OFF; an OBJ's materials and pictures are looked for beside it. Or a folder or a .zip
-            with one such mesh, or the key of an offer of a packaged library.
+        file: GLB, OBJ, STL, PLY, OFF, COLLADA or USD; materials, pictures and layers are looked for beside it. Or a folder
+            or a .zip with one such mesh, or the key of an offer of a packaged library.
         asked: any of `key`, `category`, `description`, `licence`, `creator`, `source`, `material`, `height`, `units`, `up`,
             `front`, `mass`.
         to: whose folder it goes into.
@@ -173,7 +175,7 @@ def _request(file: Path, asked: dict[str, Any]) -> dict[str, Any]:
 
 
 def _lay(file: Path, given: Path) -> list[str]:
-    """Copy the mesh, and for an OBJ the materials and pictures beside it and one folder deeper, as far as they are bounded.
+    """Copy the mesh, and what may belong to it beside it and one folder deeper, as far as that is bounded.
 
     Returns what was left out, to be said.
     """
@@ -188,12 +190,11 @@ def _lay(file: Path, given: Path) -> list[str]:
             next_move="reduce it to fewer faces in a modelling program, then add it again",
         )  # fmt: skip
     shutil.copyfile(file, given / file.name)
-    if file.suffix.lower() != ".obj":
+    wanted = BELONGING.get(file.suffix.lower(), ())
+    if not wanted:
         return []
     folder = file.parent
-    beside = sorted(
-        path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix.lower() in (".mtl", *PICTURES)
-    )
+    beside = sorted(path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix.lower() in wanted)
     return _copied(beside, folder, given, BESIDE_BYTES)
 
 
