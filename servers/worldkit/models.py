@@ -209,21 +209,22 @@ def _checked(text: str, name: str) -> None:
 
 
 def _found(file: str, child: "mujoco.MjSpec", name: str, folder: str) -> Path:
-    """A file of a model in the catalog."""
+    """A file of a model in the catalog, or in the user's own folder of assets."""
     from .assets.catalog import take
-    from .assets.root import catalog_root
+    from .assets.root import catalog_root, own_root
 
-    home = (catalog_root() / folder).resolve()
     stem = file.removeprefix("package://")
-    for place in (home / (child.meshdir or "") / stem, home / stem, home / Path(stem).name):
-        path = place.resolve()
-        if path.is_file() and path.is_relative_to(home):
-            if path.suffix.lower() not in (".obj", ".png"):
-                raise ValueError(
-                    f"model {name}: {file} is neither .obj nor .png, which are all that evidence covers: convert it"
-                )
-            take(path.relative_to(catalog_root()).parts[0])
-            return path
+    for root in (catalog_root(), own_root()):
+        home = (root / folder).resolve()
+        for place in (home / (child.meshdir or "") / stem, home / stem, home / Path(stem).name):
+            path = place.resolve()
+            if path.is_file() and path.is_relative_to(home):
+                if path.suffix.lower() not in (".obj", ".png"):
+                    raise ValueError(
+                        f"model {name}: {file} is neither .obj nor .png, which are all that evidence covers: convert it"
+                    )
+                take(path.relative_to(root.resolve()).parts[0])
+                return path
     raise ValueError(f"model {name}: its file {file!r} is not in the catalog's folder {folder!r}")
 
 

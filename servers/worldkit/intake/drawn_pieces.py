@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import IntakeError
-from . import collada_claims, declared_sizes, usd_stage
+from . import collada_claims, declared_sizes, group_names, usd_stage
 
 Array = np.ndarray
 MOST_PIECES = 60
@@ -44,6 +44,8 @@ class Drawn:
     rgba: tuple[float, float, float, float] = GREY
     roughness: float = 0.6
     metallic: float = 0.0
+    part: str = ""
+    """Which moving part it is of (`moving_parts`)."""
 
     def moved(self, turn: Array, shift: Array) -> "Drawn":
         """Every vertex turned by a matrix (3, 3) and then shifted (3,)."""
@@ -123,10 +125,12 @@ def _source(path: Path) -> dict[str, Any]:
                 return {"file_obj": BytesIO(head + file.read(most - 84)), "file_type": "stl"}
     if kind == ".obj":
         data = path.read_bytes()
+        apart = {"split_groups": True, "split_objects": True} if group_names.MARK in data else {}
         if b"\t" in data or b"\\" in data:
             plain = re.sub(rb"\\\r?\n", b" ", data).replace(b"\t", b" ")
             beside = trimesh.visual.resolvers.FilePathResolver(str(path))
-            return {"file_obj": BytesIO(plain), "file_type": "obj", "resolver": beside}
+            return {"file_obj": BytesIO(plain), "file_type": "obj", "resolver": beside, **apart}
+        return {"file_obj": path, **apart}
     if kind == ".dae":
         return {"file_obj": BytesIO(path.read_bytes()), "file_type": "dae", "resolver": Beside(path.parent)}
     return {"file_obj": path}
@@ -154,7 +158,9 @@ def _piece(mesh: Any, name: str, number: int, *, of_light: bool) -> Drawn:
     vertices, faces = np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int64)
     _sound(vertices, faces, name, number)
     uv, picture, rgba, rough, metal = _look(mesh, of_light)
-    return Drawn(vertices, faces, uv, picture, rgba, rough, metal)
+    return Drawn(
+        vertices, faces, uv, picture, rgba, rough, metal, group_names.part_of(str(mesh.metadata.get("name", "")))
+    )
 
 
 def _own(row: dict[str, Any], name: str, number: int) -> Drawn:
@@ -270,7 +276,7 @@ def _by_look(pieces: list[Drawn]) -> list[list[Drawn]]:
         if picture is not None and id(picture) not in digests:
             digests[id(picture)] = hashlib.sha256(repr(picture.shape).encode() + picture.tobytes()).digest()
         look = digests[id(picture)] if picture is not None else b""
-        groups.setdefault((look, *(round(c, 2) for c in piece.rgba)), []).append(piece)
+        groups.setdefault((piece.part, look, *(round(c, 2) for c in piece.rgba)), []).append(piece)
     return [*groups.values()]
 
 

@@ -8,7 +8,7 @@ import yaml
 
 from ..errors import IntakeError
 from ..files import write_atomic
-from . import declared_sizes, drawn_pieces, mending, shown_meshes, told_frames, touchable, upright
+from . import declared_sizes, drawn_pieces, mending, moving_parts, shown_meshes, told_frames, touchable, upright
 from .drawn_pieces import Array
 from .mending import Solid
 
@@ -52,7 +52,7 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
     for row in rows:
         if "hull" in row:
             row["file"] = f"hull_{row.pop('hull'):02d}.obj"
-            files[row["file"]] = _hull(hulls[int(row["file"][5:-4])]).encode()
+            files[row["file"]] = touchable.hull_text(hulls[int(row["file"][5:-4])]).encode()
     size = factor * (high - low)
     facts = {
         "key": asked["key"],
@@ -84,6 +84,9 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
             "closed": solid.closed,
         },
     }
+    if (moving := moving_parts.model(asked["key"], pieces, facts)) is not None:
+        files |= moving[0]
+        facts["measured"]["moving"] = moving[1]
     facts["assumed"] = list(dict.fromkeys(facts["assumed"]))
     return files, facts
 
@@ -160,18 +163,6 @@ def _of_hulls(hulls: list[Array]) -> tuple[float, Array, Array]:
         second += inertia + own * (com @ com * np.eye(3) - np.outer(com, com))
     com = moment / volume
     return volume, com, second - volume * (com @ com * np.eye(3) - np.outer(com, com))
-
-
-def _hull(corners: Array) -> str:
-    from scipy.spatial import ConvexHull
-
-    faces = ConvexHull(corners).simplices
-    middle = corners.mean(axis=0)
-    a, b, c = (corners[faces[:, k]] - middle for k in range(3))
-    inward = np.einsum("fi,fi->f", a, np.cross(b, c)) < 0
-    rows = [f"v {x:.7g} {y:.7g} {z:.7g}" for x, y, z in corners]
-    rows += [f"f {i + 1} {j + 1} {k + 1}" for i, j, k in np.where(inward[:, None], faces[:, ::-1], faces)]
-    return "\n".join(rows) + "\n"
 
 
 def _rounded(row: dict[str, Any]) -> dict[str, Any]:

@@ -28,7 +28,7 @@ MEMORY_MB = 6144
 LEAST_S, MOST_S, S_A_MB = 120.0, 900.0, 20.0
 MOST_BESIDE, BESIDE_BYTES = 200, 256 << 20
 KEY = re.compile(r"[a-z][a-z0-9_]{0,59}")
-FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png")
+FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png", "moving.xml", "part_*.obj")
 WORLD = ("world.mjz", "program.json")
 PASSED = ("height", "units", "up", "front", "mass", "extents", "rotation", "built_up")
 """What the confined process is asked as it stands."""
@@ -52,6 +52,8 @@ class Added(Frozen):
     creator: str = ""
     mended: tuple[str, ...] = ()
     """What was mended, and what was assumed."""
+    moving: dict[str, tuple[float, float]] = {}
+    """The joints of its parts in `moving.xml`, each with its range, degrees or m; empty where none moves."""
     next_move: str = ""
 
     @property
@@ -67,6 +69,10 @@ class Added(Frozen):
         if self.holds is not None:
             lines.append(f"  a ball dropped into it {'rests inside' if self.holds else 'does not stay inside'}")
         lines += [f"  {line}" for line in self.mended]
+        if self.moving:
+            told = ", ".join(f"{name} {low:g} to {high:g}" for name, (low, high) in self.moving.items())
+            row = f"{{name: {self.key}, type: mjcf, filename: {self.key}/moving.xml}}"
+            lines.append(f"  its parts move ({told}) where a plan names it as {row}")
         lines.append(f"  licence: {self.licence}" + (f", by {self.creator}" if self.creator else ""))
         return "\n".join([*lines, f"  {self.folder}", f"  next: {self.next_move}"])
 
@@ -297,6 +303,7 @@ def _told(folder: Path, picture: bytes, why: str) -> Illustrated:
         collides_as=str(measured.get("collides_as", "")),
         stands=stands,
         holds=cavity.get("holds"),
+        moving={name: (float(low), float(high)) for name, (low, high) in (measured.get("moving") or {}).items()},
         licence=asset.licence,
         creator=asset.creator,
         mended=mended,

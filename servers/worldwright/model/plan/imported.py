@@ -197,7 +197,7 @@ def _file(row: AssetRow, folder: Path | None) -> tuple[Path, str | None]:
         )
     places: list[tuple[Path, str | None]] = [] if folder is None else [(folder, None)]
     with suppress(FileNotFoundError):
-        places.append((assets.catalog_root(), str(Path(row.filename).parent)))
+        places += [(root, str(Path(row.filename).parent)) for root in (assets.catalog_root(), assets.own_root())]
     for root, home in places:
         path = (root / row.filename).resolve()
         if path.is_file() and path.is_relative_to(root.resolve()):
