@@ -11,6 +11,7 @@ from ..adding_assets import add_asset
 from ..cli import verb
 from ..model.errors import NotFoundError
 from ..model.frozen import Frozen
+from .catalog_page import page
 from .unpacking import unpack
 
 
@@ -134,6 +135,6 @@ def show(key: Annotated[str, Field(description="The asset's key.")]) -> AssetFac
 
 command = click.Group(
     "asset",
-    {"add": verb(add_asset), "list": verb(list_assets), "show": verb(show), "unpack": verb(unpack)},
-    help="Make an asset of a mesh file of yours; list the assets of every source; show one; unpack a robot.",
+    {"add": verb(add_asset), "list": verb(list_assets), "show": verb(show), "unpack": verb(unpack), "page": verb(page)},
+    help="Make an asset of a mesh file of yours; list the assets of every source; show one; unpack a robot; write a page of all.",
 )

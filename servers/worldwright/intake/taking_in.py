@@ -71,7 +71,7 @@ class Added(Frozen):
         lines += [f"  {line}" for line in self.mended]
         if self.moving:
             told = ", ".join(f"{name} {low:g} to {high:g}" for name, (low, high) in self.moving.items())
-            row = f"{{name: {self.key}, type: mjcf, filename: {self.key}/moving.xml}}"
+            row = f"{{name: {self.key}, type: mjcf, filename: {self.key}/moving.xml, fixed: true}}"
             lines.append(f"  its parts move ({told}) where a plan names it as {row}")
         lines.append(f"  licence: {self.licence}" + (f", by {self.creator}" if self.creator else ""))
         return "\n".join([*lines, f"  {self.folder}", f"  next: {self.next_move}"])

@@ -45,6 +45,9 @@ class Library(Protocol):
             IntakeFailedError: what the package holds under that key is not whole, or more than may be laid out.
         """
 
+    def icon(self, key: str) -> bytes:
+        """A PNG of an offer; empty where there is none."""
+
     def installing(self) -> str:
         """The command that brings its package."""
 
