@@ -24,7 +24,7 @@ from .scene_objects import AssetRow, Vec3
 
 SUFFIXES = {"mjcf": (".xml", ".mjcf"), "urdf": (".urdf", ".xml")}
 ARCHIVES = (".zip", ".tgz", ".gz", ".tar", ".xz", ".bz2")
-LIMIT_S = 30.0
+LIMIT_S = 120.0
 _OPTION = re.compile(r"[ \t]*<option\b[^>]*?/>\n?|[ \t]*<option\b[^>]*>.*?</option>\n?", re.DOTALL)
 """Time step, gravity and solver of an MJCF: the plan owns them, so they do not stand a second time in the program."""
 
