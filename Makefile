@@ -7,7 +7,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := .ci/constraints.txt
 PYTEST = $(BIN)/python -m pytest $(if $(REPORT),--junit-xml="$(REPORT)")
 
-.PHONY: help demo test tests quick lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-validation test-conformance test-harness test-semantic test-ray docs lock clean
+.PHONY: help demo test tests quick lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-validation test-conformance test-harness test-semantic test-ray docs catalog lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -75,8 +75,11 @@ test-semantic: .venv/.semantic ## Ranking by meaning with torch and LanceDB in p
 	WORLDWRIGHT_SEMANTIC=1 $(PYTEST) tests/worldwright/retrieve -p no:xdist
 
 test-ray: .venv/.dev ## Campaigns on Ray itself, on this machine
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,cluster,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,scenes,cluster,dev]'
 	WORLDWRIGHT_RAY=1 PYTHONPATH=tests $(PYTEST) tests/worldwright/campaign/test_on_ray.py -p no:xdist
+
+catalog: .venv/.core ## A page to browse every asset and every offer of a packaged library
+	$(BIN)/worldwright asset page runs/catalog
 
 lock: .venv/.dev ## Pin what is installed now
 	$(BIN)/pip list --format=freeze --exclude-editable | grep -viE '^(pip|setuptools|wheel)==' | LC_ALL=C sort -f > .ci/constraints.txt
@@ -96,11 +99,11 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,scenes,gym,mcap,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev
-	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,semantic,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,scenes,semantic,gym,mcap,dev]'
 	@touch $@
 
 clean: ## Remove the environment and caches; runs are kept

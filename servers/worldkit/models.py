@@ -8,12 +8,14 @@ is called `arm_` and its own name: joint `shoulder` is `arm_shoulder`. `pos` is 
 own rest pose, as for every object of a plan.
 """
 
+import sys
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from . import beside_program, model_files
 from .bodies import pose_below
 from .joints import Joint
 from .joints import attach as attach_joint
@@ -42,6 +44,7 @@ def attach(
     surface: dict[str, Any] | None = None,
     look: str | None = None,
     folder: str | None = None,
+    files: Sequence[str] = (),
     actuators: Collection[str] | None = None,
     parent: str | None = None,
     joint: Joint | None = None,
@@ -62,19 +65,20 @@ def attach(
         surface: contact properties of all its colliding geoms, from `worldkit.contacts.surface`; None: its own.
         look: of geoms without a material of their own; None: `plastic_white`.
         folder: folder of the catalog in which its mesh and texture files lie.
+        files: instead, the files beside the program that it reads, as its text names them (`worldkit.model_files.whole`).
         actuators: its own names of those that come along; None: all of them.
         parent: name of the body its root belongs to; None is the world.
         joint: how its root moves against its parent, besides joints of its own.
 
     Raises:
-        ValueError: the text is no model, has several roots, or names files without `folder`; the message says which.
+        ValueError: the text is no model, has several roots, or names files that are in neither `folder` nor `files`; the message says which.
     """
     import mujoco
 
     from . import materials
 
-    rest = _rest(parsed(text, name, folder), name)
-    child = parsed(text, name, folder)
+    rest = _rest(parsed(text, name, folder, files), name)
+    child = parsed(text, name, folder, files)
     root = _root(child, name)
     _adopt(child, spec)
     _strip(child, root, fixed or parent is not None or joint is not None)
@@ -93,6 +97,7 @@ def attach(
             own.name = name
     _rename(spec, f"{name}_{before}", body, name)
     for part in (body, *_below(body)):
+        _seen_once(part)
         for number, geom in enumerate(part.geoms):
             geom.name = geom.name or f"{part.name}/{number}"
             if not geom.material and geom.rgba[:3].tolist() == [0.5, 0.5, 0.5]:
@@ -107,8 +112,8 @@ def attach(
     return body
 
 
-def facts(text: str, name: str, folder: str | None = None) -> dict[str, Any]:
-    """What a plan needs to know of a model, with the names that it gets in the world.
+def facts(text: str, name: str, folder: str | None = None, files: Sequence[str] = (), root: str = "") -> dict[str, Any]:
+    """What a plan needs to know of a model, with the names that it gets in the world; its `files` lie below `root`.
 
     Returns:
         `extents` (3, m, of its rest pose), `mass` (kg), `bodies`, `actuators` and `geoms` (names), `joints` (name to kind:
@@ -116,13 +121,15 @@ def facts(text: str, name: str, folder: str | None = None) -> dict[str, Any]:
     """
     import mujoco
 
+    if root:
+        sys.path.insert(0, root)
     spec = mujoco.MjSpec()
-    body = attach(spec, text, name=name, pos=(0, 0, 0), folder=folder)
+    body = attach(spec, text, name=name, pos=(0, 0, 0), folder=folder, files=files)
     model = spec.compile()
     kinds = {mujoco.mjtJoint(k): word for k, word in enumerate(("free", "ball", "slide", "hinge"))}
     joints = {model.joint(j).name: kinds[mujoco.mjtJoint(model.jnt_type[j])] for j in range(model.njnt)}
     return {
-        "extents": [round(float(v), 6) for v in _rest(parsed(text, name, folder), name).extents],
+        "extents": [round(float(v), 6) for v in _rest(parsed(text, name, folder, files), name).extents],
         "mass": float(model.body_subtreemass[model.body(body.name).id]),
         "bodies": [model.body(b).name for b in range(1, model.nbody)],
         "geoms": [model.geom(g).name for g in range(model.ngeom)],
@@ -131,8 +138,8 @@ def facts(text: str, name: str, folder: str | None = None) -> dict[str, Any]:
     }
 
 
-def parsed(text: str, name: str, folder: str | None = None) -> "mujoco.MjSpec":
-    """The model as a spec of its own, its files found in the catalog.
+def parsed(text: str, name: str, folder: str | None = None, files: Sequence[str] = ()) -> "mujoco.MjSpec":
+    """The model as a spec of its own, its files found in the catalog or beside the program.
 
     Raises:
         ValueError: it is not a model, has a tag that is none, or names files that are not there.
@@ -147,13 +154,31 @@ def parsed(text: str, name: str, folder: str | None = None) -> "mujoco.MjSpec":
     for item in (*child.meshes, *child.textures, *child.hfields):
         if not item.file:
             continue
+        if item.file in files:
+            beside_program.give(item, name)
+            continue
         if folder is None:
             raise ValueError(
-                f"model {name}: it reads the file {item.file!r}; a program reads no files: use primitives, or put the model and "
-                "its files into a folder of the catalog"
+                f"model {name}: it reads the file {item.file!r}, which is not among its `files`: "
+                "use primitives, or `worldkit.model_files.whole`, which finds and names them"
             )
         item.file = str(_found(item.file, child, name, folder))
     return child
+
+
+def standing(file: str) -> "mujoco.MjSpec":
+    """A URDF file as a world of its own, with its meshes wherever they lie below the folder above it.
+
+    Raises:
+        ValueError: it is no model, or a file of it is missing.
+    """
+    path = Path(file)
+    made = model_files.whole(path, path.parent.parent)
+    sys.path.insert(0, str(path.parent.parent.resolve()))
+    try:
+        return parsed(made.text, path.stem, files=made.files)
+    finally:
+        sys.path.pop(0)
 
 
 def _checked(text: str, name: str) -> None:
@@ -184,21 +209,22 @@ def _checked(text: str, name: str) -> None:
 
 
 def _found(file: str, child: "mujoco.MjSpec", name: str, folder: str) -> Path:
-    """A file of a model in the catalog."""
+    """A file of a model in the catalog, or in the user's own folder of assets."""
     from .assets.catalog import take
-    from .data_folders import catalog_root
+    from .data_folders import catalog_root, own_root
 
-    home = (catalog_root() / folder).resolve()
     stem = file.removeprefix("package://")
-    for place in (home / (child.meshdir or "") / stem, home / stem, home / Path(stem).name):
-        path = place.resolve()
-        if path.is_file() and path.is_relative_to(home):
-            if path.suffix.lower() not in (".obj", ".png"):
-                raise ValueError(
-                    f"model {name}: {file} is neither .obj nor .png, which are all that evidence covers: convert it"
-                )
-            take(path.relative_to(catalog_root()).parts[0])
-            return path
+    for root in (catalog_root(), own_root()):
+        home = (root / folder).resolve()
+        for place in (home / (child.meshdir or "") / stem, home / stem, home / Path(stem).name):
+            path = place.resolve()
+            if path.is_file() and path.is_relative_to(home):
+                if path.suffix.lower() not in (".obj", ".png"):
+                    raise ValueError(
+                        f"model {name}: {file} is neither .obj nor .png, which are all that evidence covers: convert it"
+                    )
+                take(path.relative_to(root.resolve()).parts[0])
+                return path
     raise ValueError(f"model {name}: its file {file!r} is not in the catalog's folder {folder!r}")
 
 
@@ -213,6 +239,14 @@ def _root(child: "mujoco.MjSpec", name: str) -> "mujoco.MjsBody":
 
 def _below(body: "mujoco.MjsBody") -> "list[mujoco.MjsBody]":
     return [found for part in body.bodies for found in (part, *_below(part))]
+
+
+def _seen_once(part: "mujoco.MjsBody") -> None:
+    """Where a URDF's link has shapes to be seen, those to be touched are not drawn over them."""
+    if any(geom.group == 1 and not geom.contype and not geom.conaffinity for geom in part.geoms):
+        for geom in part.geoms:
+            if geom.group == 0 and (geom.contype or geom.conaffinity):
+                geom.group = 3
 
 
 def _adopt(child: "mujoco.MjSpec", spec: "mujoco.MjSpec") -> None:
@@ -336,7 +370,6 @@ def _reach(kind: Any, size: "np.ndarray", turn: "np.ndarray", aabb: "np.ndarray"
 def main() -> None:
     """Read the arguments of `facts` as JSON on standard input, and write its result on standard output."""
     import json
-    import sys
     import warnings
 
     warnings.simplefilter("ignore")

@@ -14,7 +14,10 @@ from .model.progress import Progress, silent
 
 def add_asset(
     file: Annotated[
-        Path, Field(description="GLB, OBJ, STL, PLY, OFF; a folder or .zip with one; or the key of a library's offer.")
+        Path,
+        Field(
+            description="GLB, OBJ, STL, PLY, OFF, COLLADA (.dae), USD; a folder or .zip with one; or the key of a library's offer."
+        ),
     ],
     key: Annotated[
         str | None, Field(description="What plans call it, e.g. garden_chair; without it the file's name.")

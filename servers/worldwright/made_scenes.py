@@ -10,7 +10,7 @@ import json
 from contextlib import suppress
 from pathlib import Path
 
-from worldkit.assets.root import data_root
+from worldkit.data_folders import data_root
 from worldkit.files import write_json
 
 _MADE: dict[str, str] = {}

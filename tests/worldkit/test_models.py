@@ -133,7 +133,7 @@ MESH = '<mujoco><asset><mesh name="m" file="{file}"/></asset><worldbody><body><g
         ("<mujoco><worldbody/></mujoco>", "exactly one root body, it has 0: none"),
         ("<mujoco><worldbody><body name='a'/><body/></worldbody></mujoco>", r"it has 2: a, \(without a name\)"),
         ("<mujoco><worldbody><body name='a'><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/></body></worldbody></mujoco>", "it has no geoms"),
-        (MESH.format(file="m.stl"), "it reads the file 'm.stl'; a program reads no files"),
+        (MESH.format(file="m.stl"), "it reads the file 'm.stl', which is not among its `files`"),
     ],
 )  # fmt: skip
 def test_what_is_no_model_is_refused_by_name(text, says):

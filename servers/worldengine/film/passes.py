@@ -284,14 +284,14 @@ def draw_share(
     model: "mujoco.MjModel", recording: "Recording", film: "Described", given: "Given", options: argparse.Namespace
 ) -> None:
     """Draw a share of a film for the process that asked for it (`side_by_side`)."""
+    from . import side_by_side
     from .directed import Screening
-    from .side_by_side import share
 
     with (
         Screening(given.world, model, recording, film, given.size, given.fps) as screening,
         os.fdopen(options.to, "wb") as pipe,
     ):
-        share(screening, *options.share, pipe)
+        side_by_side.draw(screening, options.share, pipe)
 
 
 def frame(

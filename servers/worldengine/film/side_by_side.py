@@ -15,7 +15,7 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import TYPE_CHECKING, BinaryIO, NamedTuple
+from typing import TYPE_CHECKING, Any, BinaryIO, NamedTuple
 
 if TYPE_CHECKING:
     import numpy as np
@@ -110,7 +110,7 @@ class _Hand:
             raise
         finally:
             os.close(here)
-        self._ready: queue.Queue[tuple[dict[str, object], bytes] | None] = queue.Queue(AHEAD)
+        self._ready: queue.Queue[tuple[dict[str, Any], bytes] | None] = queue.Queue(AHEAD)
         self._ended = False
         self._thread = threading.Thread(target=self._read, args=(os.fdopen(there, "rb"),), daemon=True)
         self._thread.start()
@@ -125,7 +125,7 @@ class _Hand:
                 self._ready.put((json.loads(told), data))
         self._ready.put(None)
 
-    def next(self) -> "tuple[dict[str, object], bytes] | None":
+    def next(self) -> "tuple[dict[str, Any], bytes] | None":
         """The next frame; None when there is none any more."""
         if self._ended:
             return None
@@ -144,8 +144,9 @@ class _Hand:
         self._thread.join()
 
 
-def share(screening: "Screening", number: int, count: int, pipe: BinaryIO) -> None:
-    """Draw every `count`-th frame from `number` on into a pipe, as one of the others; ends when nobody reads any more."""
+def draw(screening: "Screening", share: tuple[int, int], pipe: BinaryIO) -> None:
+    """Draw a share (k, n) of a film, every n-th frame from k on, into a pipe, as one of the others; ends when nobody reads any more."""
+    number, count = share
     with contextlib.suppress(BrokenPipeError):
         for frame in range(number, screening.film.frames, count):
             picture = screening.picture(frame).tobytes()

@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import IntakeError
+from . import collada_claims
 
-SUFFIXES = (".glb", ".obj", ".stl", ".ply", ".off")
+USD = (".usd", ".usda", ".usdc")
+SUFFIXES = (".glb", ".obj", ".stl", ".ply", ".off", ".dae", *USD)
 PICTURES = (".png", ".jpg", ".jpeg")
 MOST_BYTES = 512 << 20
 MOST_FACES = 2_000_000
@@ -41,7 +43,9 @@ def check(path: Path) -> int:
         raise IntakeError("truncated", "the file is empty", path.name, AGAIN)
     if size > MOST_BYTES:
         raise IntakeError("too_large", f"it is larger than {MOST_BYTES >> 20} MB", path.name, FEWER)
-    reader = {".glb": _glb, ".obj": _obj, ".stl": _stl, ".ply": _ply, ".off": _off}.get(path.suffix.lower())
+    reader = {
+        ".glb": _glb, ".obj": _obj, ".stl": _stl, ".ply": _ply, ".off": _off, ".dae": _dae, **dict.fromkeys(USD, _usd),
+    }.get(path.suffix.lower())  # fmt: skip
     if reader is None:
         known = ", ".join(SUFFIXES)
         raise IntakeError(
@@ -50,9 +54,14 @@ def check(path: Path) -> int:
     return reader(path, size)
 
 
+def too_many(count: int, place: str) -> IntakeError:
+    """The refusal of so many faces."""
+    return IntakeError("too_many_faces", f"it claims {count:,} faces, more than {MOST_FACES:,}", place, FEWER)
+
+
 def _few(count: int, place: str) -> int:
     if count > MOST_FACES:
-        raise IntakeError("too_many_faces", f"it claims {count:,} faces, more than {MOST_FACES:,}", place, FEWER)
+        raise too_many(count, place)
     return count
 
 
@@ -265,6 +274,31 @@ def _off(path: Path, size: int) -> int:
     if size < 6 * points + 8 * faces:
         raise _cut(path, f"its header speaks of {faces:,} faces", 6 * points + 8 * faces, size)
     return faces
+
+
+# -- COLLADA and USD -------------------------------------------------------------------------------------------------------
+
+
+def _usd(path: Path, size: int) -> int:
+    """Refuse what does not begin as USD does; how many faces there are is told once it is open."""
+    with path.open("rb") as file:
+        head = file.read(8)
+    if not head.startswith((b"PXR-USDC", b"#usda ")):
+        raise IntakeError("no_mesh", "it does not begin as a USD file does", path.name, "export it as USD")
+    if head == b"PXR-USDC" and size < 88:
+        raise IntakeError("truncated", "it ends within its header", path.name, AGAIN)
+    return 0
+
+
+def _dae(path: Path, _size: int) -> int:
+    claims = collada_claims.scan(path)
+    for name in claims.pictures[:256]:
+        if (found := collada_claims.below(path.parent, name)) is not None:
+            with found.open("rb") as file:
+                picture(file.read(HEADER_BYTES), found.name)
+    if not claims.faces:
+        raise IntakeError("no_mesh", "there is no face in it", path.name, "export the object itself")
+    return _few(claims.faces, path.name)
 
 
 # -- OBJ -----------------------------------------------------------------------------------------------------------------

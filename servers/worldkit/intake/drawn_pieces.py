@@ -1,6 +1,6 @@
 """What a mesh file draws: pieces of triangles, each with one material, in the file's own axes and unit.
 
-The file is parsed by trimesh, after `declared_sizes` has looked at it.
+The file is parsed by trimesh, USD by `usd_stage`, after `declared_sizes` has looked at it.
 """
 
 import hashlib
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import IntakeError
-from . import declared_sizes
+from . import collada_claims, declared_sizes, group_names, usd_stage
 
 Array = np.ndarray
 MOST_PIECES = 60
@@ -44,6 +44,8 @@ class Drawn:
     rgba: tuple[float, float, float, float] = GREY
     roughness: float = 0.6
     metallic: float = 0.0
+    part: str = ""
+    """Which moving part it is of (`moving_parts`)."""
 
     def moved(self, turn: Array, shift: Array) -> "Drawn":
         """Every vertex turned by a matrix (3, 3) and then shifted (3,)."""
@@ -56,11 +58,33 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
     Raises:
         IntakeError: it cannot be read as a mesh, or one of its numbers is none.
     """
+    kind = path.suffix.lower()
+    if kind in declared_sizes.USD:
+        rows, said = usd_stage.pieces(path)
+        if not rows:
+            raise IntakeError("no_mesh", "there is no triangle in it", path.name, "export the object itself")
+        return _bounded([_own(row, path.name, number) for number, row in enumerate(rows)], said)
+    found = _parsed(path)
+    pieces = [_piece(mesh, path.name, number, of_light=kind != ".dae") for number, mesh in enumerate(found)]
+    by_vertex = any(getattr(mesh.visual, "kind", "") == "vertex" for mesh in found)
+    return _bounded(pieces, ["colours by vertex became one colour a piece"] if by_vertex else [])
+
+
+def _parsed(path: Path) -> list[Any]:
+    """The meshes of a file, by trimesh."""
     import trimesh
 
+    if path.suffix.lower() == ".dae":
+        try:
+            import collada  # noqa: F401 - trimesh reads COLLADA by it
+        except ImportError as error:
+            raise IntakeError(
+                "no_reader", "COLLADA is read by pycollada, which is not installed", path.name,
+                'pip install "worldwright[scenes]", or convert the file to GLB',
+            ) from error  # fmt: skip
     try:
         scene: Any = trimesh.load_scene(**_source(path), process=False)
-        found = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
+        found: list[Any] = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
     except MemoryError:
         raise
     except Exception as error:  # a parser may raise anything on a stranger's file
@@ -71,7 +95,11 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
         ) from error
     if not found:
         raise IntakeError("no_mesh", "there is no triangle in it", path.name, "export the object itself")
-    pieces = [_piece(mesh, path.name, number) for number, mesh in enumerate(found)]
+    return found
+
+
+def _bounded(pieces: list[Drawn], also: list[str]) -> tuple[list[Drawn], list[str]]:
+    """At most so many pieces that the engine takes, and what was done for it, with what else is to be said."""
     pieces, said = _corners(pieces)
     if len(pieces) > MOST_PIECES:
         before, pieces = len(pieces), [_joined(group) for group in _by_look(pieces)]
@@ -81,9 +109,7 @@ def read(path: Path) -> tuple[list[Drawn], list[str]]:
                 f"of {len(pieces)} looks the smaller ones took on the nearest colour of the {MOST_PIECES} largest"
             )
             pieces = _few(pieces)
-    if any(getattr(mesh.visual, "kind", "") == "vertex" for mesh in found):
-        said.append("colours by vertex became one colour a piece")
-    return pieces, said
+    return pieces, [*said, *also]
 
 
 def _source(path: Path) -> dict[str, Any]:
@@ -99,15 +125,55 @@ def _source(path: Path) -> dict[str, Any]:
                 return {"file_obj": BytesIO(head + file.read(most - 84)), "file_type": "stl"}
     if kind == ".obj":
         data = path.read_bytes()
+        apart = {"split_groups": True, "split_objects": True} if group_names.MARK in data else {}
         if b"\t" in data or b"\\" in data:
             plain = re.sub(rb"\\\r?\n", b" ", data).replace(b"\t", b" ")
             beside = trimesh.visual.resolvers.FilePathResolver(str(path))
-            return {"file_obj": BytesIO(plain), "file_type": "obj", "resolver": beside}
+            return {"file_obj": BytesIO(plain), "file_type": "obj", "resolver": beside, **apart}
+        return {"file_obj": path, **apart}
+    if kind == ".dae":
+        return {"file_obj": BytesIO(path.read_bytes()), "file_type": "dae", "resolver": Beside(path.parent)}
     return {"file_obj": path}
 
 
-def _piece(mesh: Any, name: str, number: int) -> Drawn:
+class Beside:
+    """Gives trimesh the pictures that a scene names, as far as they lie below its folder."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+
+    def get(self, name: str) -> bytes:
+        """The bytes of a file.
+
+        Raises:
+            FileNotFoundError: there is none.
+        """
+        found = collada_claims.below(self.folder, name)
+        if found is None:
+            raise FileNotFoundError(name)
+        return found.read_bytes()
+
+
+def _piece(mesh: Any, name: str, number: int, *, of_light: bool) -> Drawn:
     vertices, faces = np.asarray(mesh.vertices, float), np.asarray(mesh.faces, np.int64)
+    _sound(vertices, faces, name, number)
+    uv, picture, rgba, rough, metal = _look(mesh, of_light)
+    return Drawn(
+        vertices, faces, uv, picture, rgba, rough, metal, group_names.part_of(str(mesh.metadata.get("name", "")))
+    )
+
+
+def _own(row: dict[str, Any], name: str, number: int) -> Drawn:
+    """A piece of a stage, as `usd_stage.pieces` gives it, without the corners that other pieces of its mesh have."""
+    _sound(row["vertices"], row["faces"], name, number)
+    used, faces = np.unique(row["faces"], return_inverse=True)
+    uv = row["uv"] if row["image"] is not None and row["uv"] is not None else None
+    picture = _shrunk(row["image"]) if uv is not None else None
+    look = (row["rgba"], row["roughness"], row["metallic"])
+    return Drawn(row["vertices"][used], faces.reshape(-1, 3), None if uv is None else uv[used], picture, *look)
+
+
+def _sound(vertices: Array, faces: Array, name: str, number: int) -> None:
     bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
     if len(bad):
         place = f"{name}, piece {number}, vertex {bad[0]}"
@@ -119,12 +185,15 @@ def _piece(mesh: Any, name: str, number: int) -> Drawn:
         raise IntakeError(
             "truncated", f"a face names vertex {faces.max()} of {len(vertices)}", place, "get the file once more"
         )
-    uv, picture, rgba, rough, metal = _look(mesh)
-    return Drawn(vertices, faces, uv, picture, rgba, rough, metal)
 
 
-def _look(mesh: Any) -> tuple[Array | None, Array | None, tuple[float, float, float, float], float, float]:
-    """uv, picture, colour, roughness and metalness of a piece; whatever of them cannot be read is left out."""
+def _look(
+    mesh: Any, of_light: bool
+) -> tuple[Array | None, Array | None, tuple[float, float, float, float], float, float]:
+    """uv, picture, colour, roughness and metalness of a piece; whatever of them cannot be read is left out.
+
+    of_light: whether the factors of its physically based materials are of light, as glTF's are.
+    """
     visual = mesh.visual
     if visual.kind == "vertex" or visual.kind == "face":
         colours = np.asarray(visual.vertex_colors if visual.kind == "vertex" else visual.face_colors, float) / 255
@@ -147,7 +216,7 @@ def _look(mesh: Any) -> tuple[Array | None, Array | None, tuple[float, float, fl
     colour = (1.0, 1.0, 1.0, 1.0)
     if factor is not None:
         colour = _colour(np.asarray(factor, float).ravel() / (255 if np.max(factor) > 1 else 1))
-        if pbr:  # glTF's factors are of light, ours of an sRGB value
+        if pbr and of_light:  # ours are of an sRGB value
             colour = _colour(np.array([*(share ** (1 / GAMMA) for share in colour[:3]), colour[3]]))
     said = getattr(material, "kwargs", {})  # of an OBJ: how opaque it is, and how sharply it mirrors
     opaque, sharp = _number(said.get("d")), _number(getattr(material, "glossiness", None))
@@ -178,14 +247,18 @@ def _colour(values: Array) -> tuple[float, float, float, float]:
 
 def _picture(image: Any) -> Array | None:
     """A texture's pixels (H, W, 3), shrunk to what is kept; None where it cannot be decoded."""
-    import cv2
-
     try:
-        pixels = np.asarray(image.convert("RGB"), np.uint8)
+        return _shrunk(np.asarray(image.convert("RGB"), np.uint8))
     except MemoryError:
         raise
     except Exception:  # a decoder may raise anything on a stranger's picture
         return None
+
+
+def _shrunk(pixels: Array) -> Array:
+    """Pixels (H, W, 3) of a texture of at most the size that is kept."""
+    import cv2
+
     longer = max(pixels.shape[:2])
     if longer > TEXTURE_PIXELS:
         share = TEXTURE_PIXELS / longer
@@ -203,7 +276,7 @@ def _by_look(pieces: list[Drawn]) -> list[list[Drawn]]:
         if picture is not None and id(picture) not in digests:
             digests[id(picture)] = hashlib.sha256(repr(picture.shape).encode() + picture.tobytes()).digest()
         look = digests[id(picture)] if picture is not None else b""
-        groups.setdefault((look, *(round(c, 2) for c in piece.rgba)), []).append(piece)
+        groups.setdefault((piece.part, look, *(round(c, 2) for c in piece.rgba)), []).append(piece)
     return [*groups.values()]
 
 

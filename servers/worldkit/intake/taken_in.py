@@ -8,7 +8,7 @@ import yaml
 
 from ..errors import IntakeError
 from ..files import write_atomic
-from . import declared_sizes, drawn_pieces, mending, shown_meshes, touchable, upright
+from . import declared_sizes, drawn_pieces, mending, moving_parts, shown_meshes, told_frames, touchable, upright
 from .drawn_pieces import Array
 from .mending import Solid
 
@@ -35,7 +35,8 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
     suffix = file.suffix.lower()
     declared_sizes.check(file)
     pieces, said = drawn_pieces.read(file)
-    turn, assumed = upright.turn(suffix, asked.get("up", ""), asked.get("front", ""))
+    told = told_frames.of(file)
+    turn, assumed = upright.turn(suffix, asked.get("up", ""), asked.get("front", ""), told)
     turn = turn @ np.asarray(asked.get("rotation") or np.eye(3), float)
     pieces = [piece.moved(turn, np.zeros(3)) for piece in pieces]
     low, high = _box([piece.vertices[np.unique(piece.faces)] for piece in pieces])
@@ -43,7 +44,7 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
         raise IntakeError(
             "zero_volume", "it is flat: it has no height", file.name, "give it thickness, or name another --up"
         )
-    factor, height_source, more = upright.scale(suffix, high - low, asked)
+    factor, height_source, more = upright.scale(suffix, high - low, asked, told)
     pieces = [piece.moved(np.diag(factor), -factor * (low + high) / 2) for piece in pieces]
     solid = mending.solid_of(pieces, file.name)
     rows, hulls, how = touchable.pieces(solid)
@@ -51,7 +52,7 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
     for row in rows:
         if "hull" in row:
             row["file"] = f"hull_{row.pop('hull'):02d}.obj"
-            files[row["file"]] = _hull(hulls[int(row["file"][5:-4])]).encode()
+            files[row["file"]] = touchable.hull_text(hulls[int(row["file"][5:-4])]).encode()
     size = factor * (high - low)
     facts = {
         "key": asked["key"],
@@ -83,6 +84,9 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
             "closed": solid.closed,
         },
     }
+    if (moving := moving_parts.model(asked["key"], pieces, facts)) is not None:
+        files |= moving[0]
+        facts["measured"]["moving"] = moving[1]
     facts["assumed"] = list(dict.fromkeys(facts["assumed"]))
     return files, facts
 
@@ -159,18 +163,6 @@ def _of_hulls(hulls: list[Array]) -> tuple[float, Array, Array]:
         second += inertia + own * (com @ com * np.eye(3) - np.outer(com, com))
     com = moment / volume
     return volume, com, second - volume * (com @ com * np.eye(3) - np.outer(com, com))
-
-
-def _hull(corners: Array) -> str:
-    from scipy.spatial import ConvexHull
-
-    faces = ConvexHull(corners).simplices
-    middle = corners.mean(axis=0)
-    a, b, c = (corners[faces[:, k]] - middle for k in range(3))
-    inward = np.einsum("fi,fi->f", a, np.cross(b, c)) < 0
-    rows = [f"v {x:.7g} {y:.7g} {z:.7g}" for x, y, z in corners]
-    rows += [f"f {i + 1} {j + 1} {k + 1}" for i, j, k in np.where(inward[:, None], faces[:, ::-1], faces)]
-    return "\n".join(rows) + "\n"
 
 
 def _rounded(row: dict[str, Any]) -> dict[str, Any]:

@@ -143,3 +143,16 @@ def volume_of(corners: Array) -> float:
     import manifold3d
 
     return float(manifold3d.Manifold.hull_points(np.ascontiguousarray(corners, float)).volume())
+
+
+def hull_text(corners: Array) -> str:
+    """The hull of points as OBJ text, its faces counter-clockwise from outside."""
+    from scipy.spatial import ConvexHull
+
+    faces = ConvexHull(corners).simplices
+    middle = corners.mean(axis=0)
+    a, b, c = (corners[faces[:, k]] - middle for k in range(3))
+    inward = np.einsum("fi,fi->f", a, np.cross(b, c)) < 0
+    rows = [f"v {x:.7g} {y:.7g} {z:.7g}" for x, y, z in corners]
+    rows += [f"f {i + 1} {j + 1} {k + 1}" for i, j, k in np.where(inward[:, None], faces[:, ::-1], faces)]
+    return "\n".join(rows) + "\n"

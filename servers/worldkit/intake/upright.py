@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import IntakeError
+from .told_frames import NOTHING, Told
 
 Array = np.ndarray
 AXES = {f"{sign}{axis}": np.eye(3)["xyz".index(axis)] * (1 if sign == "+" else -1) for axis in "xyz" for sign in "+-"}
@@ -19,18 +20,19 @@ APART = 3.0
 """A metric file that is so many times off its category's range is scaled to it all the same."""
 
 
-def turn(suffix: str, up: str, front: str) -> tuple[Array, list[str]]:
+def turn(suffix: str, up: str, front: str, told: Told = NOTHING) -> tuple[Array, list[str]]:
     """The rotation (3, 3) from a file's axes to ours, and what was assumed for it.
 
     Args:
         suffix: the file's.
-        up, front: the file's axes that are up and front, such as `+y`; empty for what its format has.
+        up, front: the file's axes that are up and front, such as `+y`; empty for what it says, else what its format has.
+        told: what the file says.
 
     Raises:
         IntakeError: no such axis, or both are along one line.
     """
-    usual_up, usual_front = USUAL.get(suffix, OTHERWISE)
-    assumed = [] if up else [f"up is {usual_up}, as {suffix[1:].upper()} files mostly have it"]
+    usual_up, usual_front = (told.up, told.front) if told.up else USUAL.get(suffix, OTHERWISE)
+    assumed = [] if up or told.up else [f"up is {usual_up}, as {suffix[1:].upper()} files mostly have it"]
     up, front = up or usual_up, front or usual_front
     for name in (up, front):
         if name not in AXES:
@@ -43,13 +45,14 @@ def turn(suffix: str, up: str, front: str) -> tuple[Array, list[str]]:
     return np.stack([x, np.cross(z, x), z]), assumed
 
 
-def scale(suffix: str, extents: Array, asked: dict[str, Any]) -> tuple[Array, str, list[str]]:
+def scale(suffix: str, extents: Array, asked: dict[str, Any], told: Told = NOTHING) -> tuple[Array, str, list[str]]:
     """The factors (3,) that make it metric, who says so, and what was assumed.
 
     Args:
         suffix: the file's.
         extents: along x, y, z once it is upright, in the file's unit.
         asked: `extents` in m, or `height` in m, or `units`, or `reference` with low and high of the category's heights in m, and its `name`.
+        told: what the file says.
 
     Raises:
         IntakeError: nothing tells its size, or it is of no size that a thing has.
@@ -67,7 +70,7 @@ def scale(suffix: str, extents: Array, asked: dict[str, Any]) -> tuple[Array, st
     elif asked.get("units"):
         factor, source = UNITS[asked["units"]], f"the file's, in {asked['units']}"
     else:
-        factor, source, assumed = _unstated(suffix, tall, asked.get("reference"))
+        factor, source, assumed = _unstated(suffix, tall, asked.get("reference"), told)
     return _checked(np.full(3, factor), extents), source, assumed
 
 
@@ -82,18 +85,23 @@ def _checked(factor: Array, extents: Array) -> Array:
     return factor
 
 
-def _unstated(suffix: str, tall: float, reference: dict[str, Any] | None) -> tuple[float, str, list[str]]:
-    metric = suffix in METRIC
+def _unstated(suffix: str, tall: float, reference: dict[str, Any] | None, told: Told) -> tuple[float, str, list[str]]:
+    unit = 1.0 if suffix in METRIC else told.unit_m
+    said = (
+        "the file's, in m as glTF prescribes"
+        if suffix in METRIC
+        else f"the file's, which says that its unit is {unit:g} m"
+    )
     if reference is None:
-        if metric:
-            return 1.0, "the file's, in m as glTF prescribes", []
+        if unit:
+            return unit, said, []
         raise IntakeError(
             "unknown_size", f"{suffix[1:].upper()} files tell no unit, and nothing else tells its size", "",
             "give its --height in metres, its --units (m, cm, mm, in, ft), or a --category whose size is known (chair, bowl, car …)",
         )  # fmt: skip
     low, high = float(reference["low"]), float(reference["high"])
-    if metric and low / APART <= tall <= high * APART:
-        return 1.0, "the file's, in m as glTF prescribes", []
+    if unit and low / APART <= tall * unit <= high * APART:
+        return unit, said, []
     usual = float(np.sqrt(low * high))
     said = f"the middle of the heights of a {reference['name']}, {low:g} to {high:g} m"
     return usual / tall, said, [f"it is {usual:.3g} m high: {said}"]

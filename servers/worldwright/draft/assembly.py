@@ -196,9 +196,12 @@ class _Writer:
         return "\n".join(lines)
 
     def texts(self) -> str:
-        """The models that the plan brings in, as they are."""
+        """The models that the plan brings in, as they are, and the files that they read."""
         made = []
         for name, text in self.needs.texts.items():
+            if isinstance(text, tuple):
+                made.append("\n".join([f"{name} = (", *(f"    {literal(file)}," for file in text), ")"]))
+                continue
             plain_text = "\\" not in text and '"' * 3 not in text
             made.append(f'{name} = """{text}"""' if plain_text else f"{name} = {literal(text)}")
         return "".join(f"\n{line}\n" for line in made)

@@ -102,11 +102,14 @@ def _models(objects: Stances, row: AssetRow) -> dict[str, dict]:
             )
         objects.needs.joint_kinds |= model.joints
         keywords[name] = {} if model.folder is None else {"folder": model.folder}
+        if model.files:
+            objects.needs.texts[_constant(row, "FILES")] = model.files
+            keywords[name]["files"] = Raw(_constant(row, "FILES"))
         if not asked.issuperset(model.actuators):
             keywords[name]["actuators"] = tuple(a.removeprefix(f"{name}_") for a in model.actuators if a in asked)
     objects.needs.texts[_constant(row)] = model.text
     return keywords
 
 
-def _constant(row: AssetRow) -> str:
-    return constant_name(row.name) + "_MODEL"
+def _constant(row: AssetRow, what: str = "MODEL") -> str:
+    return f"{constant_name(row.name)}_{what}"

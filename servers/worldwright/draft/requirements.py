@@ -12,7 +12,7 @@ class Needs:
     open_places: list[str] = field(default_factory=list)
     """Places that must be written by hand."""
 
-    texts: dict[str, str] = field(default_factory=dict)
+    texts: dict[str, str | tuple[str, ...]] = field(default_factory=dict)
     """Constants that hold the text of a model, by name."""
     joint_kinds: dict[str, str] = field(default_factory=dict)
     """The kinds of the plan's joints, and of those inside its models, by name."""

@@ -11,6 +11,9 @@ from ..adding_assets import add_asset
 from ..cli import verb
 from ..model.errors import NotFoundError
 from ..model.frozen import Frozen
+from .catalog_page import page
+from .of_pictures import mint
+from .unpacking import unpack
 
 
 class AssetLine(Frozen):
@@ -133,6 +136,13 @@ def show(key: Annotated[str, Field(description="The asset's key.")]) -> AssetFac
 
 command = click.Group(
     "asset",
-    {"add": verb(add_asset), "list": verb(list_assets), "show": verb(show)},
-    help="Make an asset of a mesh file of yours; list the assets of every source; show one.",
+    {
+        "add": verb(add_asset),
+        "list": verb(list_assets),
+        "show": verb(show),
+        "unpack": verb(unpack),
+        "page": verb(page),
+        "mint": verb(mint),
+    },
+    help="Make an asset of a mesh file of yours; list the assets of every source; show one; unpack a robot; write a page of all.",
 )

@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from worldkit.files import write_json
 from worldkit.intake import unpacked
-from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, SUFFIXES
+from worldkit.intake.declared_sizes import MOST_BYTES, PICTURES, SUFFIXES, USD
 
 from ..model.errors import JobError, NotFoundError
 from ..model.frozen import Frozen
@@ -28,10 +28,12 @@ MEMORY_MB = 6144
 LEAST_S, MOST_S, S_A_MB = 120.0, 900.0, 20.0
 MOST_BESIDE, BESIDE_BYTES = 200, 256 << 20
 KEY = re.compile(r"[a-z][a-z0-9_]{0,59}")
-FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png")
+FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png", "moving.xml", "part_*.obj")
 WORLD = ("world.mjz", "program.json")
 PASSED = ("height", "units", "up", "front", "mass", "extents", "rotation", "built_up")
 """What the confined process is asked as it stands."""
+BELONGING = {".obj": (".mtl", *PICTURES), ".dae": PICTURES, **dict.fromkeys(USD, (*USD, *PICTURES))}
+"""What a file of a format may read of what lies beside it: materials, pictures, other layers."""
 AGAIN = "worldwright asset add FILE"
 
 
@@ -50,6 +52,8 @@ class Added(Frozen):
     creator: str = ""
     mended: tuple[str, ...] = ()
     """What was mended, and what was assumed."""
+    moving: dict[str, tuple[float, float]] = {}
+    """The joints of its parts in `moving.xml`, each with its range, degrees or m; empty where none moves."""
     next_move: str = ""
 
     @property
@@ -65,6 +69,10 @@ class Added(Frozen):
         if self.holds is not None:
             lines.append(f"  a ball dropped into it {'rests inside' if self.holds else 'does not stay inside'}")
         lines += [f"  {line}" for line in self.mended]
+        if self.moving:
+            told = ", ".join(f"{name} {low:g} to {high:g}" for name, (low, high) in self.moving.items())
+            row = f"{{name: {self.key}, type: mjcf, filename: {self.key}/moving.xml, fixed: true}}"
+            lines.append(f"  its parts move ({told}) where a plan names it as {row}")
         lines.append(f"  licence: {self.licence}" + (f", by {self.creator}" if self.creator else ""))
         return "\n".join([*lines, f"  {self.folder}", f"  next: {self.next_move}"])
 
@@ -75,8 +83,8 @@ def add(
     """Take in a mesh file as an asset.
 
     Args:
-        file: GLB, OBJ, STL, PLY or OFF; an OBJ's materials and pictures are looked for beside it. Or a folder or a .zip
-            with one such mesh, or the key of an offer of a packaged library.
+        file: GLB, OBJ, STL, PLY, OFF, COLLADA or USD; materials, pictures and layers are looked for beside it. Or a folder
+            or a .zip with one such mesh, or the key of an offer of a packaged library.
         asked: any of `key`, `category`, `description`, `licence`, `creator`, `source`, `material`, `height`, `units`, `up`,
             `front`, `mass`.
         to: whose folder it goes into.
@@ -173,7 +181,7 @@ def _request(file: Path, asked: dict[str, Any]) -> dict[str, Any]:
 
 
 def _lay(file: Path, given: Path) -> list[str]:
-    """Copy the mesh, and for an OBJ the materials and pictures beside it and one folder deeper, as far as they are bounded.
+    """Copy the mesh, and what may belong to it beside it and one folder deeper, as far as that is bounded.
 
     Returns what was left out, to be said.
     """
@@ -188,12 +196,11 @@ def _lay(file: Path, given: Path) -> list[str]:
             next_move="reduce it to fewer faces in a modelling program, then add it again",
         )  # fmt: skip
     shutil.copyfile(file, given / file.name)
-    if file.suffix.lower() != ".obj":
+    wanted = BELONGING.get(file.suffix.lower(), ())
+    if not wanted:
         return []
     folder = file.parent
-    beside = sorted(
-        path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix.lower() in (".mtl", *PICTURES)
-    )
+    beside = sorted(path for pattern in ("*", "*/*") for path in folder.glob(pattern) if path.suffix.lower() in wanted)
     return _copied(beside, folder, given, BESIDE_BYTES)
 
 
@@ -296,6 +303,7 @@ def _told(folder: Path, picture: bytes, why: str) -> Illustrated:
         collides_as=str(measured.get("collides_as", "")),
         stands=stands,
         holds=cavity.get("holds"),
+        moving={name: (float(low), float(high)) for name, (low, high) in (measured.get("moving") or {}).items()},
         licence=asset.licence,
         creator=asset.creator,
         mended=mended,

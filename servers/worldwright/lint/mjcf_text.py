@@ -30,12 +30,16 @@ class Document:
     """Parts of it are made at run time, so absent names and odd values prove nothing."""
 
 
+ROBOT = re.compile(r"\s*(<\?.*?\?>\s*|<!--.*?-->\s*)*<robot[\s>]", re.DOTALL)
+"""A URDF, which may speak to the engine in a `<mujoco>` of its own."""
+
+
 def documents(text_nodes: list[ast.AST], lines: tuple[str, ...], changed: Collection[ast.AST] = ()) -> list[Document]:
     """Every MJCF document among a program's strings; from those in `changed` it makes other texts."""
     found = []
     for node in text_nodes:
         text = _text(node)
-        if text is None or not re.search(r"<mujoco[\s>]", text):
+        if text is None or not re.search(r"<mujoco[\s>]", text) or ROBOT.match(text):
             continue
         text = text[text.index("<") :] if text.lstrip()[:1] == "<" else ""
         if not text or not re.search(r"</mujoco\s*>|<mujoco[^>]*/>", text):

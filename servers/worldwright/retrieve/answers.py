@@ -156,6 +156,8 @@ class AssetHit(Frozen):
     creator: str = ""
     taken_in: bool = True
     """False of what a packaged library offers: `next_move` makes it an asset, which a plan can name."""
+    chosen: bool = False
+    """Of an offer: whether its picture was looked at, and shows what its name says."""
     next_move: str = ""
 
     def text(self) -> str:

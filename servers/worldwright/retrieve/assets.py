@@ -35,8 +35,8 @@ MEANT, LIKELY, AHEAD = 0.5, 0.35, 0.1
 """Cosine from which on a text means an asset; or, where no word fits, from which on the first does that is so far ahead."""
 LEAST_OF_MEANING = 0.01
 """The score of what fits by meaning alone is its cosine times this, so that any word comes first."""
-LATER = 0.5
-"""Words that an offer of a library is put behind an asset that is there."""
+LATER, LAST = 0.5, 4.0
+"""Words that an offer of a library is put behind an asset that is there: one that was looked at and chosen, and any other."""
 MOST_KNOWN = 200
 """Keys that are told when nothing fits, and assets that are told by meaning."""
 
@@ -125,7 +125,7 @@ class _Known:
         found = {}
         for number, total in totals.items():
             spare = sum(word not in asked for word in self._names[number])  # of two tables the plain one comes first
-            later = 0.0 if self.rows[number].taken_in else LATER
+            later = 0.0 if self.rows[number].taken_in else LATER if self.rows[number].chosen else LAST
             if (score := round(total - 0.1 * (spare + later), 3)) > 0:
                 found[number] = score
         return found
@@ -265,5 +265,6 @@ def _offered(offer: "Offer") -> AssetHit:
         licence=offer.licence,
         creator=offer.creator,
         taken_in=False,
+        chosen=offer.chosen,
         next_move=f"worldwright asset add {offer.key}",
     )

@@ -1,4 +1,4 @@
-"""Record any MJCF file: a model without a plan gets a folder of its own, and the same jobs, sandbox and evidence.
+"""Record any MJCF or URDF file: a model without a plan gets a folder of its own, and the same jobs, sandbox and evidence.
 
 The folder holds `model.json` (which file, for how long, and the SHA-256 of everything the model is made of) and a
 program of a few lines that hands the model to worldkit. Nothing is proved, because nothing is claimed; the
@@ -16,20 +16,21 @@ from worldkit.files import write_atomic, write_json
 
 from ..model.errors import GateError, JobError, NotFoundError
 from ..model.evidence.run import Run, sha256_file
+from . import given_models
 
 MOST_FILES = 5_000
 PROGRAM = '''"""Records {name} as it is, for {duration:g} s. Made by `worldwright stage start --model`."""
 
 import mujoco
 
-from worldkit import cameras, program
+from worldkit import {modules}
 
 MODEL = {path!r}
 
 
 def build() -> mujoco.MjSpec:
     """The model as its file describes it, with a camera when it has none."""
-    spec = mujoco.MjSpec.from_file(MODEL)
+    spec = {read}
     if not spec.cameras:
         cameras.add(spec, "overview", view="perspective")
     return spec
@@ -44,29 +45,36 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
     """The run-like folder of one model, written anew when the model or the duration changed.
 
     Args:
-        model: an MJCF (or URDF) file.
+        model: an MJCF or URDF file; a folder or an archive with one, which is unpacked into the run's folder.
         duration: simulated time, s; 5 when None.
         folder: its folder; `runs/<name of the file>` when None.
 
     Raises:
-        NotFoundError: there is no such file.
-        JobError: it cannot be read as XML.
+        NotFoundError: there is no such file, or no model in it.
+        JobError: it cannot be read as XML, or names files that are not there.
         GateError: the folder is a run with a plan.
     """
     model = model.absolute()
-    if not model.is_file():
-        raise NotFoundError("there is no such model", place=str(model), next_move="give the path of an MJCF file")
-    run = Run(folder or Path("runs") / model.stem)
+    if not model.exists():
+        raise NotFoundError(
+            "there is no such model", place=str(model), next_move="give the path of an MJCF or URDF file"
+        )
+    run = Run(folder or Path("runs") / model.name.partition(".")[0])
     if run.plan.exists():
         raise GateError(
             "this folder is a run with a plan, which says what its model is",
             place=str(run.folder),
             next_move="name another folder: `worldwright stage start FOLDER --model FILE`",
         )
+    model = given_models.the_model(model, run.folder)
     files = {str(path): sha256_file(path) for path in made_of(model)}
     facts = {"model": str(model), "duration": duration or 5.0, "files": files}
     if _facts(run) != facts:
-        write_atomic(run.program, PROGRAM.format(name=model.name, path=str(model), duration=facts["duration"]))
+        urdf = _is_urdf(model)
+        read = "models.standing(MODEL)" if urdf else "mujoco.MjSpec.from_file(MODEL)"
+        modules = "cameras, models, program" if urdf else "cameras, program"
+        told = {"name": model.name, "path": str(model), "duration": facts["duration"], "read": read, "modules": modules}
+        write_atomic(run.program, PROGRAM.format(**told))
         write_json(run.model, facts)
     return run
 
@@ -90,11 +98,18 @@ def files(run: Run) -> tuple[Path, ...]:
 
 
 def made_of(model: Path) -> list[Path]:
-    """The file and every existing file that it names: includes, meshes, textures, height fields, skins, other models."""
+    """The file and every file that it names: includes, meshes, textures, height fields, skins, other models.
+
+    Raises:
+        JobError: a file cannot be read as XML, includes itself, or names one that is not there.
+    """
+    if _is_urdf(model):
+        return given_models.files_of_urdf(model)
     found: dict[Path, None] = {model: None}
     folders = [model.parent]
     named: list[tuple[Path, str]] = []
     queue = [model]
+    before: dict[Path, frozenset[Path]] = {model: frozenset()}
     while queue:
         path = queue.pop()
         for tag, attributes in _elements(path):
@@ -106,13 +121,31 @@ def made_of(model: Path) -> list[Path]:
                     continue
                 named.append((path, value))
                 if tag in ("include", "model"):
-                    queue += [p for p in _candidates(path, value, folders[:1]) if p not in found]
-                    found |= dict.fromkeys(_candidates(path, value, folders[:1]))
+                    near = _candidates(path, value, folders[:1])
+                    if tag == "include" and any(path.samefile(p) or p in before[path] for p in near):
+                        raise _refused(f"it includes itself: {value}", path, "take one of these includes out")
+                    before |= {p: before[path] | {path} for p in near if p not in before}
+                    queue += [p for p in near if p not in found]
+                    found |= dict.fromkeys(near)
         if len(found) + len(named) > MOST_FILES:
             raise JobError(f"the model names more than {MOST_FILES} files", code="refused", place=str(model))
+    missing = []
     for path, value in named:
-        found |= dict.fromkeys(_candidates(path, value, folders))
+        near = _candidates(path, value, folders)
+        found |= dict.fromkeys(near)
+        missing += [] if near else [value]
+    if missing:
+        told = ", ".join(missing[:5]) + (f" and {len(missing) - 5} more" if len(missing) > 5 else "")
+        raise _refused(f"the model names files that are not there: {told}", model, "put them where it names them")
     return list(found)
+
+
+def _refused(cause: str, place: Path, next_move: str) -> JobError:
+    return JobError(cause, code="refused", place=str(place), next_move=next_move)
+
+
+def _is_urdf(model: Path) -> bool:
+    return next(_elements(model), ("", {}))[0] == "robot"
 
 
 def _candidates(path: Path, value: str, folders: list[Path]) -> list[Path]:

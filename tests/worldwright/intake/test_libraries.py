@@ -62,6 +62,23 @@ def test_an_offer_is_found_taken_in_with_its_creator_and_then_an_asset(library: 
     assert len(find_asset("treasure chest").assets) == 1
 
 
+def test_what_was_looked_at_comes_before_what_was_not_and_under_the_name_it_goes_by(library: Path, monkeypatch) -> None:
+    monkeypatch.setattr(libraries, "chosen", lambda: {"scopia_motorbike": "spring rider"})
+    libraries._named.cache_clear()
+    archive(library, row(1, "motorbike", name="Motorbike", tags="") + row(2, "rider", name="Spring rider", tags=""), {})
+    assert [(hit.key, hit.chosen) for hit in find_asset("spring rider").assets] == [
+        ("scopia_motorbike", True),
+        ("scopia_rider", False),
+    ]
+    assert find_asset("motorbike").assets[0].description == "Spring rider (Motorbike, motorbike)"
+    libraries._named.cache_clear()
+
+
+def test_the_list_of_the_chosen_is_long_and_calls_no_two_alike() -> None:
+    names = libraries.chosen()
+    assert len(names) > 150 and len({*names.values()}) == len(names)
+
+
 def test_what_no_library_offers_is_no_file_either(library: Path) -> None:
     assert libraries.offers() == {}
     with pytest.raises(NotFoundError, match="no library offers it") as told:

@@ -2,6 +2,7 @@
 
 import json
 import struct
+from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
@@ -103,6 +104,50 @@ def test_stills_of_a_bare_model(level, model):
     job = end("runs/thrown")
     assert job.state == "succeeded", job.text()
     assert json.loads((Run.find("runs/thrown").folder / job.result / "result.json").read_text())["summary"]["cameras"]
+
+
+def test_a_urdf_with_its_meshes_in_an_archive_is_recorded(level, model):
+    import zipfile
+
+    link = '<link name="base"><inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
+    shape = '<geometry><mesh filename="package://stone/meshes/rock.stl"/></geometry>'
+    text = f'<robot name="stone">{link}<collision>{shape}</collision></link></robot>'
+    with zipfile.ZipFile("stone.zip", "w") as made:
+        made.writestr("stone/urdf/stone.urdf", text)
+        made.write(model.parent.parent / "assets/rock.stl", "stone/meshes/rock.stl")
+    start(model=Path("stone.zip"), duration=0.1)
+    job = end("runs/stone")
+    assert job.state == "succeeded", job.text()
+    assert start(model=Path("stone.zip"), duration=0.1).cached
+    with zipfile.ZipFile("climbing.zip", "w") as made:
+        made.writestr("../stone.urdf", text)
+    with pytest.raises(JobError, match="outside") as told:
+        start(model=Path("climbing.zip"))
+    assert told.value.code == "climbs_out"
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ('<mujoco><asset><mesh file="a.stl"/><mesh file="b.stl"/></asset></mujoco>', r"a\.stl, b\.stl"),
+        ('<mujoco><include file="thrown.xml"/></mujoco>', "includes itself"),
+        ('<robot name="r"><link name="a"><visual><geometry><mesh filename="package://r/a.stl"/></geometry></visual></link></robot>', r"a\.stl"),
+        ('<robot name="r"><link name="a"><visual><geometry><mesh filename="/home/me/rock.stl"/></geometry></visual></link></robot>', "one machine"),
+    ],
+)  # fmt: skip
+def test_what_a_model_is_made_of_and_is_not_there_is_told_before_it_runs(model, text, said):
+    model.write_text(text)
+    with pytest.raises(JobError, match=said) as told:
+        start(model=model, duration=0.1)
+    assert told.value.code == "refused" and told.value.next_move
+
+
+def test_a_folder_gives_its_one_model(model):
+    with pytest.raises(NotFoundError, match=r"2 models in it: thrown\.xml, unrelated\.xml"):
+        start(model=model.parent)
+    model.with_name("unrelated.xml").unlink()
+    start("runs/folder", model=model.parent, duration=0.1)
+    assert end("runs/folder").state == "succeeded"
 
 
 def test_misuse_is_refused(model):

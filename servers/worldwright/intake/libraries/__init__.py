@@ -4,8 +4,10 @@ The folder is the list. A library answers from what a package laid on this machi
 same for all of them (`taking_in.add`), and makes of an offer an asset of the user's own.
 """
 
+import csv
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any, Protocol
 
@@ -26,6 +28,8 @@ class Offer:
     licence: str
     creator: str
     library: str
+    chosen: bool = False
+    """Whether its picture was looked at, and it is what its name says: such offers come first."""
 
 
 class Library(Protocol):
@@ -41,6 +45,9 @@ class Library(Protocol):
             IntakeFailedError: what the package holds under that key is not whole, or more than may be laid out.
         """
 
+    def icon(self, key: str) -> bytes:
+        """A PNG of an offer; empty where there is none."""
+
     def installing(self) -> str:
         """The command that brings its package."""
 
@@ -49,8 +56,23 @@ SEAM: Seam[Library] = Seam(__name__, Library, "library of meshes")
 
 
 def offers() -> dict[str, Offer]:
-    """Every offer of every library, by key."""
-    return {offer.key: offer for offer in _all()}
+    """Every offer of every library, by key; those that were chosen under the name by which they were recognised."""
+    return {offer.key: _named(offer) for offer in _all()}
+
+
+@cache
+def chosen() -> dict[str, str]:
+    """What the chosen offers are called, by key: `chosen.csv`, for which every picture of the library was looked at."""
+    with (Path(__file__).parent / "chosen.csv").open(encoding="utf-8", newline="") as lines:
+        return {row["key"]: row["name"] for row in csv.DictReader(lines)}
+
+
+@lru_cache(maxsize=4096)
+def _named(offer: Offer) -> Offer:
+    name = chosen().get(offer.key)
+    if name is None:
+        return offer
+    return replace(offer, name=name.capitalize(), words=f"{offer.name}, {offer.words}".strip(", "), chosen=True)
 
 
 def _all() -> Iterator[Offer]:

@@ -28,7 +28,7 @@ LICENCES = {
 """Of each archive, as its own LICENSE.TXT has it; others are not offered."""
 TEXT = "PluginFurnitureCatalog.properties"
 ROW = re.compile(r"(\w+)#(\d+)\s*=\s*(.*)")
-MOST_TEXT, MOST_MEMBER, MOST_LAID, MOST_FILES = 4 << 20, 64 << 20, 128 << 20, 64
+MOST_TEXT, MOST_MEMBER, MOST_LAID, MOST_FILES, MOST_ICON = 4 << 20, 64 << 20, 128 << 20, 64, 1 << 20
 BROKEN = (OSError, zipfile.BadZipFile, zlib.error, lzma.LZMAError)
 """What reading a broken archive raises."""
 WANTED = (".obj", ".mtl", ".png", ".jpg", ".jpeg")
@@ -50,6 +50,18 @@ def lay(key: str, folder: Path) -> tuple[Path, dict[str, Any]]:
         if found is not None:
             return _extracted(archive, found[0], found[1], folder)
     raise IntakeFailedError(f"there is no model {key} here", code="not_found", place=key, next_move=installing())
+
+
+def icon(key: str) -> bytes:
+    """The picture that the catalogue shows of a model."""
+    for archive in _archives():
+        if found := _rows(archive, archive.stat().st_mtime_ns).get(key):
+            try:
+                with zipfile.ZipFile(archive) as held:
+                    return _read(held, found[1].get("icon", "").lstrip("/"), MOST_ICON)
+            except (*BROKEN, IntakeFailedError):
+                return b""
+    return b""
 
 
 def installing() -> str:

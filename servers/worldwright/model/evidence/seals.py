@@ -9,7 +9,7 @@ in an agent's shell has none, honest as it may be.
 import base64
 from typing import TYPE_CHECKING, NamedTuple
 
-from worldkit.assets.root import data_root
+from worldkit.data_folders import data_root
 
 from .journal import Journal
 

@@ -15,13 +15,16 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from worldkit import model_files
+
 from .. import companions, syntax
 from ..errors import PlanError, WorldwrightError
 from .committed import Plan
 from .scene_objects import AssetRow, Vec3
 
 SUFFIXES = {"mjcf": (".xml", ".mjcf"), "urdf": (".urdf", ".xml")}
-LIMIT_S = 30.0
+ARCHIVES = (".zip", ".tgz", ".gz", ".tar", ".xz", ".bz2")
+LIMIT_S = 120.0
 _OPTION = re.compile(r"[ \t]*<option\b[^>]*?/>\n?|[ \t]*<option\b[^>]*>.*?</option>\n?", re.DOTALL)
 """Time step, gravity and solver of an MJCF: the plan owns them, so they do not stand a second time in the program."""
 
@@ -33,6 +36,8 @@ class Imported:
     text: str
     folder: str | None
     """The catalog's folder with its meshes; None for a model beside the plan."""
+    files: tuple[str, ...]
+    """Of a model beside the plan, the meshes and pictures that it reads, relative to the plan's folder."""
     extents: Vec3
     """Extents of the box around its rest pose, m."""
     mass_kg: float
@@ -101,12 +106,7 @@ def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imp
         PlanError: the file is missing or is no such model; the message names it, and what is wrong in it.
     """
     path, home = _file(row, folder)
-    try:
-        text = path.read_text(encoding="utf-8").strip()
-    except (OSError, UnicodeDecodeError) as cause:
-        raise PlanError(
-            f"asset `{row.name}`: {row.filename} cannot be read: {cause}", next_move="save it as UTF-8 text"
-        ) from cause
+    text, files = _text(row, path, folder if home is None else None)
     wanted = {"urdf": "<robot", "mjcf": "<mujoco"}[row.type]
     if wanted not in text and ("<robot" in text or "<mujoco" in text):
         other = "urdf" if row.type == "mjcf" else "mjcf"
@@ -115,8 +115,10 @@ def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imp
         )
     text = _OPTION.sub("", text)
     name = instance or row.instances[0]
+    root = folder.absolute() if folder and files else Path()
     try:
-        known = _facts(text, name, home)
+        stats = tuple((status.st_mtime_ns, status.st_size) for file in files for status in ((root / file).stat(),))
+        known = _facts(text, name, home, files, str(root) if files else "", stats)
     except ValueError as error:
         raise PlanError(
             f"asset `{row.name}`: {row.filename} does not load: {error}",
@@ -126,6 +128,7 @@ def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imp
     return Imported(
         text=text,
         folder=home,
+        files=files,
         extents=(x, y, z),
         mass_kg=known["mass"],
         bodies=tuple(known["bodies"]),
@@ -141,6 +144,11 @@ def files(plan: Plan) -> Iterator[Path]:
             path = (plan.folder / row.filename).resolve()
             if path.is_file() and path.is_relative_to(plan.folder.resolve()):
                 yield Path(row.filename)
+                with suppress(model_files.ModelFileError, UnicodeDecodeError):
+                    made = model_files.whole(plan.folder / row.filename, plan.folder)
+                    yield from map(Path, made.files)
+                    home = plan.folder.resolve()
+                    yield from (source.resolve().relative_to(home) for source in made.sources[1:])
         elif is_sculpt(row) and plan.folder is not None:
             with suppress(PlanError):
                 path = sculpture(row, plan.folder)
@@ -174,6 +182,13 @@ def _file(row: AssetRow, folder: Path | None) -> tuple[Path, str | None]:
     """Where a row's file is, and its folder if that is in the catalog."""
     from worldkit import assets
 
+    beside = None if folder is None else (folder / row.filename)
+    if beside is not None and (beside.is_dir() or beside.suffix.lower() in ARCHIVES):
+        models = [path.relative_to(folder or Path()).as_posix() for path in model_files.models_in(beside)[:8]]
+        raise PlanError(
+            f"asset `{row.name}` of type {row.type}: {row.filename} is no model, but holds some",
+            next_move=f"name the model's file: {', '.join(models)}" if models else f"worldwright asset unpack {beside}",
+        )
     if not row.filename.endswith(SUFFIXES[row.type]):
         endings = " or ".join(SUFFIXES[row.type])
         raise PlanError(
@@ -182,7 +197,7 @@ def _file(row: AssetRow, folder: Path | None) -> tuple[Path, str | None]:
         )
     places: list[tuple[Path, str | None]] = [] if folder is None else [(folder, None)]
     with suppress(FileNotFoundError):
-        places.append((assets.catalog_root(), str(Path(row.filename).parent)))
+        places += [(root, str(Path(row.filename).parent)) for root in (assets.catalog_root(), assets.own_root())]
     for root, home in places:
         path = (root / row.filename).resolve()
         if path.is_file() and path.is_relative_to(root.resolve()):
@@ -193,11 +208,35 @@ def _file(row: AssetRow, folder: Path | None) -> tuple[Path, str | None]:
     )
 
 
+def _text(row: AssetRow, path: Path, beside: Path | None) -> tuple[str, tuple[str, ...]]:
+    """A model's text and, of one that lies beside the plan, the files that it reads."""
+    try:
+        if beside is not None:
+            made = model_files.whole(path, beside)
+            return made.text.strip(), made.files
+        return path.read_text(encoding="utf-8").strip(), ()
+    except (OSError, UnicodeDecodeError) as cause:
+        raise PlanError(
+            f"asset `{row.name}`: {row.filename} cannot be read: {cause}", next_move="save it as UTF-8 text"
+        ) from cause
+    except model_files.ModelFileError as error:
+        raise PlanError(
+            f"asset `{row.name}`: {row.filename} does not load: {error.place}: {error.cause}", next_move=error.next_move
+        ) from error
+
+
 @lru_cache(maxsize=256)
-def _facts(text: str, name: str, folder: str | None) -> dict[str, Any]:
+def _facts(
+    text: str,
+    name: str,
+    folder: str | None,
+    files: tuple[str, ...] = (),
+    root: str = "",
+    _stats: tuple[tuple[int, int], ...] = (),
+) -> dict[str, Any]:
     """See `worldkit.models.facts`; in a process of its own, for an engine error may end the process it happens in."""
     servers = Path(__file__).parents[3]
-    request = json.dumps({"text": text, "name": name, "folder": folder})
+    request = json.dumps({"text": text, "name": name, "folder": folder, "files": files, "root": root})
     try:
         done = subprocess.run(
             [sys.executable, "-P", "-m", "worldkit.models"],

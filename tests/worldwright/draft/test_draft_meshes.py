@@ -1,0 +1,74 @@
+"""A robot with its meshes beside the plan is drafted, its files belong to the approval, and a missing one is told."""
+
+import shutil
+from pathlib import Path
+
+import mujoco
+import pytest
+import trimesh
+
+from worldwright.draft import draft
+from worldwright.lint.tools import check_plan, check_program
+from worldwright.model import companions
+from worldwright.model.plan import imported
+from worldwright.model.plan.plan_text import read_plan
+from worldwright.place.engine import resolve
+
+HERE = Path(__file__).parent / "models"
+MESH = '<mesh filename="package://arm_description/meshes/upper.stl"/>'
+ARM = (HERE / "arm.urdf").read_text().replace('<cylinder radius="0.03" length="0.4"/>', MESH)
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    (tmp_path / "parts").mkdir()
+    shutil.copy(HERE / "chest.xml", tmp_path / "parts")
+    shutil.copy(HERE / "plan.md", tmp_path)
+    (tmp_path / "robot/meshes").mkdir(parents=True)
+    (tmp_path / "robot/arm.urdf").write_text(ARM)
+    trimesh.creation.cylinder(0.03, 0.4).export(tmp_path / "robot/meshes/upper.stl")
+    plan = (tmp_path / "plan.md").read_text()
+    (tmp_path / "plan.md").write_text(plan.replace("filename: arm.urdf", "filename: robot/arm.urdf"))
+    return tmp_path
+
+
+def test_a_robot_stands_in_its_plan_with_its_meshes(folder: Path, monkeypatch) -> None:
+    assert [f for f in check_plan(folder / "plan.md").findings if f.severity == "error"] == []
+    plan = read_plan(folder / "plan.md").plan
+    made = draft(plan, resolve(plan).scene)
+    (folder / "simulation.py").write_text(made.source)
+    assert 'ARM_FILES = (\n    "robot/meshes/upper.stl",\n)' in made.source
+    assert "robot/meshes/upper.stl" in companions.of(folder / "simulation.py"), "evidence is about the mesh, too"
+    assert {"robot/arm.urdf", "robot/meshes/upper.stl"} <= {*imported.beside(folder)}, "and so is the approval"
+    report = check_program([folder / "simulation.py"])
+    assert not [f for f in report.findings if f.severity == "error"], report.text()
+    monkeypatch.syspath_prepend(str(folder))
+    names: dict = {"__name__": "drafted"}
+    exec(compile(made.source, "drafted", "exec"), names)
+    model = names["build"]().compile()
+    assert (model.geom_type == mujoco.mjtGeom.mjGEOM_MESH).any() and model.body("arm_upper").mass[0] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("change", "told"),
+    [
+        (lambda home: (home / "robot/meshes/upper.stl").unlink(), "files that are not there: package://arm_description/meshes/upper.stl"),
+        (lambda home: (home / "robot/meshes/upper.stl").write_bytes(b"\0" * 80 + b"\xff\xff\xff\0"), "16,777,215 faces"),
+        (lambda home: (home / "plan.md").write_text((home / "plan.md").read_text().replace("robot/arm.urdf", "robot")), "holds some"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_with_its_files_is_told(folder: Path, change, told: str) -> None:
+    change(folder)
+    (finding,) = [f for f in check_plan(folder / "plan.md").findings if f.code == "WP126" and "`arm`" in f.message]
+    assert told in finding.message and finding.fix
+
+
+def test_a_mesh_that_changes_is_read_anew(folder: Path) -> None:
+    def size() -> tuple:
+        plan = read_plan(folder / "plan.md").plan
+        row = next(row for row in plan.assets if row.name == "arm")
+        return imported.load(row, plan.folder).extents
+
+    before = size()
+    trimesh.creation.cylinder(0.03, 0.8).export(folder / "robot/meshes/upper.stl")
+    assert size()[2] == pytest.approx(before[2] + 0.3)
