@@ -95,7 +95,11 @@ def repose() -> float:
 def runout(shape: float) -> float:
     """How far a column of sand runs out, in radii, which is as high as `shape` radii."""
     radius = 0.05 if shape < 1.5 else 0.04
-    law = let_go(Matter(Sand(1600.0, 30.0), 0.007, begins=[column((0, 0, 0), radius, shape * radius)]), FLOOR, 0.5)
+    law = let_go(
+        Matter(Sand(1600.0, 30.0, wall_friction=0.3), 0.005, begins=[column((0, 0, 0), radius, shape * radius)]),
+        FLOOR,
+        0.5,
+    )
     return float(np.sort(np.hypot(*law.points[:, :2].T))[-10:].mean() / radius - 1)
 
 

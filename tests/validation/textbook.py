@@ -15,6 +15,7 @@ import mujoco
 import numpy as np
 from scipy.special import jnp_zeros, jv
 
+from validation import flowing
 from worldengine.solvers import water
 from worldengine.waves.body_of_water import Liquid, Water
 from worldengine.waves.hull_samples import Hulls
@@ -197,6 +198,14 @@ CASES = (
     Case("A ball sinks as fast as drag lets it", "Hoerner, Fluid-Dynamic Drag, section 3-8", sinking, 0.03),
     Case("A balloon twice its size has the pressure of its rubber", "Müller and Strehlow, Rubber and Rubber Balloons, chapter 3", balloon, 0.01),
     Case("Gas that cools in a slack skin shrinks with its temperature", "Newton 1701; p V = n R T", cooling, 0.005),
+    Case("Pressure in a tank grows with depth", "Batchelor, An Introduction to Fluid Dynamics, section 1.4", flowing.hydrostatics, 0.08),
+    Case("The front of a dam that breaks", "Martin and Moyce 1952", flowing.dam_break, 0.08),
+    Case("A stream falls as fast as anything", "Torricelli 1643", flowing.stream, 0.01),
+    Case("A viscous drop spreads on a floor as its eighth root of time", "Huppert 1982", flowing.spreading, 0.03),
+    Case("Sand that is poured lies at its friction angle", "Coulomb 1773", flowing.repose, 0.2),
+    Case("A low column of sand runs out", "Lube et al. 2004", flowing.low_column, 0.3),
+    Case("A high column of sand runs out", "Lube et al. 2004", flowing.high_column, 0.2),
+    Case("Snow lies as high as what fell", "continuity", flowing.snow_layer, 0.15),
 )  # fmt: skip
 
 

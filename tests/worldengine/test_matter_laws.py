@@ -21,7 +21,12 @@ PAGES = Path(__file__).parents[2] / "skills" / "media" / "references"
 def law_of(page: str) -> types.ModuleType:
     text = (PAGES / f"{page}.md").read_text(encoding="utf-8")
     module = types.ModuleType(page)
-    exec(compile(re.findall(r"^```python program\n(.*?)^```$", text, re.M | re.S)[0], f"laws/{page}.py", "exec"), module.__dict__)
+    exec(
+        compile(
+            re.findall(r"^```python program\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)[0], f"laws/{page}.py", "exec"
+        ),
+        module.__dict__,
+    )
     return module
 
 
@@ -29,6 +34,7 @@ def recorded(law: Matter, body: str, low: float, folder: Path, steps: int) -> st
     """A run of it over a plate that a stiff spring holds; the plate's top at the height `low`."""
     spec = empty(time_step=0.004)
     plate = spec.worldbody.add_body(name=body, pos=(0, 0, low - 0.02))
+    plate.gravcomp = 1
     plate.add_joint(name="gives", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=(0, 0, 1), stiffness=2e4, damping=100)
     plate.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.5, 0.5, 0.02), mass=5.0)
     moved_shapes.grains(spec, law.shown_by, law.points, law.radius)

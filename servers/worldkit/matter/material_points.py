@@ -125,7 +125,7 @@ class Matter:
         self.points = self.points.copy()
         self.velocities, self._slope = np.zeros((count, 3)), np.zeros((count, 3, 3))
         self._state, self._tau = stuff.begins(count), np.zeros((count, 6))
-        self._crowd = np.zeros(count)
+        self._crowd = np.full(count, stuff.density)
         self._planes, self._walls = np.zeros((count, MOST_PLANES, 4)), np.zeros((count, MOST_PLANES), np.int64)
         self._near, self.time, self.loose = np.zeros(count, np.int64), 0.0, 0
         """Of the points, those that have left their mouths."""
@@ -176,6 +176,8 @@ class Matter:
         push = np.zeros((len(self.bodies), 6))
         fastest = float(np.linalg.norm(self.velocities[: self.loose], axis=1).max(initial=0.0))
         fastest = max(fastest, self._fastest()) + float(np.linalg.norm(self._pull)) * seconds
+        if not np.isfinite(fastest):
+            self._apart()
         limit = min(self._step or self.longest, 0.35 * self.cell / max(fastest, 1e-9))
         parts = max(1, int(np.ceil(seconds / limit - 1e-9)))
         room = self._laid(self.cell * ROOMY + 1.5 * fastest * seconds)

@@ -14,6 +14,8 @@ from .principal import grown, principal, rebuilt
 Array = np.ndarray
 LOOSE = 0.5
 """What the grid shows as less than this share of the density is flakes in the air."""
+FLUFFED = 1.5
+"""J_p of flakes that come to lie on one another: they are soft until they have settled."""
 SOFTEST, HARDEST = 0.05, 4.0
 """Bounds of what hardening makes of the stiffness: the step in time is for the latter."""
 
@@ -108,7 +110,7 @@ def pack(law, state, c, crowd, tau, count, dt):  # type: ignore[no-untyped-def]
     f, a, q, s = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
     for p in range(count):
         if crowd[p] < law[5]:
-            state[p, 0], state[p, 1], state[p, 2], state[p, 6] = 1.0, 1.0, 1.0, 1.0
+            state[p, 0], state[p, 1], state[p, 2], state[p, 6] = 1.0, 1.0, 1.0, FLUFFED
             state[p, 3], state[p, 4], state[p, 5] = 0.0, 0.0, 0.0
             tau[p, :] = 0.0
             continue
@@ -119,7 +121,7 @@ def pack(law, state, c, crowd, tau, count, dt):  # type: ignore[no-untyped-def]
             full = np.sqrt(max(a[i, i], 1e-6))
             s[i] = min(max(full, gives), tears)
             kept *= full / s[i]
-        state[p, 6] = min(max(state[p, 6] * kept, 0.3), 1.5)
+        state[p, 6] = min(max(state[p, 6] * kept, 0.3), FLUFFED)
         rebuilt(s[0] * s[0], s[1] * s[1], s[2] * s[2], q, state[p])
         hard = min(max(np.exp(law[4] * (1.0 - state[p, 6])), SOFTEST), HARDEST)
         j = s[0] * s[1] * s[2]
