@@ -78,7 +78,7 @@ class Liquid:
 
 
 @kernel
-def flow(law, state, c, crowd, tau, count, dt):  # type: ignore[no-untyped-def]
+def flow(law, state, c, crowd, tau, count, dt):
     """Advance the points of a liquid; arguments as `Liquid.advance`."""
     stiff, mu, rho = law[0], law[1], law[2]
     for p in range(count):

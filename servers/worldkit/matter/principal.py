@@ -9,7 +9,7 @@ SWEEPS = 8
 
 
 @kernel
-def grown(b, c, dt, f, out):  # type: ignore[no-untyped-def]  # numba infers them
+def grown(b, c, dt, f, out):
     """Write F b F^T with F = I + dt c into out (3, 3); b (6,) is xx, yy, zz, xy, xz, yz; f (3, 3) is room."""
     for i in range(3):
         for j in range(3):
@@ -23,7 +23,7 @@ def grown(b, c, dt, f, out):  # type: ignore[no-untyped-def]  # numba infers the
 
 
 @kernel
-def principal(a, q):  # type: ignore[no-untyped-def]
+def principal(a, q):
     """Turn a (3, 3), symmetric, into its diagonal, and write its directions as columns of q (3, 3): Jacobi's rotations.
 
     Source: Golub and Van Loan, Matrix Computations, section 8.5.
@@ -55,7 +55,7 @@ def principal(a, q):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def rebuilt(s0, s1, s2, q, out):  # type: ignore[no-untyped-def]
+def rebuilt(s0, s1, s2, q, out):
     """Write q diag(s) q^T into out (6,)."""
     out[0] = s0 * q[0, 0] ** 2 + s1 * q[0, 1] ** 2 + s2 * q[0, 2] ** 2
     out[1] = s0 * q[1, 0] ** 2 + s1 * q[1, 1] ** 2 + s2 * q[1, 2] ** 2

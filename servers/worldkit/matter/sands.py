@@ -91,7 +91,7 @@ class Sand:
 
 
 @kernel
-def slide(law, state, c, tau, count, dt):  # type: ignore[no-untyped-def]
+def slide(law, state, c, tau, count, dt):
     """Advance the points of a sand; arguments as `Sand.advance`."""
     lam, mu, cone = law[0], law[1], law[2]
     f, a, q, e = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty(3)

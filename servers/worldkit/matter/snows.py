@@ -104,7 +104,7 @@ class Snow:
 
 
 @kernel
-def pack(law, state, c, crowd, tau, count, dt):  # type: ignore[no-untyped-def]
+def pack(law, state, c, crowd, tau, count, dt):
     """Advance the points of a snow; arguments as `Snow.advance`."""
     gives, tears = 1.0 - law[2], 1.0 + law[3]
     f, a, q, s = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty(3)

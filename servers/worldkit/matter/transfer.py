@@ -19,7 +19,7 @@ SLOTS = 3
 
 
 @kernel
-def scatter(  # type: ignore[no-untyped-def]
+def scatter(
     x, v, c, tau, count, masses, density, dt, origin, shape, dx, grid, touched, planes, walls, near, held, holds,
 ):  # fmt: skip
     """Sum mass and momentum of the points onto the grid.
@@ -92,7 +92,7 @@ def scatter(  # type: ignore[no-untyped-def]
 
 
 @kernel
-def turn(origin, shape, dx, dt, gravity, grid, touched, used, held, holds, bodies, push, friction, sticks):  # type: ignore[no-untyped-def]
+def turn(origin, shape, dx, dt, gravity, grid, touched, used, held, holds, bodies, push, friction, sticks):
     """Make velocities of momenta, (nodes, 4), let them fall, and stop them at walls; arguments as `scatter`.
 
     bodies (k, 9): middle, velocity, spin; push (k, 6) N s, N m s is added to.
@@ -122,7 +122,7 @@ def turn(origin, shape, dx, dt, gravity, grid, touched, used, held, holds, bodie
 
 
 @kernel
-def stop(u, n, ax, ay, az, bodies, wall, push, mass, friction, sticks):  # type: ignore[no-untyped-def]
+def stop(u, n, ax, ay, az, bodies, wall, push, mass, friction, sticks):
     """Change a velocity u (3,) at a place, so that it does not go into the wall; the wall feels what it loses."""
     b = bodies[wall]
     rx, ry, rz = ax - b[0], ay - b[1], az - b[2]
@@ -153,7 +153,7 @@ def stop(u, n, ax, ay, az, bodies, wall, push, mass, friction, sticks):  # type:
 
 
 @kernel
-def gather(  # type: ignore[no-untyped-def]
+def gather(
     x, v, c, count, masses, dt, origin, shape, dx, grid, touched, used, planes, walls, near, bodies, push, friction,
     sticks, crowd,
 ):  # fmt: skip

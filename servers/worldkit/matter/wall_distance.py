@@ -13,7 +13,7 @@ PLANE, HFIELD, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = range(8)
 
 
 @kernel
-def distance(kind, size, x, y, z, faces, first, count, heights, rows, columns, n):  # type: ignore[no-untyped-def]
+def distance(kind, size, x, y, z, faces, first, count, heights, rows, columns, n):
     """m, negative within, of a point in the geom's frame; n (3,) becomes the way out.
 
     faces (f, 4): normals and offsets of hulls, of which this geom has `count` from `first`; heights (r, c) m of a height field.
@@ -69,13 +69,13 @@ def distance(kind, size, x, y, z, faces, first, count, heights, rows, columns, n
 
 
 @kernel
-def signed(value):  # type: ignore[no-untyped-def]
+def signed(value):
     """1 or -1."""
     return -1.0 if value < 0.0 else 1.0
 
 
 @kernel
-def corner(ox, oy, oz, sx, sy, sz, n):  # type: ignore[no-untyped-def]
+def corner(ox, oy, oz, sx, sy, sz, n):
     """Of what is bounded by faces at right angles, beyond each of which a point is so far."""
     px, py, pz = max(ox, 0.0), max(oy, 0.0), max(oz, 0.0)
     far = np.sqrt(px * px + py * py + pz * pz)
@@ -93,7 +93,7 @@ def corner(ox, oy, oz, sx, sy, sz, n):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def look(  # type: ignore[no-untyped-def]
+def look(
     x, count, reach, kinds, sizes, poses, firsts, counts, owners, faces, heights, rows, columns,
     low, cell, cells, starts, listed, planes, walls, near,
 ):  # fmt: skip
