@@ -34,7 +34,7 @@ class Liquid:
     sound: float | None = None
     sticks: bool | None = None
 
-    friction, scatter, numbers = 0.0, 0.0, 1
+    friction, scatter = 0.0, 0.0
 
     def carried(self, pull: float) -> float:  # noqa: ARG002
         """1/s: air does nothing to it."""

@@ -30,10 +30,17 @@ ROOMY = 3
 class Stuff(Protocol):
     """A constitutive law; tau is Kirchhoff's stress, xx, yy, zz, xy, xz, yz."""
 
-    density: float
-    sound: float | None
-    scatter: float
-    numbers: int
+    @property
+    def density(self) -> float:
+        """kg/m^3, at rest."""
+
+    @property
+    def sound(self) -> float | None:
+        """m/s, or None for what its falls ask."""
+
+    @property
+    def scatter(self) -> float:
+        """Spacings by which points are off their lattice at the start."""
 
     @property
     def friction(self) -> float:
@@ -58,7 +65,7 @@ class Stuff(Protocol):
         """s: the longest stable step."""
 
     def begins(self, count: int) -> Array:
-        """(n, `numbers`) state of each point at rest."""
+        """(n, s) state of each point at rest."""
 
     def advance(self, law: Array, state: Array, c: Array, crowd: Array, tau: Array, count: int, dt: float) -> None:
         """Advance the state by dt with the slope of velocity c (n, 3, 3), 1/s, and write tau (n, 6), Pa."""

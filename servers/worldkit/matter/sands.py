@@ -31,7 +31,7 @@ class Sand:
     wall_friction: float | None = None
     sound: float | None = None
 
-    scatter, numbers = 0.2, 7
+    scatter = 0.2
 
     @property
     def friction(self) -> float:

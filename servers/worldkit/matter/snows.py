@@ -45,7 +45,7 @@ class Snow:
     falls: float = 1.0
     sound: float | None = None
 
-    scatter, numbers = 0.2, 7
+    scatter = 0.2
 
     @property
     def friction(self) -> float:

@@ -98,17 +98,16 @@ class Geoms:
 
     def move(self, bodies: Array, seconds: float) -> None:
         """Carry the geoms on with their bodies (k, 9): middle at the start of the move, velocity and spin, for some seconds."""
-        for at, row in enumerate(self.owners):
-            if not bodies[row, 3:].any():
+        for row, body in enumerate(bodies):
+            if not body[3:].any():
                 continue
-            spin = bodies[row, 6:] * seconds
+            spin, mine = body[6:] * seconds, self.owners == row
             angle = float(np.linalg.norm(spin))
             axis = spin / angle if angle > 1e-12 else np.zeros(3)
             k = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
             turn = np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
-            pose, middle = self.poses[at], bodies[row, :3]
-            pose[:3] = middle + seconds * bodies[row, 3:6] + turn @ (pose[:3] - middle)
-            pose[3:] = (turn @ pose[3:].reshape(3, 3)).ravel()
+            self.poses[mine, :3] = body[:3] + seconds * body[3:6] + (self.poses[mine, :3] - body[:3]) @ turn.T
+            self.poses[mine, 3:] = (turn @ self.poses[mine, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
 
     def sort(self, low: Array, high: Array, margin: float) -> None:
         """List, for each cell of the room from `low` to `high`, the geoms that come within `margin` of it."""
