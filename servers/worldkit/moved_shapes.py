@@ -74,12 +74,17 @@ def tube(rings: int, around: int) -> "list[tuple[int, int, int]]":
 
 
 def grains(spec: "mujoco.MjSpec", name: str, points: Any, radius: float, look: str | None = None) -> "mujoco.MjsBody":
-    """Add grains whose middles a law moves: spheres of a radius, m, of one body of this name, (n, 3) m at the start."""
+    """Add grains whose middles a law moves: spheres of a radius, m, of one body of this name, (n, 3) m at the start.
+
+    The body stands in the middle of the box around them, as a plan says where a thing is.
+    """
     import mujoco
     import numpy as np
 
-    body = spec.worldbody.add_body(name=name)
+    places = np.asarray(points, float).reshape(-1, 3)
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2
+    body = spec.worldbody.add_body(name=name, pos=middle)
     skin = {} if look is None else {"material": materials.add(spec, look)}
-    for place in np.asarray(points, float).reshape(-1, 3).tolist():
+    for place in (places - middle).tolist():
         body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=(radius, 0, 0), pos=place, **DRAWN, **skin)
     return body

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.integrate import quad
 from scipy.special import j1, jnp_zeros, jv
 
+from validation import flowing
 from worldengine.solvers import SEAM, water
 from worldengine.waves.body_of_water import Liquid, Water
 from worldengine.waves.hull_samples import Hulls
@@ -386,6 +387,14 @@ CASES = (
     Case("Two charges fly apart", "Jackson, Classical Electrodynamics, section 1.11", charges_fly, 0.002),
     Case("A copper ball cools", "Newton 1701", newton_cools, 0.002),
     Case("Ice melts in a warm room", "Incropera and DeWitt, Heat and Mass Transfer, chapter 5", ice_melts, 0.002),
+    Case("Pressure in a tank grows with depth", "Batchelor, An Introduction to Fluid Dynamics, section 1.4", flowing.hydrostatics, 0.08),
+    Case("The front of a dam that breaks", "Martin and Moyce 1952", flowing.dam_break, 0.08),
+    Case("A stream falls as fast as anything", "Torricelli 1643", flowing.stream, 0.01),
+    Case("A viscous drop spreads on a floor as its eighth root of time", "Huppert 1982", flowing.spreading, 0.03),
+    Case("Sand that is poured lies at its friction angle", "Coulomb 1773", flowing.repose, 0.2),
+    Case("A low column of sand runs out", "Lube et al. 2004", flowing.low_column, 0.3),
+    Case("A high column of sand runs out", "Lube et al. 2004", flowing.high_column, 0.2),
+    Case("Snow lies as high as what fell", "continuity", flowing.snow_layer, 0.15),
 )  # fmt: skip
 
 

@@ -1,0 +1,27 @@
+"""Compile what matter needs before it is needed: a confined process may not keep it.
+
+`python -m worldkit.matter.ahead`; some ten seconds of processor time.
+"""
+
+import mujoco
+
+from .first_places import block
+from .liquids import Liquid
+from .material_points import Matter
+from .sands import Sand
+from .snows import Snow
+
+
+def compile_all() -> None:
+    """Step a few points of each kind on a floor."""
+    model = mujoco.MjModel.from_xml_string('<mujoco><worldbody><geom type="plane" size="1 1 1"/></worldbody></mujoco>')
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for stuff in (Liquid(), Sand(), Snow()):
+        law = Matter(stuff, 0.01, begins=[block((0, 0, 0.001), (0.02, 0.02, 0.02))])
+        law.start(model, data)
+        law.step(model, data, 0.001)
+
+
+if __name__ == "__main__":
+    compile_all()
