@@ -13,7 +13,6 @@ Work, in joules, done on the system:
 
 from typing import TYPE_CHECKING, Any
 
-from worldkit.breaking.letting_go import bonds_of, stresses
 from worldkit.naming import names
 from worldkit.speaking import HELD
 from worldkit.watch import Edit, owner_of
@@ -41,6 +40,8 @@ class Ledger:
     def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: "Ports", recorder: "Recorder") -> None:
         import mujoco
         import numpy as np
+
+        from worldkit.breaking.letting_go import bonds_of
 
         self._model, self._data, self._recorder = model, data, recorder
         self.pushes = Pushes(model, data, ports, lambda blocks: recorder.later("pushes", blocks))
@@ -126,6 +127,8 @@ class Ledger:
         """What an equality carried in the remembered state, which no row shows once it is off: N and, of a bond, Pa."""
         import mujoco
         import numpy as np
+
+        from worldkit.breaking.letting_go import stresses
 
         past = self._past
         assert past is not None

@@ -3,8 +3,6 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from worldkit.breaking.letting_go import bonds_of, stresses
-
 from .columns import TABLES
 
 if TYPE_CHECKING:
@@ -58,6 +56,8 @@ class Batch:
         # Those rows act on half the rotation (a quaternion's vector part) times the weld's torque scale, `data[10]`.
         self._turning = 0.5 * model.eq_data[:, 10]
         self.eq_stress = np.zeros((capacity, model.neq))
+        from worldkit.breaking.letting_go import bonds_of
+
         self.bonds = bonds_of(model)
         self.tendon_limit = np.zeros((capacity, model.ntendon))
         self.carries = bool(model.neq or model.ntendon)
@@ -174,6 +174,8 @@ class Batch:
                 loads = loads * ~turning
             self.eq_force[row] = np.sqrt(np.bincount(owners, loads, minlength=equalities))
             if self.bonds:
+                from worldkit.breaking.letting_go import stresses
+
                 self.eq_stress[row, self.bonds.equality] = stresses(self.bonds, data)
         if tendons:
             limits = slice(count + data.nf, count + data.nf + data.nl)

@@ -21,7 +21,6 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from worldkit.breaking.letting_go import bonds_of
 from worldkit.errors import RecordingError
 from worldkit.files import write_json
 from worldkit.speaking import ARRAYS
@@ -73,6 +72,8 @@ class Recorder:
         if (self._folder / "meta.json").exists():
             raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
         sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
+        from worldkit.breaking.letting_go import bonds_of
+
         sizes["stressed"] = model.neq if bonds_of(model) else 0
         self._channels = dict(channels or {})
         self.columns = (*state_columns(sizes), *self._channels)
