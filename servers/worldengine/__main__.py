@@ -140,6 +140,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--reuse", action="append", default=[], type=Path, help="an earlier pass that may hold the same"
     )
+    parser.add_argument("--room-mb", type=int, default=0, help="memory that all who draw it may take (video)")
     parser.add_argument("--share", type=_share, help="K/N: only every N-th frame of the film, from K on (video)")
     parser.add_argument("--to", type=int, help="descriptor that such frames are written to")
     options = parser.parse_args(argv)

@@ -240,12 +240,13 @@ def directed(
     name = f"{FILM}.mp4"
     known = Known(model, recording, {"quality": "film", "size": given.size, "fps": given.fps}, options.reuse)
     earlier = known.film(options.film, name, options.out)
-    told = (
-        earlier["film"]
-        if earlier
-        else screen(model, recording, film, given, options.out, tick, getattr(options, "words", ()))
-    )
+    told = earlier["film"] if earlier else screen(model, recording, film, given, options.out, tick, *_others(options))
     return {"film": told, "drawn": 0 if earlier else film.frames, **known.told(told["renderer"])}
+
+
+def _others(options: argparse.Namespace) -> tuple[Sequence[str], int]:
+    """What other processes are started with, and the bytes that all may take: none where this is no process of its own."""
+    return getattr(options, "words", ()), getattr(options, "room_mb", 0) << 20
 
 
 def screen(
@@ -256,22 +257,25 @@ def screen(
     out: Path,
     tick: Callable[[int], object],
     words: Sequence[str] = (),
+    room_bytes: int = 0,
 ) -> dict[str, Any]:
     """Draw `film.mp4`, the recording as the film's author shows it; returns its entry for the result.
 
-    With the `words` of this process's own command line, other processes draw a part of it.
+    With the `words` of this process's own command line, other processes draw a part of it, within a room for all.
     """
     from .directed import Screening
     from .side_by_side import Drawn, Others
 
     with (
         Screening(given.world, model, recording, film, given.size, given.fps) as screening,
-        Others(words, film.frames, given.size, screening.frames.renderer) as others,
+        Others(words, film.frames, given.size, room_bytes) as others,
         Video(out / f"{FILM}.mp4", *given.size, given.fps) as film_file,
     ):
         hidden: Counter[str] = Counter()
         for number in range(film.frames):
-            drawn = others.take(number) or Drawn(screening.picture(number), screening.hidden())
+            drawn = others.take(number, screening.frames.renderer) or Drawn(
+                screening.picture(number), screening.hidden()
+            )
             film_file.add(drawn.picture)
             hidden.update(drawn.hidden)
             tick(number + 1)

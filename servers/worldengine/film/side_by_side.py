@@ -24,8 +24,12 @@ if TYPE_CHECKING:
 
 LEAST_FRAMES = 36
 """A process is worth its start, of some seconds, for so many frames of its own."""
-MOST, MOST_BYTES = 4, 3 << 30
-"""So many at most, and no more than have room together: each holds the world, its meshes and its textures."""
+MOST, MOST_BYTES, GROWS = 4, 3 << 30, 1.5
+"""So many at most, and no more than have room together: each holds the world, its meshes and its textures, and still grows."""
+PATIENCE_S = 60.0
+"""Another process that has no frame ready for so long is stuck, or this machine is so busy that nobody gains by it."""
+STARTING = 12
+"""So many frames the first process draws alone, while the others start."""
 AHEAD = 2
 """Frames that another process may have ready."""
 HEAD = struct.Struct("<II")
@@ -40,10 +44,20 @@ class Drawn(NamedTuple):
     hidden: list[str]
 
 
-def processes(frames: int, each_bytes: int) -> int:
-    """How many processes draw a film of so many frames on this machine, each as large as this one is."""
+def processes(frames: int, each_bytes: int, room_bytes: int = 0) -> int:
+    """How many processes draw a film of so many frames on this machine, each as large as this one is, within a room if one is given."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    return max(1, min(MOST, cores, frames // LEAST_FRAMES, MOST_BYTES // max(each_bytes, 1)))
+    room = min(room_bytes or MOST_BYTES, MOST_BYTES, _free_bytes() + each_bytes)
+    return max(1, min(MOST, cores, frames // LEAST_FRAMES, int(room / GROWS) // max(each_bytes, 1)))
+
+
+def _free_bytes() -> int:
+    """The memory that this machine can still give; none where nobody tells."""
+    try:
+        rows = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
+        return next(int(row.split()[1]) << 10 for row in rows if row.startswith("MemAvailable"))
+    except (OSError, StopIteration, ValueError):
+        return 0
 
 
 def _resident_bytes() -> int:
@@ -55,37 +69,49 @@ def _resident_bytes() -> int:
 
 
 class Others:
-    """The other processes that draw a film; a context manager.
+    """The other processes that draw a film; a context manager. They are started once this one has drawn a frame, and its size is known.
 
     Args:
         words: the command line of this process, behind `python -m worldengine`; without it there are none.
         frames: of the film.
         size: of a picture, pixels.
-        renderer: by which this process draws.
+        room_bytes: what all of them may take together, this process among them; 0: as much as is usual.
     """
 
-    def __init__(self, words: Sequence[str], frames: int, size: tuple[int, int], renderer: str) -> None:
-        self.count = processes(frames, _resident_bytes()) if words else 1
-        self._size, self._renderer = size, renderer
-        self._hands: list[_Hand] = []
-        with contextlib.suppress(OSError):  # a sandbox that lets nothing more be born: then this one draws all
-            for number in range(1, self.count):
-                self._hands.append(_Hand([*words, "--share", f"{number}/{self.count}"]))
+    def __init__(self, words: Sequence[str], frames: int, size: tuple[int, int], room_bytes: int = 0) -> None:
+        self._words, self._frames, self._size, self._room = words, frames, size, room_bytes
+        self._hands: list[_Hand] | None = None
 
-    def take(self, frame: int) -> Drawn | None:
-        """A frame that another process drew; None where this one has to."""
-        number = frame % self.count
-        hand = self._hands[number - 1] if 0 < number <= len(self._hands) else None
-        if hand is None or (answer := hand.next()) is None:
+    def take(self, frame: int, renderer: str) -> Drawn | None:
+        """A frame that another process drew by this renderer; None where this one has to draw it. To be asked in order."""
+        if frame < 1 or not self._words:
+            return None
+        if self._hands is None:
+            self._hands = self._started()
+        number = frame % (len(self._hands) + 1) - 1
+        if frame < STARTING or number < 0 or (answer := self._hands[number].next()) is None:
             return None
         import numpy as np
 
         told, data = answer
         width, height = self._size
-        if told.get("frame") != frame or told.get("renderer") != self._renderer or len(data) != 3 * width * height:
-            hand.end()  # it is not what was asked for, and nothing of it is believed any more
+        wanted = {"frame": frame, "renderer": renderer}
+        if {**told, **wanted} != told or len(data) != 3 * width * height:
+            self._hands[number].end()  # it is not what was asked for, and nothing of it is believed any more
             return None
         return Drawn(np.frombuffer(data, np.uint8).reshape(height, width, 3), [str(name) for name in told["hidden"]])
+
+    def _started(self) -> "list[_Hand]":
+        count = processes(self._frames, _resident_bytes(), self._room)
+        hands: list[_Hand] = []
+        try:
+            for number in range(1, count):
+                hands.append(_Hand([*self._words, "--share", f"{number}/{count}"]))
+        except OSError:  # a sandbox that lets nothing more be born: then this one draws all, as nobody else keeps count
+            for hand in hands:
+                hand.end()
+            return []
+        return hands
 
     def __enter__(self) -> "Others":
         return self
@@ -93,7 +119,7 @@ class Others:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        for hand in self._hands:
+        for hand in self._hands or ():
             hand.end()
 
 
@@ -116,20 +142,28 @@ class _Hand:
         self._thread.start()
 
     def _read(self, pipe: BinaryIO) -> None:
-        with pipe:
-            while len(head := pipe.read(HEAD.size)) == HEAD.size and not self._ended:
-                words, picture = HEAD.unpack(head)
-                told, data = pipe.read(words), pipe.read(picture)
-                if len(told) + len(data) < words + picture:
-                    break
-                self._ready.put((json.loads(told), data))
-        self._ready.put(None)
+        try:
+            with pipe:
+                while len(head := pipe.read(HEAD.size)) == HEAD.size and not self._ended:
+                    words, picture = HEAD.unpack(head)
+                    told, data = pipe.read(words), pipe.read(picture)
+                    if len(told) + len(data) < words + picture or not isinstance(said := json.loads(told), dict):
+                        break
+                    self._ready.put((said, data))
+        except (ValueError, OSError, MemoryError):  # whatever came is no frame
+            pass
+        finally:
+            self._ready.put(None)
 
     def next(self) -> "tuple[dict[str, Any], bytes] | None":
-        """The next frame; None when there is none any more."""
+        """The next frame; None when there is none any more, or none comes."""
         if self._ended:
             return None
-        answer = self._ready.get()
+        try:
+            answer = self._ready.get(timeout=PATIENCE_S)
+        except queue.Empty:
+            self.end()
+            return None
         self._ended = answer is None
         return answer
 
@@ -148,7 +182,8 @@ def draw(screening: "Screening", share: tuple[int, int], pipe: BinaryIO) -> None
     """Draw a share (k, n) of a film, every n-th frame from k on, into a pipe, as one of the others; ends when nobody reads any more."""
     number, count = share
     with contextlib.suppress(BrokenPipeError):
-        for frame in range(number, screening.film.frames, count):
+        first = STARTING + (number - STARTING) % count
+        for frame in range(first, screening.film.frames, count):
             picture = screening.picture(frame).tobytes()
             told = {"frame": frame, "renderer": screening.frames.renderer, "hidden": screening.hidden()}
             words = json.dumps(told).encode()

@@ -228,7 +228,8 @@ class Acting:
         recording, earlier = self.physics / "trajectory", tuple(map(Path, self.spec.reuse))
         more = [*self.spec.arguments, *(word for path in earlier for word in ("--reuse", str(path)))]
         more += [word for folder in film for word in ("--film", str(folder))]
-        member = self.engine("--from", str(recording), *more, reads=(recording, *earlier, *film))
+        room = ("--room-mb", str(self.spec.memory_mb)) if self.spec.stage == "video" else ()
+        member = self.engine("--from", str(recording), *more, *room, reads=(recording, *earlier, *film))
         failure = self.ended(member)
         return failure, plain.read_json(self.job.out / "result.json")
 
