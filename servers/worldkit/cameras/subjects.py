@@ -16,6 +16,8 @@ VISIBLE_GROUPS = 3
 """Geom groups below this are seen."""
 MOMENTS = 160
 """How many moments of a recording are used, besides the extremes."""
+MOST_CARRIERS = 64
+"""So many of the bodies that carry a flex stand for it, evenly taken: each is followed over the whole recording."""
 _SIGNS = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 _BALL = np.concatenate([np.eye(3), -np.eye(3), _SIGNS * 0.75])
 """Points whose hull holds a unit ball closely enough for framing."""
@@ -89,7 +91,8 @@ def _carriers(model: mujoco.MjModel, flex: int) -> list[int]:
     first, node = int(model.flex_vertadr[flex]), int(model.flex_nodeadr[flex])
     owners = model.flex_vertbodyid[first : first + int(model.flex_vertnum[flex])].tolist()
     nodes = model.flex_nodebodyid[node : node + int(model.flex_nodenum[flex])].tolist() if node >= 0 else []
-    return [int(body) for body in (*nodes, *owners) if body > 0]
+    found = list(dict.fromkeys(int(body) for body in (*nodes, *owners) if body > 0))
+    return found[:: -(-len(found) // MOST_CARRIERS)] if found else []
 
 
 def drawn(model: mujoco.MjModel, names: tuple[str, ...]) -> np.ndarray:
