@@ -58,5 +58,5 @@ def test_a_film_has_as_many_frames_as_the_recording(
 def test_what_is_no_mp4_is_named_and_nothing_of_it_is_drawn(proved: SimpleNamespace, tmp_path: Path) -> None:
     path = tmp_path / "side.mp4"
     path.write_text("ffconcat version 1.0\nfile outside.mp4\n")
-    (said,) = redrawn._film(path, proved)
+    (said,) = map(str, redrawn._film(path, proved))
     assert "no film side.mp4" in said and "first bytes" in said

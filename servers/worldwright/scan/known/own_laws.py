@@ -56,18 +56,22 @@ def spring(
     )
 
 
-def pouring(share: float = 1.0, begins: float = 0.0, depth: float = 0.002, tilt_deg: float = 0.0) -> Trajectory:
+def pouring(
+    share: float = 1.0, begins: float = 0.0, depth: float = 0.002, tilt_deg: float = 0.0, apart: float = 0.0025
+) -> Trajectory:
     """A plate `body` of 0.4 by 0.2 by 0.02 m, its upper side 0.05 m high, which `paint` comes to cover from one end within 2 s.
 
     Args:
         share, begins: what of it is covered in the end, and at the start; what is dry lies 0.3 mm below the surface.
         depth: of the paint, m.
         tilt_deg: by which plate and paint are turned about y.
+        apart: how far its points lie from each other, m.
     """
     t = clock(2.0, 0.1)
     half = np.radians(tilt_deg) / 2
     turned = np.tile((np.cos(half), 0.0, np.sin(half), 0.0), (len(t), 1, 1))
-    x, y = np.meshgrid(np.linspace(-0.199, 0.199, 161), np.linspace(-0.099, 0.099, 81))
+    x, y = (np.arange(-side + apart / 2, side, apart) for side in (0.2, 0.1))
+    x, y = np.meshgrid(x, y)
     front = -0.2 + 0.4 * (begins + (share - begins) * t / t[-1])
     high = 0.01 + np.where(x.ravel() < front[:, None], depth, -3e-4)
     flat = np.stack([np.tile(x.ravel(), (len(t), 1)), np.tile(y.ravel(), (len(t), 1)), high], axis=2)

@@ -1,9 +1,10 @@
 """A medium comes to cover a surface: paint a canvas, snow a bench, water a floor, honey a slice of bread.
 
 Measures the share of a body's upper side, or of a level rectangle of the ground, over which a point of the medium stands at least
-`thick_m` above it, at the end of the window; at its start that share must be under `most_before`. The upper side is that of the box
-around the body's largest geom, seen along its own normal, in 32 by 32 cells. A medium is named by what shows it. Source: coverage as
-the area fraction of a partition.
+`thick_m` above it, and grains down to it: what is in the air covers nothing. Measured at the end of the window; at its
+start that share must be under `most_before`. The upper side is that of the box around the body's largest geom, seen along its own
+normal, in 32 by 32 cells, or fewer where the points lie farther apart. A medium is named by what shows it. Source: coverage as the
+area fraction of a partition.
 """
 
 import numpy as np
@@ -28,7 +29,8 @@ from ....measuring.measured import (
 
 CODE = "WE270"
 EVENT = True
-CELLS = 32
+CELLS, WIDER, ABOVE = 32, 2.0, 2.0
+"""Cells along a side at most, none narrower than so many times as the points lie apart; the lowest of a column lies so near."""
 Array = np.ndarray
 
 
@@ -67,9 +69,28 @@ def _share(trajectory: Trajectory, given: Given, row: int, points: Array) -> flo
     """The share that is covered at a row by points (n, 3) m."""
     middle, axes, half = _side(trajectory, given, row)
     local = (points - middle) @ axes
-    on = (np.abs(local[:, :2]) < half).all(axis=1) & (local[:, 2] >= given.thick_m)
-    cells = ((local[on, :2] / half + 1) / 2 * CELLS).astype(int)
-    return len(np.unique(cells @ (CELLS, 1))) / CELLS**2
+    on = local[(np.abs(local[:, :2]) < half).all(axis=1)]
+    if len(on) < 2:
+        return 0.0
+    apart = _apart(on)
+    cells = np.clip((2 * half / (WIDER * apart)).astype(int), 1, CELLS)
+    one = ((on[:, :2] / half + 1) / 2 * cells).astype(int) @ (int(cells[1]), 1)
+    low, high = np.full(cells.prod(), np.inf), np.full(cells.prod(), -np.inf)
+    np.minimum.at(low, one, on[:, 2])
+    np.maximum.at(high, one, on[:, 2])
+    skin = any(
+        row.get("name") == given.medium for row in trajectory.meta.get("flexes") or ()
+    )  # of which only the top is there
+    lies = skin | (low < max(ABOVE * apart, given.thick_m))
+    return float((lies & (high >= given.thick_m)).mean())
+
+
+def _apart(points: Array) -> float:
+    """How far points (n, 3) m lie from their nearest: the median of a thousand."""
+    from scipy.spatial import cKDTree
+
+    some = points[:: -(-len(points) // 1000)]
+    return max(float(np.median(cKDTree(points).query(some, k=2)[0][:, 1])), 1e-9)
 
 
 def _side(trajectory: Trajectory, given: Given, row: int) -> tuple[Array, Array, Array]:
@@ -102,10 +123,12 @@ GOOD = (
     (lambda: pouring(tilt_deg=20.0), {**_POURED, "min_share": 0.95}),
     (lambda: pouring(share=0.5), {**_POURED, "min_share": 0.45}),
     (pouring, {"medium": "paint", "ground": [-0.2, -0.1, 0.2, 0.1], "height_m": 0.05, "min_share": 0.95}),
+    (lambda: pouring(apart=0.03), {**_POURED, "min_share": 0.95}),
 )
 BAD = (
     (lambda: pouring(share=0.5), {**_POURED, "min_share": 0.6}),
     (lambda: pouring(depth=2e-4), {**_POURED, "min_share": 0.1}),
     (lambda: pouring(begins=0.5), {**_POURED, "min_share": 0.9}),
+    (lambda: pouring(depth=0.5), {**_POURED, "min_share": 0.1}),
     (pouring, {"medium": "paint", "ground": [-0.8, -0.1, 0.8, 0.1], "height_m": 0.05, "min_share": 0.5}),
 )
