@@ -19,7 +19,7 @@ class Lay:
     t: Array
     """(F,) s."""
     flat: Array
-    """(F n, 3) m: instant after instant; memory-mapped, so that who asks for one instant reads one."""
+    """(F n, 3) m: instant after instant; memory-mapped where the recording has no other medium."""
 
     def at(self, time_s: float) -> Array:
         """(n, 3) m at the last recorded instant up to a time; at the first where that is earlier."""
@@ -35,6 +35,7 @@ class ShownPoints:
     known: Mapping[str, Lay] = field(default_factory=dict)
     """Those that are there already; else they come out of the recording."""
     recording: Any = None
+    _read: dict[str, Lay] = field(default_factory=dict, repr=False, compare=False)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -51,6 +52,11 @@ class ShownPoints:
         """
         if name in self.known:
             return self.known[name]
+        if name not in self._read:
+            self._read[name] = self._of_recording(name)
+        return self._read[name]
+
+    def _of_recording(self, name: str) -> Lay:
         shown = self.names[len(self.known) :]
         if name not in shown:
             known = ", ".join(self.names) or "(none: no law ran)"
@@ -59,7 +65,7 @@ class ShownPoints:
             )
         media = self.recording.media
         mine = np.asarray(media.medium) == shown.index(name)
-        steps, places = np.asarray(media.step)[mine], media.place[mine]
+        steps, places = np.asarray(media.step)[mine], media.place if mine.all() else media.place[mine]
         instants, counts = np.unique(steps, return_counts=True)
         whole = int((counts == counts.max(initial=0)).sum())  # a torn recording ends within an instant
         if not whole:
