@@ -12,6 +12,7 @@ from ..model.plan.committed import Plan
 from ..model.plan.layout import Scene
 from . import driving
 from .crowds import Crowds
+from .laws_text import Laws
 from .objects import Objects
 from .python_text import Raw, bullet, call, comment, constant_name, exact, literal, plain, slug
 from .requirements import Needs
@@ -69,6 +70,7 @@ class _Writer:
         self.name = slug(plan.title) or "world"
         self.needs = Needs({"program", "scene"})
         self.crowds = Crowds(plan)
+        self.laws = Laws(plan, self.needs)
         self.parameters = plan.simulation_parameters
         solvers = [row.solver for row in self.parameters.interventions if row.solver]
         read = {
@@ -84,7 +86,7 @@ class _Writer:
         """The whole file."""
         plan, scene, needs = self.plan, self.scene, self.needs
         parts = (
-            Objects(plan, scene, needs).written(),
+            Objects(plan, scene, needs, self.laws).written(),
             self.pairs(),
             driving.tendons(plan, scene, needs),
             driving.actuators(plan, needs),
@@ -93,7 +95,7 @@ class _Writer:
             self.motion(),
         )
         body = "\n\n".join(part for part in parts if part)
-        surfaces = self.surfaces() + self.texts()
+        surfaces = self.surfaces() + self.texts() + self.laws.made()
         control = driving.control(plan, needs)
         entry = self.entry(bool(control))
         imports = "import math\n\n" if "math." in body else ""
@@ -102,7 +104,7 @@ class _Writer:
             for part in (
                 self.docstring(),
                 f"{imports}import mujoco\n",
-                f"from worldkit import {', '.join(sorted(self.needs.modules))}\n",
+                f"{self.laws.imports()}from worldkit import {', '.join(sorted(self.needs.modules))}\n",
                 self.constants(),
                 surfaces,
                 self.crowds.written(),
@@ -298,6 +300,8 @@ class _Writer:
             keywords["seed"] = self.parameters.seed
         if drawn := tuple(o.name for o in self.plan.scene_objects if o.visual_only):
             keywords["visual_only"] = self.crowds.listed(drawn)
+        if (laws := self.laws.handed()) is not None:
+            keywords["laws"] = laws
         handed = (Raw("build"), Raw("control")) if control else (Raw("build"),)
         return '\nif __name__ == "__main__":\n' + call("program.main", *handed, **keywords) + "\n"
 
