@@ -35,12 +35,13 @@ class Draft:
         return not self.open_places
 
 
-def draft(plan: Plan, scene: Scene) -> Draft:
+def draft(plan: Plan, scene: Scene, alone: bool = False) -> Draft:
     """Draft the program of a plan.
 
     Args:
         plan: a valid plan with nothing left to clarify.
         scene: its resolved layout.
+        alone: import no law of the author's, so that nothing of it runs; bodies that are only drawn show what they move.
 
     Raises:
         PlanError: something is still TO_CLARIFY, or an object has no resolved pose.
@@ -55,7 +56,7 @@ def draft(plan: Plan, scene: Scene) -> Draft:
             f"no pose was resolved for {', '.join(missing)}",
             next_move="add rows for them under topology.scene_predicates, then `worldwright place resolve`",
         )
-    writer = _Writer(plan, scene)
+    writer = _Writer(plan, scene, alone)
     source = writer.program()
     unread = [name for name in writer.own if len(re.findall(rf"\b{constant_name(name)}\b", source)) == 1]
     return Draft(source, tuple(writer.needs.open_places), tuple(unread))
@@ -64,13 +65,13 @@ def draft(plan: Plan, scene: Scene) -> Draft:
 class _Writer:
     """Writes one program, and collects what it has to leave open."""
 
-    def __init__(self, plan: Plan, scene: Scene) -> None:
+    def __init__(self, plan: Plan, scene: Scene, alone: bool) -> None:
         self.plan = plan
         self.scene = scene
         self.name = slug(plan.title) or "world"
         self.needs = Needs({"program", "scene"})
         self.crowds = Crowds(plan)
-        self.laws = Laws(plan, self.needs)
+        self.laws = Laws(plan, self.needs, alone)
         self.parameters = plan.simulation_parameters
         solvers = [row.solver for row in self.parameters.interventions if row.solver]
         read = {

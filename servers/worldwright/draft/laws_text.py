@@ -38,11 +38,12 @@ class Found:
 
 
 class Laws:
-    """The laws of a plan, each with the name that stands for it in the program."""
+    """The laws of a plan, each with the name that stands for it in the program; none of a draft that stands alone."""
 
-    def __init__(self, plan: Plan, needs: Needs) -> None:
+    def __init__(self, plan: Plan, needs: Needs, alone: bool) -> None:
         self._plan, self._needs = plan, needs
-        rows = [row for row in plan.simulation_parameters.interventions if row.solver and row.solver.file]
+        acting = () if alone else plan.simulation_parameters.interventions
+        rows = [row for row in acting if row.solver and row.solver.file]
         self._rows = [(row, _found(plan, row)) for row in rows]
         self._shows = {row.solver.shown_by: (row, found) for row, found in self._rows if row.solver}
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from worldwright.draft import assembly
+from worldwright.lint.compiled import planned
 from worldwright.model.plan.layout import Scene
 from worldwright.model.plan.plan_text import read_plan
 from worldwright.place.tools import resolve
@@ -73,3 +74,9 @@ def test_a_file_without_a_law_leaves_it_open_and_imports_nothing(drafted, law):
     made = drafted(law)
     assert "from laws" not in made.source and "laws=[" not in made.source
     assert any("hand it over" in place for place in made.open_places)
+
+
+def test_the_world_that_a_program_is_held_against_runs_nothing_of_a_law(drafted, tmp_path):
+    drafted("raise SystemExit\n" + RUBBER)
+    own = planned.world(read_plan(tmp_path / "plan.md").plan)
+    assert own.status == "compiled", own.message
