@@ -50,6 +50,8 @@ class Look:
     absorbs: tuple[float, float, float] = NOTHING
     """What light loses of itself in it, of red, green and blue, 1/m: of what is clear, in place of its tint where that can
     be told by the way that light goes in it."""
+    wall: bool = False
+    """A closed skin of it that a law moves is a thin wall with air inside: a bottle of glass. A liquid fills its skin."""
     mark: bool = False
     """A sphere of this look carries a thin band and two dots, so that its spin can be seen."""
     emission: float = 0.0

@@ -12,6 +12,7 @@ from ..model.plan.committed import Plan
 from ..model.plan.layout import Scene
 from . import driving
 from .crowds import Crowds
+from .laws_text import Laws
 from .objects import Objects
 from .python_text import Raw, bullet, call, comment, constant_name, exact, literal, plain, slug
 from .requirements import Needs
@@ -34,12 +35,13 @@ class Draft:
         return not self.open_places
 
 
-def draft(plan: Plan, scene: Scene) -> Draft:
+def draft(plan: Plan, scene: Scene, alone: bool = False) -> Draft:
     """Draft the program of a plan.
 
     Args:
         plan: a valid plan with nothing left to clarify.
         scene: its resolved layout.
+        alone: import no law of the author's, so that nothing of it runs; bodies that are only drawn show what they move.
 
     Raises:
         PlanError: something is still TO_CLARIFY, or an object has no resolved pose.
@@ -54,7 +56,7 @@ def draft(plan: Plan, scene: Scene) -> Draft:
             f"no pose was resolved for {', '.join(missing)}",
             next_move="add rows for them under topology.scene_predicates, then `worldwright place resolve`",
         )
-    writer = _Writer(plan, scene)
+    writer = _Writer(plan, scene, alone)
     source = writer.program()
     unread = [name for name in writer.own if len(re.findall(rf"\b{constant_name(name)}\b", source)) == 1]
     return Draft(source, tuple(writer.needs.open_places), tuple(unread))
@@ -63,12 +65,13 @@ def draft(plan: Plan, scene: Scene) -> Draft:
 class _Writer:
     """Writes one program, and collects what it has to leave open."""
 
-    def __init__(self, plan: Plan, scene: Scene) -> None:
+    def __init__(self, plan: Plan, scene: Scene, alone: bool) -> None:
         self.plan = plan
         self.scene = scene
         self.name = slug(plan.title) or "world"
         self.needs = Needs({"program", "scene"})
         self.crowds = Crowds(plan)
+        self.laws = Laws(plan, self.needs, alone)
         self.parameters = plan.simulation_parameters
         solvers = [row.solver for row in self.parameters.interventions if row.solver]
         read = {
@@ -84,7 +87,7 @@ class _Writer:
         """The whole file."""
         plan, scene, needs = self.plan, self.scene, self.needs
         parts = (
-            Objects(plan, scene, needs).written(),
+            Objects(plan, scene, needs, self.laws).written(),
             self.pairs(),
             driving.tendons(plan, scene, needs),
             driving.actuators(plan, needs),
@@ -93,7 +96,7 @@ class _Writer:
             self.motion(),
         )
         body = "\n\n".join(part for part in parts if part)
-        surfaces = self.surfaces() + self.texts()
+        surfaces = self.surfaces() + self.texts() + self.laws.made()
         control = driving.control(plan, needs)
         entry = self.entry(bool(control))
         imports = "import math\n\n" if "math." in body else ""
@@ -102,7 +105,7 @@ class _Writer:
             for part in (
                 self.docstring(),
                 f"{imports}import mujoco\n",
-                f"from worldkit import {', '.join(sorted(self.needs.modules))}\n",
+                f"{self.laws.imports()}from worldkit import {', '.join(sorted(self.needs.modules))}\n",
                 self.constants(),
                 surfaces,
                 self.crowds.written(),
@@ -301,6 +304,8 @@ class _Writer:
             keywords["seed"] = self.parameters.seed
         if drawn := tuple(o.name for o in self.plan.scene_objects if o.visual_only):
             keywords["visual_only"] = self.crowds.listed(drawn)
+        if (laws := self.laws.handed()) is not None:
+            keywords["laws"] = laws
         handed = (Raw("build"), Raw("control")) if control else (Raw("build"),)
         return '\nif __name__ == "__main__":\n' + call("program.main", *handed, **keywords) + "\n"
 

@@ -9,6 +9,7 @@ from ..model.plan.declared_inputs import Beside
 from ..model.plan.formed import arguments
 from ..model.plan.layout import Scene
 from . import breakables_text, imports
+from .laws_text import Laws
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
 from .stances import Stances
@@ -17,9 +18,10 @@ from .stances import Stances
 class Objects(Stances):
     """Writes the objects of a plan, parents before children, otherwise in plan order."""
 
-    def __init__(self, plan: Plan, scene: Scene, needs: Needs) -> None:
+    def __init__(self, plan: Plan, scene: Scene, needs: Needs, laws: Laws) -> None:
         super().__init__(plan, scene, needs)
         self.loops = plan.topology.loops()
+        self.laws = laws
         beside = [row.solver for row in self.parameters.interventions if row.solver]
         self.waters = {water.shown_by: water for water in beside if water.container and water.shown_by}
         """What shows the water in a container, by its name."""
@@ -35,6 +37,8 @@ class Objects(Stances):
                 parts.append(imports.written(self, item))
             elif item.name in self.waters:
                 continue
+            elif self.laws.moves(item):
+                parts.append(self.laws.surface(item))
             elif (broken := of.get(item.name)) is not None:
                 if broken not in looped:
                     looped.add(broken)

@@ -66,7 +66,8 @@ def _readable(path: Path, content: bytes) -> None:
 
 
 def _program(run: Run) -> tuple[bytes, dict[str, bytes]]:
-    """The program as it stands, and the files beside it; a draft, or none, is drafted from the plan as it stands."""
+    """The program as it stands, and the files beside it; a draft of an older plan, or none, is drafted from the plan as it stands,
+    without the laws of the author's, which need not be written yet."""
     from ..draft import draft
     from ..model.plan.plan_text import read_plan
     from ..place.tools import laid_out
@@ -76,4 +77,7 @@ def _program(run: Run) -> tuple[bytes, dict[str, bytes]]:
         if not any(e.get("action") == "draft" and e.get("program_sha256") == present for e in run.entries()):
             return run.program.read_bytes(), companions.of(run.program)
     plan = read_plan(run.plan).plan
-    return draft(plan, laid_out(plan)).source.encode(), imported.contents(plan)
+    layout = laid_out(plan)
+    if run.program.is_file() and run.program.read_text(encoding="utf-8") == draft(plan, layout).source:
+        return run.program.read_bytes(), companions.of(run.program)
+    return draft(plan, layout, alone=True).source.encode(), imported.contents(plan)

@@ -84,3 +84,9 @@ def test_rows_that_make_no_sense_are_refused(laws) -> None:
 def test_sums_that_make_no_sense_are_refused(made, gravity, says: str) -> None:
     with pytest.raises(RecordingError, match=says):
         law_balances.read(recording(**made), ledger("cart"), gravity)
+
+
+def test_a_law_whose_pushes_were_taken_away_is_read_all_the_same() -> None:
+    nothing = Interventions(np.zeros(0), [], [], np.zeros((0, 6)), np.zeros(0))
+    (law,) = law_balances.read(recording(), nothing, GRAVITY)
+    assert not law.given.any() and law.pushed == 0.0

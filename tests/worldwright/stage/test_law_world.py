@@ -19,26 +19,24 @@ from worldwright.stamp import tools as stamp
 pytestmark = [pytest.mark.gl, pytest.mark.slow]
 PLAN = Path(__file__).parents[1] / "world" / "rubber-cord.md"
 PAGE = Path(__file__).parents[3] / "skills" / "media" / "references" / "rubber.md"
-BOX = r'    bodies\.box\(spec, "cord",.*\n'
+OPEN = r"    # AUTHOR: the law rubber: add what it moves(.*\n    #)*.*\n"
 
 
 def written(run: Run) -> None:
-    """The program as drafted, with the law of the skill beside it and its surface in place of the draft's box."""
+    """The program as drafted, with the law of the skill beside it and its surface where the draft leaves it open."""
     law, more = re.findall(
         r"^```python program\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
     )
     (run.folder / "laws").mkdir()
     (run.folder / "laws" / "rubber.py").write_text(law, encoding="utf-8")
-    assert write_program(run, actor="code").open_places == ()
-    imports, cord, _ = more.split("\n\n\n")
+    assert len(write_program(run, actor="code").open_places) == 1
+    imports, cord = more.split("\n\n\n")
     text = run.program.read_text(encoding="utf-8")
-    text, count = re.subn(BOX, "    cord(spec)\n", text)
+    text, count = re.subn(OPEN, "    cord(spec)\n", text)
     assert count == 1
-    text = text.replace("import mujoco\n", f"import mujoco\nimport numpy as np\n{imports}\n", 1)
+    text = text.replace("import mujoco\n", f"import mujoco\n{imports}\n", 1)
     text = text.replace("def build()", f"{cord}\n\n\ndef build()", 1)
-    text = text.replace(
-        'visual_only=("cord",)', 'visual_only=("cord",), laws=[Rubber(shear=SHEAR, density=RUBBER_DENSITY)]'
-    )
+    assert "laws=[RUBBER_LAW]" in text
     run.program.write_text(text, encoding="utf-8")
 
 

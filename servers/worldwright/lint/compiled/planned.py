@@ -22,7 +22,7 @@ from . import fetch
 
 
 def source(plan: Plan) -> str:
-    """The draft of a plan.
+    """The draft of a plan, in which no law of the author's runs: one could change what is held against it.
 
     Raises:
         PlanError: something is open, or an object has no resolved pose.
@@ -30,7 +30,7 @@ def source(plan: Plan) -> str:
     from ...draft import draft
     from ...place.tools import laid_out
 
-    return draft(plan, laid_out(plan)).source
+    return draft(plan, laid_out(plan), alone=True).source
 
 
 def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:

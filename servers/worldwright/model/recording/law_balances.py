@@ -164,7 +164,10 @@ def _of(recording: Any, number: int, law: Any, ledger: Interventions, gravity: A
     whose = [target if target in bodies else owner(target) for target in map(str, ledger.target)]
     acted = np.isin(kinds, ("force", "torque")) & np.isin(np.array(whose, dtype=str), law.bodies)
     when = np.asarray(ledger.time)[acted]
-    force = np.asarray(ledger.value).reshape(len(kinds), -1)[acted][:, :3] * (kinds[acted] == "force")[:, None]
+    values = (
+        np.asarray(ledger.value).reshape(len(kinds), -1) if len(kinds) else np.zeros((0, 3))
+    )  # taken away, it pushes nobody
+    force = values[acted][:, :3] * (kinds[acted] == "force")[:, None]
     order = np.argsort(when, kind="stable")
     upto = np.searchsorted(when[order], t - 1e-9)
     impulse = np.concatenate([np.zeros((1, 3)), np.cumsum(force[order] * step, axis=0)])

@@ -20,6 +20,8 @@ BEAD_M = 0.004
 """Half the width of a drop, about, by which it bends light."""
 LIQUID = 9.0
 """The kind of shape of what is clear and closed, by which the shader knows it."""
+WALL = 10.0
+"""That of what is clear and a thin wall around air."""
 
 
 def _row(
@@ -29,6 +31,7 @@ def _row(
     pictured: bool = False,
     half: float = 0.0,
     middle: np.ndarray | None = None,
+    wall: bool = False,
 ) -> np.ndarray:
     """The numbers of one thing; `half` its half width, m, which what is clear bends light by; `middle` of a body of liquid."""
     entry, row = finish.look, np.zeros(FLOATS, dtype=np.float32)
@@ -40,7 +43,9 @@ def _row(
     row[28:32] = geom, entry.emission, 1.0, half if entry.clear > 0 else 0.0
     row[32:36] = 0.18, 0.18, 0.18, -1e3
     row[37:39] = entry.clear, 1e3
-    if entry.clear > 0 and middle is not None:
+    if wall:
+        row[39] = WALL
+    elif entry.clear > 0 and middle is not None:
         row[24:27], row[39] = middle, LIQUID
     return row
 
@@ -88,7 +93,9 @@ class Soft:
             if patch.key[0] == "flex" and self._shapes.is_closed(patch.key[1]):
                 half, middle = (BEAD_M, None) if patch.key[2] else self._shapes.around(patch.key[1])
             tint = rgba if patch.colours is None else np.ones(4)
-            rows.append(_row(finish, tint, patch.geom, pictured, half, middle))
+            rows.append(
+                _row(finish, tint, patch.geom, pictured, half, middle, self._shapes.is_wall(patch, finish.look))
+            )
         groups: dict[int, list[np.ndarray]] = {}
         for strand in strands:
             row = _row(*self._finish(strand.material, strand.rgba))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from worldkit.materials.look import Look
 from worldkit.moved_shapes import at_rest
 
 from ....recording import point_colours
@@ -139,6 +140,10 @@ class SoftShapes:
     def is_closed(self, flex: int) -> bool:
         """Whether a flex is drawn as what it encloses."""
         return flex in self._closed
+
+    def is_wall(self, patch: Patch, look: Look) -> bool:
+        """Whether a patch is of a closed flex of such a look that it is a thin wall around air."""
+        return look.wall and patch.key[0] == "flex" and self.is_closed(patch.key[1])
 
     def around(self, flex: int) -> tuple[float, np.ndarray]:
         """Half the width, m, and the middle (3,), m, of a flex that is closed, as it is built: drops that fly do not count."""

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from worldkit.materials.look import NOTHING
+
 from ..preview.finish import linear, of_material, plain
 from ..preview.soft_shapes import Patch, SoftShapes, Strand
 from . import rounded
@@ -48,7 +50,8 @@ class Strands:
             finish, tint = plain((*(np.asarray(finish.mean) ** (1 / 2.2)), 1.0)), np.asarray(finish.mean)
         self.clear |= finish.look.clear > 0
         coloured = patch.colours is not None
-        coating = self._coatings.of(finish, tint, 1.0, corners=coloured)
+        wall = self._soft.is_wall(patch, finish.look)
+        coating = self._coatings.of(finish, tint, 1.0, corners=coloured, sheet=wall)
         room = len(patch.points)
         if patch.key[0] == "tendon":
             one = len(self._unit.points)
@@ -62,7 +65,7 @@ class Strands:
         self._params[patch.key] = (params, room)
         self.shapes.append(shape)
         if lets_through(coating):
-            self.passing.append((shape, finish.look.absorbs))
+            self.passing.append((shape, NOTHING if wall else finish.look.absorbs))
 
     def _read(self, data: mujoco.MjData) -> list[Patch]:
         """Everything that is soft, the strands of one material together."""

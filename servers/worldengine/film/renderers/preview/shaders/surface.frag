@@ -384,6 +384,13 @@ void main() {
         c = textureLod(behind, q, 0.0).rgb * tint * (1.0 - f) + mirror * f + shine;
         alpha = more.y > 0.0 ? 1.0 : base.a;
         if (more.y <= 0.0) c = light + shine + env + albedo * misc.y;
+        if (abs(more.w - WALL) < 0.5) {
+            // A thin wall, near and far: nothing behind is displaced; both mirror, most at the rim, where light goes far in them.
+            float both = 2.0 * f / (1.0 + f);
+            vec3 seen = textureLod(behind, gl_FragCoord.xy / pixels, 0.0).rgb * pow(own, vec3(min(0.5 / nv, 4.0) + 0.5));
+            c = seen * (1.0 - both) * (1.0 - 0.5 * pow(1.0 - nv, 3.0)) + mirror * both + shine;
+            alpha = 1.0;
+        }
         if (abs(more.w - LIQUID) < 0.5) {
             vec3 up = reflect(-v, n);
             float gloss = 0.0204 + 0.9796 * fifth(1.0 - nv);  // ((1.333 - 1) / (1.333 + 1))^2 at right angles

@@ -1,0 +1,82 @@
+"""Laws of the author's own in a draft: the class is found in its file, given what the plan knows, and no body stands for what it moves."""
+
+from pathlib import Path
+
+import pytest
+
+from worldwright.draft import assembly
+from worldwright.lint.compiled import planned
+from worldwright.model.plan.layout import Scene
+from worldwright.model.plan.plan_text import read_plan
+from worldwright.place.tools import resolve
+
+CORD = Path(__file__).parents[1] / "world" / "rubber-cord.md"
+RUBBER = """\
+class Rubber:
+    name, bodies, shown_by = "rubber", ("weight", "beam"), "cord"
+    def __init__(self, shear, density, finer=12):
+        pass
+"""
+SKIN = """\
+from worldkit.skins import Gas, Skin, Wall, ball
+class Other:
+    pass
+class Cord(Skin):
+    name, bodies, shown_by = "rubber", ("weight", "beam", "world"), "cord"
+"""
+
+
+@pytest.fixture
+def drafted(tmp_path):
+    (tmp_path / "plan.md").write_text(CORD.read_text())
+
+    def draft(law):
+        (tmp_path / "laws").mkdir(exist_ok=True)
+        if law is not None:
+            (tmp_path / "laws/rubber.py").write_text(law)
+        layout = Scene(objects=resolve(tmp_path / "plan.md", write=False).objects)
+        return assembly.draft(read_plan(tmp_path / "plan.md").plan, layout)
+
+    return draft
+
+
+def test_a_law_is_made_of_the_plans_constants_and_handed_over(drafted):
+    made = drafted(RUBBER)
+    assert "from laws.rubber import Rubber\n" in made.source
+    assert "RUBBER_LAW = Rubber(shear=SHEAR, density=RUBBER_DENSITY)\n" in made.source
+    assert "laws=[RUBBER_LAW]" in made.source
+    assert not made.unread
+    # Its surface is its author's: nothing rigid stands in for it.
+    assert 'bodies.box(spec, "cord"' not in made.source.replace("\n        ", "")
+    assert len(made.open_places) == 1 and "moved_shapes.surface" in made.open_places[0]
+    assert "# AUTHOR: the law rubber: add what it moves" in made.source
+
+
+def test_what_no_constant_is_called_is_left_open(drafted):
+    made = drafted(RUBBER.replace("density, finer", "stiff, *, tied, finer"))
+    assert "RUBBER_LAW = Rubber(shear=SHEAR)\n" in made.source
+    assert any("give Rubber its stiff, tied" in place for place in made.open_places)
+
+
+def test_a_skin_made_in_its_file_is_drafted_whole(drafted):
+    made = drafted(SKIN + "CORD = Cord(ball(0.1), Wall(1e6, 1e-3, 950.0), Gas(293.0, 255.0))\n")
+    assert made.complete
+    assert "from laws.rubber import CORD\n" in made.source and "laws=[CORD]" in made.source
+    assert 'moved_shapes.surface(spec, "cord", CORD.points, CORD.triangles, look="rubber_red")' in made.source
+
+
+def test_a_skin_without_its_shape_is_left_open(drafted):
+    assert any("give Cord its shape, wall, gas" in place for place in drafted(SKIN).open_places)
+
+
+@pytest.mark.parametrize("law", [None, "def (", "LIMIT = 3.0\n"])
+def test_a_file_without_a_law_leaves_it_open_and_imports_nothing(drafted, law):
+    made = drafted(law)
+    assert "from laws" not in made.source and "laws=[" not in made.source
+    assert any("hand it over" in place for place in made.open_places)
+
+
+def test_the_world_that_a_program_is_held_against_runs_nothing_of_a_law(drafted, tmp_path):
+    drafted("raise SystemExit\n" + RUBBER)
+    own = planned.world(read_plan(tmp_path / "plan.md").plan)
+    assert own.status == "compiled", own.message
