@@ -16,7 +16,7 @@ def add_asset(
     file: Annotated[
         Path,
         Field(
-            description="GLB, OBJ, STL, PLY, OFF, COLLADA (.dae), USD; a folder or .zip with one; or the key of a library's offer."
+            description="GLB, OBJ, STL, PLY, OFF, DAE, USD; a folder or .zip with one; or the key of a library's offer."
         ),
     ],
     key: Annotated[

@@ -59,7 +59,7 @@ def test_it_caves_in_at_its_side_and_its_neck_stays(page: list[str], cooled: sto
 def test_the_pages_balloon_begins_in_balance(page: list[str]) -> None:
     names: dict = {}
     exec(compile(page[2], "laws/balloon.py", "exec"), names)
-    balloon = names["balloon"]
+    balloon = names["Balloon"](young=1e6)
     balloon._close()
     thick, radius, stretch, shear = 2.5e-4, 0.05, 2.0, 1e6 / 3
     book = 2 * shear * thick / radius * (1 / stretch - stretch**-7)

@@ -151,7 +151,7 @@ def start(
     disk_mb: Annotated[int, Field(description="Size limit of all it writes.", ge=1)] = 8192,
     model: Annotated[
         Path | None,
-        Field(description="An MJCF or URDF file, or a folder or archive with one, to record without any plan."),
+        Field(description="MJCF or URDF (or a folder, an archive) to record without any plan."),
     ] = None,
     duration: Annotated[float | None, Field(description="Simulated seconds of `model`.", gt=0, le=3600)] = None,
     minutes: Annotated[float, Field(description="`final` draws for so long; again goes on.", gt=0, le=600)] = 5,
