@@ -53,6 +53,15 @@ def test_it_tells_how_thick_it_is_at_each_corner():
     assert np.median(alone) == pytest.approx(0.02, rel=0.15), "through a drop"
 
 
+def test_what_falls_alone_is_narrower_and_what_lies_together_is_not():
+    points = np.concatenate([grid(4, 0.015), [[0.2, 0, 0], [0, 0.3, 0]]])
+    radii = one_surface.narrowed(points, np.full(66, 0.01), 0.5)
+    assert radii[-2:] == pytest.approx(0.005) and (radii[:-2] == 0.01).all()
+    vertices, *_ = one_surface.around(points, radii, 60_000, 60_000)
+    drop = vertices[vertices[:, 0] > 0.1]
+    assert len(drop) and np.ptp(drop, axis=0).max() == pytest.approx(0.01, rel=0.4)
+
+
 def test_it_keeps_to_the_room_that_it_has_and_none_is_none():
     vertices, faces, _ = one_surface.around(grid(8, 0.03), np.full(512, 0.01), 3000, 2000)
     assert 100 < len(faces) <= 3000 and len(vertices) < 2000
@@ -119,6 +128,8 @@ def test_the_statement_lists_it_and_names_are_checked(poured):
     film.surface("honey", of=["drop_1", "drop_2"])
     with pytest.raises(ProgramError, match="or another's"):
         film.surface("jam", of="drop_*")
+    with pytest.raises(ProgramError, match="0.1 times as wide"):
+        Film(poured.seen).surface("jam", of="drop_3", alone=0.1)
     with pytest.raises(FilmError, match="no body and no particles"):
         poured.film(lambda facts: facts["surfaces"][0]["of"].append("nobody"))
 

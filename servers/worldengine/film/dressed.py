@@ -204,7 +204,9 @@ def surfaces(model: "mujoco.MjModel", film: Described) -> list[one_surface.Surfa
             and (name.startswith(particles) or (model.geom_bodyid[geom] in bodies and not name.startswith("drawn.")))
         ]
         found.append(
-            one_surface.Surface(model, model.skin(f"drawn.{one['name']}").id, np.array(mine, dtype=int), one["blended"])
+            one_surface.Surface(
+                model, model.skin(f"drawn.{one['name']}").id, np.array(mine, dtype=int), one["blended"], one["alone"]
+            )
         )
     return found
 

@@ -23,6 +23,8 @@ SAMPLES = 5
 NEAREST, MINGLING, DARKEST = 12, 3.0, 0.02
 """So many particles colour a corner, within so many of their radii; what is darker than this (sRGB) would swallow all else."""
 NOWHERE = -1e4
+COMPANY = 6
+"""With so many others near, a ball lies among them: on a layer it has more, in the air less."""
 DEEPEST_CELLS = 96
 """What is thicker than so many cells of the grid counts as so thick."""
 
@@ -35,10 +37,13 @@ class Surface:
         skin: number of its skin.
         geoms: numbers of the geoms that it stands for.
         blended: it has their colours, mixed where they meet, in place of its look's; colours that a law tells it has always.
+        alone: what has next to nothing near it is drawn this share as wide.
     """
 
-    def __init__(self, model: "mujoco.MjModel", skin: int, geoms: "np.ndarray", blended: bool = False) -> None:
-        self._model, self._geoms = model, geoms
+    def __init__(
+        self, model: "mujoco.MjModel", skin: int, geoms: "np.ndarray", blended: bool = False, alone: float = 1.0
+    ) -> None:
+        self._model, self._geoms, self._alone = model, geoms, alone
         first, count = int(model.skin_vertadr[skin]), int(model.skin_vertnum[skin])
         self._vertices = model.skin_vert[first : first + count]
         first, count = int(model.skin_faceadr[skin]), int(model.skin_facenum[skin])
@@ -52,7 +57,7 @@ class Surface:
     def place(self, data: "mujoco.MjData", eye: "np.ndarray | None" = None, pixel: float = 0.0) -> None:
         """Lay the surface around its particles as they are in `data`, no finer than an eye (3,) sees whose pixels are so wide, rad."""
         points, radii, owners = balls(self._model, data, self._geoms)
-        finest = 0.0
+        radii, finest = narrowed(points, radii, self._alone), 0.0
         if eye is not None and len(points):
             finest = pixel * max(float((np.linalg.norm(points - eye, axis=1) - radii).min()), 0.0)
         vertices, faces, thick = around(points, radii, len(self._faces), len(self._vertices), finest)
@@ -96,6 +101,16 @@ def mixed(vertices: "np.ndarray", points: "np.ndarray", radii: "np.ndarray", col
     weight = np.maximum(1.0 - (away / (MINGLING * radii[near])) ** 2, 1e-3 / (1.0 + away / radii[near])) ** 3
     lost = np.log(np.maximum(colours, DARKEST))[near]
     return np.asarray(np.exp((weight[..., None] * lost).sum(axis=1) / weight.sum(axis=1, keepdims=True)))
+
+
+def narrowed(points: "np.ndarray", radii: "np.ndarray", alone: float) -> "np.ndarray":
+    """(P,) m: the radii of balls (P), of which those with fewer than `COMPANY` others within reach are `alone` times as wide."""
+    from scipy.spatial import cKDTree
+
+    if alone >= 1.0 or len(points) <= COMPANY:
+        return radii
+    away, _ = cKDTree(points).query(points, k=COMPANY + 1)
+    return np.where(away[:, -1] > REACH * radii, alone * radii, radii)
 
 
 def room(particles: int) -> int:
