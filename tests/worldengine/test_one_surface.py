@@ -128,8 +128,6 @@ def test_the_statement_lists_it_and_names_are_checked(poured):
     film.surface("honey", of=["drop_1", "drop_2"])
     with pytest.raises(ProgramError, match="or another's"):
         film.surface("jam", of="drop_*")
-    with pytest.raises(ProgramError, match="0.1 times as wide"):
-        Film(poured.seen).surface("jam", of="drop_3", alone=0.1)
     with pytest.raises(FilmError, match="no body and no particles"):
         poured.film(lambda facts: facts["surfaces"][0]["of"].append("nobody"))
 

@@ -209,11 +209,7 @@ def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[s
     name, of = str(told["name"]), [str(one) for one in told["of"]]
     if not 0 < len(name) <= 60 or not of or not set(of) <= known:
         raise _refuse(f"the surface {name!r} is of what is no body and no particles", "name some that there are")
-    alone = float(told.get("alone", 1.0))
-    if not 0.3 <= alone <= 1.0:
-        raise _refuse(f"what is alone in the surface {name!r} would be {alone:g} times as wide", "give 0.3 to 1")
-    look, blended = _look(told["look"], arrays), told.get("blended") is True
-    return {"name": name, "of": of, "look": look, "blended": blended, "alone": alone}
+    return {"name": name, "of": of, "look": _look(told["look"], arrays), "blended": told.get("blended") is True}
 
 
 def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:

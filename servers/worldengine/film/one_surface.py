@@ -23,6 +23,8 @@ SAMPLES = 5
 NEAREST, MINGLING, DARKEST = 12, 3.0, 0.02
 """So many particles colour a corner, within so many of their radii; what is darker than this (sRGB) would swallow all else."""
 NOWHERE = -1e4
+FLAKE = 0.7
+"""What falls alone of a snow is drawn so much as wide as what lies together: it is flakes, not lumps."""
 COMPANY = 6
 """With so many others near, a ball lies among them: on a layer it has more, in the air less."""
 DEEPEST_CELLS = 96

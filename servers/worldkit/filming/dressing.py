@@ -250,22 +250,15 @@ class Dressing(PatternedLight):
         self._grown.append((self._things.pop(), at))
 
     def surface(
-        self,
-        name: str,
-        *,
-        of: str | Sequence[str],
-        look: str | Surface = "wax",
-        blended: bool = False,
-        alone: float = 1.0,
+        self, name: str, *, of: str | Sequence[str], look: str | Surface = "wax", blended: bool = False
     ) -> None:
         """Bodies or particles of one substance as one smooth surface, made for each picture from where they are then.
 
         `of` names bodies, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
         of="drop_*", look="honey")`. Their own shapes are left out. `blended`: their colours, mixed where they meet; those of a law too.
-        `alone`: what has next to nothing near it is drawn this share as wide, 0.3 to 1: flakes that still fall.
 
         Raises:
-            ProgramError: it names nothing, or what is another surface's already, or `alone` is no such share.
+            ProgramError: it names nothing, or what is another surface's already.
         """
         known(look)
         wanted = [of] if isinstance(of, str) else list(of)
@@ -278,11 +271,8 @@ class Dressing(PatternedLight):
                 "film.py",
                 f"name some of: {', '.join(names[:6]) or '(none)'}",
             )
-        if not 0.3 <= alone <= 1.0:
-            cause = f"what is alone in the surface {name!r} would be {alone:g} times as wide"
-            raise ProgramError(cause, "film.py", "give `alone` from 0.3 to 1")
         self._named(name)
-        self._surfaces.append({"name": name, "of": found, "look": look, "blended": blended, "alone": alone})
+        self._surfaces.append({"name": name, "of": found, "look": look, "blended": blended})
 
     def lamp(
         self,
