@@ -217,13 +217,3 @@ def test_a_liquid_that_draws_threads_resists_being_pulled_apart_and_another_does
     (still, kept), (tension, stored) = pulled
     assert abs(still) < 1e-6 and kept == 0.0
     assert tension == pytest.approx(3 * 1.03 * 1400.0 * 25.0 * 0.03, rel=0.01) and stored > 0.0
-
-
-def test_a_stream_that_draws_threads_falls_no_wider_than_its_mouth() -> None:
-    wide = []
-    for threads in (False, True):
-        poured = Source(0.004, (0, 0, 0.1), 0.0, 0.4, radius=0.005)
-        law = Matter(Liquid(1400.0, 5.0, sound=5.0, threads=threads), 0.0024, poured=[poured])
-        advanced(law, '<mujoco><worldbody><geom type="plane" size="1 1 1"/></worldbody></mujoco>', 0.4)
-        wide.append(float(np.ptp(law.points[np.abs(law.points[:, 2] - 0.05) < 0.006, :2], axis=0).max()))
-    assert wide[1] < 0.01 < 0.02 < wide[0]
