@@ -205,3 +205,15 @@ def test_points_that_fly_apart_are_a_typed_error() -> None:
     law.velocities[0] = np.nan
     with pytest.raises(ProgramError, match="fly apart"):
         law.step(model, data, 0.01)
+
+
+def test_a_liquid_that_draws_threads_resists_being_pulled_apart_and_another_does_not() -> None:
+    pulled = []
+    for threads in (False, True):
+        stuff = Liquid(1400.0, 5.0, threads=threads)
+        law, state, tau = np.array(stuff.stiffness(5.0)), stuff.begins(1), np.zeros((1, 6))
+        stuff.advance(law, state, np.eye(3)[None] * 10.0, np.array([1400.0]), tau, 1, 1e-3)
+        pulled.append((float(tau[0, :3].sum()), float(stuff.stored(law, state)[0])))
+    (still, kept), (tension, stored) = pulled
+    assert abs(still) < 1e-6 and kept == 0.0
+    assert tension == pytest.approx(3 * 1.03 * 1400.0 * 25.0 * 0.03, rel=0.01) and stored > 0.0

@@ -203,9 +203,8 @@ def surfaces(model: "mujoco.MjModel", film: Described) -> list[one_surface.Surfa
             if model.geom_group[geom] == HIDDEN_GROUP
             and (name.startswith(particles) or (model.geom_bodyid[geom] in bodies and not name.startswith("drawn.")))
         ]
-        found.append(
-            one_surface.Surface(model, model.skin(f"drawn.{one['name']}").id, np.array(mine, dtype=int), one["blended"])
-        )
+        skin, alone = model.skin(f"drawn.{one['name']}").id, one_surface.FLAKE if one["look"] == "snow" else 1.0
+        found.append(one_surface.Surface(model, skin, np.array(mine, dtype=int), one["blended"], alone))
     return found
 
 

@@ -23,6 +23,12 @@ SAMPLES = 5
 NEAREST, MINGLING, DARKEST = 12, 3.0, 0.02
 """So many particles colour a corner, within so many of their radii; what is darker than this (sRGB) would swallow all else."""
 NOWHERE = -1e4
+FLAKE = 0.7
+"""What falls alone of a snow is drawn so much as wide as what lies together: it is flakes, not lumps."""
+COMPANY = 6
+"""With so many others near, a ball lies among them: on a layer it has more, in the air less."""
+DEEPEST_CELLS = 96
+"""What is thicker than so many cells of the grid counts as so thick."""
 
 
 class Surface:
@@ -33,29 +39,34 @@ class Surface:
         skin: number of its skin.
         geoms: numbers of the geoms that it stands for.
         blended: it has their colours, mixed where they meet, in place of its look's; colours that a law tells it has always.
+        alone: what has next to nothing near it is drawn this share as wide.
     """
 
-    def __init__(self, model: "mujoco.MjModel", skin: int, geoms: "np.ndarray", blended: bool = False) -> None:
-        self._model, self._geoms = model, geoms
+    def __init__(
+        self, model: "mujoco.MjModel", skin: int, geoms: "np.ndarray", blended: bool = False, alone: float = 1.0
+    ) -> None:
+        self._model, self._geoms, self._alone = model, geoms, alone
         first, count = int(model.skin_vertadr[skin]), int(model.skin_vertnum[skin])
         self._vertices = model.skin_vert[first : first + count]
         first, count = int(model.skin_faceadr[skin]), int(model.skin_facenum[skin])
         self._faces = model.skin_face[first : first + count]
         colours, first = point_colours.of(model), int(model.skin_vertadr[skin])
-        self._told, self._own = colours.geom, colours.skin[first : first + int(model.skin_vertnum[skin])]
+        mine = slice(first, first + int(model.skin_vertnum[skin]))
+        self._told, self._own, self._thick = colours.geom, colours.skin[mine], colours.thick[mine]
         self._blended = blended
         self._colour(self._own[:0], np.zeros(0, int), np.zeros((0, 3)), np.zeros(0))
 
     def place(self, data: "mujoco.MjData", eye: "np.ndarray | None" = None, pixel: float = 0.0) -> None:
         """Lay the surface around its particles as they are in `data`, no finer than an eye (3,) sees whose pixels are so wide, rad."""
         points, radii, owners = balls(self._model, data, self._geoms)
-        finest = 0.0
+        radii, finest = narrowed(points, radii, self._alone), 0.0
         if eye is not None and len(points):
             finest = pixel * max(float((np.linalg.norm(points - eye, axis=1) - radii).min()), 0.0)
-        vertices, faces = around(points, radii, len(self._faces), len(self._vertices), finest)
+        vertices, faces, thick = around(points, radii, len(self._faces), len(self._vertices), finest)
         self._vertices[:] = NOWHERE
         self._faces[:] = len(self._vertices) - 1
         self._vertices[: len(vertices)], self._faces[: len(faces)] = vertices, faces
+        self._thick[: len(vertices)], self._thick[len(vertices) :] = thick, 0.0
         self._colour(vertices, owners, points, radii)
 
     def _colour(self, vertices: "np.ndarray", owners: "np.ndarray", points: "np.ndarray", radii: "np.ndarray") -> None:
@@ -92,6 +103,16 @@ def mixed(vertices: "np.ndarray", points: "np.ndarray", radii: "np.ndarray", col
     weight = np.maximum(1.0 - (away / (MINGLING * radii[near])) ** 2, 1e-3 / (1.0 + away / radii[near])) ** 3
     lost = np.log(np.maximum(colours, DARKEST))[near]
     return np.asarray(np.exp((weight[..., None] * lost).sum(axis=1) / weight.sum(axis=1, keepdims=True)))
+
+
+def narrowed(points: "np.ndarray", radii: "np.ndarray", alone: float) -> "np.ndarray":
+    """(P,) m: the radii of balls (P), of which those with fewer than `COMPANY` others within reach are `alone` times as wide."""
+    from scipy.spatial import cKDTree
+
+    if alone >= 1.0 or len(points) <= COMPANY:
+        return radii
+    away, _ = cKDTree(points).query(points, k=COMPANY + 1)
+    return np.where(away[:, -1] > REACH * radii, alone * radii, radii)
 
 
 def room(particles: int) -> int:
@@ -133,24 +154,27 @@ def balls(
 
 def around(
     points: "np.ndarray", radii: "np.ndarray", most_faces: int, most_vertices: int, finest: float = 0.0
-) -> "tuple[np.ndarray, np.ndarray]":
-    """Vertices (V, 3), m, and faces (F, 3), outward, of a smooth surface around balls; both empty where there is none.
+) -> "tuple[np.ndarray, np.ndarray, np.ndarray]":
+    """Vertices (V, 3), m, faces (F, 3), outward, of a smooth surface around balls, and how thick (V,), m, it is straight in from
+    each vertex; all empty where there is none.
 
     After Zhu and Bridson, "Animating Sand as a Fluid" (2005): the distance to the weighted mean of what is near, less its
     radius, which is flat over what lies level, and smoothed a little. `finest`, m: what is smaller is not seen.
     """
     if not len(points):
-        return np.zeros((0, 3)), np.zeros((0, 3), np.int32)
+        return np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0)
     radius = float(np.median(radii))
     cell = min(max(radius / CELLS_A_RADIUS, finest), radius / LEAST_CELLS)
     while True:
-        vertices, faces, cell = _meshed(points, radii, cell)
+        vertices, faces, thick, cell = _meshed(points, radii, cell)
         if len(faces) <= most_faces and len(vertices) < most_vertices:
-            return vertices, faces
+            return vertices, faces, thick
         cell *= 1.25
 
 
-def _meshed(points: "np.ndarray", radii: "np.ndarray", cell: float) -> "tuple[np.ndarray, np.ndarray, float]":
+def _meshed(
+    points: "np.ndarray", radii: "np.ndarray", cell: float
+) -> "tuple[np.ndarray, np.ndarray, np.ndarray, float]":
     from scipy.ndimage import gaussian_filter
     from scipy.sparse import csr_array
     from skimage.measure import marching_cubes
@@ -186,6 +210,26 @@ def _meshed(points: "np.ndarray", radii: "np.ndarray", cell: float) -> "tuple[np
     level[near] = np.clip(distance, -3.0 * cell, 3.0 * cell)
     field: Any = gaussian_filter(level.reshape(shape), SMOOTH_CELLS)
     if not field.min() < 0.0 < field.max():
-        return np.zeros((0, 3)), np.zeros((0, 3), np.int32), cell
-    vertices, faces, _, _ = marching_cubes(field, 0.0, spacing=(cell,) * 3, gradient_direction="descent")
-    return vertices + low, faces.astype(np.int32), cell
+        return np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0), cell
+    vertices, faces, inward, _ = marching_cubes(field, 0.0, spacing=(cell,) * 3, gradient_direction="descent")
+    return vertices + low, faces.astype(np.int32), cell * _thickness(field, vertices / cell, inward), cell
+
+
+def _thickness(field: "np.ndarray", starts: "np.ndarray", inward: "np.ndarray") -> "np.ndarray":
+    """(V,) how far it is from places (V, 3) on the surface, along unit vectors `inward` (V, 3), to where a field is no
+    longer negative, all in cells.
+    """
+    from scipy.ndimage import map_coordinates
+
+    found, alive = np.full(len(starts), float(DEEPEST_CELLS)), np.arange(len(starts))
+    before = np.zeros(len(starts))
+    for step in range(1, DEEPEST_CELLS):
+        here = map_coordinates(field, (starts[alive] + step * inward[alive]).T, order=1, mode="nearest")
+        left = here >= 0.0
+        gone = alive[left]
+        found[gone] = step - here[left] / np.maximum(here[left] - before[gone], 1e-12)
+        before[alive] = here
+        alive = alive[~left]
+        if not len(alive):
+            break
+    return np.maximum(found, 0.5)

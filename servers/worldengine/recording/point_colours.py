@@ -1,5 +1,5 @@
 """Colours of points, which the engine's own arrays have no room for: of a flex's corners and of geoms by an author's law, and of a
-skin's corners by a film's surface. They belong to a model, which who draws it holds, too.
+skin's corners by a film's surface, which tells how thick it is there, too. They belong to a model, which who draws it holds.
 """
 
 from dataclasses import dataclass
@@ -23,6 +23,8 @@ class Colours:
     """(nskinvert, 3)."""
     geom: "np.ndarray"
     """(ngeom, 3)."""
+    thick: "np.ndarray"
+    """(nskinvert,) m: how far it is straight in to the other side at a skin's corners; 0 where nobody told."""
 
 
 _known: "WeakKeyDictionary[mujoco.MjModel, Colours]" = WeakKeyDictionary()
@@ -33,7 +35,8 @@ def of(model: "mujoco.MjModel") -> Colours:
     import numpy as np
 
     if model not in _known:
-        _known[model] = Colours(*(np.full((n, 3), PLAIN) for n in (model.nflexvert, model.nskinvert, model.ngeom)))
+        flex, skin, geom = (np.full((n, 3), PLAIN) for n in (model.nflexvert, model.nskinvert, model.ngeom))
+        _known[model] = Colours(flex, skin, geom, np.zeros(model.nskinvert))
     return _known[model]
 
 

@@ -1,8 +1,9 @@
-"""A viscous liquid, from water to honey: slightly compressible, Newtonian, without tension.
+"""A viscous liquid, from water to honey: slightly compressible, Newtonian, without surface tension.
 
-tau = -J p I + J mu (L + L^T - 2/3 tr L I), p = rho c^2 (1 - J), none where J > 1 (it parts). J is drawn slowly towards what the grid
-says that the density is, so that what parted and met again neither gains nor loses room. Source: Batchelor, An Introduction to
-Fluid Dynamics, section 3.3; equation of state linear in the compression.
+tau = -J p I + J mu (L + L^T - 2/3 tr L I), p = rho c^2 (1 - J), none where J > 1 (it parts), unless it draws threads: then it
+resists being pulled apart as it does being pressed, and a stream grows thin instead. J is drawn slowly towards what the grid says
+that the density is, so that what parted and met again neither gains nor loses room. Source: Batchelor, An Introduction to Fluid
+Dynamics, section 3.3; equation of state linear in the compression.
 """
 
 from dataclasses import dataclass
@@ -27,12 +28,14 @@ class Liquid:
         viscosity: Pa s: water 0.001, oil 0.1, honey 10.
         sound: m/s; how stiff it is. None: seven times what it reaches falling; the real one would ask a hundred times the steps.
         sticks: whether it keeps to walls; None: where viscosity reaches a cell in a second.
+        threads: whether it holds together when it is pulled, as honey and syrup do.
     """
 
     density: float = 1000.0
     viscosity: float = 0.001
     sound: float | None = None
     sticks: bool | None = None
+    threads: bool = False
 
     friction, scatter = 0.0, 0.0
 
@@ -49,8 +52,8 @@ class Liquid:
         return falls
 
     def stiffness(self, sound: float) -> tuple[float, ...]:
-        """Numbers of the law, for a speed of sound, m/s."""
-        return (self.density * sound**2, self.viscosity, self.density)
+        """Numbers of the law, for a speed of sound, m/s; the last one, 1 or 0, is whether it pulls."""
+        return (self.density * sound**2, self.viscosity, self.density, float(self.threads))
 
     def holds(self, cell: float) -> bool:
         """Whether it sticks to walls, on a grid of this side, m."""
@@ -70,7 +73,8 @@ class Liquid:
 
     def stored(self, law: Array, state: Array) -> Array:
         """(n,) J/m^3 stored."""
-        return 0.5 * law[0] * np.minimum(state[:, 0] - 1.0, 0.0) ** 2
+        strain = state[:, 0] - 1.0
+        return np.asarray(0.5 * law[0] * np.where(strain > 0, law[3], 1.0) * strain**2)
 
     def room(self, state: Array) -> Array:
         """(n,) its volume, as a share of that at rest; what parts does not grow."""
@@ -80,7 +84,7 @@ class Liquid:
 @kernel
 def flow(law, state, c, crowd, tau, count, dt):
     """Advance the points of a liquid; arguments as `Liquid.advance`."""
-    stiff, mu, rho = law[0], law[1], law[2]
+    stiff, mu, rho, pulls = law[0], law[1], law[2], law[3]
     for p in range(count):
         spread = c[p, 0, 0] + c[p, 1, 1] + c[p, 2, 2]
         j = state[p, 0] * (1.0 + dt * spread)
@@ -89,7 +93,7 @@ def flow(law, state, c, crowd, tau, count, dt):
             j += dt * CORRECTED * (min(max(rho / seen, 0.8), PARTED) - j)
         j = min(max(j, 0.5), PARTED)
         state[p, 0] = j
-        push = -j * stiff * (1.0 - j) if j < 1.0 else 0.0
+        push = -j * stiff * (1.0 - j) * (1.0 if j < 1.0 else pulls)
         push -= j * mu * 2.0 / 3.0 * spread
         tau[p, 0] = push + 2.0 * j * mu * c[p, 0, 0]
         tau[p, 1] = push + 2.0 * j * mu * c[p, 1, 1]

@@ -22,6 +22,8 @@ LIQUID = 9.0
 """The kind of shape of what is clear and closed, by which the shader knows it."""
 WALL = 10.0
 """That of what is clear and a thin wall around air."""
+TOLD = 8.0
+"""The kind of what is clear and tells at each corner how thick it is there."""
 
 
 def _row(
@@ -67,6 +69,8 @@ class Soft:
     def _shape(self, patch: Patch) -> gl.Shape:
         vertices = np.zeros((len(patch.points), 9 if patch.colours is None else 12), dtype=np.float32)
         vertices[:, :3], vertices[:, 4:7] = patch.points, patch.normals
+        if patch.thick is not None:
+            vertices[:, 3] = patch.thick  # a soft row has no length that this place would reach along
         if patch.uv is not None:
             vertices[:, 7], vertices[:, 8] = patch.uv[:, 0], 1.0 - patch.uv[:, 1]  # our v runs up
         if patch.colours is not None:
@@ -96,6 +100,8 @@ class Soft:
             rows.append(
                 _row(finish, tint, patch.geom, pictured, half, middle, self._shapes.is_wall(patch, finish.look))
             )
+            if patch.thick is not None and finish.look.clear > 0:
+                rows[-1][39] = TOLD
         groups: dict[int, list[np.ndarray]] = {}
         for strand in strands:
             row = _row(*self._finish(strand.material, strand.rgba))

@@ -55,6 +55,8 @@ class Patch(NamedTuple):
     """A geom of the body that it belongs to, or -1; of a flex `FLEX` less its number."""
     colours: np.ndarray | None = None
     """(3 N, 3) scene-linear, in place of its material's; None where it has none of its own."""
+    thick: np.ndarray | None = None
+    """(3 N,) m: how far it is straight in to the other side; None where nobody told."""
 
 
 @dataclass(frozen=True)
@@ -132,9 +134,11 @@ class SoftShapes:
                     at = faces[which].ravel()
                     uv = None if skin.uv is None else skin.uv[at]
                     key = ("skin", number, piece)
-                    colours = point_colours.linear(point_colours.of(model).skin[first : first + count])
+                    told = point_colours.of(model)
+                    colours, thick = point_colours.linear(told.skin[first : first + count]), told.thick[first:][at]
                     colours = None if colours is None else colours[at]
-                    patches.append(Patch(key, points[at], normals[at], uv, material, rgba, owner, colours))
+                    deep = thick if thick.any() else None
+                    patches.append(Patch(key, points[at], normals[at], uv, material, rgba, owner, colours, deep))
         return strands, patches
 
     def is_closed(self, flex: int) -> bool:

@@ -1,4 +1,5 @@
 const float LIQUID = 9.0, WALL = 10.0;
+const float TOLD = 8.0;  // what is clear and tells at each corner how thick it is there
 // What is seen through the surface of a body of liquid: along the bent ray to what the picture has behind it, fainter by the way.
 // At an upright wall of it, as of a glass, light comes out again at the far side, bent there, too: a lens.
 vec3 through_liquid(vec3 p, vec3 v, vec3 n, vec3 middle, float half_width) {

@@ -24,6 +24,7 @@ in vec3 world;
 in vec3 local;
 in vec3 local_normal;
 in vec2 uv;
+in float within;       // m: how thick it is here, where a corner tells it
 #if COLOURED
 in vec3 own_colour;
 #endif
@@ -166,6 +167,7 @@ float occlusion(vec2 at, float distance_m) {
 
 // How far a ray goes on inside of a thing, m: from p along d, both in the thing's own frame; dip is how straight it goes in.
 float way_within(vec3 p, vec3 d, float kind, float radius, float dip) {
+    if (abs(kind - TOLD) < 0.5) return within;
     vec3 half_size = abs(size.xyz);
     vec3 inverse = 1.0 / (d + vec3(1e-6) * (step(0.0, d) * 2.0 - 1.0));
     vec3 walls = (sign(d) * half_size - p) * inverse;
@@ -374,6 +376,10 @@ void main() {
         vec3 onward = BALL == 1 ? refract(through, normalize(centre - exit_point), 1.45) : -v;
         if (dot(onward, onward) < 0.5) onward = through;
         float t = onward.z < -0.02 ? min((exit_point.z - support.w) / -onward.z, 6.0 * extent) : 3.0 * extent;
+        if (abs(more.w - TOLD) < 0.5) {  // it is small beside its surroundings, which are seen at once behind it
+            exit_point = world + through * within;
+            t = 0.0;
+        }
         vec4 clip = to_clip * vec4(exit_point + onward * max(t, 0.0), 1.0);
         vec2 q = clamp(clip.xy / clip.w * 0.5 + 0.5, 0.002, 0.998);
         vec3 tint = pow(own, vec3(BALL == 1 ? 0.9 : 0.5 + 0.9 * (1.0 - nv)));

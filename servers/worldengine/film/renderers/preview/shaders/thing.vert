@@ -25,6 +25,7 @@ out vec3 world;
 out vec3 local;
 out vec3 local_normal;
 out vec2 uv;
+out float within;         // m: how thick it is here, where a corner tells it
 
 out gl_PerVertex { vec4 gl_Position; float gl_ClipDistance[1]; };
 invariant gl_Position;
@@ -50,6 +51,7 @@ void main() {
     local_normal = corner_normal / max(abs(extent.xyz), 1e-9);
     world = rotation * local + origin;
     uv = corner_uv;
+    within = corner.w;
 #if COLOURED
     own_colour = corner_colour;
 #endif
