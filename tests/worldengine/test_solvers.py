@@ -17,7 +17,7 @@ from worldengine.inputs.ports import Ports
 from worldengine.recording import describing, stored
 from worldengine.recording.record import Recorder
 from worldengine.recording.replay import Replay
-from worldengine.solvers import SEAM, Row, called, check
+from worldengine.solvers import SEAM, Row, called, check, magnets
 from worldengine.variants.altered import Variant, alter
 from worldkit import portable
 from worldkit.errors import ProgramError
@@ -286,3 +286,25 @@ def test_a_case_comes_out_as_it_is_known_to(
     recording = stored.open(tmp_path / "out")
     found = recording.channels(name)[case.channel][-1]
     assert float(np.reshape(found, -1)[0]) == pytest.approx(case.expected, abs=case.tolerance), case.because
+
+
+def rims(outer, inner, length, sides=24):
+    """Corners of a straight tube along z; a solid rod with no inner radius."""
+    turn = 2 * np.pi * np.arange(sides) / sides
+    return np.array([(r * np.cos(a), r * np.sin(a), z) for r in (outer, inner) if r for z in (-length / 2, length / 2) for a in turn])  # fmt: skip
+
+
+@pytest.mark.parametrize("length", [0.01, 0.036, 0.04, 0.044, 0.3])
+def test_a_tube_is_known_by_its_bore_however_long_it_is(length):
+    tube = rims(0.02, 0.018, length)
+    assert magnets._bore(tube) == pytest.approx((0.018, 0.02))
+    assert magnets._bore(tube[:, [1, 2, 0]]) is None and magnets._bore(tube[:, [2, 0, 1]]) is None, "it lies along z"
+
+
+@pytest.mark.parametrize(
+    "corners",
+    [rims(0.02, 0, 0.1), rims(0.02, 0.004, 0.1), np.array(list(np.ndindex(2, 2, 2))) * 0.02 - 0.01, rims(0.02, 0.018, 0.1)[:-24]],
+    ids=["a rod", "a bore too narrow", "a block", "a cup"],
+)  # fmt: skip
+def test_what_is_no_tube_has_no_bore(corners):
+    assert magnets._bore(corners) is None

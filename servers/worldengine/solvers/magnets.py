@@ -42,8 +42,10 @@ ENERGY = Column("energy", (), "J", "of the field, 0 with all bodies far apart")
 HEAT = Column("heat", (), "J", "of eddy currents, since the start")
 HOLLOW = 0.3
 """A tube's bore is at least this share of its width."""
+THINNEST = 0.005
+"""And its wall at least this share of its radius."""
 ROUND = 0.05
-"""And as wide as deep but for this share."""
+"""Its corners lie on its two cylinders, and these end together, but for this share."""
 REACH = 3.5
 """So many of its radii away from a magnet, what a tube brakes is below a thousandth."""
 
@@ -261,13 +263,28 @@ def _conductor(
         middle = (low + high) / 2
         for axis in range(3):
             order = [(axis + 1) % 3, (axis + 2) % 3, axis]
-            radius = np.hypot(*(points - middle)[:, order[:2]].T)
-            across = (high - low)[order[:2]]
-            if radius.min() > HOLLOW * radius.max() and np.ptp(across) < ROUND * across.max():
-                net = eddies.tube(radius.min(), radius.max(), (high - low)[axis], conductivity)
-                return net, middle, np.eye(3)[:, order], REACH * radius.max()
+            if (bore := _bore(points[:, order] - middle[order])) is not None:
+                net = eddies.tube(*bore, (high - low)[axis], conductivity)
+                return net, middle, np.eye(3)[:, order], REACH * bore[1]
     what = f"{name!r} conducts, and is neither a straight tube along an axis of its own nor one box"
     raise ProgramError(what, "interventions", "give it the primitive `tube` with a straight path, or `box`")
+
+
+def _bore(points: "np.ndarray") -> tuple[float, float] | None:
+    """Inner and outer radius, m, of a straight tube along z about the origin, whose corners (v, 3) these are; None of any other shape.
+
+    Every corner lies on one of two cylinders, both of which reach from end to end, and none within the bore.
+    """
+    import numpy as np
+
+    radius, half = np.hypot(*points[:, :2].T), np.abs(points[:, 2]).max()
+    outer, inner = float(radius.max()), float(radius.min())
+    if not HOLLOW * outer < inner < (1 - THINNEST) * outer:
+        return None
+    outside = radius > (inner + outer) / 2
+    flat = all(np.ptp(radius[side]) < ROUND * outer for side in (outside, ~outside))
+    ends = all(np.ptp(points[side, 2]) > 2 * (1 - ROUND) * half for side in (outside, ~outside))
+    return (inner, outer) if flat and ends else None
 
 
 def _corners(model: "mujoco.MjModel", geom: int) -> "np.ndarray":
