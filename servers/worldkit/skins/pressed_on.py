@@ -39,6 +39,7 @@ class Met:
         model: "mujoco.MjModel",
         data: "mujoco.MjData",
         h: float,
+        gone: float = 0.0,
     ) -> None:
         import mujoco
 
@@ -46,7 +47,8 @@ class Met:
         self.size, self.turn = model.geom_size[geom].copy(), data.geom_xmat[geom].reshape(3, 3).copy()
         body, moves = int(model.geom_bodyid[geom]), np.zeros(6)
         mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, moves, 0)
-        at, whole = data.geom_xpos[geom], data.xipos[body]
+        on = gone * (moves[3:] + np.cross(moves[:3], data.geom_xpos[geom] - data.xipos[body]))
+        at, whole = data.geom_xpos[geom] + on, data.xipos[body] + gone * moves[3:]
         self.middle = at + h / 2 * (moves[3:] + np.cross(moves[:3], at - whole))
         far, self.out = self.far(points)
         self.grip = friction * self.hard * np.maximum(-far, 0)  # as it was pressed when the step began

@@ -92,7 +92,9 @@ class Skin:
     def step(self, model: "mujoco.MjModel", data: "mujoco.MjData", seconds: float) -> Array:
         """Advance it by `seconds`, and return (k, 6) N, N m, on its bodies."""
         parts = max(1, int(np.ceil(seconds / self._longest - 1e-9)))
-        return np.asarray(sum(self._advance(model, data, seconds / parts) for _ in range(parts)) / parts)
+        return np.asarray(
+            sum(self._advance(model, data, seconds / parts, n * seconds / parts) for n in range(parts)) / parts
+        )
 
     def energy(self) -> float:
         """J in its walls and where it is pressed on bodies, less what gas and air outside gave since the start: heat too comes
@@ -173,11 +175,12 @@ class Skin:
 
     # a step
 
-    def _advance(self, model: "mujoco.MjModel", data: "mujoco.MjData", h: float) -> Array:
+    def _advance(self, model: "mujoco.MjModel", data: "mujoco.MjData", h: float, gone: float) -> Array:
+        """A step of `h` seconds, `gone` seconds after what `data` shows; returns (k, 6) N, N m."""
         self._close()
         room, over = self.room, self.pressure - self.gas.outside
         self.time += h
-        task = _Step(self, model, data, h)
+        task = _Step(self, model, data, h, gone)
         x = self.points + h * self.velocities * self._free[:, None]
         for _ in range(STEPS):
             x, moved = task.nearer(x)
@@ -192,9 +195,9 @@ class Skin:
 
 
 class _Step:
-    """What one step of `h` seconds makes least, with bodies as `data` shows them."""
+    """What one step of `h` seconds makes least, with bodies that have gone on for `gone` seconds since `data`."""
 
-    def __init__(self, skin: Skin, model: "mujoco.MjModel", data: "mujoco.MjData", h: float) -> None:
+    def __init__(self, skin: Skin, model: "mujoco.MjModel", data: "mujoco.MjData", h: float, gone: float) -> None:
         self.skin, self.h, self.x0 = skin, h, skin.points
         self.mass = skin.mass[:, None]
         self.pull = skin._pull
@@ -206,7 +209,7 @@ class _Step:
         if skin.moles is not None:
             self.warmth = skin.moles * GAS * skin.gas.temperature(skin.time)
         self.met = [
-            Met(row, geom, skin._hard, skin.wall.friction, self.x0, model, data, h) for row, geom in skin._geoms
+            Met(row, geom, skin._hard, skin.wall.friction, self.x0, model, data, h, gone) for row, geom in skin._geoms
         ]
         self.middles = data.xipos[skin._bodies]
         self.now: float | None = None  # its value where the search stands
