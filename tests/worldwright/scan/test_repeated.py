@@ -66,7 +66,18 @@ def test_each_part_is_what_its_repetitions_show(tmp_path: Path) -> None:
         "says of `without gravity`: crashed, and here: it ran" in wrong(causes=silent)["causes: gravity of objective 0"]
     )
     limited = cause.model_copy(update={"trials": changed(cause, "without gravity", failed="out_of_memory: too large")})
-    assert wrong(causes=limited) == {}  # a larger machine shows what that one could not
+    gone = cause.model_copy(update={"causes": (), "trials": limited.trials})
+    for whole in (False, True):  # a larger machine shows what that one could not, which must then say so
+        assert "outcome is caused" in "".join(wrong(causes=limited, exact=whole).values())
+        assert [*wrong(causes=gone, whole=whole)] == ["causes" if whole else "causes: gravity of objective 0"]
+        room = Here(run, world=world, folder=tmp_path)
+        room.made |= now.made
+        room.failed["without gravity"] = "out_of_memory: too large"
+        del room.made["without gravity"]
+        untested = Causes(planned, world.plan, causal.acting, room)
+        untested.plan_trials()
+        assert untested.report().causes[0].outcome == "unclear"
+        assert wrong(causes=untested.report(), whole=whole) == {}
     blamed = robust.model_copy(
         update={"claims": (robust.claims[0].model_copy(update={"not_in": ("vary masses=1.01",)}),)}
     )

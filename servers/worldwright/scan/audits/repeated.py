@@ -83,8 +83,11 @@ def unlike(part: Part, *, exact: bool) -> str:
         if other is None:
             return f"tells nothing of the repetition `{row.label}`"
         codes = [one.failed.partition(":")[0] for one in (other, row)]
-        if codes[0] in LIMITS:  # it says itself that a machine's limit kept it from being shown
-            return ""
+        if codes[0] in LIMITS:  # a machine's limit kept it from being shown there: what follows from that must be said
+            part.trials.made.pop(row.label, None)
+            part.trials.failed[row.label] = other.failed
+            part.trials.limited.add(row.label)
+            continue
         if codes[0] != codes[1]:
             return f"says of `{row.label}`: {codes[0] or 'it ran'}, and here: {codes[1] or 'it ran'}"
         if row.failed:
