@@ -32,6 +32,7 @@ def checks(
     scratch: Path,
     proved: Proved,
     *,
+    stamped: str,
     exact: bool,
     vouched: bool,
     every: bool,
@@ -44,6 +45,7 @@ def checks(
         folder: the accepted folder.
         scratch: where a later call of this verification finds what was drawn.
         proved: its world, simulated again; the repetitions are made of it.
+        stamped: hash of the recording that the stamp names, of which every audit must be; elsewhere what is proved is another.
         exact: here is the stamped environment, where every repetition must be the same bit for bit. Elsewhere the outcomes must.
         vouched: somebody known here signed the stamp.
         every: all parts, not the one that is drawn.
@@ -63,9 +65,7 @@ def checks(
     said = {name: k.value for name, k in kept.items() if k.value is not None}
     if not said:
         return []
-    if other := [
-        name for name, report in said.items() if exact and report.trajectory_sha256 != proved.trajectory_sha256
-    ]:
+    if other := [name for name, report in said.items() if report.trajectory_sha256 != stamped]:
         return [Check(name=NAME, ok=False, detail=f"{other[0]}.json is of another recording")]
     if not vouched and law_check.unconfined():
         return [_note(f"{', '.join(said)}: not simulated again, since no sandbox confines their program here")]

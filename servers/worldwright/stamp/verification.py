@@ -7,6 +7,7 @@ within a stated tolerance and every expectation must come out as stamped; differ
 read once, into a private copy by which all of it is judged (`private_copy`); nothing is written there.
 """
 
+import shlex
 import shutil
 import tempfile
 import time
@@ -104,30 +105,33 @@ def verify(
     """
     live = _locate(name)
     with private_copy.of(live) as run:
-        found = _prove_again(name, live, run, timeout_s, progress, signer, rebuild, every)
+        found = _prove_again(live, run, timeout_s, progress, signer, rebuild, every)
         signature = None if found.state == "refuted" else signing.check(run.stamped, bundle.STAMP, signer)
-    unknown = signature is not None and not signature.vouched and not anybody and found.state == "proved"
-    return found.model_copy(
-        update={
-            "signature": signature,
-            "anybody": anybody,
-            **({"next_move": _vouch(signature, name)} if unknown else {}),
-        }
-    )
+    move, asked = found.next_move, {"--rebuild": rebuild, "--every-trial": every}
+    if found.state == "running":
+        move = _command(name, signer, {"--anybody": anybody, **asked})
+    elif signature is not None and not signature.vouched and not anybody and found.state == "proved":
+        move = _vouch(signature, _command(name, signer, {"--anybody": True, **asked}))
+    return found.model_copy(update={"signature": signature, "anybody": anybody, "next_move": move})
 
 
-def _vouch(signature: signing.Signature | None, name: str) -> str:
-    """What a person can do about a world whose signer is not known here."""
-    if signature is not None and signature.holder == "unknown":
+def _command(name: str, signer: Path | None, asked: dict[str, bool]) -> str:
+    """The command that goes on with what was asked."""
+    words = (*(("--signer", str(signer)) if signer else ()), *(option for option, wanted in asked.items() if wanted))
+    return shlex.join(("worldwright", "stamp", "verify", name, *words))
+
+
+def _vouch(signature: signing.Signature, command: str) -> str:
+    """What a person can do about a world whose signer is not known here; `command` takes anybody's."""
+    if signature.holder == "unknown":
         return (
             f"ask whoever sent it for their key's fingerprint; if it is sha256:{signature.fingerprint}: "
             f"`worldwright keys trust sha256:{signature.fingerprint} --name WHO`"
         )
-    return f"accept it yourself from its plan, or, if who accepted it does not matter: `worldwright stamp verify {name} --anybody`"
+    return f"accept it yourself from its plan, or, if who accepted it does not matter: `{command}`"
 
 
 def _prove_again(
-    name: str,
     live: Run,
     run: Run,
     timeout_s: float,
@@ -164,7 +168,7 @@ def _prove_again(
             checks.append(Check(name="run", ok=False, detail=str(error)))
             return _refuted(run, checks, differences)
         if proved is None:
-            return _running(run, name, checks, differences)
+            return _running(run, checks, differences)
         checks += _world(folder, statement, proved, differences, rebuild, asks)
         checks += _acts(folder, proved, older)
         mode, found = _motion(folder, statement, proved, differences)
@@ -173,7 +177,7 @@ def _prove_again(
         if asks and all(c.ok for c in checks):  # what moves otherwise is refuted, whatever its program says
             law = law_check.check(folder, scratch, statement, proved, differences, deadline, progress)
             if law is None:
-                return _running(run, name, checks, differences)
+                return _running(run, checks, differences)
             checks.append(law.check)
         asked = law.same if law else runs and not asks
         checks += _kinds(statement, proved, asked=asked)
@@ -183,6 +187,7 @@ def _prove_again(
                 folder,
                 scratch,
                 proved,
+                stamped=statement.predicate.proof.trajectory_sha256,
                 exact=not differences,
                 vouched=vouched,
                 every=every,
@@ -190,7 +195,7 @@ def _prove_again(
                 progress=progress,
             )
             if audits is None:
-                return _running(run, name, checks, differences)
+                return _running(run, checks, differences)
             checks += audits
         if not vouched and all(c.ok for c in checks):  # what moves otherwise is refuted, however it looks
             checks += _pictures(folder, statement, proved)
@@ -351,14 +356,8 @@ def _pictures(folder: Path, statement: Statement, proved: Proved) -> Iterator[Ch
     yield Check(name="pictures", ok=not found, detail=detail)
 
 
-def _running(run: Run, name: str, checks: list[Check], differences: tuple[str, ...]) -> Verification:
-    return Verification(
-        run=run.name,
-        state="running",
-        checks=tuple(checks),
-        environment_differences=differences,
-        next_move=f"worldwright stamp verify {name}",
-    )
+def _running(run: Run, checks: list[Check], differences: tuple[str, ...]) -> Verification:
+    return Verification(run=run.name, state="running", checks=tuple(checks), environment_differences=differences)
 
 
 def _refuted(

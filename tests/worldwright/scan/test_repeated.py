@@ -66,11 +66,39 @@ def test_each_part_is_what_its_repetitions_show(tmp_path: Path) -> None:
         "says of `without gravity`: crashed, and here: it ran" in wrong(causes=silent)["causes: gravity of objective 0"]
     )
     limited = cause.model_copy(update={"trials": changed(cause, "without gravity", failed="out_of_memory: too large")})
-    assert wrong(causes=limited) == {}  # a larger machine shows what that one could not
-    blamed = robust.model_copy(
-        update={"claims": (robust.claims[0].model_copy(update={"not_in": ("vary masses=1.01",)}),)}
-    )
-    assert [*wrong(robust=blamed)] == ["robust: vary masses=1.01"]
+    gone = cause.model_copy(update={"causes": (), "trials": limited.trials})
+    for whole in (False, True):  # a larger machine shows what that one could not, which must then say so
+        assert "outcome is caused" in "".join(wrong(causes=limited, exact=whole).values())
+        assert [*wrong(causes=gone, whole=whole)] == ["causes" if whole else "causes: gravity of objective 0"]
+        room = Here(run, world=world, folder=tmp_path)
+        room.made |= now.made
+        room.failed["without gravity"] = "out_of_memory: too large"
+        del room.made["without gravity"]
+        untested = Causes(planned, world.plan, causal.acting, room)
+        untested.plan_trials()
+        assert untested.report().causes[0].outcome == "unclear"
+        assert wrong(causes=untested.report(), whole=whole) == {}
+    (held,) = robust.claims
+    assert held.holds == held.of == len(robustness.WORLDS) and not held.not_in
+
+    def claimed(**facts: object) -> set[str]:
+        """The parts that do not bear out a report whose one claim has other facts; all of it must refuse it, too."""
+        told = robust.model_copy(update={"claims": (held.model_copy(update=facts),)})
+        assert [*wrong(robust=told, whole=True)] == ["robust"], facts
+        return {*wrong(robust=told)}
+
+    every = {part.name for part in repeated.parts(run, world.plan, planned, {"robust": robust})}
+    blamed = "vary masses=1.01"
+    assert claimed(holds=6, not_in=(blamed,), message=f"{blamed}: it moved nowhere") == {f"robust: {blamed}"}
+    assert claimed(holds=99, of=99) == claimed(holds=6) == claimed(message="it never moved") == every
+    assert claimed(holds=6, not_in=("vary luck=2",)) == every
+    assert {*wrong(robust=robust.model_copy(update={"claims": ()}))} == every
+    twice = robust.model_copy(update={"worlds": robust.worlds * 2, "claims": (held.model_copy(update={"of": 14}),)})
+    assert {*wrong(robust=twice)} == every
+    small = changed(robust, blamed, failed="disk_full: no room", trajectory_sha256="")
+    without_it = robust.model_copy(update={"worlds": small, "claims": (held.model_copy(update={"of": 6, "holds": 6}),)})
+    assert wrong(robust=without_it) == wrong(robust=without_it, whole=True) == {}
+    assert {*wrong(robust=robust.model_copy(update={"worlds": small}))} == every  # it holds in a world that nobody saw
     fewer = finer_said.model_copy(update={"claims": ()})
     assert [*wrong(refine=fewer)] == [*wrong(refine=fewer, exact=False)] == ["refine"]
 

@@ -11,7 +11,7 @@ from worldwright.model.evidence.audits import Held, RobustReport, Trial
 from worldwright.model.evidence.reports import ExpectReport
 from worldwright.scan.audits import robustness
 from worldwright.scan.audits.trials import label_of
-from worldwright.stamp import bundle, trials_again
+from worldwright.stamp import bundle, trials_again, verification
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.statement import Statement
 
@@ -75,9 +75,44 @@ def test_a_damaged_report_is_no_audit(tmp_path: Path, content: bytes) -> None:
         tmp_path,
         tmp_path,
         proved,  # type: ignore[arg-type]
+        stamped="",
         exact=True,
         vouched=True,
         every=False,
         deadline=0.0,
     )
     assert not check.ok and "causes.json is damaged" in check.detail
+
+
+@pytest.mark.parametrize("exact", [True, False])
+def test_an_audit_of_another_recording_is_none_of_this_world_on_any_machine(tmp_path: Path, exact: bool) -> None:
+    (tmp_path / "evidence").mkdir()
+    there = RobustReport(
+        trajectory_sha256="1" * 64
+    )  # what this machine proved, which elsewhere is not what was stamped
+    (tmp_path / "evidence" / "robust.json").write_text(there.model_dump_json(), encoding="utf-8")
+    proved = SimpleNamespace(run=None, recording=tmp_path, trajectory_sha256="1" * 64)
+    (check,) = trials_again.checks(
+        tmp_path,
+        tmp_path,
+        proved,  # type: ignore[arg-type]
+        stamped="2" * 64,
+        exact=exact,
+        vouched=True,
+        every=False,
+        deadline=0.0,
+    )
+    assert not check.ok and check.detail == "robust.json is of another recording"
+
+
+def test_the_command_that_goes_on_keeps_what_was_asked(
+    accepted: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = copy(accepted)
+    monkeypatch.setattr(verification, "_again", lambda *_: None)  # it needs longer than this call
+    plain = stamp.verify(str(folder))
+    assert plain.state == "running" and plain.next_move == f"worldwright stamp verify {folder}"
+    signer = folder / "accepted" / "stamp.pub"
+    asked = stamp.verify(str(folder), signer=signer, anybody=True, rebuild=True, every_trial=True)
+    options = f"--signer {signer} --anybody --rebuild --every-trial"
+    assert asked.state == "running" and asked.next_move == f"worldwright stamp verify {folder} {options}"

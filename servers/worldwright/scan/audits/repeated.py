@@ -57,7 +57,9 @@ def parts(
                 _of_causes(run, plan, trajectory, report) if not whole else [_all_causes(run, plan, trajectory, report)]
             )
         elif isinstance(report, RobustReport):
-            found += _of_robust(run, plan, trajectory, report)
+            found += (
+                _of_robust(run, plan, trajectory, report) if not whole else [_all_robust(run, plan, trajectory, report)]
+            )
         elif report.refined_sha256:  # else it says itself that nothing was shown
             found.append(_of_refine(run, plan, trajectory, report))
     return found
@@ -83,8 +85,11 @@ def unlike(part: Part, *, exact: bool) -> str:
         if other is None:
             return f"tells nothing of the repetition `{row.label}`"
         codes = [one.failed.partition(":")[0] for one in (other, row)]
-        if codes[0] in LIMITS:  # it says itself that a machine's limit kept it from being shown
-            return ""
+        if codes[0] in LIMITS:  # a machine's limit kept it from being shown there: what follows from that must be said
+            part.trials.made.pop(row.label, None)
+            part.trials.failed[row.label] = other.failed
+            part.trials.limited.add(row.label)
+            continue
         if codes[0] != codes[1]:
             return f"says of `{row.label}`: {codes[0] or 'it ran'}, and here: {codes[1] or 'it ran'}"
         if row.failed:
@@ -149,18 +154,44 @@ def _fresh(run: Run, plan: Plan, trajectory: Trajectory, acted: tuple[Acting, ..
 def _of_robust(run: Run, plan: Plan, trajectory: Trajectory, report: RobustReport) -> Iterator[Part]:
     for words in robustness.WORLDS:
         trials = Trials(run)
-        label = trials.ask(*words)
-        said = {f"objective {c.objective}, {c.name}": label not in c.not_in for c in report.claims}
+        rows = partial(_one_world, plan, trajectory, report, trials, trials.ask(*words))
+        yield Part(f"robust: {label_of(words)}", trials, report.worlds, rows, ("worlds", "held"))
 
-        def rows(said: dict[str, bool] = said, trials: Trials = trials, label: str = label) -> Rows:
-            if label in trials.failed and not trials.failed[label].startswith(robustness.DIVERGED):
-                return said, said  # of a world that could not be simulated nobody knows
-            there = {} if label in trials.failed else {label: expecting.expect(trials.made[label], plan)}
-            lost = {label: trials.failed[label]} if label in trials.failed else {}
-            held = robustness.claims(expecting.expect(trajectory, plan), there, lost)
-            return said, {f"objective {c.objective}, {c.name}": label not in c.not_in for c in held}
 
-        yield Part(f"robust: {label}", trials, report.worlds, rows)
+def _one_world(plan: Plan, trajectory: Trajectory, report: RobustReport, trials: Trials, label: str) -> Rows:
+    """With what one world shows, and every count as it follows from what the report lists of the others."""
+    failed = trials.failed.get(label, "")
+    there = {label: expecting.expect(trials.made[label], plan)} if label in trials.made else {}
+    lost = {label: failed} if failed.startswith(robustness.DIVERGED) else {}
+    diverged = [w.label for w in report.worlds if w.failed.startswith(robustness.DIVERGED)]
+    known = [w.label for w in report.worlds if not w.failed] + diverged  # in the order of `not_in`
+    claims = []
+    for number, here in enumerate(robustness.claims(expecting.expect(trajectory, plan), there, lost)):
+        told = report.claims[number] if number < len(report.claims) else here
+        unlike = tuple(one for one in known if one in (here if one == label else told).not_in)
+        message = "" if not unlike else here.message if unlike[0] == label else told.message
+        counted = {"of": len(known), "holds": len(known) - len(unlike), "not_in": unlike}
+        claims.append(here.model_copy(update={**counted, "message": message}))
+    worlds = tuple(Trial(label=label_of(words)) for words in robustness.WORLDS)
+    return _held(report, RobustReport(trajectory_sha256=trajectory.sha256, worlds=worlds, claims=tuple(claims)))
+
+
+def _all_robust(run: Run, plan: Plan, trajectory: Trajectory, report: RobustReport) -> Part:
+    trials = Trials(run)
+    robustness.ask(trials)
+
+    def rows() -> Rows:
+        return _held(report, robustness.report(trajectory, plan, trials))
+
+    return Part("robust", trials, report.worlds, rows, ("worlds", "held"))
+
+
+def _held(*reports: RobustReport) -> Rows:
+    said, shown = (_json(report) for report in reports)
+    for row in (said, shown):
+        row["worlds"] = [world["label"] for world in row["worlds"]]  # what became of them is compared by itself
+        row["held"] = [(c["objective"], c["name"], c["holds"], c["of"], c["not_in"]) for c in row["claims"]]
+    return said, shown
 
 
 def _of_refine(run: Run, plan: Plan, trajectory: Trajectory, report: RefineReport) -> Part:

@@ -20,7 +20,14 @@ from ...model.recording.trajectory_files import read_trajectory
 
 AT_ONCE = 2
 POLL_S = 0.2
-LIMITS = ("timed_out", "out_of_memory", "too_much_output", "killed", "cancelled")
+LIMITS = frozenset(
+    (
+        *("timed_out", "out_of_memory", "out_of_cpu_time", "too_much_output", "file_too_large", "too_many_processes"),
+        *("disk_full", "not_writable", "killed", "cancelled", "refused", "internal"),
+    )
+)
+"""Codes of ends that say nothing of a world: of a limit, of the machine, of a person or of the suite. A pass that cannot begin
+is `refused`."""
 
 
 @dataclass
@@ -33,7 +40,7 @@ class Trials:
     made: dict[str, Trajectory] = field(default_factory=dict)
     failed: dict[str, str] = field(default_factory=dict)
     limited: set[str] = field(default_factory=set)
-    """Labels that a limit of time or memory stopped, or that were cancelled, which says nothing about the world."""
+    """Labels that could not begin here or ended in one of `LIMITS`, which says nothing about the world."""
     memory: Path | None = None
     """The file that remembers jobs under way from one call to the next, so that a failing one is not restarted for ever;
     None: nothing is remembered."""
@@ -76,7 +83,8 @@ class Trials:
                 try:
                     status = self._status(label)
                 except JobError as refused:
-                    self.failed[label] = str(refused)
+                    self.limited.add(label)
+                    self.failed[label] = _told(refused.code, refused.cause, refused.next_move)
                     continue
                 if not status.ended:
                     running += 1
@@ -88,9 +96,7 @@ class Trials:
                     continue
                 if status.code in LIMITS:
                     self.limited.add(label)
-                self.failed[label] = f"{status.code}: {status.message}" + (
-                    f"; {status.next_move}" if status.next_move else ""
-                )
+                self.failed[label] = _told(status.code, status.message, status.next_move)
             done = len(self.words) - len(self.pending)
             progress(done, len(self.words), f"{done} of {len(self.words)} repetitions")
             if not self.pending:
@@ -131,6 +137,10 @@ class Trials:
         facts: dict[str, dict[str, Any]] = {label: {"trajectory_sha256": t.sha256} for label, t in self.made.items()}
         facts |= {label: {"failed": why} for label, why in self.failed.items()}
         return tuple(Trial(label=label, **facts.get(label, {})) for label in self.words)
+
+
+def _told(code: str, cause: str, next_move: str) -> str:
+    return f"{code}: {cause}" + (f"; {next_move}" if next_move else "")
 
 
 def label_of(words: tuple[str, ...]) -> str:
