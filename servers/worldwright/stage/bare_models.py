@@ -7,6 +7,7 @@ recording can be scanned, queried, filmed and compared like any other.
 
 import hashlib
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from ..model.evidence.run import Run, sha256_file
 from . import given_models
 
 MOST_FILES = 5_000
-PROGRAM = '''"""Records {name} as it is, for {duration:g} s. Made by `worldwright stage start --model`."""
+PROGRAM = '''"""Records {told} as it is, for {duration:g} s. Made by `worldwright stage start --model`."""
 
 import mujoco
 
@@ -73,7 +74,13 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
         urdf = _is_urdf(model)
         read = "models.standing(MODEL)" if urdf else "mujoco.MjSpec.from_file(MODEL)"
         modules = "cameras, models, program" if urdf else "cameras, program"
-        told = {"name": model.name, "path": str(model), "duration": facts["duration"], "read": read, "modules": modules}
+        told = {
+            "told": _told(model.name),
+            "path": str(model),
+            "duration": facts["duration"],
+            "read": read,
+            "modules": modules,
+        }
         write_atomic(run.program, PROGRAM.format(**told))
         write_json(run.model, facts)
     return run
@@ -138,6 +145,11 @@ def made_of(model: Path) -> list[Path]:
         told = ", ".join(missing[:5]) + (f" and {len(missing) - 5} more" if len(missing) > 5 else "")
         raise _refused(f"the model names files that are not there: {told}", model, "put them where it names them")
     return list(found)
+
+
+def _told(name: str) -> str:
+    """A file's name as it may stand in a program's docstring: another's archive may call a file anything."""
+    return re.sub(r"[^\w .-]", "_", name)
 
 
 def _refused(cause: str, place: Path, next_move: str) -> JobError:

@@ -1,5 +1,6 @@
 """Any MJCF file can be recorded, with what it includes, and nothing else of the folder it lies in."""
 
+import ast
 import json
 import struct
 from pathlib import Path
@@ -124,6 +125,20 @@ def test_a_urdf_with_its_meshes_in_an_archive_is_recorded(level, model):
     with pytest.raises(JobError, match="outside") as told:
         start(model=Path("climbing.zip"))
     assert told.value.code == "climbs_out"
+
+
+def test_a_name_from_an_archive_does_not_become_a_program(model):
+    import zipfile
+
+    name = 'a"""\nprint("INJECTED")\n"""b\\.xml'
+    with zipfile.ZipFile("strange.zip", "w") as made:
+        made.writestr(name, "<mujoco/>")
+    run = bare_models.prepare(Path("strange.zip"), 0.1, None)
+    tree = ast.parse(run.program.read_text())
+    assert not any(isinstance(node, ast.Call) and ast.unparse(node.func) == "print" for node in ast.walk(tree))
+    assert [node.value.value for node in tree.body if isinstance(node, ast.Assign)] == [
+        str(run.folder.absolute() / "model" / name)
+    ]
 
 
 @pytest.mark.parametrize(
