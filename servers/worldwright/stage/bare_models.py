@@ -124,8 +124,8 @@ def made_of(model: Path) -> list[Path]:
                 given = [attributes[name] for name in ("assetdir", "meshdir", "texturedir") if name in attributes]
                 folders += [base / name for base in (model.parent, path.parent) for name in given]
             for attribute, value in attributes.items():
-                if not attribute.startswith("file"):
-                    continue
+                if not attribute.startswith("file") or not value:
+                    continue  # an empty name is none: MuJoCo reads `<texture builtin="flat" file=""/>`
                 named.append((path, value))
                 if tag in ("include", "model"):
                     near = _candidates(path, value, folders[:1])

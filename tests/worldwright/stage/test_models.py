@@ -157,6 +157,16 @@ def test_what_a_model_is_made_of_and_is_not_there_is_told_before_it_runs(model, 
     assert told.value.code == "refused" and told.value.next_move
 
 
+def test_an_empty_name_names_no_file(model):
+    import mujoco
+
+    model.write_text(
+        '<mujoco><asset><texture name="t" type="2d" builtin="flat" width="8" height="8" file=""/></asset></mujoco>'
+    )
+    mujoco.MjModel.from_xml_path(str(model))
+    assert bare_models.made_of(model) == [model]
+
+
 def test_a_folder_gives_its_one_model(model):
     with pytest.raises(NotFoundError, match=r"2 models in it: thrown\.xml, unrelated\.xml"):
         start(model=model.parent)
