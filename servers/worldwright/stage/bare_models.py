@@ -48,7 +48,7 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
     Args:
         model: an MJCF or URDF file; a folder or an archive with one, which is unpacked into the run's folder.
         duration: simulated time, s; 5 when None.
-        folder: its folder; `runs/<name of the file>` when None.
+        folder: its folder; `runs/<name of the file, less its endings>` when None.
 
     Raises:
         NotFoundError: there is no such file, or no model in it.
@@ -60,7 +60,7 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
         raise NotFoundError(
             "there is no such model", place=str(model), next_move="give the path of an MJCF or URDF file"
         )
-    run = Run(folder or Path("runs") / model.name.partition(".")[0])
+    run = Run(folder or Path("runs") / given_models.name_of(model))
     if run.plan.exists():
         raise GateError(
             "this folder is a run with a plan, which says what its model is",

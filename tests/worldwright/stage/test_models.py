@@ -2,6 +2,7 @@
 
 import ast
 import json
+import os
 import struct
 from pathlib import Path
 
@@ -165,6 +166,43 @@ def test_an_empty_name_names_no_file(model):
     )
     mujoco.MjModel.from_xml_path(str(model))
     assert bare_models.made_of(model) == [model]
+
+
+@pytest.mark.parametrize(
+    ("given", "name"),
+    [("robot.v1.xml", "robot.v1"), ("robot.v2.xml", "robot.v2"), (".m.xml", "m"), (".xml", "model"), ("a.XML.urdf", "a"), ("b.c", "b.c")],
+)  # fmt: skip
+def test_every_model_has_a_run_of_its_own(model, given, name):
+    model.with_name(given).write_text("<mujoco/>")
+    assert bare_models.prepare(model.with_name(given), 0.1, None).folder == Path("runs").absolute() / name
+
+
+def test_the_folder_above_has_its_own_name(model):
+    model.with_name("unrelated.xml").unlink()
+    assert bare_models.prepare(model.parent / "parts" / "..", 0.1, None).folder == Path("runs/models").absolute()
+
+
+def test_an_archive_is_unpacked_anew_only_when_it_or_what_came_of_it_changed(model):
+    import zipfile
+
+    def packed(text):
+        with zipfile.ZipFile("one.zip", "w") as made:
+            made.writestr("one.xml", text)
+
+    packed("<mujoco/>")
+    bare_models.prepare(Path("one.zip"), 0.1, None)
+    one = Path("runs/one/model/one.xml")
+    first = one.stat().st_ino, one.stat().st_mtime_ns
+    with one.open() as read:
+        bare_models.prepare(Path("one.zip"), 0.1, None)
+        assert os.fstat(read.fileno()).st_nlink == 1  # it is still there, not another of its name
+    assert (one.stat().st_ino, one.stat().st_mtime_ns) == first
+    one.write_text("<mujoco><worldbody/></mujoco>")
+    bare_models.prepare(Path("one.zip"), 0.1, None)
+    assert one.read_text() == "<mujoco/>"
+    packed('<mujoco model="two"/>')
+    bare_models.prepare(Path("one.zip"), 0.1, None)
+    assert "two" in one.read_text()
 
 
 def test_a_folder_gives_its_one_model(model):
