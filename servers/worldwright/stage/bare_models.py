@@ -7,6 +7,7 @@ recording can be scanned, queried, filmed and compared like any other.
 
 import hashlib
 import json
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -19,7 +20,7 @@ from ..model.evidence.run import Run, sha256_file
 from . import given_models
 
 MOST_FILES = 5_000
-PROGRAM = '''"""Records {name} as it is, for {duration:g} s. Made by `worldwright stage start --model`."""
+PROGRAM = '''"""Records {told} as it is, for {duration:g} s. Made by `worldwright stage start --model`."""
 
 import mujoco
 
@@ -47,7 +48,7 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
     Args:
         model: an MJCF or URDF file; a folder or an archive with one, which is unpacked into the run's folder.
         duration: simulated time, s; 5 when None.
-        folder: its folder; `runs/<name of the file>` when None.
+        folder: its folder; `runs/<name of the file, less its endings>` when None.
 
     Raises:
         NotFoundError: there is no such file, or no model in it.
@@ -59,7 +60,7 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
         raise NotFoundError(
             "there is no such model", place=str(model), next_move="give the path of an MJCF or URDF file"
         )
-    run = Run(folder or Path("runs") / model.name.partition(".")[0])
+    run = Run(folder or Path("runs") / given_models.name_of(model))
     if run.plan.exists():
         raise GateError(
             "this folder is a run with a plan, which says what its model is",
@@ -73,7 +74,13 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
         urdf = _is_urdf(model)
         read = "models.standing(MODEL)" if urdf else "mujoco.MjSpec.from_file(MODEL)"
         modules = "cameras, models, program" if urdf else "cameras, program"
-        told = {"name": model.name, "path": str(model), "duration": facts["duration"], "read": read, "modules": modules}
+        told = {
+            "told": _told(model.name),
+            "path": str(model),
+            "duration": facts["duration"],
+            "read": read,
+            "modules": modules,
+        }
         write_atomic(run.program, PROGRAM.format(**told))
         write_json(run.model, facts)
     return run
@@ -117,8 +124,8 @@ def made_of(model: Path) -> list[Path]:
                 given = [attributes[name] for name in ("assetdir", "meshdir", "texturedir") if name in attributes]
                 folders += [base / name for base in (model.parent, path.parent) for name in given]
             for attribute, value in attributes.items():
-                if not attribute.startswith("file"):
-                    continue
+                if not attribute.startswith("file") or not value:
+                    continue  # an empty name is none: MuJoCo reads `<texture builtin="flat" file=""/>`
                 named.append((path, value))
                 if tag in ("include", "model"):
                     near = _candidates(path, value, folders[:1])
@@ -138,6 +145,11 @@ def made_of(model: Path) -> list[Path]:
         told = ", ".join(missing[:5]) + (f" and {len(missing) - 5} more" if len(missing) > 5 else "")
         raise _refused(f"the model names files that are not there: {told}", model, "put them where it names them")
     return list(found)
+
+
+def _told(name: str) -> str:
+    """A file's name as it may stand in a program's docstring: another's archive may call a file anything."""
+    return re.sub(r"[^\w .-]", "_", name)
 
 
 def _refused(cause: str, place: Path, next_move: str) -> JobError:

@@ -3,14 +3,18 @@
 An archive is unpacked, bounded and in its place, below the folder that its recording goes to.
 """
 
+import hashlib
+import re
 import shutil
 from pathlib import Path
 
 from worldkit import model_files
 from worldkit.errors import IntakeError
+from worldkit.files import write_atomic
 from worldkit.intake import unpacked
 
 from ..model.errors import JobError, NotFoundError
+from ..model.evidence.run import sha256_file
 
 UNPACKED = "model"
 WANTED = (
@@ -22,6 +26,15 @@ WANTED = (
     ".jpeg",
     *(s for kinds in model_files.KINDS.values() for s in kinds),
 )
+UNPACKED_FROM = ".unpacked-from"
+"""In the folder of what was unpacked: the hash of the archive and of all that came out of it. No member is called so."""
+
+
+def name_of(given: Path) -> str:
+    """What a model's run is called: the file's or folder's name without its endings, "model" where nothing is left."""
+    name = given.resolve().name if given.name == ".." else given.name
+    endings = "|".join(map(re.escape, (".urdf", ".xml", ".mjcf", *unpacked.ARCHIVES)))
+    return re.sub(rf"({endings})+$", "", name, flags=re.IGNORECASE).strip(".") or "model"
 
 
 def the_model(given: Path, folder: Path) -> Path:
@@ -40,8 +53,12 @@ def the_model(given: Path, folder: Path) -> Path:
     place = given
     if given.is_file():
         place = folder / UNPACKED
-        shutil.rmtree(place, ignore_errors=True)
-        unpack(given, place)
+        kept = place / UNPACKED_FROM
+        # A job under way may be reading what the same archive gave before.
+        if not kept.is_file() or kept.read_text(encoding="utf-8") != _state(given, place):
+            shutil.rmtree(place, ignore_errors=True)
+            unpack(given, place)
+            write_atomic(kept, _state(given, place))
     found = model_files.models_in(place)
     if len(found) != 1:
         told = ", ".join(path.relative_to(place).as_posix() for path in found[:8])
@@ -50,6 +67,13 @@ def the_model(given: Path, folder: Path) -> Path:
             next_move=f"name one of them, below {place}" if found else "give a folder with a URDF or MJCF file",
         )  # fmt: skip
     return found[0].absolute()
+
+
+def _state(archive: Path, place: Path) -> str:
+    """A hash of the archive and of all files in the folder, whoever wrote them last."""
+    files = sorted(path for path in place.rglob("*") if path.is_file() and path.name != UNPACKED_FROM)
+    rows = [(path.relative_to(place).as_posix(), sha256_file(path)) for path in files]
+    return hashlib.sha256(repr([sha256_file(archive), *rows]).encode()).hexdigest()
 
 
 def unpack(archive: Path, into: Path) -> None:

@@ -1,6 +1,8 @@
 """Any MJCF file can be recorded, with what it includes, and nothing else of the folder it lies in."""
 
+import ast
 import json
+import os
 import struct
 from pathlib import Path
 
@@ -126,6 +128,20 @@ def test_a_urdf_with_its_meshes_in_an_archive_is_recorded(level, model):
     assert told.value.code == "climbs_out"
 
 
+def test_a_name_from_an_archive_does_not_become_a_program(model):
+    import zipfile
+
+    name = 'a"""\nprint("INJECTED")\n"""b\\.xml'
+    with zipfile.ZipFile("strange.zip", "w") as made:
+        made.writestr(name, "<mujoco/>")
+    run = bare_models.prepare(Path("strange.zip"), 0.1, None)
+    tree = ast.parse(run.program.read_text())
+    assert not any(isinstance(node, ast.Call) and ast.unparse(node.func) == "print" for node in ast.walk(tree))
+    assert [node.value.value for node in tree.body if isinstance(node, ast.Assign)] == [
+        str(run.folder.absolute() / "model" / name)
+    ]
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -140,6 +156,53 @@ def test_what_a_model_is_made_of_and_is_not_there_is_told_before_it_runs(model, 
     with pytest.raises(JobError, match=said) as told:
         start(model=model, duration=0.1)
     assert told.value.code == "refused" and told.value.next_move
+
+
+def test_an_empty_name_names_no_file(model):
+    import mujoco
+
+    model.write_text(
+        '<mujoco><asset><texture name="t" type="2d" builtin="flat" width="8" height="8" file=""/></asset></mujoco>'
+    )
+    mujoco.MjModel.from_xml_path(str(model))
+    assert bare_models.made_of(model) == [model]
+
+
+@pytest.mark.parametrize(
+    ("given", "name"),
+    [("robot.v1.xml", "robot.v1"), ("robot.v2.xml", "robot.v2"), (".m.xml", "m"), (".xml", "model"), ("a.XML.urdf", "a"), ("b.c", "b.c")],
+)  # fmt: skip
+def test_every_model_has_a_run_of_its_own(model, given, name):
+    model.with_name(given).write_text("<mujoco/>")
+    assert bare_models.prepare(model.with_name(given), 0.1, None).folder == Path("runs").absolute() / name
+
+
+def test_the_folder_above_has_its_own_name(model):
+    model.with_name("unrelated.xml").unlink()
+    assert bare_models.prepare(model.parent / "parts" / "..", 0.1, None).folder == Path("runs/models").absolute()
+
+
+def test_an_archive_is_unpacked_anew_only_when_it_or_what_came_of_it_changed(model):
+    import zipfile
+
+    def packed(text):
+        with zipfile.ZipFile("one.zip", "w") as made:
+            made.writestr("one.xml", text)
+
+    packed("<mujoco/>")
+    bare_models.prepare(Path("one.zip"), 0.1, None)
+    one = Path("runs/one/model/one.xml")
+    first = one.stat().st_ino, one.stat().st_mtime_ns
+    with one.open() as read:
+        bare_models.prepare(Path("one.zip"), 0.1, None)
+        assert os.fstat(read.fileno()).st_nlink == 1  # it is still there, not another of its name
+    assert (one.stat().st_ino, one.stat().st_mtime_ns) == first
+    one.write_text("<mujoco><worldbody/></mujoco>")
+    bare_models.prepare(Path("one.zip"), 0.1, None)
+    assert one.read_text() == "<mujoco/>"
+    packed('<mujoco model="two"/>')
+    bare_models.prepare(Path("one.zip"), 0.1, None)
+    assert "two" in one.read_text()
 
 
 def test_a_folder_gives_its_one_model(model):

@@ -7,13 +7,13 @@ succeed and vanish.
 
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
 from . import host_facts, rlimits, seccomp
-from .confinement import DEVICES, SYSTEM, Confinement, devices, runtime_paths
+from .confinement import SYSTEM, Confinement, devices, runtime_paths
 
-SETTINGS = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/bus", "/proc/fs", "/proc/acpi", "/proc/scsi")
+SETTINGS = ("/proc/sys", "/proc/sysrq-trigger", "/proc/irq", "/proc/fs", "/proc/acpi")
 
 
 def unavailable() -> str:
@@ -30,7 +30,7 @@ def command(call: list[str], confinement: Confinement, denial: int) -> list[str]
         shutil.which("bwrap") or "bwrap",
         *("--unshare-all", "--die-with-parent", "--new-session", "--clearenv", "--cap-drop", "ALL"),
         *("--hostname", host_facts.HOST_NAME),
-        *_system(),
+        *as_it_is([*map(Path, SYSTEM), *host_facts.readable()]),
         *("--proc", "/proc", "--dev", "/dev"),
         # To the kernel's own settings, root's job is still root, whatever capabilities it lacks.
         *(word for path in SETTINGS if Path(path).exists() for word in ("--ro-bind", path, path)),
@@ -58,24 +58,22 @@ def before_exec(confinement: Confinement) -> Callable[[], None]:
     return rlimits.before_exec(confinement)
 
 
-def _system() -> list[str]:
-    """System folders, read-only; those that are links stay links."""
+def as_it_is(paths: Iterable[Path]) -> list[str]:
+    """Show each read-only in its own place; those that are links stay links."""
     words: list[str] = []
-    for name in (*SYSTEM, *DEVICES):
-        path = Path(name)
+    for path in paths:
         if path.is_symlink():
-            words += ["--symlink", str(path.readlink()), name]
+            words += ["--symlink", str(path.readlink()), str(path)]
         elif path.exists():
-            words += ["--ro-bind", name, name]
+            words += ["--ro-bind", str(path), str(path)]
     return words
 
 
 def _hidden() -> list[str]:
     """Cover what tells of this very machine."""
-    words = [word for path in host_facts.folders() for word in ("--tmpfs", str(path), "--remount-ro", str(path))]
-    return words + [
-        word for name in host_facts.BOOT if Path(name).exists() for word in ("--ro-bind", "/dev/null", name)
-    ]
+    words = [word for name in host_facts.EMPTY if Path(name).exists() for word in ("--ro-bind", "/dev/null", name)]
+    bare = [name for name in host_facts.BARE if Path(name).exists()]
+    return words + [word for name in bare for word in ("--tmpfs", name, "--remount-ro", name)]
 
 
 def _outermost(paths: list[Path]) -> list[Path]:

@@ -22,9 +22,7 @@ SYSTEM = (
     "/etc/OpenCL",
     "/etc/localtime",
 )
-"""Parts of the system that any job may read: programs and libraries; what it may know of the devices, each level says."""
-DEVICES = ("/sys/dev", "/sys/devices", "/sys/class")
-"""Where the kernel describes the devices, the graphics among them, and much that is nobody's business (`host_facts`)."""
+"""Parts of the system that any job may read: programs and libraries; what it may know of the devices, `host_facts` says."""
 
 
 def processes() -> int:

@@ -10,7 +10,7 @@ import contextlib
 import ctypes
 import os
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from . import host_facts, rlimits, seccomp
@@ -70,7 +70,7 @@ def _rules(confinement: Confinement) -> list[tuple[Path, int]]:
     everything = sum(RIGHTS_BY_ABI.values())
     rules = [(Path(name), RUN) for name in SYSTEM]
     rules += [(path, RUN) for path in runtime_paths()]
-    rules += [(path, READ) for path in (*host_facts.graphics(), *confinement.reads)]
+    rules += [*_described(), *((path, READ) for path in confinement.reads)]
     # The import system lists the folder of worldkit; it may read nothing else there.
     rules += [(WORLD, READ_DIR)]
     rules += [(path, everything & ~EXECUTE & ~IOCTL_DEVICE) for path in (confinement.out, confinement.scratch)]
@@ -78,6 +78,18 @@ def _rules(confinement: Confinement) -> list[tuple[Path, int]]:
     rules += [(path, READ | WRITE_FILE | IOCTL_DEVICE) for path in devices()]
     rules += [(Path("/proc") / name, READ) for name in PROC]
     return rules
+
+
+def _described(root: Path = Path("/sys")) -> Iterator[tuple[Path, int]]:
+    """What may be read of /sys; of a card's folders the names of what lies in them too, as its driver lists them.
+
+    Links need no rule: they are read without one, and one on them would be on what they lead to.
+    """
+    for path in host_facts.readable(root):
+        if not path.is_symlink():
+            yield path, READ
+            if path.is_file():
+                yield path.parent, READ_DIR
 
 
 def restrict(rules: list[tuple[Path, int]]) -> None:
