@@ -11,6 +11,7 @@ own rest pose, as for every object of a plan.
 import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Collection, Sequence
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -119,10 +120,13 @@ def facts(text: str, name: str, folder: str | None = None, files: Sequence[str] 
         `extents` (3, m, of its rest pose), `mass` (kg), `bodies`, `actuators` and `geoms` (names), `joints` (name to kind:
         hinge, slide, ball, free), `moves` (whether any part moves against its root).
     """
+    with beside_program.below(Path(root)) if root else nullcontext():
+        return _facts(text, name, folder, files)
+
+
+def _facts(text: str, name: str, folder: str | None, files: Sequence[str]) -> dict[str, Any]:
     import mujoco
 
-    if root:
-        sys.path.insert(0, root)
     spec = mujoco.MjSpec()
     body = attach(spec, text, name=name, pos=(0, 0, 0), folder=folder, files=files)
     model = spec.compile()
@@ -174,11 +178,8 @@ def standing(file: str) -> "mujoco.MjSpec":
     """
     path = Path(file)
     made = model_files.whole(path, path.parent.parent)
-    sys.path.insert(0, str(path.parent.parent.resolve()))
-    try:
+    with beside_program.below(path.parent.parent.resolve()):
         return parsed(made.text, path.stem, files=made.files)
-    finally:
-        sys.path.pop(0)
 
 
 def _checked(text: str, name: str) -> None:

@@ -1,6 +1,7 @@
 """A robot with its meshes beside the plan is drafted, its files belong to the approval, and a missing one is told."""
 
 import shutil
+from contextlib import suppress
 from pathlib import Path
 
 import mujoco
@@ -10,6 +11,7 @@ import trimesh
 from worldwright.draft import draft
 from worldwright.lint.tools import check_plan, check_program
 from worldwright.model import companions
+from worldwright.model.errors import PlanError
 from worldwright.model.plan import imported
 from worldwright.model.plan.plan_text import read_plan
 from worldwright.place.engine import resolve
@@ -72,3 +74,16 @@ def test_a_mesh_that_changes_is_read_anew(folder: Path) -> None:
     before = size()
     trimesh.creation.cylinder(0.03, 0.8).export(folder / "robot/meshes/upper.stl")
     assert size()[2] == pytest.approx(before[2] + 0.3)
+
+
+def test_no_module_beside_a_plan_runs_when_the_plan_is_read(folder: Path) -> None:
+    mesh = folder / "robot/meshes/upper.stl"
+    trimesh.load(mesh).export(mesh.with_suffix(".ply"))
+    (folder / "robot/arm.urdf").write_text(ARM.replace("upper.stl", "upper.ply"))
+    (folder / "trimesh.py").write_text(f"open({str(folder / 'ran')!r}, 'w').close()\n")
+    plan = read_plan(folder / "plan.md").plan
+    row = next(row for row in plan.assets if row.filename == "robot/arm.urdf")
+    with suppress(PlanError):
+        imported.load(row, folder)
+    assert not (folder / "ran").exists(), "nothing confines this process"
+    assert imported.load(row, folder).files == ("robot/meshes/upper.ply",)
