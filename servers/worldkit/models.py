@@ -170,15 +170,16 @@ def parsed(text: str, name: str, folder: str | None = None, files: Sequence[str]
     return child
 
 
-def standing(file: str) -> "mujoco.MjSpec":
-    """A URDF file as a world of its own, with its meshes wherever they lie below the folder above it.
+def standing(file: str, root: str = "") -> "mujoco.MjSpec":
+    """A URDF file as a world of its own, with its meshes wherever they lie below a folder (default: the one above its own).
 
     Raises:
         ValueError: it is no model, or a file of it is missing.
     """
     path = Path(file)
-    made = model_files.whole(path, path.parent.parent)
-    with beside_program.below(path.parent.parent.resolve()):
+    home = Path(root) if root else path.parent.parent
+    made = model_files.whole(path, home)
+    with beside_program.below(home.resolve()):
         return parsed(made.text, path.stem, files=made.files)
 
 

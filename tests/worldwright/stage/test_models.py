@@ -1,6 +1,8 @@
 """Any MJCF file can be recorded, with what it includes, and nothing else of the folder it lies in."""
 
 import json
+import runpy
+import shutil
 import struct
 from pathlib import Path
 
@@ -9,9 +11,9 @@ from click.testing import CliRunner
 
 from worldwright.cli import main
 from worldwright.model.errors import GateError, JobError, NotFoundError
-from worldwright.model.evidence.run import Run
+from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.model.recording.trajectory_files import read_trajectory
-from worldwright.stage import bare_models, sandbox
+from worldwright.stage import bare_models, given_models, sandbox
 from worldwright.stage.tools import start, wait
 
 WORLD = """<mujoco model="thrown">
@@ -51,7 +53,7 @@ def end(folder):
 
 
 def test_a_model_is_recorded_with_all_it_is_made_of(level, model):
-    names = {path.name for path in bare_models.made_of(model)}
+    names = {path.name for path in bare_models.made_of(model, model.parent)}
     assert names == {"thrown.xml", "ground.xml", "rock.stl", "t.png"}
     started = CliRunner().invoke(
         main, ["stage", "start", "--model", str(model), "--duration", "0.6", "--format", "json"]
@@ -124,6 +126,60 @@ def test_a_urdf_with_its_meshes_in_an_archive_is_recorded(level, model):
     with pytest.raises(JobError, match="outside") as told:
         start(model=Path("climbing.zip"))
     assert told.value.code == "climbs_out"
+
+
+PANDA = """<robot name="panda"><link name="base">
+<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><mesh filename="package://franka_description/meshes/rock.stl"/></geometry></collision></link></robot>"""
+
+
+@pytest.fixture
+def panda(model):
+    """A package as ROS's are laid out, its model two folders deep."""
+    home = model.parent.parent / "src/franka_description"
+    for name in ("robots/panda", "meshes"):
+        (home / name).mkdir(parents=True)
+    (home / "robots/panda/panda.urdf").write_text(PANDA)
+    (home / "meshes/rock.stl").write_bytes((home.parent.parent / "assets/rock.stl").read_bytes())
+    return home
+
+
+@pytest.mark.parametrize("given", ["robots/panda/panda.urdf", ".", "..", "robots"])
+def test_the_meshes_of_a_package_are_found_from_any_of_its_places(panda, tmp_path, given):
+    run = bare_models.prepare(panda / given, None, tmp_path / "runs/panda")
+    assert [path.name for path in bare_models.files(run)] == ["panda.urdf", "rock.stl"]
+    built = runpy.run_path(str(run.program))["build"]()
+    assert len(built.compile().mesh_vert) == 4
+
+
+def test_a_package_is_known_by_its_file_and_another_beside_it_is_read(panda, tmp_path):
+    other = panda.rename(panda.with_name("renamed"))
+    (other / "package.xml").write_text("<package/>")
+    (other.parent / "hand/meshes").mkdir(parents=True)
+    (other / "meshes/rock.stl").rename(other.parent / "hand/meshes/finger.stl")
+    urdf = other / "robots/panda/panda.urdf"
+    assert given_models.package_of(urdf) == other
+    urdf.write_text(PANDA.replace("franka_description/meshes/rock", "hand/meshes/finger"))
+    run = bare_models.prepare(urdf, None, tmp_path / "runs/panda")
+    assert bare_models.files(run)[1] == other.parent / "hand/meshes/finger.stl"
+
+
+def test_an_archive_is_unpacked_once_and_what_lies_beside_it_stays(panda, tmp_path):
+    folder = tmp_path / "kept"
+    (folder / "model").mkdir(parents=True)
+    (folder / "model/notes.txt").write_text("mine")
+    archive = shutil.make_archive(str(folder / "model/panda"), "zip", panda.parent, panda.name)
+    bare_models.prepare(Path(archive), None, folder)
+    assert (folder / "model/notes.txt").read_text() == "mine" and Path(archive).is_file()
+    (made,) = folder.glob(".model-*")
+    assert made.name == f".model-{sha256_file(Path(archive))[:12]}"
+    before = (made / "franka_description/meshes/rock.stl").stat()
+    bare_models.prepare(Path(archive), None, folder)
+    assert (made / "franka_description/meshes/rock.stl").stat() == before
+    (folder / "broken.zip").write_bytes(b"PK")
+    with pytest.raises(JobError, match="unpacked"):
+        bare_models.prepare(folder / "broken.zip", None, folder)
+    assert [*folder.glob(".model-*")] == [made]
 
 
 @pytest.mark.parametrize(
