@@ -1,5 +1,7 @@
 """A robot with its meshes beside the plan is drafted, its files belong to the approval, and a missing one is told."""
 
+import io
+import resource
 import shutil
 from contextlib import suppress
 from pathlib import Path
@@ -8,6 +10,7 @@ import mujoco
 import pytest
 import trimesh
 
+from worldkit import models
 from worldwright.draft import draft
 from worldwright.lint.tools import check_plan, check_program
 from worldwright.model import companions
@@ -87,3 +90,30 @@ def test_no_module_beside_a_plan_runs_when_the_plan_is_read(folder: Path) -> Non
         imported.load(row, folder)
     assert not (folder / "ran").exists(), "nothing confines this process"
     assert imported.load(row, folder).files == ("robot/meshes/upper.ply",)
+
+
+def test_a_mesh_of_a_plan_is_counted_as_often_as_it_is_drawn_before_it_is_read(folder: Path) -> None:
+    node = '<node><instance_geometry url="#g"/></node>'
+    (folder / "robot/meshes/upper.dae").write_text(
+        '<COLLADA><library_geometries><geometry id="g"><mesh><triangles count="9000"/></mesh></geometry></library_geometries>'
+        f"<library_visual_scenes><visual_scene>{1000 * node}</visual_scene></library_visual_scenes></COLLADA>"
+    )
+    (folder / "robot/arm.urdf").write_text(ARM.replace("upper.stl", "upper.dae"))
+    row = next(row for row in read_plan(folder / "plan.md").plan.assets if row.filename == "robot/arm.urdf")
+    with pytest.raises(PlanError, match="9,000,000 faces"):
+        imported.load(row, folder)
+
+
+def test_what_needs_more_memory_than_a_model_may_is_told(monkeypatch, capsys) -> None:
+    def greedy(**_: object) -> None:
+        assert resource.getrlimit(resource.RLIMIT_AS)[0] <= models.MOST_MEMORY
+        raise MemoryError
+
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    monkeypatch.setattr(models, "facts", greedy)
+    monkeypatch.setattr("sys.stdin", io.StringIO("{}"))
+    try:
+        models.main()
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, before)
+    assert "more than 6 GB of memory" in capsys.readouterr().out
