@@ -4,6 +4,9 @@ The engine reads some formats itself; of the others it is given vertices and fac
 """
 
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +14,17 @@ from .errors import IntakeError
 from .model_files import READ_FOR_IT
 
 HEADER_BYTES = 1 << 16
+_root: ContextVar[Path | None] = ContextVar("root", default=None)
+
+
+@contextmanager
+def below(root: Path) -> Iterator[None]:
+    """Read the files of models below a folder alone; no module is ever looked for there, as it would be on `sys.path`."""
+    held = _root.set(root.absolute())
+    try:
+        yield
+    finally:
+        _root.reset(held)
 
 
 def give(item: Any, name: str) -> None:
@@ -43,9 +57,10 @@ def give(item: Any, name: str) -> None:
 
 
 def found(file: str, name: str) -> Path:
-    """A file beside the program: where modules of its own are looked for."""
+    """A file below the root that was named, else beside the program: where modules of its own are looked for."""
     if not Path(file).is_absolute() and ".." not in Path(file).parts:
-        for folder in sys.path:
+        root = _root.get()
+        for folder in sys.path if root is None else [root]:
             if folder and (Path(folder) / file).is_file():
                 return (Path(folder) / file).absolute()
     raise ValueError(f"model {name}: there is no file {file!r} beside the program")

@@ -11,6 +11,7 @@ Nothing outside of the root is read, and no address of another machine.
 import os
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, field
 from itertools import islice
 from pathlib import Path, PurePosixPath
@@ -81,7 +82,8 @@ def whole(path: Path, root: Path) -> Whole:
         if (node.tag, key) in NAMED and key in node.attrib
     ]
     if not named and len(walk.sources) == 1:
-        return Whole(path.read_text(encoding="utf-8"), (), tuple(walk.sources))
+        with suppress(UnicodeDecodeError):  # what is declared in another encoding is written anew, below
+            return Whole(path.read_text(encoding="utf-8"), (), tuple(walk.sources))
     folders = _folders(tree)
     for node, key in named:
         if found := _found(node.attrib[key], node.tag, folders.get(FOLDERS[node.tag], ""), walk):

@@ -11,6 +11,7 @@ own rest pose, as for every object of a plan.
 import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Collection, Sequence
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
 
 Vec3 = tuple[float, float, float]
 MOST_BYTES = 2_000_000
+MOST_MEMORY = 6 << 30
+"""Address space in which `main` reads a model, bytes."""
 _TAGS = """robot link joint inertial visual collision geometry origin mass inertia box sphere cylinder capsule mesh material
 color texture parent child axis limit dynamics mimic safety_controller calibration mujoco transmission gazebo"""
 URDF_TAGS = frozenset(_TAGS.split())
@@ -119,10 +122,13 @@ def facts(text: str, name: str, folder: str | None = None, files: Sequence[str] 
         `extents` (3, m, of its rest pose), `mass` (kg), `bodies`, `actuators` and `geoms` (names), `joints` (name to kind:
         hinge, slide, ball, free), `moves` (whether any part moves against its root).
     """
+    with beside_program.below(Path(root)) if root else nullcontext():
+        return _facts(text, name, folder, files)
+
+
+def _facts(text: str, name: str, folder: str | None, files: Sequence[str]) -> dict[str, Any]:
     import mujoco
 
-    if root:
-        sys.path.insert(0, root)
     spec = mujoco.MjSpec()
     body = attach(spec, text, name=name, pos=(0, 0, 0), folder=folder, files=files)
     model = spec.compile()
@@ -156,29 +162,27 @@ def parsed(text: str, name: str, folder: str | None = None, files: Sequence[str]
             continue
         if item.file in files:
             beside_program.give(item, name)
-            continue
-        if folder is None:
+        elif folder is None:
             raise ValueError(
                 f"model {name}: it reads the file {item.file!r}, which is not among its `files`: "
                 "use primitives, or `worldkit.model_files.whole`, which finds and names them"
             )
-        item.file = str(_found(item.file, child, name, folder))
+        else:
+            item.file = str(_found(item.file, child, name, folder))
     return child
 
 
-def standing(file: str) -> "mujoco.MjSpec":
-    """A URDF file as a world of its own, with its meshes wherever they lie below the folder above it.
+def standing(file: str, root: str = "") -> "mujoco.MjSpec":
+    """A URDF file as a world of its own, with its meshes wherever they lie below a folder (default: the one above its own).
 
     Raises:
         ValueError: it is no model, or a file of it is missing.
     """
     path = Path(file)
-    made = model_files.whole(path, path.parent.parent)
-    sys.path.insert(0, str(path.parent.parent.resolve()))
-    try:
+    home = Path(root) if root else path.parent.parent
+    made = model_files.whole(path, home)
+    with beside_program.below(home.resolve()):
         return parsed(made.text, path.stem, files=made.files)
-    finally:
-        sys.path.pop(0)
 
 
 def _checked(text: str, name: str) -> None:
@@ -367,16 +371,28 @@ def _reach(kind: Any, size: "np.ndarray", turn: "np.ndarray", aabb: "np.ndarray"
     return np.abs(turn) @ aabb[3:]
 
 
+def _limit_memory() -> None:
+    """Let meshes of a stranger end this process, not the machine; where there is no such limit, it stays as it is."""
+    with suppress(ImportError, ValueError, OSError):
+        import resource
+
+        _, most = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (MOST_MEMORY if most < 0 else min(MOST_MEMORY, most), most))
+
+
 def main() -> None:
     """Read the arguments of `facts` as JSON on standard input, and write its result on standard output."""
     import json
     import warnings
 
     warnings.simplefilter("ignore")
+    _limit_memory()
     try:
         answer = facts(**json.load(sys.stdin))
     except ValueError as error:
         answer = {"error": str(error)}
+    except MemoryError:
+        answer = {"error": f"it needs more than {MOST_MEMORY >> 30} GB of memory; reduce its meshes"}
     json.dump(answer, sys.stdout)
 
 

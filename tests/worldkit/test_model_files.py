@@ -96,6 +96,15 @@ def test_a_model_without_files_stays_as_it_is_written(tmp_path: Path) -> None:
     assert model_files.whole(tmp_path / "ball.xml", tmp_path) == model_files.Whole(text, (), (tmp_path / "ball.xml",))
 
 
+def test_a_model_in_another_encoding_is_read_as_it_declares(tmp_path: Path) -> None:
+    text = (
+        '<?xml version="1.0" encoding="ISO-8859-1"?><robot name="r"><!-- Gr\xf6\xdfe --><link name="\xfcber"/></robot>'
+    )
+    (tmp_path / "a.urdf").write_text(text, encoding="latin-1")
+    made = model_files.whole(tmp_path / "a.urdf", tmp_path)
+    assert 'link name="\xfcber"' in made.text and "encoding" not in made.text and made.files == ()
+
+
 def refused(path: Path, root: Path) -> model_files.ModelFileError:
     with pytest.raises(model_files.ModelFileError) as told:
         model_files.whole(path, root)

@@ -84,8 +84,11 @@ def _parsed(path: Path) -> list[Any]:
             ) from error  # fmt: skip
     try:
         scene: Any = trimesh.load_scene(**_source(path), process=False)
+        total = sum(len(getattr(scene.geometry[scene.graph[n][1]], "faces", ())) for n in scene.graph.nodes_geometry)
+        if total > declared_sizes.MOST_FACES:  # each is copied as often as it is drawn, from here on
+            raise declared_sizes.too_many(total, path.name)
         found: list[Any] = [mesh for mesh in scene.dump() if isinstance(mesh, trimesh.Trimesh) and len(mesh.faces)]
-    except MemoryError:
+    except (MemoryError, IntakeError):
         raise
     except Exception as error:  # a parser may raise anything on a stranger's file
         said = str(error).strip().splitlines()

@@ -3,6 +3,7 @@
 Subdivision surfaces are taken as their cages, and colours as the preview surface has them. Read by `usd-core` (the extra `scenes`).
 """
 
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -78,10 +79,8 @@ def _opened(path: Path) -> tuple[Any, Any]:
     try:
         stage = pxr.Usd.Stage.Open(str(path))
     except Exception as error:  # a parser may raise anything on a stranger's file
-        said = [line for line in str(error).splitlines() if "Error in" not in line and line.strip()]
-        raise IntakeError(
-            "unreadable", f"it cannot be read: {said[0].strip()[:200] if said else type(error).__name__}", path.name, ANEW
-        ) from error  # fmt: skip
+        cause = _cause(str(error), path) or type(error).__name__
+        raise IntakeError("unreadable", f"it cannot be read: {cause}", path.name, ANEW) from error
     root = path.parent.resolve()
     for layer in stage.GetUsedLayers():
         if layer.realPath and not Path(layer.realPath).resolve().is_relative_to(root):
@@ -90,6 +89,14 @@ def _opened(path: Path) -> tuple[Any, Any]:
                 "flatten it into one file (`usdcat --flatten`), then add that",
             )  # fmt: skip
     return stage, pxr
+
+
+def _cause(said: str, path: Path) -> str:
+    """What the reader says first of an error, without the folders of this machine."""
+    told = re.search(r"Error in .*? : '(.+)", said)
+    words = told[1] if told else next((line for line in said.splitlines() if line.strip()), "")
+    words = words.replace(f"{path.parent}/", "").replace(f"{path.parent.resolve()}/", "")
+    return re.sub(r"(?<![\w:/<])/(?:[^\s/'\"@]+/)+", "", words).strip().rstrip("'")[:200]
 
 
 def _mesh(prim: Any, usd: Any, name: str, said: dict[str, None]) -> dict[str, Any] | None:
@@ -103,7 +110,7 @@ def _mesh(prim: Any, usd: Any, name: str, said: dict[str, None]) -> dict[str, An
     if not len(points) or not len(counts):
         return None
     place = f"{name}, {prim.GetPath()}"
-    if counts.min() < 0 or counts.sum() != len(corners) or corners.min() < 0 or corners.max() >= len(points):
+    if counts.min() < 0 or counts.sum() != len(corners) or ((corners < 0) | (corners >= len(points))).any():
         raise IntakeError("truncated", "its faces name corners that are not there", place, declared_sizes.AGAIN)
     if int(np.maximum(counts - 2, 0).sum()) > declared_sizes.MOST_FACES:
         raise declared_sizes.too_many(int((counts - 2).sum()), place)

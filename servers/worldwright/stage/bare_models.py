@@ -67,12 +67,12 @@ def prepare(model: Path, duration: float | None, folder: Path | None) -> Run:
             place=str(run.folder),
             next_move="name another folder: `worldwright stage start FOLDER --model FILE`",
         )
-    model = given_models.the_model(model, run.folder)
-    files = {str(path): sha256_file(path) for path in made_of(model)}
+    model, root = given_models.the_model(model, run.folder)
+    files = {str(path): sha256_file(path) for path in made_of(model, root)}
     facts = {"model": str(model), "duration": duration or 5.0, "files": files}
     if _facts(run) != facts:
         urdf = _is_urdf(model)
-        read = "models.standing(MODEL)" if urdf else "mujoco.MjSpec.from_file(MODEL)"
+        read = f"models.standing(MODEL, {str(root)!r})" if urdf else "mujoco.MjSpec.from_file(MODEL)"
         modules = "cameras, models, program" if urdf else "cameras, program"
         told = {
             "told": _told(model.name),
@@ -104,14 +104,18 @@ def files(run: Run) -> tuple[Path, ...]:
     return tuple(Path(path) for path in facts.get("files", {}))
 
 
-def made_of(model: Path) -> list[Path]:
+def made_of(model: Path, root: Path) -> list[Path]:
     """The file and every file that it names: includes, meshes, textures, height fields, skins, other models.
+
+    Args:
+        model: MJCF or URDF.
+        root: the folder below which a URDF's files lie.
 
     Raises:
         JobError: a file cannot be read as XML, includes itself, or names one that is not there.
     """
     if _is_urdf(model):
-        return given_models.files_of_urdf(model)
+        return given_models.files_of_urdf(model, root)
     found: dict[Path, None] = {model: None}
     folders = [model.parent]
     named: list[tuple[Path, str]] = []

@@ -180,6 +180,20 @@ def Mesh "a" {
 """
 
 
+def drawing(count: int, nodes: str, faces: int = 300_000) -> str:
+    """A COLLADA of one geometry of so many faces, which a scene draws so many times."""
+    library = f'<library_geometries><geometry id="g"><mesh><triangles count="{faces}"/></mesh></geometry></library_geometries>'
+    scene = f'<visual_scene id="w">{count * nodes}</visual_scene>'
+    return f"<COLLADA>{library}<library_visual_scenes>{scene}</library_visual_scenes>LIBRARY</COLLADA>"
+
+
+DRAWN = '<node><node><instance_geometry url="#g"/></node></node>'
+LAUGHS = "".join(
+    f'<node id="n{k}"><instance_node url="#n{k + 1}"/><instance_node url="#n{k + 1}"/></node>' for k in range(60)
+)
+LAUGHS = f'<library_nodes>{LAUGHS}<node id="n60"><instance_geometry url="#g"/><instance_node url="#n0"/></node></library_nodes>'
+
+
 def read(path: Path) -> None:
     declared_sizes.check(path)
     drawn_pieces.read(path)
@@ -193,7 +207,11 @@ def read(path: Path) -> None:
         ("a.dae", "<COLLADA><library>", "truncated", "whole"),
         ("a.dae", "<svg></svg>", "no_mesh", "svg"),
         ("a.dae", '<COLLADA><triangles count="9000000"/></COLLADA>', "too_many_faces", "9,000,000"),
-        ("a.usda", "#usda 1.0\ndef Mesh {{{", "unreadable", "cannot be read"),
+        ("a.dae", drawing(9, DRAWN), "too_many_faces", "2,700,000"),
+        ("a.dae", drawing(1, '<node><instance_node url="#n0"/></node>').replace("LIBRARY", LAUGHS), "too_many_faces", "1,000,000,000,000"),
+        ("a.usda", "#usda 1.0\ndef Mesh {{{", "unreadable", "read: a.usda:2:1: parse error"),
+        ("a.usdc", "PXR-USDC" + 80 * "\0", "unreadable", "read: Cannot read asset @a.usdc@ with obsolete version"),
+        ("a.usda", OUT_OF_RANGE.replace("[3]", "[0]").replace("0, 1, 9", ""), "no_mesh", "triangle"),
         ("a.usda", "PK\x03\x04", "no_mesh", "begin"),
         ("a.usdc", "PXR-USDC", "truncated", "header"),
         ("a.usda", '#usda 1.0\ndef Xform "a" {}\n', "no_mesh", "triangle"),
@@ -204,9 +222,10 @@ def read(path: Path) -> None:
             "corners",
         ),
     ],
-)
+)  # fmt: skip
 def test_what_is_no_scene_is_refused_by_a_code(name: str, text: str, code: str, said: str, tmp_path: Path) -> None:
-    path = tmp_path / name
+    (folder := tmp_path / "my scenes").mkdir()
+    path = folder / name
     path.write_text(text)
     with pytest.raises(IntakeError, match=said) as told:
         read(path)
@@ -231,3 +250,18 @@ def test_a_picture_that_is_too_large_is_refused_before_it_is_decoded(tmp_path: P
     assert told.value.code == "picture_too_large"
     with pytest.raises(IntakeError, match="30,000"):
         drawn_pieces.read(usd(tmp_path / "a.usda", picture="my grain.png"))
+
+
+def test_a_geometry_counts_as_often_as_it_is_drawn_whatever_the_format(tmp_path: Path, monkeypatch) -> None:
+    scene = trimesh.Scene()
+    ball = trimesh.creation.icosphere(2)
+    for number in range(3):
+        scene.add_geometry(ball, geom_name="ball", transform=trimesh.transformations.translation_matrix((number, 0, 0)))
+    scene.export(tmp_path / "a.glb")
+    assert sum(len(piece.faces) for piece in drawn_pieces.read(tmp_path / "a.glb")[0]) == 960
+    monkeypatch.setattr(declared_sizes, "MOST_FACES", 900)
+    monkeypatch.setattr(trimesh.Scene, "dump", None)
+    with pytest.raises(IntakeError, match="960 faces"):
+        drawn_pieces.read(tmp_path / "a.glb")
+    (tmp_path / "b.dae").write_text(drawing(3, DRAWN, 200))
+    assert declared_sizes.check(tmp_path / "b.dae") == 600

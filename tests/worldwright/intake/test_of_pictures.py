@@ -79,6 +79,7 @@ def test_a_mesh_is_made_once_and_taken_in_at_its_height(stand_in: StandIn, pictu
     [
         ((404, b'{"text": "NETWORK ERROR", "error_code": 1}', {}), "refused", "NETWORK ERROR"),
         ((500, b"\xff\xfe", {}), "refused", "500"),
+        ((500, b"cut", {"Content-Length": "900"}), "refused", "500"),
         ((429, b"", {"Retry-After": "30"}), "rate_limited", "too much"),
         ((200, b"<html>busy</html>", {}), "garbage", "busy"),
         ((200, b"", {}), "garbage", "no GLB"),
@@ -118,3 +119,10 @@ def test_without_a_server_or_a_picture_the_way_on_is_told(picture: Path, monkeyp
     picture.write_bytes(b"no picture")
     with pytest.raises(IntakeFailedError, match="no PNG"):
         of_pictures.mint(picture, 0.5, address="http://127.0.0.1:9")
+
+
+@pytest.mark.parametrize("address", ["http://[::1", "http://", "http://a:b", "ftp://a", ""])
+def test_what_is_no_address_is_said(address: str) -> None:
+    with pytest.raises(MintError, match="no address") as told:
+        hunyuan3d.mint(b"", address)
+    assert told.value.code == "unreachable" and told.value.next_move

@@ -2,7 +2,8 @@
 
 import ast
 import json
-import os
+import runpy
+import shutil
 import struct
 from pathlib import Path
 
@@ -11,9 +12,9 @@ from click.testing import CliRunner
 
 from worldwright.cli import main
 from worldwright.model.errors import GateError, JobError, NotFoundError
-from worldwright.model.evidence.run import Run
+from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.model.recording.trajectory_files import read_trajectory
-from worldwright.stage import bare_models, sandbox
+from worldwright.stage import bare_models, given_models, sandbox
 from worldwright.stage.tools import start, wait
 
 WORLD = """<mujoco model="thrown">
@@ -53,7 +54,7 @@ def end(folder):
 
 
 def test_a_model_is_recorded_with_all_it_is_made_of(level, model):
-    names = {path.name for path in bare_models.made_of(model)}
+    names = {path.name for path in bare_models.made_of(model, model.parent)}
     assert names == {"thrown.xml", "ground.xml", "rock.stl", "t.png"}
     started = CliRunner().invoke(
         main, ["stage", "start", "--model", str(model), "--duration", "0.6", "--format", "json"]
@@ -138,8 +139,62 @@ def test_a_name_from_an_archive_does_not_become_a_program(model):
     tree = ast.parse(run.program.read_text())
     assert not any(isinstance(node, ast.Call) and ast.unparse(node.func) == "print" for node in ast.walk(tree))
     assert [node.value.value for node in tree.body if isinstance(node, ast.Assign)] == [
-        str(run.folder.absolute() / "model" / name)
+        str(next(run.folder.absolute().glob(".model-*")) / name)
     ]
+
+
+PANDA = """<robot name="panda"><link name="base">
+<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>
+<collision><geometry><mesh filename="package://franka_description/meshes/rock.stl"/></geometry></collision></link></robot>"""
+
+
+@pytest.fixture
+def panda(model):
+    """A package as ROS's are laid out, its model two folders deep."""
+    home = model.parent.parent / "src/franka_description"
+    for name in ("robots/panda", "meshes"):
+        (home / name).mkdir(parents=True)
+    (home / "robots/panda/panda.urdf").write_text(PANDA)
+    (home / "meshes/rock.stl").write_bytes((home.parent.parent / "assets/rock.stl").read_bytes())
+    return home
+
+
+@pytest.mark.parametrize("given", ["robots/panda/panda.urdf", ".", "..", "robots"])
+def test_the_meshes_of_a_package_are_found_from_any_of_its_places(panda, tmp_path, given):
+    run = bare_models.prepare(panda / given, None, tmp_path / "runs/panda")
+    assert [path.name for path in bare_models.files(run)] == ["panda.urdf", "rock.stl"]
+    built = runpy.run_path(str(run.program))["build"]()
+    assert len(built.compile().mesh_vert) == 4
+
+
+def test_a_package_is_known_by_its_file_and_another_beside_it_is_read(panda, tmp_path):
+    other = panda.rename(panda.with_name("renamed"))
+    (other / "package.xml").write_text("<package/>")
+    (other.parent / "hand/meshes").mkdir(parents=True)
+    (other / "meshes/rock.stl").rename(other.parent / "hand/meshes/finger.stl")
+    urdf = other / "robots/panda/panda.urdf"
+    assert given_models.package_of(urdf) == other
+    urdf.write_text(PANDA.replace("franka_description/meshes/rock", "hand/meshes/finger"))
+    run = bare_models.prepare(urdf, None, tmp_path / "runs/panda")
+    assert bare_models.files(run)[1] == other.parent / "hand/meshes/finger.stl"
+
+
+def test_an_archive_is_unpacked_once_and_what_lies_beside_it_stays(panda, tmp_path):
+    folder = tmp_path / "kept"
+    (folder / "model").mkdir(parents=True)
+    (folder / "model/notes.txt").write_text("mine")
+    archive = shutil.make_archive(str(folder / "model/panda"), "zip", panda.parent, panda.name)
+    bare_models.prepare(Path(archive), None, folder)
+    assert (folder / "model/notes.txt").read_text() == "mine" and Path(archive).is_file()
+    (made,) = folder.glob(".model-*")
+    assert made.name == f".model-{sha256_file(Path(archive))[:12]}"
+    before = (made / "franka_description/meshes/rock.stl").stat()
+    bare_models.prepare(Path(archive), None, folder)
+    assert (made / "franka_description/meshes/rock.stl").stat() == before
+    (folder / "broken.zip").write_bytes(b"PK")
+    with pytest.raises(JobError, match="unpacked"):
+        bare_models.prepare(folder / "broken.zip", None, folder)
+    assert [*folder.glob(".model-*")] == [made]
 
 
 @pytest.mark.parametrize(
@@ -165,7 +220,7 @@ def test_an_empty_name_names_no_file(model):
         '<mujoco><asset><texture name="t" type="2d" builtin="flat" width="8" height="8" file=""/></asset></mujoco>'
     )
     mujoco.MjModel.from_xml_path(str(model))
-    assert bare_models.made_of(model) == [model]
+    assert bare_models.made_of(model, model.parent) == [model]
 
 
 @pytest.mark.parametrize(
@@ -180,29 +235,6 @@ def test_every_model_has_a_run_of_its_own(model, given, name):
 def test_the_folder_above_has_its_own_name(model):
     model.with_name("unrelated.xml").unlink()
     assert bare_models.prepare(model.parent / "parts" / "..", 0.1, None).folder == Path("runs/models").absolute()
-
-
-def test_an_archive_is_unpacked_anew_only_when_it_or_what_came_of_it_changed(model):
-    import zipfile
-
-    def packed(text):
-        with zipfile.ZipFile("one.zip", "w") as made:
-            made.writestr("one.xml", text)
-
-    packed("<mujoco/>")
-    bare_models.prepare(Path("one.zip"), 0.1, None)
-    one = Path("runs/one/model/one.xml")
-    first = one.stat().st_ino, one.stat().st_mtime_ns
-    with one.open() as read:
-        bare_models.prepare(Path("one.zip"), 0.1, None)
-        assert os.fstat(read.fileno()).st_nlink == 1  # it is still there, not another of its name
-    assert (one.stat().st_ino, one.stat().st_mtime_ns) == first
-    one.write_text("<mujoco><worldbody/></mujoco>")
-    bare_models.prepare(Path("one.zip"), 0.1, None)
-    assert one.read_text() == "<mujoco/>"
-    packed('<mujoco model="two"/>')
-    bare_models.prepare(Path("one.zip"), 0.1, None)
-    assert "two" in one.read_text()
 
 
 def test_a_folder_gives_its_one_model(model):

@@ -34,7 +34,12 @@ def mint(picture: bytes, address: str) -> bytes:
     Raises:
         MintError: it is not there, refuses, or answers something else.
     """
-    if urlsplit(address).scheme not in ("http", "https"):
+    try:
+        named = urlsplit(address)
+        known = named.scheme in ("http", "https") and bool(named.hostname) and named.port != 0
+    except ValueError:  # brackets without an end, a port that is none
+        known = False
+    if not known:
         raise MintError("that is no address of a server", code="unreachable", place=address, next_move=starting())
     asked = {
         "image": base64.b64encode(picture).decode(), "seed": SEED, "num_inference_steps": STEPS, "face_count": FACES,
@@ -72,7 +77,7 @@ def _refused(error: urllib.error.HTTPError, address: str) -> MintError:
     try:
         told = json.loads(error.read(1 << 16))
         said = str(told.get("text") or told.get("message") or "")[:200]
-    except (OSError, ValueError, AttributeError):
+    except (OSError, ValueError, AttributeError, http.client.HTTPException):
         said = ""
     return MintError(
         f"it refused (status {error.code}){f': {said}' if said else ''}", code="refused", place=address,
