@@ -1,6 +1,7 @@
 """COLLADA and USD: the same crate in other units and axes, with its colours and pictures; what is no scene is refused."""
 
 import zipfile
+from io import BytesIO
 from pathlib import Path
 
 import cv2
@@ -24,10 +25,19 @@ SAMPLER = """<newparam sid="s"><surface type="2D"><init_from>p</init_from></surf
 <newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>"""
 
 
-def collada(path: Path, *, up: str = "Z_UP", meter: str = "0.01", diffuse: str = "", library: str = "") -> Path:
-    """A crate 60 along the front's axis, 40 wide, 30 high."""
+def collada(
+    path: Path, *, up: str = "Z_UP", meter: str = "0.01", diffuse: str = "", library: str = "", wedge: bool = False
+) -> Path:
+    """A crate 60 along the front's axis, 40 wide, 30 high; or a wedge that is lower in front."""
     size = {"Z_UP": (40, 60, 30), "Y_UP": (40, 30, 60), "X_UP": (30, 40, 60)}[up]
     box = trimesh.creation.box(size)
+    if wedge:
+        high, ahead = {
+            "Z_UP": (2, -box.vertices[:, 1]),
+            "Y_UP": (1, box.vertices[:, 2]),
+            "X_UP": (0, box.vertices[:, 2]),
+        }[up]
+        box.vertices[(ahead > 0) & (box.vertices[:, high] > 0), high] = -5
     points = " ".join(f"{value:g}" for value in box.vertices.ravel())
     uv = "0 0 1 0 1 1"
     corners = " ".join(f"{corner} {k}" for face in box.faces for k, corner in enumerate(face))
@@ -112,6 +122,15 @@ def test_the_unit_and_the_axes_that_a_file_tells_are_taken(made, words: dict, tm
     assert facts["native_extents"] == pytest.approx([0.6, 0.4, 0.3], abs=1e-5)
     assert "its unit is 0.01 m" in facts["metric_height_source"] and facts["assumed"] == []
     assert facts["measured"]["closed"] and facts["solid_volume"] == pytest.approx(0.072)
+
+
+@pytest.mark.parametrize("up", ["X_UP", "Y_UP", "Z_UP"])
+def test_the_front_of_a_collada_is_towards_who_looks_at_it(up: str, tmp_path: Path) -> None:
+    files, facts = taken_in.take_in(collada(tmp_path / "crate.dae", up=up, wedge=True), ASKED)
+    seen = trimesh.load(BytesIO(files[facts["visual"][0]["mesh"]]), file_type="obj")
+    in_front = seen.vertices[:, 0] > 0
+    assert np.ptp(seen.vertices[in_front, 2]) == pytest.approx(0.10, abs=1e-4)
+    assert np.ptp(seen.vertices[~in_front, 2]) == pytest.approx(0.30, abs=1e-4)
 
 
 def test_what_a_file_does_not_tell_is_asked_for(tmp_path: Path) -> None:
