@@ -188,6 +188,37 @@ def test_a_mirrored_mesh_is_turned_outside_out_and_what_is_hidden_is_left_out(tm
     assert np.ptp(pieces[1].vertices, axis=0) == pytest.approx((2, 2, 2), abs=0.01)
 
 
+def test_of_what_moves_the_first_moment_is_taken(tmp_path: Path) -> None:
+    """Values by time alone: where things are, what they are of, what is seen of them, and their colours."""
+    path = tmp_path / "moving.usda"
+    stage = Usd.Stage.CreateNew(str(path))
+    for number, name in enumerate(("one", "other")):
+        place = UsdGeom.Xform.Define(stage, f"/{name}")
+        way = place.AddTranslateOp()
+        box = trimesh.creation.box((1, 1, 1))
+        mesh = UsdGeom.Mesh.Define(stage, f"/{name}/mesh")
+        for time in (10, 20):
+            way.Set((10 * number + time, 0, 0), time)
+            mesh.GetPointsAttr().Set([Gf.Vec3f(*(float(v) * time for v in p)) for p in box.vertices], time)
+            mesh.GetDisplayColorAttr().Set([(1, 0, 0) if time == 10 else (0, 1, 0)], time)
+        mesh.GetFaceVertexCountsAttr().Set([3] * 12, 10)
+        mesh.GetFaceVertexIndicesAttr().Set(box.faces.ravel().tolist(), 10)
+        mesh.GetSubdivisionSchemeAttr().Set("none")
+    ball = UsdGeom.Sphere.Define(stage, "/ball")
+    ball.GetRadiusAttr().Set(3.0, 10)
+    hidden = UsdGeom.Cube.Define(stage, "/hidden").GetVisibilityAttr()
+    for time, seen in ((10, "invisible"), (20, "inherited")):
+        hidden.Set(seen, time)
+    stage.Save()
+    pieces, said = drawn_pieces.read(path)
+    assert said == ["it changes with time: its first moment was taken"]
+    assert sorted(float(np.ptp(piece.vertices[:, 0])) for piece in pieces) == pytest.approx([6, 10, 10], abs=0.05)
+    middles = sorted(float(np.mean(piece.vertices[:, 0])) for piece in pieces)
+    assert middles == pytest.approx([0, 10, 20], abs=0.05)
+    assert sum(piece.rgba[:2] == (1, 0) for piece in pieces) == 2
+    assert "moment" not in " ".join(drawn_pieces.read(usd(tmp_path / "still.usda"))[1])
+
+
 BOMB = """<?xml version="1.0"?><!DOCTYPE COLLADA [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;">]><COLLADA>&b;</COLLADA>"""
 
 OUT_OF_RANGE = """#usda 1.0
