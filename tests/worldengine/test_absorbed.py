@@ -177,6 +177,35 @@ def test_light_fades_in_a_body_on_its_way_to_the_wall(mi) -> None:
     assert tea == pytest.approx((1 - mirrored(1.33)) ** 2 * np.exp(-np.array(ABSORBS) * THICK_M), rel=0.02)
 
 
+def wedge(mi, path, leaning: float, flat: bool) -> dict:
+    """A body of tea, 0.3 m thick, level light leaves the wall by its upright side and goes out of one that is 70 degrees off,
+    shaded as if it were `leaning`, degrees."""
+    across = [[(0.3, 0.109), (0.3, -0.109)], [(0.3, -0.109), (-0.3, -0.109)], [(-0.3, -0.109), (0.3, 0.109)]]
+    turned = np.radians([180, 90 + 180, leaning])  # of their normals from -y, towards up
+    points, faces = [], []
+    for (one, other), angle in zip(across, turned, strict=True):
+        normal = (0, -np.cos(angle), np.sin(angle))
+        first = len(points)
+        points += [(x, *end, *normal) for end in (one, other) for x in (-0.4, 0.4)]
+        faces += [(first, first + 1, first + 3), (first, first + 3, first + 2)]
+    for x in (-0.4, 0.4):
+        faces.append((len(points), len(points) + 1, len(points) + 2))
+        points += [(x, *end, np.sign(x), 0, 0) for end, _ in across]
+    head = ["ply", "format ascii 1.0", f"element vertex {len(points)}"]
+    head += [f"property float {name}" for name in ("x", "y", "z", "nx", "ny", "nz")]
+    head += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
+    rows = [" ".join(f"{v:.9g}" for v in point) for point in points] + ["3 {} {} {}".format(*face) for face in faces]
+    path.write_text("\n".join([*head, *rows]) + "\n")
+    return {"type": "ply", "filename": str(path), "face_normals": flat, "bsdf": dielectric(1.33, "tea")}
+
+
+def test_light_leaves_a_body_by_its_triangles_not_by_how_they_are_shaded(mi, tmp_path) -> None:
+    """At the rim of what is shaded as if it were round, a way out looks like a way in; equally slanted, so as much is mirrored."""
+    bare = behind(mi)
+    flat, round_ = (behind(mi, wedge(mi, tmp_path / f"{flat}.ply", 110, flat)) / bare for flat in (True, False))
+    assert flat[0] > 0.4 and round_ == pytest.approx(flat, rel=0.05)
+
+
 def test_water_in_a_glass_mirrors_only_where_there_is_air(mi) -> None:
     """The water reaches a little into both walls of its glass."""
     walls = [plate(mi, 0.01, dielectric(1.5), at) for at in (-0.1, 0.1)]

@@ -4,7 +4,7 @@ How far a leaf opens no file tells: a closed one opens towards the front or away
 it meets it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 from xml.sax.saxutils import quoteattr
 
@@ -23,13 +23,17 @@ INSIDE = 0.5
 """Share of a leaf's box that lies within that of the rest when it is closed."""
 DRY, VISCOUS = 0.01, 0.02
 """Friction of a hinge as a share of the leaf's weight times its width, and damping as one of mass times width squared per s:
-a leaf stays where it is left, and comes to rest within some seconds; our judgement."""
+a leaf comes to rest within some seconds; our judgement."""
+HELD = 1.2
+"""Friction at least as a share of what gravity pulls at the joint anywhere in its turn: a lid, too, stays where it is left."""
+HOLDS = 0.9999
+"""`solimpfriction`: by the engine's own 0.9, a lid that its friction holds sinks all the same, 13 degrees in 5 s."""
 FLATTER = 1e-9
 
 
 @dataclass(frozen=True)
 class Leaf:
-    """A part that moves. axis: unit (3,). pos: a point of the axis, m. low, high: rad, or m of a slide."""
+    """A part that moves. axis: unit (3,). pos: a point of the axis, m. low, high: rad, or m of a slide. pulled: see `_pulled`."""
 
     name: str
     kind: str
@@ -37,6 +41,7 @@ class Leaf:
     pos: Array
     low: float
     high: float
+    pulled: float = 0.0
 
 
 def model(
@@ -65,13 +70,14 @@ def model(
         return None
     made: dict[str, bytes] = {}
     weights: dict[str, list[tuple[str, float]]] = {"": _shapes(rows, hulls, made)}
-    for part in leaves:
+    for part, leaf in list(leaves.items()):
         own = [_corners(piece) for piece in pieces if piece.part == part]
         shells = [corners for corners in own if len(corners) >= 4 and touchable.volume_of(corners) > FLATTER]
         hull_rows = [{"type": "hull", "hull": number} for number in range(len(shells))]
         weights[part] = _shapes(hull_rows, shells, made)
         if not shells:
             return None
+        leaves[part] = replace(leaf, pulled=_pulled(leaf, shells))
     total = facts.get("mass") or facts["density"] * facts["solid_volume"]
     scale = total / sum(volume for group in weights.values() for _, volume in group)
     made[FILE] = _text(key, pieces, leaves, weights, scale, facts, made).encode()
@@ -128,6 +134,17 @@ def _swing(axis: Array, pos: Array, own: Array, body: Array) -> tuple[float, flo
     step = np.cross(axis, arm)  # where a little turn takes it
     front = float(step[0]) if abs(step[0]) > 0.2 * np.linalg.norm(step) else -float(step @ away)
     return (0.0, float(WIDE_OPEN)) if front >= 0 else (-float(WIDE_OPEN), 0.0)
+
+
+def _pulled(leaf: Leaf, shells: list[Array]) -> float:
+    """The most that gravity pulls at a joint wherever its leaf is, by the leaf's weight: m of a hinge, a share of a slide."""
+    import trimesh
+
+    if leaf.kind == "slide":
+        return float(abs(leaf.axis[2]))
+    hulls = [trimesh.convex.convex_hull(corners) for corners in shells]
+    middle = np.average([hull.center_mass for hull in hulls], axis=0, weights=[hull.volume for hull in hulls])
+    return float(np.linalg.norm(_across(middle - leaf.pos, leaf.axis)) * np.hypot(*leaf.axis[:2]))
 
 
 def _middle(points: Array) -> Array:
@@ -192,10 +209,11 @@ def _text(
         mass = scale * sum(volume for _, volume in weights[part])
         width = float(np.linalg.norm(_across(own - leaf.pos, leaf.axis), axis=1).max())
         arm = width if leaf.kind == "hinge" else 1.0
+        dry = max(DRY * arm, HELD * leaf.pulled) * 9.81 * mass
         joint = (
             f'<joint name="{leaf.name}_{leaf.kind}" type="{leaf.kind}" axis="{_numbers(leaf.axis)}" pos="{_numbers(leaf.pos)}" '
-            f'limited="true" range="{_numbers((leaf.low, leaf.high))}" frictionloss="{DRY * 9.81 * mass * arm:.5g}" '
-            f'damping="{VISCOUS * mass * arm**2:.5g}"/>'
+            f'limited="true" range="{_numbers((leaf.low, leaf.high))}" frictionloss="{dry:.5g}" '
+            f'solimpfriction="{HOLDS} {HOLDS} 0.001" damping="{VISCOUS * mass * arm**2:.5g}"/>'
         )
         lines += [f'<body name="{leaf.name}">', joint, *_geoms(part, pieces, weights, scale, facts, leaves), "</body>"]
     # A leaf and what it hangs on overlap as hulls do, and the engine lets only what moves through its children.

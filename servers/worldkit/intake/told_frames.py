@@ -16,8 +16,8 @@ class Told:
 
 
 NOTHING = Told()
-COLLADA_AXES = {"X_UP": ("+x", "-z"), "Y_UP": ("+y", "+z"), "Z_UP": ("+z", "-y")}
-"""COLLADA 1.5 specification, `up_axis`: up, and the front, which is against the axis it calls `in`."""
+COLLADA_AXES = {"X_UP": ("+x", "+z"), "Y_UP": ("+y", "+z"), "Z_UP": ("+z", "-y")}
+"""COLLADA 1.5 specification, `up_axis`: up, and the front, which is the axis that it calls `in`: from the thing to who looks at it."""
 USD_AXES = {"Y": ("+y", "+z"), "Z": ("+z", "+x")}
 """USD says which way is up; the front is what programs of that axis mostly take."""
 

@@ -8,7 +8,7 @@ import zlib
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from pathlib import Path, PurePosixPath
+from pathlib import Path, PurePath, PurePosixPath
 from typing import Any
 
 from ..errors import IntakeError
@@ -53,7 +53,8 @@ def extract(archive: Path, folder: Path, wanted: Collection[str]) -> list[str]:
         with _opened(archive) as (rows, content_of):
             for row in rows:
                 _stays_inside(row, archive.name)
-            chosen = [row for row in rows if row.plain and PurePosixPath(row.name).suffix.lower() in wanted]
+            own = [row for row in rows if row.plain and not _shadow(PurePosixPath(row.name))]
+            chosen = [row for row in own if PurePosixPath(row.name).suffix.lower() in wanted]
             total = sum(row.size for row in chosen)
             if len(chosen) > MOST_FILES or total > MOST_BYTES:
                 raise _too_large(
@@ -118,7 +119,8 @@ def the_mesh(folder: Path, name: str) -> Path:
     Raises:
         IntakeError: there is none, or there are several.
     """
-    found = sorted(path for path in folder.rglob("*") if path.suffix.lower() in SUFFIXES and path.is_file())
+    below = (path for path in folder.rglob("*") if not _shadow(path.relative_to(folder)))
+    found = sorted(path for path in below if path.suffix.lower() in SUFFIXES and path.is_file())
     if not found:
         raise IntakeError("no_mesh", f"there is no mesh in it ({', '.join(SUFFIXES)})", name, "name the file itself")
     if len({path.stem.lower() for path in found}) > 1:
@@ -127,6 +129,11 @@ def the_mesh(folder: Path, name: str) -> Path:
             "several_meshes", f"there are {len(found)} meshes in it: {told}", name, "name one of these files itself"
         )
     return min(found, key=lambda path: FIRST.index(path.suffix.lower()))
+
+
+def _shadow(path: PurePath) -> bool:
+    """Whether a file is one that macOS lays beside each of its own in an archive, of the same name, for what it notes of it."""
+    return "__MACOSX" in path.parts or path.name.startswith("._")
 
 
 def _stays_inside(row: _Row, name: str) -> None:

@@ -18,6 +18,7 @@ GREY = (0.7, 0.7, 0.7, 1.0)
 GAMMA = 2.2
 """USD's colours are of light; ours are sRGB values."""
 SHAPES = ("Cube", "Sphere", "Cylinder", "Cone", "Capsule")
+FIRST_MOMENT = "it changes with time: its first moment was taken"
 ANEW = "open it in a modelling program, and export it anew, as USD or as GLB"
 
 
@@ -37,7 +38,8 @@ def pieces(path: Path) -> tuple[list[dict[str, Any]], list[str]]:
         IntakeError: it cannot be opened, reads what lies outside of its folder, or holds too much.
     """
     stage, usd = _opened(path)
-    poses = usd.UsdGeom.XformCache()
+    first = usd.Usd.TimeCode.EarliestTime()  # what has values by time alone has none at USD's default time
+    poses = usd.UsdGeom.XformCache(first)
     found: list[dict[str, Any]] = []
     pictures: dict[str, Array | None] = {}
     said: dict[str, None] = {}
@@ -48,11 +50,13 @@ def pieces(path: Path) -> tuple[list[dict[str, Any]], list[str]]:
         if not (prim.IsA(usd.UsdGeom.Mesh) or prim.GetTypeName() in SHAPES):
             continue
         shown = usd.UsdGeom.Imageable(prim)
-        if shown.ComputeVisibility() == usd.UsdGeom.Tokens.invisible:
+        if _moves(prim, usd):
+            said[FIRST_MOMENT] = None
+        if shown.ComputeVisibility(first) == usd.UsdGeom.Tokens.invisible:
             continue
         if shown.ComputePurpose() in (usd.UsdGeom.Tokens.guide, usd.UsdGeom.Tokens.proxy):
             continue
-        mesh = _mesh(prim, usd, path.name, said) if prim.IsA(usd.UsdGeom.Mesh) else _shape(prim)
+        mesh = _mesh(prim, usd, path.name, said) if prim.IsA(usd.UsdGeom.Mesh) else _shape(prim, usd, said)
         if mesh is None:
             continue
         total += len(mesh["faces"])
@@ -99,10 +103,28 @@ def _cause(said: str, path: Path) -> str:
     return re.sub(r"(?<![\w:/<])/(?:[^\s/'\"@]+/)+", "", words).strip().rstrip("'")[:200]
 
 
+def _moves(prim: Any, usd: Any) -> bool:
+    """Whether it goes somewhere else in time, or is hidden, itself or by what it is in."""
+    while prim and not prim.IsPseudoRoot():
+        if usd.UsdGeom.Xformable(prim) and usd.UsdGeom.Xformable(prim).TransformMightBeTimeVarying():
+            return True
+        if usd.UsdGeom.Imageable(prim) and usd.UsdGeom.Imageable(prim).GetVisibilityAttr().ValueMightBeTimeVarying():
+            return True
+        prim = prim.GetParent()
+    return False
+
+
+def _first(attribute: Any, usd: Any, said: dict[str, None]) -> Any:
+    """The value of an attribute at its first moment, None where it has none; what to say is added."""
+    if attribute.ValueMightBeTimeVarying():
+        said[FIRST_MOMENT] = None
+    return attribute.Get(usd.Usd.TimeCode.EarliestTime())
+
+
 def _mesh(prim: Any, usd: Any, name: str, said: dict[str, None]) -> dict[str, Any] | None:
     mesh = usd.UsdGeom.Mesh(prim)
     points, counts, corners = (
-        np.array(attribute.Get() or [], kind)
+        np.array(_first(attribute, usd, said) or [], kind)
         for attribute, kind in (
             (mesh.GetPointsAttr(), float), (mesh.GetFaceVertexCountsAttr(), np.int64), (mesh.GetFaceVertexIndicesAttr(), np.int64),
         )
@@ -115,12 +137,12 @@ def _mesh(prim: Any, usd: Any, name: str, said: dict[str, None]) -> dict[str, An
     if int(np.maximum(counts - 2, 0).sum()) > declared_sizes.MOST_FACES:
         raise declared_sizes.too_many(int((counts - 2).sum()), place)
     scheme = mesh.GetSubdivisionSchemeAttr()
-    if scheme.HasAuthoredValue() and scheme.Get() != "none":
+    if scheme.HasAuthoredValue() and _first(scheme, usd, said) != "none":
         said["a subdivision surface is taken as its cage"] = None
     fan, owner = triangulated(counts)
-    if mesh.GetOrientationAttr().Get() == "leftHanded":
+    if _first(mesh.GetOrientationAttr(), usd, said) == "leftHanded":
         fan = fan[:, ::-1]
-    uv = _uv(prim, usd, len(points), corners)
+    uv = _uv(prim, usd, len(points), corners, said)
     if uv is not None and len(uv) == len(corners) != len(points):  # by corner: each corner becomes a vertex of its own
         points, faces = points[corners], fan
     else:
@@ -142,22 +164,24 @@ def triangulated(counts: Array) -> tuple[Array, Array]:
     return np.concatenate(fans), np.concatenate(owners)
 
 
-def _uv(prim: Any, usd: Any, count: int, corners: Array) -> Array | None:
+def _uv(prim: Any, usd: Any, count: int, corners: Array, said: dict[str, None]) -> Array | None:
     for primvar in usd.UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues():
         if str(primvar.GetTypeName()) not in ("texCoord2f[]", "texCoord2d[]", "texCoord2h[]", "float2[]"):
             continue
-        uv = np.array(primvar.ComputeFlattened() or [], float)
+        if primvar.ValueMightBeTimeVarying():
+            said[FIRST_MOMENT] = None
+        uv = np.array(primvar.ComputeFlattened(usd.Usd.TimeCode.EarliestTime()) or [], float)
         if uv.shape in ((len(corners), 2), (count, 2)) and np.isfinite(uv).all():
             return uv
     return None
 
 
-def _shape(prim: Any) -> dict[str, Any]:
+def _shape(prim: Any, usd: Any, said: dict[str, None]) -> dict[str, Any]:
     """A shape that USD knows by name, along its axis."""
     import trimesh
 
     def of(name: str, otherwise: float) -> float:
-        value = prim.GetAttribute(name).Get() if prim.HasAttribute(name) else None
+        value = _first(prim.GetAttribute(name), usd, said) if prim.HasAttribute(name) else None
         return float(value) if value is not None else otherwise
 
     kind, high, radius = prim.GetTypeName(), of("height", 2.0), of("radius", 1.0)
@@ -173,7 +197,7 @@ def _shape(prim: Any) -> dict[str, Any]:
         made.apply_translation((0, 0, -made.bounds.mean(axis=0)[2]))
     else:
         made = trimesh.creation.cylinder(radius, high)
-    axis = prim.GetAttribute("axis").Get() if prim.HasAttribute("axis") else "Z"
+    axis = _first(prim.GetAttribute("axis"), usd, said) if prim.HasAttribute("axis") else "Z"
     turn = {"X": (2, 0, 1), "Y": (1, 2, 0)}.get(str(axis), (0, 1, 2))
     points = np.asarray(made.vertices, float)[:, turn]
     faces = np.asarray(made.faces, np.int64)
@@ -188,7 +212,7 @@ def _dressed(
     left = np.ones(len(mesh["owner"]), bool)
     groups = []
     for subset in binding.GetMaterialBindSubsets():
-        own = np.isin(mesh["owner"], np.array(subset.GetIndicesAttr().Get() or [], np.int64)) & left
+        own = np.isin(mesh["owner"], np.array(_first(subset.GetIndicesAttr(), usd, said) or [], np.int64)) & left
         left &= ~own
         groups.append((subset.GetPrim(), own))
     for holder, own in [*groups, (prim, left)]:
@@ -205,12 +229,12 @@ def _look(
     material = usd.UsdShade.MaterialBindingAPI(holder).ComputeBoundMaterial()[0]
     shader = material.ComputeSurfaceSource()[0] if material else None
     if not shader:
-        tint = usd.UsdGeom.Gprim(prim).GetDisplayColorAttr().Get()
+        tint = _first(usd.UsdGeom.Gprim(prim).GetDisplayColorAttr(), usd, said)
         if tint:
             look["rgba"] = _seen(np.mean(np.array(tint, float), axis=0), 1.0)
         return look
-    colour, picture = _input(shader, "diffuseColor", usd)
-    opacity, _ = _input(shader, "opacity", usd)
+    colour, picture = _input(shader, "diffuseColor", usd, said)
+    opacity, _ = _input(shader, "opacity", usd, said)
     look["rgba"] = _seen(
         np.array(colour if colour is not None else (0.18,) * 3, float), float(1.0 if opacity is None else opacity)
     )
@@ -223,24 +247,24 @@ def _look(
         else:
             look["rgba"] = (1.0, 1.0, 1.0, look["rgba"][3])
     for name, otherwise in (("roughness", 0.5), ("metallic", 0.0)):
-        value, _ = _input(shader, name, usd)
+        value, _ = _input(shader, name, usd, said)
         look[name] = float(np.clip(otherwise if value is None else value, 0.0, 1.0))
     look["roughness"] = max(look["roughness"], 0.05)
     return look
 
 
-def _input(shader: Any, name: str, usd: Any) -> tuple[Any, str]:
+def _input(shader: Any, name: str, usd: Any, said: dict[str, None]) -> tuple[Any, str]:
     """The value of an input of a preview surface, and the file of a picture that is plugged into it."""
     entry = shader.GetInput(name)
     if not entry:
         return None, ""
     for source in entry.GetValueProducingAttributes():
         owner = usd.UsdShade.Shader(source.GetPrim())
-        if owner and owner.GetPrim() != shader.GetPrim() and owner.GetIdAttr().Get() == "UsdUVTexture":
+        if owner and owner.GetPrim() != shader.GetPrim() and _first(owner.GetIdAttr(), usd, said) == "UsdUVTexture":
             file = owner.GetInput("file")
-            path = file.Get() if file else None
+            path = _first(file.GetAttr(), usd, said) if file else None
             return None, str(path.path) if path else ""
-        return source.Get(), ""
+        return _first(source, usd, said), ""
     return None, ""
 
 

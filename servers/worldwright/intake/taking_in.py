@@ -101,7 +101,8 @@ def add(
     if offer is not None:
         with tempfile.TemporaryDirectory(prefix="worldwright-offer-") as folder:
             laid, told = libraries.SEAM.find(offer.library).lay(offer.key, Path(folder))
-            return _added(laid, {**told, **asked}, to, replace, progress)
+            called = {"description": offer.described(), "category": offer.name.lower()}
+            return _added(laid, {**told, **called, **asked}, to, replace, progress)
     file = file.absolute()
     if not file.is_file() and not file.is_dir():
         raise NotFoundError(

@@ -258,7 +258,7 @@ def _offered(offer: "Offer") -> AssetHit:
     return AssetHit(
         key=offer.key,
         category=offer.category,
-        description=f"{offer.name} ({offer.words})" if offer.words else offer.name,
+        description=offer.described(),
         extents_m=tuple(round(side, 4) for side in offer.extents),
         height_m=round(offer.extents[2], 4),
         source=offer.library,

@@ -68,6 +68,37 @@ def test_a_door_that_is_pushed_turns_and_stays_where_it_is_left(tmp_path: Path) 
     assert -1.9 < data.qpos[0] < -0.2 and abs(data.qvel[0]) < 1e-3
 
 
+def test_a_lid_on_a_level_pin_stays_where_it_is_left(tmp_path: Path) -> None:
+    laptop = {
+        "base": [((0.25, 0.35, 0.02), (0, 0, 0.01))],
+        "sweethome3d_hinge_1_pins": [((0.008, 0.3, 0.008), (-0.12, 0, 0.024))],
+        "sweethome3d_opening_on_hinge_1_lid": [((0.24, 0.35, 0.008), (0, 0, 0.026))],
+    }
+    facts, model = taken(obj(tmp_path / "door.obj", laptop), height=0.03)
+    assert [*facts["measured"]["moving"]] == ["leaf_hinge"] and abs(model.jnt_axis[0][1]) == 1
+    data = mujoco.MjData(model)
+    for degrees in (20, 60):
+        mujoco.mj_resetData(model, data)
+        left = data.qpos[0] = np.radians(degrees) * np.sign(model.jnt_range[0].sum())
+        mujoco.mj_forward(model, data)
+        assert abs(data.qfrc_bias[0]) > 0.3 * 9.81 * model.body("leaf").mass[0] * 0.12, "it is pulled down"
+        mujoco.mj_step(model, data, 2_500)
+        assert np.degrees(abs(data.qpos[0] - left)) < 0.1
+
+
+def test_a_sash_that_is_pushed_up_does_not_come_down(tmp_path: Path) -> None:
+    hung = {
+        "sweethome3d_unique_rail_frame": FRAME,
+        "sweethome3d_opening_on_rail_1_sash": [((0.04, 1.0, 0.9), (0, 0, 0.5))],
+    }
+    _, model = taken(obj(tmp_path / "door.obj", hung))
+    assert model.jnt_axis[0].tolist() == [0, 0, 1]
+    data = mujoco.MjData(model)
+    data.qpos[0] = 0.5
+    mujoco.mj_step(model, data, 2_500)
+    assert data.qpos[0] == pytest.approx(0.5, abs=1e-3)
+
+
 def test_a_sash_slides_as_far_as_its_frame_is_wide(tmp_path: Path) -> None:
     sliding = {
         "sweethome3d_unique_rail_frame": FRAME,

@@ -1,6 +1,7 @@
 """COLLADA and USD: the same crate in other units and axes, with its colours and pictures; what is no scene is refused."""
 
 import zipfile
+from io import BytesIO
 from pathlib import Path
 
 import cv2
@@ -24,10 +25,19 @@ SAMPLER = """<newparam sid="s"><surface type="2D"><init_from>p</init_from></surf
 <newparam sid="t"><sampler2D><source>s</source></sampler2D></newparam>"""
 
 
-def collada(path: Path, *, up: str = "Z_UP", meter: str = "0.01", diffuse: str = "", library: str = "") -> Path:
-    """A crate 60 along the front's axis, 40 wide, 30 high."""
+def collada(
+    path: Path, *, up: str = "Z_UP", meter: str = "0.01", diffuse: str = "", library: str = "", wedge: bool = False
+) -> Path:
+    """A crate 60 along the front's axis, 40 wide, 30 high; or a wedge that is lower in front."""
     size = {"Z_UP": (40, 60, 30), "Y_UP": (40, 30, 60), "X_UP": (30, 40, 60)}[up]
     box = trimesh.creation.box(size)
+    if wedge:
+        high, ahead = {
+            "Z_UP": (2, -box.vertices[:, 1]),
+            "Y_UP": (1, box.vertices[:, 2]),
+            "X_UP": (0, box.vertices[:, 2]),
+        }[up]
+        box.vertices[(ahead > 0) & (box.vertices[:, high] > 0), high] = -5
     points = " ".join(f"{value:g}" for value in box.vertices.ravel())
     uv = "0 0 1 0 1 1"
     corners = " ".join(f"{corner} {k}" for face in box.faces for k, corner in enumerate(face))
@@ -114,6 +124,15 @@ def test_the_unit_and_the_axes_that_a_file_tells_are_taken(made, words: dict, tm
     assert facts["measured"]["closed"] and facts["solid_volume"] == pytest.approx(0.072)
 
 
+@pytest.mark.parametrize("up", ["X_UP", "Y_UP", "Z_UP"])
+def test_the_front_of_a_collada_is_towards_who_looks_at_it(up: str, tmp_path: Path) -> None:
+    files, facts = taken_in.take_in(collada(tmp_path / "crate.dae", up=up, wedge=True), ASKED)
+    seen = trimesh.load(BytesIO(files[facts["visual"][0]["mesh"]]), file_type="obj")
+    in_front = seen.vertices[:, 0] > 0
+    assert np.ptp(seen.vertices[in_front, 2]) == pytest.approx(0.10, abs=1e-4)
+    assert np.ptp(seen.vertices[~in_front, 2]) == pytest.approx(0.30, abs=1e-4)
+
+
 def test_what_a_file_does_not_tell_is_asked_for(tmp_path: Path) -> None:
     path = usd(tmp_path / "crate.usdc", meter=None)
     assert told_frames.of(path).unit_m == 0
@@ -167,6 +186,37 @@ def test_a_mirrored_mesh_is_turned_outside_out_and_what_is_hidden_is_left_out(tm
     volume = trimesh.Trimesh(pieces[0].vertices, pieces[0].faces, process=False).volume
     assert volume == pytest.approx(72_000)
     assert np.ptp(pieces[1].vertices, axis=0) == pytest.approx((2, 2, 2), abs=0.01)
+
+
+def test_of_what_moves_the_first_moment_is_taken(tmp_path: Path) -> None:
+    """Values by time alone: where things are, what they are of, what is seen of them, and their colours."""
+    path = tmp_path / "moving.usda"
+    stage = Usd.Stage.CreateNew(str(path))
+    for number, name in enumerate(("one", "other")):
+        place = UsdGeom.Xform.Define(stage, f"/{name}")
+        way = place.AddTranslateOp()
+        box = trimesh.creation.box((1, 1, 1))
+        mesh = UsdGeom.Mesh.Define(stage, f"/{name}/mesh")
+        for time in (10, 20):
+            way.Set((10 * number + time, 0, 0), time)
+            mesh.GetPointsAttr().Set([Gf.Vec3f(*(float(v) * time for v in p)) for p in box.vertices], time)
+            mesh.GetDisplayColorAttr().Set([(1, 0, 0) if time == 10 else (0, 1, 0)], time)
+        mesh.GetFaceVertexCountsAttr().Set([3] * 12, 10)
+        mesh.GetFaceVertexIndicesAttr().Set(box.faces.ravel().tolist(), 10)
+        mesh.GetSubdivisionSchemeAttr().Set("none")
+    ball = UsdGeom.Sphere.Define(stage, "/ball")
+    ball.GetRadiusAttr().Set(3.0, 10)
+    hidden = UsdGeom.Cube.Define(stage, "/hidden").GetVisibilityAttr()
+    for time, seen in ((10, "invisible"), (20, "inherited")):
+        hidden.Set(seen, time)
+    stage.Save()
+    pieces, said = drawn_pieces.read(path)
+    assert said == ["it changes with time: its first moment was taken"]
+    assert sorted(float(np.ptp(piece.vertices[:, 0])) for piece in pieces) == pytest.approx([6, 10, 10], abs=0.05)
+    middles = sorted(float(np.mean(piece.vertices[:, 0])) for piece in pieces)
+    assert middles == pytest.approx([0, 10, 20], abs=0.05)
+    assert sum(piece.rgba[:2] == (1, 0) for piece in pieces) == 2
+    assert "moment" not in " ".join(drawn_pieces.read(usd(tmp_path / "still.usda"))[1])
 
 
 BOMB = """<?xml version="1.0"?><!DOCTYPE COLLADA [<!ENTITY a "ha"><!ENTITY b "&a;&a;&a;&a;">]><COLLADA>&b;</COLLADA>"""

@@ -36,6 +36,24 @@ def test_the_mesh_comes_out_with_what_belongs_to_it_and_nothing_else(tmp_path: P
     }
 
 
+def test_what_macos_lays_beside_each_file_is_no_mesh(tmp_path: Path) -> None:
+    obj = trimesh.creation.box().export(file_type="obj").encode()
+    notes = b"\0\x05\x16\x07\0\x02\0\0Mac OS X        "
+    members = {
+        "Crate/crate.obj": obj,
+        "__MACOSX/Crate/._crate.obj": notes,
+        "__MACOSX/Crate/lid.obj": notes,
+        "._Crate.stl": notes,
+    }
+    out = tmp_path / "out"
+    assert unpacked.unpack(packed(tmp_path / "a.zip", members), out) == out / "Crate/crate.obj"
+    assert [path for path in out.rglob("*") if path.is_file()] == [out / "Crate/crate.obj"]
+    for name, content in members.items():  # as it lies in a folder that was unpacked by hand
+        (tmp_path / "by_hand" / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / "by_hand" / name).write_bytes(content)
+    assert unpacked.the_mesh(tmp_path / "by_hand", "by_hand") == tmp_path / "by_hand/Crate/crate.obj"
+
+
 @pytest.mark.parametrize("name", ["../evil.obj", "/etc/evil.obj", "a/../../evil.obj", "..\\evil.obj", "C:/evil.obj"])
 def test_a_path_that_climbs_out_is_refused_before_anything_is_written(name: str, tmp_path: Path) -> None:
     path = packed(tmp_path / "a.zip", {"good.obj": b"v 0 0 0\n", name: b"v 0 0 0\n"})

@@ -40,7 +40,9 @@ def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-def test_an_offer_is_found_taken_in_with_its_creator_and_then_an_asset(library: Path) -> None:
+def test_an_offer_is_found_taken_in_with_its_creator_and_then_an_asset(library: Path, monkeypatch) -> None:
+    monkeypatch.setattr(libraries, "chosen", lambda: {"scopia_chest1": "pirate chest"})
+    libraries._named.cache_clear()
     obj = trimesh.creation.box((3, 1, 2)).export(file_type="obj").encode()  # in a unit of its own, y up
     turned = "0 0 1 0 1 0 -1 0 0"  # a quarter about y: what was its depth is its width
     archive(
@@ -60,6 +62,9 @@ def test_an_offer_is_found_taken_in_with_its_creator_and_then_an_asset(library: 
     hit = find_asset("treasure chest").assets[0]
     assert (hit.key, hit.taken_in, hit.source, hit.licence) == ("scopia_chest1", True, "own_folder", "CC-BY-3.0")
     assert len(find_asset("treasure chest").assets) == 1
+    assert hit.category == "pirate chest", "what it was recognised as stays its name"
+    assert hit.description == "Pirate chest (Treasure chest, Pirate, Storage chest1)"
+    libraries._named.cache_clear()
 
 
 def test_what_was_looked_at_comes_before_what_was_not_and_under_the_name_it_goes_by(library: Path, monkeypatch) -> None:

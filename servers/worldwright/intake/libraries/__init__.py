@@ -31,6 +31,10 @@ class Offer:
     chosen: bool = False
     """Whether its picture was looked at, and it is what its name says: such offers come first."""
 
+    def described(self) -> str:
+        """Its name, and what else it is found by."""
+        return f"{self.name} ({self.words})" if self.words else self.name
+
 
 class Library(Protocol):
     """What a module of this folder defines."""
@@ -39,7 +43,8 @@ class Library(Protocol):
         """All that it has on this machine, by key; none where its package is not installed. It is called often."""
 
     def lay(self, key: str, folder: Path) -> tuple[Path, dict[str, Any]]:
-        """Lay out the mesh of an offer and what belongs to it in a folder; returns its file, and what `taking_in.add` is asked.
+        """Lay out the mesh of an offer and what belongs to it in a folder; returns its file, and what `taking_in.add` is asked
+        besides what the offer is called.
 
         Raises:
             IntakeFailedError: what the package holds under that key is not whole, or more than may be laid out.

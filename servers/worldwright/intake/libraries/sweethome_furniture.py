@@ -136,8 +136,6 @@ def _extracted(archive: Path, offer: Offer, row: dict[str, str], folder: Path) -
         )
     asked: dict[str, Any] = {
         "key": offer.key,
-        "description": f"{offer.name} ({offer.words})" if offer.words else offer.name,
-        "category": offer.name.lower(),
         "extents": list(offer.extents),
         "licence": offer.licence,
         "creator": offer.creator,

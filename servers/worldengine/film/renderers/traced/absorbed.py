@@ -117,7 +117,7 @@ def _kind() -> type:
                 met = near.compute_surface_interaction(towards, +mi.RayFlags.All, clear)
                 bsdf = met.bsdf()
                 body = clear & mi.has_flag(bsdf.flags(), mi.BSDFFlags.DeltaTransmission)
-                enters, slant = met.wi.z > 0, mi.Float(dr.abs(met.wi.z))
+                enters, slant = interfaces.enters(met, towards.d), mi.Float(dr.abs(met.wi.z))
                 # The straight line is that outside: within, light is steeper, and never shut in.
                 met.wi = dr.select(body, mi.Vector3f(0, 0, 1), mi.Vector3f(met.wi.x, met.wi.y, slant))
                 context = mi.BSDFContext(mi.TransportMode.Importance)
