@@ -80,7 +80,7 @@ def stresses(bonds: Bonds, data: "mujoco.MjData") -> "np.ndarray":
     first = np.searchsorted(data.efc_id[: data.ne], bonds.equality[held])
     rows = data.efc_force[first[:, None] + np.arange(6)]
     turn = data.xmat[bonds.second[held]].reshape(-1, 3, 3)
-    forces = np.einsum("bij,bkj,bk->bi", bonds.axes[held], np.swapaxes(turn, 1, 2), rows[:, :3])
+    forces = np.einsum("bij,bkj,bk->bi", bonds.axes[held], turn, rows[:, :3])
     moments = np.einsum("bij,bj->bi", bonds.axes[held], HALF * rows[:, 3:])
     found[held] = stress(forces, moments, bonds.area[held], bonds.moduli[held])
     return found

@@ -74,6 +74,67 @@ def test_a_bent_bar_breaks_in_the_middle_at_its_modulus_of_rupture() -> None:
     assert force == pytest.approx(3e6 * 2 * b * h**2 / (3 * span), rel=0.02)
 
 
+TURNS = {
+    "not at all": (1.0, 0.0, 0.0, 0.0),
+    "about x": (0.5**0.5, 0.5**0.5, 0.0, 0.0),
+    "about y": (0.5**0.5, 0.0, 0.5**0.5, 0.0),
+    "about z": (0.5**0.5, 0.0, 0.0, 0.5**0.5),
+    "aslant": (0.1, 0.5, -0.7, 0.5),
+}
+B, H = 0.02, 0.01
+LOADS = {
+    "pulled": ((-100, 0, 0), (0, 0, 0), 100 / (B * H)),
+    "pressed": ((100, 0, 0), (0, 0, 0), 0.0),
+    "bent": ((0, 0, 0), (0, 1, 0), 6 / (B * H**2)),
+    "bent the other way": ((0, 0, 0), (0, 0, 1), 6 / (H * B**2)),
+    "twisted": ((0, 0, 0), (1, 0, 0), (3 + 1.8 * H / B) / (B * H**2)),
+}
+
+
+@pytest.mark.parametrize("turned", TURNS)
+@pytest.mark.parametrize("way", LOADS)
+@pytest.mark.parametrize("built", [True, False])
+def test_a_bond_carries_the_same_however_it_is_turned(turned: str, way: str, built: bool) -> None:
+    """A pair of blocks along x, turned as one, in its own world or since; the load, N and N m, turns with it."""
+    force, torque, exact = LOADS[way]
+    spec = scene.new("pair", time_step=STEP, gravity=(0, 0, 0))
+    corners = [(x, y, z) for x in (-0.05, 0.05) for y in (-B / 2, B / 2) for z in (-H / 2, H / 2)]
+    pair = breaking.convex(corners, [(-0.025, 0, 0), (0.025, 0, 0)])
+    breaking.add(spec, "bar", pair, "chalk", pos=(0, 0, 1), yaw_deg=37.0 if built else 0.0)
+    model = spec.compile()
+    data, frame, turn, middle = mujoco.MjData(model), np.zeros(9), np.array(TURNS[turned]), np.array([0, 0, 1.0])
+    for first in (0, 7):
+        start = data.qpos[first : first + 7].copy()
+        mujoco.mju_rotVecQuat(data.qpos[first : first + 3], start[:3] - middle, turn)
+        data.qpos[first : first + 3] += middle
+        mujoco.mju_mulQuat(data.qpos[first + 3 : first + 7], turn, start[3:])
+    mujoco.mju_quat2Mat(frame, data.qpos[3:7])
+    for body, sign in ((1, 1), (2, -1)):
+        data.xfrc_applied[body] = sign * np.concatenate([frame.reshape(3, 3) @ force, frame.reshape(3, 3) @ torque])
+    mujoco.mj_forward(model, data)
+    carried = breaking.stresses(breaking.bonds_of(model), data)
+    assert carried == pytest.approx([exact], rel=2e-3, abs=1.0)
+
+
+def test_a_hold_is_pulled_along_the_face_it_holds_however_its_frame_is_turned() -> None:
+    spec = scene.new("hold", time_step=STEP, gravity=(0, 0, 0))
+    bodies.box(spec, "frame", size=(0.02, 0.02, 0.02), pos=(0, 0, 0.1), yaw_deg=60, fixed=True)
+    rod = breaking.rod(0.01, 0.1, pieces=2, skew=0)
+    breaking.add(spec, "chalk", rod, "chalk", pos=(0, 0, 0.5), tilt_deg=90, yaw_deg=25, held={"frame": ((0, 1, 0),)})
+    model = spec.compile()
+    data, bonds = mujoco.MjData(model), breaking.bonds_of(model)
+    hold = next(n for n in range(2) if "frame" in model.equality(int(bonds.equality[n])).name)
+    piece = int(bonds.pieces[hold, 0])
+    mujoco.mj_forward(model, data)
+    along = data.xmat[int(bonds.second[hold])].reshape(3, 3) @ bonds.axes[hold, 0]
+    outward = (-math.sin(math.radians(25)), math.cos(math.radians(25)), 0)
+    assert along == pytest.approx(outward, abs=1e-9)
+    for pull, exact in ((-50, 50 / (math.pi * 0.005**2)), (50, 0.0)):
+        data.xfrc_applied[piece, :3] = pull * along
+        mujoco.mj_forward(model, data)
+        assert breaking.stresses(bonds, data)[hold] == pytest.approx(exact, rel=2e-3, abs=10.0)
+
+
 def pane(step: float = STEP, of: str = "glass") -> mujoco.MjSpec:
     spec = scene.new("pane", time_step=step)
     made = breaking.plate((0.4, 0.003, 0.4), 16, seed=3, struck_at=(0, 0, 0))
