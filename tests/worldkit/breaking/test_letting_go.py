@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from worldkit import bodies, breaking, scene
+from worldkit.errors import ProgramError
 from worldkit.mirror import Mirror, address
 from worldkit.strays import Derived
 
@@ -215,3 +216,87 @@ def test_a_hold_that_is_not_there_is_refused() -> None:
         breaking.add(spec, "pane", made, "glass", pos=(0, 0, 1), held={"frame": ((1, 0, 0),)})
     with pytest.raises(ValueError, match="no outer face"):
         breaking.add(spec, "pain", made, "glass", pos=(0, 0, 1), held={"world": ((1, 1, 1),)})
+
+
+@pytest.mark.parametrize(
+    ("strength", "held"), [(0.0, None), (-1.0, None), (math.nan, None), (math.inf, None), (3e6, 0.0)]
+)
+def test_a_strength_that_is_none_is_refused(strength: float, held: float | None) -> None:
+    """A hold of 0 Pa is not the material's."""
+    stuff, rod = breaking.material("chalk")._replace(strength_pa=strength), breaking.rod(0.01, 0.1, pieces=2)
+    with pytest.raises(ValueError, match="finite number above 0"):
+        breaking.add(scene.new("w", time_step=STEP), "chalk", rod, stuff, pos=(0, 0, 1), held_pa=held)
+
+
+@pytest.mark.parametrize("force", [math.nan, 1e300])
+def test_forces_that_are_no_numbers_end_in_a_word_about_them(force: float) -> None:
+    model = pane().compile()
+    data = mujoco.MjData(model)
+    data.xfrc_applied[1, :3] = force, force, -force
+    mujoco.mj_step1(model, data)
+    with pytest.raises(ProgramError, match="no finite numbers at 0 s") as refused:
+        breaking.LettingGo()(model, data)
+    assert refused.value.next_move
+
+
+def numbers(spec: mujoco.MjSpec) -> mujoco.MjsNumeric:
+    return next(n for n in spec.numerics if n.name.startswith("bonds of "))
+
+
+def list_again(spec: mujoco.MjSpec, kind: str, name: str) -> None:
+    """A field of bonds whose tuple lists one thing, and whose numbers are sound."""
+    spec.add_numeric(name="bonds of it", size=14, data=list(numbers(spec).data)[:14])
+    spec.add_tuple(name="bonds of it", objtype=[int(getattr(mujoco.mjtObj, kind))], objname=[name], objprm=[0.0])
+
+
+def tied(spec: mujoco.MjSpec, kind: str, one: str, other: str) -> None:
+    tie = spec.add_equality(name="tie", type=getattr(mujoco.mjtEq, kind), name1=one, name2=other)
+    tie.objtype = mujoco.mjtObj.mjOBJ_BODY
+    list_again(spec, "mjOBJ_EQUALITY", "tie")
+
+
+def renumbered(spec: mujoco.MjSpec, place: int, value: float) -> None:
+    told = list(numbers(spec).data)
+    told[place] = value
+    numbers(spec).data = told
+
+
+def shortened(spec: mujoco.MjSpec) -> None:
+    numbers(spec).data, numbers(spec).size = list(numbers(spec).data)[:14], 14
+
+
+MALFORMED = {
+    "no numbers": (lambda s: setattr(numbers(s), "name", "of bonds"), "no numeric field of its name"),
+    "too few numbers": (shortened, "each has 14"),
+    "bodies": (lambda s: list_again(s, "mjOBJ_BODY", "pane_1"), "no equality"),
+    "a ball joint": (lambda s: tied(s, "mjEQ_CONNECT", "pane_1", "pane_2"), "no weld"),
+    "what stands still": (lambda s: tied(s, "mjEQ_WELD", "post", "world"), "cannot move"),
+    "one weld twice": (lambda s: list_again(s, "mjOBJ_EQUALITY", s.equalities[0].name), "twice"),
+    "no area": (lambda s: renumbered(s, 9, 0.0), "above 0"),
+    "an endless strength": (lambda s: renumbered(s, 13, math.inf), "no finite number"),
+    "axes that are no numbers": (lambda s: renumbered(s, 0, math.nan), "no finite number"),
+}
+
+
+@pytest.mark.parametrize("name", MALFORMED)
+def test_a_field_of_bonds_that_nobody_can_read_is_refused_in_words(name: str) -> None:
+    change, words = MALFORMED[name]
+    spec = pane()
+    bodies.box(spec, "post", size=(0.1, 0.1, 0.1), pos=(1, 0, 0.05), fixed=True)
+    change(spec)
+    with pytest.raises(ProgramError, match=words):
+        breaking.bonds_of(spec.compile())
+
+
+def test_a_holder_may_have_a_name_that_begins_as_the_things() -> None:
+    spec = scene.new("window", time_step=STEP)
+    bodies.box(spec, "window_frame", size=(0.02, 0.02, 0.4), pos=(0.21, 0, 0.6), fixed=True)
+    made = breaking.plate((0.4, 0.003, 0.4), 5)
+    breaking.add(spec, "window", made, "glass", pos=(0, 0, 0.6), held={"window_frame": ((1, 0, 0),)})
+    model = spec.compile()
+    bonds = breaking.bonds_of(model)
+    assert bonds is not None
+    holds = bonds.second == model.body("window_frame").id
+    assert holds.any() and (bonds.pieces[holds, 0] == bonds.pieces[holds, 1]).all()
+    with pytest.raises(ValueError, match="a piece of its own"):
+        breaking.add(spec, "pane", made, "glass", pos=(0, 2, 0.6), held={"pane_1": ((1, 0, 0),)})
