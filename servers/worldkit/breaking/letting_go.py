@@ -92,6 +92,9 @@ def _told(model: "mujoco.MjModel", one: int) -> "np.ndarray":
     told = model.numeric_data[start : start + width].reshape(-1, WIDTH)
     if not (np.isfinite(told).all() and (told[:, 9:] > 0).all()):
         raise _malformed(called, "has an area, a modulus or a strength that is not above 0, or no finite number")
+    axes = told[:, :9].reshape(-1, 3, 3)
+    if np.abs(np.einsum("bik,bjk->bij", axes, axes) - np.eye(3)).max() > 1e-3:
+        raise _malformed(called, "has axes that are no frame of unit vectors")
     return np.asarray(told)
 
 

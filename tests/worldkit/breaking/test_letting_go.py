@@ -274,6 +274,7 @@ MALFORMED = {
     "one weld twice": (lambda s: list_again(s, "mjOBJ_EQUALITY", s.equalities[0].name), "twice"),
     "no area": (lambda s: renumbered(s, 9, 0.0), "above 0"),
     "an endless strength": (lambda s: renumbered(s, 13, math.inf), "no finite number"),
+    "axes that are none": (lambda s: renumbered(s, 0, 0.5), "no frame"),
     "axes that are no numbers": (lambda s: renumbered(s, 0, math.nan), "no finite number"),
 }
 
