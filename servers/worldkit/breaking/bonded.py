@@ -66,7 +66,8 @@ def add(
         held_pa: the strength of that hold, Pa; None: the material's.
 
     Raises:
-        ValueError: an unknown material, holding body (or one of its own pieces) or look, or a direction in which it has no face.
+        ValueError: an unknown material, holding body (or one of its own pieces) or look, a direction in which it has no face, or a
+                strength that is not above 0.
     """
     import mujoco
     import numpy as np
@@ -75,6 +76,10 @@ def add(
     from ..turning import about, matrices
 
     stuff = material(of) if isinstance(of, str) else of
+    hold_pa = stuff.strength_pa if held_pa is None else held_pa
+    for what, pa in (("strength", stuff.strength_pa), ("held_pa", hold_pa)):
+        if not 0 < pa < np.inf:
+            raise ValueError(f"{name} breaks at a {what} of {pa} Pa: give a finite number above 0")
     fragments = fragments.tilted(tilt_deg)
     quat = about((0.0, 0.0, 1.0), np.radians(yaw_deg))
     turn = matrices(quat)
@@ -105,8 +110,11 @@ def add(
     for one, other, section in fragments.bonds:
         ends = (f"{name}_{one + 1}", f"{name}_{other + 1}")
         bonds.append((f"{ends[0]}/{ends[1]}", *ends, section, stuff.strength_pa))
+    own = {body.name for body in made}
     for frame, directions in (held or {}).items():
-        if frame != "world" and (spec.body(frame) is None or frame.startswith(f"{name}_")):
+        if frame in own:
+            raise ValueError(f"{name} is held by {frame!r}, a piece of its own: name a body beside it, or `world`")
+        if frame != "world" and spec.body(frame) is None:
             known = ", ".join(b.name for b in spec.bodies)
             raise ValueError(f"{name} is held by {frame!r}, which is not in the world yet; known: {known}")
         for way in directions:
@@ -115,8 +123,8 @@ def add(
                 raise ValueError(f"{name} has no outer face that looks along {way}: name a direction of its own frame")
             for one, section in rim:
                 end, section = f"{name}_{one + 1}", section._replace(moduli=np.full(3, GRIPS))
-                bonds.append((f"{end}/{frame}_{len(bonds)}", end, frame, section, held_pa or stuff.strength_pa))
-    _tie(spec, name, bonds, np.array(pos, float), turn)
+                bonds.append((f"{end}/{frame}_{len(bonds)}", end, frame, section, hold_pa))
+    _tie(spec, name, bonds, own, np.array(pos, float), turn)
     return made
 
 
@@ -124,6 +132,7 @@ def _tie(
     spec: "mujoco.MjSpec",
     name: str,
     bonds: "list[tuple[str, str, str, Section, float]]",
+    own: set[str],
     pos: "np.ndarray",
     turn: "np.ndarray",
 ) -> None:
@@ -153,7 +162,7 @@ def _tie(
         rows += [*axes.ravel(), section.area, *section.moduli, strength]
     spec.add_numeric(name=FIELD + name, size=len(rows), data=rows)
     labels = [label for label, *_ in bonds]
-    holds = [0.0 if other.startswith(f"{name}_") else 1.0 for _, _, other, *_ in bonds]
+    holds = [0.0 if other in own else 1.0 for _, _, other, *_ in bonds]
     kinds = [int(mujoco.mjtObj.mjOBJ_EQUALITY)] * len(labels)
     spec.add_tuple(name=FIELD + name, objtype=kinds, objname=labels, objprm=holds)
 

@@ -59,21 +59,26 @@ def rod(
         length: m.
         pieces: how many.
         seed: of where it may break, and how aslant.
-        tip: diameter of its upper end, m; None: as thick as the other.
+        tip: diameter of its upper end, m, which is no point; None: as thick as the other.
         skew: 0 cuts straight across; 1 up to about 45 degrees where pieces are as long as thick.
         sides: corners of its section, whose area is that of the circle.
     """
+    tip = diameter if tip is None else tip
     _counted("rod", (diameter, diameter, length), pieces)
+    if not 0 < tip < np.inf:
+        raise ValueError(
+            f"rod: a tip of {tip} m across: give a diameter above 0, or None for one as thick as the other end"
+        )
     rng = np.random.default_rng(seed)
     turn = (np.arange(sides) + 0.5) * 2 * np.pi / sides
     ring = np.stack([np.cos(turn), np.sin(turn)], axis=1) * np.sqrt(2 * np.pi / sides / np.sin(2 * np.pi / sides)) / 2
-    ends = [np.insert(d * ring, 2, z, axis=1) for d, z in ((diameter, -length / 2), (tip or diameter, length / 2))]
+    ends = [np.insert(d * ring, 2, z, axis=1) for d, z in ((diameter, -length / 2), (tip, length / 2))]
     pitch = length / pieces
     seeds = np.zeros((pieces, 3))
     seeds[:, 2] = (np.arange(pieces) + 0.5) * pitch - length / 2
     if skew:
         seeds[:, 2] += rng.uniform(-0.2, 0.2, pieces) * pitch * min(skew, 1.0)
-        seeds[:, :2] = rng.uniform(-0.35, 0.35, (pieces, 2)) * skew * min(pitch, diameter, tip or diameter)
+        seeds[:, :2] = rng.uniform(-0.35, 0.35, (pieces, 2)) * skew * min(pitch, diameter, tip)
     return voronoi([solid(np.concatenate(ends))], seeds)
 
 

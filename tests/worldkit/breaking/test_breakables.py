@@ -116,6 +116,8 @@ def test_cells_of_any_solid_fill_it() -> None:
 REFUSED = {
     "too few": (lambda: breaking.plate((0.5, 0.004, 0.4), 1), "give 2 or more"),
     "no thickness": (lambda: breaking.plate((0.5, 0.0, 0.4), 5), "three numbers above"),
+    "a point": (lambda: breaking.rod(0.04, 0.3, 5, tip=0.0), "diameter above 0"),
+    "a tip below none": (lambda: breaking.rod(0.04, 0.3, 5, tip=-0.01), "diameter above 0"),
     "struck beside": (lambda: breaking.plate((0.5, 0.004, 0.4), 5, struck_at=(0.4, 0, 0)), "lies beside"),
     "groove too deep": (lambda: breaking.grooved((0.1, 0.1, 0.01), 2, 2, 0.02), "give one between"),
     "one place": (

@@ -76,6 +76,7 @@ def facts(model: mujoco.MjModel) -> tuple[dict[str, np.ndarray], dict[str, Any]]
         "light": lights.of(model),
         "annotated_cameras": [n for n in _names_of(model, "text", model.ntext) if n.startswith("worldkit.camera.")],
     }
+    arrays["bond_equality"], arrays["bond_told"], texts["bonds_wrong"] = _bonds(model)
     arrays["gravity"], arrays["wind"] = np.array(option.gravity), np.array(option.wind)
     light = model.vis.headlight
     arrays["headlight_colour"] = np.array([light.ambient, light.diffuse])
@@ -107,6 +108,25 @@ def _fields(model: mujoco.MjModel) -> Iterator[tuple[str, np.ndarray]]:
             value = getattr(model, name)
             if isinstance(value, np.ndarray):
                 yield name, value
+
+
+def _bonds(model: mujoco.MjModel) -> tuple[np.ndarray, np.ndarray, str]:
+    """(B,) which equalities are bonds, (B, 15) what decides their stress, whether they break and with what, and what makes it unreadable.
+
+    A row: the nine axes, the area, m^2, three moduli, m^3, the strength, Pa, and 1 for a hold.
+    """
+    from worldkit.breaking.letting_go import bonds_of
+    from worldkit.errors import ProgramError
+
+    try:
+        bonds, wrong = bonds_of(model), ""
+    except ProgramError as error:
+        bonds, wrong = None, str(error)
+    if bonds is None:
+        return np.zeros(0, int), np.zeros((0, 15)), wrong
+    hold = bonds.pieces[:, 0] == bonds.pieces[:, 1]
+    told = (bonds.axes.reshape(-1, 9), bonds.area, bonds.moduli, bonds.strength, hold)
+    return bonds.equality, np.column_stack(told), wrong
 
 
 def _mesh_sha256(model: mujoco.MjModel, mesh: int) -> str:
