@@ -184,6 +184,6 @@ def try_film(folder: Path) -> dict[str, str] | None:
 
 def model_files(model: Path) -> list[Path]:
     """For other servers (no tool): a model file and every file it names; see `stage.bare_models.made_of`."""
-    from .bare_models import made_of
+    from . import bare_models, given_models
 
-    return made_of(model)
+    return bare_models.made_of(model, given_models.package_of(model) or model.parent)
