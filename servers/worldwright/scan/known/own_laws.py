@@ -80,4 +80,4 @@ def pouring(
     plate = {"body": "body", "type": "box", "pos": [0, 0, 0], "quat": [1, 0, 0, 0], "aabb": [0, 0, 0, 0.2, 0.1, 0.01]}
     pos = np.tile(middle, (len(t), 1))
     media = ShownPoints({"paint": Lay(t, places.reshape(-1, 3))})
-    return motion(t, pos, 0 * pos, quat=turned, meta={"geoms": [plate]}, media=media)
+    return motion(t, pos, 0 * pos, quat=turned, free=False, meta={"geoms": [plate]}, media=media)
