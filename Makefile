@@ -20,6 +20,7 @@ demo: .venv/.core ## Build and accept the billiards world from its plan, and say
 test: lint tests ## Everything that must hold
 
 tests: .venv/.dev ## The tests alone
+	@$(BIN)/python -m compileall -q servers  # what was edited since set-up, which each of thousands of processes would compile
 	$(PYTEST) -n $(JOBS) --dist worksteal --ignore=tests/validation
 
 quick: style ## What most often turned a longer run red, in a minute or two: run it before each
@@ -100,11 +101,11 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,scenes,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,scenes,gym,mcap,robots,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev
-	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,scenes,semantic,gym,mcap,dev]'
+	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,scenes,semantic,gym,mcap,robots,dev]'
 	@touch $@
 
 clean: ## Remove the environment and caches; runs are kept

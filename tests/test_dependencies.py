@@ -32,7 +32,7 @@ BY_PATH = {"roles", "measure"}
 STARTED = {ROOT / "servers/worldwright/lint" / name for name in ("compiled", "observed/inside")}
 """Folders of programs that run in the sandbox by their file, each with its neighbours on its path."""
 PARTS = {
-    "servers": ("semantic", "view", "film", "matter", "hulls", "scenes", "cluster", "gym", "mcap"),
+    "servers": ("semantic", "view", "film", "matter", "hulls", "scenes", "cluster", "gym", "mcap", "robots"),
     "catalog/make": ("hulls",),
     "tests": ("dev", "film", "gym", "hulls", "mcap", "scenes", "semantic", "view"),
 }

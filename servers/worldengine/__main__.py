@@ -1,4 +1,4 @@
-"""The engine's process: `python -m worldengine bundle|physics|storyboard|still|video|final|frame|scene|sheet|view
+"""The engine's process: `python -m worldengine bundle|physics|live|storyboard|still|video|final|frame|scene|sheet|view
 --world FILE --program FILE --out DIR …`.
 
 `physics --replay RECORDING` drives the world by the inputs that a recording holds: the same motion, and nobody is asked.
@@ -16,7 +16,7 @@ from pathlib import Path
 
 import worldkit  # checks the environment contract before anything else is imported
 
-PASSES = ("bundle", "physics", "storyboard", "still", "video", "final", "frame", "scene", "sheet", "view")
+PASSES = ("bundle", "physics", "live", "storyboard", "still", "video", "final", "frame", "scene", "sheet", "view")
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -34,6 +34,10 @@ def main(argv: Sequence[str] | None = None) -> int:
             from .clock import physics
 
             physics.run(given, options)
+        elif options.run == "live":
+            from .clock import live_run
+
+            live_run.run(given, options)
         elif options.run == "bundle":
             from . import built_layout
 
@@ -87,6 +91,10 @@ def _share(text: str) -> tuple[int, int]:
     return number, count
 
 
+def _spans(text: str) -> list[tuple[int, int]]:
+    return [(int(first), int(count)) for first, count in (span.split("+") for span in text.split(","))]
+
+
 def _point(text: str) -> tuple[float, float, float]:
     x, y, z = (float(number) for number in text.split(","))
     return x, y, z
@@ -108,7 +116,15 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument(
         "--replay", type=Path, help="recorded inputs to be driven by again (physics): a recording's folder"
     )
+    parser.add_argument(
+        "--meets", type=int, default=1, help="a replay's rows are among every so many-th state (physics)"
+    )
     parser.add_argument("--channel", help="descriptors of the memory and the pipes to the author's process")
+    parser.add_argument("--socket", type=int, help="descriptor of the stream to whoever drives (live)")
+    parser.add_argument("--commands", type=Path, help="what may be commanded (live)")
+    parser.add_argument("--waits", action="store_true", help="for the first command (live)")
+    parser.add_argument("--speed", type=float, default=1.0, help="simulated seconds in a second (live)")
+    parser.add_argument("--seconds", type=float, default=3600.0, help="simulated seconds at most (live)")
     parser.add_argument("--source", type=Path, help="text of the program, never run: tells whether a motion is known")
     parser.add_argument("--film", type=Path, help="folder with a film's description (still, video, final, frame)")
     parser.add_argument("--minutes", type=float, default=5.0, help="time for drawing (final)")
@@ -142,6 +158,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     )
     parser.add_argument("--room-mb", type=int, default=0, help="memory that all who draw it may take (video)")
     parser.add_argument("--share", type=_share, help="K/N: only every N-th frame of the film, from K on (video)")
+    parser.add_argument("--only", type=_spans, help="FIRST+COUNT,…: of these frames of the film (video)")
     parser.add_argument("--to", type=int, help="descriptor that such frames are written to")
     options = parser.parse_args(argv)
     options.words = list(sys.argv[1:] if argv is None else argv)
@@ -156,6 +173,7 @@ if __name__ == "__main__":
     if sys.argv[1:2] in (
         ["bundle"],
         ["physics"],
+        ["live"],
     ):  # the simulator's package would bring in the graphics library it names
         os.environ["MUJOCO_GL"] = "disable"
     status = main()

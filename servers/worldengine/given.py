@@ -92,7 +92,7 @@ class Given:
             spec = portable.spec(self.world)
             if camera and not spec.cameras:
                 spec.worldbody.add_camera(name=camera)
-            return spec.compile()
+            return portable.compiled(spec)
         except (ValueError, RuntimeError) as failure:
             raise ProgramError(f"the world does not compile: {failure}", self.world.name, "build it again") from failure
 

@@ -31,6 +31,12 @@ def outside(text: str) -> Iterator[tuple[int, str]]:
         elif names:
             found.append((line, f"<{tag} {names[0]}={attributes[names[0]]!r}>"))
 
+    def document_type(name: str, *_: object) -> None:
+        found.append(
+            (reader.CurrentLineNumber, f"<!DOCTYPE {name}>")
+        )  # its entities can stand for any element, or file
+
     reader.StartElementHandler = element
+    reader.StartDoctypeDeclHandler = document_type
     reader.Parse(text.strip(), True)
     yield from found

@@ -19,6 +19,7 @@ from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from . import finite
 from .alike import differences
 from .closed_archive import XML, entries
 from .errors import ProgramError
@@ -55,6 +56,12 @@ def write(spec: "mujoco.MjSpec", path: Path) -> dict[str, Any]:
     from .whole_digits import whole_digits
 
     before = spec.compile()
+    if where := finite.nowhere(before):
+        cause = f"the world has numbers that are none (nan, inf): {where}"
+        move = "look for a division by zero, or a root or logarithm of what has none"
+        if "range" in where.partition(" ")[0]:
+            move = "give a finite limit; what has none is not limited"
+        raise ProgramError(cause, "build()", move)
     take_in(spec)
     try:
         model = spec.compile()
@@ -87,9 +94,17 @@ def read(path: Path) -> "mujoco.MjModel":
     """The model compiled from an archive; where the archive lies leaves no trace in it.
 
     Raises:
-        ValueError: it is no archive, names what is not in it, or does not compile.
+        ValueError: it is no archive, names what is not in it, does not compile, or has a number that is none.
     """
-    return spec(path).compile()
+    return compiled(spec(path))
+
+
+def compiled(spec: "mujoco.MjSpec") -> "mujoco.MjModel":
+    """The model of an archive's world; raises ValueError where it does not compile, or has a number that is none."""
+    model = spec.compile()
+    if where := finite.nowhere(model):
+        raise ValueError(f"it has numbers that are none (nan, inf): {where}")
+    return model
 
 
 def spec(path: Path) -> "mujoco.MjSpec":

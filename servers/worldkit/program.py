@@ -12,7 +12,7 @@ pass writes (`world.mjz`), steps it, records it into `DIR/trajectory`, and films
 build writes `world.mjz` and `program.json`; physics builds, has the world simulated, and answers for `control`; still and
 video draw recorded states (`--from`) and never step the physics; view opens a window; control answers an engine that is
 there already. Every pass leaves `result.json`, or `error.json` and exit status 1. Without arguments a program opens a window
-where there is a display, else simulates into `./out`.
+where there is a display, else simulates into `./out`. What a program run by hand leaves is marked as no proof (`NO_PROOF`).
 
 Importing a program runs nothing: `build()` alone gives the complete world, initial motion included (keyframe "start").
 """
@@ -32,7 +32,11 @@ if TYPE_CHECKING:
     from .laws import Law
 
 PASSES = ("build", "physics", "control", "still", "video", "view", "bundle")
+BY_HAND = ("physics", "still", "video")
+"""Passes that the suite never asks a program for: it has its own process for them."""
 TRAJECTORY = "trajectory"
+NO_PROOF = "none: run by hand, where nothing confines the program, no plan is asked and no run's journal vouches for it"
+"""What `result.json` says as `proof` of what a program made that was not started by the suite."""
 
 
 def main(
@@ -89,6 +93,8 @@ def main(
         asked.check()
         log_to_console()
         status = _PASSES[options.run](asked, options, out, program, line)
+        if out is not None and options.run in BY_HAND and not status:
+            _mark(out)
     except KeyboardInterrupt:
         sys.stderr.write("interrupted; what was recorded until now can be read\n")
         status = 130
@@ -181,7 +187,7 @@ def _physics(asked: Asked, options: argparse.Namespace, out: Path, program: str,
     if status:
         _blame(out, program, line)
     elif options.plain:
-        sys.stdout.write(f"film it: --pass video --from {out / TRAJECTORY}\n")
+        sys.stdout.write(f"film it: --pass video --from {out / TRAJECTORY}\nproof: {NO_PROOF}\n")
     return status
 
 
@@ -211,7 +217,7 @@ def _pictures(asked: Asked, options: argparse.Namespace, out: Path, program: str
         folder = folder / TRAJECTORY
     if options.recording is None and not folder.exists():
         raise ProgramError("there is no recording to draw", str(folder), "run --pass physics first, or give --from")
-    asked.draw_as(_meta(folder).get("seed"))
+    asked.draw_as(_read(folder / "meta.json").get("seed"))
     asked.write(out)
     cameras = [word for name in options.cameras for word in ("--camera", name)]
     status = handover.run([options.run, *_world(out), "--from", str(folder), "--out", str(out), *cameras])
@@ -231,7 +237,7 @@ def _view(asked: Asked, options: argparse.Namespace, out: Path | None, program: 
         )
     with tempfile.TemporaryDirectory(prefix="worldkit-") as folder:
         if options.recording is not None:
-            asked.draw_as(_meta(options.recording).get("seed"))
+            asked.draw_as(_read(options.recording / "meta.json").get("seed"))
         asked.write(Path(folder))
         words = ["view", *_world(Path(folder)), "--out", folder]
         if options.recording is not None:
@@ -247,24 +253,28 @@ def _world(folder: Path) -> list[str]:
     return [*words, "--inputs", str(inputs)] if inputs.is_file() else words
 
 
-def _meta(recording: Path) -> dict[str, Any]:
-    """The description of the world in a recording; empty when it cannot be read, which the engine reports better."""
+def _read(path: Path) -> dict[str, Any]:
+    """What a file says; nothing when it cannot be read, which the engine reports better where it matters."""
     try:
-        found = json.loads((recording / "meta.json").read_bytes())
+        found = json.loads(path.read_bytes())
     except (OSError, ValueError):
         return {}
     return found if isinstance(found, dict) else {}
+
+
+def _mark(out: Path) -> None:
+    """Say in a result that it is no proof."""
+    from .files import write_json
+
+    write_json(out / "result.json", {**_read(out / "result.json"), "proof": NO_PROOF})
 
 
 def _blame(out: Path, program: str, line: int) -> None:
     """Give an error of the engine's process the only place in the program that it has: the call that handed the world over."""
     from .files import write_json
 
-    try:
-        facts = json.loads((out / "error.json").read_bytes())
-    except (OSError, ValueError):
-        return
-    if not facts.get("line"):
+    facts = _read(out / "error.json")
+    if facts and not facts.get("line"):
         write_json(out / "error.json", {**facts, "file": program, "line": line})
 
 

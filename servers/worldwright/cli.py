@@ -34,6 +34,10 @@ COMMANDS = {
         "worldwright.campaign.command",
         "Many worlds at once: sweeps of one plan, or many plans, and a table of what came of them.",
     ),
+    "judge": (
+        "worldwright.judge.command",
+        "Score films against a benchmark's criteria, by a judge that nobody who builds hears: run, calibrate, report.",
+    ),
     "plan": ("worldwright.planning", "Begin a plan from the nearest accepted world; complete one from what is built."),
     "sculpt": ("worldwright.sculpting", "See something sculpted from four sides: `sculpt sheet FILE.py[:NAME]`."),
     "asset": (
@@ -41,6 +45,11 @@ COMMANDS = {
         "Make an asset of a mesh file of yours; list the assets of every source; show one.",
     ),
     "watch": ("worldwright.kept_open", "Look at a run and leave it open: redrawn when a file of it is saved."),
+    "live": (
+        "worldwright.live",
+        "Drive a world live from a browser: keys, gamepad, sliders; kept, filmed, proved by replay.",
+    ),
+    "drive": ("worldwright.driven_worlds", "What is left of live drives: list them, prove one again, film it."),
     "hand-in": (
         "worldwright.handing_in",
         "Hand in a film of a run that you drew yourself: shown as its author's, never evidence.",
@@ -159,10 +168,12 @@ def verb(function: Callable[..., Any]) -> click.Command:
         parameters.append(
             click.Option(["--save", "_save"], type=click.Path(path_type=Path, file_okay=False), help=text)
         )
+        parameters.append(click.Option(["--png", "_png"], is_flag=True, help="Write them as PNG, not as JPEG."))
     choices = click.Choice(["text", "json", *getattr(function, "formats", ())])
     parameters.append(click.Option(["--format", "_format"], type=choices, default="text", help="How to print."))
 
     def run(_format: str, _batch: Path | None = None, _save: Path | None = None, **values: Any) -> None:
+        as_png = values.pop("_png", False)
         arguments = {name: _value(annotations[name], value) for name, value in values.items() if value is not None}
         if _batch is not None:
             sys.exit(report_errors(lambda: _each(function, _batch, arguments), _format))
@@ -173,7 +184,7 @@ def verb(function: Callable[..., Any]) -> click.Command:
         result = report_errors(lambda: _call(function, arguments, listener is not None), _format)
         show(result, _format)
         if "out" not in annotations:
-            _pictures(result, _save, _format)
+            _pictures(result, _save, _format, as_png)
         sys.exit(expose.exit_code(result))
 
     return click.Command(
@@ -191,9 +202,9 @@ def _illustrated(annotation: Any) -> bool:
     return inspect.isclass(kind) and issubclass(kind, Illustrated)
 
 
-def _pictures(result: Any, folder: Path | None, style: str) -> None:
+def _pictures(result: Any, folder: Path | None, style: str, as_png: bool) -> None:
     """Write the pictures of a result into a folder, or tell on standard error how to get them."""
-    from .model.picture import Illustrated
+    from .model.picture import Illustrated, png
 
     if not isinstance(result, Illustrated) or not result.pictures:
         return
@@ -205,7 +216,7 @@ def _pictures(result: Any, folder: Path | None, style: str) -> None:
         return
     from worldkit.files import write_atomic
 
-    for number, picture in enumerate(result.pictures, 1):
+    for number, picture in enumerate(map(png, result.pictures) if as_png else result.pictures, 1):
         words = re.sub(r"[^a-z0-9]+", "-", picture.caption.split(" (")[0].split(", row")[0].lower()).strip("-")
         path = folder / f"{number:02}-{words[:40]}.{'jpg' if picture.format == 'jpeg' else picture.format}"
         folder.mkdir(parents=True, exist_ok=True)
@@ -323,7 +334,9 @@ def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter
     required = parameter.default is inspect.Parameter.empty
     default = None if required else parameter.default
     if required:
-        return click.Argument([parameter.name], type=_click_type(item), nargs=-1 if many else 1, required=True)
+        metavar = f"{parameter.name.upper()}(JSON|@FILE)" if _structured(kind) else None
+        nargs = -1 if many else 1
+        return click.Argument([parameter.name], type=_click_type(item), nargs=nargs, required=True, metavar=metavar)
     if any(isinstance(mark, expose.Positional) for mark in typing.get_args(annotation)[1:]):
         if many:  # click takes no default for a variadic argument: without values it gives an empty list
             return click.Argument([parameter.name], type=_click_type(item), nargs=-1, required=False)
@@ -332,15 +345,9 @@ def _parameter(parameter: inspect.Parameter, annotation: Any) -> click.Parameter
     if item is bool:
         return click.Option([f"{flag}/--no-{flag[2:]}", parameter.name], default=default, help=help_text)
     also = [mark.flag for mark in typing.get_args(annotation)[1:] if isinstance(mark, expose.Also)]
-    names = [flag, *also, parameter.name]
-    return click.Option(
-        names,
-        type=_click_type(item),
-        multiple=many,
-        default=default,
-        help=help_text,
-        show_default=default is not None,
-    )
+    shown = default is not None
+    given: dict[str, Any] = {"multiple": many, "default": default, "help": help_text, "show_default": shown}
+    return click.Option([flag, *also, parameter.name], type=_click_type(item), **given)
 
 
 def _unwrap(annotation: Any) -> tuple[Any, str]:
@@ -362,14 +369,17 @@ def _click_type(kind: Any) -> Any:
     return {int: click.INT, float: click.FLOAT, bool: click.BOOL}.get(kind, click.STRING)
 
 
+def _structured(kind: Any) -> bool:
+    return typing.get_origin(kind) is dict or (inspect.isclass(kind) and issubclass(kind, expose.BaseModel))
+
+
 def _value(annotation: Any, value: Any) -> Any:
     """Turn a value from click into the function's argument; models arrive as JSON text or as @file."""
     from pydantic import TypeAdapter, ValidationError
 
     kind, _ = _unwrap(annotation)
     origin = typing.get_origin(kind)
-    structured = origin is dict or (inspect.isclass(kind) and issubclass(kind, expose.BaseModel))
-    if structured and isinstance(value, str):
+    if _structured(kind) and isinstance(value, str):
         try:
             text = Path(value[1:]).read_text(encoding="utf-8") if value.startswith("@") else value
             return TypeAdapter(kind).validate_json(text)

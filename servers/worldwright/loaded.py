@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     import mujoco
     import numpy as np
     import pyarrow
+    import pyarrow.dataset
 
     from .campaign.campaign_store import Store
     from .campaign.world_row import Row
@@ -215,6 +216,24 @@ class Worlds:
     def rows(self) -> "list[Row]":
         """The same as data of ours, with causes, margins and minutes."""
         return sorted(self.store.rows(), key=lambda row: row.number)
+
+    def trajectories(self, part: str = "train") -> "pyarrow.dataset.Dataset":
+        """The recordings of one part (`train`, `validation`, `test`), written before by `worldwright campaign trajectories`.
+
+        A `pyarrow.dataset.Dataset`, read a batch at a time; its columns are told in `campaign/trajectories.py`.
+        """
+        import pyarrow.dataset
+
+        from .campaign import trajectories
+
+        folder = self.store.folder / trajectories.FOLDER / f"split={part}"
+        if not folder.is_dir():
+            raise NotFoundError(
+                f"there is no part `{part}` of its trajectories",
+                place=str(folder),
+                next_move=f"`worldwright campaign trajectories {self.store.folder.name}`; known: {', '.join(trajectories.PARTS)}",
+            )
+        return pyarrow.dataset.dataset(folder)
 
     def world(self, which: int | str) -> World:
         """A world by its number in the campaign, or by its address."""

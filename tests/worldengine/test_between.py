@@ -37,6 +37,31 @@ def test_wide_gaps_have_to_be_closer_where_things_go_far_or_bend():
     assert lacking(level(2.0, things=-1), level(2.1, things=-1), level(2.2, things=-1)), "cloth"
 
 
+@pytest.mark.parametrize(("degrees", "lacking", "misleads"), [(1, False, False), (12, True, False), (110, True, True)])
+def test_what_spins_is_traced_and_never_carried_to_where_it_shows_another_side(degrees, lacking, misleads):
+    def spun(frame: int) -> Surfaces:
+        shown, turn = level(2.0), np.radians(degrees * frame)
+        shown.poses[0, :2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+        return shown
+
+    geometry = between.Geometry(lambda frame, coarser: spun(frame), lambda frame: (spun(frame).poses, spun(frame).view))
+    assert geometry.lacking(4, 0, 8) is lacking
+    assert geometry.misleads(7, [8]) is False or degrees == 110
+    assert geometry.misleads(3, [0, 8]) is misleads
+
+
+def test_what_shrinks_does_not_spin():
+    def shrunk(frame: int) -> Surfaces:
+        shown = level(2.0)
+        shown.poses[0, :, :3] *= 0.97**frame
+        return shown
+
+    geometry = between.Geometry(
+        lambda frame, coarser: level(2.0), lambda frame: (shrunk(frame).poses, shrunk(frame).view)
+    )
+    assert not geometry.lacking(4, 0, 8) and not geometry.misleads(3, [0, 8])
+
+
 def test_neighbours_are_of_the_same_shot():
     drawn = [2.0, 0, 0, 2.0, 2.0, 0, 0, 0]
     assert between.neighbours(1, drawn, range(4)) == [0, 3]

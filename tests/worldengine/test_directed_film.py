@@ -611,7 +611,7 @@ def test_how_fast_it_runs_stands_in_the_corner(made):
         film.shot(still((0.2, -2.5, 0.6), (0.2, 0, 0.4)), start=0.0, until=0.2)
 
     film = made.film(tell)
-    assert [pace(film.speed(frame, 24)) for frame in (2, 8, 26)] == ["", "1/4 speed", ""]
+    assert [pace(film.speed(frame, 24)) for frame in (2, 8, 26)] == ["", "slow motion 1/4", ""]
     with made.screening(tell) as screening:
         corners = [screening.picture(frame)[:8, -40:].astype(int) for frame in (2, 8, film.frames - 1)]
     assert np.abs(corners[0] - corners[1]).mean() > 3
@@ -622,12 +622,13 @@ def test_how_fast_it_runs_stands_in_the_corner(made):
     ("speed", "words"),
     [
         (1.0, ""),
-        (0.5, "1/2 speed"),
-        (0.2, "1/5 speed"),
+        (0.5, "slow motion 1/2"),
+        (0.2, "slow motion 1/5"),
         (0.0, "held"),
-        (2.0, "2 × speed"),
-        (0.62, "0.6 × speed"),
-        (0.01, "1/100 speed"),
+        (2.0, "fast motion 2 ×"),
+        (0.62, "slow motion 0.6 ×"),
+        (0.97, "slow motion 0.97 ×"),
+        (0.01, "slow motion 1/100"),
         (-1.0, "backwards"),
     ],
 )

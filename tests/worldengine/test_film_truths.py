@@ -92,7 +92,7 @@ def test_many_cuts_that_leap_ahead_are_fast_motion_and_say_so(made):
     assert all(row["pace"] > 2.5 for row in told["time_map"])
     assert made.said(film, 0)[0] == ""
     assert made.said(film, 2)[0] == "0.22 s later"
-    assert "by cuts" in made.said(film, 20)[0] and made.said(film, 20)[0].startswith(("3", "4"))
+    assert "by cuts" in made.said(film, 20)[0] and made.said(film, 20)[0].startswith(("fast motion 3", "fast motion 4"))
 
 
 def test_shots_that_follow_each_other_leap_over_nothing_whatever_their_speeds(made):
@@ -101,13 +101,44 @@ def test_shots_that_follow_each_other_leap_over_nothing_whatever_their_speeds(ma
         film.shot(SIDE, until=1.2, speed=(1, 0.2))
         film.hold(SIDE, 0.5)
         film.shot(SIDE, until=3.0, speed=2.0)
-        film.shot(SIDE, start=1.0, until=1.5)  # shown again: the corner says that already
 
     film = made.film(plain)
     told = film.told(FPS)
     assert not any("leap_s" in shot for shot in told["shots"])
     assert {made.said(film, frame)[0] for frame in range(film.frames)} == {""}
     assert sum(row["seconds"] for row in told["time_map"]) == pytest.approx(film.frames / FPS, abs=1e-3)
+
+
+def test_short_shots_that_each_begin_before_the_one_before_run_backwards_and_say_so(made):
+    def back(film):
+        for number in range(12):
+            film.shot(SIDE, start=3.6 - number * 0.3, until=3.6 - number * 0.3 + 2.4 / FPS)
+
+    film = made.film(back)
+    told = film.told(FPS)
+    assert {shot["speed"] for shot in told["shots"]} == {1.0}
+    assert told["shots"][1]["leap_s"] == pytest.approx(-0.3 - 1 / FPS, abs=1e-3)
+    assert all(row["pace"] < -2.5 and row["back_s"] > 2.5 for row in told["time_map"])
+    assert [made.said(film, frame)[0] for frame in (0, 2)] == ["", "0.34 s earlier"]
+    assert made.said(film, 20)[0].startswith("backwards, ") and made.said(film, 20)[0].endswith("by cuts")
+
+
+def test_a_film_that_goes_back_and_comes_out_later_says_that_it_goes_back(made):
+    def rocked(film):
+        for start in (1.0, 0.9, 1.2, 1.1, 1.4, 1.3):
+            film.shot(SIDE, start=start, until=start + 0.2)
+
+    film = made.film(rocked)
+    assert made.said(film, 20)[0] == "goes back by cuts"
+    first = film.told(FPS)["time_map"][0]
+    assert 0 < first["pace"] < 1 and first["back_s"] > 0.3
+
+
+def test_a_moment_that_is_shown_again_is_told_for_a_second(made):
+    film = made.film(lambda f: (f.shot(SIDE, until=3.0), f.shot(SIDE, start=1.0, until=2.5)))
+    cut = film.shots[1]["first"]
+    assert [made.said(film, frame)[0] for frame in (cut - 1, cut, cut + FPS + 1)] == ["", "2 s earlier", ""]
+    assert film.told(FPS)["shots"][1]["leap_s"] == pytest.approx(-2.0, abs=0.05)
 
 
 def test_one_cut_that_leaps_ahead_is_told_for_a_second(made):
@@ -142,13 +173,54 @@ def test_particles_as_large_as_a_mover_are_told_by_size_and_count_and_in_the_cor
     assert small.drawn_only() == ["dust (1 particles)"] and made.said(small, 3)[2] == ""
 
 
+def balled(radius, apart, names=("dust",), away=0.3):
+    """Films of small particles, 4 cm wide, that make a ball together and fly beside; `names` share them."""
+    grid = np.mgrid[-radius : radius + 1e-9 : apart, -radius : radius + 1e-9 : apart, -radius : radius + 1e-9 : apart]
+    there = grid.reshape(3, -1).T
+    there = there[np.linalg.norm(there, axis=1) <= radius]
+
+    def tell(film):
+        for n, name in enumerate(names):
+            mine = there[n :: len(names)]
+            film.particles(
+                name,
+                lambda t, mine=mine: mine + np.stack([away * t, 0 * t, 0.2 + t], axis=1)[:, None],
+                diameter=0.04,
+            )
+
+    return tell
+
+
+def test_small_particles_that_make_a_mover_together_are_told_and_such_that_fly_apart_are_not(made):
+    for names in (("dust",), ("dust", "smoke")):
+        film = made.film(balled(0.08, 0.04, names))
+        assert all(said.endswith("particles of 0.2 m together, as large as ball)") for said in film.drawn_only())
+        assert made.said(film, 3)[2] == f"drawn: {', '.join(names)}"
+    for far in (balled(0.08, 0.06), balled(0.25, 0.04)):  # apart; a cloud that is far larger than the ball
+        film = made.film(far)
+        assert "as large" not in str(film.drawn_only()) and made.said(film, 3)[2] == ""
+
+
+def test_particles_under_a_surface_are_told_by_what_it_is_called_however_large_it_is(made):
+    for radius, size in ((0.08, "0.2"), (0.25, "0.48")):
+
+        def covered(film, radius=radius):
+            balled(radius, 0.04)(film)
+            film.surface("honey", of="dust", look="honey")
+
+        film = made.film(covered)
+        assert film.drawn_only()[1] == f"honey (one surface in place of 1 shapes, {size} m together, as large as ball)"
+        assert made.said(film, 3)[2] == "drawn: honey"
+
+
 def test_a_thing_in_a_mover_s_place_is_told_and_scenery_is_not(made):
     def drawn(**where):
         film = made.film(lambda f: f.draw("other", "sphere", 0.21, **where))
         return film.drawn_only(), made.said(film, 3)[2]
 
     assert drawn(pos=(0.4, 0, 0.1)) == (["other (0.21 m, as large as ball, and in its place)"], "drawn: other")
-    assert drawn(to="ball") == (["other (on ball, 0.21 m, as large as ball, and in its place)"], "drawn: other")
+    assert drawn(to="ball") == (["other (on ball, 0.21 m, as large as ball, and in its place)"], ""), "as a skin's"
+    assert drawn(to="ball", pos=(0, 0, 0.08))[1] == "", "a hat"
     assert drawn(pos=(0.4, 1.0, 0.1)) == (["other"], "")
     assert drawn(to="ball", pos=(0, 0, 0.2)) == (["other (on ball)"], "")
 
@@ -162,6 +234,7 @@ def among(tmp_path_factory):
     ("size", "where", "said"),
     [
         (0.21, {"to": "large", "pos": (0, 0, 0.6)}, ["other (on large, 0.21 m, as large as ball)"]),
+        (0.21, {"to": "large", "pos": (0, 0, 0.2)}, ["other (on large, 0.21 m, as large as ball)"]),
         (0.05, {"to": "large", "pos": (0, 0, 0.6)}, ["other (on large)"]),
         (0.5, {"to": "ball", "pos": (0, 0, 0.6)}, ["other (on ball, 0.5 m, as large as large)"]),
         (0.21, {"to": "ball", "pos": (0, 0, 0.2)}, ["other (on ball)"]),
@@ -184,7 +257,7 @@ def test_what_moves_without_a_shape_of_its_own_has_no_size_to_be_as_large_as(amo
 @pytest.mark.parametrize("frames", [1, 2, 24, 25, 26, 47, 48, 49])
 def test_the_time_map_is_as_long_as_the_film(frames):
     times = 0.002 * np.arange(frames) ** 2.0  # each second of film is faster than the one before
-    rows = time_map.paces(SimpleNamespace(frames=frames, arrays={"time": times}), FPS)
+    rows = time_map.paces(SimpleNamespace(frames=frames, shots=(), arrays={"time": times}), FPS)
     assert sum(row["seconds"] for row in rows) == pytest.approx(frames / FPS, abs=1e-3)
     assert all(row["pace"] > 0 for row in rows) or frames == 1
     assert [row["film_s"] for row in rows] == [float(second) for second in range(max(frames - 2, 0) // FPS + 1)]

@@ -69,6 +69,15 @@ def test_a_lamp_lights_what_is_near_it(lit, renderer):
 
 
 @pytest.mark.gl
+def test_a_traced_lamp_within_its_bulb_gives_the_light_that_it_gives_without(lit):
+    def lamp(radius):
+        return lambda film: film.lamp("bulb", (-0.8, 0, 1.4), strength=2, radius=radius)
+
+    bare, bulb = (lit.picture(lamp(radius), "traced")[34:48, 10:60].mean() for radius in (0.0, 0.08))
+    assert bulb == pytest.approx(bare, rel=0.1) and bare > 30
+
+
+@pytest.mark.gl
 def test_a_carried_lamp_goes_along_in_the_scene_that_there_is(lit, monkeypatch):
     pytest.importorskip("mitsuba")
     variant.choose()

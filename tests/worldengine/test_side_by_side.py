@@ -1,7 +1,9 @@
 """A film that several processes draw is the one that a single process draws, whatever becomes of the others."""
 
 import json
+import shlex
 import sys
+from types import SimpleNamespace
 
 import av
 import numpy as np
@@ -66,8 +68,27 @@ def test_two_processes_draw_the_film_of_one(words, tmp_path, monkeypatch):
     assert len(alone) == len(together) and all(map(np.array_equal, alone, together))
 
 
+def test_of_some_frames_others_draw_their_share_by_place_and_not_by_number(tmp_path):
+    screening = SimpleNamespace(
+        picture=lambda frame: np.full((1, 1, 3), frame, np.uint8),
+        hidden=list,
+        frames=SimpleNamespace(renderer="preview"),
+    )
+    path = tmp_path / "pipe"
+    with path.open("wb") as pipe:
+        side_by_side.draw(screening, (1, 2), range(100, 130), pipe)
+    data, found = path.read_bytes(), []
+    while data:
+        words, picture = HEAD.unpack(data[: HEAD.size])
+        told, data = json.loads(data[HEAD.size : HEAD.size + words]), data[HEAD.size + words :]
+        found.append((told["frame"], data[0]))
+        data = data[picture:]
+    first = side_by_side.STARTING + 1
+    assert found == [(place, 100 + place) for place in range(first, 30, 2)]
+
+
 LIES = "import os, sys, time; os.write(int(sys.argv[-1]), {!r}); time.sleep({}); sys.exit()"
-HEAD = side_by_side.HEAD
+HEAD, PYTHON = side_by_side.HEAD, sys.executable
 ANSWERS = {
     "nothing": b"",
     "half a head": b"rub",
@@ -80,8 +101,9 @@ ANSWERS = {
 
 def takes(monkeypatch, tmp_path, answer, stays=0.0):
     """What is taken of eight frames from another process that answers so."""
-    liar = tmp_path / "liar"
-    liar.write_text(f"#!{sys.executable}\n{LIES.format(answer, stays)}\n")
+    liar, words = tmp_path / "liar", tmp_path / "lies.py"
+    words.write_text(LIES.format(answer, stays))
+    liar.write_text(f'#!/bin/sh\nexec {shlex.quote(PYTHON)} {shlex.quote(str(words))} "$@"\n')  # no #! takes a blank
     liar.chmod(0o755)
     monkeypatch.setattr(side_by_side, "processes", lambda *_: 2)
     monkeypatch.setattr(side_by_side.sys, "executable", str(liar))

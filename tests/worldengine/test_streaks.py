@@ -98,3 +98,18 @@ def test_no_streak_is_longer_than_its_share_of_the_picture():
     smeared = streaks.streaked(picture, shown, gone(3.0), view())
     touched = np.flatnonzero((smeared != picture).any(axis=(0, 2)))
     assert 60 - touched.min() <= streaks.LONGEST * SIZE[0] / 2 + 2
+
+
+def test_a_disk_that_spins_by_a_sixth_of_a_turn_keeps_its_outline():
+    picture, things, depth = np.full((*SIZE, 3), 90, np.uint8), np.full(SIZE, WALL, np.int32), np.full(SIZE, 4.0)
+    row, column = np.indices(SIZE)
+    away, turn = np.hypot(row - 59.5, column - 79.5), np.arctan2(row - 59.5, column - 79.5)
+    disk = away < 30
+    picture[disk], things[disk], depth[disk] = (220, 30, 30), MOVER, 2.0
+    picture[disk & (np.sin(4 * turn) > 0)] = (250, 250, 250)
+    shown, turned, angle = Surfaces(things, depth.astype(np.float32), REST, view()), REST.copy(), np.radians(1.0)
+    turned[MOVER, :, :3] = [[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]]
+    smeared = streaks.streaked(picture, shown, turned, view(), share=30.0).astype(int)
+    off = np.abs(smeared - picture).max(axis=2)
+    assert off[away > 31.5].max() == 0, "nothing is flung out along the tangents"
+    assert off[(away > 26) & (away < 28)].mean() > 20, "and its pattern is smeared"

@@ -308,3 +308,49 @@ def test_without_its_initial_velocity_a_ball_stands_where_it_starts(tmp_path):
     assert abs(still.linvel[:, 0, :2]).max() < 1e-6
     with pytest.raises(ProgramError, match="nothing moves without a mass"):
         vary(bowling(), tmp_path / "b", 1, without=["ball.mass"])
+
+
+def test_less_friction_of_one_thing_leaves_its_rebound(tmp_path):
+    spec = empty()
+    floor(spec)
+    spec.geom("ground").solref = (-40_000.0, -20.0)
+    ball(spec, "ball", (0, 0, 0.5))
+    spec.geom("ball").solref = (-20_000.0, -5.0)
+
+    def highest(folder, **change):
+        return vary(spec.copy(), tmp_path / folder, 900, **change).pos[400:, 0, 2].max()
+
+    planned = highest("a")
+    assert highest("b", weaken=["ball.friction=0.999999"]) == pytest.approx(planned, rel=1e-3)
+    assert highest("c", without=["ball.friction"]) == pytest.approx(planned, rel=1e-3)
+    ball(spec, "dead", (2, 0, 0.5))
+    spec.geom("dead").solref = (-60_000.0, -500.0)
+    with pytest.raises(ProgramError, match="unlike softness"):
+        highest("d", without=["ground.friction"])
+
+
+@pytest.mark.parametrize("paired", [False, True])
+def test_friction_is_taken_away_and_weakened_of_all_or_of_one_thing(paired, tmp_path):
+    spec = empty()
+    floor(spec)
+    spec.geom("ground").friction[0] = 0.3
+    for name, y in (("one", 0.0), ("two", 2.0)):
+        body = spec.worldbody.add_body(name=name, pos=(0, y, 0.1))
+        body.add_freejoint()
+        body.add_geom(name=name, type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.2, 0.2, 0.1), friction=(0.2, 0, 0), mass=1)
+        if paired:
+            spec.add_pair(geomname1="ground", geomname2=name, friction=(0.3, 0.3, 0, 0, 0), condim=3)
+    key = spec.add_key(name="start")
+    key.qpos = [0, 0, 0.1, 1, 0, 0, 0, 0, 2, 0.1, 1, 0, 0, 0]
+    key.qvel = [1.0, *[0] * 5, 1.0, *[0] * 5]
+
+    def speeds(folder, **change):
+        return vary(spec.copy(), tmp_path / folder, 100, **change).linvel[-1, :2, 0]
+
+    planned = speeds("a")
+    assert planned[0] == pytest.approx(planned[1], abs=0.01) and planned[0] < 0.8
+    assert speeds("b", without=["friction"]) == pytest.approx([1.0, 1.0], abs=0.01)
+    assert speeds("c", without=["one.friction"]) == pytest.approx([1.0, planned[1]], abs=0.01)
+    assert planned[0] < speeds("d", weaken=["one.friction=0.5"])[0] < 0.95
+    if not paired:
+        assert speeds("e", without=["ground.friction"]) == pytest.approx([1.0, 1.0], abs=0.01)

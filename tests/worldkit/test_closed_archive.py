@@ -110,3 +110,9 @@ def test_text_that_is_no_world_is_refused(tmp_path, text):
 def test_numbers_that_are_none_are_refused(tmp_path, size):
     with pytest.raises(ValueError, match=r"size|number|bad format"):
         portable.read(archive(tmp_path, f"<mujoco><worldbody><geom size='{size}'/></worldbody></mujoco>"))
+
+
+@pytest.mark.parametrize("more", ["<camera name='eye' pos='nan 0 0'/>", "<geom name='eye' size='1' rgba='nan 0 0 1'/>"])
+def test_numbers_that_only_a_picture_shows_are_refused_too(tmp_path, more):
+    with pytest.raises(ValueError, match=r"none \(nan, inf\): \w+ of eye"):
+        portable.read(archive(tmp_path, f"<mujoco><worldbody>{more}</worldbody></mujoco>"))

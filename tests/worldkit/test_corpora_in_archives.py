@@ -242,8 +242,31 @@ def test_six_digits_are_refused_by_the_field(tmp_path: Path, monkeypatch: pytest
         portable.write(spec, tmp_path / "far.mjz")
 
 
-def test_what_no_file_can_hold_is_refused(tmp_path: Path) -> None:
+def spoilt(spec: mujoco.MjSpec, what: str) -> None:
+    """Write a number that is none into a world."""
+    none = (float("nan"), 0, 0)
+    if what == "opt.gravity":
+        spec.option.gravity = none
+    elif what == "cam_pos of eye":
+        spec.worldbody.add_camera(name="eye", pos=none)
+    elif what == "geom_rgba of skin":
+        spec.geom("skin").rgba = (*none, 1)
+    elif what == "body_ipos of ball":
+        spec.geom("skin").pos = (float("inf"), 0, 0)
+    elif what == "key_qvel of start":
+        spec.add_key(name="start", qvel=none * 2)
+    else:
+        spec.visual.map.zfar = none[0]
+
+
+@pytest.mark.parametrize(
+    "what",
+    ["opt.gravity", "cam_pos of eye", "geom_rgba of skin", "body_ipos of ball", "key_qvel of start", "vis.map.zfar"],
+)
+def test_a_number_that_is_none_is_refused_by_its_field(tmp_path: Path, what: str) -> None:
+    """Also one that only a picture would show."""
     spec = source(within(BALL), tmp_path)
-    spec.option.gravity = (0, 0, float("nan"))
-    with pytest.raises(ProgramError, match=r"opt\.gravity differs|written as one file"):
+    spoilt(spec, what)
+    with pytest.raises(ProgramError, match=rf"numbers that are none \(nan, inf\): {what}"):
         portable.write(spec, tmp_path / "world.mjz")
+    assert not (tmp_path / "world.mjz").exists()

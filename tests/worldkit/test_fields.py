@@ -1,5 +1,9 @@
 """The laws of fields: forces are slopes of the energy, both feel the same, and what a brake takes it warms."""
 
+import os
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 
@@ -107,6 +111,44 @@ def test_charges_push_each_other_alike() -> None:
     assert forces[0, 0] > 0 > forces[1, 0], "unlike ones attract"
     assert energy < 0
     assert coulomb.felt(at, charge, np.array([0, 0, 5.0]))[0][:, 2] == pytest.approx(5.0 * charge)
+
+
+def test_two_charges_at_one_place_are_pushed_nowhere_and_near_it_by_the_slope_of_one_energy() -> None:
+    charge, core = np.array([1e-9, -2e-9]), coulomb.CORE_M
+
+    def felt(apart: float) -> tuple[np.ndarray, float]:
+        return coulomb.felt(np.array([[0.0, 0, 0], [apart, 0, 0]]), charge, np.zeros(3))
+
+    assert not felt(0.0)[0].any() and np.isfinite(felt(0.0)[1])
+    for apart in (0.3 * core, 0.9 * core, core, 1.1 * core):
+        step = 1e-5 * core
+        slope = (felt(apart + step)[1] - felt(apart - step)[1]) / (2 * step)
+        assert felt(apart)[0][1, 0] == pytest.approx(-slope, rel=1e-4)
+    assert felt(0.9 * core)[0][1, 0] == pytest.approx(0.9 * felt(core)[0][1, 0]), "as inside an even ball"
+
+
+LAST_DIGITS = """
+import numpy as np
+from worldkit.fields import eddies, lumped_heat
+n, rng = 150, np.random.default_rng(0)
+touching = rng.random((n, n)) * (rng.random((n, n)) < 0.1)
+warmth = lumped_heat.Warmth(300 + rng.random(n), 100 + rng.random(n), rng.random(n), 290.0, np.zeros(n), np.full(n, np.inf), np.zeros(n))
+warmth.advance(1.0, touching + touching.T)
+print(eddies.plate(0.06, 0.05, 0.001, 5.8e7).conducts.tobytes().hex()[:4096], warmth.temperature.tobytes().hex(), warmth.lost.hex())
+"""
+
+
+def test_the_last_digits_of_currents_and_temperatures_depend_on_no_number_of_threads() -> None:
+    told = {
+        subprocess.run(
+            [sys.executable, "-c", LAST_DIGITS],
+            env={**os.environ, "OPENBLAS_NUM_THREADS": threads, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for threads in ("1", "2")
+    }
+    assert len(told) == 1
 
 
 def test_heat_goes_nowhere_and_ice_melts_at_one_temperature() -> None:

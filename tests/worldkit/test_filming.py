@@ -119,11 +119,20 @@ def test_a_camera_that_follows_two_keeps_both_in_the_picture_as_they_part(lens):
 
 
 def test_a_focused_lens_knows_how_far_its_subject_is(film):
-    film.shot(still((0, -2, 0.1), "post", focus="ball", aperture=2.0), until=1.0)
+    film.shot(still((0, -2, 0.1), "post", focus="ball", aperture=2.0, lens_mm=200), until=1.0)
     _, arrays = described(film)
     expected = np.linalg.norm(film.recorded.position("ball", arrays["time"]) - arrays["eye"], axis=1)
     assert arrays["focus_m"] == pytest.approx(expected)
     assert set(arrays["aperture"]) == {2.0}
+
+
+def test_a_still_camera_turns_its_ring_only_where_its_subject_would_blur(film):
+    film.shot(still((0, -2, 0.1), "post", focus="ball", aperture=16.0), until=0.3)
+    film.shot(follow("ball", focus="post", aperture=16.0), until=0.6)
+    _, arrays = described(film)
+    away = np.hypot(arrays["time"][:7], 2.0)
+    assert np.ptp(arrays["focus_m"][:7]) == 0 and away.min() < arrays["focus_m"][0] < away.max()
+    assert np.ptp(arrays["focus_m"][8:]) > 0, "a camera that moves draws all anew anyway"
 
 
 def test_a_way_passes_through_its_points_with_a_gentle_start_and_end(film):
@@ -416,3 +425,6 @@ def test_a_limb_is_one_tapered_skin_over_a_chain_each_piece_fixed_to_its_body():
     ):
         with pytest.raises(ProgramError, match="is no chain"):
             film.limb("bad", bodies, sizes)
+    film.recorded.sized = True  # of bodies whose sizes are known, it is told where film.py draws it
+    with pytest.raises(ProgramError, match=r"'bad 1' is \[.*\] times the size of 'branch_1'"):
+        film.limb("bad", list(ways), (0.02, 0.008))

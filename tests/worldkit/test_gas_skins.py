@@ -146,23 +146,24 @@ def test_what_springs_off_the_floor_makes_no_energy() -> None:
     assert made < 0.03 * np.ptp(energies), (made, np.ptp(energies))
 
 
-@pytest.mark.parametrize(("asked", "longest", "share"), [(0.001, 0.002, 0.06), (0.002, 0.0005, 0.12)])
-def test_a_crate_that_it_throws_back_gains_no_energy(asked: float, longest: float, share: float) -> None:
-    """The crate moves on between two steps of the skin, and within one of several parts: it must not push it from where it was."""
-    model, data = at_rest(f'<option timestep="{asked}"/>' + FLOOR.replace('density="200"', 'mass="0.06"'))
+@pytest.mark.parametrize(("asked", "longest"), [(0.001, 0.002), (0.004, 0.004), (0.016, 0.004)])
+def test_a_crate_that_it_throws_back_gains_no_energy_however_seldom_it_is_asked(asked: float, longest: float) -> None:
+    """The crate moves on between two questions, by what it is pushed with: it must not be pushed from where it was."""
+    model, data = at_rest('<option timestep="0.0005"/>' + FLOOR.replace('density="200"', 'mass="0.06"'))
     skin = Balloon(ball(0.1, (0, 0, 0.1), finer=1), RUBBER, Gas(), longest=longest)
     skin.start(model, data)
     data.qvel[2] = -1.4
     energies = []
-    for _ in range(round(0.07 / asked)):
+    for _ in range(round(0.096 / asked)):
+        mujoco.mj_forward(model, data)
         data.xfrc_applied[1] = skin.step(model, data, asked)[0]
-        mujoco.mj_step(model, data)
+        mujoco.mj_step(model, data, round(asked / 0.0005))
         crate = 0.06 * (0.5 * float(data.qvel[:3] @ data.qvel[:3]) + 9.81 * data.qpos[2])
         motion = 0.5 * float((skin.mass[:, None] * skin.velocities**2).sum())
         energies.append(skin.energy() + motion + crate + 9.81 * float((skin.mass * skin.points[:, 2]).sum()))
-    assert data.qvel[2] > 0.3, "it is thrown back"
+    assert 1.0 < data.qvel[2] < 1.2, "it is thrown back as it is by steps of half a millisecond"
     made = (np.array(energies) - np.minimum.accumulate(energies)).max()
-    assert made < share * 0.5 * 0.06 * 1.4**2, made
+    assert made < 0.005 * 0.5 * 0.06 * 1.4**2, made
 
 
 def test_pinned_points_stay_and_the_world_carries_them() -> None:

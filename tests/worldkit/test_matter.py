@@ -179,6 +179,16 @@ def test_what_cannot_run_is_refused_with_its_numbers() -> None:
 
 
 @pytest.mark.parametrize(
+    ("stuff", "given"),
+    [(Snow, {"falls": 0.0}), (Snow, {"density": -1.0}), (Sand, {"sound": np.nan}), (Liquid, {"density": 0.0})],
+)
+def test_a_number_that_nothing_can_have_is_refused_by_its_name(stuff: type, given: dict[str, float]) -> None:
+    with pytest.raises(ProgramError, match=next(iter(given))) as caught:
+        stuff(**given)
+    assert "above zero" in caught.value.next_move
+
+
+@pytest.mark.parametrize(
     ("world", "law", "says"),
     [
         (tub(0.08, 0.06, 0.004, floor=False), {"container": "tub"}, "the container tub is open below"),

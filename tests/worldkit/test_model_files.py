@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from worldkit import model_files, models
+from worldkit import model_files, model_references, models
 
 URDF = """<robot name="pan">
   <material name="steel"><color rgba="0.2 0.3 0.9 1"/><texture filename="nowhere.jpg"/></material>
@@ -161,3 +161,9 @@ def test_an_include_that_is_none_is_refused(parted: Path, text: str, code: str, 
     (parted / "arm/parts/more.xml").write_text(text)
     told = refused(parted / "arm/arm.xml", parted)
     assert told.code == code and said in told.cause
+
+
+def test_a_document_type_is_what_no_model_may_have() -> None:
+    """Its entities stand for whatever they say, a file among it."""
+    text = '<!DOCTYPE a [<!ENTITY b SYSTEM "/etc/hostname">]>\n<mujoco><worldbody/></mujoco>'
+    assert list(model_references.outside(text)) == [(1, "<!DOCTYPE a>")]

@@ -79,3 +79,13 @@ def test_an_archive_that_two_readers_open_differently_is_refused(tmp_path, secon
             archive.writestr(second, "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>")
     with pytest.raises(ValueError, match="another world"):
         portable.read(path)
+
+
+def test_a_limit_that_is_none_is_told_as_one(tmp_path: Path) -> None:
+    spec = mujoco.MjSpec()
+    body = spec.worldbody.add_body()
+    body.add_geom(size=(0.1, 0, 0))
+    body.add_joint(name="slide", type=mujoco.mjtJoint.mjJNT_SLIDE, range=(0, float("inf")))
+    with pytest.raises(ProgramError) as told:
+        portable.write(spec, tmp_path / portable.NAME)
+    assert "jnt_range of slide" in told.value.cause and "finite limit" in told.value.next_move

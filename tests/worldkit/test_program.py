@@ -45,6 +45,7 @@ def test_the_physics_pass_leaves_a_recording_a_summary_and_its_progress(tmp_path
     assert result["trajectory_sha256"] == recording.sha256 == stored.digest(recording)
     assert result["final_time"] == pytest.approx(0.2)
     assert result["interventions"] == {} and result["warnings"] == {}
+    assert result["proof"].startswith("none: run by hand")
     assert recording.meta["seed"] == 7 and recording.meta["movers"] == ["ball"]
     assert json.loads((tmp_path / "progress.json").read_text()) == {"done": 200, "total": 200, "unit": "steps"}
     assert not (tmp_path / "error.json").exists()
@@ -242,7 +243,7 @@ def test_a_script_without_arguments_simulates_and_says_what_it_did(tmp_path):
     for _ in range(2):  # the default folder holds the latest run
         done = script(tmp_path)
         assert done.returncode == 0, done.stderr
-        assert "1 bodies, 50 steps" in done.stdout
+        assert "1 bodies, 50 steps" in done.stdout and f"proof: {program.NO_PROOF}" in done.stdout
     assert len(stored.open(tmp_path / "out" / "trajectory")) == 51
     assert sorted(p.name for p in tmp_path.iterdir()) == ["out", "simulation.py"]
 

@@ -6,6 +6,8 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 import anyio
+import cv2
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from pydantic import Field
@@ -158,9 +160,21 @@ def test_models_are_given_as_json_or_file(tmp_path):
     # the list of files swallows every positional but the last
     done = CliRunner().invoke(command, ["a", "b", f"@{tmp_path}/item.json", "--format", "json"])
     assert json.loads(done.output)["words"] == ["a 2.5", "b 2.5"]
+    assert "FIRST(JSON|@FILE)" in CliRunner().invoke(command, ["--help"]).output
     wrong = CliRunner().invoke(command, ["a", '{"weight": 1}'])
     assert wrong.exit_code == 2
     assert "weight" in wrong.output
+
+
+def test_pictures_are_written_as_png_where_asked(tmp_path):
+    def shot() -> Illustrated:
+        """Show a JPEG."""
+        data = cv2.imencode(".jpg", np.full((8, 8, 3), 200, np.uint8))[1].tobytes()
+        return Illustrated(Answer(words=["look"]), (Picture(data, "grey", "jpeg"),))
+
+    for word, name, begins in ((), "01-grey.jpg", b"\xff\xd8"), (("--png",), "01-grey.png", b"\x89PNG"):
+        done = CliRunner().invoke(verb(shot), ["--save", str(tmp_path), *word])
+        assert done.exit_code == 0 and (tmp_path / name).read_bytes().startswith(begins), done.output
 
 
 def test_a_verb_that_fails_prints_the_next_move_and_exits_2():

@@ -45,7 +45,7 @@ def run(given: Given, options: argparse.Namespace) -> None:
     world.check_cast(model, given.movers, given.visual_only)
     # At a finer step the recorded instants and the end stay the same, so that expectations measure the same thing.
     steps = world.steps_of(model, given.duration)
-    every = world.record_every(model, steps) * variant.steps_per_step
+    every = meeting(world.record_every(model, steps), options.meets) * variant.steps_per_step
     steps *= variant.steps_per_step
     hold = altered.alter(model, variant) if variant else None
     silent = bool(hold and hold.silent and not given.laws)  # an author's own laws go on without `control`
@@ -110,6 +110,14 @@ def run(given: Given, options: argparse.Namespace) -> None:
         f"{model.nbody - 1} bodies, {steps} steps, {data.time:.3f} s simulated in {wall:.1f} s "
         f"({data.time / wall:.1f} times real time)\nrecorded in {out / TRAJECTORY}\n"
     )
+
+
+def meeting(every: int, live: int) -> int:
+    """Steps between rows, at least `every`, so that a state that was recorded every `live` steps is a row, too.
+
+    Those recorded live come by powers of two, so that this is less than twice as many.
+    """
+    return next(n for n in range(every, 2 * live * every + 1) if live % n == 0 or n % live == 0)
 
 
 def _inputs(

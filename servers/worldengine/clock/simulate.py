@@ -15,7 +15,7 @@ The engine computes no contacts inside a sleeping island, so the row has none of
 distance is a stand-in that steers the solver; the row holds the true distance.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
 from worldkit.errors import DivergedError
@@ -45,18 +45,19 @@ def simulate(
     model: "mujoco.MjModel",
     data: "mujoco.MjData",
     recorder: "Recorder",
-    steps: int,
+    steps: int | Iterable[int],
     inputs: "Drive | None" = None,
     every: int = 1,
     tick: Ticker | None = None,
     beside: "Beside | None" = None,
-) -> None:
-    """Advance `steps` steps, recording every `every`-th state, and the last.
+) -> int:
+    """Advance `steps` steps, recording every `every`-th state, and the last; returns how many were taken.
 
     Args:
         model: prepared by `prepare`.
         data: at the initial state.
         recorder: the recorder of the same data.
+        steps: how many, or their numbers from 0 on, each when it is due.
         inputs: drives the world each step, with derived quantities up to date.
         tick: called after each step with the number of steps done.
         beside: solvers that step with the engine, after the inputs have acted.
@@ -77,7 +78,8 @@ def simulate(
     seen = warned.tolist()
     step1, step2, before, after = mujoco.mj_step1, mujoco.mj_step2, recorder.before, recorder.after
 
-    for step in range(steps):
+    taken = 0
+    for step in range(steps) if isinstance(steps, int) else steps:
         row = every == 1 or step % every == 0
         step1(model, data)
         if beside is not None:
@@ -104,17 +106,19 @@ def simulate(
             beside.ended()
         if warned.tolist() != seen:
             seen = _warn(model, data, recorder, seen)
+        taken = step + 1
         if tick is not None:
-            tick(step + 1)
+            tick(taken)
     mujoco.mj_forward(model, data)
     if inputs is not None:
-        inputs.finish(steps)
+        inputs.finish(taken)
     if beside is not None:
         beside.finish()
     before()
     after()
     if warned.tolist() != seen:
         _warn(model, data, recorder, seen)
+    return taken
 
 
 def _warn(model: "mujoco.MjModel", data: "mujoco.MjData", recorder: "Recorder", seen: list[int]) -> list[int]:

@@ -1,14 +1,15 @@
 """What a frame that is not traced looks like between two that are, and whether that can be told."""
 
+import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from . import carrying
 from .fitting import Fit, fit, parts
 
 if TYPE_CHECKING:
-    import numpy as np
-
     from .carrying import Surfaces
     from .renderers.preview.eye import View
 
@@ -23,6 +24,10 @@ APART_PX = 1.0
 """What is seen through something may go so far beside it from a traced frame to one that is reckoned."""
 TOO_MUCH = 0.15
 """Of a frame of which more is unknown the nearest traced one is shown instead."""
+SPUN, TORN = math.radians(35.0), math.radians(90.0)
+"""What turns farther to a traced frame has its light and its streaks turned with it; and so far that nothing of it fits."""
+SPUN_SHARE = 0.004
+"""That is seen of what covers so much of the picture."""
 KEPT = 24
 """Of so many frames it is remembered what they show."""
 
@@ -59,7 +64,7 @@ class Geometry:
         """Whether a frame cannot well be reckoned from these two."""
         now, sides = self.of(frame, COARSER), [self.of(side, COARSER) for side in (before, after)]
         found, height = fit(now, sides), now.depth.shape[0]
-        if found.lost or _misleads(now, sides, found, after - before):
+        if found.lost or _misleads(now, sides, found, after - before) or self._spun(frame, (before, after)) > SPUN:
             return True
         if after - before <= 2:
             return found.unseen > MOST_UNSEEN
@@ -78,13 +83,32 @@ class Geometry:
         if key not in self._misleads:
             now, known = self.of(middle, COARSER), [self.of(side, COARSER) for side in sides]
             gap = max(frame, *sides) - min(frame, *sides)
-            self._misleads[key] = _misleads(now, known, fit(now, known), gap)
+            torn = self._spun(middle, sides) > TORN
+            self._misleads[key] = torn or _misleads(now, known, fit(now, known), gap)
         return self._misleads[key]
+
+    def _spun(self, frame: int, sides: "Sequence[int]") -> float:
+        """How far what is seen turns at most to the farther side, by how fast it does in this frame, radians: what goes round more
+        than once between two moments would not be found by its poses there."""
+        if self._placed is None:
+            return 0.0
+        shown, count = np.unique(self.of(frame, COARSER).things, return_counts=True)
+        near = frame + (1 if sides[-1] > frame else -1)  # of the same shot
+        (before, _), (after, _) = self._placed(frame), self._placed(near)
+        shown = shown[(shown >= 0) & (count > SPUN_SHARE * count.sum()) & (shown < min(len(before), len(after)))]
+        if not len(shown):
+            return 0.0
+        turn, _ = carrying.motion(before[shown], after[shown])
+        turn = (
+            turn / np.cbrt(np.maximum(np.linalg.det(turn), 1e-9))[:, None, None]
+        )  # what grows or shrinks turns no more for that
+        skew = 0.5 * (turn - np.swapaxes(turn, 1, 2))
+        sine = np.sqrt(skew[:, 2, 1] ** 2 + skew[:, 0, 2] ** 2 + skew[:, 1, 0] ** 2)
+        angle = np.arctan2(sine, 0.5 * (np.trace(turn, axis1=1, axis2=2) - 1.0))
+        return float(angle.max()) * max(abs(side - frame) for side in sides)
 
     def _comes(self, frame: int, sides: "list[Surfaces]") -> bool:
         """Whether a frame may show a thing that neither side does: it moves there, or is in the picture only meanwhile."""
-        import numpy as np
-
         if self._placed is None:
             return True
         poses, view = self._placed(frame)
@@ -102,8 +126,6 @@ def _misleads(now: "Surfaces", sides: "list[Surfaces]", found: Fit, gap: int) ->
 
 def within(poses: "np.ndarray", view: "View") -> "np.ndarray":
     """Whether the middle of each thing (N, 3, 4) is in the picture: bool (N,)."""
-    import numpy as np
-
     place = (poses[:, :, 3] - view.eye) @ view.axes
     inside: np.ndarray = (place[:, 2] < 0) & (np.abs(place[:, :2]) <= -place[:, 2:] * view.tangents).all(axis=1)
     return inside

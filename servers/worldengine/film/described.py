@@ -90,7 +90,7 @@ class Described:
             else:
                 about = [f"on {thing['to']}" * bool(thing["to"]), thing.get("like", "")]
                 said.append(thing["name"] + (f" ({', '.join(filter(None, about))})" if any(about) else ""))
-        said += [f"{one['name']} (one surface in place of {len(one['of'])} shapes)" for one in self.surfaces]
+        said += [stand_ins.covered(one, self.things) for one in self.surfaces]
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
@@ -169,10 +169,10 @@ def _checked(
         raise _refuse(f"a film has at most {MOST_CAPTIONS} captions and draws at most {MOST_THINGS} things")
     bodies = set(recording.names)
     things = tuple(_thing(one, arrays, bodies, n) for one in told["things"])
-    things = stand_ins.told(things, arrays, recording)
-    things = tuple(thing | ground_skins.off(thing, arrays, recording) for thing in things)
     particles = {thing["name"] for thing in things if thing.get("ways") and thing["shape"] == "sphere"}
     surfaces = tuple(_surface(one, arrays, bodies | particles) for one in told.get("surfaces", ()))
+    things = stand_ins.told(things, arrays, recording, surfaces)
+    things = tuple(thing | ground_skins.off(thing, arrays, recording) for thing in things)
     if (
         len({one["name"] for one in (*things, *surfaces)}) < len(things) + len(surfaces)
         or len(surfaces) > MOST_SURFACES

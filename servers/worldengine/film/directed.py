@@ -140,10 +140,13 @@ class Screening:
 
     def lettered(self, frame: int, image: "np.ndarray") -> "np.ndarray":
         """A picture with the words of a frame, which none can leave out: uint8 (height, width, 3)."""
+        return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
+
+    def words(self, frame: int) -> tuple[float, bool, str, str, str]:
+        """What the picture of a frame says of itself: its speed, whether its moment was shown before, and what else is not as it was."""
         film = self.film
-        speed = film.speed(frame, self.fps)
         more = time_map.words(film, frame, self.fps), camera_roll.words(film, frame), stand_ins.words(film, frame)
-        return letter(image, frame / self.fps, film.captions, speed, self._again[film.shot(frame)], *more)
+        return film.speed(frame, self.fps), self._again[film.shot(frame)], *more
 
     def surfaces(self, frame: int, coarser: int = 1) -> "Surfaces":
         """What a frame shows, pixel by pixel, in the middle of the time that its shutter is open, `coarser` times smaller each way.

@@ -23,10 +23,6 @@ if TYPE_CHECKING:
 CAMERA = "film camera"
 DRAWN = {"contype": 0, "conaffinity": 0, "mass": 0.0, "group": 2}
 HIDDEN_GROUP = 5
-SHARE_OF_BODY = (0.4, 2.5)
-"""The size of a skin, as a share of that of the body it stands for, lies between these in each direction."""
-THIN_M = 0.006
-"""Where a body is thinner than this, and than a fifth of its longest side, its skin may be as if it were so thick: a leaf curls."""
 BY_BODY = ("geom", "cam")
 """Arrays that lie in the order of the bodies, so that additions shift them."""
 
@@ -216,6 +212,7 @@ def _skin(spec: "mujoco.MjSpec", thing: dict[str, Any], points: "np.ndarray") ->
     """Leave out the shapes of the body that a skin stands for, if the skin has the body's size."""
     import numpy as np
 
+    from worldkit.filming import skin_fit
     from worldkit.turning import turned
 
     model = spec.copy().compile()
@@ -229,22 +226,8 @@ def _skin(spec: "mujoco.MjSpec", thing: dict[str, Any], points: "np.ndarray") ->
             corners = model.geom_pos[geom] + turned(model.geom_quat[geom][None], box[:3] + signs * box[3:])
             low, high = np.minimum(low, corners.min(axis=0)), np.maximum(high, corners.max(axis=0))
     placed = turned(np.array(thing["quat"])[None], points) + np.array(thing["pos"])
-    extents = np.maximum(high - low, 1e-9)
-    floor = min(THIN_M, extents.max() / 5)
-    share, taken = np.ptp(placed, axis=0) / extents, np.maximum(extents, floor)
-    away = np.abs(0.5 * (placed.min(axis=0) + placed.max(axis=0) - low - high)) / taken
-    size = np.ptp(placed, axis=0)
-    flat = (
-        size < SHARE_OF_BODY[0] * extents
-    )  # a sheet stands for a thin body, but nothing stands for it that is not even that
-    good = flat.sum() <= 1 and (extents[flat] < floor).all()
-    if not good or not ((size < SHARE_OF_BODY[1] * taken) & (away < 0.5)).all():
-        raise FilmError(
-            f"the skin {thing['name']!r} is {np.round(share, 2).tolist()} times the size of {thing['to']!r}, or lies beside it",
-            "film.py",
-            f"a skin stands for its body: give it the body's place, and {SHARE_OF_BODY[0]} to {SHARE_OF_BODY[1]} times its size; "
-            f"what is thin may be up to {1e3 * SHARE_OF_BODY[1] * THIN_M:.0f} mm thick",
-        )
+    if cause := skin_fit.misfit(thing["name"], thing["to"], placed, low, high):
+        raise FilmError(cause, "film.py", skin_fit.REMEDY)
     for geom in spec.body(thing["to"]).geoms:
         if not geom.name.startswith("drawn."):
             geom.group = HIDDEN_GROUP

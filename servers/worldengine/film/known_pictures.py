@@ -11,7 +11,7 @@ An earlier file must hash as the pass that drew it said, or it is drawn again.
 import hashlib
 import json
 import shutil
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -60,7 +60,9 @@ class Known:
 
         self._model, self._earlier = model, tuple(earlier)
         told = [facts, identity(renderers.wanted()).sha256, recording.shown_sha256]
-        self._common = hashlib.sha256(json.dumps(told, sort_keys=True).encode() + drawn(model) + shared)
+        self.about = json.dumps(told, sort_keys=True)
+        """The facts, the renderer and the motion, in one text."""
+        self._common = hashlib.sha256(self.about.encode() + drawn(model) + shared)
         self.keys: dict[str, str] = {}
         """The hash of each picture or film asked for, by the name of its file; goes into the result."""
         self.taken: dict[str, str] = {}
@@ -68,7 +70,7 @@ class Known:
 
     def camera(self, name: str, suffix: str, out: Path) -> bool:
         """Whether `<name><suffix>` could be copied to `out`: what a camera of the model shows."""
-        return self._take(name + suffix, _own(self._model, name), out) is not None
+        return self._take(name + suffix, of_camera(self._model, name), out) is not None
 
     def film(self, description: Path, name: str, out: Path) -> dict[str, Any] | None:
         """Copy an author's film of this description (a folder); returns what the pass that drew it reported, or None."""
@@ -80,10 +82,9 @@ class Known:
         digest = self._common.copy()
         digest.update(what)
         self.keys[name] = key = digest.hexdigest()
-        for folder in self._earlier:
-            result = _json(folder / "result.json")
+        for folder, result in results(self._earlier):
             summary = result.get("summary") or {}
-            if not result.get("ok") or (summary.get("pictures") or {}).get(name) != key:
+            if (summary.get("pictures") or {}).get(name) != key:
                 continue
             try:
                 shutil.copyfile(folder / name, out / name)
@@ -135,7 +136,7 @@ def drawn(model: "mujoco.MjModel") -> bytes:
     return digest.digest()
 
 
-def _own(model: "mujoco.MjModel", camera: str) -> bytes:
+def of_camera(model: "mujoco.MjModel", camera: str) -> bytes:
     """Everything of one camera: where it stands after aiming, its lens, what it is meant for."""
     import mujoco
 
@@ -157,6 +158,13 @@ def _content(model: "mujoco.MjModel", kind: "mujoco.mjtObj", index: int) -> byte
         return bytes(model.text_data[start : start + size])
     start, size = int(model.numeric_adr[index]), int(model.numeric_size[index])
     return bytes(model.numeric_data[start : start + size].tobytes())
+
+
+def results(earlier: Sequence[Path]) -> Iterator[tuple[Path, dict[str, Any]]]:
+    """The passes that succeeded, each with its result."""
+    for folder in earlier:
+        if (result := _json(folder / "result.json")).get("ok"):
+            yield folder, result
 
 
 def _json(path: Path) -> dict[str, Any]:

@@ -14,19 +14,19 @@ USUAL = 0.02
 
 
 def pace(speed: float) -> str:
-    """Say how fast recorded time passes: empty at its own speed, `1/4 speed`, `0.6 × speed`, `held`, `backwards`."""
+    """Say how fast recorded time passes: empty at its own speed, `slow motion 1/4`, `slow motion 0.6 ×`, `fast motion 2 ×`, `held`, `backwards`."""
     if abs(speed - 1) <= USUAL:
         return ""
     if abs(speed) < 1e-6:
         return "held"
     if speed < 0:
         return f"backwards, {pace(-speed)}".removesuffix(", ")
-    part = round(1 / speed)
+    word, part = "fast motion" if speed > 1 else "slow motion", round(1 / speed)
     if part >= 2 and abs(speed * part - 1) < 0.015:
-        return f"1/{part} speed"
+        return f"{word} 1/{part}"
     if speed > 1 and abs(speed - round(speed)) < 0.02:
-        return f"{round(speed)} × speed"
-    return f"{speed:.1f} × speed" if speed >= 0.1 else f"{speed:.2f} × speed"
+        return f"{word} {round(speed)} ×"
+    return f"{word} {speed:.2f} ×" if speed < 0.1 or 0.95 < speed < 1.05 else f"{word} {speed:.1f} ×"
 
 
 def letter(

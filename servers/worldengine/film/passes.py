@@ -4,7 +4,6 @@ import argparse
 import os
 import sys
 import time
-from collections import Counter
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
 from pathlib import Path
@@ -52,6 +51,8 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     started = time.perf_counter()
     film = None if options.film is None else described.read(options.film, recording, lights.of(model))
     if options.share and film is not None:
+        from .screened import draw_share
+
         draw_share(model, recording, film, given, options)
         return
     if options.run == "frame":
@@ -236,66 +237,16 @@ def directed(
 ) -> dict[str, Any]:
     """Draw the author's film, or take it over where an earlier pass drew the same; returns what the summary says of it."""
     from .known_pictures import Known
+    from .screened import screen
 
     name = f"{FILM}.mp4"
     known = Known(model, recording, {"quality": "film", "size": given.size, "fps": given.fps}, options.reuse)
-    earlier = known.film(options.film, name, options.out)
-    told = earlier["film"] if earlier else screen(model, recording, film, given, options.out, tick, *_others(options))
-    return {"film": told, "drawn": 0 if earlier else film.frames, **known.told(told["renderer"])}
-
-
-def _others(options: argparse.Namespace) -> tuple[Sequence[str], int]:
-    """What other processes are started with, and the bytes that all may take: none where this is no process of its own."""
-    return getattr(options, "words", ()), getattr(options, "room_mb", 0) << 20
-
-
-def screen(
-    model: "mujoco.MjModel",
-    recording: "Recording",
-    film: "Described",
-    given: "Given",
-    out: Path,
-    tick: Callable[[int], object],
-    words: Sequence[str] = (),
-    room_bytes: int = 0,
-) -> dict[str, Any]:
-    """Draw `film.mp4`, the recording as the film's author shows it; returns its entry for the result.
-
-    With the `words` of this process's own command line, other processes draw a part of it, within a room for all.
-    """
-    from .directed import Screening
-    from .side_by_side import Drawn, Others
-
-    with (
-        Screening(given.world, model, recording, film, given.size, given.fps) as screening,
-        Others(words, film.frames, given.size, room_bytes) as others,
-        Video(out / f"{FILM}.mp4", *given.size, given.fps) as film_file,
-    ):
-        hidden: Counter[str] = Counter()
-        for number in range(film.frames):
-            drawn = others.take(number, screening.frames.renderer) or Drawn(
-                screening.picture(number), screening.hidden()
-            )
-            film_file.add(drawn.picture)
-            hidden.update(drawn.hidden)
-            tick(number + 1)
-        renderer = screening.frames.told()
-    said = {"frames": film.frames, "seconds": film.frames / given.fps, "renderer": renderer, **film.told(given.fps)}
-    return said | {"hidden": {what: round(count / given.fps, 3) for what, count in sorted(hidden.items())}}
-
-
-def draw_share(
-    model: "mujoco.MjModel", recording: "Recording", film: "Described", given: "Given", options: argparse.Namespace
-) -> None:
-    """Draw a share of a film for the process that asked for it (`side_by_side`)."""
-    from . import side_by_side
-    from .directed import Screening
-
-    with (
-        Screening(given.world, model, recording, film, given.size, given.fps) as screening,
-        os.fdopen(options.to, "wb") as pipe,
-    ):
-        side_by_side.draw(screening, options.share, pipe)
+    if earlier := known.film(options.film, name, options.out):
+        said = {"film": earlier["film"], "parts": earlier.get("parts") or {}, "drawn": 0}
+    else:
+        said = screen(model, recording, film, given, options, tick, known.about)
+    offered = known.told(said["film"]["renderer"])
+    return {**said, **offered} if offered["pictures"] else {**said, "parts": {}, **offered}
 
 
 def frame(

@@ -73,7 +73,7 @@ class Others:
 
     Args:
         words: the command line of this process, behind `python -m worldengine`; without it there are none.
-        frames: of the film.
+        frames: of the film, so many of which are drawn.
         size: of a picture, pixels.
         room_bytes: what all of them may take together, this process among them; 0: as much as is usual.
     """
@@ -83,7 +83,8 @@ class Others:
         self._hands: list[_Hand] | None = None
 
     def take(self, frame: int, renderer: str) -> Drawn | None:
-        """A frame that another process drew by this renderer; None where this one has to draw it. To be asked in order."""
+        """A frame, by its place among those that are drawn, that another process drew by this renderer; None where this one has to
+        draw it. To be asked in order."""
         if frame < 1 or not self._words:
             return None
         if self._hands is None:
@@ -178,14 +179,15 @@ class _Hand:
         self._thread.join()
 
 
-def draw(screening: "Screening", share: tuple[int, int], pipe: BinaryIO) -> None:
-    """Draw a share (k, n) of a film, every n-th frame from k on, into a pipe, as one of the others; ends when nobody reads any more."""
+def draw(screening: "Screening", share: tuple[int, int], frames: Sequence[int], pipe: BinaryIO) -> None:
+    """Draw a share (k, n) of these frames of a film, every n-th of them from k on, into a pipe, as one of the others; ends when nobody
+    reads any more."""
     number, count = share
     with contextlib.suppress(BrokenPipeError):
         first = STARTING + (number - STARTING) % count
-        for frame in range(first, screening.film.frames, count):
-            picture = screening.picture(frame).tobytes()
-            told = {"frame": frame, "renderer": screening.frames.renderer, "hidden": screening.hidden()}
+        for place in range(first, len(frames), count):
+            picture = screening.picture(frames[place]).tobytes()
+            told = {"frame": place, "renderer": screening.frames.renderer, "hidden": screening.hidden()}
             words = json.dumps(told).encode()
             pipe.write(HEAD.pack(len(words), len(picture)) + words + picture)
             pipe.flush()

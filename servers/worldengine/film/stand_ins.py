@@ -1,6 +1,6 @@
 """What is drawn only and could be taken for a mover: as large as it, and flying or riding about, or standing in its place.
 
-It may be drawn, and says so: its size in statement and report, its name in the picture's corner.
+Particles are as large as what they make together (`clumps`), above all under one surface. It may be drawn, and says so: its size in statement and report, and its name in the picture's corner, unless it is the dress of the very mover it is fixed to.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -29,15 +29,23 @@ def movers(recording: "Recording") -> list[str]:
 
 
 def told(
-    things: "tuple[dict[str, Any], ...]", arrays: "dict[str, np.ndarray]", recording: "Recording"
+    things: "tuple[dict[str, Any], ...]",
+    arrays: "dict[str, np.ndarray]",
+    recording: "Recording",
+    surfaces: "tuple[dict[str, Any], ...]" = (),
 ) -> "tuple[dict[str, Any], ...]":
-    """The drawn things, with `like`, such as `0.2 m, as large as ball`, of each that could be taken for a mover."""
+    """The drawn things, with `like`, such as `0.2 m, as large as ball`, of each that could be taken for a mover.
+
+    Particles under one of the `surfaces` have its name as `under`: it is what is seen of them.
+    """
     import numpy as np
 
     from worldkit.turning import turned
 
+    from . import clumps
     from .motion_facts import boxes
 
+    under = {name: surface["name"] for surface in surfaces for name in surface["of"]}
     moving = movers(recording)
     shaped = {geom["body"] for geom in recording.meta["geoms"] if geom["type"] != "plane"}
     names = [name for name in moving if name in shaped]  # a vertex of a cloth has no size of its own
@@ -45,6 +53,7 @@ def told(
         return things
     index = [recording.names.index(name) for name in names]
     middle, half = (found[index] for found in boxes(recording))
+    together = clumps.sizes(things, arrays)
     ways = np.array(recording.pos[:: max(len(recording.time) // ROWS, 1)], dtype=float)[:, index]
     found = []
     for thing in things:
@@ -54,8 +63,33 @@ def told(
             centre = (
                 turned(np.array(recording.quat[0, row], dtype=float)[None], centre[None])[0] + recording.pos[0, row]
             )
-        found.append(thing | _like(thing, rides, (size, centre), names, middle, half, ways))
+        like = _like(thing, rides, (size, centre), names, middle, half, ways)
+        if thing.get("ways"):
+            like = like or _clumped(together[thing["name"]], thing["name"] in under, names, 2 * half.max(axis=1))
+            like |= {"under": under[thing["name"]]} if thing["name"] in under else {}
+        worn = bool(like) and rides and _worn(thing, size, centre, names, middle, half)
+        found.append(thing | like | ({"worn": True} if worn else {}))
     return tuple(found)
+
+
+def _worn(
+    thing: dict[str, Any],
+    size: "np.ndarray",
+    centre: "np.ndarray",
+    names: list[str],
+    middle: "np.ndarray",
+    half: "np.ndarray",
+) -> bool:
+    """Whether a thing dresses the very mover it is fixed to: it lies about its middle, is about as large, from half to twice, and
+    goes nowhere by itself. What is seen to move is that mover then, as under a skin; a smaller one may look like another mover."""
+    import numpy as np
+
+    if thing["to"] not in names or thing.get("ways"):
+        return False
+    own = names.index(thing["to"])
+    near = np.linalg.norm(middle[own] - centre) < 0.5 * np.linalg.norm(half[own])
+    longest = 2 * half[own].max()
+    return bool(near and LIKE * longest <= size.max() <= longest / LIKE)
 
 
 def _like(
@@ -94,6 +128,21 @@ def _like(
     return {}
 
 
+def _clumped(sides: "np.ndarray", covered: bool, names: list[str], largest: "np.ndarray") -> dict[str, str]:
+    """`like` of particles that make clumps of such longest sides (K,), m, beside movers (M) of theirs (M,), m.
+
+    A cloud that is far larger than a mover is none; a surface over it, which looks like a thing, may be as large as it likes.
+    """
+    import numpy as np
+
+    same = sides[:, None] >= LIKE * largest
+    same &= covered | (sides[:, None] <= largest / LIKE)
+    for side, some in zip(sides, same, strict=True):
+        if some.any():
+            return {"like": f"{side:.2g} m together, as large as {names[int(np.argmax(some))]}"}
+    return {}
+
+
 def _extent(thing: dict[str, Any], arrays: "dict[str, np.ndarray]") -> "tuple[np.ndarray, np.ndarray]":
     """Full sides (3,), m, of a thing, and its middle (3,), m, in the frame it is fixed in."""
     import numpy as np
@@ -109,11 +158,20 @@ def _extent(thing: dict[str, Any], arrays: "dict[str, np.ndarray]") -> "tuple[np
     return size, turned(np.array(thing["quat"], dtype=float)[None], middle[None])[0] + np.array(thing["pos"])
 
 
+def covered(surface: dict[str, Any], things: "tuple[dict[str, Any], ...]") -> str:
+    """What is said of a surface: in place of how much it stands, and what it could be taken for."""
+    like = [f", {thing['like']}" for thing in things if thing.get("under") == surface["name"] and thing.get("like")][:1]
+    return f"{surface['name']} (one surface in place of {len(surface['of'])} shapes{''.join(like)})"
+
+
 def words(film: Any, frame: int) -> str:
-    """What the picture says of them: `drawn: dust`; empty where none is shown."""
+    """What the picture says of them: `drawn: dust`; empty where none is shown. What a mover wears, the statement alone tells."""
     shown = [
-        thing["name"]
+        thing.get("under") or thing["name"]
         for thing in film.things
-        if thing.get("like") and (not thing.get("ways") or film.arrays[thing["sizes"]][frame].max() > 0)
+        if thing.get("like")
+        and not thing.get("worn")
+        and (not thing.get("ways") or film.arrays[thing["sizes"]][frame].max() > 0)
     ]
+    shown = list(dict.fromkeys(shown))
     return f"drawn: {', '.join(shown[:3])}{' …' * (len(shown) > 3)}" if shown else ""

@@ -2,7 +2,7 @@
 
 A film camera's shutter is open for half of a frame's time. To draw many moments of that costs as many pictures. Here one is drawn,
 of the middle moment, and with it what each pixel shows and how far away; so it is known where each point comes from and goes to,
-by the poses of its thing and of the camera, spin included. What is behind a thing that moves shows through its smeared outline; what
+by the poses of its thing and of the camera, along the arc on which it turns. What is behind a thing that moves shows through its smeared outline; what
 stands in front of it keeps its own. Shadows, mirror images and what is soft stay where they are, or go with the camera.
 """
 
@@ -22,10 +22,12 @@ LEAST_PX = 1.0
 """What goes less far while the shutter is open stays sharp."""
 APART_PX = 3.0
 """So far apart lie the places that are added up."""
-FEWEST, MOST = 3, 14
+FEWEST, MOST = 3, 24
 """Places that are added up."""
-LONGEST = 0.09
+LONGEST = 0.15
 """No streak is longer than this share of the picture's height: a longer one would be steps."""
+SHAPED = 1e-3
+"""By so much no two edges of a thing are out of the square that only turns."""
 LIGHT = (np.arange(256, dtype=np.float32) / 255) ** 2.2
 STEPS = 4095
 SHADE = np.rint(255 * (np.arange(STEPS + 1) / STEPS) ** (2 / 2.2)).astype(np.uint8)
@@ -70,16 +72,23 @@ class Goers(NamedTuple):
     columns: np.ndarray
     ways: np.ndarray
     """How far what is seen there goes in the picture, pixels: float32 (N, 2), to the right and down."""
+    bows: np.ndarray
+    """How its way bends, pixels: at a share s of it, from -1/2 to 1/2, it is s * way + s² * bow beside its middle; float32 (N, 2)."""
     depth: np.ndarray
     """How far away it is, m (N,)."""
 
     def around(self, height: int, width: int) -> tuple[slice, slice]:
         """Rows and columns of the part of a picture that is read for them."""
-        wide = int(np.ceil(np.abs(self.ways).max() / 2)) + 8
+        wide = int(np.ceil(np.abs(self.ways).max() / 2 + np.abs(self.bows).max() / 4)) + 8
         return tuple(
             slice(max(int(at.min()) - wide, 0), min(int(at.max()) + wide + 1, most))
             for at, most in ((self.rows, height), (self.columns, width))
         )  # type: ignore[return-value]
+
+    def origins(self, share: float) -> tuple[np.ndarray, np.ndarray]:
+        """Columns and rows of what comes to these pixels at a share of its way, which it goes on an arc that ends here."""
+        x, y = (share * (share * self.bows - self.ways)).T
+        return self.columns + x, self.rows + y
 
     def moved(self, part: tuple[slice, slice]) -> Goers:
         """The same in a part of the picture."""
@@ -144,12 +153,13 @@ def _along_all(light: np.ndarray, ways: np.ndarray, mover: np.ndarray) -> np.nda
 def _goers(now: Surfaces, poses: np.ndarray, view: View, mover: np.ndarray, share: float) -> Goers:
     longest = LONGEST * now.depth.shape[0]
     rows, columns = np.nonzero(mover)
-    far = np.abs(_ways(now, poses, view, rows, columns, now.things[mover], now.depth[mover], share)).max()
-    rim = int(np.ceil(min(float(far), longest) / 2)) + 1
+    far, _ = _ways(now, poses, view, rows, columns, now.things[mover], now.depth[mover], share)
+    rim = int(np.ceil(min(float(np.abs(far).max()), longest) / 2)) + 1
     rows, columns, things, depth = carrying.rimmed(now, mover, np.ones((2 * rim + 1,) * 2, np.uint8), rim)
-    return Goers(
-        rows, columns, _shortened(_ways(now, poses, view, rows, columns, things, depth, share), longest), depth
-    )
+    ways, bows = _ways(now, poses, view, rows, columns, things, depth, share)
+    short = _shortened(ways, longest)
+    left = np.hypot(short[:, 0], short[:, 1]) / np.maximum(np.hypot(ways[:, 0], ways[:, 1]), 1e-9)
+    return Goers(rows, columns, short, (bows * left[:, None] ** 2).astype(np.float32), depth)
 
 
 def _ways(
@@ -161,17 +171,50 @@ def _ways(
     things: np.ndarray,
     depth: np.ndarray,
     share: float,
-) -> np.ndarray:
-    """How far, pixels (N, 2), points of things at some pixels and depths go."""
+) -> tuple[np.ndarray, np.ndarray]:
+    """How far, pixels (N, 2), points of things at some pixels and depths go, and how their ways bend, as in `Goers`."""
     height, width = now.depth.shape
     kinds, which = np.unique(things, return_inverse=True)
-    before = now.poses[kinds]
-    after = before + share * (poses[kinds] - before)
-    turns, steps = carrying.pinhole(now.view, view, *carrying.motion(before, after), width, height)
     point = np.stack([columns, rows, np.ones(len(rows))], axis=1)
-    h = np.einsum("nij,nj->ni", turns[which], point) + steps[which] / depth[:, None]
-    ahead = h[:, 2:] > 1e-9
-    return np.where(ahead, h[:, :2] / np.where(ahead, h[:, 2:], 1.0) - point[:, :2], 0.0)
+
+    def gone(then: View, turn: np.ndarray, step: np.ndarray) -> np.ndarray:
+        turns, steps = carrying.pinhole(now.view, then, turn, step, width, height)
+        h = np.einsum("nij,nj->ni", turns[which], point) + steps[which] / depth[:, None]
+        ahead = h[:, 2:] > 1e-9
+        return np.where(ahead, h[:, :2] / np.where(ahead, h[:, 2:], 1.0) - point[:, :2], 0.0)
+
+    rest = np.broadcast_to(np.eye(3), (len(kinds), 3, 3)), np.zeros((len(kinds), 3))
+    turn, step = carrying.motion(now.poses[kinds], poses[kinds])
+    before, after = (gone(now.view, *_screwed(turn, step, share * half)) for half in (-0.5, 0.5))
+    return after - before + gone(view, *rest), 2.0 * (before + after)
+
+
+def _screwed(turn: np.ndarray, step: np.ndarray, times: float) -> tuple[np.ndarray, np.ndarray]:
+    """A small motion (N, 3, 3) and (N, 3), m, so many times over: on along its screw, and straight on where a thing changes its shape."""
+    rigid = np.abs(turn @ np.swapaxes(turn, 1, 2) - np.eye(3)).max(axis=(1, 2)) < SHAPED
+    over, back = turn - np.eye(3), np.swapaxes(turn, 1, 2)
+    skew = 0.5 * (turn - back)
+    sine = np.sqrt(skew[:, 2, 1] ** 2 + skew[:, 0, 2] ** 2 + skew[:, 1, 0] ** 2)
+    angle = np.arctan2(sine, 0.5 * (np.trace(turn, axis1=1, axis2=2) - 1.0))
+    axis = skew / np.maximum(sine, 1e-12)[:, None, None]
+    square, still = axis @ axis, np.abs(angle) < 1e-9
+
+    def swept(by: np.ndarray) -> np.ndarray:
+        """By which a step along a screw that turns by some angles (N,) becomes what its end goes, and which is the sum of the turns."""
+        wide = np.where(still, 1.0, by)
+        first, second = (1.0 - np.cos(wide)) / wide, 1.0 - np.sin(wide) / wide
+        return np.where(
+            still[:, None, None], np.eye(3), np.eye(3) + first[:, None, None] * axis + second[:, None, None] * square
+        )
+
+    by = times * angle
+    turned = np.eye(3) + np.sin(by)[:, None, None] * axis + (1.0 - np.cos(by))[:, None, None] * square
+    along = np.linalg.solve(swept(angle), step[..., None])
+    carried = times * (swept(by) @ along)[..., 0]
+    return (
+        np.where(rigid[:, None, None], turned, np.eye(3) + times * over),
+        np.where(rigid[:, None], carried, times * step),
+    )
 
 
 def _over(
@@ -195,7 +238,7 @@ def _over(
     total, counted = np.zeros((len(goers.rows), 4), np.float32), np.zeros((len(goers.rows), 1), np.float32)
     hides = (1.0 / np.maximum(goers.depth, 1e-9) * (1 + carrying.EDGE)).astype(np.float32)[:, None]
     for share in _taps(goers.ways):
-        at = goers.columns - share * goers.ways[:, 0], goers.rows - share * goers.ways[:, 1]
+        at = goers.origins(share)
         part = _read(four, at, cv2.INTER_LINEAR)
         front = (_read(near, at, cv2.INTER_NEAREST) > hides) & (part[:, 3:] < 0.5)  # something else is in front of it
         total += np.where(front, np.float32(0.0), part)

@@ -1,6 +1,7 @@
 """Which recorded time a film shows when: its shots with what each leaps over, and recorded seconds in each second of film.
 
-A shot's own speed says nothing of its cuts: many short shots that leap ahead show a slow motion fast, each at speed 1.
+A shot's own speed says nothing of its cuts: many short shots that leap ahead show a slow motion fast, each at speed 1, and such
+that each begin before the one before show it backwards.
 """
 
 from typing import Any
@@ -15,14 +16,15 @@ WINDOW_S = 1.0
 
 
 def leaps(film: Any) -> dict[int, float]:
-    """Recorded seconds that the film leaps over, ahead, by the frame that comes after the cut."""
+    """Recorded seconds that the film leaps over by the frame that comes after the cut: ahead, or below 0 where it goes back."""
     time = film.arrays["time"]
     found: dict[int, float] = {}
     for before, shot in zip(film.shots, film.shots[1:], strict=False):
         first = shot["first"]
         step = float(time[first - 1] - time[first - 2]) if before["frames"] > 1 else 0.0
-        leap = float(time[first] - time[first - 1]) - max(step, 0.0)
-        if leap >= LEAST_S:
+        gone = float(time[first] - time[first - 1])
+        leap = gone - (max(step, 0.0) if gone > 0 else min(step, 0.0))
+        if leap * gone > 0 and abs(leap) >= LEAST_S:
             found[first] = leap
     return found
 
@@ -44,35 +46,43 @@ def shots(film: Any, fps: float) -> list[dict[str, Any]]:
 
 
 def _pace(film: Any, low: int, high: int, fps: float) -> float:
-    """Recorded seconds in a second of film from one frame to a later one, cuts and all; what leaps back counts nothing."""
-    import numpy as np
-
-    return float(np.maximum(np.diff(film.arrays["time"][low : high + 1]), 0.0).sum()) * fps / (high - low)
+    """Recorded seconds in a second of film from one frame to a later one, cuts and all; below 0 where it comes out earlier."""
+    time = film.arrays["time"]
+    return float(time[high] - time[low]) * fps / (high - low)
 
 
 def paces(film: Any, fps: float) -> list[dict[str, float]]:
-    """The time map: from `film_s` on, for `seconds` of film, a second of it shows `pace` recorded seconds, cuts and all."""
+    """The time map: from `film_s` on, for `seconds` of film, a second of it shows `pace` recorded seconds, cuts and all.
+
+    Where cuts go back in time, `back_s` is by how many recorded seconds, however far others leap ahead.
+    """
     found: list[dict[str, float]] = []
+    leapt = leaps(film)
     step = max(round(fps), 1)
     for low in range(0, max(film.frames - 1, 1), step):
         high = min(low + step, film.frames - 1)
         now = round(_pace(film, low, high, fps), 2) if high > low else 0.0
         end = film.frames if high == film.frames - 1 else high  # a frame that is left over has no second of its own
         seconds = round((end - low) / fps, 4)
-        if found and found[-1]["pace"] == now:
+        back = round(-sum(leap for first, leap in leapt.items() if low < first <= high and leap < 0), 4)
+        if found and found[-1]["pace"] == now and not back and "back_s" not in found[-1]:
             found[-1]["seconds"] = round(found[-1]["seconds"] + seconds, 4)
         else:
-            found.append({"film_s": round(low / fps, 4), "seconds": seconds, "pace": now})
+            row = {"film_s": round(low / fps, 4), "seconds": seconds, "pace": now}
+            found.append(row | ({"back_s": back} if back else {}))
     return found
 
 
 def words(film: Any, frame: int, fps: float) -> str:
-    """What the picture says of the cuts before a frame: `1.5 s later`, `3 × speed by cuts`; empty where none leapt."""
+    """What the picture says of the cuts before a frame: `1.5 s later`, `fast motion 3 × by cuts`, `2 s earlier`, `backwards by cuts`,
+    `goes back by cuts`; empty where none leapt."""
     low = max(frame - round(WINDOW_S * fps), 0)
     near = [leap for first, leap in leaps(film).items() if low < first <= frame]
-    if not near or sum(near) * fps <= USUAL * (frame - low):
+    if not near or sum(map(abs, near)) * fps <= USUAL * (frame - low):
         return ""
-    run = pace(_pace(film, low, frame, fps))
-    if len(near) > 1 and run:
-        return f"{run} by cuts"
-    return f"{near[-1]:.2g} s later" if near[-1] >= SEEN_S else ""
+    run = _pace(film, low, frame, fps)
+    if len(near) > 1 and min(near) < 0 <= run:
+        return "goes back by cuts"
+    if len(near) > 1 and pace(run):
+        return f"{pace(run)} by cuts"
+    return f"{abs(near[-1]):.2g} s {'later' if near[-1] > 0 else 'earlier'}" if abs(near[-1]) >= SEEN_S else ""

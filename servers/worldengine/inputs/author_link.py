@@ -20,10 +20,9 @@ if TYPE_CHECKING:
 
     from worldkit.laws import Law
 
-BEGIN_S = 120.0
-"""The author's process may take so long, s, to be ready."""
-ANSWER_S = 60.0
-"""It may take so long, s, for one answer."""
+BEGIN_S = ANSWER_S = 3600.0
+"""The author's process may take so long, s, to be ready, and for one answer, where nobody watches it: a job's supervisor ends much
+sooner what stands still, by the time that it has for itself and not by the clock."""
 
 
 class Voice(Protocol):

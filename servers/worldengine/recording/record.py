@@ -218,15 +218,6 @@ class Recorder:
             self._free.put(batch)
 
     def _write(self, batch: Batch) -> None:
-        if batch.rows:
-            columns = self._derived.state(batch)
-            for name in HASHED:
-                self._hashes[name].update(columns[name].data)
-            self._streams["state"].write(columns)
-            if batch.contact_count:
-                contacts = self._derived.contacts(batch)
-                self.max_depth_m = max(self.max_depth_m, float(contacts["depth_m"].max()))
-                self._streams["contacts"].write(contacts)
         for make in batch.later["pushes"]:
             self._pushes.write(make())
         for table, events in batch.events.items():
@@ -236,6 +227,15 @@ class Recorder:
                 parts.append(dict(zip(names, zip(*events, strict=True), strict=True)))
             if parts:
                 self._add(table, parts)
+        if batch.rows:  # last, so that a kill leaves no state whose inputs are missing
+            if batch.contact_count:
+                contacts = self._derived.contacts(batch)
+                self.max_depth_m = max(self.max_depth_m, float(contacts["depth_m"].max()))
+                self._streams["contacts"].write(contacts)
+            columns = self._derived.state(batch)
+            for name in HASHED:
+                self._hashes[name].update(columns[name].data)
+            self._streams["state"].write(columns)
 
     def _add(self, table: str, parts: list[dict[str, Any]]) -> None:
         """Write rows of a table in the order of their times (or steps), in whatever order they were noted."""

@@ -3,7 +3,7 @@
     F = q q' / (4 pi epsilon0 r^2), apart where signs agree; F = q E
 
 Each of its bodies carries its charge at its centre of mass, and keeps it: what touches does not share. Bodies that stand fast act and
-are acted on, too. Source: Jackson, Classical Electrodynamics, sections 1.1 and 1.11 (`worldkit.fields.coulomb`).
+are acted on, too. Two nearer than 0.1 mm are no points any more, so that none is pushed without end. Source: Jackson, Classical Electrodynamics, sections 1.1 and 1.11 (`worldkit.fields.coulomb`).
 """
 
 import math

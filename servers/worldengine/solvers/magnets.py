@@ -210,7 +210,7 @@ class Magnets:
         push(row, at, cross(pieces, sum(fields, np.broadcast_to(self._uniform, at.shape))))
         for (whose, _, _), own in zip(near, fields, strict=True):
             push(whose, at, -cross(pieces, own))
-        return float(current @ driven)
+        return float((current * driven).sum())
 
 
 def _moves(twist: "np.ndarray", middle: "np.ndarray", at: "np.ndarray") -> "np.ndarray":
@@ -232,7 +232,7 @@ def _magnet(filaments: Any, model: "mujoco.MjModel", geom: int, remanence: float
     if kind != BOX:
         what = f"the magnet {name!r} has a geom that is no ball, cylinder or box"
         raise ProgramError(what, "interventions", "make it of these, each magnetised along its axis or longest side")
-    long = int(np.argmax(size))
+    long = filaments.axis_of(True, size)
     order = [(long + 1) % 3, (long + 2) % 3, long]  # its own z is the longest side
     made = filaments.bar(*(2 * size[order]), remanence)
     back = np.argsort(order)

@@ -12,8 +12,8 @@ Taken away (`--without NAME`):
     equality  it is off, whatever the program says
     tendon    it carries nothing: no spring, no limit, no motor
     flex      it touches nothing
-    BODY.velocity, BODY.weight      its initial velocity, its weight
-    gravity, wind, control (everything the program's control writes; laws of the author's own go on, and it is not called)
+    BODY.velocity, BODY.weight, BODY.friction    its initial velocity, its weight, the friction at all its contacts
+    gravity, wind, friction (of every contact), control (everything the program's control writes; laws of the author's own go on, and it is not called)
     force:BODY torque:BODY pose:BODY velocity:BODY mocap:BODY control:ACTUATOR constraint:EQUALITY parameter:OWNER
                     one intervention, as the ledger calls it, is undone each time it is made
     solver:BODY     force and torque of what steps beside the engine
@@ -21,9 +21,9 @@ Taken away (`--without NAME`):
 Made weaker (`--weaken NAME=FACTOR`, 0 < FACTOR):
     body      mass, weight's acceleration, initial and surface speed, and the accelerations its own motors and the
               program's forces give it, all times FACTOR: everything it could push or pull with; or one of `BODY.mass`,
-              `BODY.velocity`, `BODY.weight`
+              `BODY.velocity`, `BODY.weight`, `BODY.friction`
     joint     spring, motors, initial velocity      actuator  its force and what it is asked for
-    tendon    spring, damper, motors                gravity, wind
+    tendon    spring, damper, motors                gravity, wind, friction
     force: torque: solver: pose: velocity: mocap: control: parameter:    what is written, times FACTOR
 
 A little otherwise (`--vary friction|masses|start=FACTOR`): see `varied`.
@@ -44,11 +44,11 @@ if TYPE_CHECKING:
     from .holding import Hold
 
 OBJECTS = ("body", "geom", "joint", "actuator", "equality", "tendon", "flex")
-WORLD = ("gravity", "wind", "control")
+WORLD = ("gravity", "wind", "friction", "control")
 BESIDE = {"solver": ("force", "torque")}
 """What a law or a solver beside the engine does to a body, as the ledger calls it."""
 WRITES = ("force", "torque", "pose", "velocity", "mocap", "control", "constraint", "parameter")
-ASPECTS = ("mass", "velocity", "weight")
+ASPECTS = ("mass", "velocity", "weight", "friction")
 MOST_NAMES = 40
 
 
@@ -128,7 +128,7 @@ def alter(model: "mujoco.MjModel", variant: Variant) -> "Hold":
             raise ProgramError(
                 f"nothing moves without a mass, so {name} cannot be taken away",
                 "--without",
-                f"take away {whole}, {whole}.velocity or {whole}.weight, or weaken {name}",
+                f"take away {whole}, {whole}.velocity, {whole}.weight or {whole}.friction, or weaken {name}",
             )
         for kind, index in resolve(model, whole, "--without"):
             edit.weaken(kind, index, 0.0, aspect) if aspect else edit.remove(kind, index)

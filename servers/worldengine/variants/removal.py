@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 from worldkit.errors import ProgramError
 from worldkit.naming import names
 
+from . import slippery
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -51,14 +53,18 @@ class Removal:
             model.flex_contype[index] = model.flex_conaffinity[index] = 0
         elif kind == "control":
             self.hold.everything()
+        elif kind == "friction":
+            slippery.everywhere(model, 0.0)
         else:
             self._scale_law(kind, 0.0)
 
     def weaken(self, kind: str, index: Any, factor: float, aspect: str) -> None:
         """Make one thing weaker."""
-        if aspect and kind != "body":
+        if aspect == "friction" and kind == "geom":
+            slippery.of_geoms(self.model, [index], factor)
+        elif aspect and kind != "body":
             raise ProgramError(f"only a body has a {aspect} of its own", "", f"name a body, or leave out .{aspect}")
-        if kind.startswith("write ") and kind.removeprefix("write ") != "constraint":
+        elif kind.startswith("write ") and kind.removeprefix("write ") != "constraint":
             self.hold.write(kind.removeprefix("write "), index, factor)
         elif kind == "body":
             self._weaken_body(index, factor, aspect)
@@ -70,11 +76,13 @@ class Removal:
             self._scale_tendon(index, factor)
         elif kind in ("gravity", "wind"):
             self._scale_law(kind, factor)
+        elif kind == "friction":
+            slippery.everywhere(self.model, factor)
         else:
             raise ProgramError(
                 f"{'the program’s control' if kind == 'control' else f'a {kind}'} is there or not: it cannot be weakened",
                 "--weaken",
-                "take it away with --without, or weaken a body, a joint, an actuator, a tendon, gravity or wind",
+                "take it away with --without, or weaken a body, a joint, an actuator, a tendon, gravity, wind or friction",
             )
 
     def _scale_law(self, kind: str, factor: float) -> None:
@@ -140,6 +148,9 @@ class Removal:
     def _weaken_body(self, body: int, factor: float, aspect: str) -> None:
         """Make everything slower by `factor`: forces on the body shrink by its square, since its mass shrinks, too."""
         model, carried = self.model, self._carried(body)
+        if aspect == "friction":
+            slippery.of_geoms(model, [g for g in range(model.ngeom) if model.geom_bodyid[g] in carried], factor)
+            return
         known = names(model, "body", model.nbody)
         if not aspect or aspect == "mass":
             model.body_mass[carried] *= factor

@@ -15,6 +15,8 @@ from typing import TYPE_CHECKING
 
 from worldkit.errors import ProgramError
 
+from . import slippery
+
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
@@ -33,8 +35,7 @@ def vary(model: "mujoco.MjModel", kind: str, factor: float) -> None:
         ProgramError: there is no such kind; the known ones are listed.
     """
     if kind == "friction":
-        for array in (model.geom_friction, model.pair_friction, model.flex_friction, model.opt.o_friction):
-            array[:] *= factor
+        slippery.everywhere(model, factor)
     elif kind == "masses":
         _masses(model, factor)
     elif kind == "start":

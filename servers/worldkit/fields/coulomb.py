@@ -2,8 +2,9 @@
 
     F = q q' / (4 pi epsilon0 r^2) on both, apart where their signs agree; U = q q' / (4 pi epsilon0 r); F = q E
 
-Each body carries its charge at one point, which is exact for balls whose charge stays evenly spread. Slow: no radiation, no magnetism.
-Source: Jackson, Classical Electrodynamics, sections 1.1 and 1.11.
+Each body carries its charge at one point, which is exact for balls whose charge stays evenly spread. Nearer than `CORE_M` one of two is
+such a ball, which the other enters: its force falls to nothing at the middle, and two charges at one place are pushed nowhere. Slow: no
+radiation, no magnetism. Source: Jackson, Classical Electrodynamics, sections 1.1, 1.4 and 1.11.
 """
 
 import numpy as np
@@ -11,6 +12,8 @@ import numpy as np
 from . import EPSILON0
 
 Array = np.ndarray
+CORE_M = 1e-4
+"""m: the radius of that ball."""
 
 
 def felt(at: Array, charge: Array, uniform: Array) -> tuple[Array, float]:
@@ -18,6 +21,8 @@ def felt(at: Array, charge: Array, uniform: Array) -> tuple[Array, float]:
     way = at[:, None] - at
     far = np.sqrt(np.einsum("ijk,ijk->ij", way, way))
     np.fill_diagonal(far, np.inf)
-    pairs = charge[:, None] * charge / (4 * np.pi * EPSILON0 * far)
-    forces = ((pairs / far**2)[..., None] * way).sum(axis=1) + charge[:, None] * uniform
-    return forces, float(pairs.sum()) / 2 - float((charge * (at @ uniform)).sum())
+    away = np.maximum(far, CORE_M)
+    pairs = charge[:, None] * charge / (4 * np.pi * EPSILON0 * away)
+    forces = ((pairs / away**2)[..., None] * way).sum(axis=1) + charge[:, None] * uniform
+    pairs *= 1.5 - 0.5 * (np.minimum(far, CORE_M) / CORE_M) ** 2  # 1 outside
+    return forces, float(pairs.sum()) / 2 - float((charge[:, None] * at * uniform).sum())

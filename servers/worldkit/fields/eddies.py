@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .elimination import solved
+
 Array = np.ndarray
 AROUND = 14
 """Pieces of a ring."""
@@ -102,5 +104,5 @@ def plate(width: float, depth: float, thickness: float, conductivity: float) -> 
             row = loops[i * ny + j]
             row[flat["x", i, j]], row[flat["x", i, j + 1]] = 1.0, -1.0
             row[flat["y", i + 1, j]], row[flat["y", i, j]] = 1.0, -1.0
-    net = loops.T @ np.linalg.solve((loops * np.array(resists)) @ loops.T, loops)
+    net = np.einsum("le,lf->ef", loops, solved(np.einsum("ae,be->ab", loops * np.array(resists), loops), loops))
     return Net(np.array(at), np.array(along), net)

@@ -39,6 +39,11 @@ class Filaments(NamedTuple):
         return np.asarray(np.cross(self.at, self.current).sum(axis=0) / 2)
 
 
+def axis_of(box: bool, size: Array) -> int:
+    """Which of its own axes a magnet is magnetised along: a box of half sizes (3,) along its longest side, all else along z."""
+    return int(np.argmax(size)) if box else 2
+
+
 def cylinder(radius: float, length: float, remanence: float) -> Filaments:
     """A cylinder along z; m and T."""
     turn = 2 * np.pi * (np.arange(AROUND) + 0.5) / AROUND

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .elimination import solved
+
 Array = np.ndarray
 PARTS_A_TIME = 20.0
 """Parts of a step for each of the network's fastest time."""
@@ -52,7 +54,7 @@ class Warmth:
     @property
     def stored(self) -> float:
         """J, above 0 K."""
-        return float(self.capacity @ self.temperature + self.spent.sum())
+        return float((self.capacity * self.temperature).sum() + self.spent.sum())
 
     def advance(self, seconds: float, touching: Array) -> None:
         """Go on by so long, with conductances (n, n) W/K, symmetric, between the bodies."""
@@ -73,12 +75,14 @@ class Warmth:
         now[held] = self.melts[held]
         if free.any():
             half = h / 2 * leaves
-            right = self.capacity * before + gets - half @ before - half[:, held] @ now[held]
-            now[free] = np.linalg.solve((np.diag(self.capacity) + half)[np.ix_(free, free)], right[free])
+            right = (
+                self.capacity * before + gets - (half * before).sum(axis=1) - (half[:, held] * now[held]).sum(axis=1)
+            )
+            now[free] = solved((np.diag(self.capacity) + half)[np.ix_(free, free)], right[free])
         mean = (before + now) / 2
-        flows = gets - h * (leaves @ mean)
+        flows = gets - h * (leaves * mean).sum(axis=1)
         self.spent[held] += flows[held] + self.capacity[held] * (before[held] - now[held])
-        self.lost += h * float(self.loss @ (mean - self.around))
+        self.lost += h * float((self.loss * (mean - self.around)).sum())
         self.made += h * float(self.source.sum())
         self.temperature = now
         self._turn_over()

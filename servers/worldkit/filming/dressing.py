@@ -289,7 +289,7 @@ class Dressing(PatternedLight):
         """A lamp at `pos` (m), in the world or fixed `to` a body: it shines around, or with `aim` in a cone towards a point.
 
         A white surface that faces it at one metre has radiance `strength` (the key light gives about 2). With a `radius`, m,
-        a glowing ball is drawn around it. At most 64; the preview draws the eight strongest, and no shadows of theirs.
+        a glowing ball is drawn around it. At most 64; the preview draws the eight strongest, and shadows of four.
 
         Raises:
             ProgramError: there are too many, or a number is none that a lamp may have.

@@ -13,6 +13,10 @@ from .film_bounds import MOST_COPIES
 from .recorded import Recorded
 from .viewpoints import Viewpoint
 
+SOFT_PX, PICTURE_PX = 1.0, 720
+"""While what a still camera focuses on is blurred by no more than this in a picture of so many rows, nobody turns the ring: nothing
+else changes in the picture then, and what stands still need not be traced again."""
+
 
 def sampled(shot: dict[str, Any], recorded: Recorded, number: int) -> dict[str, np.ndarray]:
     """One shot's camera in each of its frames."""
@@ -43,15 +47,30 @@ def sampled(shot: dict[str, Any], recorded: Recorded, number: int) -> dict[str, 
         focus = np.linalg.norm(recorded.position(camera.focus, times) - eye, axis=1)
     else:
         focus = away if camera.focus is None else np.full(n, float(camera.focus))
+    fovy_deg = viewpoints.fovy_deg(viewpoints.between(camera.lens_mm, share))
+    still = all(np.ptp(part, axis=0).max() == 0 for part in (eye, target, fovy_deg))
+    if isinstance(camera.focus, str) and still and focus.min() > 0:
+        held = 2.0 / (1.0 / focus.min() + 1.0 / focus.max())
+        if _soft_px(held, float(focus.min()), float(fovy_deg[0]), camera.aperture or 0.0) <= SOFT_PX:
+            focus = np.full(n, held)
     found = {
         "eye": eye, "target": target, "roll_deg": viewpoints.between(camera.roll_deg, share),
-        "fovy_deg": viewpoints.fovy_deg(viewpoints.between(camera.lens_mm, share)), "focus_m": focus,
+        "fovy_deg": fovy_deg, "focus_m": focus,
         "aperture": np.full(n, camera.aperture or 0.0),
     }  # fmt: skip
     for name, word in (("target", "shake"), ("roll_deg", "roll_deg"), ("focus_m", "focus")):
         if not np.isfinite(found[name]).all():
             raise ProgramError(f"the {word} of shot {number + 1} is no number", "film.py", "check how it is reckoned")
     return found
+
+
+def _soft_px(focus_m: float, away_m: float, fovy_deg: float, aperture: float) -> float:
+    """Radius of the blur of a point so far away, by the thin lens of a full-frame camera: rows of a picture of `PICTURE_PX`."""
+    if aperture <= 0:
+        return 0.0
+    tangent = np.tan(np.radians(fovy_deg) / 2)
+    opening_m = viewpoints.FRAME_MM / 1000.0 / (2.0 * tangent) / aperture / 2.0
+    return float(opening_m * abs(1.0 / focus_m - 1.0 / away_m) / tangent * 0.5 * PICTURE_PX)
 
 
 def grown(thing: Thing, at: Callable[[np.ndarray], Any], times: np.ndarray) -> Thing:

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..errors import ProgramError
+from . import skin_fit
 from .drawn_only import Surface
 from .dressing import Dressing
 from .plain_refusals import whole
@@ -43,10 +44,12 @@ class Limbs(Dressing):
 
         `thick` is the diameter at the root and at the tip, m. Each body bears `twigs` of about `twig` m, each with three of `leaf`: a
         mesh along x whose first two parts are vertices (V, 3), m, and faces (F, 3), as `sculpt.leaf(0.07, veins=0)` gives it.
-        What is drawn on a body goes with it; the joints are taken to lie halfway between the middles of two bodies.
+        Each piece is a skin of its body: in each direction 0.4 to 2.5 times its size, and a body thinner than 6 mm may be drawn up to
+        15 mm thick. What is drawn on a body goes with it; the joints are taken to lie halfway between the middles of two bodies.
 
         Raises:
-            ProgramError: there are fewer than two bodies, one twice or unknown, or a size that is not above 0.
+            ProgramError: there are fewer than two bodies, one twice or unknown, a size that is not above 0, or
+                a piece that does not have its body's size.
         """
         chain = list(bodies)
         good = len(chain) == len(set(chain)) >= 2 and len(thick) == 2 and min(*thick, twig) > 0 and 0 <= twigs <= 20
@@ -73,6 +76,10 @@ class Limbs(Dressing):
             first = max(number * len(SHARES) - 1, 0)
             last = min((number + 1) * len(SHARES) + 1, len(way) - 1)
             mine = self.recorded.into(body, points[first * SIDES : (last + 1) * SIDES])
+            middle, half = self.recorded.box(body)
+            cause = skin_fit.misfit(f"{name} {number + 1}", body, mine, middle - half, middle + half)
+            if cause and self.recorded.sized:
+                raise ProgramError(cause, "film.py", skin_fit.REMEDY)
             self.mesh(f"{name} {number + 1}", mine, _tube(last - first + 1), to=body, instead=True, look=look)
             if not twigs:
                 continue

@@ -42,6 +42,8 @@ class Recorded:
         self._pos, self._quat = np.asarray(arrays["pos"]), np.asarray(arrays["quat"])
         self._middle, self._half = np.asarray(arrays["middle"]), np.asarray(arrays["half"])
         self.bodies: tuple[str, ...] = tuple(str(name) for name in arrays["bodies"])
+        self.sized = bool(arrays.get("sized", True))
+        """Whether the sizes of the bodies are those recorded, and not a rehearsal's."""
         self.duration = float(self.time[-1])
         self.fps = int(arrays["fps"])
         self.size = tuple(int(side) for side in arrays["size"])
@@ -109,7 +111,7 @@ class Recorded:
             {
                 "time": np.linspace(0.0, duration, count), "pos": np.stack([np.asarray(way) for way in ways.values()], axis=1),
                 "quat": np.tile([1.0, 0.0, 0.0, 0.0], (count, bodies, 1)), "middle": np.zeros((bodies, 3)),
-                "half": np.full((bodies, 3), radius / np.sqrt(3.0)), "bodies": np.array(list(ways)),
+                "half": np.full((bodies, 3), radius / np.sqrt(3.0)), "sized": np.array(False), "bodies": np.array(list(ways)),
                 "cameras": np.array([], dtype=str), "movers": np.array([], dtype=str), "fps": np.array(24),
                 "size": np.array([1280, 720]), "floor_z": np.array(0.0), "touch_time": nothing, "touch_a": nothing,
                 "touch_b": nothing, "touch_force": nothing, "ground_names": np.array(list(still), dtype=str),

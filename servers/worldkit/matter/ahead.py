@@ -1,10 +1,14 @@
 """Compile what matter needs before it is needed: a confined process may not keep it.
 
-`python -m worldkit.matter.ahead`; some ten seconds of processor time.
+`python -m worldkit.matter.ahead`; some ten seconds of processor time, and hardly any where it was done before.
 """
+
+from contextlib import suppress
 
 import mujoco
 
+from ..files import write_atomic
+from ..kept_kernels import BESIDE, MARK, compiled, state
 from .first_places import block
 from .liquids import Liquid
 from .material_points import Matter
@@ -24,4 +28,11 @@ def compile_all() -> None:
 
 
 if __name__ == "__main__":
-    compile_all()
+    if not compiled():
+        # numba asks only whether a function's own file changed, and would keep what called a function of another.
+        with suppress(OSError):
+            for old in BESIDE.glob("*.nb[ic]"):
+                old.unlink(missing_ok=True)
+        compile_all()
+        with suppress(OSError):  # where nothing can be kept beside, numba has a place of the user's own
+            write_atomic(MARK, state())

@@ -21,6 +21,19 @@ MOST_WORK = 3e8
 """Points times steps in a simulated second: about three minutes of processor time."""
 
 
+def check_positive(what: str, **values: float | None) -> None:
+    """Refuse a number that is not above zero; None is one that was left out.
+
+    Raises:
+        ProgramError: with its name.
+    """
+    for name, value in values.items():
+        if value is not None and not (0.0 < value < np.inf):
+            raise ProgramError(
+                f"{what} has a {name} of {value:g}", "worldkit.matter", f"give a {name} above zero, or leave it out"
+            )
+
+
 def check_points(name: str, count: int, spacing: float) -> None:
     """Refuse none, and more than `MOST_POINTS`.
 

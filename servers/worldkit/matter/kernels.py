@@ -1,7 +1,9 @@
 """Compiled functions: numba, one thread, no fast mathematics, so that each run has the same bits on one machine."""
 
+import atexit
 import functools
 import hashlib
+import os
 import shutil
 import tempfile
 from collections.abc import Callable
@@ -9,10 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import ProgramError
+from ..kept_kernels import BESIDE, compiled
 
 
 def kernel(function: Callable[..., Any]) -> Any:
-    """The function, compiled at its first call, and kept beside its file, or where a copy of that may be written.
+    """The function, compiled at its first call, and kept beside its file, or where numba keeps what a user may not write there.
 
     Without numba it refuses to be called.
     """
@@ -35,17 +38,27 @@ def kernel(function: Callable[..., Any]) -> Any:
 @functools.cache
 def _keep(numba: Any) -> None:
     """Let a confined process, which may not write here, begin from a copy of what was compiled before it."""
-    beside = Path(__file__).parent / "__pycache__"
     try:
-        tempfile.TemporaryFile(dir=beside).close()
+        BESIDE.mkdir(exist_ok=True)
+        tempfile.TemporaryFile(dir=BESIDE).close()
     except OSError:
+        if not compiled() or not (kept := list(BESIDE.glob("*.nb[ic]"))):
+            return  # what is kept is of other sources, or nothing is; numba has a place of the user's own
         # numba looks for what is kept in a folder named after that of the source.
-        named = f"{beside.parent.name}_{hashlib.sha1(str(beside.parent).encode(), usedforsecurity=False).hexdigest()}"
+        here = BESIDE.parent
+        named = f"{here.name}_{hashlib.sha1(str(here).encode(), usedforsecurity=False).hexdigest()}"
         try:
             folder = Path(tempfile.mkdtemp(prefix="compiled-"))
+            atexit.register(_remove, folder, os.getpid())
             (folder / named).mkdir()
-            for file in beside.glob("*.nb[ic]"):
-                shutil.copy(file, folder / named)
+            for file in kept:
+                shutil.copyfile(file, folder / named / file.name)  # a confined process may not change modes
             numba.config.CACHE_DIR = str(folder)
         except OSError:
             return
+
+
+def _remove(folder: Path, owner: int) -> None:
+    """Remove the copy when the process ends that made it, not when one ends that it was split off."""
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .beforehand import check_positive
 from .kernels import kernel
 
 Array = np.ndarray
@@ -38,6 +39,10 @@ class Liquid:
     threads: bool = False
 
     friction, scatter = 0.0, 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse what nothing can be (`ProgramError`)."""
+        check_positive("a liquid", density=self.density, sound=self.sound)
 
     def carried(self, pull: float) -> float:  # noqa: ARG002
         """1/s: air does nothing to it."""

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Protocol
 import numpy as np
 
 from ..errors import ProgramError
-from .beforehand import MOST_NODES, check_container, check_points, check_sources, check_work
+from .beforehand import MOST_NODES, check_container, check_points, check_positive, check_sources, check_work
 from .first_places import Region, Source
 from .touched_geoms import Geoms
 from .transfer import MOST_PLANES, SLOTS, gather, scatter, turn
@@ -107,6 +107,7 @@ class Matter:
         step: float | None = None,
         waits: Any = None,
     ) -> None:
+        check_positive(self.name, spacing=spacing, step=step)
         self.stuff, self.spacing, self.cell = stuff, spacing, 2.0 * spacing
         self._container, self._step, self._sources = container, step, tuple(poured)
         check_sources(self.name, self._sources, begins, spacing, self.bodies)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .beforehand import check_positive
 from .kernels import kernel
 from .principal import grown, principal, rebuilt
 
@@ -32,6 +33,10 @@ class Sand:
     sound: float | None = None
 
     scatter = 0.2
+
+    def __post_init__(self) -> None:
+        """Refuse what nothing can be (`ProgramError`)."""
+        check_positive("a sand", density=self.density, sound=self.sound)
 
     @property
     def friction(self) -> float:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from .beforehand import check_positive
 from .kernels import kernel
 from .principal import grown, principal, rebuilt
 
@@ -46,6 +47,10 @@ class Snow:
     sound: float | None = None
 
     scatter = 0.2
+
+    def __post_init__(self) -> None:
+        """Refuse what nothing can be (`ProgramError`)."""
+        check_positive("a snow", density=self.density, young=self.young, falls=self.falls, sound=self.sound)
 
     @property
     def friction(self) -> float:

@@ -1,7 +1,7 @@
 """A skin pressed on one geom: stiff against going in, rubbing along it, as energies that a step makes least.
 
-A body moves on after the skin has: it is met where it will be in the middle of the step, or what it is pushed by would lag behind
-it and make energy. Friction is Coulomb's of the pressure as the step began; below a speed of `CREEPS` it is a drag, so what is stuck creeps by less.
+A body moves on after the skin has: it is met where it will be in the midst of the step, or what it is pushed by would lag behind
+it and make energy. How one that floats freely goes on is found by trying (`skin`); any other goes on as it did. Friction is Coulomb's of the pressure as the step began; below a speed of `CREEPS` it is a drag, so what is stuck creeps by less.
 """
 
 from typing import TYPE_CHECKING
@@ -27,6 +27,9 @@ class Met:
         hard: (n,) N/m of each point.
         friction: Coulomb's.
         points: (n, 3) m, where the step begins.
+        moves: (6,) rad/s and m/s, how its body goes on.
+        gone: s since `data`.
+        share: of the way of the body in this step, after which it is met.
     """
 
     def __init__(
@@ -39,17 +42,16 @@ class Met:
         model: "mujoco.MjModel",
         data: "mujoco.MjData",
         h: float,
-        gone: float = 0.0,
+        moves: Array,
+        gone: float,
+        share: float,
     ) -> None:
-        import mujoco
-
         self.row, self.hard, self.kind = row, hard, int(model.geom_type[geom])
         self.size, self.turn = model.geom_size[geom].copy(), data.geom_xmat[geom].reshape(3, 3).copy()
-        body, moves = int(model.geom_bodyid[geom]), np.zeros(6)
-        mujoco.mj_objectVelocity(model, data, mujoco.mjtObj.mjOBJ_BODY, body, moves, 0)
+        body = int(model.geom_bodyid[geom])
         on = gone * (moves[3:] + np.cross(moves[:3], data.geom_xpos[geom] - data.xipos[body]))
         at, whole = data.geom_xpos[geom] + on, data.xipos[body] + gone * moves[3:]
-        self.middle = at + h / 2 * (moves[3:] + np.cross(moves[:3], at - whole))
+        self.middle, self.rest = at + share * h * (moves[3:] + np.cross(moves[:3], at - whole)), 1.0 - share
         far, self.out = self.far(points)
         self.grip = friction * self.hard * np.maximum(-far, 0)  # as it was pressed when the step began
         self.goes = h * (moves[3:] + np.cross(moves[:3], points - whole))
@@ -80,7 +82,7 @@ class Met:
 
     def left(self, x: Array) -> float:
         """J of it at the end of the step, to which the body has gone on."""
-        return self.stored(x - self.goes / 2)
+        return self.stored(x - self.rest * self.goes)
 
     def add(self, x: Array, slope: Array, each: Array | None) -> None:
         """Add its slope (n, 3) N, and its stiffness (n, 3, 3) N/m."""
@@ -92,3 +94,18 @@ class Met:
             within = np.where(far < 0, self.hard, 0.0)
             each += within[:, None, None] * out[:, :, None] * out[:, None]
             each += drags[:, :, None] * (np.eye(3) - self.out[:, :, None] * self.out[:, None])
+
+
+def lightness(model: "mujoco.MjModel", body: int) -> Array:
+    """(6,) 1/(kg m^2) and 1/kg: how a body that floats freely gives way to torque and force; zeros for any other."""
+    import mujoco
+
+    joint = model.body_jntadr[body]
+    if not body or joint < 0 or model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_FREE:
+        return np.zeros(6)
+    return np.repeat([1 / model.body_inertia[body].max(), 1 / model.body_subtreemass[body]], 3)
+
+
+def turned(wrench: Array) -> Array:
+    """(k, 6) torque before force, as velocities are told."""
+    return wrench[:, [3, 4, 5, 0, 1, 2]]

@@ -8,9 +8,14 @@ vehicles.add(spec, CAR, name="car", pos=(0, 0, 0))
 vehicles.pedals(CAR, model, data, "car", steering_deg=4.0, throttle=0.3, brake=0.0)
 """
 
+from .adding import add
+from .bicycle_numbers import Bicycle
 from .car_numbers import Car
-from .driving_inputs import Commands, pedals
-from .four_wheels import add
+from .driving_inputs import Commands, Timed, pedals
+from .heavy_numbers import Bus, Trailer, Truck
 from .path_following import Course, Driver
+from .tracked_numbers import Tracked
 
-__all__ = ["Car", "Commands", "Course", "Driver", "add", "pedals"]
+__all__ = [
+    "Bicycle", "Bus", "Car", "Commands", "Course", "Driver", "Timed", "Tracked", "Trailer", "Truck", "add", "pedals",
+]  # fmt: skip

@@ -5,6 +5,7 @@ Outlines are a mid-size saloon's, in metres on the ground below the middle of th
 
 from typing import TYPE_CHECKING, Any
 
+from .axles import OnAxles
 from .car_numbers import CORNERS, Car
 
 if TYPE_CHECKING:
@@ -149,7 +150,7 @@ def _patch(along: "np.ndarray", low: float, high: float) -> "np.ndarray":
     return brushes.step(along, low, 0.006) * (1 - brushes.step(along, high, 0.006))
 
 
-def wheel_shape(car: Car) -> "Shape":
+def wheel_shape(car: OnAxles) -> "Shape":
     """A tyre on a rim of seven spokes, its axle along y, in the wheel's frame."""
     from .. import sculpt
 
@@ -170,8 +171,8 @@ def wheel_shape(car: Car) -> "Shape":
 class WheelPaint:
     """Rubber outside, a rim inside, dark between its spokes."""
 
-    def __init__(self, car: Car) -> None:
-        self._rim, self._depth = 0.71 * car.wheel_radius_m, 0.17 * car.tyre_width_m
+    def __init__(self, car: OnAxles, wide: float = 1.0) -> None:
+        self._rim, self._depth = 0.71 * car.wheel_radius_m, 0.17 * car.tyre_width_m * wide
 
     def __call__(self, points: "np.ndarray", normals: "np.ndarray") -> "tuple[np.ndarray, np.ndarray]":  # noqa: ARG002
         """((N, 3) colours, (N,) roughness)."""

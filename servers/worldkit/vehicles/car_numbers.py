@@ -2,7 +2,12 @@
 
 from dataclasses import dataclass
 from math import radians, tan
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
+
+from .axles import Axle, OnAxles
+
+if TYPE_CHECKING:
+    from .axles import Vec3
 
 CORNERS = ("fl", "fr", "rl", "rr")
 """Front left, front right, rear left, rear right."""
@@ -11,8 +16,12 @@ DRIVEN = {"front": CORNERS[:2], "rear": CORNERS[2:], "all": CORNERS}
 
 
 @dataclass(frozen=True)
-class Car:
+class Car(OnAxles):
     """Its numbers; the defaults are a mid-size saloon's.
+
+    Source of the defaults: R. N. Jazar, Vehicle Dynamics (2008), tables of chapters 2 and 8 (mass, wheelbase, height of the
+    centre of mass, suspension rates); Bosch Automotive Handbook, "Motor-vehicle dynamics" (rolling resistance 0.012, tyre on dry
+    asphalt 0.9); power and moments of a car of that class.
 
     Raises ValueError where no such car can stand.
     """
@@ -47,63 +56,50 @@ class Car:
     length_m: float = 4.35
     width_m: float = 1.78
     height_m: float = 1.45
+    power_w: float = 90_000.0
+    """The most of the engine: above some speed the drive's moment falls."""
+
+    word = "car"
 
     def __post_init__(self) -> None:
-        numbers = {name: value for name, value in vars(self).items() if isinstance(value, (int, float))}
-        if bad := [name for name, value in numbers.items() if not 0 < value < float("inf")]:
-            raise ValueError(f"a car's {', '.join(bad)} must be positive, finite numbers")
-        if self.sprung_kg <= 0 or not 0.2 <= self.front_share <= 0.8:
+        self.check()
+        if not 0.2 <= self.front_share <= 0.8:
             raise ValueError(
-                f"a car of {self.mass_kg} kg with {self.front_share:.0%} on its front axle has no chassis between them"
+                f"a {self.word} of {self.mass_kg} kg with {self.front_share:.0%} on its front axle has no chassis between them"
             )
-        if (
-            self.wheelbase_m + 2 * self.wheel_radius_m > self.length_m
-            or self.track_m + self.tyre_width_m > self.width_m + 0.1
-        ):
-            raise ValueError("the wheels stand outside of the car: give it a larger length_m or width_m")
         if self.steering_deg > 50:
-            raise ValueError(f"a car's front wheels cannot turn by {self.steering_deg} degrees: 50 at most")
+            raise ValueError(f"a {self.word}'s front wheels cannot turn by {self.steering_deg} degrees: 50 at most")
         if self.driven not in DRIVEN:
-            raise ValueError(f"a car is not driven {self.driven!r}: {', '.join(DRIVEN)}")
-        if hung := [f"{corner} {load:.0f} N" for corner in CORNERS if (load := self.strut_n(corner)) <= 0]:
-            raise ValueError(
-                f"a car's struts must be pressed at rest, not pulled: {', '.join(hung)}; put its front_share nearer to 0.5"
-            )
+            raise ValueError(f"a {self.word} is not driven {self.driven!r}: {', '.join(DRIVEN)}")
         if (room := self.wheelbase_m - 2.5 * self.wheel_radius_m) <= 0 or self.track_m <= self.tyre_width_m:
             raise ValueError(
-                f"a car's chassis has no room between its wheels: {room:.2f} m along (2.5 wheel_radius_m are the wheels') and "
+                f"a {self.word}'s chassis has no room between its wheels: {room:.2f} m along (2.5 wheel_radius_m are the wheels') and "
                 f"{self.track_m - self.tyre_width_m:.2f} m across; give it a larger wheelbase_m or track_m, or smaller wheels"
             )
         if (radius := self.wheelbase_m / tan(radians(self.steering_deg))) <= self.track_m / 2:
             raise ValueError(
-                f"a car steered by {self.steering_deg} degrees turns about a point {radius:.2f} m beside its middle, "
+                f"a {self.word} steered by {self.steering_deg} degrees turns about a point {radius:.2f} m beside its middle, "
                 f"between its wheels: give it less steering_deg, or a track_m below {2 * radius:.2f}"
             )
+        self.check_solids()
 
     @property
-    def sprung_kg(self) -> float:
-        """Of the chassis, on its struts."""
-        return self.mass_kg - 4 * (self.wheel_kg + self.hub_kg)
-
-    @property
-    def ahead_m(self) -> float:
-        """Of the centre of mass before the middle of the wheelbase."""
-        return (self.front_share - 0.5) * self.wheelbase_m
-
-    @property
-    def driven_wheels(self) -> tuple[str, ...]:
-        """Of `CORNERS`."""
-        return DRIVEN[self.driven]
-
-    def place(self, corner: str) -> tuple[float, float]:
-        """(x, y) of a wheel in the car's frame, m."""
-        return self.wheelbase_m / 2 * (1 if corner[0] == "f" else -1), self.track_m / 2 * (
-            1 if corner[1] == "l" else -1
+    def axles(self) -> tuple[Axle, ...]:
+        """Front and rear."""
+        half = self.wheelbase_m / 2
+        return (
+            Axle("f", half, self.front_share, steered=True, driven=self.driven in ("front", "all")),
+            Axle("r", -half, 1 - self.front_share, driven=self.driven in ("rear", "all")),
         )
 
-    def strut_n(self, corner: str) -> float:
-        """What a strut carries at rest on level ground, N."""
-        # The chassis alone balances about the axles where hubs and wheels, alike at all corners, have been taken away.
-        ahead = self.ahead_m * self.mass_kg / self.sprung_kg
-        share = 0.5 + ahead / self.wheelbase_m * (1 if corner[0] == "f" else -1)
-        return self.sprung_kg * 9.81 * share / 2
+    @property
+    def solids(self) -> "tuple[tuple[str, Vec3, Vec3], ...]":
+        """A low box between the axles, one above the wheels as long as the car, and the cabin."""
+        length, width, height, radius = self.length_m, self.width_m, self.height_m, self.wheel_radius_m
+        over, top = 2.3 * radius, 0.63 * height
+        inner = self.wheelbase_m - 2.5 * radius
+        return (
+            ("floor", (inner, width, top - 0.6 * radius), (0, 0, (top + 0.6 * radius) / 2)),
+            ("nose", (length, 0.98 * width, max(top - over, 0.1)), (0, 0, (top + over) / 2)),
+            ("cabin", (0.38 * length, 0.78 * width, height - top), (-0.08 * length, 0, (height + top) / 2)),
+        )

@@ -2,14 +2,14 @@
 
 Speeds: at each point at most `top_m_s` and what its curvature allows, v = sqrt(a_across / k); swept back so that what comes can be
 braked for, and forward so that it can be reached. Steering: pure pursuit, tan(delta) = 2 L sin(alpha) / d, from the rear axle to the
-point the distance d ahead (R. C. Coulter, Implementation of the Pure Pursuit Path Tracking Algorithm, CMU-RI-TR-92-01).
+point the distance d ahead, and full lock where that lies behind (R. C. Coulter, Implementation of the Pure Pursuit Path Tracking Algorithm, CMU-RI-TR-92-01).
 """
 
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from .car_numbers import Car
+from .adding import Vehicle
 from .driving_inputs import Commands
 
 if TYPE_CHECKING:
@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     import numpy as np
 
 SPACING_M = 0.5
-LONGEST_M = 1e6
+LONGEST_M = 1e5
 
 
 @dataclass(frozen=True)
@@ -112,12 +112,12 @@ class Course:
 
 @dataclass
 class Driver:
-    """Drives one car along a course; a `control` holds one and asks it for commands at each step.
+    """Drives one vehicle along a course; a `control` holds one and asks it for commands at each step.
 
     What it knows beside the state is where on the course it last was, so that a course may cross itself.
     """
 
-    car: Car
+    car: Vehicle
     course: Course
     top_m_s: float = 14.0
     across_m_s2: float = 3.0
@@ -138,6 +138,8 @@ class Driver:
         """What to do in this state, whose velocities and poses are computed."""
         import numpy as np
 
+        if data.time <= 0:  # a run begins: where another one ended says nothing
+            self.point = None
         body = data.body(name)
         forward = body.xmat.reshape(3, 3)[:2, 0]
         forward = forward / max(float(np.hypot(*forward)), 1e-9)
@@ -153,6 +155,8 @@ class Driver:
         distance = max(float(np.hypot(*to)), 1e-6)
         sine = float(forward[0] * to[1] - forward[1] * to[0]) / distance
         steering = float(np.degrees(np.arctan2(2 * self.car.wheelbase_m * sine, distance)))
+        if forward @ to < 0 and (self.course.closed or self.point < count - 1):
+            steering = self.car.steering_deg * (1.0 if sine >= 0 else -1.0)  # the course lies behind it: turn round
         # The speed that belongs a little further on: the drive takes that long to act.
         soon = self.point + max(round(0.3 * speed / self.course.spacing_m), 1)
         wanted = float(self.speeds[soon % count if self.course.closed else min(soon, count - 1)])
@@ -165,4 +169,4 @@ class Driver:
         force = car.mass_kg * (acceleration + car.rolling_resistance * 9.81 * (speed > 0.1))
         if force >= 0:
             return min(force * car.wheel_radius_m / car.drive_n_m, 1.0), 0.0
-        return 0.0, min(-force * car.wheel_radius_m / (4 * car.brake_n_m), 1.0)
+        return 0.0, min(-force * car.wheel_radius_m / (len(car.corners) * car.brake_n_m), 1.0)

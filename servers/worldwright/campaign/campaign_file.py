@@ -1,6 +1,7 @@
 """The words of a campaign's file: strict, small, and refused as a whole before anything is paid.
 
-A campaign names plans (`plans`), or one plan and numbers of it that are swept (`plan`, `sweep`). Each field of a sweep is an
+A campaign names plans (`plans`), prompts and who writes their worlds (`prompts`, `author`), or one plan and numbers of it that
+are swept (`plan`, `sweep`). Each field of a sweep is an
 axis of the grid (`values`, or `from`, `to`, `steps`) or is drawn anew for each of `draws` (`uniform`, `log_uniform`,
 `normal`, `integers`): the worlds are grid times draws.
 """
@@ -12,9 +13,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BeforeValidator, Field, ValidationError, model_validator
 
+from ..contract import harnesses
 from ..model.errors import WorldwrightError
 from ..model.evidence.build_steps import StepName
 from ..model.frozen import Frozen
+from .author_words import Author, Prices, Prompted
 
 MOST_BYTES = 1 << 20
 """A campaign's file is a page, not a list of its worlds."""
@@ -157,6 +160,8 @@ class Budget(Frozen):
     """Of all workers together."""
     runs: Annotated[Count, Field(ge=1)] | None = None
     """Physics passes."""
+    usd: Annotated[Number, Field(gt=0)] | None = None
+    """US dollars of authors; what is under way counts with `per_world.usd`."""
 
 
 class PerWorld(Frozen):
@@ -165,6 +170,10 @@ class PerWorld(Frozen):
     seconds: Annotated[Number, Field(gt=0)] = 900.0
     begun: Annotated[Count, Field(ge=1)] = 3
     """How often it is begun in all: a world that takes its worker along is not begun for ever."""
+    runs: Annotated[Count, Field(ge=1)] | None = None
+    """Physics passes of its author."""
+    usd: Annotated[Number, Field(gt=0)] | None = None
+    """US dollars of its author, each time that it is begun."""
 
 
 class Campaign(Frozen):
@@ -174,6 +183,9 @@ class Campaign(Frozen):
     """Lower-case letters, digits, hyphens; the file's own name without it."""
     plan: str | None = None
     plans: Annotated[tuple[str | Given, ...], Field(min_length=1, max_length=MOST_WORLDS)] | None = None
+    prompts: Annotated[tuple[str | Prompted, ...], Field(min_length=1, max_length=MOST_WORLDS)] | None = None
+    author: Author | None = None
+    """Who makes a world of each prompt."""
     sweep: Sweep | None = None
     category: str = ""
     until: StepName = "expect"
@@ -194,17 +206,24 @@ class Campaign(Frozen):
 
     @model_validator(mode="after")
     def _one_source(self) -> "Campaign":
-        if (self.plan is None) == (self.plans is None):
-            raise ValueError("name one `plan`, or several `plans`")
+        if sum(source is not None for source in (self.plan, self.plans, self.prompts)) != 1:
+            raise ValueError("name one `plan`, or several `plans`, or `prompts` and their `author`")
+        if (self.prompts is None) != (self.author is None):
+            raise ValueError("`prompts` and `author` belong together: what is asked, and who makes a world of it")
         if self.sweep is not None and self.plan is None:
             raise ValueError("a sweep is over one `plan`")
         if self.address and self.hands == "processes":
             raise ValueError("an `address` is Ray's: `hands: ray`")
+        if self.author is None and (self.budget.usd or self.per_world.usd or self.per_world.runs):
+            raise ValueError("money, and `per_world.runs`, are an author's: without `author` nothing is bought")
         return self
 
     @property
     def given(self) -> tuple[Given, ...]:
-        """The plans that it names."""
+        """The plans, or prompts, that it names."""
+        if self.prompts is not None:
+            asked = (one if isinstance(one, Prompted) else Prompted(prompt=one) for one in self.prompts)
+            return tuple(Given(plan=one.file or "", category=one.category, prompt=one.prompt) for one in asked)
         named = self.plans if self.plans is not None else (str(self.plan),)
         return tuple(one if isinstance(one, Given) else Given(plan=one) for one in named)
 
@@ -246,7 +265,9 @@ def read(path: Path) -> Campaign:
 def parse(text: str, place: str = "") -> Campaign:
     """The campaign that a text says; see `read`."""
     if not text.strip():
-        raise CampaignError("the campaign is empty", place=place, next_move="write a `plan` and a `sweep`, or `plans`")
+        raise CampaignError(
+            "the campaign is empty", place=place, next_move="write a `plan` and a `sweep`, `plans`, or `prompts`"
+        )
     told = _yaml(text, place)
     if not isinstance(told, dict):
         raise CampaignError("a campaign is a mapping of words", place=place, next_move=_known(Campaign))
@@ -254,6 +275,13 @@ def parse(text: str, place: str = "") -> Campaign:
         campaign = Campaign.model_validate(told)
     except ValidationError as error:
         raise _refused(error, place) from None
+    author = campaign.author
+    if author and not author.tells_money and (campaign.budget.usd or campaign.per_world.usd):
+        raise CampaignError(
+            f"a limit of `usd` would do nothing: {harnesses.find(author.harness).NAME} tells no money",
+            place=place,
+            next_move="give `author.prices: {read, written}`, US dollars for a million tokens, or leave `usd` out",
+        )
     if campaign.size > MOST_WORLDS:
         raise CampaignError(
             f"it asks for {_whole(campaign.size)} worlds; a campaign has at most {MOST_WORLDS:,}",
@@ -295,8 +323,9 @@ def _yaml(text: str, place: str) -> Any:
 def _refused(error: ValidationError, place: str) -> CampaignError:
     """The first problem, in the file's own words."""
     details = error.errors(include_url=False)
-    first = next((d for d in details if d["type"] == "extra_forbidden"), details[0])
-    path = [part for part in first["loc"] if part not in ("str", "Given")]
+    telling = [d for kind in ("extra_forbidden", "value_error") for d in details if d["type"] == kind]
+    first = (telling or details)[0]
+    path = [part for part in first["loc"] if part not in ("str", "Given", "Prompted")]
     where = ".".join(map(str, path))
     if first["type"] == "extra_forbidden":
         owner: type[Frozen] = Campaign
@@ -304,6 +333,9 @@ def _refused(error: ValidationError, place: str) -> CampaignError:
             ("fields", Axis),
             ("sweep", Sweep),
             ("plans", Given),
+            ("prompts", Prompted),
+            ("prices", Prices),
+            ("author", Author),
             ("budget", Budget),
             ("per_world", PerWorld),
         ):

@@ -7,6 +7,7 @@
 | `worlds/xx/<world>/` | the run folder of a world, whose first two digits are `xx` |
 | `rows/xx/<world>.json` | its row: the proof that it is done, written last |
 | `begun/xx/<world>` | one character each time that it is begun, written before anything is paid |
+| `authors/xx/<world>/N/` | what its author said and cost, the Nth time (`world_author`) |
 | `locks/xx/<world>` | held by whoever works on it |
 | `driver.lock`, `cancel` | held by the live driver; asks it to stop |
 | `table.parquet`, `table.csv`, `index.html` | what `report` writes |
@@ -45,6 +46,8 @@ LIMITS = frozenset({"budget", "per_world", "workers"})
 """What may change while a driver is at work."""
 FREE = LIMITS | {"hands", "address", "report", "name"}
 """What may be other when a campaign goes on: its worlds stay what they are."""
+WRITES = {"harness", "model", "options"}
+"""What another author is another world by."""
 LONGEST_PROMPT = 20_000
 """Characters; a prompt is a sentence or a page, never a file of data."""
 
@@ -184,6 +187,10 @@ class Store:
         """Run folder of a world."""
         return self.folder / "worlds" / world[:2] / world
 
+    def author(self, world: str) -> Path:
+        """Where what its author said is kept."""
+        return self.folder / "authors" / world[:2] / world
+
     def row_path(self, world: str) -> Path:
         """The file of a world's row."""
         return self.folder / "rows" / world[:2] / f"{world}.json"
@@ -287,7 +294,8 @@ def address(base: Base, number: int, values: dict[str, float], campaign: Campaig
     """
     sweep = campaign.sweep
     which = number if sweep is None else number % sweep.draws
-    walk = [campaign.until, campaign.pictures, campaign.refine]
+    walk: list[object] = [campaign.until, campaign.pictures, campaign.refine]
+    walk += [campaign.author.model_dump(mode="json", include=WRITES)] if campaign.author else []
     told = json.dumps([base.sha256 or base.source, which, values, walk], sort_keys=True)
     return hashlib.sha256(told.encode()).hexdigest()[:16]
 
@@ -310,7 +318,7 @@ def _base(given: Given, campaign: Campaign, beside: Path) -> tuple[Base, dict[st
     """One plan, with its prompt, its author's program and film, and the files that these name, by path."""
     about = Base(source=given.plan, category=given.category or campaign.category)
     try:
-        found = _content(beside / given.plan, given)
+        found = _asked(given, beside) if campaign.author else _content(beside / given.plan, given)
     except WorldwrightError as error:
         return about.model_copy(
             update={"wrong": str(error.cause), "kind": error.code, "next_move": error.next_move}
@@ -341,6 +349,20 @@ def _content(path: Path, given: Given) -> dict[str, bytes]:
     return found
 
 
+def _asked(given: Given, beside: Path) -> dict[str, bytes]:
+    """A prompt, in the campaign's own file or in one beside it."""
+    prompt, place = given.prompt, str(beside / given.plan)
+    if prompt is None:
+        try:
+            with Path(place).open(encoding="utf-8", errors="replace") as stream:
+                prompt = stream.read(LONGEST_PROMPT + 1)
+        except OSError as cause:
+            move = "name a text file beside the campaign's"
+            raise NotFoundError(f"its prompt cannot be read: {cause.strerror}", place=place, next_move=move) from cause
+    _check(prompt, place)
+    return {"prompt.md": prompt.encode(errors="replace")}
+
+
 def _check(prompt: str, place: str) -> None:
     if not prompt.strip():
         error = CampaignError(
@@ -350,7 +372,7 @@ def _check(prompt: str, place: str) -> None:
         raise error
     if len(prompt) > LONGEST_PROMPT:
         error = CampaignError(
-            f"its prompt has {len(prompt):,} characters, more than {LONGEST_PROMPT:,}",
+            f"its prompt has more than {LONGEST_PROMPT:,} characters",
             place=place,
             next_move="shorten it",
         )

@@ -135,6 +135,26 @@ def report(campaign: str) -> None:
     report_errors(work)
 
 
+@command.command()
+@click.argument("campaign")
+@click.option(
+    "--column", "columns", multiple=True, help="A column of the recordings, again for each; else the usual ones."
+)
+@click.option("--shares", nargs=3, type=float, default=(0.8, 0.1, 0.1), help="Of train, validation and test.")
+def trajectories(campaign: str, columns: tuple[str, ...], shares: tuple[float, float, float]) -> None:
+    """Write the recordings as a data set to train on, split by the seed of the draw (Parquet)."""
+
+    def work() -> None:
+        from . import trajectories
+        from .campaign_store import Store
+
+        store = Store.find(campaign)
+        counts = trajectories.write(store, columns or trajectories.COLUMNS, shares)
+        click.echo(f"{store.folder / trajectories.FOLDER}: " + ", ".join(f"{n} {part}" for part, n in counts.items()))
+
+    report_errors(work)
+
+
 def _conducted(store: "Store") -> "Standing":
     """Drive a campaign with a bar on a terminal and lines elsewhere; the table and the page are written at its end."""
     import signal

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from ..model.frozen import Frozen
-from . import on_ray
+from . import on_ray, world_author
 from .campaign_file import Campaign, CampaignError
 from .campaign_store import Begun, Store
 from .one_world import Task, gave_up, perform, stop_jobs, task
@@ -40,6 +40,11 @@ class Standing(Frozen):
     seconds: float = 0.0
     """Of all workers together."""
     runs: int = 0
+    usd: float = 0.0
+    """US dollars of authors, as far as they are known."""
+    tokens: int = 0
+    uncounted: str = ""
+    """What `usd` and `tokens` leave out; empty where they are of all."""
     rate_per_minute: float | None = None
     left_s: float | None = None
     """At the rate of this driver."""
@@ -66,20 +71,36 @@ class Standing(Frozen):
         lines.append(
             f"  {self.seconds:.0f} s of workers, {self.runs} physics passes; {'at work' if self.at_work else 'not at work'}"
         )
+        if self.tokens or self.usd:
+            lines.append(f"  authors: {self.tokens:,} tokens, {self.usd:.2f} US dollars")
+            lines += [f"  {self.uncounted}"] if self.uncounted else []
         lines += [f"  stopped: {self.stopped}"] if self.stopped else []
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
 
 
 @dataclass
 class Count:
-    """What the rows of a campaign add up to; as long as the vocabulary, not as the campaign."""
+    """What a campaign adds up to: its rows, and what authors took of worlds that have none (any more).
+
+    As long as the vocabulary and the worlds that were taken back, not as the campaign.
+    """
 
     done: int = 0
     outcomes: Counter[str] = field(default_factory=Counter)
     causes: Counter[str] = field(default_factory=Counter)
     seconds: float = 0.0
     runs: int = 0
+    usd: float = 0.0
+    tokens: int = 0
     memory_mb: float = 0.0
+    without_row: dict[str, tuple[float, int]] = field(default_factory=dict)
+    """US dollars and tokens of these, by world; its row tells them again."""
+
+    def take_back(self, world: str, usd: float, tokens: int) -> None:
+        """What was paid for a world that has no row."""
+        self.without_row[world] = (usd, tokens)
+        self.usd += usd
+        self.tokens += tokens
 
     def add(self, row: Row) -> None:
         """One row more."""
@@ -89,14 +110,21 @@ class Count:
             self.causes[row.cause.kind] += 1
         self.seconds += row.seconds
         self.runs += row.runs
+        usd, tokens = self.without_row.pop(row.world, (0.0, 0))
+        self.usd += (row.usd or 0.0) - usd
+        self.tokens += row.tokens_read + row.tokens_written - tokens
         self.memory_mb = max(self.memory_mb, row.memory_mb)
 
 
 def counted(store: Store) -> Count:
-    """What all rows add up to."""
-    count = Count()
+    """What all rows add up to, and what was paid for worlds without one."""
+    count, begun = Count(), store.begun
     for row in store.rows():
         count.add(row)
+    for world in world_author.worlds(store) if begun.campaign.author else ():
+        if store.row(world) is None:
+            paid = world_author.written(store, begun, world)
+            count.take_back(world, paid.usd or 0.0, paid.tokens_read + paid.tokens_written)
     return count
 
 
@@ -135,6 +163,9 @@ def told(
         at_work=at_work,
         seconds=round(count.seconds, 1),
         runs=count.runs,
+        usd=round(count.usd, 6),
+        tokens=count.tokens,
+        uncounted=begun.campaign.author.uncounted if begun.campaign.author else "",
         rate_per_minute=rate,
         left_s=left,
         stopped=stopped,
@@ -225,6 +256,9 @@ class _Conducting:
             return f"the budget of {budget.runs} runs is used up"
         if budget.seconds is not None and self.count.seconds >= budget.seconds:
             return f"the budget of {budget.seconds:g} s is used up"
+        kept = under_way * (self.begun.campaign.per_world.usd or 0.0)  # what is under way may still cost so much
+        if budget.usd is not None and self.count.usd + kept >= budget.usd:
+            return f"the budget of {budget.usd:g} US dollars is used up"
         return ""
 
     def _take_in(self, ended: Ended) -> None:

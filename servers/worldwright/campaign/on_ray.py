@@ -22,6 +22,8 @@ STORE_MB = 128
 """Of Ray's object store, started here: nothing of ours lies in it."""
 FIRST_MB, SPARE_MB = 1024.0, 512.0
 """Memory that a world asks for before any was seen; what its pass, a process of its own, takes beside its worker."""
+NICENESS = "RAY_worker_niceness"
+"""The variable by which Ray's nodes are told how far their workers, and the passes that these start, stand behind others."""
 
 
 def installed() -> bool:
@@ -86,6 +88,8 @@ class Tasks:
             if address:
                 self._ray.init(address=address, **quiet)
             else:
+                # As our own processes are: at Ray's niceness of 15 a world starves beside whatever else is at work, while its time runs.
+                os.environ.setdefault(NICENESS, "0")
                 self._ray.init(
                     address="local",
                     num_cpus=count,

@@ -23,10 +23,14 @@ from ..model.evidence.build_steps import STEPS, StepName
 from ..model.evidence.reports import PassResult
 from ..model.evidence.run import Run, sha256_file
 from ..model.frozen import Frozen
-from .campaign_store import Begun, Store, address, seed
+from . import world_author
+from .author_folder import AuthorError
+from .campaign_store import Base, Begun, Store, address, seed
 from .world_row import Cause, Margin, Outcome, Row
 
 POLL_S = 0.2
+OVER = ("over_time", "over_usd", "over_runs")
+"""Kinds of cause by which a world is given up, and has not failed."""
 _RULE = re.compile(r"\bW[A-Z]\d{3}\b")
 _JOB = re.compile(r"^([a-z_]+): ")
 
@@ -90,9 +94,10 @@ def gave_up(store: Store, one: Task, kind: str, said: str, next_move: str = "", 
 
 
 def stop_jobs(store: Store, world: str) -> None:
-    """End the passes of a world that are under way."""
+    """End the passes of a world that are under way, and its author."""
     from ..stage.job import Job
 
+    world_author.stop(store, world)
     for job in Job.all(Run(store.world(world))):
         with suppress(WorldwrightError):
             job.cancel()
@@ -106,25 +111,30 @@ def _done(store: Store, begun: Begun, one: Task) -> Row:
         move = "see its folder; `worldwright campaign resume --again worker_died` begins it once more"
         return gave_up(store, one, "worker_died", said, move)
     store.begin_world(one.world)
-    walked = _walked(store, begun, one, minutes)
+    walked = _walked(store, begun, one, minutes, began + begun.campaign.per_world.seconds)
     if begun.campaign.report and store.world(one.world).is_dir():
         _report(store.world(one.world), minutes)
     return store.keep(_row(store, begun, one, walked, minutes, time.monotonic() - began))
 
 
-def _walked(store: Store, begun: Begun, one: Task, minutes: dict[str, float]) -> Walked:
-    """The walk, and every way in which it can end."""
-    step: StepName | Literal["seed"] = "seed"
+def _walked(store: Store, begun: Begun, one: Task, minutes: dict[str, float], deadline: float) -> Walked:
+    """The walk, and every way in which it can end; it is given up at `deadline`, monotonic, s."""
+    step: StepName | Literal["seed", "author"] = "seed"
     try:
-        run = _seeded(store, begun, one)
+        _refuse(begun.bases[one.base])
+        if begun.campaign.author is not None:
+            step = "author"
+            run = _written(store, begun, one, minutes, deadline)
+        else:
+            run = _seeded(store, one)
         step = "check"
-        gone = _walk(run, begun, minutes)
+        gone = _walk(run, begun, minutes, max(1.0, deadline - time.monotonic()))
     except WorldwrightError as error:
         findings = [str(finding) for finding in getattr(error, "findings", ())]
         kind = next((_RULE.search(said)[0] for said in findings if _RULE.search(said)), error.code)  # type: ignore[index]
-        return Walked(
-            "failed", Cause(kind=kind, step=step, said="\n".join([error.cause, *findings]), next_move=error.next_move)
-        )
+        outcome: Outcome = "gave_up" if kind in OVER and step == "author" else "failed"
+        said = "\n".join([error.cause, *findings])
+        return Walked(outcome, Cause(kind=kind, step=step, said=said, next_move=error.next_move))
     except Exception as error:  # a defect of ours is this world's cause, and not the end of the others
         return Walked("failed", Cause(kind="internal", step=step, said=f"{type(error).__name__}: {error}"))
     if gone.wrong:
@@ -145,23 +155,47 @@ def _walked(store: Store, begun: Begun, one: Task, minutes: dict[str, float]) ->
     return Walked("waiting", Cause(kind="waiting", step=last, said=gone.next_move, next_move=gone.next_move))
 
 
-def _seeded(store: Store, begun: Begun, one: Task) -> Run:
-    """The run folder of a world: what its base holds, with the plan's numbers set.
-
-    Raises:
-        WorldwrightError: the base is no plan, or a number cannot be set in it.
-    """
-    from ..model.plan.plan_edit import edit
-    from ..model.plan.plan_text import read_plan
+def _refuse(about: Base) -> None:
+    """Refuse a base that no world can be made of."""
     from .campaign_file import CampaignError
-    from .plan_fields import path_of
 
-    about, run = begun.bases[one.base], Run(store.world(one.world))
     if about.wrong:
         error = CampaignError(about.wrong, place=about.source, next_move=about.next_move)
         error.code = about.kind
         raise error
-    base = store.base(one.base)
+
+
+def _written(store: Store, begun: Begun, one: Task, minutes: dict[str, float], deadline: float) -> Run:
+    """The run folder of a world that its author writes, or has written.
+
+    Raises:
+        AuthorError: it did not, or it gave the world up.
+    """
+    from ..stamp.state import State
+    from ..stamp.status import status
+
+    began, run = time.monotonic(), Run(store.world(one.world))
+    prompt = (store.base(one.base) / "prompt.md").read_text(encoding="utf-8")
+    try:
+        world_author.write(store, begun, one.world, prompt, deadline)
+    finally:
+        minutes["author"] = (time.monotonic() - began) / 60
+    if (now := status(State(run))).state == "blocked":
+        raise AuthorError("blocked", f"its author gave it up: {now.cause}", str(run.folder), now.next_move)
+    return run
+
+
+def _seeded(store: Store, one: Task) -> Run:
+    """The run folder of a world: what its base holds, with the plan's numbers set.
+
+    Raises:
+        WorldwrightError: a number cannot be set in it.
+    """
+    from ..model.plan.plan_edit import edit
+    from ..model.plan.plan_text import read_plan
+    from .plan_fields import path_of
+
+    base, run = store.base(one.base), Run(store.world(one.world))
     if run.plan.is_file() and any(True for _ in run.entries()):
         return run  # it was begun before, and goes on there
     text = (base / "plan.md").read_bytes()
@@ -182,8 +216,8 @@ def _like(document: Any, path: tuple[str | int, ...], value: float) -> float:
     return int(value) if isinstance(old, int) and float(value).is_integer() else value
 
 
-def _walk(run: Run, begun: Begun, minutes: dict[str, float]) -> Any:
-    """`worldwright go` up to the campaign's last step, without pictures unless they are asked for."""
+def _walk(run: Run, begun: Begun, minutes: dict[str, float], seconds: float) -> Any:
+    """`worldwright go` up to the campaign's last step, without pictures unless they are asked for, for so many seconds."""
     from ..go import Accepting
     from ..stamp.going import GROUPS, Going
 
@@ -209,7 +243,7 @@ def _walk(run: Run, begun: Begun, minutes: dict[str, float]) -> Any:
 
     walk = Plain if Plain.groups is GROUPS else Stamped
     limits: dict[str, Any] = {
-        "timeout_s": campaign.per_world.seconds,
+        "timeout_s": seconds,
         "refine": campaign.refine,
         "until": campaign.until,
     }
@@ -299,6 +333,7 @@ def _row(store: Store, begun: Begun, one: Task, walked: Walked, minutes: dict[st
         poster=_poster(store, folder, state.folder),
         memory_mb=round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1),
         worker=f"{socket.gethostname()}:{os.getpid()}",
+        **world_author.written(store, begun, one.world).model_dump(),
     )
 
 

@@ -81,7 +81,7 @@ def shown(campaign: Campaign) -> list[str]:
     """How many worlds a campaign would be, and the first of them, one a line."""
     lines = [f"{campaign.name}: {campaign.size:,} worlds, each up to `{campaign.until}`"]
     if campaign.sweep is None:
-        return lines + [f"  {given.plan}" for given in islice(campaign.given, SHOWN)]
+        return lines + [f"  {given.plan or str(given.prompt)[:100]}" for given in islice(campaign.given, SHOWN)]
     for number in range(min(SHOWN, campaign.size)):
         values = points.at(campaign.sweep, number)
         lines.append("  " + ", ".join(f"{name} {value:g}" for name, value in values.items()))
@@ -91,9 +91,21 @@ def shown(campaign: Campaign) -> list[str]:
 def cancelled(store: Store) -> str:
     """Ask the driver to stop, and wait for it a while; what came of that."""
     if not store.driven:
+        if left := _ended(store):
+            return f"it is not at work; {left} of its authors that still were are ended, `resume` goes on"
         return "it is not at work"
     store.cancelled.touch()
     ends = time.monotonic() + CANCEL_S
     while store.driven and time.monotonic() < ends:
         time.sleep(0.1)
-    return "it is still ending what is under way" if store.driven else "cancelled; what is done stays, `resume` goes on"
+    if store.driven:
+        return "it is still ending what is under way"
+    _ended(store)
+    return "cancelled; what is done stays, `resume` goes on"
+
+
+def _ended(store: Store) -> int:
+    """End the authors that nobody watches any more, since their worker was killed; how many."""
+    from . import world_author
+
+    return sum(world_author.stop(store, world) for world in world_author.worlds(store))

@@ -76,11 +76,15 @@ class Seen:
     units: dict[str, str] = field(default_factory=dict)
     shown: list[Row] = field(default_factory=list)
     total: int = 0
+    tokens: int = 0
+    usd: float = 0.0
 
     def add(self, row: Row) -> None:
         """One row more."""
         self.total += 1
         self.outcomes[row.outcome] += 1
+        self.tokens += row.tokens_read + row.tokens_written
+        self.usd += row.usd or 0.0
         if row.cause is not None:
             group = self.groups.setdefault((row.cause.kind, row.cause.step), Group(row.cause.kind, row.cause.step))
             group.count += 1
@@ -140,6 +144,7 @@ def render(store: Store, seen: Seen) -> str:
         name=campaign.name or store.folder.name,
         until=campaign.until,
         worlds=campaign.size,
+        author=campaign.author,
         seen=seen,
         outcomes=seen.outcomes.most_common(),
         groups=sorted(seen.groups.values(), key=lambda group: -group.count),

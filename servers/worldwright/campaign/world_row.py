@@ -16,8 +16,8 @@ class Cause(Frozen):
 
     kind: str
     """The code of what said no (`WL101`, `WS110`, `crashed`, `over_time`, `worker_died`, …): failures are grouped by it."""
-    step: StepName | Literal["seed", "worker"]
-    """Where; `seed`: before the first step, `worker`: outside of any."""
+    step: StepName | Literal["seed", "author", "worker"]
+    """Where; `seed`: before the first step, `author`: while its world was written, `worker`: outside of any."""
     said: str
     next_move: str = ""
 
@@ -34,7 +34,23 @@ class Margin(Frozen):
     unit: str = ""
 
 
-class Row(Frozen, cache_strings="keys"):
+class Written(Frozen):
+    """What an author's sessions for one world came to, all of them together."""
+
+    author: str = ""
+    """The harness."""
+    tokens_read: int = 0
+    """Of the main thread alone where the harness is Codex or OpenCode, whose events tell nothing of their agents: a lower bound.
+    Those of `tokens_written` and `usd` likewise."""
+    tokens_written: int = 0
+    usd: float | None = None
+    """US dollars, by the harness's own reckoning or the campaign's prices; None where neither tells it."""
+    author_seconds: float = 0.0
+    transcript: str = ""
+    """Of the last session, relative to the campaign's folder: each event a line of JSON."""
+
+
+class Row(Written, cache_strings="keys"):
     """What came of one world; no text of it is kept for the next one, since hardly any comes again."""
 
     world: str

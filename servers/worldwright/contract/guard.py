@@ -11,7 +11,9 @@ help.
   at files (Codex).
 - The main thread, and any agent that is none of our roles, writes nothing under `runs/` with a file tool.
 - The tool of another MCP server is given no path of a run. A command that such a tool runs is not read, either.
-- Nobody's file tool writes a list of known keys or the person's data folder, nor reads the signing key there (`users_data`).
+- Nobody's file tool writes a list of known keys or the person's data folder, nor reads the signing key and
+  the verdicts there (`users_data`); nor, in the folder of a campaign's author, any file of the suite or of the campaign
+  (`authors_judge`).
 
 It does not read commands, as a shell can spell a name in a thousand ways. The kernel decides what a shell may write:
 Claude Code's own sandbox keeps it from `runs/` and the suite, and in Codex and OpenCode the guard has the
@@ -37,7 +39,7 @@ from pathlib import Path
 if not __package__:  # it was started as a program
     sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from worldwright.contract import harnesses, users_data
+from worldwright.contract import authors_judge, harnesses, users_data
 from worldwright.contract.roles import BY_AGENT, RESERVED, RUNS, SERVERS, Role
 from worldwright.contract.tool_names import ToolNames
 
@@ -137,7 +139,8 @@ def _judge_stranger(kind: str, given: object, base: Path, project: Path) -> None
         except (ValueError, RuntimeError):
             return  # a text that can be no path
         inside = _inside(target, project)
-        if users_data.shut(target, project) or (inside and (len(inside.parts) > 1 or target.exists())):
+        shut = users_data.shut(target, project) or authors_judge.keeps(target, project)
+        if shut or (inside and (len(inside.parts) > 1 or target.exists())):
             raise DeniedError(
                 f"`{kind}` is no tool of ours, and {given} belongs to a run or says whose word counts: look at it with your own "
                 "tools; a run's files are written by its roles and our servers"
@@ -172,10 +175,13 @@ def _judge_read(given: object, base: Path) -> None:
     """Whoever has read the signing key signs as this machine; a search of a folder that holds it reads it, too."""
     named = [given[key] for key in NAMES_A_FILE if isinstance(given.get(key), str)] if isinstance(given, dict) else []
     for path in named or ["."]:
-        if users_data.key().is_relative_to(_real(path, base)):
+        real, judged = _real(path, base), users_data.judged()
+        if users_data.key().is_relative_to(real):
             raise DeniedError(
                 f"{path} is or holds the signing key, which no agent reads: name the file or folder you need"
             )
+        if real.is_relative_to(judged) or judged.is_relative_to(real):
+            raise DeniedError(f"{path} is or holds a benchmark's verdicts, which nobody who builds reads")
 
 
 def _judge_write(path: str, base: Path, project: Path, role: Role | None) -> None:
@@ -185,6 +191,8 @@ def _judge_write(path: str, base: Path, project: Path, role: Role | None) -> Non
             f"{path} says whose signature and which proof count, and no agent writes it: a person calls a key known, in a "
             "terminal of theirs, with `worldwright keys trust`"
         )
+    if authors_judge.keeps(target, project):
+        raise DeniedError(f"{path} belongs to what judges this world, which its author does not write: stay in {RUNS}/")
     inside = _inside(target, project)
     if role is None:
         if inside is not None:

@@ -3,7 +3,8 @@
 
 The process gives rights up before it becomes the shell, by Landlock (landlock(7), Linux 5.13 and newer), and every process it
 starts inherits that: to write to the protected paths, the user's data folder among them (its assets stay writable), and to
-read the signing key there. Landlock only knows what is allowed, which is everything beside these paths, up to the root. So a
+read the signing key and the verdicts there. In the folder of a campaign's author what judges it from outside is protected as well
+(`authors_judge`). Landlock only knows what is allowed, which is everything beside these paths, up to the root. So a
 shell can make no new entries in the folders above them, the project's own and the home among these, and cannot read what
 appears beside the key later; existing files there and everything in other folders stay writable. All else is read as before.
 Without Landlock in the kernel, the command does not run.
@@ -23,7 +24,7 @@ from pathlib import Path
 if not __package__:  # it was started as a program
     sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
-from worldwright.contract import users_data
+from worldwright.contract import authors_judge, users_data
 from worldwright.contract.roles import RUNS, SUITE
 
 CREATE_RULESET, ADD_RULE, RESTRICT_SELF, SET_NO_NEW_PRIVS = 444, 445, 446, 38
@@ -35,16 +36,23 @@ CANNOT = 126
 
 
 def writable(project: Path) -> Iterator[Path]:
-    """Everything beside the protected paths, up to the root, and the user's assets among their data."""
+    """Everything beside the protected paths, up to the root, and the user's assets among their data.
+
+    An author's folder lies in one of its own: what judges the author is protected, and the folder not.
+    """
     named = {project / name for name in (RUNS, *SUITE)}
-    yield from _beside({*named, *(Path(os.path.realpath(path)) for path in named), users_data.folder()}, project)
+    own, outside = {*named, *(Path(os.path.realpath(path)) for path in named)}, authors_judge.outside(project)
+    yield from _beside({*own, *outside, users_data.folder()}, project)
+    if outside:
+        yield from (path for path in _entries(project, project) if path not in own and not path.is_symlink())
     if (assets := users_data.folder() / users_data.ASSETS).is_dir() and not assets.is_symlink():
         yield assets
 
 
 def readable(project: Path) -> Iterator[Path]:
-    """Everything beside the signing key, up to the root."""
-    yield from _beside({users_data.folder() / users_data.KEY, users_data.key()}, project)
+    """Everything beside the signing key and a benchmark's verdicts, up to the root."""
+    shut = {users_data.folder() / name for name in (users_data.KEY, users_data.JUDGED)}
+    yield from _beside({*shut, users_data.key(), users_data.judged()}, project)
 
 
 def _beside(kept: set[Path], project: Path) -> Iterator[Path]:

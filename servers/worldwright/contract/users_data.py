@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-ASSETS, KEY = "assets", "signing-key.pem"
+ASSETS, KEY, JUDGED = "assets", "signing-key.pem", "judged"
 KNOWN_HERE = "examples/known_keys"
 """The checkout's own list of known keys."""
 
@@ -25,6 +25,11 @@ def folder() -> Path:
 def key() -> Path:
     """The signing key's file, with links resolved."""
     return Path(os.path.realpath(folder() / KEY))
+
+
+def judged() -> Path:
+    """Where a benchmark's verdicts lie, with links resolved: who builds reads none."""
+    return Path(os.path.realpath(folder() / JUDGED))
 
 
 def shut(target: Path, project: Path) -> bool:

@@ -101,10 +101,24 @@ def catalog() -> Diagnosis:
     return Diagnosis("catalog", bool(keys), f"{len(keys)} assets", "set WORLDWRIGHT_CATALOG to the catalog folder")
 
 
+def matter() -> Diagnosis:
+    """Check that numba is here, and that what flows and heaps up is compiled: else the first run of such a law waits for it."""
+    from worldkit import kept_kernels
+
+    if not (found := kept_kernels.numba()):
+        fix = f"{sys.executable} -m pip install 'worldwright[matter]'"
+        return Diagnosis("matter", False, "numba is not installed: no liquid, sand or snow", fix, essential=False)
+    compiled = kept_kernels.compiled()
+    told = "compiled" if compiled else "not compiled yet: the first run of a liquid, sand or snow waits for it"
+    if not compiled and not kept_kernels.may_be_kept():
+        told = "not compiled, and only who may write the installation can: each run of a liquid, sand or snow compiles"
+    return Diagnosis("matter", compiled, f"numba {found}, {told}", " ".join(kept_kernels.CALL), essential=False)
+
+
 def disk() -> Diagnosis:
     """Check that there is room for recordings and films."""
     free_gb = shutil.disk_usage(Path.cwd()).free / 1e9
     return Diagnosis("disk", free_gb > 2, f"{free_gb:.0f} GB free here", "free some space: a run needs up to 2 GB")
 
 
-CHECKS = (python, simulator, wheels, opengl, sandbox, catalog, disk)
+CHECKS = (python, simulator, wheels, opengl, sandbox, catalog, matter, disk)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from ..model.errors import PlanError
 from ..model.plan.committed import Plan
 from ..model.plan.layout import Scene
-from . import driving
+from . import driving, robots_text, vehicles_text
 from .crowds import Crowds
 from .laws_text import Laws
 from .objects import Objects
@@ -96,7 +96,8 @@ class _Writer:
             self.motion(),
         )
         body = "\n\n".join(part for part in parts if part)
-        surfaces = self.surfaces() + self.texts() + self.laws.made()
+        surfaces = self.surfaces() + self.texts() + self.laws.made() + vehicles_text.made(plan, self.scene, needs)
+        surfaces += robots_text.made(plan, needs)
         control = driving.control(plan, needs)
         entry = self.entry(bool(control))
         imports = "import math\n\n" if "math." in body else ""

@@ -5,8 +5,10 @@ from ..model.plan.drives import Actuator
 from ..model.plan.fastening import point
 from ..model.plan.layout import Scene
 from ..model.plan.trigger import always, threshold
+from . import robots_text
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
+from .vehicles_text import commanded
 
 
 def tendons(plan: Plan, scene: Scene, needs: Needs) -> str:
@@ -44,16 +46,20 @@ def control(plan: Plan, needs: Needs) -> str:
     # Neither a solver beside the engine nor the wind of the medium, which `build` has, needs anything from here.
     interventions = [row for row in parameters.interventions if row.solver is None and not _said_again(row, parameters)]
     driven = {row.name: row for row in plan.topology.actuators if row.control is not None}
+    drivers = commanded(plan) | robots_text.commanded(plan)
     if not interventions and not driven:
         return ""
     bonded = {name for whole in plan.broken for name in plan.families[whole]}
     lines = ["\ndef control(model: mujoco.MjModel, data: mujoco.MjData) -> None:"]
     lines.append('    """What the plan declares to act on the state besides the engine."""')
+    lines += drivers.values()
     for name, row in driven.items():
         value = constant_name(row.control) if isinstance(row.control, str) else literal(row.control)
         lines.append(f"    data.actuator({literal(name)}).ctrl[0] = {value}")
     for item in interventions:
         text = f"{item.kind} on {', '.join(item.bodies)}: {item.law} (trigger: {item.trigger}; source: {item.source})"
+        if item.bodies in drivers:
+            continue
         if item.kind == "control" and driven and set(item.bodies) <= driven_names(plan, driven):
             lines.insert(2, comment(text))
             continue

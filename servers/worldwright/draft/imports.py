@@ -2,16 +2,18 @@
 
 from ..model.errors import PlanError
 from ..model.plan.committed import AssetRow
-from ..model.plan.imported import is_model, is_sculpt, load, sculpture
-from .python_text import Raw, call, comment, constant_name, literal
+from ..model.plan.imported import is_model, is_road, is_sculpt, load, sculpture
+from . import vehicles_text
+from .python_text import Raw, call, constant_name, literal
 from .stances import Stances
 
 
 def written(objects: Stances, row: AssetRow) -> str:
     """Write an asset row; several instances without joints become a table of poses and one loop."""
-    if row.type == "wrapper":
-        objects.needs.leave(f"{row.name} is a wrapper asset", "build it and attach it to the world")
-        return comment(f"AUTHOR: add {row.name} ({row.filename}): a wrapper asset is not drafted.")
+    if is_road(row):
+        return vehicles_text.road(objects, row)
+    if row.vehicle is not None:
+        return vehicles_text.written(objects, row)
     own_of = _models(objects, row) if is_model(row) else {}
     keywords = {} if is_model(row) else _sculpt(objects, row) if is_sculpt(row) else _mesh(objects, row)
     function, what = (

@@ -32,6 +32,8 @@ class ControlInput:
 
     Where the model clamps nothing, what was recorded beyond such a bound is allowed, too: "the joint's range, and the recording".
     """
+    kind: str = "motor"
+    """`position` and `velocity` for servos; `motor` for all else."""
 
 
 def control_inputs(
@@ -72,7 +74,7 @@ def control_inputs(
             low, high, by = _bounds(model, plan, index, name, kind, joint, recorded[:, column])
             if not model.actuator_ctrllimited[index]:
                 low, high, by = _with(recorded[:, column], low, high, by)
-        found.append(ControlInput(name, index, unit, low, high, by))
+        found.append(ControlInput(name, index, unit, low, high, by, kind))
     return tuple(found)
 
 

@@ -13,6 +13,7 @@ from ..model.errors import NotFoundError
 from ..model.frozen import Frozen
 from .catalog_page import page
 from .of_pictures import mint
+from .packaged_robots import robot
 from .unpacking import unpack
 
 
@@ -141,6 +142,7 @@ command = click.Group(
         "list": verb(list_assets),
         "show": verb(show),
         "unpack": verb(unpack),
+        "robot": verb(robot),
         "page": verb(page),
         "mint": verb(mint),
     },

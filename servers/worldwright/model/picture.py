@@ -1,4 +1,4 @@
-"""A tool result that shows something: data together with PNG pictures.
+"""A tool result that shows something: data together with pictures.
 
 Engines and tools return `Illustrated`; only `expose` knows how a transport carries pictures.
 """
@@ -23,3 +23,12 @@ class Illustrated:
 
     data: Frozen
     pictures: tuple[Picture, ...] = ()
+
+
+def png(picture: Picture) -> Picture:
+    """The same picture as PNG, which every program shows; what cannot be read stays as it is."""
+    import cv2
+    import numpy as np
+
+    image = None if picture.format == "png" else cv2.imdecode(np.frombuffer(picture.data, np.uint8), cv2.IMREAD_COLOR)
+    return picture if image is None else Picture(cv2.imencode(".png", image)[1].tobytes(), picture.caption)

@@ -16,7 +16,7 @@ from ..model import call_time, processor_time
 from ..model.errors import JobError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
 from ..model.plan.formed import arguments
-from ..model.plan.imported import is_model, is_sculpt, load
+from ..model.plan.imported import is_model, load
 from ..model.plan.layout import Scene
 from . import kept_answers
 from .start import Motion
@@ -199,11 +199,13 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
         objects.append(
             {
                 "name": placed.name,
-                "asset": row.filename
-                if isinstance(row, AssetRow) and not is_model(row) and not is_sculpt(row)
-                else None,
+                "asset": row.filename if isinstance(row, AssetRow) and row.type == "mesh" else None,
                 "model": _model(plan, row),
-                "primitive": row.primitive if isinstance(row, SceneObject) else "box" if is_sculpt(row) else None,
+                "primitive": row.primitive
+                if isinstance(row, SceneObject)
+                else "box"
+                if row.type in ("sculpt", "vehicle", "road")
+                else None,
                 "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
                 "size": row.size if isinstance(row, SceneObject) else placed.size,
                 "parts": _parts(plan, row),
@@ -225,11 +227,12 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
 
 
 def _model(plan: Plan, row: SceneObject | AssetRow) -> dict[str, Any] | None:
-    """Text and catalog folder of a model file."""
+    """Text of a model file, and where its meshes lie: a catalog folder, or `files` below a `root`, which is the plan's folder."""
     if not isinstance(row, AssetRow) or not is_model(row):
         return None
     model = load(row, plan.folder)
-    return {"text": model.text, "folder": model.folder}
+    told: dict[str, Any] = {"text": model.text, "folder": model.folder}
+    return told | ({"files": model.files, "root": str(plan.folder.absolute())} if model.files and plan.folder else {})
 
 
 def _parts(plan: Plan, row: SceneObject | AssetRow) -> list[dict[str, Any]]:

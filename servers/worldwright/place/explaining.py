@@ -1,7 +1,7 @@
 """The chain of rows and formulas from the base to an object's numbers."""
 
 from ..model.plan.committed import Plan
-from ..model.plan.imported import is_model, is_sculpt
+from ..model.plan.imported import is_model, is_road, is_sculpt, is_vehicle
 from .placement_results import Explained, Explanation
 from .resolution import Resolution
 
@@ -51,6 +51,12 @@ def _sizes(plan: Plan) -> dict[str, str]:
     for row in plan.assets:
         if is_model(row):
             owners |= dict.fromkeys(row.instances, f"the box around the rest pose of {row.filename}")
+            continue
+        if is_road(row):
+            owners |= dict.fromkeys(row.instances, f"the box around the tiles of {row.filename}")
+            continue
+        if is_vehicle(row):
+            owners |= dict.fromkeys(row.instances, "length_m, width_m and height_m of its vehicle")
             continue
         if is_sculpt(row):
             owners |= dict.fromkeys(row.instances, "size given in assets")

@@ -9,7 +9,8 @@ from dataclasses import replace
 
 from ..model.errors import PlanError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
-from ..model.plan.imported import is_model, is_sculpt, load, sculpture
+from ..model.plan.imported import is_model, is_road, is_sculpt, load, road_box, sculpture
+from ..model.plan.object_parts import Vec3
 from . import compounds, formed_boxes
 from .anchors import Box, Surface, no_surface
 
@@ -93,6 +94,14 @@ def _asset(plan: Plan, row: AssetRow) -> Box:
         return _model(plan, row)
     if is_sculpt(row):
         return _sculpt(plan, row)
+    if is_road(row):
+        try:
+            low, high = road_box(row, plan.folder)
+        except PlanError as error:
+            raise _UnknownSizeError(error.cause, error.next_move, "filename") from error
+        return _boxed(row.name, (high[0] - low[0], high[1] - low[1], high[2] - low[2]))
+    if row.vehicle is not None:
+        return _boxed(row.name, row.vehicle.made().extents)
     from worldkit import assets
 
     if row.name not in plan.asset_dimensions:
@@ -135,10 +144,7 @@ def _model(plan: Plan, row: AssetRow) -> Box:
             f"{row.filename} is {size[2]:g} m high as it stands there, not {height:g} m",
             f"remove `{row.name}` from asset_dimensions: the file owns its size, and is not scaled",
         )
-    top = Surface("top", size[2], size[:2])
-    return Box(
-        row.name, size, surface=lambda name: top if name in (None, "top") else no_surface(name), surfaces=lambda: [top]
-    )
+    return _boxed(row.name, size)
 
 
 def _sculpt(plan: Plan, row: AssetRow) -> Box:
@@ -147,11 +153,15 @@ def _sculpt(plan: Plan, row: AssetRow) -> Box:
         sculpture(row, plan.folder)
     except PlanError as error:
         raise _UnknownSizeError(error.cause, error.next_move, "filename") from error
-    size = row.size
-    assert size is not None  # a row of this type has one
+    assert row.size is not None  # a row of this type has one
+    return _boxed(row.name, row.size)
+
+
+def _boxed(name: str, size: Vec3) -> Box:
+    """A box that things stand on by its top."""
     top = Surface("top", size[2], size[:2])
     return Box(
-        row.name, size, surface=lambda name: top if name in (None, "top") else no_surface(name), surfaces=lambda: [top]
+        name, size, surface=lambda asked: top if asked in (None, "top") else no_surface(asked), surfaces=lambda: [top]
     )
 
 

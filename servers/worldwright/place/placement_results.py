@@ -71,7 +71,8 @@ class CheckReport(Frozen):
     margins: tuple[RowMargin, ...] = ()
     """The margins of all rows, the tightest first."""
     at_start: tuple[str, ...] = ()
-    """Ropes and springs against their ends' distance, and joints that do not start at rest as laid out."""
+    """Ropes and springs against their ends' distance, and joints that do not start at rest as laid out; frictions in force of
+    what meets and does not say the same."""
     views: tuple[Seen, ...] = ()
     """How each camera sees its subjects."""
     smallest: str = ""

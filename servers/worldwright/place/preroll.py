@@ -12,6 +12,7 @@ import math
 import sys
 import time
 from collections.abc import Callable
+from contextlib import nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -137,7 +138,7 @@ def _drop(model: Any, data: Any, name: str) -> tuple[float, str | None]:
 def _build(request: dict[str, Any]) -> Any:
     import mujoco
 
-    from worldkit import assets, bodies, contacts, models
+    from worldkit import assets, beside_program, bodies, contacts, models
 
     spec = mujoco.MjSpec()
     spec.option.timestep = request["time_step"]
@@ -158,7 +159,10 @@ def _build(request: dict[str, Any]) -> Any:
             "mass": row["mass"],
         }
         if row["model"]:
-            models.attach(spec, **row["model"], **{k: v for k, v in common.items() if k != "mass"})
+            told = dict(row["model"])
+            root = told.pop("root", "")
+            with beside_program.below(Path(root)) if root else nullcontext():
+                models.attach(spec, **told, **{k: v for k, v in common.items() if k != "mass"})
         elif row["asset"]:
             body = assets.add(spec, row["asset"], height=row["size"][2], **common)
             for geom in [geom for geom in body.geoms if geom.contype == 0 and geom.conaffinity == 0]:

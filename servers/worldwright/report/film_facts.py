@@ -23,10 +23,12 @@ def quoted(film: dict[str, Any]) -> list[str]:
 
 
 def _shot(shot: dict[str, Any]) -> str:
-    leap = f", {shot['leap_s']:g} s after the shot before" if shot.get("leap_s") else ""
+    leapt = shot.get("leap_s") or 0.0
+    leap = f", {abs(leapt):g} s {'after' if leapt > 0 else 'back before'} the end of the shot before" if leapt else ""
     rolled = f", camera rolled by {shot['rolled_deg']:g}°" if shot.get("rolled_deg") else ""
     return f"{shot['from_s']:g} to {shot['to_s']:g} s at {shot['speed']:g} × speed{leap}{rolled}"
 
 
 def _pace(row: dict[str, float]) -> str:
-    return f"{row['pace']:g} from {row['film_s']:g} to {row['film_s'] + row['seconds']:g} s"
+    back = f", going back {row['back_s']:g} s by cuts" if row.get("back_s") else ""
+    return f"{row['pace']:g} from {row['film_s']:g} to {row['film_s'] + row['seconds']:g} s{back}"

@@ -9,6 +9,8 @@ from functools import lru_cache
 from math import log10
 from typing import TYPE_CHECKING, Any
 
+from worldkit.robots import packaged
+
 from . import words
 from .answers import AssetHit, AssetList, LookHit
 
@@ -75,7 +77,8 @@ class _Known:
     def __init__(self, sources: dict[str, str], offers: "dict[str, Offer]") -> None:
         from worldkit import assets
 
-        self.wanted = (tuple(sources.items()), tuple(offers))
+        robots = packaged.found()
+        self.wanted = (tuple(sources.items()), tuple(offers), tuple(robots))
         held = list(assets.entries())
         self._paths = tuple((f"{asset.folder}/asset.yaml", f"{asset.folder}/{asset.key}.yaml") for asset in held)
         self.stamps = self._stamps()
@@ -89,6 +92,10 @@ class _Known:
         for offer in offers.values():
             if offer.key not in sources:
                 self._add(_offered(offer), offer.name, f"{offer.category} {offer.words}")
+        for robot in packaged.ROBOTS.values():
+            if robot.key not in sources:
+                kind, _, other = robot.words.partition(", ")
+                self._add(_robot(robot, robot.key in robots), f"{robot.key} {kind}", other)
         self._near = lru_cache(maxsize=4096)(self._nearly)
 
     def _add(self, row: AssetHit, name: str, other: str) -> None:
@@ -103,7 +110,8 @@ class _Known:
 
     def stands(self, sources: dict[str, str], offers: "dict[str, Offer]") -> bool:
         """Whether nothing was added, removed or written anew since it was read."""
-        return self.wanted == (tuple(sources.items()), tuple(offers)) and self.stamps == self._stamps()
+        now = (tuple(sources.items()), tuple(offers), tuple(packaged.found()))
+        return self.wanted == now and self.stamps == self._stamps()
 
     def _stamps(self) -> tuple[int, ...]:
         """When the text that describes each asset was written last; 0 where it is gone."""
@@ -251,6 +259,24 @@ def _hit(asset: Any, source: str) -> AssetHit:
         source=source,
         licence=asset.licence,
         creator=asset.creator,
+    )
+
+
+def _robot(robot: packaged.Robot, here: bool) -> AssetHit:
+    """A robot of a wheel, installed or not; no tool lays it out, and a confined agent's shell may not."""
+    typed = f"worldwright asset robot {robot.key} runs/NAME/{robot.key}"
+    return AssetHit(
+        key=robot.key,
+        category="robot",
+        description=robot.words,
+        extents_m=robot.extents,
+        height_m=robot.extents[2],
+        source=f"wheel {robot.wheel}",
+        licence=packaged.licence(robot) if here else robot.licence,
+        creator=robot.creator,
+        taken_in=False,
+        chosen=here,
+        next_move=f"ask the person to type `{typed if here else robot.installing}`",
     )
 
 

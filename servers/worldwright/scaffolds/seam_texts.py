@@ -150,9 +150,10 @@ from __future__ import annotations
 
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..generated import GENERATED, instructions
+from ..heard import Heard
 from ..roles import Role
 from ..tool_names import ToolNames
 
@@ -163,6 +164,12 @@ if TYPE_CHECKING:
 NAME, SHELL_SETS = "{name}", ()
 PROGRAM, PACKAGE, TESTED = "{name}", "{name}", "0.0.0"
 LINKS: tuple[str, ...] = ()
+# AUTHOR: why its hooks need a person's word in a folder that it has never seen; empty where they do not.
+TRUST = ""
+# AUTHOR: whose tokens and money its events do not tell; empty where they tell of all.
+UNCOUNTED = ""
+# AUTHOR: whether its events tell US dollars, and whether what it took is known only when it has ended.
+TELLS_MONEY, TELLS_AT_END = False, False
 # AUTHOR: its names of tools in lower case; what stands nowhere is denied to every role.
 TOOLS = ToolNames(
     writers=frozenset(),
@@ -191,6 +198,21 @@ def diagnose(root: Path) -> Diagnosis | None:
     from ...doctor.diagnosis import Diagnosis
 
     return Diagnosis(PROGRAM, False, "AUTHOR: is not looked at yet", "AUTHOR: what the person does", essential=False)
+
+
+def unattended(files: dict[str, str]) -> dict[str, str]:
+    """AUTHOR: of its files those that are other where nobody is there to be asked."""
+    return {{}}
+
+
+def headless(prompt: str, model: str, folder: Path, most_usd: float | None) -> list[str]:
+    """AUTHOR: the words that make a world of a prompt with nobody there, each event told as a line of JSON."""
+    return ["run", "--json", f"/generate --auto {{prompt}}"]
+
+
+def heard(event: dict[str, Any]) -> Heard:
+    """AUTHOR: tokens, money and what was said, of one event."""
+    return Heard()
 '''
 
 SEAM_TEXTS = {"renderer": RENDERER, "solver": SOLVER, "source": SOURCE, "harness": HARNESS}

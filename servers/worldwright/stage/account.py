@@ -42,7 +42,7 @@ def with_account(run: Run, status: JobStatus) -> JobStatus:
         return status  # without a recording, or with a damaged one, the pass itself says so
     plan = _plan(snapshot if snapshot.is_file() else run.plan)
     told = tuple(account(trajectory, plan, _summary(folder)))
-    return status.model_copy(update={"account": (*_unconfined(status.sandbox), *told)})
+    return status.model_copy(update={"account": (*status.account, *_unconfined(status.sandbox), *told)})
 
 
 def _unconfined(level: str) -> Iterator[str]:

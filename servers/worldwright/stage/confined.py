@@ -59,6 +59,7 @@ def run(
     sculpts: "Given | None" = None,
     home: Callable[[Path], object] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
+    kept: Path | None = None,
 ) -> Confined:
     """Run a command to its end in the sandbox; `{out}` in it stands for the one folder it may write.
 
@@ -74,6 +75,7 @@ def run(
         sculpts: shapes that were made earlier by the same sources, and the place for those that it makes.
         home: lays something into its throw-away home, whose folder it is given, before it starts.
         cancelled: asked several times a second; the run is ended when it says so.
+        kept: the folder that it may write, which stays, for what is too large to be handed over; a throw-away one without it.
 
     Raises:
         CallOverError: the client's call ended first; what was sculpted until then is kept.
@@ -84,8 +86,8 @@ def run(
     if call_time.left_s() <= 0:  # what is short would else end before it is looked at
         raise call_time.over()
     with tempfile.TemporaryDirectory(prefix="worldwright-confined-") as folder:
-        out, scratch = Path(folder) / "out", Path(folder) / "tmp"
-        out.mkdir()
+        out, scratch = kept or Path(folder) / "out", Path(folder) / "tmp"
+        out.mkdir(exist_ok=kept is not None)
         scratch.mkdir()
         if home is not None:
             home(scratch)

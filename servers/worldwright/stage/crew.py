@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from . import compiled_shaders, family, sandbox
+from .confined import OwnTime
 from .job import Job
 from .kept_sculpts import Given
 from .limits import Guard
@@ -103,16 +104,18 @@ class Crew:
     def watch(self, member: Member, tick: Callable[[float], bool]) -> dict[str, str] | None:
         """Wait until a process ends; returns why the job was stopped, if a limit or a person stopped it.
 
-        `tick` takes the job's time so far, s, and returns whether the job has advanced since the last call.
+        `tick` takes the job's time so far, s, and returns whether the job has advanced since the last call. How long it stands still is
+        told by its own time (`confined.OwnTime`): what other work beside it takes of the processor does not count.
         """
-        advanced = time.monotonic()
+        own, advanced = OwnTime(time.monotonic()), 0.0
         while not family.ends_within(member.process, TICK_S):
             reap_orphans([one.process for one in self.members])
-            now = time.monotonic()
             if self.cancelled():
-                return {"code": "cancelled", "message": "cancelled on request"}
+                return self.job.asked_to_end()
             if stopped := self.look():
                 return stopped
+            seen = self._guard.seen if self._guard else None
+            now = own.after(time.monotonic(), seen.cpu_s if seen else 0.0, bool(seen and seen.wanting))
             if tick(self.elapsed()):
                 advanced = now
             if now - advanced > self.spec.still_s:

@@ -95,7 +95,8 @@ class JobStatus(Frozen):
     result: str = ""
     """The folder of what the pass made, once it has succeeded."""
     account: tuple[str, ...] = ()
-    """For a finished physics pass: speed, warnings, what acted, the deepest penetration, what never moved."""
+    """For a finished physics pass: speed, warnings, what acted, the deepest penetration, what never moved. Of one just asked for:
+    which outdated jobs were ended for it."""
 
     @property
     def name(self) -> str:
@@ -230,14 +231,22 @@ class Job:
             }
         )
 
-    def cancel(self) -> None:
-        """Ask for the job's end, and wait for it a while."""
+    def cancel(self, why: str = "") -> None:
+        """Ask for the job's end, and wait for it a while; `why` is told of it instead of that somebody asked."""
         if self.read().ended:
             return
-        (self.folder / "cancel").touch()
+        write_atomic(self.folder / "cancel", why)  # its supervisor looks for it, and reads what it says at once
         deadline = time.monotonic() + CANCEL_S
         while not self.read().ended and time.monotonic() < deadline:
             time.sleep(0.05)
+
+    def asked_to_end(self) -> dict[str, str]:
+        """What is told of a job that was asked to end."""
+        try:
+            why = (self.folder / "cancel").read_text(encoding="utf-8")
+        except (OSError, ValueError):
+            why = ""
+        return {"code": "cancelled", "message": why or "cancelled on request"}
 
     def supervised(self) -> bool:
         """Whether a live supervisor holds the job's lock (a lock dies with its process, unlike a process number)."""

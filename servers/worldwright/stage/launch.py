@@ -66,6 +66,11 @@ def launch(
         JobError: a variant of this name exists already, made with other arguments.
     """
     with _writable(run), one_at_a_time(run):
+        film = pictures_of.identity(run, stage)
+
+        def ended() -> tuple[str, ...]:
+            return () if given or fresh else tuple(_end_outdated(run, stage, variant, key, film))
+
         earlier = gates.passed(run, key, stage, variant)
         if earlier is not None and stage == "final" and not (earlier.get("summary") or {}).get("complete"):
             earlier = None  # more minutes make it better
@@ -87,6 +92,7 @@ def launch(
                 wall_s=earlier.get("wall_s", 0.0),
                 sandbox=earlier.get("sandbox", ""),
                 result=str(run.evidence(key) / gates.folder_name(stage, variant)),
+                account=ended(),
             )
         gates.require_environment(run)
         after = ""
@@ -98,7 +104,6 @@ def launch(
                 if not after:
                     raise
         reads = tuple(str(path) for path in bare_models.files(run))
-        film = pictures_of.identity(run, stage)
         # Whatever its minutes, one final pass at a time goes on with the same frames.
         told = () if stage == "final" else tuple(arguments)
         wanted = (stage, variant, told, key, film)
@@ -108,7 +113,8 @@ def launch(
             if force or (spec.stage, spec.variant, theirs, spec.key, spec.film_sha256) != wanted:
                 continue
             if not (state := other.read()).ended:
-                return state
+                return state.model_copy(update={"account": ended()})
+        outdated = ended()
         spec = Spec(
             job=f"{gates.folder_name(stage, variant)}-{Job.next_number(run)}-{secrets.token_hex(4)}",
             run=str(run.folder),
@@ -138,7 +144,7 @@ def launch(
                     shutil.rmtree(folder, ignore_errors=True)
         job = Job.create(run, spec)
         _detach(job)
-        return job.read()
+        return job.read().model_copy(update={"account": outdated})
 
 
 def _earlier(run: Run, key: EvidenceKey, stage: PassName, variant: str) -> list[Path]:
@@ -167,6 +173,23 @@ def end_orphans(run: Run) -> list[Job]:
         family.sweep(job.spec.token)
         refined.put_aside(job)
     return found
+
+
+def _end_outdated(run: Run, stage: PassName, variant: str, key: EvidenceKey, film: str) -> Iterator[str]:
+    """End the jobs of this kind that work for other files than there are now, which prove nothing any more; tells which.
+
+    One of these is left when what started it was killed: the supervisor is detached, and goes on.
+    """
+    for other in Job.all(run):
+        spec = other.spec
+        same = (spec.stage, spec.variant, spec.given, spec.fresh) == (stage, variant, "", False)
+        if not same or (spec.key, spec.film_sha256) == (key, film) or other.read().ended:
+            continue
+        what = "another film than there is now" if spec.key == key else "another program or plan than there is now"
+        other.cancel(f"it was made for {what}, and the {stage} pass was started anew")  # or its answer stands already
+        (other.folder / "told").touch()  # nobody waits for it: it is no news that it ended
+        done = "ended" if other.read().ended else "asked to end"
+        yield f"{done} {other.folder.name}, which was at work for {what}"
 
 
 def _detach(job: Job) -> None:

@@ -33,6 +33,8 @@ class Guard:
         self.spec, self.job, self.confinement = spec, job, confinement
         self.births: list[Births] = []
         """One for each of the job's processes whose births are asked for."""
+        self.seen: family.Census | None = None
+        """The job's processes at the last look."""
         self.cpu_s = 0.0
         self.measured_disk = 0.0
 
@@ -45,7 +47,7 @@ class Guard:
                 "message": f"it printed more than {spec.output_mb} MB",
                 "next_move": "take the prints out of the loop: the recording holds every number",
             }
-        now = family.census(os.getpid(), itself=False)
+        now = self.seen = family.census(os.getpid(), itself=False)
         asked = next((births.exceeded for births in self.births if births.exceeded), "")
         if excess := asked if self.births else self._excess(now):
             return {

@@ -104,7 +104,7 @@ class Acting:
             with suppress(WorldwrightError):
                 prepare(read_plan(self.job.inputs / "plan.md").plan, self.cancelled)
             if self.crew.cancelled():
-                return {"code": "cancelled", "message": "cancelled on request"}
+                return self.job.asked_to_end()
         member = self.author("build", "build")
         if failure := self.ended(member):
             return failure

@@ -21,7 +21,7 @@ from ..model.errors import GateError, JobError
 from ..model.evidence.reports import PassResult
 from ..model.evidence.run import Run, sha256_file
 from ..model.storage import FULL
-from . import bare_models, plain, refined, sandbox
+from . import bare_models, compiled_laws, plain, refined, sandbox
 from .crew import Crew, adopt_orphans, reap_all
 from .gates import folder_name, require
 from .job import Job, JobStatus, Spec
@@ -65,6 +65,7 @@ class Supervision:
         if self.spec.after and (refused := self.queue()):
             self.settle(Ended(refused))
             return
+        self.compile_ahead()
         self.started = time.monotonic()
         self.state("running")
         crew = Crew(self.job, self.level)
@@ -75,13 +76,19 @@ class Supervision:
         self.confinement = crew.facts
         self.settle(ended)
 
+    def compile_ahead(self) -> None:
+        """Have compiled what a law of this job needs, before its time and its limits begin."""
+        if self.spec.stage == "physics" and not self.spec.given and compiled_laws.lacking(self.job.inputs):
+            self.state("running", code="compiling", message="numba compiles worldkit.matter, once on this machine")
+            compiled_laws.compile_ahead(lambda: (self.job.folder / "cancel").exists())
+
     def queue(self) -> dict[str, str] | None:
         """Wait for the job that makes what this one needs; returns why it cannot begin, if it cannot."""
         before = Job(self.run.jobs / self.spec.after)
         self.state("queued", code="waiting", message=f"for {self.spec.after}")
         while not before.read().ended:
             if (self.job.folder / "cancel").exists():
-                return {"code": "cancelled", "message": "cancelled on request"}
+                return self.job.asked_to_end()
             time.sleep(QUEUE_TICK_S)
         try:
             require(self.run, self.spec.key, self.spec.stage)

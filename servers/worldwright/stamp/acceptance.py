@@ -35,6 +35,7 @@ from . import (
     sampled,
     sealed,
     signing,
+    trials_again,
     versions,
     world_facts,
 )
@@ -108,12 +109,14 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         repeats.measured(state, proved)
         left = max(1.0, deadline - time.monotonic())
         driven = repeats.driven_again(work / "again", program, plan, proved, timeout_s=left, progress=progress)
-        if driven is None:
+        left = max(1.0, deadline - time.monotonic())
+        again = None if driven is None else trials_again.before_signing(state, proved, work, left, progress)
+        if again is None:
             return Accepted(state="proving", run=state.run.name, next_move=f"worldwright stamp accept {state.place}")
         made = work / "accepted"  # what is signed lies where nobody else writes, until it is signed
         try:
             shutil.rmtree(made, ignore_errors=True)
-            statement = _assemble(state, stripped, proved, taken, shown, made, signer)
+            statement = _assemble(state, stripped, proved, again, taken, shown, made, signer)
             _look(state, proved, made)
             stamp_sha256 = bundle.seal(made, statement)
             signing.sign(made, bundle.STAMP, signer)
@@ -161,6 +164,7 @@ def _assemble(
     state: State,
     stripped: Stripped,
     proved: Proved,
+    again: str,
     taken: Taken,
     shown: Judged,
     folder: Path,
@@ -187,7 +191,8 @@ def _assemble(
     poster.write(folder, cameras, filmed.shots if filmed else ())
     predicate = _predicate(state, stripped, proved, taken, shown, evidence, folder)
     seals = sealed.told(shown.journal, [signer.public_key(), *sealed.known()])
-    predicate = predicate.model_copy(update={"journal_seal": seals})
+    proof = predicate.proof.model_copy(update={"simulated_again": (again,) if again else ()})
+    predicate = predicate.model_copy(update={"journal_seal": seals, "proof": proof})
     return Statement(subject=bundle.subjects(folder), predicate=predicate)
 
 

@@ -18,7 +18,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
-from . import audited, gates, next_repair, picture_claims
+from . import audited, gates, next_repair, picture_claims, scope
 from .gone import Gone, Wrong
 from .state import State
 from .steps import Step, one
@@ -92,6 +92,7 @@ class Going:
         self.under_way: list[str] = []
         self.storyboard = self.robust = ""
         self.of_layout: tuple[Finding, ...] = ()
+        self.ended: dict[PassName, tuple[str, ...]] = {}
 
     def go(self) -> Gone:
         """Walk until something is wrong, a decision is due, the time is over, or nothing is left to do."""
@@ -230,7 +231,7 @@ class Going:
         """The program may run."""
         from ..lint.tools import check_program
 
-        if (known := self.step("lint")).holds:
+        if (known := self.step("lint")).holds and not scope.changed(State(self.run), self.run.program.name):
             return known.detail
         with suppress(WrongError, WorldwrightError):  # what went wrong lint tells together with all the rest
             self.passed("bundle")
@@ -255,7 +256,7 @@ class Going:
         told = self.run.jobs / job.job / "told" if job else None
         if job is None or told is None or job.state not in ("failed", "cancelled") or told.exists():
             job = start(self.name, stage=stage)
-            told = self.run.jobs / job.job / "told"
+            told, self.ended[stage] = self.run.jobs / job.job / "told", () if job.cached else job.account
         while not job.ended:
             left = self.deadline - time.monotonic()
             if left <= 0:
@@ -271,7 +272,7 @@ class Going:
                 )
             )
         said = ["from its evidence" if job.cached else f"{job.wall_s:.1f} s"]
-        return "\n".join(said + list(job.account if stage == "physics" else ()))
+        return "\n".join([*said, *self.ended.get(stage, ()), *(job.account if stage == "physics" else ())])
 
     def scan(self) -> str:
         """Nothing in the motion is impossible."""
@@ -340,7 +341,7 @@ class Going:
             for stage in self.pictures():
                 job = latest(self.run, stage)
                 if job is None or job.state == "lost":
-                    start(self.name, stage=stage)
+                    self.ended[stage] = start(self.name, stage=stage).account
 
     def pictures(self) -> tuple[PassName, ...]:
         """The passes that the plan asks for."""

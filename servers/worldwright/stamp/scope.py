@@ -8,6 +8,7 @@ Legal for the program: it was drafted, linted by the one who wrote it, or rolled
 from another one, resolved, or approved. Legal for both: an accepted version was brought back (`versions`).
 """
 
+import itertools
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -46,10 +47,15 @@ def refusals(state: State) -> Iterator[Refusal]:
             "the plan approved and run every step again",
         )
         return
-    changed = [refusal for name in LEGAL for refusal in _file(state, name)]
-    yield from changed
-    if not changed:
+    found = [refusal for name in LEGAL for refusal in _file(state, name)]
+    yield from found
+    if not found:
         yield from _reports(state)
+
+
+def changed(state: State, name: str) -> bool:
+    """Whether program or plan is another than the last legal step left, also where evidence of it is kept from before."""
+    return next(_file(state, name), None) is not None
 
 
 def _file(state: State, name: str) -> Iterator[Refusal]:
@@ -62,17 +68,30 @@ def _file(state: State, name: str) -> Iterator[Refusal]:
     yield Refusal(
         cause=f"{name} was changed since the last legal step ({last['action']} by {last.get('actor')}, "
         f"{last.get('time')}): its sha256 was {str(last[field])[:16]}, and is {now[:16]}",
-        next_move=f"{_restore(state, name, str(last[field]))}; or, if the change is meant, {_legalise(state, name)}",
+        next_move=f"{_legalise(state, name)}; or, if nobody meant the change, {_restore(state, name, str(last[field]), now)}",
     )
 
 
-def _restore(state: State, name: str, sha256: str) -> str:
-    """The command that brings the legal bytes back, where a copy of them is kept."""
+def _restore(state: State, name: str, sha256: str, now: str) -> str:
+    """What brings the legal bytes back, where a copy of them is kept; what stands there is somebody's work, and kept first."""
+    here = f"{state.place}/{name}"
+    free = next(
+        end
+        for n in itertools.count(1)
+        if not (state.run.folder / (end := f"{name}.changed{n if n > 1 else ''}")).exists()
+    )
+    mine = "" if _kept(state, name, now) else f"cp {here} {state.place}/{free}"
+    if copy := _kept(state, name, sha256):
+        return f"{mine and mine + ' && '}cp {state.place}/{copy} {here}"
+    return f"{mine and mine + ', and '}restore {here} from version control"
+
+
+def _kept(state: State, name: str, sha256: str) -> str:
+    """Where in the run's evidence these bytes are kept; empty where nowhere."""
     for folder in sorted((state.run.folder / "evidence").glob(f"*/{SOURCE}")):
-        copy = folder / name
-        if copy.is_file() and sha256_file(copy) == sha256:
-            return f"cp {state.place}/{copy.relative_to(state.run.folder)} {state.place}/{name}"
-    return f"restore {state.place}/{name} from version control"
+        if (folder / name).is_file() and sha256_file(folder / name) == sha256:
+            return str((folder / name).relative_to(state.run.folder))
+    return ""
 
 
 def _legalise(state: State, name: str) -> str:

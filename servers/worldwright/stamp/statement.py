@@ -69,6 +69,8 @@ class Proof(Frozen):
     """The kind of proof by channel (`motion`, `inputs`, a solver's, `pictures`), from version 2 on; see `exactness`."""
     marks: tuple[str, ...] = ()
     """What limits that exactness, from version 2 on: names of `exactness.LIMITS` (sentences in older stamps)."""
+    simulated_again: tuple[str, ...] = ()
+    """Parts of the audits of causes and of a finer step, drawn by chance, that were simulated again before it was signed."""
     no_world: str = ""
     """Why there is no `world.mjz`, in stamps of worlds that were simulated by their own program."""
 
@@ -86,9 +88,10 @@ class Filmed(Frozen):
     """Seconds of film in which something drawn only stands before the middle of a moving body, by which before which."""
     shots: tuple[dict[str, Any], ...] = ()
     """Each shot's film time and length (`film_s`, `seconds`), recorded times (`from_s`, `to_s`) and mean `speed`; where it has
-    any, what the cut before it leaps over (`leap_s`) and how far its camera is rolled over (`rolled_deg`)."""
+    any, what the cut before it leaps over (`leap_s`, below 0: back) and how far its camera is rolled over (`rolled_deg`)."""
     time_map: tuple[dict[str, float], ...] = ()
-    """Recorded seconds in a second of film (`pace`), cuts and all, from `film_s` on for `seconds`."""
+    """Recorded seconds in a second of film (`pace`, below 0: backwards), cuts and all, from `film_s` on for `seconds`; where cuts go
+    back, by how much (`back_s`)."""
     captions: tuple[str, ...] = ()
     """The words in its picture, word for word: its author's, and no evidence of anything."""
 

@@ -2,7 +2,8 @@
 
 A report of causes, of a finer step or of worlds a little otherwise rests on repetitions of the physics pass whose recordings
 are not kept, and whoever signs has seen only files of them. Which part is made again follows from the stamp and from a number
-that is drawn here, so that nobody can forge beside it. With `every`, all of them are.
+that is drawn here, so that nobody can forge beside it. With `every`, all of them are. Acceptance itself makes one part again of
+those that it rests on, before it signs.
 """
 
 import hashlib
@@ -14,12 +15,14 @@ from typing import Any
 
 from worldkit.files import write_atomic
 
+from ..model.errors import GateError
 from ..model.evidence.audits import CausesReport, RefineReport, RobustReport
 from ..model.progress import Progress, silent
 from . import bundle, law_check
 from .as_stamped import Check
 from .kept import Kept
 from .proof import Proved
+from .state import State
 
 Part = Any
 """`scan.audits.repeated.Part`."""
@@ -81,6 +84,53 @@ def checks(
     names = "; ".join(part.name for part in chosen)
     how = "all of it" if every else f"one of {len(parts)} parts, drawn by {drawn[:16]}; all of them with --every-trial"
     return wrong or [Check(name=NAME, ok=True, detail=f"simulated again and as reported: {names} ({how})")]
+
+
+def before_signing(
+    state: State, proved: Proved, scratch: Path, timeout_s: float, progress: Progress = silent
+) -> str | None:
+    """Simulate again one part, drawn here, of the audits that a run's claims rest on: causes, and a finer step where it was asked for.
+
+    Args:
+        state: the run.
+        proved: its world, simulated again; the repetitions are made of it.
+        scratch: a folder of nobody else's, where a later call of this acceptance finds what was drawn.
+        timeout_s: s.
+        progress: is told how far it is.
+
+    Returns:
+        The name of the part, empty where there is none; None when it needs longer.
+
+    Raises:
+        GateError: the report says otherwise, or the part could not be simulated.
+    """
+    from ..scan import tools as scan
+
+    given = {"causes": state.causes.value, "refine": state.refine.value}
+    said = {name: report for name, report in given.items() if report is not None}
+    parts = scan.trial_parts(proved.run, proved.recording, said, whole=False) if said else []
+    if not parts:
+        return ""
+    drawn = _drawn(scratch)
+    part = min(parts, key=lambda part: hashlib.sha256(f"{drawn}\n{part.name}".encode()).hexdigest())
+    if not scan.repeat_part(part, scratch / "trials.json", timeout_s, progress):
+        return None
+    differs, unmade = scan.unlike_part(part, exact=True)
+    name = part.name.partition(":")[0]
+    report = f"{state.folder}/{name}.json"
+    if differs:
+        raise GateError(
+            f"simulated again, the audit does not say what it shows: {part.name}: {differs}",
+            place=report,
+            next_move=f"rm {report} && worldwright scan scan {state.place} --{name}",
+        )
+    if unmade:
+        raise GateError(
+            f"a part of the audits could not be simulated again: {part.name}: {unmade}",
+            place=report,
+            next_move=f"give the machine the room that it lacks, then worldwright stamp accept {state.place}",
+        )
+    return str(part.name)
 
 
 def _wrong(chosen: list[Part], *, exact: bool, vouched: bool) -> Iterator[Check]:

@@ -67,7 +67,7 @@ def collada(
 
 PICTURED = {
     "diffuse": '<texture texture="t" texcoord="UV"/>',
-    "library": '<library_images><image id="p"><init_from>file:///C:/work/my%20grain.png</init_from></image></library_images>',
+    "library": '<library_images><image id="p"><init_from>file:///C:/crate/my%20grain.png</init_from></image></library_images>',
 }
 
 

@@ -41,6 +41,15 @@ def test_off_to_the_left_is_positive():
     assert straight.line[here, 0] == pytest.approx(40, abs=0.3) and off == pytest.approx(1.5)
 
 
+def test_a_driver_whose_course_lies_behind_turns_round():
+    spec = scene.new("road", time_step=0.002, floor_surface=contacts.surface(friction=0.9))
+    vehicles.add(spec, CAR, name="car", look=None)
+    data = mujoco.MjData(model := spec.compile())
+    mujoco.mj_forward(model, data)
+    driver = vehicles.Driver(CAR, vehicles.Course(((-20, 0), (-90, 0))))
+    assert abs(driver.commands(data, "car").steering_deg) == CAR.steering_deg
+
+
 def test_a_car_is_driven_along_a_winding_road_and_stops_at_its_end():
     spec = scene.new("road", time_step=0.002, floor_surface=contacts.surface(friction=0.9))
     vehicles.add(spec, CAR, name="car", pos=(CAR.wheelbase_m / 2, 0, 0), look=None)
@@ -60,6 +69,18 @@ def test_a_car_is_driven_along_a_winding_road_and_stops_at_its_end():
     assert max(off) < 0.6 and 11 < fastest < 14.6
     assert np.quantile(across, 0.99) < 4.0
     assert np.linalg.norm(data.qpos[:2] - ROAD[-1]) < 6.0 and data.time < 29
+
+
+def test_a_driver_who_begins_anew_looks_for_his_place_on_the_whole_course():
+    spec = scene.new("road", time_step=0.002)
+    vehicles.add(spec, CAR, name="car", pos=(CAR.wheelbase_m / 2, 0, 0), look=None)
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    driver = vehicles.Driver(CAR, vehicles.Course(ROAD))
+    driver.point = 250  # where it stood at the end of a run
+    driver.commands(data, "car")
+    assert driver.point == 0
 
 
 def test_what_is_no_course_is_refused():

@@ -5,12 +5,13 @@ import json
 import multiprocessing as mp
 import os
 import signal
+import threading
 import time
 
 import pytest
 
 import stub_worlds
-from stub_worlds import FAILS, KILLS, LEAVES, MASS, SLEEPS, paid
+from stub_worlds import FAILS, KILLS, MASS, SLEEPS, WAITS, door, let_in, paid
 from worldwright.campaign import conducting, setting_out
 from worldwright.campaign.campaign_file import CampaignError
 from worldwright.campaign.campaign_store import Store
@@ -35,6 +36,12 @@ def begun(tmp_path, small_plan):
     return begin
 
 
+@pytest.fixture
+def here(monkeypatch):
+    """Worlds are done in the test's own process: for what a driver decides, whoever does the work."""
+    monkeypatch.setattr(conducting, "crew_of", lambda *_: stub_worlds.Here())
+
+
 def test_every_world_is_one_row_and_a_second_run_pays_for_nothing(begun):
     store, seen = begun(range(1, 7)), []
     first = conducting.conduct(store, stub_worlds.do, watch=lambda now, row: seen.append((now.done, row)))
@@ -46,51 +53,72 @@ def test_every_world_is_one_row_and_a_second_run_pays_for_nothing(begun):
 
 
 def test_a_bad_world_and_a_dying_worker_are_rows_among_the_others(begun):
-    store = begun([1, KILLS, FAILS, LEAVES, 2], per_world={"begun": 2})
+    store = begun([1, KILLS, FAILS, 2], per_world={"begun": 2}, workers=1)
     end = conducting.conduct(store, stub_worlds.do)
     rows = {row.values[MASS]: row for row in store.rows()}
-    assert end.done == 5 and end.outcomes == {"failed": 1, "gave_up": 1, "held": 3}
+    assert end.done == 4 and end.outcomes == {"failed": 1, "gave_up": 1, "held": 2}
     assert rows[FAILS].cause.kind == "WL101" and rows[FAILS].cause.next_move == "mend it"
     assert rows[KILLS].outcome == "gave_up" and rows[KILLS].cause.kind == "worker_died"
-    assert "signal 9" in rows[KILLS].cause.said
-    assert rows[LEAVES].outcome == "held" and rows[LEAVES].begun == 2
+    assert "signal 9" in rows[KILLS].cause.said and rows[KILLS].begun == 2
     assert end.causes == {"WL101": 1, "worker_died": 1}
 
 
-def test_a_world_without_end_is_given_up(begun, monkeypatch):
+def test_a_world_without_end_is_given_up_and_the_next_is_begun(begun, monkeypatch):
     monkeypatch.setattr(conducting, "GRACE_S", 0.0)
-    store = begun([SLEEPS, 1], per_world={"seconds": 5})
+    store = begun([SLEEPS, SLEEPS - 0.5], per_world={"seconds": 0.2}, workers=1)
     end = conducting.conduct(store, stub_worlds.do)
-    assert end.outcomes == {"gave_up": 1, "held": 1} and end.causes == {"over_time": 1}
-    assert end.seconds >= 5 + 1 and conducting.standing(store).seconds == end.seconds, "what hung was paid, too"
+    assert end.outcomes == {"gave_up": 2} and end.causes == {"over_time": 2}
+    assert end.seconds >= 2 * 0.2 and conducting.standing(store).seconds == end.seconds, "what hung was paid, too"
 
 
 def test_a_worker_that_dies_before_it_begins_is_not_started_for_ever(begun):
-    store = begun([1], per_world={"begun": 2})
+    store = begun([1], per_world={"begun": 1})
     end = conducting.conduct(store, os._exit)  # type: ignore[arg-type]
     assert end.causes == {"worker_died": 1}
 
 
 def _drive(folder: str) -> None:
-    conducting.conduct(Store(folder), stub_worlds.slowly)
+    conducting.conduct(Store(folder), stub_worlds.do)
 
 
-def test_a_driver_that_is_killed_is_gone_on_with(begun):
-    store = begun(range(1, 9))
+def _waits(store, number) -> int:
+    """The worker at a world that waits to be let in."""
+    path = door(store.folder, number, "waits")
+    until(path.exists)
+    return int(path.read_text())
+
+
+def test_a_campaign_goes_on_whoever_is_killed_and_nothing_is_paid_twice(begun):
+    held = (8, 16, 20)
+    store = begun(n + (WAITS if n in held else 1) for n in range(24))
     driver = mp.get_context("spawn").Process(target=_drive, args=(str(store.folder),))
     driver.start()
-    until(lambda: len(list(store.rows())) >= 2)
+    left, killed = _waits(store, 8), _waits(store, 16)
+    until(lambda: len(list(store.rows())) == 15)
     os.kill(driver.pid, signal.SIGKILL)
     driver.join()
-    assert not store.driven and conducting.standing(store).done < 8
-    end = conducting.conduct(store, stub_worlds.do)
-    assert end.done == 8 and end.outcomes == {"held": 8}
-    assert set(paid(store.folder).values()) == {1}, "what the dead driver's workers were at was waited for"
+    os.kill(killed, signal.SIGKILL)
+    assert not store.driven and conducting.standing(store).done == 15
+
+    def watch(now, row):
+        if row is None:
+            let_in(store.folder, 16)
+        elif now.done == 17:  # by now somebody else waits for the world that the dead driver's worker is at
+            os.kill(left, 0)
+            let_in(store.folder, 8)
+        elif now.done == 23:  # all but the world whose worker is killed under a living driver
+            os.kill(_waits(store, 20), signal.SIGKILL)
+            let_in(store.folder, 20)
+
+    end = conducting.conduct(store, stub_worlds.do, watch=watch)
+    assert end.done == 24 and end.outcomes == {"held": 24}
+    assert list(paid(store.folder).values()) == [1] * 24
+    assert {row.number: row.begun for row in store.rows()} == {n: 2 if n in (16, 20) else 1 for n in range(24)}
 
 
 def test_a_cancelled_campaign_stops_and_goes_on(begun):
     store = begun([SLEEPS, 1, 2, 3])
-    driver = mp.get_context("spawn").Process(target=_drive, args=(str(store.folder),))
+    driver = threading.Thread(target=conducting.conduct, args=(store, stub_worlds.do), daemon=True)
     driver.start()
     until(lambda: len(list(store.rows())) == 3)
     with pytest.raises(CampaignError, match="at work already"):
@@ -104,7 +132,7 @@ def test_a_cancelled_campaign_stops_and_goes_on(begun):
     assert setting_out.cancelled(store) == "it is not at work"
 
 
-def test_a_budget_ends_the_handing_out_and_more_of_it_goes_on(begun):
+def test_a_budget_ends_the_handing_out_and_more_of_it_goes_on(begun, here):
     store = begun(range(1, 7), budget={"runs": 3})
     end = conducting.conduct(store, stub_worlds.do)
     assert end.done == end.runs == 3 and end.stopped == "the budget of 3 runs is used up" and not end.ok
@@ -115,7 +143,7 @@ def test_a_budget_ends_the_handing_out_and_more_of_it_goes_on(begun):
     assert conducting.conduct(store, stub_worlds.do).done == 6
 
 
-def test_worlds_of_one_outcome_are_begun_again(begun):
+def test_worlds_of_one_outcome_are_begun_again(begun, here):
     store = begun([1, FAILS])
     conducting.conduct(store, stub_worlds.do)
     assert conducting.forget(store, "WL101") == 1
@@ -128,7 +156,7 @@ def test_worlds_of_one_outcome_are_begun_again(begun):
     assert len(list(store.rows())) == 2, "a driver counted them"
 
 
-def test_a_damaged_row_is_made_again(begun):
+def test_a_damaged_row_is_made_again(begun, here):
     store = begun([1, 2])
     conducting.conduct(store, stub_worlds.do)
     first = next(store.rows())
@@ -191,7 +219,7 @@ def test_who_asks_whether_it_is_at_work_does_not_refuse_a_driver(begun, monkeypa
     assert not store.driven
 
 
-def test_the_first_world_does_not_wait_for_the_thousandth(begun):
+def test_the_first_world_does_not_wait_for_the_thousandth(begun, here):
     store = begun(range(1, 1001), budget={"runs": 1})
     assert conducting.conduct(store, stub_worlds.do).done == 1
     assert len(paid(store.folder)) == 1
@@ -207,7 +235,7 @@ def test_a_campaign_that_is_not_there_is_answered_with_those_that_are(begun, tmp
 def test_without_ray_our_own_processes_do_the_work_and_it_is_said_once(begun, monkeypatch):
     said = []
     monkeypatch.setattr(conducting.on_ray, "installed", lambda: False)
-    conducting.conduct(begun([1], hands="auto"), stub_worlds.do, say=said.append)
+    conducting.crew_of(begun([1], hands="auto").begun.campaign, stub_worlds.do, 0.0, said.append).close()
     assert len(said) == 1 and "2 worker processes" in said[0]
 
 

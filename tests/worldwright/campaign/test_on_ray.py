@@ -1,11 +1,16 @@
 """Ray as the hands of a campaign: what it is asked for, and what becomes of what it raises. Ray itself is not installed here.
 
-`make test-ray` installs it, and runs the last test on a Ray of this machine.
+`make test-ray` installs it, and runs the last tests on a Ray of this machine: its own, and a cluster of two nodes.
 """
 
+import contextlib
 import json
 import os
+import signal
+import socket
+import subprocess
 import sys
+import time
 import types
 
 import pytest
@@ -15,7 +20,7 @@ from stub_worlds import FAILS, MASS
 from worldwright.campaign import conducting, on_ray, setting_out
 from worldwright.campaign.campaign_file import CampaignError
 from worldwright.campaign.campaign_store import Store
-from worldwright.campaign.one_world import Task
+from worldwright.campaign.one_world import Task, perform
 
 
 class DiedError(Exception):
@@ -87,6 +92,8 @@ def ray(monkeypatch):
         module = StandIn(**words)
         monkeypatch.setitem(sys.modules, "ray", module)
         monkeypatch.setattr(on_ray, "installed", lambda: True)
+        monkeypatch.setenv(on_ray.NICENESS, "1")  # so that it is as before afterwards, whatever is set
+        monkeypatch.delenv(on_ray.NICENESS)
         return module
 
     return bring
@@ -94,14 +101,14 @@ def ray(monkeypatch):
 
 @pytest.fixture
 def begun(tmp_path, small_plan):
-    """Begins a campaign over masses."""
+    """Begins a campaign over masses, or over another number of the plan."""
 
-    def begin(masses, **words) -> Store:
+    def begin(values, folder=None, field=MASS, **words) -> Store:
         (tmp_path / "plan.md").write_text(small_plan, encoding="utf-8")
         file = tmp_path / "c.yaml"
-        sweep = {"fields": {MASS: {"values": list(masses)}}}
+        sweep = {"fields": {field: {"values": list(values)}}}
         file.write_text(json.dumps({"plan": "plan.md", "report": False, "sweep": sweep, **words}))
-        return setting_out.begun(setting_out.checked(file), file, tmp_path / "campaign", approved=False)
+        return setting_out.begun(setting_out.checked(file), file, folder or tmp_path / "campaign", approved=False)
 
     return begin
 
@@ -110,6 +117,7 @@ def test_where_ray_is_installed_it_does_the_work_and_is_left(begun, ray):
     module, store = ray(), begun([1, 2, FAILS, 3])
     end = conducting.conduct(store, stub_worlds.do, say=lambda said: pytest.fail(said))
     assert end.done == 4 and end.outcomes == {"failed": 1, "held": 3} and module.shut == 1
+    assert os.environ[on_ray.NICENESS] == "0", "as our own processes"
     assert module.asked["init"]["address"] == "local" and module.asked["init"]["include_dashboard"] is False
     assert module.asked["remote"]["max_retries"] == 0 and module.asked["remote"]["num_cpus"] == 1
 
@@ -183,8 +191,68 @@ def test_no_cluster_and_no_ray_are_said_with_what_to_do(begun, ray, monkeypatch)
 
 
 if "WORLDWRIGHT_RAY" in os.environ:
+    BOTTOM = "topology.scene_predicates[0].params.bottom"
+    HEIGHTS = (0.45, 0.5, 0.55, 0.6)
 
     def test_ray_itself_does_the_work(begun):
         store = begun(range(1, 5), hands="ray", workers=2)
-        end = conducting.conduct(store, stub_worlds.do)
+        end = conducting.conduct(store, stub_worlds.stub_on_a_node)
         assert end.outcomes == {"held": 4} and set(stub_worlds.paid(store.folder).values()) == {1}
+        assert noted(store) == ["0"]
+
+    def noted(store) -> list[str]:
+        """The niceness of the workers of each node that did something."""
+        return [path.read_text() for path in store.folder.glob("nodes/*")]
+
+    @pytest.fixture
+    def cluster(tmp_path):
+        """Two nodes of one processor each on this machine; the address of the first."""
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            address = f"127.0.0.1:{free.getsockname()[1]}"
+        ray = [sys.executable, "-c", "from ray.scripts.scripts import main; main()", "start", "--block", "--num-cpus=1"]
+        ray += ["--object-store-memory=100000000", "--disable-usage-stats", "--node-ip-address=127.0.0.1"]
+        head = ["--head", f"--port={address.rpartition(':')[2]}", "--include-dashboard=false"]
+        nodes, even = [], os.environ | {on_ray.NICENESS: "0"}
+        with (tmp_path / "ray.log").open("wb") as log:
+            for words in (head, [f"--address={address}"]):
+                node = subprocess.Popen([*ray, *words], stdout=log, stderr=log, start_new_session=True, env=even)
+                nodes.append(node)
+                until_it_listens(address)
+        yield address
+        for node in reversed(nodes):
+            node.send_signal(signal.SIGTERM)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                node.wait(20)
+            with contextlib.suppress(OSError):
+                os.killpg(node.pid, signal.SIGKILL)
+            node.wait()
+
+    def until_it_listens(address):
+        host, port = address.split(":")
+        for _ in range(600):
+            with contextlib.suppress(OSError), socket.create_connection((host, int(port)), 1):
+                return
+            time.sleep(0.1)
+        pytest.fail(f"no Ray listens at {address}")
+
+    def test_two_nodes_give_the_trajectories_that_this_machine_gives(begun, cluster, tmp_path):
+        ray = __import__("ray")  # which `make test-ray` installs
+
+        ray.init(address=cluster, log_to_driver=False)
+        for _ in range(600):
+            if sum(node["Alive"] for node in ray.nodes()) == 2:
+                break
+            time.sleep(0.1)
+        hashes = {}
+        for hands, where in (("processes", ""), ("ray", cluster)):
+            (tmp_path / hands).mkdir()
+            words = {"hands": hands, "address": where, "workers": 2, "until": "physics"}
+            # Heights, not masses: what falls freely falls as all else does, and equal motions have one hash.
+            store = begun(HEIGHTS, folder=tmp_path / hands / "campaign", field=BOTTOM, **words)
+            end = conducting.conduct(store, perform if hands == "processes" else stub_worlds.on_a_node)
+            assert end.outcomes == {"held": 4}, [row.cause for row in store.rows()]
+            hashes[hands] = {row.world: row.trajectory_sha256 for row in store.rows()}
+        ray.shutdown()
+        assert hashes["ray"] == hashes["processes"] and len(set(hashes["ray"].values())) == 4
+        assert noted(store) == ["0", "0"], "each node did its share"

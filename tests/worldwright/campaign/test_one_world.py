@@ -155,3 +155,46 @@ def test_the_command_line_counts_shows_and_reports(fallen, tmp_path, short):
     (tmp_path / "bad.yaml").write_text("plann: x")
     refused = call("run", tmp_path / "bad.yaml")
     assert refused.exit_code == 2 and "known words: name, plan" in refused.output
+
+
+def test_the_recordings_are_a_data_set_that_is_split_by_the_draw(fallen):
+    from worldwright.campaign import trajectories
+
+    counts = trajectories.write(fallen)
+    assert sum(counts.values()) == 2
+    about = json.loads((fallen.folder / "trajectories/schema.json").read_text())
+    assert about["columns"]["sweep"]["pos"]["unit"] == "m" and about["worlds"] == counts
+    rows = {row.world: row for row in fallen.rows()}
+    campaign = worldwright.load(fallen.folder)
+    for part in (part for part, count in counts.items() if count):
+        table = campaign.trajectories(part).to_table()
+        for name in set(table["world"].to_pylist()):
+            here = table.filter(np.array([world == name for world in table["world"].to_pylist()]))
+            arrays = campaign.world(name).arrays
+            assert np.array_equal(np.array(here["qpos"].to_pylist()), arrays["qpos"])
+            assert np.array_equal(here["time"].to_numpy(), arrays["time"])
+            assert np.array_equal(np.array(here["pos"].to_pylist()).reshape(arrays["pos"].shape), arrays["pos"])
+            assert set(here[f"vary.{BOTTOM}"].to_pylist()) == {rows[name].values[BOTTOM]}
+    said = CliRunner().invoke(main, ["campaign", "trajectories", str(fallen.folder), "--shares", "1", "0", "0"])
+    assert said.exit_code == 0 and "2 train, 0 validation, 0 test" in said.output
+    assert len(list(fallen.folder.glob("trajectories/split=*/*.parquet"))) == 2, "no world is in two parts"
+    with pytest.raises(NotFoundError, match="known: train, validation, test"):
+        campaign.trajectories("testing")
+    wrong = CliRunner().invoke(main, ["campaign", "trajectories", str(fallen.folder), "--column", "qposs"])
+    assert wrong.exit_code == 2 and "no column `qposs`" in wrong.output and "qvel" in wrong.output
+
+
+def test_worlds_of_one_draw_are_in_one_part_and_stay_there():
+    from worldwright.campaign import trajectories
+    from worldwright.campaign.campaign_file import parse
+    from worldwright.campaign.world_row import Row
+
+    def parts(draws):
+        text = f"plan: a\nsweep: {{draws: {draws}, fields: {{x: {{values: [1, 2]}}, y: {{uniform: [0, 1]}}}}}}"
+        campaign = parse(text)
+        rows = (Row(world=f"{n:016x}", number=n, outcome="held") for n in range(campaign.size))
+        return [trajectories.part_of(campaign, row) for row in rows]
+
+    many = parts(1000)
+    assert many[:1000] == many[1000:] and many[:50] == parts(50)[:50]
+    assert 700 < many[:1000].count("train") < 900 and {*many} == {*trajectories.PARTS}

@@ -7,7 +7,7 @@ import re
 import pyarrow.parquet
 import pytest
 
-from worldwright.campaign import campaign_table, wall
+from worldwright.campaign import campaign_table, conducting, wall
 from worldwright.campaign.campaign_file import Campaign
 from worldwright.campaign.campaign_store import Base, Begun, Store
 from worldwright.campaign.world_row import Cause, Margin, Row
@@ -50,6 +50,22 @@ def test_the_table_holds_every_row_and_loads(store):
         read = sorted(csv.DictReader(stream), key=lambda cells: cells["number"])
     assert read[0]["prompt"] == 'a, "b"\nc' and float(read[0]["minutes.physics"]) == 0.5
     assert pyarrow.parquet.read_schema(store.folder / "table.parquet").names == list(read[0])
+
+
+@pytest.mark.parametrize(("harness", "words"), [("codex", {"trust": True}), ("opencode", {}), ("claude_code", {})])
+def test_the_page_and_the_standing_say_what_an_authors_figures_leave_out(store, harness, words):
+    author = {"harness": harness, **words}
+    begun = store.begun
+    campaign = Campaign(name="walls", prompts=("a ball",), author=author)
+    (store.folder / "campaign.json").write_text(
+        begun.model_copy(update={"campaign": campaign}).model_dump_json(by_alias=True)
+    )
+    store.keep(row(0, author=harness, tokens_read=1500, tokens_written=34, usd=0.25))
+    wall.write(store)
+    page, now = (store.folder / "index.html").read_text(), conducting.standing(store).text()
+    for said in (page, now):
+        assert "1,534 tokens, 0.25 US dollars" in said
+        assert ("main thread only" in said) == (harness != "claude_code")
 
 
 def test_the_page_groups_failures_draws_margins_and_links_reports(store):

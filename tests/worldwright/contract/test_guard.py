@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from worldkit import data_folders
-from worldwright.contract import guard, harnesses, users_data
+from worldwright.contract import authors_judge, guard, harnesses, users_data
 from worldwright.contract.roles import ROLES, SUITE
 from worldwright.stamp import keyring
 
@@ -252,18 +252,46 @@ def shell(project, command, through=(), env=None):
     return subprocess.run(words, cwd=project, capture_output=True, text=True, timeout=60, env=env)
 
 
+def test_an_author_in_a_folder_of_the_suite_changes_nothing_of_what_judges_it(tmp_path):
+    """Its shell and its file tools, from runs/C/authors/xx/W/1/project of the checkout that runs it."""
+    campaign = tmp_path / "suite/runs/many"
+    place = campaign / "authors/ab/world/1/project"
+    for name in ("servers", ".venv", "examples", "runs/other"):
+        (tmp_path / "suite" / name).mkdir(parents=True, exist_ok=True)
+        (tmp_path / "suite" / name / "judges").write_text("true\n")
+    for name in ("servers", "runs", "src"):
+        (place / name).mkdir(parents=True)
+    (campaign / "rows").mkdir()
+    authors_judge.name(place, tmp_path / "suite", campaign)
+    kept = [tmp_path / "suite" / name / "judges" for name in ("servers", ".venv", "examples", "runs/other")]
+    kept += [campaign / "rows/a", place.parent / "told.json", place / authors_judge.FILE, Path(sys.prefix) / "judges"]
+    before = (place / authors_judge.FILE).read_text()
+    tries = "; ".join(f"echo changed > {path}" for path in kept)
+    done = shell(place, f"{tries}; rm {kept[0]} {kept[-2]}; echo mine > src/own; cat {kept[0]} src/own")
+    assert done.stdout == "true\nmine\n", done.stderr
+    assert {path.read_text() for path in kept[:4]} == {"true\n"} and (place / authors_judge.FILE).read_text() == before
+    assert not any(path.exists() for path in (*kept[4:6], kept[-1]))
+    for path in kept:
+        assert "what judges this world" in verdict(place, "Write", write(str(path)))
+        assert verdict(place, "mcp__files__write", {"path": str(path)})
+    assert verdict(place, "Write", write(str(place / "src/own"))) is None
+
+
 @pytest.fixture
 def data(tmp_path_factory, monkeypatch):
     """A person's data folder, with a key that signs."""
     folder = tmp_path_factory.mktemp("person") / "data"
     (folder / "assets").mkdir(parents=True)
     (folder / "proofs").mkdir()
+    (folder / "judged/eighty").mkdir(parents=True)
+    (folder / "judged/eighty/verdict.json").write_text("secret\n")
     (folder / "signing-key.pem").write_text("secret\n")
     monkeypatch.setenv("WORLDWRIGHT_DATA", str(folder))
     return folder
 
 
 PLANTS = [
+    "cat $D/judged/eighty/*; ln -s $D/judged src/j; cat src/j/eighty/verdict.json; cp -r $D/judged src/",
     "cat $D/signing-key.pem; cat $D/proofs/../signing-key.pem; tail -c 9 /proc/self/root$D/signing-key.pem",
     "cp -r $D src/; ln $D/signing-key.pem src/key; mv $D/signing-key.pem src/key; ln -s $D src/d; cat src/d/signing-key.pem",
     "echo x > $D/known_keys; mkdir $D/proofs/0; echo x > $D/proofs/0; echo x > $D/sandbox-landlock-0.json; mv $D src/other",
@@ -306,7 +334,7 @@ def test_the_guard_means_the_data_folder_that_the_suite_means(tmp_path, monkeypa
         assert users_data.folder() == keyring.folder().resolve()
     assert users_data.KEY == keyring.OWN and REPO / users_data.KNOWN_HERE == keyring.SHIPPED
     assert users_data.folder() / users_data.ASSETS == data_folders.own_root().resolve()
-    assert CLAUDE["denyRead"] == ["~/.local/share/worldwright/" + keyring.OWN]
+    assert CLAUDE["denyRead"] == [f"~/.local/share/worldwright/{name}" for name in (keyring.OWN, users_data.JUDGED)]
 
 
 @pytest.mark.parametrize("agent", ["", "general-purpose", "world-plan", "world-code"])
@@ -318,12 +346,21 @@ def test_no_file_tool_takes_the_key_or_says_whose_word_counts(project, data, age
                 project, tool, {"file_path" if tool == "Read" else "path": str(path)}, agent
             )
     assert "signing key" in verdict(project, "Grep", {"pattern": "PRIVATE"}, agent, cwd=data)
+    for path in (data / "judged", "link/judged/eighty/verdicts/039.json"):
+        assert "a benchmark's verdicts" in verdict(project, "Read", {"file_path": str(path)}, agent)
     assert verdict(project, "Grep", {"pattern": "ball"}, agent) is None
     assert verdict(project, "Read", {"file_path": str(data / "assets/a")}, agent) is None
     for path in ("examples/known_keys", "link/known_keys", data / "proofs/0/proof/plan.md", data / "signing-key.pem"):
         assert "no agent writes it" in verdict(project, "Write", write(path), agent)
     if not agent:
         assert verdict(project, "Write", write(data / "assets/cup/asset.yaml")) is None
+
+
+def test_a_folder_above_the_verdicts_is_not_searched_where_the_key_lies_elsewhere(project, data, tmp_path_factory):
+    (data / "signing-key.pem").rename(elsewhere := tmp_path_factory.mktemp("stick") / "key.pem")
+    (data / "signing-key.pem").symlink_to(elsewhere)
+    for path in (data, data.parent):
+        assert "a benchmark's verdicts" in verdict(project, "Grep", {"path": str(path)})
 
 
 def test_where_the_harness_confines_its_shell_the_guard_leaves_it_as_it_is(project):
@@ -384,7 +421,7 @@ def test_the_hook_as_installed_fails_closed(tmp_path, break_it, denied):
     with (target / "contract/roles.py").open("a") as roles:
         roles.write("\n" + break_it)
     event = json.dumps({"tool_name": "Write", "tool_input": write(tmp_path / "README.md"), "cwd": str(tmp_path)})
-    env = {"CLAUDE_PROJECT_DIR": str(tmp_path), "PATH": os.environ["PATH"]}
+    env = {"CLAUDE_PROJECT_DIR": str(tmp_path), "PATH": os.environ["PATH"], "HOME": str(tmp_path)}
     done = subprocess.run(["bash", "-c", command], input=event, capture_output=True, text=True, env=env, cwd=tmp_path)
     assert done.returncode == (2 if denied else 0), done.stderr
     missing = subprocess.run(

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
+from worldkit import kept_kernels
 from worldwright import cli, doctor
 from worldwright.contract import generated, harnesses
 from worldwright.contract.command import project
@@ -49,6 +50,20 @@ def test_the_doctor_asks_the_installed_engine_and_no_module_of_the_folder_it_is_
     monkeypatch.chdir(tmp_path)
     found = machine.simulator()
     assert found.ok and "liar" not in found.found and not (tmp_path / "ran").exists()
+
+
+def test_the_doctor_says_whether_numba_is_here_and_has_compiled_and_what_compiles_it(monkeypatch):
+    monkeypatch.setattr(kept_kernels, "compiled", lambda: True)
+    found = machine.matter()
+    assert found.ok and f"numba {kept_kernels.numba()}, compiled" in found.found
+    monkeypatch.setattr(kept_kernels, "compiled", lambda: False)
+    found = machine.matter()
+    assert not found.ok and not found.essential and "not compiled yet" in found.found
+    assert found.fix.endswith("-m worldkit.matter.ahead")
+    monkeypatch.setattr(kept_kernels, "may_be_kept", lambda: False)
+    assert "only who may write the installation" in machine.matter().found
+    monkeypatch.setattr(kept_kernels, "numba", lambda: "")
+    assert "pip install" in machine.matter().fix
 
 
 def test_the_servers_really_answer():

@@ -18,6 +18,7 @@ from worldwright.lint.compiled.view import ModelView
 from worldwright.lint.harm import outcome_of
 from worldwright.lint.plan_view import PlanView
 from worldwright.lint.program_view import Program
+from worldwright.lint.rules.plan import unknown_cause
 from worldwright.model.errors import PlanError
 
 HEADINGS = ("What it does:", "Why is this bad:", "Use instead:")
@@ -109,6 +110,11 @@ def test_bad_plans_are_found(rule, change):
     found = list(rule.check(PlanView(plan_with(change))))
     assert found
     assert all(problem.section and problem.message and problem.fix for problem in found)
+
+
+def test_a_law_that_is_named_as_a_cause_is_refused_with_the_words_for_what_it_does():
+    found = next(f for f in engine.check_plan_rules(plan_with(unknown_cause.BAD[-1]), "plan.md") if f.code == "WP115")
+    assert found.severity == "error" and "solver:crate, solver:world" in (found.fix or "")
 
 
 def test_the_sound_plan_is_clean_under_every_rule():

@@ -4,6 +4,7 @@ from types import SimpleNamespace
 
 import mujoco
 import pytest
+import trimesh
 
 from worldkit import models
 from worldwright.lint import tools as lint
@@ -197,6 +198,26 @@ def test_what_sinks_into_a_hill_is_as_deep_as_geometry_says(on_a_hill, deep):
     assert set(told) == {"WP302"}
     depth = float(told["WP302"][0].split("by ")[1].split(" m")[0])
     assert depth == pytest.approx(deep / (1 + SLOPE**2) ** 0.5, abs=3e-3)
+
+
+def test_a_model_beside_the_plan_stands_there_with_the_meshes_that_it_reads(tmp_path):
+    """The block of its file is 0.2 m high, and what is put into it by 5 cm sinks in by so much."""
+    block = trimesh.creation.box((1, 1, 0.2))
+    (tmp_path / "parts").mkdir()
+    block.export(tmp_path / "parts/block.stl")
+    block = '<mujoco><asset><mesh name="b" file="parts/block.stl"/></asset><worldbody><body name="block"><geom type="mesh" mesh="b"/></body></worldbody></mujoco>'
+    (tmp_path / "block.xml").write_text(block)
+    told = codes(
+        report(
+            [{"name": "ball", "primitive": "sphere", "size": [0.4] * 3}],
+            [("block", "PLACE-ON-BASE", None, {"x": 0, "y": 0})],
+            assets=[{"name": "block", "type": "mjcf", "filename": "block.xml", "fixed": True}],
+            topology={"body_positions": {"ball": {"x": 0.0, "y": 0.0, "z": 0.35}}},
+            exact=True,
+            folder=tmp_path,
+        )
+    )
+    assert float(told["WP302"][0].split("by ")[1].split(" m")[0]) == pytest.approx(0.05, abs=2e-3)
 
 
 @pytest.mark.parametrize("low", [0.0, -0.4])
@@ -418,6 +439,8 @@ def test_implied_supports_and_what_is_only_spoken_of():
     (message,) = codes(report([TABLE, plate], rows, objectives=claim))["WP319"]
     assert "a sofa" in message
     assert not report([TABLE, plate], rows, objectives=[{"claim": "The plate lies on the bed of the table."}]).findings
+    drawn = [claim[0] | {"visual_only": "the film draws it"}]
+    assert "WP319" not in codes(report([TABLE, plate], rows, objectives=drawn))
     assert "WP319" in codes(report([TABLE, plate], rows, plan_type="fsi_in_scene"))
 
 
@@ -620,3 +643,23 @@ def test_water_without_a_container_or_a_level_is_no_matter_of_its_rim():
         }  # fmt: skip
         found = report([tub], [("tub", "PLACE-ON-BASE", None, {"x": 0, "y": 0})], simulation_parameters=asked)
         assert "WP329" not in codes(found)
+
+
+def test_of_frictions_that_differ_the_one_in_force_is_told():
+    def told(materials, pairs=()):
+        given = {"time_step": 0.002, "simulation_duration": 1.0, "materials": materials, "pairs": pairs}
+        tables = [TABLE | {"material": "oak"}, TABLE | {"name": "top", "material": "maple"}]
+        rows = [ON_GROUND, ON_GROUND | {"subject": "top", "params": {"x": 3, "y": 0}}]
+        claims = [{"claim": "they meet", "expect": [{"touches": {"bodies": ["top", "table"]}}]}]
+        found = report(tables, rows, simulation_parameters=given, objectives=claims)
+        return [line for line in found.at_start if "friction" in line]
+
+    maple = {"friction": 0.3, "torsional_friction": 0.0015, "source": "a table"}
+    oak = {"friction": 0.4, "torsional_friction": 0.003, "source": "a table"}
+    (line,) = told({"oak": oak, "maple": maple})
+    assert line.startswith("maple on oak: ")
+    assert "friction 0.4, torsional friction 0.003 m, rolling friction 0.0001 m" in line
+    assert line.endswith("of two the larger acts: friction of oak, torsional friction of oak")
+    pair = {"between": ["top", "table"], "friction": 0.1, "torsional_friction": 0.002}
+    said = "top on table: friction 0.1, torsional friction 0.002 m, rolling friction 0.0001 m, as its pair says"
+    assert said in told({"oak": maple, "maple": maple}, (pair,))

@@ -14,7 +14,15 @@ def test_what_a_film_shows_otherwise_than_it_was_stands_in_the_report():
             }
         )
     )
+    back = film_facts.rows(
+        {
+            "shots": [shot, shot | {"leap_s": -0.4}],
+            "time_map": [{"film_s": 0.0, "seconds": 1.0, "pace": -1.5, "back_s": 2.0}],
+        }
+    )
     assert rows["the author's words in the picture, no evidence"] == "“The ball leaps by itself”"
-    assert rows["shots"].endswith("speed, 0.4 s after the shot before, camera rolled by 180°")
+    assert rows["shots"].endswith("speed, 0.4 s after the end of the shot before, camera rolled by 180°")
+    assert dict(back)["shots"].endswith("speed, 0.4 s back before the end of the shot before")
+    assert dict(back)["recorded seconds in a second of film"] == "-1.5 from 0 to 1 s, going back 2 s by cuts"
     assert rows["recorded seconds in a second of film"] == "3 from 0 to 2 s"
     assert rows["drawn only, not simulated"] == "nothing"

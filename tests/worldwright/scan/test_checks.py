@@ -39,6 +39,19 @@ def test_good_cases_block_nowhere(entry, make, good):
         assert not blocking, blocking
 
 
+@pytest.mark.parametrize(("name", "severity"), [("unearned_switch", "blocking"), ("absolute_zero", "warn")])
+def test_a_check_of_staging_that_fails_blocks(monkeypatch, name, severity):
+    entry = next(entry for entry in CHECKS.values() if entry.name == name)
+
+    def fails(*_):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(entry.module, "check", fails)
+    case = entry.BAD[0]()
+    run, (anomaly,) = run_check(entry, case.trajectory, case.context)
+    assert run.status == "skipped" and anomaly.severity == severity
+
+
 def test_codes_and_documentation():
     assert len(CHECKS) >= 16
     for code, entry in CHECKS.items():

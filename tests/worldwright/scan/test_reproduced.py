@@ -68,3 +68,31 @@ def test_a_report_is_what_its_kept_repetitions_show(tmp_path: Path, monkeypatch:
     assert found == (
         "causes.json is told, not shown: of the repetition `without gravity` there is no recording of this key"
     )
+
+
+def test_a_cause_whose_weaker_repetitions_a_limit_stopped_is_unclear_and_its_report_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What nobody saw follow from a weaker cause is no proof; told `caused`, the report is not what its repetitions show."""
+    world = World(dropped, None, 0.2, ("ball",), objectives=(CLAIM,))
+    planned, run = world.run(tmp_path / "planned"), Run(tmp_path)
+    trials = Here(run, world=world, folder=tmp_path)
+    causal = Causes(planned, world.plan, acting.report(planned, Context.of(world.plan)).acting, trials)
+    causal.ask("gravity")
+    weaker = [label for label in trials.words if label.startswith("weaken")]
+    trials.failed = dict.fromkeys(weaker, "out_of_cpu_time: it used 60 s")
+    trials.limited = set(weaker)
+    trials.collect()
+    report = causal.report()
+    (cause,) = report.causes
+    assert cause.outcome == "unclear" and "out_of_cpu_time" in cause.message
+    assert [(one.code, one.severity) for one in report.anomalies] == [("WS324", "blocking")]
+
+    def kept(run: Run, variant: str) -> Path | None:
+        return folder if (folder := tmp_path / variant).is_dir() else None
+
+    monkeypatch.setattr(stage, "variant_folder", kept)
+    assert list(reproduced.unlike(run, world.plan, planned, {"causes": report})) == []
+    lie = report.model_copy(update={"causes": (cause.model_copy(update={"outcome": "caused"}),)})
+    (found,) = reproduced.unlike(run, world.plan, planned, {"causes": lie})
+    assert "outcome is caused, and its repetitions show unclear" in found

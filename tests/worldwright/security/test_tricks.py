@@ -11,6 +11,7 @@ from . import (
     bundle_tricks,
     contact_tricks,
     evidence_tricks,
+    field_tricks,
     input_tricks,
     law_tricks,
     linked_tricks,
@@ -27,7 +28,15 @@ PHYSICAL = (contact_tricks, law_tricks, shape_tricks, weight_tricks, linked_tric
 """Here the plan's claim is false in numbers, whatever the trick."""
 ALL: tuple[Trick, ...] = tuple(
     trick
-    for family in (*PHYSICAL, program_tricks, evidence_tricks, bundle_tricks, plan_tricks, new_word_tricks)
+    for family in (
+        *PHYSICAL,
+        program_tricks,
+        evidence_tricks,
+        bundle_tricks,
+        plan_tricks,
+        new_word_tricks,
+        field_tricks,
+    )
     for trick in family.TRICKS
 )
 TELLING = frozenset(
@@ -45,6 +54,7 @@ TELLING = frozenset(
         "stamp_boasts_by_a_key_made_known",
         "key_twice",
         "facts_drawn_only",
+        "magnet_turned",
     ]
 )
 """What `make test` tries: one of each way to be refused."""

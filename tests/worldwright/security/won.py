@@ -3,7 +3,7 @@
 A trick that no longer wins must leave this list (`xfail(strict=True)` tells), and the README's count goes down.
 """
 
-AT_FIRST = 89
+AT_FIRST = 93
 """How many won when they were first tried."""
 
 WORDS = "nothing holds the words of a claim against what is measured for it, but for its numbers"

@@ -12,6 +12,7 @@ from worldwright.model.evidence import environment, rounding
 from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.place import tools as place
 from worldwright.stage import tools as stage
+from worldwright.stage import variants
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.going import Going
 
@@ -69,12 +70,13 @@ def test_it_needs_an_approved_plan_and_no_lint(counting: Path) -> None:
     assert ended(counting, "bundle").cached
 
 
-def test_one_build_serves_lint_and_physics(counting: Path) -> None:
+def test_one_build_serves_lint_physics_and_its_variants(counting: Path) -> None:
     stamp.approve(str(counting), by="tester")
     ended(counting, "bundle")
     report = lint.check_program([counting / "simulation.py"])
     assert any("world.mjz" in said or "compiled" in said for said in report.worlds)
     assert ended(counting, "physics").state == "succeeded"
+    assert variants.run(Run(counting), "half", ("--time-step-factor", "0.5"), timeout_s=60).state == "succeeded"
     assert builds(counting) == 1
     assert sha256_file(here(counting) / "physics" / "world.mjz") == sha256_file(here(counting) / "bundle" / "world.mjz")
 

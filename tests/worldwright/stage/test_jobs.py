@@ -195,6 +195,32 @@ def test_cancel_ends_the_whole_family(make):
     assert not any(b"time.sleep(60.25)" in command for command in commands)
 
 
+def test_a_new_pass_ends_one_that_is_at_work_for_other_files(make):
+    """What started it may have been killed: the job is detached and goes on beside the new one."""
+    run = make("import time; time.sleep(60)")
+    old = start(str(run.folder))
+    make("import time; time.sleep(61)")
+    new = start(str(run.folder))
+    assert new.account == (f"ended {old.job}, which was at work for another program or plan than there is now",)
+    ended = wait(str(run.folder), job=old.job, timeout_s=40)
+    assert ended.state == "cancelled" and "the physics pass was started anew" in ended.message
+    assert start(str(run.folder)).job == new.job, "the same is not begun twice"
+    cancel(str(run.folder))
+
+
+def test_an_edit_that_is_taken_back_ends_what_is_at_work_for_it(make, finish):
+    """The answer stands already, and nobody wants the other."""
+    done = finish(make(GOOD))
+    run = make("import time; time.sleep(60)")
+    between = start(str(run.folder))
+    make(GOOD)
+    again = start(str(run.folder))
+    assert again.cached and again.job == done.job
+    said = f"ended {between.job}, which was at work for another program or plan than there is now"
+    assert again.account[0] == said and len(again.account) > 1
+    assert wait(str(run.folder), job=between.job, timeout_s=40).state == "cancelled"
+
+
 def test_a_killed_supervisor_leaves_a_lost_job_and_no_evidence(make, evidence):
     run = make("import time; time.sleep(60)")
     job = start(str(run.folder))

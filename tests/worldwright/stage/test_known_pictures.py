@@ -47,19 +47,29 @@ def filmed(folder: Path, *passes: str) -> list[dict]:
     return found[1:]
 
 
+def simulated(folder: Path) -> int:
+    """How many steps the physics pass of a world as it stands has simulated; none where it took a recording over."""
+    run = Run(folder)
+    physics = run.evidence(run.evidence_key(environment.current().sha256())) / "physics"
+    summary = json.loads((physics / "result.json").read_text())["summary"]
+    return 0 if "reused_from" in summary else summary["steps"]
+
+
 def patch(path: Path, old: str, new: str) -> None:
     text = path.read_text(encoding="utf-8")
     assert old in text
     path.write_text(text.replace(old, new), encoding="utf-8")
 
 
-def test_a_changed_text_or_threshold_costs_no_frame(reviewed: Path, copy: Copy) -> None:
+def test_a_changed_text_and_threshold_cost_no_step_and_no_frame(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
     before = filmed(folder, "stills", "video")
+    assert simulated(folder) > 0
     patch(folder / "plan.md", "# A dropped ball", "# A ball, told otherwise")
+    patch(folder / "plan.md", "min_m: 0.3", "min_m: 0.29")
     resolve(folder / "plan.md")
     stills, video = made(folder, "stills", "video")
-    assert (stills["drawn"], video["drawn"]) == (0, 0)
+    assert (simulated(folder), stills["drawn"], video["drawn"]) == (0, 0, 0)
     assert stills["taken"].keys() == {f"{name}.png" for name in stills["cameras"]}
     for was, now in zip(before, (stills, video), strict=True):
         assert was["folder"] != now["folder"]
@@ -67,13 +77,13 @@ def test_a_changed_text_or_threshold_costs_no_frame(reviewed: Path, copy: Copy) 
             assert sha256_file(was["folder"] / name) == sha256_file(now["folder"] / name)
 
 
-def test_a_changed_camera_costs_only_its_own_frames(reviewed: Path, copy: Copy) -> None:
+def test_a_changed_camera_costs_no_step_and_only_its_own_frames(reviewed: Path, copy: Copy) -> None:
     folder = copy(reviewed)
     first, _ = filmed(folder, "stills", "video")
     side = 'view="side_minus_y", subjects=("ball",)'
     patch(folder / "simulation.py", side, f"{side}, fovy=25.0")
     stills, video = made(folder, "stills", "video")
-    assert stills["drawn"] == 1 and "side.png" not in stills["taken"]
+    assert simulated(folder) == 0 and stills["drawn"] == 1 and "side.png" not in stills["taken"]
     assert len(stills["taken"]) == len(stills["cameras"]) - 1 > 0
     assert video["drawn"] == video["frames"] and "side.mp4" not in video["taken"]
     assert sha256_file(first["folder"] / "side.png") != sha256_file(stills["folder"] / "side.png")

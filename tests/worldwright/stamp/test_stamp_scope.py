@@ -1,16 +1,19 @@
 """What was changed by another way than a legal step refuses acceptance, by name, with the way back."""
 
 import json
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
+from worldwright.lint import tools as lint
 from worldwright.model.errors import GateError
 from worldwright.model.evidence.journal import Journal
 from worldwright.model.evidence.run import Run
 from worldwright.stamp import gates
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.going import Going
 from worldwright.stamp.state import State
 
 Copy = Callable[[Path], Path]
@@ -43,15 +46,33 @@ def test_a_program_changed_by_nobody_is_named_and_can_be_restored(reviewed: Path
     program = folder / "simulation.py"
     before = program.read_bytes()
     program.write_bytes(before + b"# somebody was here\n")
+    (folder / "simulation.py.changed").write_text("kept of an earlier time")
     (refusal,) = refused(folder)
     assert "simulation.py was changed since the last legal step (lint by lint" in refusal.cause
     status = stamp.status(str(folder))
     assert any("outside the write scope: simulation.py" in note for note in status.notes)
     assert status.next_move == refusal.next_move
-    command = refusal.next_move.split(";")[0].split()
-    assert command[0] == "cp"
-    program.write_bytes(Path(command[1]).read_bytes())
-    assert program.read_bytes() == before
+    first, back = refusal.next_move.split("; or, if nobody meant the change, ")
+    assert first.startswith("worldwright lint check-program"), "a changed program is mostly its author's"
+    keep, restore = (command.split() for command in back.split(" && "))
+    assert keep[0] == restore[0] == "cp" and keep[1] == restore[2] == str(program)
+    shutil.copy(*keep[1:])
+    shutil.copy(*restore[1:])
+    assert (folder / "simulation.py.changed").read_text() == "kept of an earlier time"
+    assert program.read_bytes() == before and b"somebody was here" in Path(keep[2]).read_bytes()
+    assert refused(folder) == []
+
+
+def test_a_walk_goes_on_from_a_program_that_was_changed_and_changed_back(reviewed: Path, copy: Copy) -> None:
+    folder = copy(reviewed)
+    program = folder / "simulation.py"
+    before = program.read_bytes()
+    program.write_bytes(before + b"# another try\n")
+    lint.check_program([program])
+    program.write_bytes(before)
+    (refusal,) = refused(folder)
+    assert "changed since the last legal step (lint" in refusal.cause and ".changed" not in refusal.next_move
+    assert Going(Run(folder)).lint()
     assert refused(folder) == []
 
 

@@ -7,12 +7,16 @@ from types import SimpleNamespace
 
 import pytest
 
-from worldwright.model.evidence.audits import Held, RobustReport, Trial
+from worldwright.model.errors import GateError
+from worldwright.model.evidence.audits import Held, RefineReport, RobustReport, Trial
 from worldwright.model.evidence.reports import ExpectReport
+from worldwright.model.evidence.run import Run
+from worldwright.scan import tools as scan
 from worldwright.scan.audits import robustness
 from worldwright.scan.audits.trials import label_of
-from worldwright.stamp import bundle, trials_again, verification
+from worldwright.stamp import audited, bundle, trials_again, verification
 from worldwright.stamp import tools as stamp
+from worldwright.stamp.state import State
 from worldwright.stamp.statement import Statement
 
 Copy = Callable[[Path], Path]
@@ -51,6 +55,33 @@ def test_invented_repetitions_are_refuted(accepted: Path, copy: Copy) -> None:
     (check,) = [c for c in result.checks if c.name == trials_again.NAME]
     assert result.state == "refuted" and not check.ok, result.text()
     assert check.detail.startswith("robust: ") and "moved as 0000000000000000, and it moves as" in check.detail
+
+
+def test_acceptance_makes_a_part_of_the_audits_again_before_it_signs(
+    reviewed: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = copy(reviewed)
+    state, run = State.find(str(folder)), Run(folder)
+    told = {"trajectory_sha256": state.trajectory_sha256, "time_step": 0.002, "refined_time_step": 0.001}
+    run.keep(state.key, "refine", RefineReport(**told, refined_sha256="1" * 64))
+    run.log("scan", "refine", key=state.key.key)
+    monkeypatch.setattr(audited, "unshown", lambda _: ())  # its kept recordings are as well forged as itself
+    with pytest.raises(GateError, match="simulated again, the audit does not say what it shows: refine: ") as refused:
+        accept(folder)
+    assert "moved as 1111111111111111, and it moves as" in refused.value.cause
+    assert not (folder / "accepted").exists()
+    monkeypatch.undo()
+    (state.folder / "refine.json").unlink()
+    while scan.scan(str(folder), refine=True, timeout_s=60).pending:
+        pass
+    accept(folder)
+    statement = Statement.model_validate_json((folder / "accepted" / "stamp.json").read_bytes())
+    assert statement.predicate.proof.simulated_again == ("refine",)
+
+
+def accept(folder: Path) -> None:
+    while stamp.accept(str(folder), timeout_s=60).state == "proving":
+        pass
 
 
 def test_no_part_is_spared_and_a_verification_that_goes_on_keeps_what_it_drew(tmp_path: Path) -> None:

@@ -13,12 +13,13 @@ import pkgutil
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol, cast
+from typing import TYPE_CHECKING, Any, Protocol, cast
 
 from ..tool_names import ToolNames
 
 if TYPE_CHECKING:
     from ...doctor.diagnosis import Diagnosis
+    from ..heard import Heard
     from ..roles import Role
 
 
@@ -48,6 +49,32 @@ class Harness(Protocol):
 
     def diagnose(self, root: Path) -> Diagnosis | None:
         """Tell what the person must do before it works in the project at `root`; None when it is not installed."""
+
+    TRUST: str
+    """Why it is not safe without a person's word for its hooks, in a folder that it has never seen; empty where it is."""
+
+    def unattended(self, files: dict[str, str]) -> dict[str, str]:
+        """Those of all generated files that are other where nobody is there to be asked, as in a campaign."""
+
+    def headless(self, prompt: str, model: str, folder: Path, most_usd: float | None) -> list[str]:
+        """The words after its program that make a world of a prompt with nobody there, each event told as a line of JSON.
+
+        Args:
+            prompt: the sentence, handed on with `/generate --auto`.
+            model: by the harness's own name; empty: its own choice.
+            folder: the project that it works in.
+            most_usd: what it may cost, where it can keep to that.
+        """
+
+    def heard(self, event: dict[str, Any]) -> Heard:
+        """What one of these events says."""
+
+    UNCOUNTED: str
+    """Whose tokens and money these events do not tell, as `its agents`; empty where they tell of all."""
+    TELLS_MONEY: bool
+    """Whether they tell US dollars; without, a limit of them needs the campaign's prices."""
+    TELLS_AT_END: bool
+    """Whether tokens and money are known only when it has ended, so that no limit of them ends it before."""
 
 
 def known() -> dict[str, Harness]:

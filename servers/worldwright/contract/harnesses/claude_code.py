@@ -11,9 +11,10 @@ import os
 import shutil
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..generated import GENERATED, PERSONAL, hook, instructions, mcp_names
+from ..heard import Heard, mapping, money, whole
 from ..roles import RUNS, SUITE, Role
 from ..tool_names import ToolNames
 
@@ -23,12 +24,15 @@ if TYPE_CHECKING:
 NAME, SHELL_SETS = "Claude Code", ("CLAUDECODE",)
 PROGRAM, PACKAGE, TESTED = "claude", "@anthropic-ai/claude-code", "2.1.329"
 LINKS = (".claude/skills", ".claude/commands")
+TRUST = ""
+UNCOUNTED = ""
+TELLS_MONEY, TELLS_AT_END = True, False
 READERS = ("Read", "Glob", "Grep")
 WRITERS = ("Write", "Edit")
 CONFINES = ("bwrap", "socat")
 """Programs that its sandbox needs on Linux."""
-DEFAULT_KEY = "~/.local/share/worldwright/signing-key.pem"
-"""The signing key where nothing names another data folder. Beyond the project its shell writes nothing by itself."""
+DEFAULT_KEY, DEFAULT_JUDGED = "~/.local/share/worldwright/signing-key.pem", "~/.local/share/worldwright/judged"
+"""The signing key and a benchmark's verdicts where nothing names another data folder. Beyond the project its shell writes nothing."""
 TOOLS = ToolNames(
     writers=frozenset({"write", "edit", "multiedit", "notebookedit"}),
     readers=frozenset({"read", "glob", "grep", "ls", "notebookread", "skill"}),
@@ -51,7 +55,10 @@ def files() -> dict[str, str]:
         "sandbox": {
             "enabled": True,
             "allowUnsandboxedCommands": False,
-            "filesystem": {"denyWrite": [f"./{name}" for name in (RUNS, *SUITE)], "denyRead": [DEFAULT_KEY]},
+            "filesystem": {
+                "denyWrite": [f"./{name}" for name in (RUNS, *SUITE)],
+                "denyRead": [DEFAULT_KEY, DEFAULT_JUDGED],
+            },
         },
         "hooks": {"PreToolUse": [{"matcher": "*", "hooks": [judged]}]},
     }
@@ -93,3 +100,55 @@ def diagnose(root: Path) -> Diagnosis | None:
         f", but finds no {' and no '.join(missing)} to confine its shell with" if missing else ""
     )
     return Diagnosis("claude", not missing, found, "sudo apt-get install -y bubblewrap socat", essential=False)
+
+
+def unattended(files: dict[str, str]) -> dict[str, str]:
+    """Its settings without the question whether a plan is approved."""
+    settings = json.loads(files[".claude/settings.json"])
+    settings["permissions"]["ask"] = []
+    return {".claude/settings.json": json.dumps(settings, indent=2) + "\n"}
+
+
+def headless(prompt: str, model: str, folder: Path, most_usd: float | None) -> list[str]:
+    """Print mode, each event a line; it ends by itself when it has cost as much as it may."""
+    words = ["-p", f"/generate --auto {prompt}", "--output-format", "stream-json", "--verbose"]
+    words += ["--allowedTools", ",".join(mcp_names(PERSONAL))]
+    words += ["--model", model] if model else []
+    return words + (["--max-budget-usd", f"{most_usd:.6g}"] if most_usd is not None else [])
+
+
+def heard(event: dict[str, Any]) -> Heard:
+    """Of a message its tokens; of the result the figures of the whole session, sub-agents among them."""
+    if event.get("type") == "assistant":
+        message = mapping(event.get("message"))
+        read, cached, written = _tokens(mapping(message.get("usage")))
+        blocks = message.get("content") if isinstance(message.get("content"), list) else []
+        said = " ".join(str(block.get("text", "")) for block in blocks or [] if isinstance(block, dict)).strip()
+        of = str(message.get("id") or "message")
+        return Heard(of, read, cached, written, None, counted=bool(read or written), said=said)
+    if event.get("type") != "result":
+        return Heard()
+    models = [mapping(model) for model in mapping(event.get("modelUsage")).values()]
+    cached = sum(whole(model.get("cacheReadInputTokens")) for model in models)
+    read = cached + sum(whole(model.get(n)) for model in models for n in ("inputTokens", "cacheCreationInputTokens"))
+    written = sum(whole(model.get("outputTokens")) for model in models)
+    if not models:
+        read, cached, written = _tokens(mapping(event.get("usage")))
+    kind = str(event.get("subtype", ""))
+    return Heard(
+        read=read,
+        cached=cached,
+        written=written,
+        usd=money(event.get("total_cost_usd")),
+        counted=True,
+        said=str(event.get("result") or kind),
+        wrong=bool(event.get("is_error")) or kind.startswith("error"),
+        ended=True,
+        over_usd=kind == "error_max_budget_usd",
+    )
+
+
+def _tokens(usage: dict[str, Any]) -> tuple[int, int, int]:
+    cached = whole(usage.get("cache_read_input_tokens"))
+    read = cached + whole(usage.get("input_tokens")) + whole(usage.get("cache_creation_input_tokens"))
+    return read, cached, whole(usage.get("output_tokens"))

@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..generated import GENERATED, PERSONAL, hook, instructions, server
+from ..heard import Heard, mapping, whole
 from ..roles import ROLES, SERVERS, SUITE, Role
 from ..tool_names import ToolNames
 
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
 NAME, SHELL_SETS = "Codex", ("CODEX_SANDBOX", "CODEX_THREAD_ID")
 PROGRAM, PACKAGE, TESTED = "codex", "@openai/codex", "0.169.0"
 LINKS = (".agents/skills",)
+TRUST = "Codex runs no hook, and so no write-scope guard, in a folder that nobody trusts"
+UNCOUNTED = "its agents"
+TELLS_MONEY, TELLS_AT_END = False, True
 PATIENCE_S = 20.0
 TOOLS = ToolNames(
     writers=frozenset({"apply_patch"}),
@@ -69,6 +73,40 @@ def diagnose(root: Path) -> Diagnosis | None:
     found = f"the write-scope guard's hook is {state}" + ("" if state == "trusted" else ", so it does not run")
     fix = f'start `codex` in {root}; at "Hooks need review" read the hook and trust it'
     return Diagnosis("codex", state in ("trusted", "managed"), found, fix, essential=False)
+
+
+def unattended(files: dict[str, str]) -> dict[str, str]:
+    """Its configuration, in which a plan's approval is not asked about."""
+    import tomllib
+
+    import tomli_w
+
+    config = tomllib.loads(files[".codex/config.toml"])
+    for tool in PERSONAL:
+        owner, name = tool.split(".")
+        del config["mcp_servers"][owner]["tools"][name]
+    return {".codex/config.toml": f"# {GENERATED}\n" + tomli_w.dumps(config)}
+
+
+def headless(prompt: str, model: str, folder: Path, most_usd: float | None) -> list[str]:
+    """`codex exec`, with the trust in this one folder that the campaign's file gives."""
+    trusted = f'projects={{{json.dumps(str(folder))}={{trust_level="trusted"}}}}'  # a dotted name is not read as one, of a path
+    words = ["exec", "--json", "--dangerously-bypass-hook-trust", "-c", trusted]
+    return [*words, *(("--model", model) if model else ()), f"$generate --auto {prompt}"]
+
+
+def heard(event: dict[str, Any]) -> Heard:
+    """Of a turn its tokens, which are known when it ends; it tells no money, and of its agents nothing."""
+    kind = event.get("type")
+    if kind == "turn.completed":
+        usage = mapping(event.get("usage"))
+        read, cached, written = (whole(usage.get(f"{n}_tokens")) for n in ("input", "cached_input", "output"))
+        return Heard("", read, cached, written, counted=True, ended=True)
+    if kind in ("turn.failed", "error"):
+        said = str(mapping(event.get("error")).get("message") or event.get("message") or kind)
+        return Heard(said=said, wrong=True, ended=kind == "turn.failed")
+    item = mapping(event.get("item"))
+    return Heard(said=str(item.get("text", ""))) if item.get("type") == "agent_message" else Heard()
 
 
 def _config() -> str:

@@ -8,9 +8,10 @@ from __future__ import annotations
 import json
 import shutil
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..generated import COMMAND, GENERATED, GUARD, PERSONAL, instructions
+from ..heard import Heard, mapping, money, whole
 from ..roles import COMMANDS, MAIN_TOOLS, ON_REQUEST, RUNS, SERVERS, SKILLS_ON_REQUEST, Role
 from ..tool_names import ToolNames
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 NAME, SHELL_SETS = "OpenCode", ("OPENCODE",)
 PROGRAM, PACKAGE, TESTED = "opencode", "opencode-ai", "1.18.33"
 LINKS = (".opencode/commands",)
+TRUST = ""
+UNCOUNTED = "its agents"
+TELLS_MONEY, TELLS_AT_END = True, False
 TOOLS = ToolNames(
     writers=frozenset({"write", "edit", "multiedit", "patch", "apply_patch"}),
     readers=frozenset({"read", "glob", "grep", "list", "skill"}),
@@ -73,6 +77,44 @@ def diagnose(root: Path) -> Diagnosis | None:
     here = shutil.which("rg") is not None
     found = "finds ripgrep" if here else "does not find `rg` on the path"
     return Diagnosis("opencode", here, found, "sudo apt-get install -y ripgrep", essential=False)
+
+
+def unattended(files: dict[str, str]) -> dict[str, str]:
+    """Its configuration, in which a plan's approval is not asked about."""
+    config = json.loads(files[".opencode/opencode.json"])
+    config["permission"] |= {tool.replace(".", "_"): "allow" for tool in PERSONAL}
+    return {".opencode/opencode.json": json.dumps(config, indent=2) + "\n"}
+
+
+def headless(prompt: str, model: str, folder: Path, most_usd: float | None) -> list[str]:
+    """`opencode run`, each event a line; the command's own words come after `--`, since `--auto` is a word of OpenCode's, too."""
+    words = ["run", "--format", "json", "--command", "generate", *(("--model", model) if model else ())]
+    return [*words, "--", "--auto", prompt]
+
+
+def heard(event: dict[str, Any]) -> Heard:
+    """Of a step its tokens and its money; of its agents nothing."""
+    part, kind = mapping(event.get("part")), event.get("type")
+    if kind == "error":
+        error = mapping(event.get("error"))
+        said = str(mapping(error.get("data")).get("message") or error.get("message") or error.get("name") or kind)
+        return Heard(said=said, wrong=True)
+    if kind == "text":
+        return Heard(said=str(part.get("text", "")))
+    if kind != "step_finish":
+        return Heard()
+    tokens = mapping(part.get("tokens"))
+    cache = mapping(tokens.get("cache"))
+    cached = whole(cache.get("read"))
+    return Heard(
+        of=str(part.get("id") or "step"),
+        read=whole(tokens.get("input")) + cached + whole(cache.get("write")),
+        cached=cached,
+        written=whole(tokens.get("output")) + whole(tokens.get("reasoning")),
+        usd=money(part.get("cost")),
+        counted=True,
+        ended=part.get("reason") == "stop",
+    )
 
 
 def _tools(tools: tuple[str, ...]) -> dict[str, str]:

@@ -203,17 +203,15 @@ def _material(view: ModelView, plan: Plan, geoms: list[int], made: Rows) -> str:
     if len(surfaces) > 1:
         raise CannotSayError("its geoms have several surfaces: give it one")
     ((slide, spin, roll), condim, solref) = surfaces.pop()
-    wanted: dict[str, Any] = {
-        "friction": slide if condim >= 3 else 0.0,
-        "torsional_friction": spin if condim >= 4 else 0.0,
-        "rolling_friction": roll if condim >= 6 else 0.0,
-    }
-    if condim < 4:  # MuJoCo's own numbers, which do not act; a plan has them without saying so
-        wanted["torsional_friction"], wanted["rolling_friction"] = 0.005, 0.0001
+    wanted: dict[str, Any] = {"friction": slide if condim >= 3 else 0.0}
+    if condim >= 4:
+        wanted |= {"torsional_friction": spin, "rolling_friction": roll if condim >= 6 else 0.0}
     if (rebound := _rebound(*solref)) is not None:
         wanted["restitution"] = rebound
     for name, own in plan.simulation_parameters.materials.items():
         held = {key: getattr(own, key) for key in (*wanted, "restitution")}
+        if condim < 4 and {"torsional_friction", "rolling_friction"} & own.model_fields_set:
+            continue  # it says what does not act here
         if all(np.isclose(float(held[k] or 0), float(wanted.get(k) or 0), rtol=1e-3, atol=NEAR) for k in held):
             return name
     for name, there in made.materials.items():

@@ -15,19 +15,7 @@ import numpy as np
 from worldkit import lights
 
 KINDS = ("body", "joint", "geom", "site", "camera", "light", "tendon", "actuator", "equality", "flex", "key", "mesh")
-COUNTS = {
-    "body": "nbody",
-    "joint": "njnt",
-    "geom": "ngeom",
-    "site": "nsite",
-    "camera": "ncam",
-    "light": "nlight",
-    "tendon": "ntendon",
-    "equality": "neq",
-    "flex": "nflex",
-    "key": "nkey",
-    "mesh": "nmesh",
-}
+COUNTS = {kind: f"n{kind}" for kind in KINDS} | {"joint": "njnt", "camera": "ncam", "equality": "neq"}
 SEEN_ONLY = """tex_ skin_ light_ mat_ cam_ sensor_ vis stat names paths name_ text_ tuple_ numeric_"""
 DERIVED = """bvh_ oct_ efm efmC mapM mapD B_ M_ D_ ten_J flexedge_J mesh_ hfield_data plugin_attr buffer signature"""
 LEFT_OUT = tuple(f"{SEEN_ONLY} {DERIVED}".split())
@@ -71,6 +59,7 @@ def facts(model: mujoco.MjModel) -> tuple[dict[str, np.ndarray], dict[str, Any]]
         "offscreen": [int(model.vis.global_.offwidth), int(model.vis.global_.offheight)],
         "option": {name: np.array(getattr(option, name)).tolist() for name in dir(option) if not name.startswith("_")},
         "mesh_sha256": [_mesh_sha256(model, mesh) for mesh in range(model.nmesh)],
+        "hfield_sha256": [_hfield_sha256(model, field) for field in range(model.nhfield)],
         "near_m": float(model.vis.map.znear * model.stat.extent),
         "counts": {"nq": model.nq, "nv": model.nv, "nu": model.nu, "nbody": model.nbody, "ngeom": model.ngeom},
         "light": lights.of(model),
@@ -78,8 +67,7 @@ def facts(model: mujoco.MjModel) -> tuple[dict[str, np.ndarray], dict[str, Any]]
     }
     arrays["bond_equality"], arrays["bond_told"], texts["bonds_wrong"] = _bonds(model)
     arrays["gravity"], arrays["wind"] = np.array(option.gravity), np.array(option.wind)
-    light = model.vis.headlight
-    arrays["headlight_colour"] = np.array([light.ambient, light.diffuse])
+    arrays["headlight_colour"] = np.array([model.vis.headlight.ambient, model.vis.headlight.diffuse])
     data = mujoco.MjData(model)
     key = mujoco.mj_name2id(model, mujoco.mjtObj.mjOBJ_KEY, START)
     if key >= 0:
@@ -135,6 +123,19 @@ def _mesh_sha256(model: mujoco.MjModel, mesh: int) -> str:
     return hashlib.sha256(np.round(model.mesh_vert[first : first + count] * 1e7).astype(np.int64).tobytes()).hexdigest()
 
 
+def _hfield_sha256(model: mujoco.MjModel, field: int) -> str:
+    """Hash a height field's grid, its extents and its heights, these rounded to a tenth of a millimetre."""
+    grid, first, size = (
+        (model.hfield_nrow[field], model.hfield_ncol[field]),
+        model.hfield_adr[field],
+        model.hfield_size[field],
+    )
+    heights = model.hfield_data[first : first + grid[0] * grid[1]] * size[2]
+    return hashlib.sha256(
+        np.round(np.concatenate([grid, size * 1e4, heights * 1e4])).astype(np.int64).tobytes()
+    ).hexdigest()
+
+
 def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
     """The start: poses, velocities, contacts, residuals, effective inverse inertias."""
     from worldengine.recording.seen import geom_rgba, skinned, visible
@@ -177,6 +178,7 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "own_high": own_high,
         "bare_low": bare_low,
         "bare_high": bare_high,
+        "body_surface": _surfaces(model),
         "geom_solid": np.array([_solid(model, g) for g in range(model.ngeom)]),
         "geom_middle": np.array([_spread(model, g)[0] for g in range(model.ngeom)]).reshape(-1, 3),
         "geom_spread": np.array([_spread(model, g)[1] for g in range(model.ngeom)]).reshape(-1, 3, 3),
@@ -185,6 +187,16 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "geom_volume": np.array([_volume(model, g) for g in range(model.ngeom)]),
         "actuator_invweight": _actuator_invweight(model, data),
     }
+
+
+def _surfaces(model: mujoco.MjModel) -> np.ndarray:
+    """(nbody,) m^2: what each body cools over; 0 without geoms."""
+    from worldkit.fields.surface_area import of_body
+
+    found = np.zeros(model.nbody)
+    for body in np.unique(model.geom_bodyid):
+        found[body] = of_body(model, int(body))
+    return found
 
 
 def _near(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:

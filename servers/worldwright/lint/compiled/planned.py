@@ -46,7 +46,8 @@ def world(plan: Plan, wall_s: float = fetch.WALL_S) -> fetch.Outcome:
     except (WorldwrightError, ValueError, KeyError) as error:
         return _none(error)
     near = imported.contents(plan)
-    key = hashlib.sha256(repr((text, near)).encode()).hexdigest()
+    parts = [(name, hashlib.sha256(content).hexdigest()) for name, content in sorted(near.items())]
+    key = hashlib.sha256(repr((text, parts)).encode()).hexdigest()
     kept = _KEPT.get(key)
     if kept is None:
         try:

@@ -5,7 +5,9 @@ All are evidence of one key: `interventions.json` (`InterventionReport`, made by
 (`RobustReport`, made by `scan --robust`).
 """
 
-from typing import Literal
+from typing import Any, Literal
+
+from pydantic import Field, model_validator
 
 from ..finding import Anomaly
 from ..frozen import Frozen
@@ -269,6 +271,10 @@ class TriggerResult(Frozen):
     message: str
 
 
+NOT_OFF = "it could not be"
+"""So begins what is said of an intervention whose trial could not be made."""
+
+
 class HelperResult(Frozen):
     """One declared intervention switched off: which claims need it."""
 
@@ -277,7 +283,16 @@ class HelperResult(Frozen):
     law: str
     needed_by: tuple[int, ...]
     """Objectives whose expectations fail without it."""
+    failed: bool = Field(False, exclude_if=lambda value: not value)
+    """The trial without it could not be made, so that nothing is known of it."""
     message: str
+
+    @model_validator(mode="before")
+    @classmethod
+    def _told_in_words(cls, told: Any) -> Any:
+        """Reports of before the field said it in their message alone."""
+        words = isinstance(told, dict) and "failed" not in told and str(told.get("message", "")).startswith(NOT_OFF)
+        return {**told, "failed": True} if words else told
 
 
 class CausesReport(Frozen):

@@ -16,13 +16,13 @@ from typing import Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from ..frozen import Frozen
-from . import breakage, copies
+from . import breakage, copies, vehicle_rows, walking_declared
 from .declared_inputs import Constant, Intervention
 from .drives import Actuator, Tendon
 from .implementation_steps import CameraRow, Step, seen_as_in_image
 from .joint_rows import Joint
 from .observation import ImageObservation
-from .pairings import Medium, Overlap, PairSurface, SurfaceConstants
+from .pairings import Medium, Overlap, PairSurface, SurfaceConstants, least_said, yielded
 from .scene_objects import AssetRow, SceneObject, Vec3
 from .spread import Spread
 from .visualization import RecordingMode, Visualization
@@ -106,6 +106,13 @@ class SimulationParameters(Frozen):
             raise ValueError(f"must be a positive, finite number of seconds, got {value}")
         return value
 
+    @model_validator(mode="after")
+    def _unsaid_frictions_yield(self) -> "SimulationParameters":
+        least = least_said(self.materials.values())
+        object.__setattr__(self, "materials", {name: yielded(row, least) for name, row in self.materials.items()})
+        object.__setattr__(self, "pairs", tuple(yielded(row, least) for row in self.pairs))
+        return self
+
     @property
     def gravity_vector(self) -> Vec3:
         """Gravity as a world-frame vector, m/s^2."""
@@ -121,8 +128,8 @@ class Objective(Frozen):
     visual_only: str | None = None
     """Why the claim cannot be measured, when it cannot."""
     cause: tuple[str, ...] = ()
-    """What the claim is an effect of: bodies, actuators, joints, tendons, constraints, `gravity`, `wind`, or an
-    intervention such as `force:rocket`. Without it, `expect` must fail (`scan --causes`)."""
+    """What the claim is an effect of: bodies, actuators, joints, tendons, constraints, `gravity`, `wind`, `friction` (of
+    all contacts; `top.friction`: of one thing's), or an intervention such as `force:rocket`. Without it, `expect` must fail (`scan --causes`)."""
     effect: str = ""
     """The effect in words, or a list of expectations; where it names expectations, those are the effect."""
 
@@ -275,6 +282,12 @@ class Plan(Frozen):
             breakage.check(self)
             broken = {row.name: row for row in self.scene_objects if row.breaks is not None}
             self.__dict__.update(copies.changes(self, copied), families=copied, broken=broken)
+        if any(row.vehicle is not None for row in self.assets):
+            self.__dict__["simulation_parameters"] = vehicle_rows.parameters(self)
+        if any(row.walks is not None for row in self.assets):
+            self.__dict__["topology"] = self.topology.model_copy(update={"actuators": walking_declared.actuators(self)})
+            acting = {"interventions": walking_declared.interventions(self)}
+            self.__dict__["simulation_parameters"] = self.simulation_parameters.model_copy(update=acting)
         self.visualization.hung(self.families)
         return self
 

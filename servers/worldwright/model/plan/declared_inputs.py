@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from ..frozen import Frozen
 
@@ -30,6 +30,18 @@ class Beside(Frozen):
     """An object that is `visual_only` and shows it: the water's surface, the flex or the geoms that a law moves."""
 
 
+class Live(Frozen):
+    """What acts in a live drive where its driver says nothing."""
+
+    failsafe: Literal["hold", "brake"] | float | None = None
+    """`hold`: the last command; `brake`: a car brakes, with its wheels steered as they are, and any other control is 0; a number: of
+    what is no car. None: a servo of position holds, all else brakes."""
+    timeout_s: float = Field(0.5, gt=0)
+    """It acts so long after the last word, s of the wall clock; at once where the driver leaves."""
+    ends_after_s: float | None = Field(None, gt=0)
+    """So long after the last word the drive ends, s; None: never for that."""
+
+
 class Intervention(Frozen):
     """Something the plan means to do to the state besides the engine's own step."""
 
@@ -43,8 +55,13 @@ class Intervention(Frozen):
     solver: Beside | None = None
     """Of the kind `solver`: the one beside the engine that works it out. None: the program's `control` does."""
 
+    live: Live | None = None
+    """Of the kind `control`: what acts in a live drive (`worldwright live`) where its driver falls silent."""
+
     @model_validator(mode="after")
     def _of_its_kind(self) -> "Intervention":
+        if self.live is not None and self.kind != "control":
+            raise ValueError(f"a row of kind `{self.kind}` has no `live`: nobody drives it; use the kind `control`")
         if self.solver is not None and self.kind != "solver":
             raise ValueError(f"a row of kind `{self.kind}` has no `solver`; use the kind `solver`")
         return self

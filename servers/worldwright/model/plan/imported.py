@@ -1,4 +1,5 @@
-"""What a plan brings in from files: asset rows of type `mjcf`, `urdf` and `sculpt`, read from beside the plan or the catalog.
+"""What a plan brings in with parts of its own: asset rows of type `mjcf`, `urdf` and `sculpt`, read from beside the plan or the
+catalog, and vehicles, which their numbers make.
 
 A model is metric: it owns its size, its masses and its joints. The text goes into the program, so that evidence covers it.
 What a file sculpts has the size that the plan says; the file runs in the sandbox alone, so here nothing is known of it but its text.
@@ -20,7 +21,9 @@ from worldkit import model_files
 from .. import companions, syntax
 from ..errors import PlanError, WorldwrightError
 from .committed import Plan
+from .plan_references import WITH_PARTS
 from .scene_objects import AssetRow, Vec3
+from .walking_rows import policy_of
 
 SUFFIXES = {"mjcf": (".xml", ".mjcf"), "urdf": (".urdf", ".xml")}
 ARCHIVES = (".zip", ".tgz", ".gz", ".tar", ".xz", ".bz2")
@@ -62,9 +65,68 @@ def is_sculpt(row: Any) -> bool:
     return isinstance(row, AssetRow) and row.type == "sculpt"
 
 
+def is_vehicle(row: Any) -> bool:
+    """Whether a row is made by `worldkit.vehicles`."""
+    return isinstance(row, AssetRow) and row.vehicle is not None
+
+
 def inner(plan: Plan) -> tuple[str, ...]:
-    """What the names of parts and joints begin with that models and sculptures bring in."""
-    return tuple(f"{name}_" for row in plan.assets if is_model(row) or is_sculpt(row) for name in row.instances)
+    """What the names of parts and joints begin with that models, sculptures and vehicles bring in."""
+    return tuple(f"{name}_" for row in plan.assets if row.type in WITH_PARTS for name in row.instances)
+
+
+def is_road(row: Any) -> bool:
+    """Whether a row brings in a surveyed road."""
+    return isinstance(row, AssetRow) and row.type == "road"
+
+
+def road_box(row: AssetRow, folder: Path | None) -> tuple[Vec3, Vec3]:
+    """The lowest and the highest corner of the box around a road, in the frame of its file, m.
+
+    Raises:
+        PlanError: the file is not there, or is no OpenCRG file; the message says what is wrong in it.
+    """
+    from worldkit import roads  # it computes with numpy, which no server loads before it must
+
+    path = _inside(row.filename, folder)
+    if path is None or path.suffix != ".crg" or not row.filename.endswith(".crg"):
+        raise PlanError(
+            f"asset `{row.name}` of type road: there is no file {row.filename} beside the plan",
+            next_move="put the OpenCRG file there and name it `roads/NAME.crg`; paths stay inside the folder",
+        )
+    try:
+        status = path.stat()
+        return _road_box(str(path), status.st_mtime_ns, status.st_size)
+    except (roads.RoadFileError, ValueError) as error:
+        raise PlanError(
+            f"asset `{row.name}`: {error}",
+            place=str(path),
+            next_move="take a sound copy of it, or write the road anew (skill vehicles)",
+        ) from error
+
+
+@lru_cache(maxsize=16)
+def _road_box(path: str, _changed: int, _size: int) -> tuple[Vec3, Vec3]:
+    from worldkit import roads
+
+    return roads.box(roads.read(path))
+
+
+def vehicle(row: AssetRow, instance: str) -> Imported:
+    """A vehicle with the names that its parts have in the world."""
+    assert row.vehicle is not None
+    made = row.vehicle.made()
+    x, y, z = made.extents
+    return Imported(
+        text="",
+        folder=None,
+        files=(),
+        extents=(x, y, z),
+        mass_kg=made.mass_kg,
+        bodies=made.bodies(instance),
+        joints=made.joints(instance),
+        actuators=made.actuators(instance),
+    )
 
 
 def sculpture(row: AssetRow, folder: Path | None) -> Path:
@@ -105,6 +167,7 @@ def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imp
     Raises:
         PlanError: the file is missing or is no such model; the message names it, and what is wrong in it.
     """
+    policy_of(row, folder)
     path, home = _file(row, folder)
     text, files = _text(row, path, folder if home is None else None)
     wanted = {"urdf": "<robot", "mjcf": "<mujoco"}[row.type]
@@ -141,14 +204,23 @@ def files(plan: Plan) -> Iterator[Path]:
     """The files beside a plan, relative to it, that its rows name, and what those read; a copy of the plan needs them too."""
     for row in plan.assets:
         if is_model(row) and plan.folder is not None:
-            path = (plan.folder / row.filename).resolve()
-            if path.is_file() and path.is_relative_to(plan.folder.resolve()):
+            with suppress(PlanError):
+                if (
+                    policy_of(row, plan.folder) is not None
+                    and row.walks is not None
+                    and _inside(row.walks.policy, plan.folder)
+                ):
+                    yield Path(row.walks.policy)
+            if _inside(row.filename, plan.folder) is not None:
                 yield Path(row.filename)
                 with suppress(model_files.ModelFileError, UnicodeDecodeError):
                     made = model_files.whole(plan.folder / row.filename, plan.folder)
                     yield from map(Path, made.files)
                     home = plan.folder.resolve()
                     yield from (source.resolve().relative_to(home) for source in made.sources[1:])
+        elif is_road(row) and plan.folder is not None:
+            if row.filename.endswith(".crg") and _inside(row.filename, plan.folder) is not None:
+                yield Path(row.filename)
         elif is_sculpt(row) and plan.folder is not None:
             with suppress(PlanError):
                 path = sculpture(row, plan.folder)
@@ -170,12 +242,22 @@ def contents(plan: Plan) -> dict[str, bytes]:
 
 
 def all_of(plan: Plan) -> Iterator[tuple[str, AssetRow, Imported]]:
-    """Every instance of every model of a plan that loads, with its row and the names it has in the world."""
+    """Every instance of every model of a plan that loads, and of every vehicle, with its row and the names it has in the world."""
     for row in plan.assets:
-        if is_model(row):
+        if is_vehicle(row):
+            yield from ((instance, row, vehicle(row, instance)) for instance in row.instances)
+        elif is_model(row):
             for instance in row.instances:
                 with suppress(PlanError):
                     yield instance, row, load(row, plan.folder, instance)
+
+
+def _inside(name: str, folder: Path | None) -> Path | None:
+    """The file of that name below a folder, or None; no name that leads out and back, since others write by it too."""
+    if folder is None or Path(name).is_absolute() or ".." in Path(name).parts:
+        return None
+    path = (folder / name).resolve()
+    return path if path.is_file() and path.is_relative_to(folder.resolve()) else None
 
 
 def _file(row: AssetRow, folder: Path | None) -> tuple[Path, str | None]:
@@ -199,8 +281,7 @@ def _file(row: AssetRow, folder: Path | None) -> tuple[Path, str | None]:
     with suppress(FileNotFoundError):
         places += [(root, str(Path(row.filename).parent)) for root in (assets.catalog_root(), assets.own_root())]
     for root, home in places:
-        path = (root / row.filename).resolve()
-        if path.is_file() and path.is_relative_to(root.resolve()):
+        if (path := _inside(row.filename, root)) is not None:
             return path, home
     raise PlanError(
         f"asset `{row.name}`: there is no file {row.filename} beside the plan or in the catalog",

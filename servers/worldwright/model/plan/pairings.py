@@ -1,5 +1,8 @@
 """What holds of what meets: two things that rub otherwise than their materials say, or overlap; a joint's stops; the air."""
 
+from collections.abc import Iterable
+from typing import TypeVar
+
 from pydantic import Field
 
 from ..frozen import Frozen
@@ -12,9 +15,10 @@ class Touch(Frozen):
     friction: float = Field(0.5, ge=0)
     """Sliding friction coefficient, unitless."""
     torsional_friction: float = Field(0.005, ge=0)
-    """Metres (MuJoCo's convention: a coefficient times a contact radius)."""
+    """Metres (MuJoCo's convention: a coefficient times a contact radius). Of two surfaces the larger acts; unsaid, it is never
+    larger than the smallest that a material of the plan says."""
     rolling_friction: float = Field(0.0001, ge=0)
-    """Metres."""
+    """Metres; unsaid as above."""
     restitution: float | None = Field(None, ge=0, le=1)
     """Ratio of rebound to impact speed along the normal; None: the engine's default (nearly dead) contact."""
     source: str = ""
@@ -29,6 +33,38 @@ class SurfaceConstants(Touch):
     adhesion: float = Field(0.0, ge=0)
     """N with which it sticks at each contact point; a box's face has four of them, a ball one.
     What hangs by it alone is not held sideways: a breath of wind moves it."""
+
+
+Row = TypeVar("Row", bound=Touch)
+FRICTIONS = ("friction", "torsional_friction", "rolling_friction")
+YIELDING = FRICTIONS[1:]
+"""What rubs where a thing spins or rolls on the spot: few plans say it, and a default is no claim. Sliding friction is always meant."""
+
+
+def least_said(rows: Iterable[Touch]) -> dict[str, float]:
+    """The smallest value that these rows say of each of `YIELDING` which any of them says.
+
+    Where two surfaces meet, the engine lets the larger value act (MuJoCo manual, "Contact parameters"): a row that says
+    nothing must not overrule one that does, so it takes this value where its own default is larger.
+    """
+    told = list(rows)
+    said = {name: [float(getattr(row, name)) for row in told if name in row.model_fields_set] for name in YIELDING}
+    return {name: min(values) for name, values in said.items() if values}
+
+
+def said(row: Touch) -> dict[str, float]:
+    """What a row says of `YIELDING`, the default's value too."""
+    return {name: float(getattr(row, name)) for name in YIELDING if name in row.model_fields_set}
+
+
+def yielded(row: Row, least: dict[str, float]) -> Row:
+    """The row, with what it leaves unsaid no larger than `least`."""
+    changed = {k: v for k, v in least.items() if k not in row.model_fields_set and v < getattr(row, k)}
+    if not changed:
+        return row
+    made = row.model_copy(update=changed)
+    made.__pydantic_fields_set__.difference_update(changed)  # it is still unsaid
+    return made
 
 
 class PairSurface(Touch):

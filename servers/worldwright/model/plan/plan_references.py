@@ -20,6 +20,8 @@ _ACTED_ON = "acted on"
 _WORDS = {"reference": "object", "mover": "object", "parent": "object", "side": "object", "object or row": "object"} | {
     _ACTED_ON: "object, joint, tendon or actuator"
 }
+WITH_PARTS = ("mjcf", "urdf", "sculpt", "vehicle")
+"""Types of assets whose parts have names of their own, behind the asset's and `_`."""
 _SAFE = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,62}")
 
 
@@ -131,6 +133,7 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
         "scene object": (scene, "scene_objects"),
         "asset": ([*rows, *(n for n in objects if n not in scene)], "assets"),
         "asset row": (rows, "assets"),
+        "road": ([str(row.get("name")) for row, _ in _rows(data, "assets") if row.get("type") == "road"], "assets"),
         "material": (materials, "simulation_parameters.materials"),
         "object or row": ([*whole, *rows], "scene_objects or assets"),
         "object or joint": ([*whole, *joints], "scene_objects, assets or topology.joints"),
@@ -145,7 +148,7 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
     inner = tuple(
         f"{name}_"
         for row, _ in _rows(data, "assets")
-        if row.get("type") in ("mjcf", "urdf", "sculpt") and isinstance(name := row.get("name"), str)
+        if row.get("type") in WITH_PARTS and isinstance(name := row.get("name"), str)
     )
     sets = {kind: frozenset(known) for kind, (known, _) in kinds.items()}
     for kind, name, path in _uses(data):
@@ -200,6 +203,9 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
             yield from _one("material", row, path, "material")
             for part, place in _parts(row, path):
                 yield from _one("material", part, place, "material")
+            follows = _dict(_dict(row.get("vehicle")).get("follows"))
+            if follows.get("road"):
+                yield "road", follows["road"], (*path, "vehicle", "follows", "road")
     for key in _dict(data.get("asset_dimensions")):
         yield "asset row", key, ("asset_dimensions", key)
     for key in _at(data, "topology", "body_positions"):

@@ -6,18 +6,25 @@
 from typing import Any
 
 from .committed import SECTIONS, Plan
+from .pairings import said
 from .plan_yaml import inline
 
 _WIDTH = 110
 
 
 def write_plan(plan: Plan) -> str:
-    """The thirteen sections as markdown with YAML blocks, values that equal their defaults left out.
+    """The thirteen sections as markdown with YAML blocks, values that equal their defaults left out, but for frictions of spinning and
+    rolling that are said: what is unsaid yields to them.
 
     Raises:
         ValueError: a value that a text file cannot hold (NaN, an infinity, a lone surrogate).
     """
     data = plan.model_dump(mode="json", exclude_defaults=True)
+    given, told = plan.simulation_parameters, data.get("simulation_parameters", {})
+    for name, row in told.get("materials", {}).items():
+        row |= said(given.materials[name])
+    for row, pair in zip(told.get("pairs", ()), given.pairs, strict=False):
+        row |= said(pair)
     parts = [f"# {title}\n"] if (title := " ".join(plan.title.split())) else []
     for name in SECTIONS:
         parts.append(f"## {name}\n")

@@ -14,6 +14,8 @@ from ..frozen import Frozen
 from .breakage import Breaks
 from .formed import BY_POINTS, NUMBERS, foreign, form
 from .object_parts import ObjectPart, Vec3
+from .vehicle_rows import Vehicle
+from .walking_rows import Walks
 
 if TYPE_CHECKING:
     from worldkit.forms import Form
@@ -205,13 +207,18 @@ def _vector(values: Any) -> Vec3:
 
 
 class AssetRow(Frozen):
-    """A catalog mesh, a model, something sculpted or a simulator-native wrapper, `count` times."""
+    """A catalog mesh, a model, something sculpted, a vehicle or a surveyed road, `count` times."""
 
     name: str
-    type: Literal["mesh", "mjcf", "urdf", "sculpt", "wrapper"] = "mesh"
+    type: Literal["mesh", "mjcf", "urdf", "sculpt", "vehicle", "road"] = "mesh"
     filename: str
     """The exact catalog key; of an mjcf or urdf the file, relative to the plan's folder or the catalog; of a sculpt the file
-    beside the plan that makes it, `sculpt/vase.py` or `sculpt/vase.py:NAME`."""
+    beside the plan that makes it, `sculpt/vase.py` or `sculpt/vase.py:NAME`; a vehicle has none: its kind stands for it; of a
+    road an OpenCRG file beside the plan."""
+    vehicle: Vehicle | None = None
+    """What it is and how it is driven, of a vehicle."""
+    walks: Walks | None = None
+    """The policy that walks it, of an mjcf or urdf."""
     size: Vec3 | None = None
     """Full extents in metres of a sculpt: what the plan claims, and the file is held to. Of nothing else."""
     count: int = Field(1, ge=1, le=10_000)
@@ -220,6 +227,44 @@ class AssetRow(Frozen):
     material: str | None = None
     """Key into `simulation_parameters.materials`; None: the catalog's own constants."""
     look: str | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_its_kind(cls, data: Any) -> Any:
+        """A vehicle is called after its kind where others name a file; a road never moves."""
+        if isinstance(data, dict) and data.get("type") == "road":
+            return _tupled({"fixed": True, **data})
+        if not isinstance(data, dict) or data.get("type") != "vehicle":
+            return _tupled(data)
+        vehicle = data.get("vehicle")
+        kind = str(vehicle.get("kind", "") if isinstance(vehicle, dict) else getattr(vehicle, "kind", ""))
+        if data.get("filename", kind) != kind:
+            raise ValueError("a vehicle is made of its kind and its numbers, and reads no file: remove `filename`")
+        return _tupled({**data, "filename": kind})
+
+    @model_validator(mode="after")
+    def _as_a_road(self) -> "AssetRow":
+        if self.type == "road" and (not self.fixed or self.count > 1 or self.look):
+            raise ValueError(
+                "a road is one, fixed, and asphalt with grass beside it: remove `fixed`, `count` and `look`"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _as_a_vehicle(self) -> "AssetRow":
+        if (self.type == "vehicle") != (self.vehicle is not None):
+            raise ValueError("`type: vehicle` and `vehicle: {kind: car, …}` go together")
+        if self.vehicle is not None and (self.fixed or not self.is_dynamic or self.material):
+            raise ValueError(
+                "a vehicle rolls, and its tyres' friction is one of its `numbers`: remove `fixed`, `is_dynamic` and `material`"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _on_its_feet(self) -> "AssetRow":
+        if self.walks is not None and (self.type not in ("mjcf", "urdf") or self.fixed or not self.is_dynamic):
+            raise ValueError("what `walks` is a model (`type: mjcf` or `urdf`) that is free to move: remove `fixed`")
+        return self
 
     @model_validator(mode="after")
     def _sized(self) -> "AssetRow":

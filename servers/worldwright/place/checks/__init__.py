@@ -16,6 +16,7 @@ from . import (
     density,
     filled,
     framing,
+    frictions,
     image,
     penetration,
     sizes,
@@ -42,6 +43,7 @@ CHECKS: tuple[Callable[[CheckedLayout], None], ...] = (
     image.check,
     stale.check,
     framing.check,
+    frictions.check,
 )
 """The checks, in the order of their findings."""
 

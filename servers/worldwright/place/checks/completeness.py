@@ -55,6 +55,8 @@ def _spoken_of(layout: CheckedLayout) -> None:
     roles = " ".join(row.role.lower() for row in layout.plan.scene_objects)
     told: set[str] = set()
     for index, objective in enumerate(layout.plan.objectives):
+        if objective.visual_only:  # what it speaks of may be drawn by the film alone
+            continue
         for match in _SPOKEN.finditer(objective.claim.lower()):
             category = _first_category(match.group(1))
             if category is None or category.kind not in _PLACES or category.name in told or category.head in _ALWAYS:

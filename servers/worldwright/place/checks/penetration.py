@@ -19,7 +19,12 @@ def check(layout: CheckedLayout) -> None:
 
     whole = {piece: name for name in layout.plan.broken for piece in layout.plan.families[name]}
 
+    # What drives on a road is within its box; whether it stands on its surface, the built world tells.
+    roads = {name for row in layout.plan.assets if row.type == "road" for name in row.instances}
+
     def deep(pair: tuple[str, str, float]) -> bool:
+        if roads & {*pair[:2]}:
+            return False
         if pair[0] in whole and whole[pair[0]] == whole.get(pair[1]):
             return False
         return pair[2] > max(OVERLAP_M, layout.belonging.allowed_m(*pair[:2]))

@@ -4,8 +4,8 @@ import numpy as np
 
 from ...model.finding import Finding
 from ...model.plan.committed import Plan
-from ...model.plan.imported import is_model, is_sculpt
 from ...model.plan.layout import PlacedObject, Scene
+from ...model.plan.plan_references import WITH_PARTS
 from ..anchors import cos_sin
 from ..checks import flagged
 from ..extents import fixed_objects
@@ -162,11 +162,11 @@ def _draw_top(view: View, plan: Plan, scene: Scene, shapes: dict[str, Silhouette
 
 
 def _models(plan: Plan) -> dict[str, str]:
-    """Words for model files and sculptures, which are drawn as boxes, by instance: the type, and the row if its name differs."""
+    """Words for model files, sculptures and vehicles, which are drawn as boxes, by instance: the type, and the row if its name differs."""
     return {
         name: row.type if name == row.name else f"{row.type} {row.name}"
         for row in plan.assets
-        if is_model(row) or is_sculpt(row)
+        if row.type in WITH_PARTS
         for name in row.instances
     }
 

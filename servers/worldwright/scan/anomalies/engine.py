@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from ...model.evidence.reports import CheckRun, ScanReport
-from ...model.finding import Anomaly
+from ...model.finding import Anomaly, AnomalySeverity
 from ...model.recording.trajectory import Trajectory
 from ...shelf import Attribute, Entry, Function, Shelf, failed
 from . import relevance, wholes
@@ -73,7 +73,10 @@ def run_check(entry: Entry, trajectory: Trajectory, context: Context) -> tuple[C
     except Exception as defect:  # a defect of one check must neither end the scan nor pass for a clean motion
         message = f"the check {failed(entry, defect)}"
         whole = (float(trajectory.t[0]), float(trajectory.t[-1]))
-        sign = Sign("world", whole, 1.0, 0.0, "failures", "warn", message)
+        grave: AnomalySeverity = (
+            "blocking" if entry.STAGING else "warn"
+        )  # else a world could stage what fails its check
+        sign = Sign("world", whole, 1.0, 0.0, "failures", grave, message)
         return outcome("skipped", message), [_anomaly(entry, sign)]
     signs = [*_world_signs(trajectory, signs), *signs]
     kept = signs[:PER_CHECK]

@@ -128,6 +128,10 @@ class Causes:
         vanishes = f"without {cause} the effect does not come"
         if survivors:
             vanishes += f" (though {', '.join(survivors)} still holds)"
+        stopped = [label for label in asked if label in self.trials.limited]
+        if stopped and not moved:
+            message = f"{vanishes}, and whether it follows when {cause} is weaker was not seen: {self.trials.failed[stopped[0]]}"
+            return CauseResult(**facts, outcome="unclear", message=message)
         if not labels:
             why = "nothing of it moves" if made else self.trials.failed.get(asked[0], "")
             return CauseResult(**facts, outcome="caused", message=f"{vanishes}; it cannot be weakened: {why}")
@@ -220,7 +224,7 @@ class Causes:
         facts = {"kind": row.kind, "target": row.target, "law": row.law}
         if label not in self.trials.made:
             why = self.trials.failed.get(label, "")
-            return HelperResult(**facts, needed_by=(), message=f"it could not be switched off: {why}")
+            return HelperResult(**facts, needed_by=(), failed=True, message=f"it could not be switched off: {why}")
         after = expecting.expect(self.trials.made[label], self.plan)
         pairs = zip(self.expected.objectives, after.objectives, strict=True)
         needed = tuple(one.index for one, other in pairs if one.status == "proved" != other.status and not other.waits)

@@ -19,7 +19,7 @@ from ..anomalies.sign import Context
 from . import acting, robustness
 from .causes import Causes
 from .refine import FACTOR, refine
-from .trials import Trials, label_of, variant_name
+from .trials import LIMITS, Trials, label_of, variant_name
 
 FINER = ("--time-step-factor", f"{FACTOR:g}")
 CLOSE = 1e-6
@@ -67,6 +67,8 @@ def _fill(trials: Trials, told: tuple[Trial, ...]) -> str:
             trials.made[label] = read_trajectory(folder / "trajectory")
         elif label in failed:
             trials.failed[label] = failed[label]
+            if failed[label].partition(":")[0] in LIMITS:
+                trials.limited.add(label)
         else:
             return f"is told, not shown: of the repetition `{label}` there is no recording of this key"
     return ""

@@ -1,7 +1,8 @@
 """The plan may be approved without a person: every value that a planner chose is marked as inferred.
 
 A value needs no mark when the prompt states it or when it names its source. This covers what changes the outcome: the
-time step, the duration, masses, starting motion, non-standard gravity, and material constants. That each mark names a
+time step, the duration, masses, starting motion, non-standard gravity,
+what drivers of vehicles do, where robots walk, and material constants. That each mark names a
 value that exists is `WP124`.
 
 Why: in auto mode nobody reads the plan before the code is written, so what was assumed must be readable afterwards.
@@ -12,11 +13,13 @@ from collections.abc import Iterator
 
 from ...model.plan.breakage import stated_masses
 from ...model.plan.committed import Plan
+from ...model.plan.vehicle_rows import rolling
 from ..refusal import Refusal
 from ..state import State
 
 CODE = "WG011"
 SECTION = "simulation_parameters."
+VEHICLES = "assets."
 STANDARD_GRAVITY = {-9.81, -9.80665, -9.8}
 
 
@@ -31,7 +34,7 @@ def check(state: State) -> Iterator[Refusal]:
         marked = any(name == mark or name.startswith(mark + ".") or mark.startswith(name + ".") for mark in marks)
         if not marked and not all(any(abs(v - s) <= 1e-9 * max(1, abs(s)) for s in said) for v in values):
             yield Refusal(
-                cause=f"{SECTION}{name} was chosen by the planner and is not marked",
+                cause=f"{'' if name.startswith(VEHICLES) else SECTION}{name} was chosen by the planner and is not marked",
                 next_move=f"add `{name}` to {SECTION}inferred in {state.place}/plan.md, or give its source",
             )
 
@@ -51,13 +54,45 @@ def _chosen(plan: Plan) -> Iterator[tuple[str, list[float]]]:
             yield f"masses.{name}", [mass]
     for name, mass in stated_masses(plan).items():  # pieces have their shares of it
         yield f"masses.{name}", [mass]
+    rolls = rolling(plan)
     for name, motion in parameters.initial_motion.items():
+        if motion.joint_velocity == rolls.get(name, 0.0) and name in rolls:
+            continue  # it follows from the vehicle's speed and its wheels' radius
         numbers = [*motion.linear, *motion.angular, motion.joint_position or 0.0, motion.joint_velocity or 0.0]
         if any(numbers):
             yield f"initial_motion.{name}", [abs(v) for v in numbers if v]
+    yield from _driven(plan)
+    yield from _walked(plan)
     for name, material in parameters.materials.items():
         if not material.source:
             yield f"materials.{name}", [float("nan")]
+
+
+def _driven(plan: Plan) -> Iterator[tuple[str, list[float]]]:
+    """What drivers do; a vehicle's own numbers have a source, and defaults were not chosen."""
+    for row in plan.assets:
+        if row.vehicle is None:
+            continue
+        way = f"{VEHICLES}{row.name}.vehicle"
+        if (follows := row.vehicle.follows) is not None:
+            usual = type(follows).model_fields
+            for name in ("speed_m_s", "across_m_s2", "faster_m_s2", "slower_m_s2", "left_m"):
+                if (value := getattr(follows, name)) != usual[name].default:
+                    yield f"{way}.follows.{name}", [abs(value)]
+        for index, given in enumerate(row.vehicle.inputs):
+            for name in ("t", "over_s", "steering_deg", "throttle", "brake"):
+                if value := getattr(given, name):
+                    yield f"{way}.inputs.{index}.{name}", [abs(value)]
+
+
+def _walked(plan: Plan) -> Iterator[tuple[str, list[float]]]:
+    """Where robots are told to walk; defaults were not chosen."""
+    for row in plan.assets:
+        if row.walks is None:
+            continue
+        for name in ("speed_m_s", "until_s", "y_m", "heading_deg"):
+            if (value := getattr(row.walks, name)) != type(row.walks).model_fields[name].default:
+                yield f"{VEHICLES}{row.name}.walks.{name}", [abs(value)]
 
 
 def _numbers(state: State) -> set[float]:

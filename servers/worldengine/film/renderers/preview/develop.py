@@ -29,15 +29,17 @@ class Developer:
         self.width, self.height = width, height
         self._glow = gl.Program("screen.vert", "glow.frag")
         self._quarter = gl.Program("screen.vert", "quarter.frag")
-        self._film = gl.Program("screen.vert", "develop.frag")
+        self._films: dict[bool, gl.Program] = {}
         self._edges = gl.Program("screen.vert", "edges.frag")
         self._curve = _curve_texture()
         self._halves = [gl.Target(max(width >> i, 1), max(height >> i, 1), GL.GL_RGBA16F) for i in STEPS]
         self._developed = gl.Target(width, height, GL.GL_RGBA8)
         self._out = gl.Target(width, height, GL.GL_RGBA8)
 
-    def draw(self, scene: int, exposure: float, vignette: float, treatment: Treatment = PLAIN) -> np.ndarray:
-        """Develop the texture `scene` as a film grades it: uint8 (H, W, 3), row 0 the top."""
+    def draw(
+        self, scene: int, exposure: float, vignette: float, treatment: Treatment = PLAIN, *, rounded: bool = False
+    ) -> np.ndarray:
+        """Develop the texture `scene` as a film grades it, around lamps with a `rounded` glow: uint8 (H, W, 3), row 0 the top."""
         GL.glDisable(GL.GL_DEPTH_TEST)
         GL.glDisable(GL.GL_BLEND)
         source, size = scene, (self.width, self.height)
@@ -48,13 +50,19 @@ class Developer:
             GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
             source, size = half.colour, (half.width, half.height)
         self._developed.bind()
-        program = self._film.use().set(
-            depth=0.0,
-            exposure=exposure * 2.0**treatment.grade_exposure_stops,
-            vignette=vignette if treatment.grade_vignette is None else treatment.grade_vignette,
-            gains=gains(treatment.grade_temperature, treatment.grade_tint),
-            glow_share=0.045 if treatment.grade_glow is None else treatment.grade_glow,
-            grading=(treatment.grade_contrast, treatment.grade_saturation, 1.0 - treatment.grade_fade, 0.0),
+        if rounded not in self._films:
+            self._films[rounded] = gl.Program("screen.vert", "develop.frag", ROUND=int(rounded))
+        program = (
+            self._films[rounded]
+            .use()
+            .set(
+                depth=0.0,
+                exposure=exposure * 2.0**treatment.grade_exposure_stops,
+                vignette=vignette if treatment.grade_vignette is None else treatment.grade_vignette,
+                gains=gains(treatment.grade_temperature, treatment.grade_tint),
+                glow_share=0.045 if treatment.grade_glow is None else treatment.grade_glow,
+                grading=(treatment.grade_contrast, treatment.grade_saturation, 1.0 - treatment.grade_fade, 0.0),
+            )
         )
         program.texture("scene", 0, scene).texture("glow", 1, source).texture("curve", 2, self._curve)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)

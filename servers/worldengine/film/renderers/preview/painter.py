@@ -35,6 +35,15 @@ UNSEEN_PX = 40.0
 """The radius assumed where no eye looks, as in the shadow map."""
 
 
+def spans(batch: Batch, wanted: np.ndarray, barred: np.ndarray) -> Iterator[tuple[int, int]]:
+    """First row and number of the stretches of a batch, few and long, that hold all that are wanted and none that are barred."""
+    rows = np.array(batch.rows)
+    for stretch in np.split(rows, np.flatnonzero(barred[rows])):
+        inner = stretch[wanted[stretch] & ~barred[stretch]]
+        if len(inner):
+            yield int(inner[0]), int(inner[-1] - inner[0] + 1)
+
+
 class Painter:
     """Draws the things of a model, the `walls` around them and what is soft.
 
@@ -129,14 +138,19 @@ class Painter:
         clear: bool | None = False,
         ground: bool = True,
         walls: bool = True,
+        only: tuple[np.ndarray, np.ndarray] | None = None,
     ) -> None:
-        """Draw batches with one program into a picture of `height` pixels, seen by `view` (None: by the light)."""
+        """Draw batches with one program into a picture of `height` pixels, seen by `view` (None: by the light).
+
+        `only`, two of (N,) bool: which of the things are to be drawn, others may be, and which must not.
+        """
         program.set(things=2)
         with gl.FarSides(flipped) as far_sides:
             for batch in self.batches(clear=clear, ground=ground, walls=walls):
                 far_sides.hide(batch.shape[0] in CLOSED)
-                program.set(first=batch.first)
-                self._shape(batch, view, height).draw(len(batch.rows))
+                for first, count in [(batch.first, len(batch.rows))] if only is None else spans(batch, *only):
+                    program.set(first=first)
+                    self._shape(batch, view, height).draw(count)
             far_sides.hide(False)
             for shape, batch, count in self._soft(clear):
                 program.set(first=batch.first)
@@ -153,7 +167,7 @@ class Painter:
         reflecting, panels = "reflection" in self._textures, bool(self._uniforms["panel_count"])
         wanted = features(
             batch, self.setting, reflecting=reflecting, simple=simple, mirror=mirror, paint=kind, panels=panels,
-            gobo="gobo" in self._textures, coloured=shape.coloured,
+            lamps=bool(self._uniforms["lamp_count"]), gobo="gobo" in self._textures, coloured=shape.coloured,
         )  # fmt: skip
         program = self._variants.get(wanted).use()
         if wanted not in self._prepared:

@@ -26,6 +26,7 @@ from .eye import View, of_camera
 from .finish import Finish, linear
 from .first_seen import FirstSeen
 from .focus import Focus
+from .lamp_maps import LampLight
 from .lighting import relight, sky_uniforms
 from .occlusion import Occlusion
 from .painter import Painter
@@ -126,6 +127,7 @@ class Pipeline:
         self.painter = Painter(model, self.setting.index, self.things, walls, wall_rows.astype(np.float32), height)
         self._skies: dict[int, gl.Program] = {}
         self._depth_program = gl.Program("thing.vert", "shadow.frag", FULL=0)
+        self.lamps = LampLight(model, self.things, self.lights)
         self._first_seen = FirstSeen(model, self.painter, width, height, RANK_STEP)
 
     def _weigh(self) -> None:
@@ -201,7 +203,7 @@ class Pipeline:
         rows, aims, count = light_rows(self.model, data, setting, self.lights)
         span = max(self.radius, 0.55 * float(np.linalg.norm(view.eye - self.centre)))
         return {
-            **self._sky_uniforms, **self._air(), "view_projection": view.matrix(), "to_clip": view.matrix(), "eye": view.eye,
+            **self._sky_uniforms, **self._air(), **self.lamps.uniforms, "view_projection": view.matrix(), "to_clip": view.matrix(), "eye": view.eye,
             "forward": view.forward, "pixels": (float(size[0]), float(size[1])), "harmonics": self._around.harmonics,
             "ground_light": self._ground_light, "ground_mean": self.ground_mean(), "key_sharp": 0.0 if setting.key_in_sky else 1.0,
             "key_spread": setting.key_spread, "lights": rows, "light_aims": aims, "light_count": count,
@@ -303,6 +305,13 @@ class Pipeline:
         small = stage.occlusion.height
         stage.occlusion.draw(view, lambda program: painter.draw(program, view, small))
         reflecting = self._polished(view)
+        level = np.array(self.setting.key.colour) * max(self._key[2], 0.0)
+        self.lamps.draw(
+            data, view, max(stage.width, stage.height), stage.occlusion,
+            light_rows(self.model, data, self.setting, self.lights), level, self._ground_light - level,
+            lambda program, only: painter.draw(program, None, height, flipped=True, ground=False, walls=False, only=only),
+            everywhere=reflecting,
+        )  # fmt: skip
         if reflecting:
             self._reflect(stage, view, data)
         mirrors, clear = painter.mirrors(), painter.clear()
@@ -325,7 +334,8 @@ class Pipeline:
             if stage.focus is None:
                 stage.focus = Focus(stage.width, stage.height)
             scene = stage.focus.draw(stage.picture, view, told.focus_m, told.aperture)
-        return stage.developer.draw(scene, self.setting.exposure, self.setting.vignette, told)
+        traits = self.setting.exposure, self.setting.vignette, told
+        return stage.developer.draw(scene, *traits, rounded=self.lamps.any)
 
     def _textures(self, stage: Stage, reflecting: bool) -> dict[str, tuple[int, int]]:
         """Unit and texture of everything that materials read."""
@@ -338,7 +348,7 @@ class Pipeline:
             "guide": (11, stage.occlusion.guide.colour),
             "behind_depth": (12, behind.depth if behind else black),
         }
-        out |= self._slide()
+        out |= self._slide() | self.lamps.textures
         return out | {"reflection": (10, stage.mirror.colour)} if reflecting and stage.mirror else out
 
     def _reflect(self, stage: Stage, view: View, data: mujoco.MjData) -> None:

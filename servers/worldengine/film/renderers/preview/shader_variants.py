@@ -31,6 +31,8 @@ class Features:
     """0: not the ground; 1: ground; 2: ground that mirrors the world."""
     clear: bool
     panels: bool
+    lamps: bool
+    """Lamps cast shadows."""
     gobo: bool
     """A slide is before the key light."""
     mirror: bool
@@ -50,6 +52,7 @@ def features(
     mirror: bool,
     paint: int,
     panels: bool,
+    lamps: bool,
     gobo: bool,
     coloured: bool,
 ) -> Features:
@@ -72,6 +75,7 @@ def features(
         ground=ground,
         clear=batch.clear,
         panels=panels,
+        lamps=lamps,
         gobo=gobo,
         mirror=mirror,
         coloured=coloured,

@@ -14,7 +14,7 @@ from ... import swaying
 from ...panel_lights import of_model
 from ..preview import unit_shapes
 from ..preview.things import EXACT_UV, FLAT_UV, Things
-from . import rounded, rubbed
+from . import bulbs, rounded, rubbed
 from .absorbed import lets_through
 from .coatings import CLEAR, CORNERS, Coatings
 from .ground_rings import rings
@@ -210,6 +210,9 @@ class Figures:
         self.clear = any(batch.clear for batch in self.things.batches)
         """Glass or water is in the world, which takes longer paths."""
         groups: dict[Any, Figure] = {}
+        rows = self.things.rows
+        glowing = self.things.geoms[(rows[:, 29] > 0) & (rows[:, 37] == 0) & (rows[:, 19] >= CLEAR)]
+        self.bulbs = bulbs.within(model, rest, glowing)
         panels = {panel.geom for panel in of_model(model)}  # emitters of their own
         for batch in self.things.batches:
             if batch.shape[0] == "disc":
@@ -236,6 +239,8 @@ class Figures:
         glow = rgb * float(numbers[29]) if entry.emission > 0 and entry.clear == 0 and alpha >= CLEAR else np.zeros(3)
         if batch.finish.texture >= 0 or entry.paint:  # what glows by a picture glows in its mean colour
             glow = np.asarray(batch.finish.mean) * float(numbers[29]) if glow.any() else glow
+        if glow.any() and geom in self.bulbs:
+            glow = np.maximum(glow, bulbs.radiance(self.model, geom, self.bulbs[geom]))
         see_through = batch.clear and not sheet
         alone = see_through or geom in self._swaying
         key = (-1 if fixed else body, id(coating), tuple(glow), geom if alone else -1)

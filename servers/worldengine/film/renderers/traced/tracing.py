@@ -63,6 +63,8 @@ class Tracing:
             self._adopt_key(rest)
         self.setting, self._treatment = self._own, PLAIN
         self.figures = Figures(model, rest)
+        held = {light for lamps in self.figures.bulbs.values() for light in lamps}
+        self._lights = [light for light in self._lights if light not in held]
         self._strands = Strands(model, rest, self.figures.coatings)
         low, high = self.figures.things.bounds(rest)
         space = space_of(model)
@@ -225,7 +227,7 @@ class Tracing:
             view, outlook, drawn, painted = self._seen(data, camera)
             seed = number * SEEDS_APART
             rays = self.trace(data, view, drawn, shutter.each, seed, shutter.coarser, shutter.guides, where)
-            if shutter.samples < FINEST:
+            if shutter.samples < FINEST or self.figures.bulbs:  # a bulb seen outright would glow over all
                 np.minimum(rays.light, BRIGHTEST, out=rays.light)
             mean = rays if mean is None else mean.joined(rays, number)
             if number % apart == 0:

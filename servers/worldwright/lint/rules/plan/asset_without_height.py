@@ -11,7 +11,6 @@ Use instead: one entry `name: height in metres` per asset row.
 
 from collections.abc import Iterator
 
-from ....model.plan.imported import is_model, is_sculpt
 from ...case import Changes
 from ...harm import Argued
 from ...plan_view import PlanView
@@ -32,7 +31,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     """Check every asset row, then every height."""
     heights = view.plan.asset_dimensions
     for index, row in enumerate(view.plan.assets):
-        if row.name not in heights and not is_model(row) and not is_sculpt(row):
+        if row.name not in heights and row.type == "mesh":
             yield view.at(
                 ("assets", index),
                 f"asset `{row.name}` has no height",

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 
 from ....model.errors import PlanError
-from ....model.plan.imported import all_of, is_model, is_sculpt, load, sculpture
+from ....model.plan.imported import all_of, is_model, is_road, is_sculpt, load, road_box, sculpture
 from ...case import Changes
 from ...harm import Argued
 from ...plan_view import Place, PlanView
@@ -37,9 +37,9 @@ def check(view: PlanView) -> Iterator[Problem]:
     """Check each file, then the names and masses that the plan uses of it."""
     plan = view.plan
     for index, row in enumerate(plan.assets):
-        if is_model(row) or is_sculpt(row):
+        if is_model(row) or is_sculpt(row) or is_road(row):
             try:
-                (load if is_model(row) else sculpture)(row, plan.folder)
+                (load if is_model(row) else road_box if is_road(row) else sculpture)(row, plan.folder)
             except PlanError as error:
                 yield view.at(("assets", index, "filename"), error.cause, error.next_move)
     parameters = plan.simulation_parameters
@@ -72,4 +72,6 @@ def check(view: PlanView) -> Iterator[Problem]:
         mass = parameters.masses.get(instance, parameters.masses.get(row.name))
         if mass is not None and abs(mass - model.mass_kg) > AGREES * model.mass_kg:
             message = f"`{instance}` weighs {model.mass_kg:.4g} kg by {row.filename}, not {mass:g} kg"
-            yield view.at(("simulation_parameters", "masses"), message, "the file owns its masses: correct one of them")
+            yield view.at(
+                ("simulation_parameters", "masses"), message, "what brings it in owns its masses: correct one of them"
+            )

@@ -1,6 +1,7 @@
 """An object is expected to move, but nothing measures it.
 
-What it does: compares the steps' `motion_expectations` with the bodies named by expectations.
+What it does: compares the steps' `motion_expectations` with the bodies named by expectations. Movers that joints join to one that
+is named count with it.
 
 Why is this bad: the claim that it moves rests on somebody's eyes alone; if it stays, nothing fails.
 
@@ -23,6 +24,14 @@ GOOD: Changes = (
     {},
     {"objectives": [{"claim": "All rest.", "expect": [{"comes_to_rest": {"bodies": ["crate", "mug"]}}]}]},
 )
+CHAIN = {
+    "implementation_steps": [
+        {"description": "b", "cameras": ["top_down", "perspective"], "motion_expectations": ["crate", "mug"]}
+    ],
+    "topology": {"joints": [{"name": "hinge", "type": "hinge", "parent": "crate", "child": "mug"}]},
+    "objectives": [{"claim": "It moves.", "expect": [{"moves": {"body": "mug", "min_m": 0.1}}]}],
+}
+GOOD += (CHAIN,)
 BAD: Changes = (
     {"objectives": [{"claim": "It stays.", "expect": [{"stays": {"body": "mug"}}]}]},
     {
@@ -47,6 +56,8 @@ def check(view: PlanView) -> Iterator[Problem]:
                 named |= found
     broken = {name: view.plan.families[name] for name in view.plan.broken}
     families = {piece: {name, f"{name}_*", *pieces} for name, pieces in broken.items() for piece in pieces}
+    movers = {mover for step in view.plan.implementation_steps for mover in step.motion_expectations}
+    named |= _joined(view, named & movers, movers)
     for index, step in enumerate(view.plan.implementation_steps):
         for number, mover in enumerate(step.motion_expectations):
             described = view.rows.get(mover)
@@ -61,6 +72,18 @@ def check(view: PlanView) -> Iterator[Problem]:
                 yield view.at(
                     place, f"nothing measures that `{mover}` moves", f"expect e.g. `- moves: {{body: {mover}}}`"
                 )
+
+
+def _joined(view: PlanView, named: set[str], movers: set[str]) -> set[str]:
+    """Movers that joints join to named ones, over other movers; what does not move, such as a door's frame, joins nothing."""
+    found, waiting = set(named), list(named)
+    joints = [(joint.parent, joint.child) for joint in view.plan.topology.joints]
+    while waiting:
+        one = waiting.pop()
+        near = {b if a == one else a for a, b in joints if one in (a, b)} & movers - found
+        found |= near
+        waiting += near
+    return found
 
 
 def _strings(value: Any) -> Iterator[str]:

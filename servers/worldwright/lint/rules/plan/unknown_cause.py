@@ -1,8 +1,9 @@
 """An objective's cause names nothing that the plan has, or nothing that could be taken away.
 
 What it does: resolves every `cause` of an objective: objects, asset rows, joints, tendons, actuators, `gravity`, `wind`,
-`control`, or `kind:target` of an intervention; of a body also `.weight`, and `.velocity` where it starts with one. Several may be
-joined by `+`.
+`friction`, `control`, or `kind:target` of an intervention; of a body also `.weight`, `.friction` (at its contacts), and
+`.velocity` where it starts with one. Several may be
+joined by `+`. A solver or a law by its own name is an error: what it does to a body is taken away, `solver:BODY`.
 
 Why is this bad: the causal audit takes the cause away and looks whether the effect vanishes. What is not there cannot be
 taken away, so the objective stays without that proof; without a starting velocity the weakened world is the same world.
@@ -24,6 +25,11 @@ CODE = "WP115"
 SEVERITY = "warning"
 CLAIM = {"claim": "It slides.", "expect": [{"moves": {"body": "crate", "min_m": 0.1}}]}
 PUSH = {"interventions": [{"kind": "force", "bodies": ["crate"], "law": "F = 3 N", "source": "catalogue of the winch"}]}
+RUBBER = {
+    "interventions": [
+        {"kind": "solver", "bodies": ["crate", "world"], "law": "Hooke, 3 N/m", "source": "the prompt's band", "solver": {"name": "rubber", "file": "laws/rubber.py"}}
+    ]
+}  # fmt: skip
 
 
 def _tow(name: str) -> dict:
@@ -34,7 +40,9 @@ GOOD: Changes = (
     {"objectives": [{**CLAIM, "cause": "gravity"}]},
     {"objectives": [{**CLAIM, "cause": ["ramp + gravity"]}]},
     {"objectives": [{**CLAIM, "cause": "crate.velocity"}]},
+    {"objectives": [{**CLAIM, "cause": ["friction", "crate.friction", "ground.friction"]}]},
     {"objectives": [{**CLAIM, "cause": "force:crate"}], "simulation_parameters": PUSH},
+    {"objectives": [{**CLAIM, "cause": "solver:crate"}], "simulation_parameters": RUBBER},
     {"objectives": [{**CLAIM, "cause": "tow+tow_2"}], "topology": {"tendons": [_tow("tow"), _tow("tow_2")]}},
 )
 BAD: Changes = (
@@ -45,10 +53,11 @@ BAD: Changes = (
     {"objectives": [{**CLAIM, "cause": "gravity.velocity"}]},
     {"objectives": [{**CLAIM, "cause": "mug.velocity"}]},
     {"objectives": [{**CLAIM, "cause": "gravity + crate.velocity"}], "simulation_parameters": {"initial_motion": None}},
+    {"objectives": [{**CLAIM, "cause": "solver:rubber"}], "simulation_parameters": RUBBER},
 )
 EVIDENCE = Argued("no run can be made without a thing that is not in it; the audit refuses the name")
-WORLD = ("gravity", "wind", "control")
-ASPECTS = ("velocity", "weight")
+WORLD = ("gravity", "wind", "friction", "control", "ground.friction")
+ASPECTS = ("velocity", "weight", "friction")
 """Properties that can be taken away from a body while the body stays."""
 BUILT = ("actuator", "constraint", "equality", "tendon", "body", "geom", "joint", "flex")
 """Kinds that only the program declares: `actuator:winch` is believed."""
@@ -81,11 +90,23 @@ def check(view: PlanView) -> Iterator[Problem]:
                     or (whole in bodies and aspect in ASPECTS)
                 ):
                     continue
+                if bodies_of := _acts_on(plan, part):
+                    fix = f"name what it does to a body: {', '.join(bodies_of)}"
+                    what = f"the cause `{part}` is the name of what steps beside the engine, which nothing takes away"
+                    yield view.at(("objectives", index, "cause"), what, fix, severity="error")
+                    continue
                 near = get_close_matches(part, sorted(known), n=3, cutoff=0.5)
                 fix = (
                     "did you mean " + ", ".join(near) + "?" if near else "name one of: " + ", ".join(sorted(known)[:30])
                 )
                 yield view.at(("objectives", index, "cause"), f"the cause `{part}` is not in the plan", fix)
+
+
+def _acts_on(plan: Plan, cause: str) -> list[str]:
+    """What can be taken away of a solver or law that a cause calls by its own name: `solver:BODY`; nothing of any other cause."""
+    kind, _, name = cause.partition(":")
+    rows = [row for row in plan.simulation_parameters.interventions if row.solver and row.solver.name == (name or kind)]
+    return [f"solver:{body}" for row in rows for body in row.bodies] if kind == "solver" or not name else []
 
 
 def _starts_moving(plan: Plan, name: str) -> bool:

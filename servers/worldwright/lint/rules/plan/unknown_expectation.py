@@ -13,6 +13,7 @@ from collections.abc import Iterator
 from difflib import get_close_matches
 from typing import Any
 
+from ....model.plan.imported import all_of
 from ...case import Changes
 from ...expectation_names import vocabulary
 from ...harm import Argued
@@ -50,6 +51,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     known = vocabulary()
     cameras = [row.name for row in view.plan.cameras()]
     objects = [*view.rows, *(joint.name for joint in view.plan.topology.joints), *SCENERY]
+    objects += [name for _, _, model in all_of(view.plan) for name in model.names()]
     for index, objective in enumerate(view.plan.objectives):
         for number, row in enumerate(objective.expect):
             for name, arguments in row.items():

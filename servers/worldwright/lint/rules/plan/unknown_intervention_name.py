@@ -14,6 +14,7 @@ import re
 from collections.abc import Iterator
 from difflib import get_close_matches
 
+from ....model.plan.plan_references import WITH_PARTS
 from ....model.plan.trigger import threshold, touching
 from ...case import Changes
 from ...harm import Argued
@@ -67,7 +68,7 @@ def check(view: PlanView) -> Iterator[Problem]:
     joints = [row.name for row in plan.topology.joints]
     tendons = [row.name for row in plan.topology.tendons]
     actuators = [row.name for row in plan.topology.actuators]
-    inner = tuple(f"{row.name}_" for row in plan.assets if row.type in ("mjcf", "urdf", "sculpt"))
+    inner = tuple(f"{row.name}_" for row in plan.assets if row.type in WITH_PARTS)
     soft = {row.name for row in plan.scene_objects if row.dynamic and not row.fixed and not row.parts}
     known = [*objects, *joints, *tendons, *actuators]
     paths = {

@@ -10,11 +10,12 @@ moves where their mean does, against half of its reach; what touches it is not r
 Source: the reference paper's plan format, `motion_expectations`, `fixed`.
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 import numpy as np
 
 from ....model.finding import AnomalySeverity
+from ....model.plan.imported import all_of, is_sculpt
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ..sign import Case, Context, Sign, SkipError
@@ -33,6 +34,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     for b in (trajectory.names.index(name) for name in context.fixed if name in trajectory.names):
         yield from _moves(trajectory, b, 1e-6 * float(trajectory.size_m[b]), "blocking", "although the plan fixes it")
     asked, whole = asked_of_wholes(context, trajectory), assembled(trajectory)
+    carried = _carried(context, asked.movers, whole.names)
     soft = {point for points in trajectory.flex_points.values() for point in points}
     if context.movers:
         yield from _flexes(trajectory, context)
@@ -42,6 +44,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             or name in soft
             or name in context.fixed
             or name in asked.movers
+            or name in carried
             or not whole.moves_freely[b]
         ):
             continue
@@ -54,6 +57,17 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         else:
             why = "although nothing that should move touched it and no step expects it"
             yield from _moves(whole, b, limit, "warn", why)
+
+
+def _carried(context: Context, movers: Collection[str], names: Collection[str]) -> set[str]:
+    """What models, vehicles and sculptures that are expected to move bring along; a sculpture's parts are known by their names alone."""
+    plan = context.plan
+    if plan is None:
+        return set()
+    found = {body for instance, _, facts in all_of(plan) if instance in movers for body in facts.bodies}
+    shaped = tuple(f"{i}_" for row in plan.assets if is_sculpt(row) for i in row.instances if i in movers)
+    own = {i for row in (*plan.scene_objects, *plan.assets) for i in row.instances}
+    return found | {name for name in names if name.startswith(shaped) and name not in own}
 
 
 def _flexes(trajectory: Trajectory, context: Context) -> Iterator[Sign]:

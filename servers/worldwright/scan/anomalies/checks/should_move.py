@@ -6,7 +6,8 @@ picture shows, the event did not happen.
 Formula: the largest distance from its first position, and the largest turn from its first orientation.
 Threshold: 2 % of the bounding radius and 2 degrees: less cannot be seen. Blocking: the plan lists the body under
 `motion_expectations`. A part that is welded to another body moves as far as that carries it, and turns as it does; a flex
-moves where one of its points does, and what breaks where one of its pieces does.
+moves where one of its points does, and what breaks where one of its pieces does. A claim that less would hold is told of the plan
+(`WP134`); how far a body gets, a rehearsal tells before the plan is approved.
 Source: the reference paper's plan format, `motion_expectations`.
 """
 
@@ -15,7 +16,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ....model.recording.trajectory import Trajectory
-from ....model.recording.travel import least_m, stays_put, travel
+from ....model.recording.travel import TURN_RAD, least_m, stays_put, travel
 from ...known import analytic
 from ..sign import Case, Context, Sign, SkipError
 
@@ -46,6 +47,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             limit = least_m(trajectory, b)
             turns = f"{np.degrees(turned):.2g} degrees"
             message = f"the plan expects {name} to move, but it moves {moved:.3g} m and turns {turns}"
+            message += f"; from {limit:.2g} m or {np.degrees(TURN_RAD):.0f} degrees on it counts as moving"
             yield Sign(name, whole, moved, limit, "m", "blocking", message)
 
 

@@ -15,8 +15,23 @@ float film(float x) {
     return texelFetch(curve, ivec2(min(int(sqrt(sqrt(x * (1.0 / 16.0))) * float(last) + 0.5), last), 0), 0).r;
 }
 
+#if ROUND
+// A cubic B-spline of the glow, by four taps between texels: its few texels would show as squares around a lamp.
+vec3 glowing() {
+    vec2 size = vec2(textureSize(glow, 0)), p = at * size - 0.5, f = fract(p), g = 1.0 - f;
+    vec2 low = (g * g * g + 4.0 + 3.0 * f * f * (f - 2.0)) / 6.0, high = 1.0 - low;
+    vec2 a = (4.0 + 3.0 * f * f * (f - 2.0)) / 6.0 / low - 0.5, b = f * f * f / 6.0 / high + 1.5;
+    a = (p - f + a) / size;
+    b = (p - f + b) / size;
+    return (textureLod(glow, a, 0.0).rgb * low.x + textureLod(glow, vec2(b.x, a.y), 0.0).rgb * high.x) * low.y
+        + (textureLod(glow, vec2(a.x, b.y), 0.0).rgb * low.x + textureLod(glow, b, 0.0).rgb * high.x) * high.y;
+}
+#else
+vec3 glowing() { return textureLod(glow, at, 0.0).rgb; }
+#endif
+
 void main() {
-    vec3 c = mix(texelFetch(scene, ivec2(gl_FragCoord.xy), 0).rgb, textureLod(glow, at, 0.0).rgb, glow_share) * gains;
+    vec3 c = mix(texelFetch(scene, ivec2(gl_FragCoord.xy), 0).rgb, glowing(), glow_share) * gains;
     vec2 q = (at - 0.5) * vec2(1.0, 0.85);
     c *= exposure * (1.0 - vignette * smoothstep(0.05, 0.62, dot(q, q) * 1.9));
     // Strong light loses some of its colour, as on film.

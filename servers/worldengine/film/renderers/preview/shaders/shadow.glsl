@@ -1,4 +1,4 @@
-// Soft shadows of the key light: a blocker search gives the width of the penumbra, a filter of that width its shade.
+// Soft shadows: a blocker search gives the width of the penumbra, a filter of that width its shade.
 // After Fernando, "Percentage-Closer Soft Shadows" (2005); blocks of the map that are wholly lit or dark are skipped.
 uniform sampler2D shadow_depth;
 uniform sampler2DShadow shadow_compare;
@@ -7,6 +7,42 @@ uniform mat4 to_shadow;      // world to (u, v, depth), each in 0..1
 uniform vec4 shadow_scale;   // metres per unit of u, metres per unit of depth, tangent of the light's radius, widest radius in u
 uniform int blockers, filters;
 
+// The first way in which a pixel looks around itself; `WHIRL` turns it by the golden angle.
+const mat2 WHIRL = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689);
+vec2 first_way(vec2 pixel) {
+    float turn_angle = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) * 6.2831853;
+    return vec2(cos(turn_angle), sin(turn_angle));
+}
+
+// The share of a light that reaches `s` (u, v, depth) after so many `turns` of search. `depth_here` is its depth with no limit,
+// `gradient` the depth of its own plane by u and v, `last` more than any depth but an empty texel's; radii are in u: `per_depth`
+// by how far a blocker is before it, the `widest` searched, from `least` to `most`; `start` and `whirl` turn the taps.
+float softened(sampler2D depths, sampler2DShadow compare, vec3 s, float depth_here, vec2 gradient, float bias, float last, int turns,
+               float per_depth, float widest, float least, float most, vec2 start, mat2 whirl) {
+    vec2 way = start;
+    float found = 0.0, sum = 0.0;
+    for (int i = 0; i < turns; i++) {
+        vec2 o = sqrt((float(i) + 0.5) / float(blockers)) * widest * way;
+        way = whirl * way;
+        float d = textureLod(depths, s.xy + o, 0.0).r;
+        float blocks = step(d, min(s.z + dot(gradient, o) - bias, last));
+        found += blocks;
+        sum += blocks * d;
+    }
+    turns = found < 0.5 ? 0 : filters;
+    float radius = clamp(per_depth * max(depth_here - sum / max(found, 1.0), 0.0), least, most);
+    float light_sum = 0.0;
+    way = start;
+    for (int i = 0; i < turns; i++) {
+        vec2 o = sqrt((float(i) + 0.5) / float(filters)) * radius * way;
+        way = whirl * way;
+        light_sum += texture(compare, vec3(s.xy + o, min(s.z + dot(gradient, o) - bias, last)));
+    }
+    float share = turns == 0 ? 1.0 : light_sum / float(filters);
+    return mix(share, share * share * (3.0 - 2.0 * share), 0.6);
+}
+
+// The share of the key light that reaches p.
 float lit(vec3 p, vec3 n, vec3 light, vec2 pixel) {
     float texel = 1.0 / float(textureSize(shadow_depth, 0).x);
     float slope = dot(n, light);
@@ -29,28 +65,7 @@ float lit(vec3 p, vec3 n, vec3 light, vec2 pixel) {
     bool all_dark = !all_lit && bounds.y < s.z - bias - length(gradient) * widest;
     // Drivers that run on processors skip loops, but not branches: a loop of no turns is how they skip work.
     int turns = all_lit || all_dark || slope <= 0.0 ? 0 : blockers;
-    float turn_angle = fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) * 6.2831853;
-    mat2 whirl = mat2(-0.7373689, 0.6754903, -0.6754903, -0.7373689);  // by the golden angle
-    vec2 start = vec2(cos(turn_angle), sin(turn_angle)), way = start;
-    float found = 0.0, sum = 0.0;
-    for (int i = 0; i < turns; i++) {
-        vec2 o = sqrt((float(i) + 0.5) / float(blockers)) * widest * way;
-        way = whirl * way;
-        float d = textureLod(shadow_depth, s.xy + o, 0.0).r;
-        float blocks = step(d, min(s.z + dot(gradient, o) - bias, 0.9995));  // never an empty texel, which holds 1
-        found += blocks;
-        sum += blocks * d;
-    }
-    turns = found < 0.5 ? 0 : filters;
-    float radius = clamp(per_depth * max(depth_here - sum / max(found, 1.0), 0.0), 1.2 * texel, shadow_scale.w);
-    float light_sum = 0.0;
-    way = start;
-    for (int i = 0; i < turns; i++) {
-        vec2 o = sqrt((float(i) + 0.5) / float(filters)) * radius * way;
-        way = whirl * way;
-        light_sum += texture(shadow_compare, vec3(s.xy + o, min(s.z + dot(gradient, o) - bias, 0.9995)));
-    }
-    float share = turns == 0 ? 1.0 : light_sum / float(filters);
-    share = mix(share, share * share * (3.0 - 2.0 * share), 0.6);
+    float share = softened(shadow_depth, shadow_compare, s, depth_here, gradient, bias, 0.9995, turns,
+                           per_depth, widest, 1.2 * texel, shadow_scale.w, first_way(pixel), WHIRL);
     return slope <= 0.0 || all_dark ? 0.0 : share;
 }

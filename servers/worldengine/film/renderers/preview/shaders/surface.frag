@@ -4,6 +4,9 @@
 #include "fog.glsl"
 #include "texture.glsl"
 #include "shadow.glsl"
+#if LAMPS
+#include "lamps.glsl"
+#endif
 #if GOBO
 uniform sampler2D gobo;    // the share of the key light that goes through
 uniform mat4 to_gobo;      // world to the slide, -1 to 1 across it
@@ -280,6 +283,11 @@ void main() {
 #if GOBO
     visible *= texture(gobo, 0.5 + 0.5 * (to_gobo * vec4(world, 1.0)).xy).r;
 #endif
+#if LAMPS
+    if (dot(flat_normal, key_direction) > 0.0) visible = mix(1.0, visible, key_shade);
+    vec4 hidden = vec4(0.0);  // of each lamp with shadows, the share that does not come here
+    for (int i = 0; i < lamp_count; i++) hidden[i] = 1.0 - lamp_lit(i, world, flat_normal, gl_FragCoord.xy);
+#endif
     visible *= mix(1.0, 0.30, smoothstep(pool.z, pool.w, length(world.xy - pool.xy)));
     vec3 h = normalize(v + key_direction);
     vec3 fresnel = f0 + (1.0 - f0) * fifth(1.0 - max(dot(v, h), 0.0));
@@ -299,6 +307,9 @@ void main() {
         toward *= inversesqrt(d2);
         float cone = smoothstep(tint.w, mix(tint.w, 1.0, 0.35), -dot(toward, light_aims[i]));
         float reach = mix(1.0, cone / (0.08 + d2), where.w);
+#if LAMPS
+        reach *= 1.0 - dot(lamp_masks[i], hidden);
+#endif
         float facing = dot(n, toward);
         light += diffuse * tint.rgb * reach * max(0.25 + 0.75 * facing, 0.0) * mix(ao, 1.0, 0.3);
 #if !SIMPLE

@@ -1,7 +1,7 @@
 """What can be touched of a body is not the shape that the plan gives it.
 
 What it does: compares the colliding geoms of each thing of the plan with those of its draft: the box around them (3 % and
-1 mm), the volume inside them (10 %), where in the box that volume lies, each part of a compound, and for models, sculptures and catalog meshes the collision meshes themselves, by hash.
+1 mm), the volume inside them (10 %), where in the box that volume lies, each part of a compound, and for models, sculptures, roads and catalog meshes the collision meshes and height fields themselves, by hash.
 
 Why is this bad: the size that is checked may be that of what is drawn; what collides may be smaller, elsewhere, or round: a
 crate on a hidden ball rolls. A ramp that rises towards the other side has the same box and the same volume.
@@ -13,7 +13,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from .....model.plan.imported import is_model, is_sculpt
+from .....model.plan.plan_references import WITH_PARTS
 from ....compiled.view import ModelView
 from ....harm import Measured, after
 from ....problem import Problem
@@ -92,12 +92,7 @@ def check(view: ModelView) -> Iterator[Problem]:
     """Check things of both worlds."""
     planned = view.planned
     assert planned is not None and view.plan is not None
-    meshed = {
-        name
-        for row in view.plan.assets
-        for name in row.instances
-        if row.type == "mesh" or is_model(row) or is_sculpt(row)
-    }
+    meshed = {name for row in view.plan.assets for name in row.instances if row.type in ("mesh", "road", *WITH_PARTS)}
     here, there = _volumes(view), _volumes(planned)
     for body, twin in twins(view, "body"):
         name = view.texts["names"]["body"][body]
@@ -125,7 +120,7 @@ def check(view: ModelView) -> Iterator[Problem]:
         elif said := _part_differs(view, body, planned, twin, name):
             yield view.at("body", body, said, "build each part in the plan's size and place")
         elif name in meshed and _meshes(view, name) != _meshes(planned, name):
-            fix = "use the catalog's hulls, or make it by `sculpt.from_file` of the file that the plan names"
+            fix = "use the catalog's hulls, or make it by `sculpt.from_file` (a road: `roads.read`) of the file that the plan names"
             yield view.at("body", body, f"the collision meshes of {name} are not those of its model", fix)
 
 
@@ -175,9 +170,15 @@ def _elsewhere(here: tuple[np.ndarray, np.ndarray], there: tuple[np.ndarray, np.
     )
 
 
-def _meshes(view: ModelView, name: str) -> set[str]:
-    return {
-        view.texts["mesh_sha256"][int(view.geom_dataid[geom])]
-        for geom in np.flatnonzero(view.collides)
-        if view.geom_kind[geom] == "mesh" and holder(view, int(view.geom_bodyid[geom])) == name
-    }
+def _meshes(view: ModelView, name: str) -> set[tuple[str, ...]]:
+    """Of each mesh of a thing its hash, and of each height field that and how it lies in the thing, 1e-4 m and 1e-3."""
+    found = set[tuple[str, ...]]()
+    for geom in _touchable(view, name):
+        if view.geom_kind[geom] == "mesh":
+            found.add((view.texts["mesh_sha256"][int(view.geom_dataid[geom])],))
+        elif view.geom_kind[geom] == "hfield":
+            body = int(view.geom_bodyid[geom])
+            turn = view.xmat[body].T @ view.geom_xmat[geom]
+            place = np.round(np.concatenate([view.geom_pos[geom] * 1e4, turn.ravel() * 1e3])).astype(int)
+            found.add((view.texts["hfield_sha256"][int(view.geom_dataid[geom])], *map(str, place)))
+    return found

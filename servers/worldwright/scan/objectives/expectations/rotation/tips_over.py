@@ -1,7 +1,7 @@
 """A body tips over.
 
 Measures the largest angle between the body's own z axis and where it pointed at the start of the window, degrees;
-turning about the vertical does not count. A block tips when its centre of mass passes its edge, at atan(width / height).
+turning about the vertical does not count. As an event it comes at the first recorded row at which that angle is reached. A block tips when its centre of mass passes its edge, at atan(width / height).
 Source: rigid-body statics.
 """
 

@@ -6,7 +6,7 @@ import pytest
 
 from worldkit import contacts, motion, portable, scene, vehicles
 from worldkit.vehicles.car_numbers import CORNERS
-from worldkit.vehicles.four_wheels import ackermann, spin_inertia
+from worldkit.vehicles.wheeled import ackermann
 
 G = 9.81
 CAR = vehicles.Car()
@@ -62,7 +62,7 @@ def test_it_stops_in_the_distance_that_its_tyres_allow(friction):
 
 def test_half_a_brake_is_half_the_force_at_any_speed():
     model, data = world(speed=20.0)
-    effective = CAR.mass_kg + 4 * spin_inertia(CAR) / CAR.wheel_radius_m**2
+    effective = CAR.mass_kg + 4 * CAR.spin_inertia() / CAR.wheel_radius_m**2
     resisted = CAR.rolling_resistance * CAR.mass_kg * G
     expected = (4 * 0.25 * CAR.brake_n_m / CAR.wheel_radius_m + resisted) / effective
     for _ in range(3):
@@ -79,7 +79,7 @@ def test_it_draws_off_with_the_moment_at_its_wheels(driven):
     drive(model, data, 0.5, car, throttle=0.6)
     before = data.qvel[0]
     drive(model, data, 1.0, car, throttle=0.6)
-    mass = car.mass_kg + 4 * spin_inertia(car) / car.wheel_radius_m**2
+    mass = car.mass_kg + 4 * car.spin_inertia() / car.wheel_radius_m**2
     force = 0.6 * car.drive_n_m / car.wheel_radius_m - car.rolling_resistance * car.mass_kg * G
     assert data.qvel[0] - before == pytest.approx(force / mass, rel=0.03)
 
@@ -94,7 +94,7 @@ def test_on_a_slope_its_brakes_hold_and_then_it_starts_as_the_slope_lets_it():
     drive(model, data, 0.5, throttle=0.9)
     before = data.qvel[0]
     drive(model, data, 0.5, throttle=0.9)
-    mass = CAR.mass_kg + 4 * spin_inertia(CAR) / CAR.wheel_radius_m**2
+    mass = CAR.mass_kg + 4 * CAR.spin_inertia() / CAR.wheel_radius_m**2
     force = 0.9 * CAR.drive_n_m / CAR.wheel_radius_m - CAR.mass_kg * G * (np.sin(slope) + CAR.rolling_resistance)
     assert (data.qvel[0] - before) / 0.5 == pytest.approx(force / mass, rel=0.04)
     assert before > 0

@@ -1,0 +1,107 @@
+"""The world that is stepped live: an accepted one as it was stamped, else the one that was built and recorded last."""
+
+import hashlib
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from ..model import json_object
+from ..model.errors import GateError
+from ..model.evidence.run import Run, sha256_file
+from .accepted_world import FACTS, MOTION, WORLD, AcceptedWorld
+
+if TYPE_CHECKING:
+    import mujoco
+    import numpy as np
+
+    from worldengine.given import Given
+
+    from ..model.plan.committed import Plan
+
+
+@dataclass(frozen=True)
+class LiveSource:
+    """Where its parts lie."""
+
+    run: Run
+    plan: "Plan"
+    plan_file: Path
+    world: Path
+    facts: Path
+    """The folder of `program.json` and `inputs.json`."""
+    drove: Path | None
+    """The folder of the inputs that were recorded; None where nothing drove it."""
+    motion: Path
+    """What was recorded: an npz file or a recording's folder."""
+    stamp_sha256: str = ""
+    """Of the stamp of an accepted world."""
+
+    @classmethod
+    def find(cls, name: Path | str) -> "LiveSource":
+        """The world of a run.
+
+        Raises:
+            NotFoundError: there is no such run.
+            GateError: nothing was accepted or recorded of it, it has no plan, or what was accepted is not as it was stamped.
+        """
+        run = Run.find(name)
+        if (run.stamped / "stamp.json").is_file() and (run.stamped / WORLD).is_file():
+            world = AcceptedWorld.read(name)
+            folder = world.folder / FACTS
+            stamp = hashlib.sha256((world.folder / "stamp.json").read_bytes()).hexdigest()
+            return cls(
+                run, world.plan, world.folder / "plan.md", world.folder / WORLD, folder, _driven(folder),
+                world.folder / MOTION, stamp,
+            )  # fmt: skip
+        from ..model.evidence import environment
+        from ..model.plan.plan_text import read_plan
+        from ..stage.one_frame import recorded
+
+        if not run.plan.is_file():
+            raise GateError(
+                "a folder that records somebody's model declares no input",
+                place=str(run.folder),
+                next_move="write a plan whose interventions declare the controls (skill importing-models)",
+            )
+        physics = recorded(run, run.evidence_key(environment.current().sha256()))
+        said = (json_object.read(physics / "result.json") or {}).get("world_sha256")
+        if not (physics / WORLD).is_file() or sha256_file(physics / WORLD) != said:
+            raise GateError(
+                f"{WORLD} is not the world that was recorded",
+                place=str(physics / WORLD),
+                next_move=f"worldwright stage start {run.folder} --stage physics",
+            )
+        motion = physics / "trajectory"
+        plan = read_plan(run.plan).plan
+        return cls(run, plan, run.plan, physics / WORLD, physics, _driven(motion), motion)
+
+    @cached_property
+    def given(self) -> "Given":
+        """What the engine is given of it."""
+        from worldengine.given import Given
+
+        return Given.read(self.world, self.facts / "program.json", self.facts / "inputs.json")
+
+    @cached_property
+    def model(self) -> "mujoco.MjModel":
+        """The world, compiled."""
+        return self.given.model()
+
+    def poses(self) -> "tuple[np.ndarray | None, np.ndarray | None]":
+        """(T, B, 3) m and (T, B, 4) of the recorded bodies, for which the plan's cameras are aimed; None where nothing is kept."""
+        import numpy as np
+
+        from worldengine.recording import stored
+
+        if self.motion.is_file():
+            with np.load(self.motion, allow_pickle=False) as told:
+                return told["pos"], told["quat"]
+        if (self.motion / "meta.json").is_file():
+            recording = stored.open(self.motion)
+            return recording.pos, recording.quat
+        return None, None
+
+
+def _driven(folder: Path) -> Path | None:
+    return folder if (folder / "inputs.arrows").is_file() else None

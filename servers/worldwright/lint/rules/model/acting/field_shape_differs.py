@@ -1,0 +1,166 @@
+"""What a solver beside the engine reads of a body's shape is not what it would read of the plan's.
+
+What it does: of each body that is a magnet, compares its magnetisation with that of its draft: which way it points at the start, sign
+and all (half a degree), how much of it there is (3 %), and where (3 % of the body and 1 mm). Of each body that cools, its surface (5 %).
+
+Why is this bad: a bar turned end to end in its own box attracts what it should push away, and has the same size, mass and inertia. A
+drawn mesh that touches nothing has no mass, and what it is drawn on cools over it.
+
+Use instead: geoms that lie as the plan's primitive does; decoration that is no mesh, or in the film.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from worldkit.fields.filaments import axis_of
+
+from .....model.plan.declared_inputs import Constant
+from ....compiled.view import ModelView
+from ....harm import Measured, outcome_of
+from ....problem import Problem
+from ._twins import changed, shown, twins
+
+CODE = "WM176"
+SEVERITY = "error"
+SCOPE = "acts"
+BAR = (
+    "bodies.box(spec, 'bar', size=(0.3, 0.1, 0.1), pos=(0, 3, 0.05), mass=2, surface=SURFACE)",
+    "bodies.box(spec, 'stove', size=(0.3, 0.2, 0.1), pos=(0, 4, 0.05), mass=2, surface=SURFACE)",
+)
+TURNED = "spec.body('bar').geoms[0].quat = (0, 0, 0, 1)"
+HALVES = (
+    "g = spec.body('bar').geoms[0]; g.size, g.pos, g.mass = (0.075, 0.05, 0.05), (-0.075, 0, 0), 1",
+    "spec.body('bar').add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=g.size, pos=(0.075, 0, 0), mass=1, quat=QUAT, **SURFACE)",
+)
+FIN = (
+    "spec.add_mesh(name='fin', uservert=[0, 0, 0, .5, 0, 0, 0, .5, 0, 0, 0, .5])",
+    "spec.body('stove').add_geom(type=mujoco.mjtGeom.mjGEOM_MESH, meshname='fin', contype=0, conaffinity=0, mass=0)",
+)
+PAINT = "spec.body('stove').add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.2, 0.2, 0.2), contype=0, conaffinity=0, mass=0)"
+
+
+def _fields(*lines: str) -> tuple[str, dict[str, object]]:
+    """A case with a magnet and something hot, as the plan has them but for these statements."""
+    text, plan = changed(*BAR, *lines)
+    boxes = {"bar": [0.3, 0.1, 0.1], "stove": [0.3, 0.2, 0.1]}
+    rows = [{"name": name, "primitive": "box", "size": size, "material": "wood"} for name, size in boxes.items()]
+    topology, parameters = plan["topology"], plan["simulation_parameters"]
+    assert isinstance(topology, dict) and isinstance(parameters, dict)
+    places = topology["body_positions"] | {"bar": {"x": 0, "y": 3, "z": 0.05}, "stove": {"x": 0, "y": 4, "z": 0.05}}
+    units = {"remanence": "T", "warm": "K", "around": "K", "specific_heat": "J/(kg K)", "cooling": "W/(m^2 K)"}
+    constants = {name: {"value": 1.0, "unit": unit, "source": "a table"} for name, unit in units.items()}
+    heat = {name: name for name in units if name != "remanence"}
+    told = (("magnets", "bar", {"remanence": "remanence"}), ("heat", "stove", heat))
+    beside = [
+        {"kind": "solver", "bodies": [body], "law": "a field", "source": "a table", "solver": {"name": name, "constants": own}}
+        for name, body, own in told
+    ]  # fmt: skip
+    return text, plan | {
+        "scene_objects": [*plan["scene_objects"], *rows],  # type: ignore[misc]
+        "topology": topology | {"body_positions": places},
+        "simulation_parameters": parameters
+        | {"masses": parameters["masses"] | {"bar": 2, "stove": 2}, "constants": constants, "interventions": beside},
+    }
+
+
+HALVED, OPPOSED = ((HALVES[0], HALVES[1].replace("QUAT", quat)) for quat in ("(1, 0, 0, 0)", "(0, 0, 0, 1)"))
+GOOD = (_fields(), _fields(PAINT), _fields(*HALVED))
+BAD = (_fields(TURNED), _fields(*OPPOSED), _fields(*FIN))
+EVIDENCE = Measured(
+    "a field along +x turns it over where the plan's lies still",
+    lambda s: float(_along(s)[0]),
+    1.0,
+    bad=0,
+)
+NEAR_RAD, SHARE, LEAST_M, SURFACE = 0.01, 0.03, 1e-3, 0.05
+FIX = "let its geoms lie as the plan's primitive does"
+
+
+class Magnetised(NamedTuple):
+    """A body's magnetisation at the start, for each tesla of its remanence."""
+
+    moment: np.ndarray
+    """(3,) m^3, world frame, of all its geoms together."""
+    amount: float
+    """m^3, whichever way each geom points."""
+    middle: np.ndarray
+    """(3,) m: of the amount, from the body's frame, in world axes."""
+
+
+def check(view: ModelView) -> Iterator[Problem]:
+    """Check the bodies of the plan's magnets and of what cools."""
+    planned, plan = view.planned, view.plan
+    assert planned is not None and plan is not None
+    parameters, both = (
+        plan.simulation_parameters,
+        {view.texts["names"]["body"][b]: (b, t) for b, t in twins(view, "body")},
+    )
+    for row in parameters.interventions:
+        if row.solver is None or row.solver.file:
+            continue
+        for name, own in (("magnets", "remanence"), ("heat", "cooling")):
+            numbers = _each(parameters.constants.get(row.solver.constants.get(own, "")), len(row.bodies))
+            for body in (body for body, number in zip(row.bodies, numbers, strict=False) if number):
+                if row.solver.name == name and body in both and (said := TOLD[name](view, planned, *both[body])):
+                    yield view.at("body", both[body][0], f"{body} {said}", FIX)
+
+
+def _each(told: Constant | None, bodies: int) -> tuple[float, ...]:
+    """A constant for each of so many bodies; 0 where the plan does not have it."""
+    value = 0.0 if told is None else told.value
+    return value if isinstance(value, tuple) else (value,) * bodies
+
+
+def _pole(view: ModelView, planned: ModelView, body: int, twin: int) -> str:
+    """How a magnet differs from the plan's; empty when it does not."""
+    here, there = _magnetised(view, body), _magnetised(planned, twin)
+    size = float(np.linalg.norm(planned.touch_high[twin] - planned.touch_low[twin]))
+    mine, theirs = float(np.linalg.norm(here.moment)), float(np.linalg.norm(there.moment))
+    long = mine * theirs
+    turn = float(np.arccos(np.clip(here.moment @ there.moment / long, -1.0, 1.0))) if long else 0.0
+    amounts = ((here.amount, there.amount), (mine, theirs))
+    if turn > NEAR_RAD:
+        return f"is magnetised along {_way(here.moment)}, which is {np.degrees(turn):.3g} degrees from the plan's way"
+    if any(abs(h - t) > SHARE * t for h, t in amounts):
+        return f"has {here.amount * 1e6:.4g} cm^3 of magnet, by the plan {there.amount * 1e6:.4g}, or some of it the other way round"
+    if float(np.linalg.norm(here.middle - there.middle)) > max(SHARE * size, LEAST_M):
+        return f"has the middle of its magnet at {shown(here.middle)} m from it, by the plan at {shown(there.middle)} m"
+    return ""
+
+
+def _way(moment: np.ndarray) -> str:
+    """The direction (3,) of a moment, in world axes."""
+    x, y, z = moment / np.linalg.norm(moment)
+    return f"({x:.3g}, {y:.3g}, {z:.3g})"
+
+
+def _magnetised(view: ModelView, body: int) -> Magnetised:
+    """Of the geoms that the solver takes: those that collide, or where none does, all."""
+    geoms = np.flatnonzero(view.geom_bodyid == body)
+    solid = geoms[(view.geom_contype[geoms] | view.geom_conaffinity[geoms]) != 0]
+    geoms = solid if len(solid) else geoms
+    amounts = view.geom_volume[geoms]
+    ways = [view.geom_xmat[g][:, axis_of(view.geom_kind[g] == "box", view.geom_size[g])] for g in geoms]
+    total = float(amounts.sum())
+    away = view.geom_xpos[geoms] - view.xpos[body]
+    return Magnetised(amounts @ np.reshape(ways, (-1, 3)), total, amounts @ away / (total or 1.0))
+
+
+def _surface(view: ModelView, planned: ModelView, body: int, twin: int) -> str:
+    """How what a body cools over differs from the plan's; empty when it does not."""
+    here, there = float(view.body_surface[body]), float(planned.body_surface[twin])
+    if abs(here - there) <= SURFACE * there:
+        return ""
+    return f"cools over {here:.4g} m^2, by the plan over {there:.4g}: a drawn mesh counts where nothing collides by it"
+
+
+TOLD = {"magnets": _pole, "heat": _surface}
+
+
+def _along(source: str) -> np.ndarray:
+    """(3,) which way the bar of a case is magnetised."""
+    view = ModelView(outcome_of(source))
+    moment = _magnetised(view, int(view.root_named("bar") or 0)).moment
+    return np.asarray(moment / np.linalg.norm(moment))

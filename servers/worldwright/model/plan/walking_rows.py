@@ -1,0 +1,82 @@
+"""Robots that walk as rows of a plan: which policy walks a model, how it was trained, and where the robot is to go.
+
+A model's row that says `walks` declares its servos and their controls by that (`walking_declared`), as a vehicle that is driven does.
+The policy is a file beside the plan: who approves the plan approves it, by its hash.
+"""
+
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from pydantic import Field, field_validator, model_validator
+
+from worldkit.robots.gaits import GAITS
+from worldkit.robots.policies import PolicyError, checked
+
+from ..errors import PlanError
+from ..frozen import Frozen
+
+Written = Any
+"""A row of a plan, whose module imports this one."""
+
+
+class Walks(Frozen):
+    """A policy, and the line that the robot keeps to."""
+
+    policy: str = Field(pattern=r"\.onnx$")
+    """An ONNX file beside the plan, relative to it: observations of `gait` in, one action a joint out."""
+    gait: str
+    """What the policy was trained with: joints, home pose, servos, observation. go1, go2."""
+    sha256: str = Field("", pattern=r"^([0-9a-fA-F]{64})?$")
+    """Of the file, where it is to be one that was published."""
+    address: str = ""
+    """Where it is from."""
+    licence: str = ""
+    speed_m_s: float = Field(gt=0, le=2)
+    """Along its line."""
+    until_s: float | None = Field(None, gt=0, allow_inf_nan=False)
+    """When it is to stand; None: it walks on."""
+    y_m: float | None = Field(None, ge=-1000, le=1000)
+    """How far to the left of the world's origin its line lies, seen along it; None: each robot's goes through where it starts."""
+    heading_deg: float = Field(0.0, ge=-360, le=360)
+    """Of its line, from +X to the left."""
+
+    @field_validator("gait")
+    @classmethod
+    def _known(cls, gait: str) -> str:
+        if gait not in GAITS:
+            raise ValueError(f"there is no gait `{gait}`; there are: {', '.join(sorted(GAITS))}")
+        return gait
+
+    @model_validator(mode="after")
+    def _beside(self) -> "Walks":
+        path = PurePosixPath(self.policy)
+        if path.is_absolute() or ".." in path.parts:
+            raise ValueError(f"`{self.policy}` lies elsewhere: put the file beside the plan and name it from there")
+        return self
+
+    def servos(self, name: str) -> tuple[str, ...]:
+        """The servos of a robot in the world."""
+        gait = GAITS[self.gait]
+        return tuple(f"{name}_{gait.servo(joint)}" for joint in gait.joints)
+
+
+def policy_of(row: Written, folder: Path | None) -> Path | None:
+    """The policy's file of a row that walks.
+
+    Raises:
+        PlanError: it is not there, not the one that the row means, or no policy that runs here.
+    """
+    if row.walks is None:
+        return None
+    home = Path() if folder is None else folder
+    path = (home / row.walks.policy).resolve()
+    if folder is None or not path.is_file() or not path.is_relative_to(home.resolve()):
+        raise PlanError(
+            f"asset `{row.name}`: there is no policy {row.walks.policy} beside the plan",
+            next_move="ask the person to put the ONNX file there; a robot's own comes with it (`worldwright asset robot KEY FOLDER`)",
+        )
+    try:
+        checked(path, row.walks.sha256)
+    except PolicyError as error:
+        raise PlanError(f"asset `{row.name}`: {error.place}: {error.cause}", next_move=error.next_move) from error
+    return path

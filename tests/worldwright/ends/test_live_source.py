@@ -1,0 +1,60 @@
+"""What is driven: the accepted world as it was stamped, else the one that was recorded last; nothing that is neither."""
+
+import hashlib
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from worldwright.ends.live_source import LiveSource
+from worldwright.model.errors import GateError
+from worldwright.model.evidence import environment
+from worldwright.model.evidence.run import Run
+
+EXAMPLE = Path(__file__).parents[3] / "examples/slack-rope-pulls-box"
+
+
+@pytest.fixture
+def recorded(roped, tmp_path):
+    """The roped box as its physics pass leaves it, never accepted."""
+    folder = tmp_path / "rope"
+    folder.mkdir()
+    for name in ("plan.md", "simulation.py"):
+        shutil.copy(EXAMPLE / name, folder)
+    run = Run(folder)
+    physics = run.evidence(run.evidence_key(environment.current().sha256())) / "physics"
+    shutil.copytree(roped.recording.folder, physics / "trajectory")
+    shutil.copy(roped.run / "accepted/world.mjz", physics)
+    for name in ("program.json", "inputs.json"):
+        shutil.copy(roped.run / "accepted/world" / name, physics)
+    digest = hashlib.sha256((physics / "world.mjz").read_bytes()).hexdigest()
+    (physics / "result.json").write_text(json.dumps({"ok": True, "world_sha256": digest}))
+    return folder
+
+
+def test_an_accepted_world_is_the_one_that_was_stamped(roped):
+    source = LiveSource.find(roped.run)
+    assert source.world == roped.run / "accepted/world.mjz" and source.stamp_sha256 and source.poses() == (None, None)
+    assert source.drove == roped.run / "accepted/world" and source.given.duration == 4.0
+
+
+def test_a_recorded_world_is_driven_before_it_is_accepted(recorded):
+    source = LiveSource.find(recorded)
+    assert source.world.parent.name == "physics" and not source.stamp_sha256 and source.plan.topology
+    assert source.drove == source.world.parent / "trajectory" and source.poses()[0].shape[1:] == (3, 3)
+    with source.world.open("ab") as world:
+        world.write(b"x")
+    with pytest.raises(GateError, match="not the world that was recorded"):
+        LiveSource.find(recorded)
+    (recorded / "plan.md").write_text((recorded / "plan.md").read_text() + "\n")
+    with pytest.raises(GateError, match="no recording of this program and plan"):
+        LiveSource.find(recorded)
+
+
+def test_what_was_changed_since_it_was_stamped_is_not_driven(roped, tmp_path):
+    shutil.copytree(roped.run, tmp_path / "rope")
+    with (tmp_path / "rope/accepted/world.mjz").open("ab") as world:
+        world.write(b"x")
+    with pytest.raises(GateError, match=r"world\.mjz is not what the stamp lists"):
+        LiveSource.find(tmp_path / "rope")
