@@ -91,8 +91,37 @@ def _conducts(row: dict[str, object], bar: str, *lines: str) -> tuple[str, dict[
     }
 
 
+def _filled(filled: str) -> tuple[str, dict[str, object]]:
+    """A case with a trough that is filled so; by the plan to 0.2 m."""
+    walls = "spec, 'trough', size=(0.6, 0.4, 0.3), wall=0.02, pos=(0, 6, 0.15), fixed=True, surface=SURFACE"
+    text, plan = _fields(f"bodies.container({walls})", filled)
+    text = text.replace("import bodies", "import bodies, waters", 1)
+    rows: list[dict[str, object]] = plan["scene_objects"]  # type: ignore[assignment]
+    known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
+    topology: dict = plan["topology"]  # type: ignore[assignment]
+    trough = {"name": "trough", "primitive": "box_container", "size": [0.6, 0.4, 0.3], "wall_thickness": 0.02}
+    water = {"name": "water", "primitive": "box", "size": [0.56, 0.36, 0.18], "visual_only": "the solver moves it"}
+    told = {
+        "name": "water",
+        "container": "trough",
+        "constants": {"density": "density", "level": "level"},
+        "shown_by": "water",
+    }
+    beside = {"kind": "solver", "bodies": ["crate"], "law": "Archimedes", "source": "a table", "solver": told}
+    said = {"density": ("kg/m^3", 998), "level": ("m", 0.2)}
+    constants = {name: {"value": value, "unit": unit, "source": "a table"} for name, (unit, value) in said.items()}
+    places = {"trough": {"x": 0, "y": 6, "z": 0.15}, "water": {"x": 0, "y": 6, "z": 0.11}}
+    return text, plan | {
+        "scene_objects": [*rows, *(row | {"fixed": True, "material": "wood"} for row in (trough, water))],
+        "topology": topology | {"body_positions": topology["body_positions"] | places},
+        "simulation_parameters": known | {"constants": known["constants"] | constants, "interventions": [beside]},
+    }
+
+
+FILL = "waters.fill(spec, 'water', container='trough', level={})"
 GOOD = (
     _fields(),
+    _filled(FILL.format(0.2)),
     _fields(PAINT),
     _fields(*HALVED),
     _conducts(TUBE, PIPE.format(0.019, 0.002)),
@@ -100,6 +129,8 @@ GOOD = (
 )
 BAD = (
     _fields(TURNED),
+    _filled(f"f = {FILL.format(0.2)}; f.vert = [c * (0.9 if n % 3 == 0 else 1) for n, c in enumerate(f.vert)]"),
+    _filled(FILL.format(0.2) + ".name = 'other'"),
     _fields(*OPPOSED),
     _fields(*FIN),
     _conducts(TUBE, PIPE.format(0.0176, 0.0022)),
