@@ -86,7 +86,9 @@ def _running(constant: str, unit: str) -> tuple[str, dict[str, object]]:
 
 def _sticky(*lines: str) -> tuple[str, dict[str, object]]:
     """A case with things that stick by 5 N at each point, as the plan has it but for these statements."""
-    text, plan = changed("for name in ('crate', 'arm'): spec.geom(name).adhesion, spec.geom(name).gap = 5, contacts.REACH_M", *lines)
+    text, plan = changed(
+        "for name in ('crate', 'arm'): spec.geom(name).adhesion, spec.geom(name).gap = 5, contacts.REACH_M", *lines
+    )
     known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
     wood = known["materials"]["wood"] | {"adhesion": 5}
     return text, plan | {"simulation_parameters": known | {"materials": known["materials"] | {"wood": wood}}}

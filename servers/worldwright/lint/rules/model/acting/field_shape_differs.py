@@ -3,12 +3,13 @@
 What it does: of each body that is a magnet, compares its magnetisation with that of its draft: which way it points at the start, sign
 and all (half a degree), how much of it there is (3 %), and where (3 % of the body and 1 mm); of soft iron how much and where; of each tube
 that conducts its radii, wall, length, axis and middle, of each plate its three sizes and how it lies (3 %). Of each body that cools, its
-surface (5 %). Of water its level and floor (1 % of the depth), its area (3 %) and middle, by what shows it.
+surface (5 %), and of each that water lifts its volume (1 %), by kinds of geoms. Of water its level and floor (1 % of the depth), its
+area (3 %) and middle, by what shows it.
 
 Why is this bad: a bar turned end to end in its own box attracts what it should push away, and has the same size, mass and inertia. A
 drawn mesh that touches nothing has no mass, and what it is drawn on cools over it. A small pipe that is a millimetre narrower outside
-and inside is nearly as large and as heavy, and brakes a magnet twice as hard. What shows water only is drawn, and nothing else holds it
-against the plan.
+and inside is nearly as large and as heavy, and brakes a magnet twice as hard. A block a fortieth larger each way floats where the plan's
+sinks. What shows water only is drawn, and nothing else holds it against the plan.
 
 Use instead: geoms that lie as the plan's primitive does; decoration that is no mesh, or in the film.
 """
@@ -91,10 +92,10 @@ def _conducts(row: dict[str, object], bar: str, *lines: str) -> tuple[str, dict[
     }
 
 
-def _filled(filled: str) -> tuple[str, dict[str, object]]:
-    """A case with a trough that is filled so; by the plan to 0.2 m."""
+def _filled(filled: str, *lines: str) -> tuple[str, dict[str, object]]:
+    """A case with a trough that is filled so; by the plan to 0.2 m, and a crate is named that it may lift."""
     walls = "spec, 'trough', size=(0.6, 0.4, 0.3), wall=0.02, pos=(0, 6, 0.15), fixed=True, surface=SURFACE"
-    text, plan = _fields(f"bodies.container({walls})", filled)
+    text, plan = _fields(f"bodies.container({walls})", filled, *lines)
     text = text.replace("import bodies", "import bodies, waters", 1)
     rows: list[dict[str, object]] = plan["scene_objects"]  # type: ignore[assignment]
     known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
@@ -131,6 +132,7 @@ BAD = (
     _fields(TURNED),
     _filled(f"f = {FILL.format(0.2)}; f.vert = [c * (0.9 if n % 3 == 0 else 1) for n, c in enumerate(f.vert)]"),
     _filled(FILL.format(0.2) + ".name = 'other'"),
+    _filled(FILL.format(0.2), "spec.geom('crate').size = [1.025 * v for v in (0.2, 0.15, 0.1)]"),
     _fields(*OPPOSED),
     _fields(*FIN),
     _conducts(TUBE, PIPE.format(0.0176, 0.0022)),
@@ -142,7 +144,7 @@ EVIDENCE = Measured(
     1.0,
     bad=0,
 )
-NEAR_RAD, SHARE, LEAST_M, SURFACE, LEVEL = 0.01, 0.03, 1e-3, 0.05, 0.01
+NEAR_RAD, SHARE, LEAST_M, SURFACE, LEVEL, DISPLACED = 0.01, 0.03, 1e-3, 0.05, 0.01, 0.01
 FIX = "let its geoms lie as the plan's primitive does"
 
 
@@ -286,6 +288,24 @@ def _shown(view: ModelView, planned: ModelView, name: str) -> str:
     return ""
 
 
+def _afloat(view: ModelView, planned: ModelView, body: int, twin: int) -> str:
+    """How what water lifts and brakes differs from the plan's; empty when it does not. The drag is that of each kind of geom."""
+    here, there = (_by_kind(world, own) for world, own in ((view, body), (planned, twin)))
+    total = sum(there.values())
+    if all(abs(here.get(kind, 0.0) - there.get(kind, 0.0)) <= DISPLACED * total for kind in {*here, *there}):
+        return ""
+    told = [", ".join(f"{kind} {litres * 1e3:.4g}" for kind, litres in kinds.items()) for kinds in (here, there)]
+    return f"displaces, in litres by kinds of geoms, {told[0]}, by the plan {told[1]}"
+
+
+def _by_kind(view: ModelView, body: int) -> dict[str, float]:
+    """m^3 of what is solid of a body, by the kind of its geoms."""
+    found: dict[str, float] = {}
+    for geom in _solid(view, body).tolist():
+        found[view.geom_kind[geom]] = found.get(view.geom_kind[geom], 0.0) + float(view.geom_solid[geom])
+    return found
+
+
 def _surface(view: ModelView, planned: ModelView, body: int, twin: int) -> str:
     """How what a body cools over differs from the plan's; empty when it does not."""
     here, there = float(view.body_surface[body]), float(planned.body_surface[twin])
@@ -299,6 +319,8 @@ TOLD = {
     ("magnets", "saturation"): _iron,
     ("magnets", "conductivity"): _metal,
     ("heat", "cooling"): _surface,
+    ("water", "density"): _afloat,
+    ("basin", "density"): _afloat,
 }
 """By solver, and by the constant without which it reads nothing of a body."""
 
