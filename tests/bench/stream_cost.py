@@ -17,7 +17,7 @@ thousandth step; with ledger and search, too; then recorded in full, and driven 
 
 Goals, for 10,000 steps: a stream of at most 25 MB, a ledger of at most 20 us a step; at most 1.5 times the bare engine with the
 law; driven again in at most 0.8 of the time of the first pass. Times are of the processor, of all threads. A million rows: 0.5 s and
-128 MB of a stream, checked; 0.5 s and 256 MB of a ledger; a refusal within 0.1 s.
+128 MB of a stream, checked; 1.5 s and 256 MB of a ledger, summed as acceptance does; a refusal within 0.1 s.
 """
 
 import argparse
@@ -50,10 +50,11 @@ from worldengine.recording import columns, describing, stored, stream_files
 from worldengine.recording.record import Recorder
 from worldkit.errors import RecordingError
 from worldkit.world import start
+from worldwright.stamp import interventions
 
 STREAM_MB, LEDGER_US, STEPS = 25.0, 20.0, 10_000
 MIRROR, AGAIN = 1.5, 0.8
-READ_S, STREAM_READ_MB, LEDGER_READ_MB, REFUSED_S = 0.5, 128.0, 256.0, 0.1
+STREAM_READ_S, LEDGER_READ_S, STREAM_READ_MB, LEDGER_READ_MB, REFUSED_S = 0.5, 1.5, 128.0, 256.0, 0.1
 SPACING, STIFFNESS, DAMPING = 0.5, 40.0, 0.2
 TABLES = ("inputs", "edits")
 """Of a recording, what drove it."""
@@ -203,8 +204,8 @@ def read(what: str, folder: Path, bodies: int, steps: int) -> None:
         found = stored.Replayable(folder)
         kept: Any = Recorded(found, model, ports, steps), len(found.inputs)
     else:
-        ledger = stored.open(folder).interventions
-        kept = [ledger[name] for name in ledger.columns], len(ledger)
+        summed = interventions.acted(folder, ())
+        kept = summed, sum(row.count for row in summed)
     seconds = time.process_time() - began
     print(json.dumps([kept[1], seconds, most_mb() - before]))
 
@@ -212,11 +213,14 @@ def read(what: str, folder: Path, bodies: int, steps: int) -> None:
 def readings(folder: Path, bodies: int, steps: int) -> list[Figure]:
     """Figures of reading what a crowd has left, for a million rows each, and of refusing what is too large."""
     found = []
-    for what, goal_mb in (("stream", STREAM_READ_MB), ("ledger", LEDGER_READ_MB)):
+    for what, done_to_it, goal_s, goal_mb in (
+        ("stream", "checked", STREAM_READ_S, STREAM_READ_MB),
+        ("ledger", "summed", LEDGER_READ_S, LEDGER_READ_MB),
+    ):
         call = [sys.executable, __file__, "--read", what, str(folder), "--bodies", str(bodies), "--steps", str(steps)]
         done = subprocess.run(call, capture_output=True, text=True, check=True)
         rows, seconds, grown_mb = json.loads(done.stdout)
-        found.append(Figure(f"{what} read and checked, a million rows", seconds / rows * 1e6, READ_S, "s"))
+        found.append(Figure(f"{what} read and {done_to_it}, a million rows", seconds / rows * 1e6, goal_s, "s"))
         found.append(Figure(f"memory of a {what}, a million rows", grown_mb / rows * 1e6, goal_mb, "MB"))
     schema, rows = columns.arrow_schema(columns.TABLES["inputs"]), 1 << 22
     zeros = pa.RecordBatch.from_arrays([pa.array(np.zeros(rows), field.type) for field in schema], schema=schema)
