@@ -31,6 +31,7 @@ from .columns import FORETOLD_COLUMNS, OF_MEDIA, SCHEMA_VERSION, TABLES, Column,
 from .derived_columns import Derived
 from .foretold import BYTES, FEWEST, WEIGHTS, Forecast
 from .push_blocks import PushStream
+from .stream_files import LESS, MOST_BYTES
 
 if TYPE_CHECKING:
     import mujoco
@@ -266,6 +267,7 @@ class _Stream:
 
         self._columns = columns
         self._schema = arrow_schema(columns)
+        self._path, self._room = path, MOST_BYTES if path.stem in PACKED else None
         self._sink = pa.OSFile(str(path), "wb")
         options = pa.ipc.IpcWriteOptions(compression="zstd" if path.stem in PACKED else None)
         self._writer = pa.ipc.new_stream(self._sink, self._schema, options=options)
@@ -283,7 +285,13 @@ class _Stream:
                 continue
             flat = pa.array(np.asarray(value, column.dtype).reshape(-1))
             arrays.append(pa.FixedSizeListArray.from_arrays(flat, type=field.type) if column.shape else flat)
-        self._writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=self._schema), about)
+        batch = pa.RecordBatch.from_arrays(arrays, schema=self._schema)
+        if self._room is not None:
+            self._room -= batch.nbytes
+            if self._room < 0:  # what nobody would read again is not written
+                what = f"{self._path.name} would have more than {MOST_BYTES / 2**20:.0f} MiB of rows"
+                raise RecordingError(what, str(self._path), LESS)
+        self._writer.write_batch(batch, about)
 
     def close(self) -> None:
         """End the stream."""
