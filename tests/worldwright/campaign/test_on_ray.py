@@ -1,6 +1,7 @@
 """Ray as the hands of a campaign: what it is asked for, and what becomes of what it raises. Ray itself is not installed here.
 
-`make test-ray` installs it, and runs the last tests on a Ray of this machine: its own, and a cluster of two nodes.
+`make test-ray` installs it, and runs the last tests on a Ray of this machine: its own, and a cluster of two nodes, which does
+twenty-four sweeps of an accepted example.
 """
 
 import contextlib
@@ -15,6 +16,7 @@ import types
 
 import pytest
 
+import example_sweeps
 import stub_worlds
 from stub_worlds import FAILS, MASS
 from worldwright.campaign import conducting, on_ray, setting_out
@@ -101,14 +103,14 @@ def ray(monkeypatch):
 
 @pytest.fixture
 def begun(tmp_path, small_plan):
-    """Begins a campaign over masses, or over another number of the plan."""
+    """Begins a campaign over masses."""
 
-    def begin(values, folder=None, field=MASS, **words) -> Store:
+    def begin(values, **words) -> Store:
         (tmp_path / "plan.md").write_text(small_plan, encoding="utf-8")
         file = tmp_path / "c.yaml"
-        sweep = {"fields": {field: {"values": list(values)}}}
+        sweep = {"fields": {MASS: {"values": list(values)}}}
         file.write_text(json.dumps({"plan": "plan.md", "report": False, "sweep": sweep, **words}))
-        return setting_out.begun(setting_out.checked(file), file, folder or tmp_path / "campaign", approved=False)
+        return setting_out.begun(setting_out.checked(file), file, tmp_path / "campaign", approved=False)
 
     return begin
 
@@ -191,8 +193,6 @@ def test_no_cluster_and_no_ray_are_said_with_what_to_do(begun, ray, monkeypatch)
 
 
 if "WORLDWRIGHT_RAY" in os.environ:
-    BOTTOM = "topology.scene_predicates[0].params.bottom"
-    HEIGHTS = (0.45, 0.5, 0.55, 0.6)
 
     def test_ray_itself_does_the_work(begun):
         store = begun(range(1, 5), hands="ray", workers=2)
@@ -236,7 +236,7 @@ if "WORLDWRIGHT_RAY" in os.environ:
             time.sleep(0.1)
         pytest.fail(f"no Ray listens at {address}")
 
-    def test_two_nodes_give_the_trajectories_that_this_machine_gives(begun, cluster, tmp_path):
+    def test_two_nodes_give_the_trajectories_that_this_machine_gives(cluster, tmp_path):
         ray = __import__("ray")  # which `make test-ray` installs
 
         ray.init(address=cluster, log_to_driver=False)
@@ -244,15 +244,13 @@ if "WORLDWRIGHT_RAY" in os.environ:
             if sum(node["Alive"] for node in ray.nodes()) == 2:
                 break
             time.sleep(0.1)
-        hashes = {}
+        hashes, worlds = {}, max(4, example_sweeps.SWEEPS)
         for hands, where in (("processes", ""), ("ray", cluster)):
-            (tmp_path / hands).mkdir()
-            words = {"hands": hands, "address": where, "workers": 2, "until": "physics"}
-            # Heights, not masses: what falls freely falls as all else does, and equal motions have one hash.
-            store = begun(HEIGHTS, folder=tmp_path / hands / "campaign", field=BOTTOM, **words)
+            file = example_sweeps.campaign(tmp_path / hands, worlds, hands=hands, address=where, workers=2)
+            store = setting_out.begun(setting_out.checked(file), file, tmp_path / hands / "campaign", approved=True)
             end = conducting.conduct(store, perform if hands == "processes" else stub_worlds.on_a_node)
-            assert end.outcomes == {"held": 4}, [row.cause for row in store.rows()]
+            assert end.outcomes == {"held": worlds}, [row.cause for row in store.rows()]
             hashes[hands] = {row.world: row.trajectory_sha256 for row in store.rows()}
         ray.shutdown()
-        assert hashes["ray"] == hashes["processes"] and len(set(hashes["ray"].values())) == 4
+        assert hashes["ray"] == hashes["processes"] and len(set(hashes["ray"].values())) == worlds
         assert noted(store) == ["0", "0"], "each node did its share"
