@@ -1,6 +1,6 @@
 """The page of a campaign: what came of it, failures grouped by cause, histograms of margins, and a wall of its worlds.
 
-`index.html` lies in the campaign's folder and reads nothing but the posters and reports beside it. Rows are gone through twice:
+`index.html` lies in the campaign's folder and reads nothing but the posters, films and reports beside it; a film plays under the pointer. Rows are gone through twice:
 once for the columns and the order, then by number for the table, the page and whoever else looks at each; of a very large campaign
 the page shows the worlds that come first.
 """
@@ -183,6 +183,7 @@ def _tile(row: Row) -> dict[str, Any]:
         "m": round(margin, 6) if margin is not None and math.isfinite(margin) else None,
         "v": ", ".join(_values(row)),
         "p": row.poster,
+        "f": row.film,
         "r": row.report or (f"{row.folder}/" if row.folder else ""),
     }
     return {name: value for name, value in told.items() if value not in ("", None)}

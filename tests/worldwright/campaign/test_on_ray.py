@@ -35,6 +35,7 @@ class StandIn(types.ModuleType):
     def __init__(self, dies=(), silent=()):
         super().__init__("ray")
         self.dies, self.silent, self.asked, self.tasks = dict(dies), set(silent), {}, {}
+        self.dashboard = ""
         self.shut, self.holds = 0, [{"CPU": 4.0, "memory": 8e9}]
 
     def is_initialized(self):
@@ -44,6 +45,7 @@ class StandIn(types.ModuleType):
         self.asked["init"] = words
         if words["address"] == "nobody:1":
             raise ConnectionError("Could not connect to nobody:1\nmore words")
+        return types.SimpleNamespace(dashboard_url=self.dashboard)
 
     def nodes(self):
         dead = {"Alive": False, "Resources": {"CPU": 64.0, "memory": 8e12}}
@@ -120,8 +122,15 @@ def test_where_ray_is_installed_it_does_the_work_and_is_left(begun, ray):
     end = conducting.conduct(store, stub_worlds.do, say=lambda said: pytest.fail(said))
     assert end.done == 4 and end.outcomes == {"failed": 1, "held": 3} and module.shut == 1
     assert os.environ[on_ray.NICENESS] == "0", "as our own processes"
-    assert module.asked["init"]["address"] == "local" and module.asked["init"]["include_dashboard"] is False
+    assert module.asked["init"]["address"] == "local" and module.asked["init"]["include_dashboard"] is None
     assert module.asked["remote"]["max_retries"] == 0 and module.asked["remote"]["num_cpus"] == 1
+
+
+def test_the_dashboard_is_named_where_there_is_one(begun, ray):
+    said, store = [], begun([1])
+    ray().dashboard = "127.0.0.1:8265"
+    conducting.conduct(store, stub_worlds.do, say=said.append)
+    assert said == ["Ray's dashboard: http://127.0.0.1:8265"]
 
 
 def test_a_cluster_is_asked_by_its_address_and_for_the_memory_that_worlds_took(begun, ray):
