@@ -7,8 +7,9 @@ the page shows the worlds that come first.
 
 import json
 import math
+from array import array
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -72,7 +73,7 @@ class Seen:
 
     outcomes: Counter[str] = field(default_factory=Counter)
     groups: dict[tuple[str, str], Group] = field(default_factory=dict)
-    margins: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+    margins: dict[str, "array[float]"] = field(default_factory=lambda: defaultdict(lambda: array("d")))
     units: dict[str, str] = field(default_factory=dict)
     shown: list[Row] = field(default_factory=list)
     total: int = 0
@@ -154,7 +155,7 @@ def render(store: Store, seen: Seen) -> str:
     )
 
 
-def histogram(name: str, values: list[float], unit: str = "") -> Histogram:
+def histogram(name: str, values: Sequence[float], unit: str = "") -> Histogram:
     """The histogram of finite values, at least one."""
     low, high = min(values), max(values)
     if high - low <= 1e-12 * max(1.0, abs(low)):
