@@ -30,7 +30,7 @@ def campaign(folder, prompts, author, env):
     around(folder)
     said = {
         "prompts": prompts, "author": author, "workers": 1, "hands": "processes", "report": False, "until": "physics",
-        "per_world": {"seconds": 240},
+        "per_world": {"seconds": 900},
     }  # fmt: skip
     (folder / "six.yaml").write_text(json.dumps(said))
     words = [sys.executable, "-m", "worldwright.cli", "campaign", "run", "six.yaml", "--folder", "six"]
