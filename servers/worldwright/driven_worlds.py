@@ -17,26 +17,23 @@ def command() -> None:
 @command.command("list")
 @click.argument("run")
 def list_(run: str) -> None:
-    """The drives of a run, with who drove, and whether they are proved."""
+    """The drives of a run, with who drove and who signed, held against their files; only `prove` drives them again."""
     from .cli import report_errors
 
     def told() -> None:
-        from .ends import drive_folder, driven
-        from .model.errors import GateError
+        from .ends import driven
+        from .model.errors import WorldwrightError
         from .model.evidence.run import Run
         from .model.printable import line
 
         for folder in driven.listed(Run.find(run).folder):
-            if not (folder / driven.STATEMENT).is_file():
-                click.echo(f"{folder}: not proved yet, worldwright drive prove {folder}")
-                continue
             try:
-                said = drive_folder.statement(folder).predicate
-            except GateError as cause:
-                click.echo(f"{folder}: {line(cause.cause)}")
+                said = driven.checked(folder)
+            except WorldwrightError as cause:
+                click.echo(f"{folder}: {line(cause.cause)}; {line(cause.next_move)}")
                 continue
-            names = ", ".join(dict.fromkeys(line(span.driver) for span in said.driven_by))
-            click.echo(f"{folder}: {said.simulated_s:.1f} s, {names or 'nobody'}")
+            names = ", ".join(dict.fromkeys(line(span["driver"]) for span in said.driven_by))
+            click.echo(f"{folder}: {said.simulated_s:.1f} s, {names or 'nobody'}; {said.signed}")
 
     report_errors(told)
 
@@ -45,9 +42,9 @@ def list_(run: str) -> None:
 @click.argument("name", metavar="DRIVE")
 @click.option("--format", "style", type=click.Choice(["text", "json"]), default="text")
 def prove_(name: str, style: str) -> None:
-    """Drive it again by its stream, in a clean process, and compare; finish one whose process was killed.
+    """Drive it again by its stream, in a clean process, and compare; finish, unsigned, one whose process was killed.
 
-    Exit status 3: proved, but signed by no key that is known here.
+    Exit status 3: proved, but not signed by the live run with a key that is known here.
     """
     from .cli import report_errors, show
 
@@ -71,7 +68,10 @@ def film_(name: str, cameras: tuple[str, ...]) -> None:
     def filmed() -> None:
         from .ends import drive_film, driven
 
-        for path in drive_film.film(driven.find(name), cameras):
+        made, stated = drive_film.film(driven.find(name), cameras)
+        for path in made:
             click.echo(str(path))
+        if not stated.vouched:
+            click.echo(f"not checked: {stated.signed}; next: worldwright drive prove {stated.folder}", err=True)
 
     report_errors(filmed)
