@@ -25,6 +25,13 @@ TICK_S, SHOW_S = 0.2, 5.0
 @click.option("--at-once", is_flag=True, help="Begin before anybody drives.")
 @click.option("--follow", default="", metavar="BODY", help="What the following camera follows; a car, else what moves.")
 @click.option("--pictures/--no-pictures", default=True, help="Draw what the page shows.")
+@click.option(
+    "--look",
+    type=click.Choice(["quick", "film"]),
+    default="quick",
+    show_default=True,
+    help="Of the pictures: in plain light, or as the house draws films, at six times the price.",
+)
 @click.option("--size", default="400x224", show_default=True, help="Of the pictures, pixels.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Of the page; a free one without it.")
 @click.option(
@@ -49,6 +56,7 @@ def command(
     at_once: bool,
     follow: str,
     pictures: bool,
+    look: str,
     size: str,
     port: int,
     host: str,
@@ -65,7 +73,9 @@ def command(
     from .cli import report_errors
 
     sys.exit(
-        report_errors(lambda: drive(run, speed, seconds, at_once, follow, pictures, size, port, host, token, prove))
+        report_errors(
+            lambda: drive(run, speed, seconds, at_once, follow, pictures, look, size, port, host, token, prove)
+        )
     )
 
 
@@ -76,6 +86,7 @@ def drive(
     at_once: bool,
     follow: str,
     pictures: bool,
+    look: str,
     size: str,
     port: int,
     host: str,
@@ -122,7 +133,7 @@ def drive(
     before = {number: signal.signal(number, lambda *_: ended.set()) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         if pictures:
-            view = PictureThread(lambda: LiveView(source, (width, height), follow), lambda: world.newest)
+            view = PictureThread(lambda: LiveView(source, (width, height), follow, look), lambda: world.newest)
             view.ready.wait(60)
         page = LivePage(world, seats, view, host, port, token or ("" if loopback(host) else secrets.token_urlsafe(16)))
         click.echo(f"{page.address}  drives {', '.join(names)}; end it with Ctrl-C")

@@ -135,6 +135,19 @@ def test_a_drive_over_its_page_is_kept_and_proved_whatever_its_peers_do(run):
         prove(world.folder)
 
 
+def test_steps_that_are_left_to_the_engine_are_the_same(run, seal):
+    """Nothing drove this world before, so nothing can change between two looks at the clock."""
+    (run / "accepted/world/inputs.arrows").unlink()
+    seal(run)
+    world = LiveWorld(LiveSource.find(run), speed=4.0, seconds=1.7, waits=False)
+    world.command({"pull": 0.1})
+    assert world.wait(PATIENCE_S)
+    world.close()
+    assert moved(world) == 0.1
+    found = finish(world.folder, world.witness)
+    assert found.vouched and found.rows == found.rows_live > 10
+
+
 def test_what_was_driven_outlives_a_kill(run):
     world = LiveWorld(LiveSource.find(run))
     with served(world) as page:
