@@ -1,4 +1,4 @@
-"""`worldwright drive`: what is left of live drives: list them, prove one again, film it."""
+"""`worldwright drive`: what is left of live drives: list them, prove one again, film it, make a run of it."""
 
 import sys
 from typing import TYPE_CHECKING
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 @click.group("drive", no_args_is_help=True)
 def command() -> None:
-    """What is left of live drives: list them, prove one again, film it. DRIVE is a folder of RUN/drives, or RUN for the newest."""
+    """What is left of live drives: list them, prove one again, film it, keep it as a run. DRIVE is a folder of RUN/drives, or RUN for the newest."""
 
 
 @command.command("list")
@@ -75,3 +75,31 @@ def film_(name: str, cameras: tuple[str, ...]) -> None:
             click.echo(f"not checked: {stated.signed}; next: worldwright drive prove {stated.folder}", err=True)
 
     report_errors(filmed)
+
+
+@command.command("keep")
+@click.argument("name", metavar="DRIVE")
+@click.option("--as", "run", required=True, help="The run's folder.")
+@click.option("--check", is_flag=True, help="It was made: hold its recording against the drive.")
+def keep_(name: str, run: str, check: bool) -> None:
+    """Make a run of a drive, whose program gives the recorded commands: it is scanned, filmed and accepted as any other."""
+    from .cli import report_errors
+
+    def kept() -> None:
+        from pathlib import Path
+
+        from .ends import driven, kept_drive
+
+        folder = driven.find(name)
+        if check:
+            rows = kept_drive.same(kept_drive.recording_of(Path(run)), folder)
+            click.echo(f"{run} moves as {folder.name}: it passes through {rows} rows recorded live, bit for bit")
+            return
+        stated = kept_drive.keep(folder, Path(run))
+        click.echo(f"{run}: {stated.simulated_s:.2f} s; {stated.signed}")
+        click.echo(
+            f"next: read {run}/plan.md, whose objectives are those of the world that was driven; worldwright go {run} --approve; "
+            f"worldwright drive keep {name} --as {run} --check"
+        )
+
+    report_errors(kept)
