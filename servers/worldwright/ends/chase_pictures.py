@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .live_source import LiveSource
 
 CHASE = "chase"
-SIZE, FPS, QUALITY = (400, 224), 15.0, 72
+SIZE, FPS, QUALITY = (400, 224), 20.0, 72
 QUICK, FILM = "quick", "film"
 LOOKS = (QUICK, FILM)
 SUN = (-0.4, 0.3, -0.87)
