@@ -1,7 +1,6 @@
 """A world that lives in a process of its own, as others here see it: its newest state, its commands, its end."""
 
 import shutil
-import signal
 import socket
 import subprocess
 import sys
@@ -202,9 +201,9 @@ class LiveWorld:
         try:
             status = self._process.wait(FAREWELL_S)
         except subprocess.TimeoutExpired:
-            status = -signal.SIGKILL
-        family.end(self._process.pid, self._token)
-        self._process.wait()
+            family.end(self._process.pid, self._token)
+            status = self._process.wait()
+        family.sweep(self._token)
         self._over.wait(FAREWELL_S)
         self._wake.set()
         self._socket.close()
