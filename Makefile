@@ -17,7 +17,8 @@ demo: .venv/.core ## Build and accept the billiards world from its plan, and say
 	$(BIN)/worldwright go examples/two-billiard-balls/plan.md --run runs/demo --approve --accept
 	@echo; echo "Open $(CURDIR)/runs/demo/report.html in a browser."
 
-test: lint tests ## Everything that must hold
+test: style ## Everything that must hold
+	@$(MAKE) --no-print-directory -j2 types tests  # the checker of types is one process: alone it would leave a core idle
 
 tests: .venv/.dev ## The tests alone
 	@$(BIN)/python -m compileall -q servers  # what was edited since set-up, which each of thousands of processes would compile

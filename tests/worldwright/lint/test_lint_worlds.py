@@ -3,7 +3,6 @@
 import json
 import textwrap
 import time
-from pathlib import Path
 
 import pytest
 
@@ -18,7 +17,6 @@ from worldwright.model.errors import CallOverError
 from worldwright.stage import confined
 from worldwright.stage import tools as stage
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
 SCRIPT = """\
 import mujoco
 
@@ -38,6 +36,9 @@ data = mujoco.MjData(model)
 while True:
     mujoco.mj_step(model, data)
 """
+ENDLESS = "while True:\n    pass\n"
+BOTTOMLESS = "import sys\nsys.setrecursionlimit(10 ** 9)\ndef f():\n    f()\nf()\n"
+LOUD = "while True:\n    print('x' * 10 ** 6)\n"
 
 
 def written(folder, text, name="simulation.py"):
@@ -73,27 +74,19 @@ def test_a_model_file_with_parts_is_compiled_with_all_it_names(tmp_path):
     assert [(f.code, f.line) for f in report.findings] == [("WM112", 3)]
 
 
-@pytest.mark.parametrize("program", sorted(EXAMPLES.glob("*/simulation.py")), ids=lambda path: path.parent.name)
-def test_the_worlds_of_the_examples_are_clean(program):
-    from worldwright.model.plan.plan_text import read_plan
-
-    found, said = engine.check_program_file(program, read_plan(program.parent / "plan.md").plan, True)
-    assert found == [] and "compiled" in said
-
-
 @pytest.mark.parametrize(
     ("text", "status"),
     [
-        ("while True:\n    pass\n", "timed_out"),
+        (ENDLESS, "timed_out"),
         ("x = []\nwhile True:\n    x.append(bytes(1 << 24))\n", ("failed", "out_of_memory", "died")),
         ("import os\nos._exit(3)\n", "died"),
         ("import os, signal\nos.kill(os.getpid(), signal.SIGKILL)\n", "died"),
         ("raise SystemExit(3)\n", "failed"),
         (
-            "import sys\nsys.setrecursionlimit(10 ** 9)\ndef f():\n    f()\nf()\n",
+            BOTTOMLESS,
             ("failed", "died", "timed_out", "out_of_memory"),
         ),
-        ("while True:\n    print('x' * 10 ** 6)\n", ("failed", "died", "timed_out")),
+        (LOUD, ("failed", "died", "timed_out")),
         ("x = 1\n", "nothing"),
         ("def build():\n    return 7\n", "failed"),
         ("import mujoco\nmujoco.mj_step(None, None)\n", "failed"),
@@ -101,7 +94,8 @@ def test_the_worlds_of_the_examples_are_clean(program):
 )
 def test_hostile_programs_end_in_bounded_time(tmp_path, text, status):
     began = time.monotonic()
-    outcome = fetch.world(written(tmp_path, text), wall_s=3.0)
+    ends_by_itself = text not in (ENDLESS, BOTTOMLESS, LOUD)  # the others would burn all the time that they get
+    outcome = fetch.world(written(tmp_path, text), wall_s=3.0 if ends_by_itself else 1.0)
     assert outcome.status in ((status,) if isinstance(status, str) else status)
     assert time.monotonic() - began < 60
     found = engine.check_world(Program(source.parse(text)), outcome)
