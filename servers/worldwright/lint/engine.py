@@ -208,6 +208,11 @@ def findings(
         )
 
 
+def law_rows(plan: Plan) -> Iterator[str]:
+    """Names of the author's own laws that a plan declares."""
+    yield from (row.solver.name for row in plan.simulation_parameters.interventions if row.solver and row.solver.file)
+
+
 def in_order(found: Iterable[Finding]) -> list[Finding]:
     """Sort by line, column and code; findings without a line come first."""
     return sorted(found, key=lambda f: (f.line or 0, f.column or 0, f.code))
@@ -374,6 +379,10 @@ def check_program_file(
     if outcome.status == "nothing":
         return found, f"{path.name}: the program makes no world"
     said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
-    if outcome.pass_s is not None:
-        said += f"; by its first steps the physics takes about {max(outcome.pass_s, 1):.2g} s here"
+    price, beside = outcome.pass_s, plan is not None and any(law_rows(plan))
+    if beside and bundle is not None and price is not None:  # the file has no laws: they are the program's
+        price = fetch.world(path, wall_s=wall_s).pass_s
+        said += "" if price is not None else "; its laws were not asked in time, so its price is not known"
+    if price is not None:
+        said += f"; by its first steps{' and its laws' * beside} the physics takes about {max(price, 1):.2g} s here"
     return in_order([*found, *check_world(program, outcome, planned)]), said

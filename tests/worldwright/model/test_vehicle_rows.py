@@ -132,10 +132,14 @@ def test_whole_numbers_stay_whole():
     assert made.assets[0].vehicle.made().corners[-1] == "4r"
 
 
-def test_what_a_driver_does_was_chosen_by_somebody():
+def test_what_a_driver_does_and_which_way_he_takes_was_chosen_by_somebody():
     follows = plan({"kind": "car", "follows": {"path": [[0, 0], [9, 0]], "speed_m_s": 5}})
     assert dict(_chosen(follows))["assets.car.vehicle.follows.speed_m_s"] == [5.0]
     assert "assets.car.vehicle.follows.across_m_s2" not in dict(_chosen(follows))
+    assert dict(_chosen(follows))["assets.car.vehicle.follows.path"] == [0, 0, 9, 0]
+    assert "assets.car.vehicle.follows.closed" not in dict(_chosen(follows))
+    ring = {"path": [[0, 0], [9, 0], [9, 9]], "closed": True, "speed_m_s": 5}
+    assert "assets.car.vehicle.follows.closed" in dict(_chosen(plan({"kind": "car", "follows": ring})))
     assert dict(_chosen(plan({"kind": "car", "inputs": BRAKES})))["assets.car.vehicle.inputs.0.throttle"] == [0.2]
 
 
