@@ -23,9 +23,9 @@ CASES = Path(__file__).parents[2] / "skills/fields/references"
 NAMES = sorted(path.parent.name for path in CASES.glob("*/plan.md"))
 
 
-def test_there_are_two_and_the_skill_names_each() -> None:
+def test_there_are_three_and_the_skill_names_each() -> None:
     page = (CASES.parent / "SKILL.md").read_text(encoding="utf-8")
-    assert len(NAMES) == 2 and all(f"references/{name}/" in page for name in NAMES)
+    assert len(NAMES) == 3 and all(f"references/{name}/" in page for name in NAMES)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -14,7 +14,8 @@ if __name__ == "__main__":
 import mujoco
 import numpy as np
 from scipy.integrate import quad
-from scipy.special import j1, jnp_zeros, jv
+from scipy.optimize import brentq
+from scipy.special import erf, j1, jnp_zeros, jv
 
 from validation import flowing
 from worldengine.solvers import SEAM, water
@@ -364,6 +365,48 @@ def ice_melts() -> float:
     return abs(float(found["melted"][0]) / 0.5 - 1)
 
 
+def front_melts() -> float:
+    """How far ice at its melting point has melted from a hot wall: 2 l sqrt(a t), l exp(l^2) erf(l) = Ste / sqrt(pi), at two times."""
+    cells, wide, k, c, latent, hot = 14, 0.001, 0.58, 4186.0, 334e3, 80.0
+    slab = '<body name="{0}" pos="{1} 0 0"><joint type="slide" damping="1e6"/><geom type="box" size="0.0005 0.05 0.05" mass="0.01" margin="1e-4" gap="1e-4"/></body>'
+    row = "".join(slab.format(f"s{n}", n * wide) for n in range(cells))
+    names = [f"s{n}" for n in range(cells)]
+    told = {
+        "warm": (273.15 + hot, *[273.15] * (cells - 1)),
+        "around": 273.15,
+        "specific_heat": (1e12, *[c] * (cells - 1)),  # the wall stays hot
+        "contact": k * 0.01 / wide,
+        "melts": (0.0, *[273.15] * (cells - 1)),
+        "latent": latent,
+    }
+    diffuses, root = (
+        k / (1000.0 * c),
+        float(brentq(lambda x: x * np.exp(x * x) * erf(x) - c * hot / latent / np.sqrt(np.pi), 0, 2)),
+    )
+    errors = []
+    for seconds in (100.0, 400.0):
+        world = f'<option timestep="2.5" gravity="0 0 0"/><worldbody>{row}</worldbody>'
+        _, found = ran_beside("heat", world, names, told, seconds)
+        front = (float(found["melted"].sum()) + 0.5) * wide  # the wall's middle is half a slab before its face
+        errors.append(abs(front / (2 * root * np.sqrt(diffuses * seconds)) - 1))
+    return max(errors)
+
+
+def rod_grows() -> float:
+    """How far a steel rod between a wall and a block has pushed the block, when it is as warm as air of 400 K more: alpha L (T - T0)."""
+    world = (
+        '<option timestep="0.002" gravity="0 0 0"/><worldbody><geom type="box" size="0.05 0.1 0.1" pos="-0.05 0 0"/>'
+        '<body name="rod" pos="0.25 0 0"><joint type="slide" axis="1 0 0" damping="1"/><geom type="box" size="0.25 0.01 0.01" mass="1.5"/></body>'
+        '<body name="block" pos="0.55 0 0"><joint type="slide" axis="1 0 0" stiffness="50" damping="50"/>'
+        '<geom type="box" size="0.05 0.05 0.05" mass="1"/></body></worldbody>'
+    )
+    told = {"warm": 293.0, "around": 693.0, "specific_heat": 470.0, "cooling": (2e5, 0.0), "expansion": (12e-6, 0.0)}
+    data, _ = ran_beside(
+        "heat", world, ["rod", "block"], told, 2.0
+    )  # some time after it is as warm, for contacts give way
+    return abs(float(data.qpos[1]) / (12e-6 * 0.5 * 400.0) - 1)
+
+
 CASES = (
     Case("A sphere half as dense as water floats half under", "Archimedes, On Floating Bodies, I.5", sphere_afloat, 0.02),
     Case("An upright cylinder draws its share of its height", "Archimedes, On Floating Bodies, I.5", cylinder_afloat, 0.02),
@@ -387,6 +430,8 @@ CASES = (
     Case("Two charges fly apart", "Jackson, Classical Electrodynamics, section 1.11", charges_fly, 0.002),
     Case("A copper ball cools", "Newton 1701", newton_cools, 0.002),
     Case("Ice melts in a warm room", "Incropera and DeWitt, Heat and Mass Transfer, chapter 5", ice_melts, 0.002),
+    Case("A front of melting runs as the root of time", "Stefan 1891; Carslaw and Jaeger, section 11.2", front_melts, 0.01),
+    Case("A steel rod grows as it warms", "Ashcroft and Mermin, chapter 25; alpha L dT", rod_grows, 0.01),
     Case("Pressure in a tank grows with depth", "Batchelor, An Introduction to Fluid Dynamics, section 1.4", flowing.hydrostatics, 0.08),
     Case("The front of a dam that breaks", "Martin and Moyce 1952", flowing.dam_break, 0.08),
     Case("A stream falls as fast as anything", "Torricelli 1643", flowing.stream, 0.01),

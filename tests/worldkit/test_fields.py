@@ -4,10 +4,12 @@ import os
 import subprocess
 import sys
 
+import mujoco
 import numpy as np
 import pytest
 
-from worldkit.fields import coulomb, eddies, filaments, lumped_heat, magnetism
+from worldkit.errors import ProgramError
+from worldkit.fields import coulomb, eddies, expansion, filaments, lumped_heat, magnetism
 from worldkit.turning import matrices
 
 BAR = filaments.bar(0.01, 0.01, 0.03, 1.2)
@@ -168,3 +170,33 @@ def test_heat_goes_nowhere_and_ice_melts_at_one_temperature() -> None:
     between = (melted > 0) & (melted < 1)
     assert between.sum() > 20 and np.abs(warm[between] - 273.15).max() < 1e-9
     assert melted.max() == 1.0 and warm.max() > 280
+
+
+RING = """<mujoco><worldbody><body name="a"><freejoint/><geom type="box" size=".1 .02 .01" pos=".1 0 0" mass="1"/>
+  <geom type="sphere" size=".03" pos="-.1 0 0" mass="1"/><geom type="sphere" size=".5" contype="0" conaffinity="0" mass="0"/></body>
+  <body name="b" pos="0 0 3"><freejoint/><geom type="mesh" mesh="m" mass="1"/></body></worldbody>
+  <asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset></mujoco>"""
+
+
+def test_a_body_of_several_shapes_grows_about_its_middle_and_back() -> None:
+    model = mujoco.MjModel.from_xml_string(RING)
+    size, place, reach = model.geom_size.copy(), model.geom_pos.copy(), model.geom_rbound.copy()
+    grown = expansion.Grown(model, [1, 2], np.array([2e-5, 0.0]), ["world", "a", "b"])
+    assert grown.follow(np.array([500.0, 500.0])) == pytest.approx([0.01, 0.0])
+    assert model.geom_size[:2] == pytest.approx(1.01 * size[:2]) and model.geom_rbound[:2] == pytest.approx(
+        1.01 * reach[:2]
+    )
+    middle = model.body_ipos[1]
+    assert model.geom_pos[:2] - middle == pytest.approx(1.01 * (place[:2] - middle))
+    assert (model.geom_size[2:] == size[2:]).all(), "what only shows, and what does not grow, stays"
+    grown.follow(np.zeros(2))
+    assert (model.geom_size == size).all() and model.geom_pos == pytest.approx(place)
+
+
+@pytest.mark.parametrize(
+    ("share", "warmer", "said"), [((0, 1e-5), 1.0, "mesh"), ((-1e-5, 0), 1.0, "below 0"), ((1e-4, 0), 400.0, "0.04")]
+)
+def test_what_cannot_grow_or_grows_too_far_is_refused(share: tuple[float, float], warmer: float, said: str) -> None:
+    model = mujoco.MjModel.from_xml_string(RING)
+    with pytest.raises(ProgramError, match=said):
+        expansion.Grown(model, [1, 2], np.array(share), ["world", "a", "b"]).follow(np.full(2, warmer))

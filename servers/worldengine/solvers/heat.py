@@ -1,9 +1,9 @@
-"""Simulate the temperatures of bodies: they cool to what is around them, conduct where they touch, are heated, and melt.
+"""Simulate the temperatures of bodies: they cool to what is around them, conduct where they touch, are heated, melt, and grow.
 
     C dT/dt = P - h A (T - T_around) - sum of K (T - T_other) over what touches
 
-Each body has one temperature and keeps its shape: what is molten is told as a share, and does not flow away. Mass and surface are those
-of the world. Sources: Newton 1701; Incropera and DeWitt, Heat and Mass Transfer, chapter 5 (`worldkit.fields.lumped_heat`).
+Each body has one temperature. What is molten is told as a share, and does not flow away; what has an `expansion` is as large as the plan
+says at the start, and grows from there (`worldkit.fields.expansion`). Mass and surface are those of the world. Sources: Newton 1701; Incropera and DeWitt, Heat and Mass Transfer, chapter 5 (`worldkit.fields.lumped_heat`).
 """
 
 import math
@@ -32,8 +32,9 @@ OPTIONAL = {
     "source": ("W", "into each; 0 where nothing is said"),
     "melts": ("K", "of each, at which it melts; 0: it does not"),
     "latent": ("J/kg", "of each, to melt it; 0: it does not"),
+    "expansion": ("1/K", "of each, linear; 0: it keeps its size"),
 }
-EACH = frozenset({"warm", "specific_heat", "cooling", "source", "melts", "latent"})
+EACH = frozenset({"warm", "specific_heat", "cooling", "source", "melts", "latent", "expansion"})
 STANDING, PUSHES = True, False
 TOUCH_M = 2e-4
 """What is nearer than this touches."""
@@ -77,6 +78,17 @@ CASES = (
         tolerance=1e-4,
         because="what is left of the heat when it is warmed up melts it",
     ),
+    Case(
+        '<mujoco><option timestep="0.005" gravity="0 0 0"/><worldbody><body name="rod"><geom type="box" size="0.2 0.01 0.01" mass="0.5"/></body>'
+        "</worldbody></mujoco>",
+        bodies=("rod",),
+        constants={"warm": 300.0, "around": 0.0, "specific_heat": 400.0, "source": 2e4, "expansion": 2e-5},
+        seconds=1.0,
+        channel="grown",
+        expected=2e-5 * 2e4 / (0.5 * 400.0),
+        tolerance=1e-6,
+        because="alpha (T - T0), and it warms by P t / C",
+    ),
 )
 
 
@@ -86,6 +98,7 @@ class Heat:
     def __init__(self, model: "mujoco.MjModel", bodies: Sequence[int], constants: Mapping[str, Any]) -> None:
         import numpy as np
 
+        from worldkit.fields.expansion import Grown
         from worldkit.fields.lumped_heat import Warmth
 
         count = len(bodies)
@@ -113,12 +126,17 @@ class Heat:
             raise ProgramError(cause, "interventions", "let it begin solid, or say that it does not melt")
         around = float(constants["around"])
         self.warmth = Warmth(told["warm"], capacity, loss, around, told["source"], melts, latent)
+        self._grown, self._cold = Grown(model, bodies, told["expansion"], called), told["warm"]
         self._row = np.full(model.nbody, -1)
         self._row[list(bodies)] = np.arange(count)
         self._body_of = model.geom_bodyid
-        self._touching = np.zeros((count, count))
-        names_ = ("temperature", "K", "of each of its bodies"), ("melted", "1", "the share of each that is molten")
-        self._told = [Column(name, (count,), unit, says) for name, unit, says in names_]
+        self._touching, self._strain = np.zeros((count, count)), np.zeros(count)
+        told_ = (
+            ("temperature", "K", "of each of its bodies"),
+            ("melted", "1", "the share of each that is molten"),
+            ("grown", "1", "the lengths of each over those at the start, less one"),
+        )
+        self._told = [Column(name, (count,), unit, says) for name, unit, says in told_]
         self._lost = Column("lost", (), "J", "to the air, since the start")
         self._stored = Column("stored", (), "J", "in all of its bodies, above 0 K")
         self.channels = {
@@ -138,13 +156,15 @@ class Heat:
                 self._touching[one, other] = self._touching[other, one] = self._contact
         self.channels[self._told[0]][:] = self.warmth.temperature
         self.channels[self._told[1]][:] = self.warmth.melted
+        self.channels[self._told[2]][:] = self._strain
         self.channels[self._lost][...] = self.warmth.lost
         self.channels[self._stored][...] = self.warmth.stored
         return np.zeros((len(self._touching), 6))
 
     def advance(self, step_s: float) -> None:
-        """Let heat flow."""
+        """Let heat flow, and shapes follow."""
         self.warmth.advance(step_s, self._touching)
+        self._strain = self._grown.follow(self.warmth.temperature - self._cold)
 
 
 def start(

@@ -1,7 +1,7 @@
 """Laws of fields and heat, as functions of arrays: magnets, soft iron, eddy currents, charges, temperatures.
 
 `poles` makes magnets of magnetic charges, `magnetism` is what they do to each other and to soft iron, `eddies` what they induce in tubes
-and plates, `coulomb` charges, `lumped_heat` bodies that warm and cool. The solvers of the same names beside the engine
+and plates, `coulomb` charges, `lumped_heat` bodies that warm and cool, `expansion` those that grow by it. The solvers of the same names beside the engine
 (`worldengine.solvers`) read shapes from a world and push its bodies by them. World frame, SI units.
 """
 

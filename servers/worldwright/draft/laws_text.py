@@ -32,7 +32,9 @@ class Found:
     takes: tuple[str, ...]
     """What the class must be given."""
     skin: bool
-    """It is a `worldkit.skins.Skin`, which knows its own surface."""
+    """It knows its own surface before it starts: `points` and `triangles`, as a `worldkit.skins.Skin` does."""
+    grains: bool
+    """It is a `worldkit.matter.Matter`, which knows its points, and how large each is drawn."""
     unknown: str = ""
     """A base whose arguments stand elsewhere."""
 
@@ -80,12 +82,13 @@ class Laws:
         """The text of what a law moves, in place of a body."""
         by, found = self._shows[row.name]
         lines = [comment(note)] if (note := row.description or row.role) else []
-        if found is not None and found.skin:
+        if found is not None and (found.skin or found.grains):
             self._needs.use("moved_shapes")
             law = found.made or _name(by)
             look: dict = {"look": row.look} if row.look else {}
-            shape = (Raw(f"{law}.points"), Raw(f"{law}.triangles"))
-            return "\n".join([*lines, call("moved_shapes.surface", Raw("spec"), row.name, *shape, **look)])
+            shape = (Raw(f"{law}.points"), Raw(f"{law}.{'triangles' if found.skin else 'radius'}"))
+            shown = f"moved_shapes.{'surface' if found.skin else 'grains'}"
+            return "\n".join([*lines, call(shown, Raw("spec"), row.name, *shape, **look)])
         its_look = f", look={row.look!r}" if row.look else ""
         what = (
             f"add what it moves, as it lies at the start: `moved_shapes.surface(spec, {row.name!r}, points, triangles{its_look})`, "
@@ -138,7 +141,9 @@ def _found(plan: Plan, row: Intervention) -> Found | None:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
         and isinstance(node.value, ast.Call) and ast.unparse(node.value.func) == kind.name
     ]  # fmt: skip
-    return Found(kind.name, made[0] if len(made) == 1 else "", takes or (), "Skin" in bases, unknown)
+    skin = "Skin" in bases or any(ast.unparse(target) == "self.triangles" for target in _assigned(kind))
+    made_one = made[0] if len(made) == 1 else ""
+    return Found(kind.name, made_one, takes or (), skin, "Matter" in bases, unknown)
 
 
 def _names(kind: ast.ClassDef) -> set[object]:
@@ -155,6 +160,12 @@ def _names(kind: ast.ClassDef) -> set[object]:
                 if ast.unparse(one) in ("name", "self.name") and isinstance(value, ast.Constant)
             }
     return found
+
+
+def _assigned(kind: ast.ClassDef) -> list[ast.expr]:
+    """What a class assigns to, in all of its functions, tuples taken apart."""
+    targets = [target for node in ast.walk(kind) if isinstance(node, ast.Assign) for target in node.targets]
+    return [one for target in targets for one in (target.elts if isinstance(target, ast.Tuple) else [target])]
 
 
 def _takes(kind: ast.ClassDef) -> tuple[str, ...] | None:

@@ -47,7 +47,7 @@ def begin(sentence: str, like: str | None, run: str | None) -> Begun:
         target.folder.mkdir(parents=True, exist_ok=True)
         if not target.prompt.exists():
             write_atomic(target.prompt, f"{sentence}\n")
-        for name, content in imported.beside(chosen.folder).items():
+        for name, content in {**imported.beside(chosen.folder), **_laws(chosen)}.items():
             write_atomic(target.folder / name, content)
         write_atomic(target.plan, text)
     target.log("retrieve", "plan", like=chosen.slug)
@@ -70,6 +70,14 @@ def slug(sentence: str) -> str:
     """
     spoken = [word for word in re.findall(r"[a-z0-9]+(?:-[a-z0-9]+)*", sentence.lower()) if word not in words.STOP]
     return "-".join(spoken[:4])[:60].strip("-")
+
+
+def _laws(world: World) -> dict[str, bytes]:
+    """The laws of its author's that a world's plan names, by their paths relative to it."""
+    rows = world.plan.simulation_parameters.interventions
+    named = {row.solver.file for row in rows if row.solver and row.solver.file}
+    inside = [name for name in sorted(named) if not Path(name).is_absolute() and ".." not in Path(name).parts]
+    return {name: (world.folder / name).read_bytes() for name in inside if (world.folder / name).is_file()}
 
 
 def _folder(sentence: str, run: str | None) -> Path:

@@ -24,9 +24,9 @@ _TABLE = """
     tipping  ; tip, toppl*, domino*, fall over, lean, balanc*, ladder*, wobbl*, overturn*, see-saw, seesaw ; tips_over ; solver-and-time-step
     stacking ; stack, pile, tower, brick ; ; layouts
     crowded  ; laid, crowd*, bookshel*, dining, dinner, desk, workshop, street ; ; layouts
-    air      ; wind, blow, blown, breez*, draught, carried away, carried off, parachut*, feather, leaf, flutter*, sail, flag, kite, windmill, gust, air ; reaches_terminal_speed ; fluid-drag-and-wind
-    water    ; water, float, sink, swim, boat, ship, raft, river, wave, buoy* ; floats, sinks, surfaces ; fluid-drag-and-wind
-    flowing  ; pour*, flow, flows, flowing, flowed, spill*, splash*, drip*, ooz*, honey, syrup, caramel, batter, molten ; pours_into ; media
+    air      ; wind, blow, blown, breez*, draught, carried away, carried off, parachut*, feather, leaf, flutter*, sail, flag, kite, windmill, gust, air ; ; fluid-drag-and-wind
+    water    ; water, float, sink, swim, boat, ship, raft, river, pond, lake, wave, buoy* ; floats, sinks, surfaces ; fluid-drag-and-wind
+    flowing  ; pour*, flow, flows, flowing, flowed, spill*, splash*, drip*, ooz*, honey, syrup, caramel, batter, molten, snow fall*, snowfall ; pours_into, covers ; media
     inflated ; balloon, inflat*, deflat*, airbag, bottle deform*, bottle cool*, bottle collaps*, bottle crush*, bottle shrink*, vacuum ; ; media
     soft     ; cloth, flag, curtain, towel, jelly, rubber, sponge, soft*, bend, bent, hose, cable, branch, bough, twig, reed, tree ; sags, bends, stretches, keeps_new_shape, returns_to_shape ; flex-cloth-soft-rods
     breaking ; break, broke, broken, snap, shatter*, crack, tear, torn, burst, fractur*, collaps* ; breaks, breaks_at, comes_apart ; breakable-things

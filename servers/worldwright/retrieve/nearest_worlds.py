@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     import numpy as np
 
 CHECKOUT = Path(__file__).resolve().parents[3]
-WORKED = CHECKOUT / "skills" / "worked-cases" / "references"
-"""Plans with a film each, which tests run; they have no stamp."""
+SKILLS = CHECKOUT / "skills"
+"""Of their pages, `references/NAME` with a plan and a film is a worked case, which tests run; it has no stamp."""
 SHARED_WEIGHT = 1.0
 """Of the share of the sentence's mechanisms that a world has."""
 WORD_WEIGHT = 0.06
@@ -72,10 +72,10 @@ class Near:
 def worlds(runs: Path = Path("runs")) -> Iterator[World]:
     """The examples, the worked cases, then the user's runs that are accepted; one that cannot be read is passed over."""
     seen = set()
-    for top in (CHECKOUT / "examples", WORKED, runs):
-        for path in sorted(top.glob("*/plan.md")):
+    for top, where in ((CHECKOUT / "examples", "*/plan.md"), (SKILLS, "*/references/*/film.py"), (runs, "*/plan.md")):
+        for path in sorted(top.glob(where)):
             run = Run(path.parent)
-            if run.name in seen or not (top == WORKED or (run.stamped / "stamp.json").is_file()):
+            if run.name in seen or not (top == SKILLS or (run.stamped / "stamp.json").is_file()):
                 continue
             try:
                 plan = read_plan(run.plan).plan

@@ -26,6 +26,15 @@ class Cord(Skin):
 """
 
 
+MATTER = """\
+from worldkit.matter import Liquid, Matter
+class Honey(Matter):
+    name, bodies, shown_by = "rubber", ("weight", "beam"), "cord"
+    def __init__(self, density):
+        pass
+"""
+
+
 @pytest.fixture
 def drafted(tmp_path):
     (tmp_path / "plan.md").write_text(CORD.read_text())
@@ -63,6 +72,22 @@ def test_a_skin_made_in_its_file_is_drafted_whole(drafted):
     assert made.complete
     assert "from laws.rubber import CORD\n" in made.source and "laws=[CORD]" in made.source
     assert 'moved_shapes.surface(spec, "cord", CORD.points, CORD.triangles, look="rubber_red")' in made.source
+
+
+def test_matter_is_drafted_whole_as_grains(drafted):
+    made = drafted(MATTER)
+    assert made.complete
+    assert "RUBBER_LAW = Honey(density=RUBBER_DENSITY)\n" in made.source and "laws=[RUBBER_LAW]" in made.source
+    grains = 'moved_shapes.grains(spec, "cord", RUBBER_LAW.points, RUBBER_LAW.radius, look="rubber_red")'
+    assert grains in made.source
+
+
+def test_a_law_that_knows_its_surface_is_drafted_whole(drafted):
+    made = drafted(RUBBER.replace("pass", "self.points, self.triangles = (), ()"))
+    assert made.complete
+    assert (
+        'moved_shapes.surface(spec, "cord", RUBBER_LAW.points, RUBBER_LAW.triangles, look="rubber_red")' in made.source
+    )
 
 
 def test_a_skin_without_its_shape_is_left_open(drafted):

@@ -28,6 +28,9 @@ NEAREST = {
     "A tennis ball is dropped on clay and bounces lower each time": {"bouncing-basketball"},
     "A plate is set down on a crowded dinner table": {"breakfast-table"},
     "A rock is hurled over a wall": {"stone-across-river"},
+    "A magnet draws a steel nut across a desk": {"magnet-and-ball"},
+    "A magnet falls through a copper pipe": {"copper-tube"},
+    "A heated ball no longer fits through a ring": {"ball-and-ring"},
 }
 """Sentences that no example has, each with the worlds that show its mechanism."""
 
@@ -131,6 +134,15 @@ def test_an_accepted_run_of_the_users_is_a_world_too(here):
     known = [world.slug for world in nearest_worlds.worlds()]
     assert "skittles" in known and "unfinished" not in known
     assert tools.begin("A skittle ball is rolled down a lawn", run="new").like == "skittles"
+
+
+def test_the_laws_of_a_world_come_with_its_plan(here):
+    shutil.copytree(REPO / "examples/rolling-marble", here / "runs/cord")
+    shutil.copy(REPO / "tests/worldwright/world/rubber-cord.md", here / "runs/cord/plan.md")
+    (here / "runs/cord/laws").mkdir()
+    (here / "runs/cord/laws/rubber.py").write_text("class Rubber: ...\n")
+    begun = tools.begin("A rubber cord stretches", like="cord", run="new")
+    assert (here / begun.run / "laws/rubber.py").read_text() == "class Rubber: ...\n"
 
 
 def test_the_command_says_the_same(here):

@@ -22,7 +22,7 @@ CODE = "WP136"
 SEVERITY = "error"
 UNITS = {
     "warm": "K", "around": "K", "specific_heat": "J/(kg K)", "cooling": "W/(m^2 K)", "contact": "W/K", "source": "W",
-    "latent": "J/kg", "melts": "K",
+    "latent": "J/kg", "melts": "K", "expansion": "1/K",
 }  # fmt: skip
 CONVEX = ("box", "sphere", "ellipsoid", "cylinder", "capsule", "cone", "wedge")
 """No larger on their surface than the box around them."""
