@@ -308,8 +308,12 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
 
     failure = try_film(path.parent)
     if failure is None:
-        first = f"`worldwright go {path.parent} --until expect`, then ask again"
-        return [], f"{path.name}: {NOT_TRIED}: nothing is recorded of its program and plan yet; {first}"
+        first = f"`worldwright go {path.parent} --until lint` says what it lacks, then ask again"
+        return [], f"{path.name}: {NOT_TRIED}: there is no world of its program and plan yet; {first}"
+    if failure.get("code") == "needs_recording":
+        where = f"line {failure['line']}: " if failure.get("line") else ""
+        why = "that may be the missing motion's, and is tried again on the recording"
+        return [], f"{path.name}: tried on the world as it starts, where nothing moves: {where}{failure['message'].removeprefix('NeedsRecordingError: ')}; {why}"
     if not failure:
         return [], f"{path.name}: described and drawn; next: `worldwright stage frames {path.parent} --show shots`"
     line = int(failure.get("line") or 1)
