@@ -16,7 +16,20 @@ from pathlib import Path
 
 import worldkit  # checks the environment contract before anything else is imported
 
-PASSES = ("bundle", "physics", "unmoved", "live", "storyboard", "still", "video", "final", "frame", "scene", "sheet", "view")
+PASSES = (
+    "bundle",
+    "physics",
+    "unmoved",
+    "live",
+    "storyboard",
+    "still",
+    "video",
+    "final",
+    "frame",
+    "scene",
+    "sheet",
+    "view",
+)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

@@ -166,7 +166,8 @@ class Film(Labelled, Limbs):
             shots.append({"first": first, "frames": len(shot["times"]), "planned": shot["camera"].planned})
             first += len(shot["times"])
         things = [*self._things]
-        for thing, at, self.line in self._grown:
+        for thing, at, told_at in self._grown:
+            self.line = told_at
             things.append(grown(thing, at, times))
         self.line = 1
         facts = {

@@ -41,7 +41,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     from ..errors import ProgramError
     from ..files import write_json
     from ..reporting import report_failure
-    from . import unmoved
+    from . import lacking_motion
     from .director import Film
     from .recorded import Recorded
 
@@ -74,8 +74,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         )
     except (Exception, Endless) as error:  # author code may raise anything
         signal.setitimer(signal.ITIMER_PROF, 0)
-        if options.unmoved and film is not None and film.recorded.asked_of_motion and unmoved.may_hold(error, told, arrays):
-            error = unmoved.NeedsRecordingError(f"{type(error).__name__}: {error}", line=_line(error, program))
+        if (
+            options.unmoved
+            and film is not None
+            and film.recorded.asked_of_motion
+            and lacking_motion.may_hold(error, told, arrays)
+        ):
+            error = lacking_motion.NeedsRecordingError(f"{type(error).__name__}: {error}", line=_line(error, program))
         report_failure(error, program, film.line if film else 1, options.out)
         return 1
     return 0

@@ -17,6 +17,7 @@ from .program_view import Program
 
 if TYPE_CHECKING:
     from .compiled.fetch import Outcome
+    from .compiled.law_trial import Tried
 
 PER_RULE = 20
 """A file shows so many findings of one rule: more would say the same."""
@@ -313,7 +314,10 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
     if failure.get("code") == "needs_recording":
         where = f"line {failure['line']}: " if failure.get("line") else ""
         why = "that may be the missing motion's, and is tried again on the recording"
-        return [], f"{path.name}: tried on the world as it starts, where nothing moves: {where}{failure['message'].removeprefix('NeedsRecordingError: ')}; {why}"
+        return (
+            [],
+            f"{path.name}: tried on the world as it starts, where nothing moves: {where}{failure['message'].removeprefix('NeedsRecordingError: ')}; {why}",
+        )
     if not failure:
         return [], f"{path.name}: described and drawn; next: `worldwright stage frames {path.parent} --show shots`"
     line = int(failure.get("line") or 1)
@@ -380,4 +384,20 @@ def check_program_file(
     said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
     if outcome.pass_s is not None:
         said += f"; by its first steps the physics takes about {max(outcome.pass_s, 1):.2g} s here"
-    return in_order([*found, *check_world(program, outcome, planned)]), said
+    found += check_world(program, outcome, planned)
+    if tried := _laws(path, plan, outcome, found, wall_s):
+        return in_order([*found, *tried.findings]), f"{said}\n{path.name}: {tried.said}"
+    return in_order(found), said
+
+
+def _laws(path: Path, plan: Plan | None, outcome: "Outcome", found: list[Finding], wall_s: float) -> "Tried | None":
+    """What the author's laws, if there are some, do in their first steps; a world that is wrong is not stepped."""
+    from . import main_call
+    from .compiled import law_trial
+
+    rows = plan.simulation_parameters.interventions if plan is not None else ()
+    wrong = any(f.severity == "error" for f in found)
+    if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
+        return None
+    lasting = main_call.facts(path).get("duration")
+    return law_trial.tried(path, float(lasting), wall_s) if isinstance(lasting, int | float) else None

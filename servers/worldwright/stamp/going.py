@@ -8,7 +8,6 @@ evidence of this program and plan answers is not done again, so a walk that ran 
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from pathlib import Path
 from typing import Literal
 
 from ..model.errors import CallOverError, WorldwrightError
