@@ -1,6 +1,5 @@
 """`Film`: what is shown, from where, how fast, in what light, with what around it. A description, drawn by another process."""
 
-import sys
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from .film_bounds import FAR_M, MOST_FRAMES, NATURAL_SHUTTER, PLACES
 from .frame_by_frame import grown, sampled
 from .lettered_plates import Labelled
 from .limbs import Limbs
-from .plain_refusals import refusing
+from .plain_refusals import line, refusing
 from .recorded import Recorded
 from .viewpoints import Viewpoint, axes
 
@@ -92,7 +91,7 @@ class Film(Labelled, Limbs):
         first = sum(len(shot["times"]) for shot in self._shots)
         if first + len(times) > MOST_FRAMES:
             raise ProgramError(f"the film has more than {MOST_FRAMES} frames", "film.py", "show less of it so slowly")
-        self._shots.append({"camera": camera, "times": times, "line": _line()})
+        self._shots.append({"camera": camera, "times": times, "line": line()})
         self.reached, self.now = reached, (first + len(times)) / self.recorded.fps
 
     def usual(self) -> None:
@@ -121,7 +120,7 @@ class Film(Labelled, Limbs):
                 "start=0 is where the film begins",
             )
         told = {"text": text, "start_s": begin, "end_s": begin + float(seconds), "place": place}
-        self._captions.append(told | {"line": _line()})
+        self._captions.append(told | {"line": line()})
 
     def shutter(self, share: float = 0.5, *, samples: int = 8) -> None:
         """Motion blur: the shutter is open for `share` of each frame's time, drawn as the mean of at most `samples` pictures.
@@ -166,8 +165,11 @@ class Film(Labelled, Limbs):
         for shot in self._shots:
             shots.append({"first": first, "frames": len(shot["times"]), "planned": shot["camera"].planned})
             first += len(shot["times"])
+        things = [*self._things]
+        for thing, at, told_at in self._grown:
+            self.line = told_at
+            things.append(grown(thing, at, times))
         self.line = 1
-        things = [*self._things, *(grown(thing, at, times) for thing, at in self._grown)]
         facts = {
             "schema": 1, "shots": shots, "captions": self._words(arrays), "air": self._air,
             "things": [thing.facts(arrays, number, self._breeze is not None) for number, thing in enumerate(things)],
@@ -201,11 +203,3 @@ class Film(Labelled, Limbs):
             found.append({name: one[name] for name in ("text", "start_s", "end_s")} | {"place": place or "bottom"})
         self.line = 1
         return found
-
-
-def _line() -> int:
-    """The line of film.py that is at work."""
-    frame: Any = sys._getframe(1)
-    while frame is not None and not frame.f_code.co_filename.endswith("film.py"):
-        frame = frame.f_back
-    return int(frame.f_lineno) if frame is not None else 1

@@ -37,6 +37,8 @@ class Recorded:
     """
 
     def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
+        self.asked_of_motion = False
+        """Whether somebody asked how anything moves: what then goes wrong on a made-up recording may be that one's fault."""
         self.time = np.asarray(arrays["time"], dtype=float)
         """(T,) s, from 0."""
         self._pos, self._quat = np.asarray(arrays["pos"]), np.asarray(arrays["quat"])
@@ -130,6 +132,7 @@ class Recorded:
 
     def position(self, body: str, at: float | np.ndarray) -> np.ndarray:
         """Centre of what is seen of a body (the box around its shapes) at some recorded times: (3,), or (N, 3), m."""
+        self.asked_of_motion = True
         times, number = np.atleast_1d(np.asarray(at, dtype=float)), self.index(body)
         turn = matrices(self._quat[:, number])
         centre = self._pos[:, number] + turn @ self._middle[number]
@@ -138,6 +141,7 @@ class Recorded:
 
     def orientation(self, body: str, at: float | np.ndarray) -> np.ndarray:
         """Rotation matrices of a body at the recorded rows nearest to some times: (3, 3), or (N, 3, 3)."""
+        self.asked_of_motion = True
         rows = self.rows(np.atleast_1d(np.asarray(at, dtype=float)))
         found = matrices(self._quat[rows, self.index(body)])
         return found if np.ndim(at) else found[0]
@@ -214,6 +218,7 @@ class Recorded:
         for name in (one, other):
             if name and name != WORLD:
                 self.index(name)
+        self.asked_of_motion = True
         wanted = {name for name in (one, other) if name}
         return [touch for touch in self._touches if wanted <= set(touch.bodies)]
 
@@ -223,6 +228,7 @@ class Recorded:
         What touches again and again about as strongly, as something that rolls or rests does, gives no blow; speed that hardly
         changes is no event.
         """
+        self.asked_of_motion = True
         later = [touch for touch in self._touches if touch.time_s > max(0.05, 0.05 * self.duration)]
         for blows in ([touch for touch in later if WORLD not in touch.bodies], later):
             forces = [touch.force_n for touch in blows]

@@ -17,6 +17,7 @@ from .program_view import Program
 
 if TYPE_CHECKING:
     from .compiled.fetch import Outcome
+    from .compiled.law_trial import Tried
 
 PER_RULE = 20
 """A file shows so many findings of one rule: more would say the same."""
@@ -313,8 +314,15 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
 
     failure = try_film(path.parent)
     if failure is None:
-        first = f"`worldwright go {path.parent} --until expect`, then ask again"
-        return [], f"{path.name}: {NOT_TRIED}: nothing is recorded of its program and plan yet; {first}"
+        first = f"`worldwright go {path.parent} --until lint` says what it lacks, then ask again"
+        return [], f"{path.name}: {NOT_TRIED}: there is no world of its program and plan yet; {first}"
+    if failure.get("code") == "needs_recording":
+        where = f"line {failure['line']}: " if failure.get("line") else ""
+        why = "that may be the missing motion's, and is tried again on the recording"
+        return (
+            [],
+            f"{path.name}: tried on the world as it starts, where nothing moves: {where}{failure['message'].removeprefix('NeedsRecordingError: ')}; {why}",
+        )
     if not failure:
         return [], f"{path.name}: described and drawn; next: `worldwright stage frames {path.parent} --show shots`"
     line = int(failure.get("line") or 1)
@@ -379,10 +387,28 @@ def check_program_file(
     if outcome.status == "nothing":
         return found, f"{path.name}: the program makes no world"
     said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
-    price, beside = outcome.pass_s, plan is not None and any(law_rows(plan))
+    price = outcome.pass_s
+    found += check_world(program, outcome, planned)
+    tried = _laws(path, plan, outcome, found, wall_s)
+    beside = tried is None and plan is not None and any(law_rows(plan))
     if beside and bundle is not None and price is not None:  # the file has no laws: they are the program's
         price = fetch.world(path, wall_s=wall_s).pass_s
         said += "" if price is not None else "; its laws were not asked in time, so its price is not known"
     if price is not None:
         said += f"; by its first steps{' and its laws' * beside} the physics takes about {max(price, 1):.2g} s here"
-    return in_order([*found, *check_world(program, outcome, planned)]), said
+    if tried is not None:
+        return in_order([*found, *tried.findings]), f"{said}\n{path.name}: {tried.said}"
+    return in_order(found), said
+
+
+def _laws(path: Path, plan: Plan | None, outcome: "Outcome", found: list[Finding], wall_s: float) -> "Tried | None":
+    """What the author's laws, if there are some, do in their first steps; a world that is wrong is not stepped."""
+    from . import main_call
+    from .compiled import law_trial
+
+    rows = plan.simulation_parameters.interventions if plan is not None else ()
+    wrong = any(f.severity == "error" for f in found)
+    if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
+        return None
+    lasting = main_call.facts(path).get("duration")
+    return law_trial.tried(path, float(lasting), wall_s) if isinstance(lasting, int | float) else None
