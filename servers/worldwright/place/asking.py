@@ -204,7 +204,7 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
                 "primitive": row.primitive
                 if isinstance(row, SceneObject)
                 else "box"
-                if row.type in ("sculpt", "vehicle", "road")
+                if row.type in ("sculpt", "vehicle", "plant", "road")
                 else None,
                 "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
                 "size": row.size if isinstance(row, SceneObject) else placed.size,

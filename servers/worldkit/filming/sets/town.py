@@ -115,7 +115,13 @@ def park_lamp(film: "Dressing", place: Place, number: int, at: tuple[float, floa
     if place.dark:
         hours.burning(film, f"park lamp {number}: light", (x, y, z + 3.32), place.floor, radius=0.11)
     else:
-        film.draw(f"park lamp {number}: globe", "sphere", 0.24, pos=(x, y, z + 3.32), look="plastic_white")
+        film.draw(
+            f"park lamp {number}: globe",
+            "sphere",
+            0.24,
+            pos=(x, y, z + 3.32),
+            look=Surface(colour="#e4e2da", roughness=0.4),
+        )
 
 
 def _beside(
