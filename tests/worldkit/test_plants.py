@@ -56,7 +56,7 @@ def test_a_bare_straight_bough_bends_under_a_weight_as_a_beam_does():
     for _ in range(3000):
         mujoco.mj_step(model, data)
     stems = [limb for limb in plant.limbs if limb.name.isdigit()]
-    from worldkit.plants.adding import stiffness
+    from worldkit.plants.rooted import stiffness
 
     feet = np.array([limb.foot for limb in stems])
     arm = np.linalg.norm((before - (1, 2, 3) - feet)[:, :2], axis=1)

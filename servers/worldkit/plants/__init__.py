@@ -6,7 +6,7 @@ The wood bends as its modulus and its thickness say; the leaves catch the wind t
 `type: plant`, `plant: {kind: bough}`.
 """
 
-from .adding import add
 from .plant_numbers import Bough, Bush, Plant, Tree
+from .rooted import add
 
 __all__ = ["Bough", "Bush", "Plant", "Tree", "add"]

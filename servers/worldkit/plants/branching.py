@@ -1,12 +1,12 @@
 """How a plant branches: limbs from the root out, each with the leaves on it; the same for the same seed."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from .plant_numbers import Plant
+Plant = Any
+"""The numbers of a plant; their module imports this one."""
 
 TURN = np.pi * (3 - 5**0.5)
 """From one twig to the next around the wood: the golden angle, as plants have it."""
@@ -48,18 +48,18 @@ class Limb:
         return tuple(tip for _, tip, _ in self.leaves)
 
 
-def grown(plant: "Plant") -> tuple[Limb, ...]:
+def grown(plant: Plant) -> tuple[Limb, ...]:
     """The limbs of a plant, each after the one that it grows on."""
     random = np.random.default_rng(plant.seed)
     if plant.word == "bough":
         stems = _chain(
             plant, "", np.zeros(3), _leaning(plant.rises_deg), plant.long_m, plant.diameter_m, plant.parts, random
-        )  # type: ignore[attr-defined]
+        )
     elif plant.word == "tree":
         stems = _standing(plant, random)
     else:
         stems = []
-        for number in range(plant.parts):  # type: ignore[attr-defined]
+        for number in range(plant.parts):
             turn, lean = TURN * number, random.uniform(0.15, 0.75)
             ahead = np.array([np.sin(lean) * np.cos(turn), np.sin(lean) * np.sin(turn), np.cos(lean)])
             long = plant.long_m * random.uniform(0.75, 1.0) / max(float(np.cos(lean)), 0.6)
@@ -74,7 +74,7 @@ def _leaning(deg: float) -> np.ndarray:
 
 
 def _chain(
-    plant: "Plant", prefix: str, foot: np.ndarray, ahead: np.ndarray, long: float, thick: float, parts: int,
+    plant: Plant, prefix: str, foot: np.ndarray, ahead: np.ndarray, long: float, thick: float, parts: int,
     random: np.random.Generator, above: str = "",
 ) -> list[Limb]:  # fmt: skip
     """A stem in some parts, thinner towards its tip, bending a little here and there, and towards level as it goes."""
@@ -91,11 +91,11 @@ def _chain(
     return found
 
 
-def _standing(plant: "Plant", random: np.random.Generator) -> list[Limb]:
+def _standing(plant: Plant, random: np.random.Generator) -> list[Limb]:
     """A trunk and boughs around its upper part, in `parts` of two pieces each."""
     top = 0.62 * plant.long_m
     trunk = Limb("trunk", "", (0.0, 0.0, 0.0), (0.0, 0.0, top), (plant.diameter_m, 0.6 * plant.diameter_m))
-    found, boughs = [trunk], 2 * plant.parts + 1  # type: ignore[attr-defined]
+    found, boughs = [trunk], 2 * plant.parts + 1
     for number in range(boughs):
         share = number / (boughs - 1)
         lean = (1.05 - 0.95 * share) * random.uniform(0.85, 1.1)
@@ -107,9 +107,9 @@ def _standing(plant: "Plant", random: np.random.Generator) -> list[Limb]:
     return found
 
 
-def _twigs(plant: "Plant", stems: list[Limb], random: np.random.Generator) -> list[Limb]:
+def _twigs(plant: Plant, stems: list[Limb], random: np.random.Generator) -> list[Limb]:
     """Twigs along the stems, most of them towards their tips, and one at each tip; the leaves are on them."""
-    count, found = plant.twigs, []  # type: ignore[attr-defined]
+    count, found = plant.twigs, []
     ends = [stem for stem in stems if not any(other.above == stem.name for other in stems)]
     places = [(stem, 1.0) for stem in ends]
     weight = np.array([1.0 / max(stem.mean_m, 1e-4) ** 0.5 for stem in stems])
@@ -137,7 +137,7 @@ def _twigs(plant: "Plant", stems: list[Limb], random: np.random.Generator) -> li
     return found
 
 
-def _grown_thick(plant: "Plant", long: float, leaves: int) -> float:
+def _grown_thick(plant: Plant, long: float, leaves: int) -> float:
     """Diameter of a twig at its foot, m: wood grows as thick as what it bears needs, in a fresh breeze it bends by `GIVES`."""
     push = 0.6 * FRESH_M_S**2 * 0.5 * plant.leaf_area_m2 * leaves * 0.6 * long
     mean = (64 * (push / GIVES) * long / (np.pi * plant.modulus_pa)) ** 0.25
@@ -145,7 +145,7 @@ def _grown_thick(plant: "Plant", long: float, leaves: int) -> float:
 
 
 def _leaves(
-    plant: "Plant", start: np.ndarray, grows: np.ndarray, long: float, count: int, random: np.random.Generator
+    plant: Plant, start: np.ndarray, grows: np.ndarray, long: float, count: int, random: np.random.Generator
 ) -> tuple[tuple[Point, Point, Point], ...]:
     """Leaves along a twig, to its left and right in turn, hanging a little; on side shoots where there are many."""
     found = []

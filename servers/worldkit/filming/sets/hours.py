@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
-    from . import Place
 
+Place = Any
+"""Where the action is; its module imports this one."""
 HOURS = ("noon", "golden_hour", "overcast", "misty_morning", "dusk", "night")
 LIT = ("dusk", "night")
 """Hours at which lamps burn."""
@@ -42,7 +43,7 @@ BELOW = 1.3
 """Radiance of a white surface on the ground under a lamp that burns by night."""
 
 
-def outdoors(film: "Dressing", place: "Place") -> None:
+def outdoors(film: "Dressing", place: Place) -> None:
     """Sky, light and developing of the hour."""
     mood, turn, up = SEEN_FROM[place.hour]
     film.mood(mood)
@@ -51,7 +52,7 @@ def outdoors(film: "Dressing", place: "Place") -> None:
         film.fog(**NIGHT_AIR)
 
 
-def indoors(film: "Dressing", place: "Place", high: float) -> None:
+def indoors(film: "Dressing", place: Place, high: float) -> None:
     """What comes through the window at the hour, and after sunset a lamp `high` m above the floor."""
     film.light(**THROUGH_WINDOWS[place.hour])
     film.grade(temperature=-0.05 if place.hour == "overcast" else 0.05)
