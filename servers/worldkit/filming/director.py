@@ -133,17 +133,20 @@ class Film(Labelled, Limbs):
             raise ProgramError("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples", "film.py", "shutter(0.5)")
         self._shutter, self._samples = float(share), int(samples)
 
-    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1, colour: str = "") -> None:
+    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1, colour: str = "", hour: str = "") -> None:
         """Surroundings in one line: `film.set("meadow")`, drawn only, with light, sky and air that suit them.
 
         `facing_deg` is the side from which the camera looks (an azimuth; `wide()` looks from -57) and which is kept free;
-        another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`. Light and sky that the plan states stay as they are; what is said
-        afterwards (light, mood, grade) changes it.
+        another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`. `hour` is
+        `noon`, `golden_hour`, `overcast`, `misty_morning`, `dusk` or `night`, when street, park and room have their lamps lit;
+        without it a set has its own, or that of the sky which the plan states. Light and sky that the plan states stay as
+        they are; what is said afterwards (light, mood, grade) changes it.
 
         Raises:
-            ProgramError: there is no such set, what happens is too large for it, or it has no such wall.
+            ProgramError: there is no such set or hour, what happens is too large for it, or it has no such wall.
         """
-        sets.build(self, name, facing_deg, seed, colour)
+        stated = str(self.recorded.light.get("sky", ""))
+        sets.build(self, name, facing_deg, seed, colour, hour or (stated if stated in sets.hours.HOURS else ""))
         self.as_planned()
 
     # -- the description -----------------------------------------------------------------------------------------------

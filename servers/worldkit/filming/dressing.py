@@ -177,7 +177,7 @@ class Dressing(PatternedLight):
             parts["leaves"].append((one.leaves + foot, one.leaf_faces))
             sways["wood"].append(swaying_weights.of_wood(one.wood, height))
             sways["leaves"].append(swaying_weights.of_leaves(one.leaves, height))
-        green = leaves or {"conifer": "#2f4a2c", "broadleaf": "#557a32"}[kind]
+        green = leaves or {"conifer": "#2f4a2c", "broadleaf": "foliage"}[kind]
         for part, look in (("wood", bark), ("leaves", green)):
             starts = np.cumsum([0, *(len(points) for points, _ in parts[part])])
             faces = np.concatenate([f + s for (_, f), s in zip(parts[part], starts, strict=False)])

@@ -204,7 +204,11 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
                 "model": _model(plan, row),
                 "vehicle": _vehicle(row),
                 "road": _road(plan, row),
-                "primitive": row.primitive if isinstance(row, SceneObject) else "box" if row.type == "sculpt" else None,
+                "primitive": row.primitive
+                if isinstance(row, SceneObject)
+                else "box"
+                if row.type in ("sculpt", "plant")
+                else None,
                 "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
                 "size": row.size if isinstance(row, SceneObject) else placed.size,
                 "parts": _parts(plan, row),
