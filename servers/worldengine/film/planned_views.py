@@ -20,7 +20,7 @@ class PlannedViews:
         model: with its cameras aimed.
         recording: of that model.
         names: the cameras.
-        rows: of the recording, one a moment.
+        rows: of the recording, (moments,).
         frames: what draws.
     """
 
@@ -29,7 +29,7 @@ class PlannedViews:
         model: "mujoco.MjModel",
         recording: "Recording",
         names: Sequence[str],
-        rows: Sequence[int],
+        rows: "np.ndarray",
         frames: "Frames",
     ) -> None:
         self._model, self._names, self._rows, self.frames = model, names, rows, frames

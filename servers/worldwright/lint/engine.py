@@ -388,13 +388,13 @@ def check_program_file(
     said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
     price = outcome.pass_s
     found += check_world(program, outcome, planned)
-    tried = law_trial.of_plan(path, plan, outcome, found, wall_s)
-    beside = tried is None and plan is not None and any(law_rows(plan))
+    rehearsed = law_trial.of_plan(path, plan, outcome, found, wall_s)
+    beside = rehearsed is None and plan is not None and any(law_rows(plan))
     if beside and bundle is not None and price is not None:  # the file has no laws: they are the program's
         price = fetch.world(path, wall_s=wall_s).pass_s
         said += "" if price is not None else "; its laws were not asked in time, so its price is not known"
     if price is not None:
         said += f"; by its first steps{' and its laws' * beside} the physics takes about {max(price, 1):.2g} s here"
-    if tried is not None:
-        return in_order([*found, *tried.findings]), f"{said}\n{path.name}: {tried.said}"
+    if rehearsed is not None:
+        return in_order([*found, *rehearsed.findings]), f"{said}\n{path.name}: {rehearsed.said}"
     return in_order(found), said

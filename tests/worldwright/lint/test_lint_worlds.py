@@ -3,6 +3,7 @@
 import json
 import textwrap
 import time
+from pathlib import Path
 
 import pytest
 
