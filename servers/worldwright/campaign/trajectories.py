@@ -79,8 +79,8 @@ def write(
             else:
                 path.unlink(missing_ok=True)
         for path in folder.glob("split=*/*"):
-            row = store.row(path.stem)  # a draft that was broken off is of no world
-            if row is None or path.parent.name != f"split={part_of(campaign, row, shares)}":
+            kept = store.row(path.stem)  # a draft that was broken off is of no world
+            if kept is None or path.parent.name != f"split={part_of(campaign, kept, shares)}":
                 path.unlink()
         if not told:
             raise CampaignError(

@@ -110,7 +110,10 @@ def unattended(files: dict[str, str], folder: Path) -> dict[str, str]:
     """
     settings = json.loads(files[".claude/settings.json"])
     settings["permissions"]["ask"] = []
-    around = [_literal(above) for above in folder.resolve().parents if above != Path.home()]
+    # As patterns: a sign that means something in one stands for any sign, since Claude Code reads a backslash as a slash.
+    around = [
+        re.sub(r"[][\\*?{}()!+@|]", "?", str(above)) for above in folder.resolve().parents if above != Path.home()
+    ]
     words = ("CLAUDE.md", "CLAUDE.local.md", ".claude/CLAUDE.md", ".claude/rules/**", "AGENTS.md")
     settings["claudeMdExcludes"] = [f"{above.rstrip('/')}/{name}" for above in around for name in words]
     return {".claude/settings.json": json.dumps(settings, indent=2) + "\n"}
@@ -154,11 +157,6 @@ def heard(event: dict[str, Any]) -> Heard:
         ended=True,
         over_usd=kind == "error_max_budget_usd",
     )
-
-
-def _literal(path: Path) -> str:
-    """A path as a pattern that matches it alone."""
-    return re.sub(r"([\\*?\[\]{}()!+@|])", r"\\\1", str(path))
 
 
 def _tokens(usage: dict[str, Any]) -> tuple[int, int, int]:
