@@ -73,9 +73,15 @@ def _fields(*lines: str, bar: str = BAR[0]) -> tuple[str, dict[str, object]]:
 HALVED, OPPOSED = ((HALVES[0], HALVES[1].replace("QUAT", quat)) for quat in ("(1, 0, 0, 0)", "(0, 0, 0, 1)"))
 PIPE = "bodies.formed(spec, 'bar', form=forms.tube(path=[(0, 0, -0.05), (0, 0, 0.05)], diameter={}, wall={}), pos=(0, 3, 0.05), mass=2, surface=SURFACE)"
 PLATE = "bodies.box(spec, 'bar', size=(0.3, 0.1, {}), pos=(0, 3, 0.05), mass=2, surface=SURFACE)"
-ROW = {"material": "wood", "name": "bar"}
-TUBE = ROW | {"primitive": "tube", "path": [[0, 0, -0.05], [0, 0, 0.05]], "diameter": 0.019, "wall_thickness": 0.002}
-SHEET = ROW | {"primitive": "box", "size": [0.3, 0.1, 0.002]}
+ROW: dict[str, object] = {"material": "wood", "name": "bar"}
+TUBE: dict[str, object] = {
+    **ROW,
+    "primitive": "tube",
+    "path": [[0, 0, -0.05], [0, 0, 0.05]],
+    "diameter": 0.019,
+    "wall_thickness": 0.002,
+}
+SHEET: dict[str, object] = {**ROW, "primitive": "box", "size": [0.3, 0.1, 0.002]}
 
 
 def _conducts(row: dict[str, object], bar: str, *lines: str) -> tuple[str, dict[str, object]]:
