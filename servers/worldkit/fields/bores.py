@@ -47,12 +47,12 @@ def of_geoms(model: "mujoco.MjModel", geoms: Sequence[int]) -> Bore | None:
     middle = (low + high) / 2
     for axis in range(3):
         order = [(axis + 1) % 3, (axis + 2) % 3, axis]
-        if (radii := _radii(points[:, order] - middle[order])) is not None:
+        if (radii := radii_of(points[:, order] - middle[order])) is not None:
             return Bore(*radii, float((high - low)[axis]), middle, np.eye(3)[:, order])
     return None
 
 
-def _radii(points: np.ndarray) -> tuple[float, float] | None:
+def radii_of(points: np.ndarray) -> tuple[float, float] | None:
     """Inner and outer radius, m, of a straight tube along z about the origin, whose corners (v, 3) these are; None of any other shape.
 
     Every corner lies on one of two cylinders, both of which reach from end to end, and none within the bore.

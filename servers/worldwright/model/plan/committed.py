@@ -282,8 +282,9 @@ class Plan(Frozen):
     @cached_property
     def made_of(self) -> frozenset[str]:
         """Names of the materials of things, and of the ground."""
-        parts = (part.material for row in self.scene_objects for part in row.parts)
-        return frozenset({"ground", *(row.material for row in (*self.scene_objects, *self.assets)), *parts} - {None})  # type: ignore[arg-type]
+        parts = [part.material for row in self.scene_objects for part in row.parts]
+        rows = [row.material for row in self.scene_objects] + [row.material for row in self.assets]
+        return frozenset(name for name in ("ground", *rows, *parts) if name)
 
     @model_validator(mode="after")
     def _copied(self) -> "Plan":

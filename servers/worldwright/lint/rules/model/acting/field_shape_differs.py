@@ -8,8 +8,8 @@ area (3 %) and middle, by what shows it.
 
 Why is this bad: a bar turned end to end in its own box attracts what it should push away, and has the same size, mass and inertia. A
 drawn mesh that touches nothing has no mass, and what it is drawn on cools over it. A small pipe that is a millimetre narrower outside
-and inside is nearly as large and as heavy, and brakes a magnet twice as hard. A block a fortieth larger each way floats where the plan's
-sinks. What shows water only is drawn, and nothing else holds it against the plan.
+and inside is as heavy, is as large as sizes are compared, and brakes a magnet half as hard again. A block a fortieth larger each way,
+with the plan's mass and inertia, floats where the plan's sinks. What shows water only is drawn, and nothing else holds it against the plan.
 
 Use instead: geoms that lie as the plan's primitive does; decoration that is no mesh, or in the film.
 """
@@ -73,9 +73,15 @@ def _fields(*lines: str, bar: str = BAR[0]) -> tuple[str, dict[str, object]]:
 HALVED, OPPOSED = ((HALVES[0], HALVES[1].replace("QUAT", quat)) for quat in ("(1, 0, 0, 0)", "(0, 0, 0, 1)"))
 PIPE = "bodies.formed(spec, 'bar', form=forms.tube(path=[(0, 0, -0.05), (0, 0, 0.05)], diameter={}, wall={}), pos=(0, 3, 0.05), mass=2, surface=SURFACE)"
 PLATE = "bodies.box(spec, 'bar', size=(0.3, 0.1, {}), pos=(0, 3, 0.05), mass=2, surface=SURFACE)"
-ROW = {"material": "wood", "name": "bar"}
-TUBE = ROW | {"primitive": "tube", "path": [[0, 0, -0.05], [0, 0, 0.05]], "diameter": 0.019, "wall_thickness": 0.002}
-SHEET = ROW | {"primitive": "box", "size": [0.3, 0.1, 0.002]}
+ROW: dict[str, object] = {"material": "wood", "name": "bar"}
+TUBE: dict[str, object] = {
+    **ROW,
+    "primitive": "tube",
+    "path": [[0, 0, -0.05], [0, 0, 0.05]],
+    "diameter": 0.019,
+    "wall_thickness": 0.002,
+}
+SHEET: dict[str, object] = {**ROW, "primitive": "box", "size": [0.3, 0.1, 0.002]}
 
 
 def _conducts(row: dict[str, object], bar: str, *lines: str) -> tuple[str, dict[str, object]]:
@@ -135,7 +141,7 @@ BAD = (
     _filled(FILL.format(0.2), "spec.geom('crate').size = [1.025 * v for v in (0.2, 0.15, 0.1)]"),
     _fields(*OPPOSED),
     _fields(*FIN),
-    _conducts(TUBE, PIPE.format(0.0176, 0.0022)),
+    _conducts(TUBE, PIPE.format(0.01806, 0.00223)),
     _conducts(SHEET, PLATE.format(0.0022)),
 )
 EVIDENCE = Measured(
