@@ -1,6 +1,6 @@
 """The commands of somebody who drives a world live, and what acts where they fall silent.
 
-A command is a number with a name: a control itself, or a pedal of a car (`worldkit.vehicles`), whose controls follow from it in
+A command is a number with a name: a control itself, or a pedal of a vehicle (`worldkit.vehicles`), whose controls follow from it in
 each state. It holds as long as it is repeated: after `timeout_s` of the wall clock without a word its failsafe acts, at once
 where the driver says that he leaves. What is beyond its bounds is kept within them; what is no finite number is not heard.
 """
@@ -17,6 +17,7 @@ from worldkit.errors import ProgramError
 if TYPE_CHECKING:
     import mujoco
 
+    from worldkit.vehicles import Bicycle
     from worldkit.vehicles.found_cars import FoundCar
 
 PEDALS = ("steering", "throttle", "brake")
@@ -86,13 +87,13 @@ class Console:
 
     Args:
         rows: the commands.
-        cars: the cars whose pedals are among them, by name.
+        cars: the vehicles whose pedals are among them, by name.
         ctrl: the controls as the world begins: what `hold` holds before anybody has spoken.
         clock: of the wall, s.
     """
 
     def __init__(
-        self, rows: tuple[Command, ...], cars: "Mapping[str, FoundCar]", ctrl: Any, clock: Callable[[], float]
+        self, rows: tuple[Command, ...], cars: "Mapping[str, FoundCar | Bicycle]", ctrl: Any, clock: Callable[[], float]
     ) -> None:
         self._rows, self._clock = {row.name: row for row in rows}, clock
         self.values = {row.name: float(ctrl[row.control]) if row.control >= 0 else 0.0 for row in rows}

@@ -80,8 +80,9 @@ def _on_axles(model: "mujoco.MjModel", name: str, corners: set[str], known: set[
     )
     if not (wheelbase > 0 and track > 0 and motors):
         return None
+    belts: tuple[tuple[str, ...], ...] = ()
     if len(steered) == 2 and motors == ["drive"]:
-        most, belts = degrees(float(model.joint(f"{name}_{steered[0]}_steer").range[1])) - 1.0, ()
+        most = degrees(float(model.joint(f"{name}_{steered[0]}_steer").range[1])) - 1.0
         if not 0 < most < 85:
             return None
         # The joint lets the inner wheel turn as far as it must; a driver's angle is that of the wheel in the middle.

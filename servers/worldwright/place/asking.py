@@ -247,7 +247,7 @@ def _vehicle(row: SceneObject | AssetRow) -> dict[str, Any] | None:
 
 def _road(plan: Plan, row: SceneObject | AssetRow) -> dict[str, str] | None:
     """The file of a road, and what it holds: an answer that was kept is of this surface."""
-    if not is_road(row) or plan.folder is None:
+    if not isinstance(row, AssetRow) or not is_road(row) or plan.folder is None:
         return None
     path = (plan.folder / row.filename).absolute()
     return {"file": str(path), "sha256": hashlib.sha256(path.read_bytes()).hexdigest()}

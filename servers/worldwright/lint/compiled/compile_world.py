@@ -104,7 +104,9 @@ def run(path: Path, mark: Path) -> tuple[Any, dict[str, Any], dict[str, Any]]:
 
         seed = capture.keywords.get("seed", 0)
         model = world.make(build, world.seeded(seed if isinstance(seed, int) else 0)[0])
-        beside = {name: capture.keywords[name] for name in ("laws", "control_every") if name in capture.keywords}
+        beside: dict[str, Any] = {
+            name: capture.keywords[name] for name in ("laws", "control_every") if name in capture.keywords
+        }
         return model, {"made_by": "build", "duration_s": capture.keywords.get("duration")}, beside
     if capture.models:
         return capture.models[-1], {"made_by": "script"}, {}
