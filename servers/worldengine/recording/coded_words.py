@@ -50,7 +50,7 @@ class Words:
         return {word: n for word, n in zip(self.known, found, strict=True) if n}
 
     def arrow(self) -> Any:
-        """The rows as an Arrow array of strings, put together here: a cast would load pyarrow.compute, for 40 ms."""
+        """The rows as an Arrow array of strings, put together here: a cast would load pyarrow.compute, for some 40 ms."""
         import numpy as np
         import pyarrow as pa
 

@@ -26,6 +26,7 @@ from worldkit.files import write_json
 from worldkit.speaking import ARRAYS
 
 from .batch import Batch
+from .bonds import bonds_of
 from .coded_words import Words
 from .columns import FORETOLD_COLUMNS, OF_MEDIA, SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
 from .derived_columns import Derived
@@ -72,8 +73,6 @@ class Recorder:
         if (self._folder / "meta.json").exists():
             raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
         sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
-        from worldkit.breaking.letting_go import bonds_of
-
         sizes["stressed"] = model.neq if bonds_of(model) else 0
         self._channels = dict(channels or {})
         self.columns = (*state_columns(sizes), *self._channels)
@@ -281,7 +280,9 @@ class _Stream:
             if column.dtype == "string":
                 arrays.append(value.arrow() if isinstance(value, Words) else pa.array(value, pa.string()))
                 continue
-            flat = pa.array(np.asarray(value, column.dtype).reshape(-1))
+            numbers = np.ascontiguousarray(value, column.dtype).reshape(-1)
+            kind = field.type.value_type if column.shape else field.type
+            flat = pa.Array.from_buffers(kind, len(numbers), [None, pa.py_buffer(numbers)])  # `pa.array` loads numpy.ma
             arrays.append(pa.FixedSizeListArray.from_arrays(flat, type=field.type) if column.shape else flat)
         self._writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=self._schema), about)
 
