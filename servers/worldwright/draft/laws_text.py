@@ -32,7 +32,7 @@ class Found:
     takes: tuple[str, ...]
     """What the class must be given."""
     skin: bool
-    """It is a `worldkit.skins.Skin`, which knows its own surface."""
+    """It knows its own surface before it starts: `points` and `triangles`, as a `worldkit.skins.Skin` does."""
     grains: bool
     """It is a `worldkit.matter.Matter`, which knows its points, and how large each is drawn."""
     unknown: str = ""
@@ -141,8 +141,9 @@ def _found(plan: Plan, row: Intervention) -> Found | None:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name)
         and isinstance(node.value, ast.Call) and ast.unparse(node.value.func) == kind.name
     ]  # fmt: skip
+    skin = "Skin" in bases or any(ast.unparse(target) == "self.triangles" for target in _assigned(kind))
     made_one = made[0] if len(made) == 1 else ""
-    return Found(kind.name, made_one, takes or (), "Skin" in bases, "Matter" in bases, unknown)
+    return Found(kind.name, made_one, takes or (), skin, "Matter" in bases, unknown)
 
 
 def _names(kind: ast.ClassDef) -> set[object]:
@@ -159,6 +160,12 @@ def _names(kind: ast.ClassDef) -> set[object]:
                 if ast.unparse(one) in ("name", "self.name") and isinstance(value, ast.Constant)
             }
     return found
+
+
+def _assigned(kind: ast.ClassDef) -> list[ast.expr]:
+    """What a class assigns to, in all of its functions, tuples taken apart."""
+    targets = [target for node in ast.walk(kind) if isinstance(node, ast.Assign) for target in node.targets]
+    return [one for target in targets for one in (target.elts if isinstance(target, ast.Tuple) else [target])]
 
 
 def _takes(kind: ast.ClassDef) -> tuple[str, ...] | None:

@@ -82,6 +82,14 @@ def test_matter_is_drafted_whole_as_grains(drafted):
     assert grains in made.source
 
 
+def test_a_law_that_knows_its_surface_is_drafted_whole(drafted):
+    made = drafted(RUBBER.replace("pass", "self.points, self.triangles = (), ()"))
+    assert made.complete
+    assert (
+        'moved_shapes.surface(spec, "cord", RUBBER_LAW.points, RUBBER_LAW.triangles, look="rubber_red")' in made.source
+    )
+
+
 def test_a_skin_without_its_shape_is_left_open(drafted):
     assert any("give Cord its shape, wall, gas" in place for place in drafted(SKIN).open_places)
 
