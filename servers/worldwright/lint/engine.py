@@ -17,7 +17,6 @@ from .program_view import Program
 
 if TYPE_CHECKING:
     from .compiled.fetch import Outcome
-    from .compiled.law_trial import Tried
 
 PER_RULE = 20
 """A file shows so many findings of one rule: more would say the same."""
@@ -363,7 +362,7 @@ def check_program_file(
         return found, ""
     if model is None and any(about_names(f.code) for f in found):  # an author's ignore does not make a name exist
         return found, f"{path.name}: the world is not built until its names are right"
-    from .compiled import fetch
+    from .compiled import fetch, law_trial
 
     if wall_s < LEAST_WALL_S:
         return found, f"{path.name}: the world is not built: the call's time went into the files before it"
@@ -385,19 +384,6 @@ def check_program_file(
     if outcome.pass_s is not None:
         said += f"; by its first steps the physics takes about {max(outcome.pass_s, 1):.2g} s here"
     found += check_world(program, outcome, planned)
-    if tried := _laws(path, plan, outcome, found, wall_s):
+    if tried := law_trial.of(path, plan, outcome, found, wall_s):
         return in_order([*found, *tried.findings]), f"{said}\n{path.name}: {tried.said}"
     return in_order(found), said
-
-
-def _laws(path: Path, plan: Plan | None, outcome: "Outcome", found: list[Finding], wall_s: float) -> "Tried | None":
-    """What the author's laws, if there are some, do in their first steps; a world that is wrong is not stepped."""
-    from . import main_call
-    from .compiled import law_trial
-
-    rows = plan.simulation_parameters.interventions if plan is not None else ()
-    wrong = any(f.severity == "error" for f in found)
-    if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
-        return None
-    lasting = main_call.facts(path).get("duration")
-    return law_trial.tried(path, float(lasting), wall_s) if isinstance(lasting, int | float) else None

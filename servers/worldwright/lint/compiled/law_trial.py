@@ -9,10 +9,14 @@ import io
 import sys
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ...model import companions, json_object
 from ...model.finding import Finding
+
+if TYPE_CHECKING:
+    from ...model.plan.committed import Plan
+    from .fetch import Outcome
 
 TRIED_S, WALL_S, LEAST_WALL_S, MEMORY_MB = 0.2, 20.0, 3.0, 2048
 
@@ -23,6 +27,18 @@ class Tried:
 
     said: str
     findings: tuple[Finding, ...] = ()
+
+
+def of(program: Path, plan: "Plan | None", outcome: "Outcome", found: list[Finding], wall_s: float) -> Tried | None:
+    """What the author's laws of a program do in their first steps; None without any. A world that is wrong is not stepped."""
+    from .. import main_call
+
+    rows = plan.simulation_parameters.interventions if plan is not None else ()
+    wrong = any(finding.severity == "error" for finding in found)
+    if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
+        return None
+    lasting = main_call.facts(program).get("duration")
+    return tried(program, float(lasting), wall_s) if isinstance(lasting, int | float) else None
 
 
 def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | None:
