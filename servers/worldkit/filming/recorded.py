@@ -141,6 +141,13 @@ class Recorded:
         found = np.stack([np.interp(times, self.time, centre[:, axis]) for axis in range(3)], axis=-1)
         return found if np.ndim(at) else found[0]
 
+    def origin(self, body: str, at: float | np.ndarray) -> np.ndarray:
+        """Where the frame of a body lies at some recorded times: (3,), or (N, 3), m."""
+        self.asked_of_motion = True
+        times, way = np.atleast_1d(np.asarray(at, dtype=float)), self._pos[:, self.index(body)]
+        found = np.stack([np.interp(times, self.time, way[:, axis]) for axis in range(3)], axis=-1)
+        return found if np.ndim(at) else found[0]
+
     def orientation(self, body: str, at: float | np.ndarray) -> np.ndarray:
         """Rotation matrices of a body at the recorded rows nearest to some times: (3, 3), or (N, 3, 3)."""
         self.asked_of_motion = True
