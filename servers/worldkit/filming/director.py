@@ -184,6 +184,9 @@ class Film(Labelled, Limbs):
             "ground": None if self._ground_look is None else look_facts(self._ground_look, arrays, "look_ground"),
             "shutter": self._shutter, "samples": self._samples,
         }  # fmt: skip
+        if puffs := self._blown(times, arrays):
+            facts["puffs"] = puffs
+        self.line = 1
         facts |= {"breeze": self._breeze} if self._breeze else {}
         return facts | ({"gobo": self._gobo} if self._gobo else {}), arrays
 

@@ -11,12 +11,12 @@ from . import sward, swaying_weights, trees
 from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
-from .patterned_light import PatternedLight
 from .plain_refusals import line, whole
 from .recorded import Recorded
+from .smoke import Smoke
 
 
-class Dressing(PatternedLight):
+class Dressing(Smoke):
     """The things and looks of a film; `recorded` is what happened."""
 
     def __init__(self, recorded: Recorded) -> None:

@@ -48,6 +48,12 @@ def stirred(arrays: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
     number = np.arange(bodies)
     ways = DRIFT_M * np.stack([np.cos(number), np.sin(number), 0.3 + 0 * number], axis=-1)
     found["pos"] = np.asarray(arrays["pos"]) + (share**2)[:, None, None] * ways
+    for name in [name for name in arrays if name.startswith("law") and name != "law_names"]:
+        if name.endswith("_points"):
+            drift = np.linspace(0.0, DRIFT_M, len(arrays[name]))[:, None, None]
+            found[name] = arrays[name] + drift
+        elif not name.endswith(("_time", "_at")):
+            found[name] = np.linspace(1.0, 2.0, len(arrays[name]))
     pairs = np.array([*((n, n + 1) for n in range(bodies - 1)), *((n, -1) for n in range(bodies))], int).reshape(-1, 2)
     found["touch_time"] = np.full(len(pairs), float(time[len(time) // 2]))
     found["touch_a"], found["touch_b"] = pairs.T

@@ -388,7 +388,7 @@ def check_program_file(
     said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
     price = outcome.pass_s
     found += check_world(program, outcome, planned)
-    rehearsed = law_trial.of_plan(path, plan, outcome, found, wall_s)
+    rehearsed = law_trial.of(path, plan, outcome, found, wall_s)
     beside = rehearsed is None and plan is not None and any(law_rows(plan))
     if beside and bundle is not None and price is not None:  # the file has no laws: they are the program's
         price = fetch.world(path, wall_s=wall_s).pass_s

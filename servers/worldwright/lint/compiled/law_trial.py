@@ -7,7 +7,6 @@ whole of them. What it says is of these first steps: `scan` judges the recording
 import contextlib
 import io
 import sys
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,18 +29,16 @@ class Tried:
     findings: tuple[Finding, ...] = ()
 
 
-def of_plan(
-    path: Path, plan: "Plan | None", outcome: "Outcome", found: Iterable[Finding], wall_s: float
-) -> Tried | None:
-    """What the author's laws of a plan, if there are some, do in their first steps; a world that is wrong is not stepped."""
+def of(program: Path, plan: "Plan | None", outcome: "Outcome", found: list[Finding], wall_s: float) -> Tried | None:
+    """What the author's laws of a program do in their first steps; None without any. A world that is wrong is not stepped."""
     from .. import main_call
 
     rows = plan.simulation_parameters.interventions if plan is not None else ()
-    wrong = any(f.severity == "error" for f in found)
+    wrong = any(finding.severity == "error" for finding in found)
     if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
         return None
-    lasting = main_call.facts(path).get("duration")
-    return tried(path, float(lasting), wall_s) if isinstance(lasting, int | float) else None
+    lasting = main_call.facts(program).get("duration")
+    return tried(program, float(lasting), wall_s) if isinstance(lasting, int | float) else None
 
 
 def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | None:
