@@ -12,7 +12,9 @@ def written(objects: Stances, row: AssetRow) -> str:
     assert row.plant is not None
     objects.needs.use("plants")
     plant = row.plant.made()
-    numbers = {key: exact(value) if isinstance(value, float) else value for key, value in row.plant.numbers.items()}
+    numbers: dict = {
+        key: exact(value) if isinstance(value, float) else value for key, value in row.plant.numbers.items()
+    }
     made = " ".join(call(f"plants.{row.plant.kind.capitalize()}", indent=0, **numbers).split())
     lines = [comment(f"{row.name}: {row.plant.source}")] if row.plant.source else []
     name_of = f"{constant_name(row.name).lower()}_grown"

@@ -73,4 +73,4 @@ def burning(
     """A lamp that burns over a `floor` at a point, m: all around from a globe of a `radius`, or `down` alone."""
     x, y, z = at
     told = {"aim": (x, y, floor), "cone_deg": CONE_DEG} if down else {"radius": radius}
-    film.lamp(name, at, strength=BELOW * (z - floor) ** 2, colour=WARM, **told)  # type: ignore[arg-type]
+    film.lamp(name, at, strength=BELOW * (z - floor) ** 2, colour=WARM, **told)
