@@ -26,9 +26,8 @@ def drawn(places, wide=0.4, opaque=0.5, wall_m=9.0, half_m=9.0):
         "o": np.full((1, count), opaque, np.float32),
     }
     row = {"name": "mist", "rgb": (1.0, 1.0, 1.0), "places": "p", "wide": "w", "opaque": "o"}
-    film = SimpleNamespace(puffs=(row,), arrays=arrays)
     before = np.full((HEIGHT, WIDTH, 3), 40, np.uint8)
-    return puffs.over(before, film, 0, SimpleNamespace(view=view, depth=depth), SUN).astype(float) - before
+    return puffs.over(before, arrays, (row,), 0, SimpleNamespace(view=view, depth=depth), SUN).astype(float) - before
 
 
 def test_one_is_brightest_in_its_middle_fades_evenly_and_is_nowhere_else() -> None:

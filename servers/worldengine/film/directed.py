@@ -141,7 +141,8 @@ class Screening:
     def lettered(self, frame: int, image: "np.ndarray") -> "np.ndarray":
         """A picture with the puffs and the words of a frame, which none can leave out: uint8 (height, width, 3)."""
         if self.film.puffs:
-            image = puffs.over(image, self.film, frame, self.surfaces(frame), self.film.treatments.at(frame / self.fps))
+            film, treatment = self.film, self.film.treatments.at(frame / self.fps)
+            image = puffs.over(image, film.arrays, film.puffs, frame, self.surfaces(frame), treatment)
         return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
 
     def words(self, frame: int) -> tuple[float, bool, str, str, str]:

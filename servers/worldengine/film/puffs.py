@@ -14,7 +14,6 @@ import numpy as np
 
 if TYPE_CHECKING:
     from .carrying import Surfaces
-    from .described import Described
     from .treatment import Treatment
 
 Array = np.ndarray
@@ -52,10 +51,17 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
     return tuple(found)
 
 
-def over(picture: Array, film: "Described", frame: int, shown: "Surfaces", treatment: "Treatment") -> Array:
-    """The picture (H, W, 3), uint8, with the puffs of a frame; `shown` is what it shows."""
-    rows = [(np.asarray(film.arrays[one["places"]][frame], float), film.arrays[one["wide"]][frame] / 2,
-             film.arrays[one["opaque"]][frame], one["rgb"]) for one in film.puffs]  # fmt: skip
+def over(
+    picture: Array,
+    arrays: dict[str, Array],
+    puffs: tuple[dict[str, Any], ...],
+    frame: int,
+    shown: "Surfaces",
+    treatment: "Treatment",
+) -> Array:
+    """The picture (H, W, 3), uint8, with the puffs of a frame, rows as `check` returns them; `shown` is what it shows."""
+    rows = [(np.asarray(arrays[one["places"]][frame], float), arrays[one["wide"]][frame] / 2,
+             arrays[one["opaque"]][frame], one["rgb"]) for one in puffs]  # fmt: skip
     places = np.concatenate([row[0] for row in rows])
     radius, opaque = (np.concatenate([np.asarray(row[n], float) for row in rows]) for n in (1, 2))
     rgb = np.concatenate([np.tile(row[3], (len(row[0]), 1)) for row in rows])
