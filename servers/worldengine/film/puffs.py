@@ -36,9 +36,9 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
 
     found = []
     for one in told.get("puffs", ())[:100]:
-        row = {"name": str(one["name"])[:60], "rgb": tuple(float(v) for v in one["rgb"])}
+        row: dict[str, Any] = {"name": str(one["name"])[:60], "rgb": tuple(float(v) for v in one["rgb"])}
         row |= {what: str(one[what]) for what in ("places", "wide", "opaque")}
-        places, wide, opaque = (arrays[row[what]] for what in ("places", "wide", "opaque"))
+        places, wide, opaque = (arrays[str(one[what])] for what in ("places", "wide", "opaque"))
         good = (
             places.ndim == 3
             and places.shape[0] == frames
@@ -163,7 +163,7 @@ def _lit(places: Array, radius: Array, opaque: Array, sun: Array) -> Array:
     cell = np.clip(((along - low) / size * GRID).astype(int), 0, GRID - 1)
     area = size[0] * size[1] / GRID**2
     depth = -np.log1p(-np.minimum(opaque, 0.98)) * np.pi * radius**2 / 2 / max(area, 1e-12)
-    grid = np.bincount(np.ravel_multi_index(cell.T, (GRID,) * 3), depth, minlength=GRID**3).reshape((GRID,) * 3)
+    grid: Array = np.bincount(np.ravel_multi_index(cell.T, (GRID,) * 3), depth, minlength=GRID**3).reshape((GRID,) * 3)
     for axis in (0, 1):  # a puff is no cell
         grid = (np.roll(grid, 1, axis) + 2 * grid + np.roll(grid, -1, axis)) / 4
     before = np.cumsum(grid[:, :, ::-1], axis=2)[:, :, ::-1] - grid

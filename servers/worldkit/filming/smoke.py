@@ -125,7 +125,7 @@ class Smoke(PatternedLight):
             place[..., 2] += rise * np.maximum(age, 0.0)
             wide = diameter[0] + (diameter[1] - diameter[0]) * np.sqrt(share)
             place += _eddies(place, np.maximum(age, 0.0), turbulence, max(diameter), key)
-            thin = opacity * np.clip(share / 0.04, 0.0, 1.0) * (1 - share) ** 1.5
+            thin = opacity * np.clip(share / 0.004, 0.0, 1.0) * (1 - share) ** 1.5
             return (
                 place,
                 np.where(alive, wide * (0.7 + 0.6 * _chance(number, key + 5)), 0.0),

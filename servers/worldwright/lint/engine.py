@@ -384,6 +384,6 @@ def check_program_file(
     if outcome.pass_s is not None:
         said += f"; by its first steps the physics takes about {max(outcome.pass_s, 1):.2g} s here"
     found += check_world(program, outcome, planned)
-    if tried := law_trial.of(path, plan, outcome, found, wall_s):
-        return in_order([*found, *tried.findings]), f"{said}\n{path.name}: {tried.said}"
+    if laws := law_trial.of(path, plan, outcome, found, wall_s):
+        return in_order([*found, *laws.findings]), f"{said}\n{path.name}: {laws.said}"
     return in_order(found), said
