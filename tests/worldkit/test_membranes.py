@@ -8,7 +8,6 @@ from worldkit.errors import ProgramError
 from worldkit.matter.membranes import Membrane
 from worldkit.skins import Gas, Wall, ball
 
-pytest.importorskip("numba")
 LATEX = Wall(
     young=1e6, thickness=2.5e-4, density=950.0, rubber=True, stretched=2.6, damping=2e-4, friction=0.6, air=2.0
 )

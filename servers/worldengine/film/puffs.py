@@ -14,7 +14,6 @@ import numpy as np
 
 if TYPE_CHECKING:
     from .carrying import Surfaces
-    from .described import Described
     from .treatment import Treatment
 
 Array = np.ndarray
@@ -52,8 +51,8 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
     return tuple(found)
 
 
-def over(picture: Array, film: "Described", frame: int, shown: "Surfaces", treatment: "Treatment") -> Array:
-    """The picture (H, W, 3), uint8, with the puffs of a frame; `shown` is what it shows."""
+def over(picture: Array, film: Any, frame: int, shown: "Surfaces", treatment: "Treatment") -> Array:
+    """The picture (H, W, 3), uint8, with the puffs of a frame of a `described` film; `shown` is what it shows."""
     rows = [(np.asarray(film.arrays[one["places"]][frame], float), film.arrays[one["wide"]][frame] / 2,
              film.arrays[one["opaque"]][frame], one["rgb"]) for one in film.puffs]  # fmt: skip
     places = np.concatenate([row[0] for row in rows])
