@@ -48,7 +48,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 
             physics.run(given, options)
         elif options.run == "unmoved":
-            from .recording import unmoved
+            from .clock import unmoved
 
             unmoved.run(given, options)
         elif options.run == "live":

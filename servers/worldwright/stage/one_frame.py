@@ -90,8 +90,8 @@ def each(
     for at_s, camera, (width, height) in wanted:
         words += ["--seen", f"{width}x{height}:{float(at_s)}:{camera}"]
     filmed = any(camera == FILM for _, camera, _ in wanted)
-    limits: dict[str, Any] = {"wall_s": WALL_S * len(wanted)}
-    found = draw_frame(run, recorded(run, key), (), SIZE, filmed, words, words, (FRAME[:-4] + "*.png",), **limits)
+    named = (FRAME[:-4] + "*.png",)
+    found = draw_frame(run, recorded(run, key), (), SIZE, filmed, words, words, named, wall_s=WALL_S * len(wanted))
     names = [FRAME, *(f"frame-{number}.png" for number in range(2, len(wanted) + 1))]
     return [found.get(name) for name in names]
 

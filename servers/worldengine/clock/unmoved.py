@@ -12,7 +12,7 @@ from ..given import Given
 if TYPE_CHECKING:
     import mujoco
 
-    from .record import Recorder
+    from ..recording.record import Recorder
 
 RATE_HZ, MOST_ROWS = 60.0, 600
 
@@ -29,9 +29,9 @@ def run(given: Given, options: argparse.Namespace) -> None:
     from worldkit import world
     from worldkit.files import write_json
 
-    from . import still_surfaces
-    from .describing import describe
-    from .record import Recorder
+    from ..recording import still_surfaces
+    from ..recording.describing import describe
+    from ..recording.record import Recorder
 
     model = given.model()
     world.check_cast(model, given.movers, given.visual_only)
