@@ -133,7 +133,7 @@ def main() -> int:
         rows(large)
         began, queued = time.perf_counter(), waited()
         wall.write(large)
-        told = time.perf_counter() - began - (waited() - queued)  # what else the machine is at is no part of it; disks are
+        told = time.perf_counter() - began - (waited() - queued)  # disks count, what else the machine is at does not
 
         planned = campaign(Path(scratch) / "planned", PLANNED, budget={"runs": 1})
         began = time.perf_counter()
