@@ -105,7 +105,7 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,scenes,gym,mcap,robots,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,scenes,gym,mcap,robots,judge,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev

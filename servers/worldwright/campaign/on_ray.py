@@ -2,8 +2,8 @@
 
 A task is one world and hands back its name alone: rows and recordings lie in the campaign's folder, which every node must see
 under the same path, with the same environment installed. Ray repeats nothing by itself (`max_retries=0`): a world whose worker
-died is begun again by the driver, which counts how often. A task asks for one processor, and for the memory that such worlds
-took before; results are far below the size that goes through the object store, which is therefore kept small.
+died is begun again by the driver, which counts how often. A task asks for the processors that such worlds kept at work before, and
+for the memory that they took; results are far below the size that goes through the object store, which is therefore kept small.
 """
 
 import contextlib
@@ -49,13 +49,21 @@ class Tasks:
         seconds: a world that takes longer is ended.
         address: of the cluster, `host:port`; empty: Ray is started here.
         memory_mb: the largest that such worlds took before; 0: nothing is known.
+        cores: the most processors that one of them kept at work; asked for are whole ones, and never less than one, since a world
+            that had to wait for its processor looks as if it needed less.
 
     Raises:
         CampaignError: Ray is not installed, or no cluster answers there.
     """
 
     def __init__(
-        self, count: int | None, work: Work, seconds: float = float("inf"), address: str = "", memory_mb: float = 0.0
+        self,
+        count: int | None,
+        work: Work,
+        seconds: float = float("inf"),
+        address: str = "",
+        memory_mb: float = 0.0,
+        cores: float = 0.0,
     ) -> None:
         if not installed():
             raise CampaignError(
@@ -73,18 +81,19 @@ class Tasks:
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
         self._started = not ray.is_initialized()
         if self._started:
-            self._connect(count, address)
+            self._connect(count and count * max(1, round(cores)), address)
         nodes = [node["Resources"] for node in ray.nodes() if node["Alive"]]
         processors = int(sum(node.get("CPU", 0) for node in nodes))
         asked = (memory_mb + SPARE_MB if memory_mb else FIRST_MB) * (1 << 20)
         memory = [node.get("memory", float("inf")) for node in nodes if node.get("CPU")]
         asked = min(asked, max(memory, default=float("inf")) / 2)
         # What only waits in Ray's queue would be taken for slow, so no more is handed out than the nodes hold at once.
-        fit = sum(int(min(node.get("CPU", 0), node.get("memory", float("inf")) / asked)) for node in nodes)
+        each = max(1, min(round(cores), int(max((node.get("CPU", 0) for node in nodes), default=1))))
+        fit = sum(int(min(node.get("CPU", 0) // each, node.get("memory", float("inf")) / asked)) for node in nodes)
         self._count = max(1, min(count or processors - (processors > 2), fit))
-        self._remote = ray.remote(num_cpus=1, memory=int(asked), max_retries=0, max_calls=200)(_alone(work))
+        self._remote = ray.remote(num_cpus=each, memory=int(asked), max_retries=0, max_calls=200)(_alone(work))
 
-    def _connect(self, count: int | None, address: str) -> None:
+    def _connect(self, processors: int | None, address: str) -> None:
         quiet: dict[str, Any] = {"log_to_driver": False, "logging_level": "ERROR", "configure_logging": True}
         try:
             if address:
@@ -94,7 +103,7 @@ class Tasks:
                 os.environ.setdefault(NICENESS, "0")
                 began = self._ray.init(
                     address="local",
-                    num_cpus=count,
+                    num_cpus=processors,
                     include_dashboard=None,  # where it is installed (`ray[default]`), on the loopback
                     object_store_memory=STORE_MB << 20,
                     **quiet,

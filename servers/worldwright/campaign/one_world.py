@@ -104,7 +104,7 @@ def stop_jobs(store: Store, world: str) -> None:
 
 
 def _done(store: Store, begun: Begun, one: Task) -> Row:
-    began, minutes = time.monotonic(), dict[str, float]()
+    began, minutes, used = time.monotonic(), dict[str, float](), _cpu()
     most = begun.campaign.per_world.begun
     if store.begun_before(one.world) >= most:
         said = f"it was begun {most} times and never came to its end: each time its worker died"
@@ -114,7 +114,14 @@ def _done(store: Store, begun: Begun, one: Task) -> Row:
     walked = _walked(store, begun, one, minutes, began + begun.campaign.per_world.seconds)
     if begun.campaign.report and store.world(one.world).is_dir():
         _report(store.world(one.world), minutes)
-    return store.keep(_row(store, begun, one, walked, minutes, time.monotonic() - began))
+    row = _row(store, begun, one, walked, minutes, time.monotonic() - began)
+    return store.keep(row.model_copy(update={"cpu_seconds": round(_cpu() - used, 3)}))
+
+
+def _cpu() -> float:
+    """Seconds of processors that this process took so far, with all that it started and saw end."""
+    ours, theirs = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return ours.ru_utime + ours.ru_stime + theirs.ru_utime + theirs.ru_stime
 
 
 def _walked(store: Store, begun: Begun, one: Task, minutes: dict[str, float], deadline: float) -> Walked:

@@ -73,6 +73,8 @@ class Row(Written, cache_strings="keys"):
     """How often it was begun."""
     seconds: float = 0.0
     """By the clock of its worker, the last time that it was begun."""
+    cpu_seconds: float = 0.0
+    """Of processors, in these seconds: its worker's and those of all that it started and saw end."""
     minutes: dict[str, float] = {}
     """By step; `report` among them."""
     interventions: tuple[str, ...] = ()

@@ -9,7 +9,7 @@
 | `exhibit` | what a judge is shown of a film: frames, a contact sheet, or the film |
 | `judging_prompt` | the words that it is asked with, and what its answer says |
 | `judges/` | the judges, one file each, behind one protocol |
-| `one_call`, `patience` | a call to a server and how it can fail; how often and when it is asked again |
+| `one_call`, `patience` | a call to a server through its maker's client, and how it can fail; how often and when it is asked again |
 | `headless` | a coding harness as the judge: a process of its own in an empty folder |
 | `verdict_record` | what was shown, asked and answered, by hash, in a folder that no builder reads |
 | `hearing` | every film before the judge, each vote paid once |

@@ -219,6 +219,15 @@ def test_who_asks_whether_it_is_at_work_does_not_refuse_a_driver(begun, monkeypa
     assert not store.driven
 
 
+def test_before_a_driver_has_ended_a_world_the_time_left_is_that_of_earlier_ones(begun):
+    store = begun([1, 2, 3, 4], workers=2)
+    done = conducting.Count(done=1, seconds=240.0)
+    told = conducting.told(store, store.begun, done, at_work=True)
+    assert told.left_s == 3 * 240 / 2 and "about 6 min left" in told.text() and told.rate_per_minute is None
+    assert conducting.told(store, store.begun, done, at_work=False).left_s is None, "nobody is at work"
+    assert conducting.told(store, store.begun, conducting.Count(), at_work=True).left_s is None
+
+
 def test_the_first_world_does_not_wait_for_the_thousandth(begun, here):
     store = begun(range(1, 1001), budget={"runs": 1})
     assert conducting.conduct(store, stub_worlds.do).done == 1
@@ -235,7 +244,7 @@ def test_a_campaign_that_is_not_there_is_answered_with_those_that_are(begun, tmp
 def test_without_ray_our_own_processes_do_the_work_and_it_is_said_once(begun, monkeypatch):
     said = []
     monkeypatch.setattr(conducting.on_ray, "installed", lambda: False)
-    conducting.crew_of(begun([1], hands="auto").begun.campaign, stub_worlds.do, 0.0, said.append).close()
+    conducting.crew_of(begun([1], hands="auto").begun.campaign, stub_worlds.do, conducting.Count(), said.append).close()
     assert len(said) == 1 and "2 worker processes" in said[0]
 
 

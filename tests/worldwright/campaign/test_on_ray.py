@@ -23,6 +23,7 @@ from worldwright.campaign import conducting, on_ray, setting_out
 from worldwright.campaign.campaign_file import CampaignError
 from worldwright.campaign.campaign_store import Store
 from worldwright.campaign.one_world import Task, perform
+from worldwright.campaign.world_row import Row
 
 
 class DiedError(Exception):
@@ -133,18 +134,23 @@ def test_the_dashboard_is_named_where_there_is_one(begun, ray):
     assert said == ["Ray's dashboard: http://127.0.0.1:8265"]
 
 
-def test_a_cluster_is_asked_by_its_address_and_for_the_memory_that_worlds_took(begun, ray):
+def test_a_cluster_is_asked_by_its_address_and_for_what_worlds_took(begun, ray):
     module = ray()
     store = begun([1], address="10.0.0.1:6379", workers=3)
-    tasks = conducting.crew_of(store.begun.campaign, stub_worlds.do, 1000.0, print)
+    took = conducting.Count()
+    for seconds, cpu in ((10.0, 3.0), (10.0, 18.0)):
+        took.add(Row(world="0" * 16, number=0, outcome="held", seconds=seconds, cpu_seconds=cpu, memory_mb=1000))
+    tasks = conducting.crew_of(store.begun.campaign, stub_worlds.do, took, print)
     assert module.asked["init"]["address"] == "10.0.0.1:6379" and "num_cpus" not in module.asked["init"]
-    assert tasks.free() == 3
+    assert tasks.free() == 2 and module.asked["remote"]["num_cpus"] == 2
     assert module.asked["remote"]["memory"] == (1000 + on_ray.SPARE_MB) * 2**20
     on_ray.Tasks(None, stub_worlds.do, memory_mb=1e6)
     assert module.asked["remote"]["memory"] == 4e9, (
         "never more than half of what the cluster has, or it would wait for ever"
     )
     assert on_ray.Tasks(None, stub_worlds.do).free() == 3, "a processor is left to Ray"
+    assert on_ray.Tasks(None, stub_worlds.do, cores=0.2).free() == 3 and module.asked["remote"]["num_cpus"] == 1
+    assert on_ray.Tasks(None, stub_worlds.do, cores=90).free() == 1 and module.asked["remote"]["num_cpus"] == 4
 
 
 @pytest.mark.parametrize(

@@ -53,7 +53,7 @@ def test_a_world_that_holds_and_one_that_does_not_are_rows(fallen):
     assert "The ball falls to the floor" in refuted.cause.said
     assert held.margin == pytest.approx(0.096, abs=0.005) and refuted.margin < 0
     assert held.values == {BOTTOM: 0.45} and held.category == "falling" and held.prompt == "A dropped ball"
-    assert held.runs == held.iterations == held.begun == 1
+    assert held.runs == held.iterations == held.begun == 1 and held.cpu_seconds > 0
     assert {"check", "place", "approve", "draft", "lint", "physics", "scan", "expect"} <= held.minutes.keys()
     assert held.trajectory_sha256 and held.trajectory_sha256 != refuted.trajectory_sha256
     assert (fallen.folder / held.recording / "meta.json").is_file() and not held.report

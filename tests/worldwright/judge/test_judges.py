@@ -1,7 +1,7 @@
 """The three services' judges against stand-ins that speak their wire formats: what is sent, what is read, how each failure is named."""
 
-import importlib
 import json
+import sys
 
 import pytest
 
@@ -55,20 +55,44 @@ def test_words_and_pictures_go_out_in_its_form_and_the_answer_comes_back(stand_i
         assert kinds == ["text", "image_url", "image_url"]
         assert body["messages"][0]["content"][1]["image_url"]["url"].startswith("data:image/jpeg;base64,")
     elif name == "anthropic_messages":
-        assert path == "/v1/messages" and headers["x-api-key"] == "secret-ANTHROPIC_API_KEY"
-        assert headers["anthropic-version"] == "2023-06-01" and body["max_tokens"] > 100
+        assert path == "/v1/messages" and headers["authorization"] == "Bearer secret-ANTHROPIC_API_KEY"
+        assert headers["anthropic-version"] >= "2023-06-01" and body["max_tokens"] > 100
         assert body["messages"][0]["content"][0]["source"]["media_type"] == "image/jpeg"
     else:
         assert path == "/v1beta/models/eye-1:generateContent" and headers["x-goog-api-key"] == "secret-GEMINI_API_KEY"
-        assert body["contents"][0]["parts"][0]["inlineData"]["mimeType"] == "image/jpeg"
+        assert body["contents"][0]["parts"][0]["inlineData"]["mime_type"] == "image/jpeg"
     assert "secret" not in path + json.dumps(body)
+
+
+@services
+def test_nothing_of_the_environment_and_about_this_machine_goes_along(stand_in, name, monkeypatch):
+    for variable, value in {
+        "ANTHROPIC_AUTH_TOKEN": "foreign", "ANTHROPIC_CUSTOM_HEADERS": "X-A: foreign", "ANTHROPIC_BASE_URL": "http://127.0.0.1:9/foreign",
+        "OPENAI_ORG_ID": "foreign", "OPENAI_CUSTOM_HEADERS": "X-A: foreign", "OPENAI_BASE_URL": "http://127.0.0.1:9/foreign",
+        "GOOGLE_API_KEY": "foreign", "GOOGLE_GENAI_USE_VERTEXAI": "true", "GOOGLE_CLOUD_PROJECT": "foreign",
+    }.items():  # fmt: skip
+        monkeypatch.setenv(variable, value)
+    stand_in.replies = [(200, SPEAKS[name](said()), {})]
+    ask(name, stand_in.address)
+    ((path, body, headers),) = stand_in.asked
+    keys = {header for header, value in headers.items() if value.endswith(KEYS[name])}
+    assert "foreign" not in json.dumps([path, body, headers]) and set(headers) <= {*one_call.SENT, *keys}
+
+
+@services
+def test_a_client_that_is_not_installed_is_asked_for(name, monkeypatch):
+    for module in ("openai", "anthropic", "google.genai"):
+        monkeypatch.setitem(sys.modules, module, None)
+    with pytest.raises(JudgeError, match="not installed") as raised:
+        ask(name, "https://192.0.2.1")
+    assert raised.value.code == "not_here" and "worldwright[judge]" in raised.value.next_move
 
 
 def test_a_whole_film_is_looked_at_at_24_frames_a_second(stand_in):
     stand_in.replies = [(200, candidate(said()), {})]
     ask("gemini", stand_in.address, pieces=(Piece("video/mp4", b"film"),))
     part = stand_in.asked[0][1]["contents"][0]["parts"][0]
-    assert part["videoMetadata"] == {"fps": 24.0} and part["inlineData"]["mimeType"] == "video/mp4"
+    assert part["videoMetadata"] == {"fps": 24.0} and part["inlineData"]["mime_type"] == "video/mp4"
 
 
 @services
@@ -89,6 +113,8 @@ def test_a_whole_film_is_looked_at_at_24_frames_a_second(stand_in):
         ((200, b"{}", {}), "garbage", "it answered"),
         ((200, {"choices": [], "content": 3, "candidates": [3]}, {}), "garbage", "it answered"),
         ((200, b"[" * 100_000, {}), "garbage", "no object"),
+        ((200, b"x", {"Content-Encoding": "gzip"}), "garbage", "packed"),
+        ((200, b'"' + b" " * one_call.MOST_ANSWER + b'"', {}), "garbage", "longer than 8 MB"),
         ((200, b"cut", {"Content-Length": "900"}), "unreachable", "cannot be reached"),
         (1.0, "timed_out", "said nothing for 0.3 s"),
     ],
@@ -131,14 +157,11 @@ def test_what_goes_to_this_machine_goes_past_the_proxy(stand_in, name, monkeypat
         for variable in ("no_proxy", "NO_PROXY"):
             monkeypatch.delenv(variable, raising=False)
         monkeypatch.setenv("http_proxy", proxy.address)
-        importlib.reload(one_call)  # whose opener reads the environment as it is built
         stand_in.replies = proxy.replies = [(200, SPEAKS[name](said()), {})]
         assert ask(name, stand_in.address).text == said() and not proxy.asked
     finally:
         proxy.server.shutdown()
         proxy.server.server_close()
-        monkeypatch.undo()
-        importlib.reload(one_call)
 
 
 @services

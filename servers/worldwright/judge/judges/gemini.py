@@ -1,15 +1,13 @@
-"""Google's Gemini API: POST `ADDRESS/v1beta/models/MODEL:generateContent`, pictures or the film as inline data.
+"""Google's Gemini API, by Google's client (`google-genai`), pictures or the film as inline data; the key is `GEMINI_API_KEY`.
 
-The reference's own judge was one of these models, shown the whole film at 24 frames a second: `--shows film`. The key is
-`GEMINI_API_KEY`. Written after the protocol; no real service was reached from here, only stand-ins on the loopback.
+The reference's own judge was one of these models, shown the whole film at 24 frames a second: `--shows film`. No real service
+was reached from here, only stand-ins on the loopback.
 """
 
-import base64
-from typing import Any
-from urllib.parse import quote
+import logging
 
-from ..one_call import garbage, key, place_of, post
-from . import Answer, JudgeError, Limits, Question
+from .. import one_call
+from . import Answer, Limits, Question
 
 ADDRESS = "WORLDWRIGHT_JUDGE_GEMINI"
 LIMITS = Limits(pictures=256, bytes_each=14 << 20, bytes_together=14 << 20, films=True)
@@ -19,7 +17,9 @@ KEY, FRAMES_PER_S = "GEMINI_API_KEY", 24.0
 
 def starting() -> str:
     """How a user comes by one, in a few words."""
-    return f"--address https://generativelanguage.googleapis.com, with your key in {KEY}"
+    return (
+        f"pip install google-genai, then: --address https://generativelanguage.googleapis.com, with your key in {KEY}"
+    )
 
 
 def ask(question: Question) -> Answer:
@@ -28,38 +28,33 @@ def ask(question: Question) -> Answer:
     Raises:
         JudgeError: it gave no answer.
     """
-    place = place_of(question.address)
-    parts: list[dict[str, Any]] = []
-    for piece in question.pieces:
-        part: dict[str, Any] = {
-            "inlineData": {"mimeType": piece.media_type, "data": base64.b64encode(piece.data).decode()}
-        }
-        if piece.media_type.startswith("video/"):  # without it, one frame a second is looked at
-            part["videoMetadata"] = {"fps": FRAMES_PER_S}
-        parts.append(part)
-    body = {"contents": [{"role": "user", "parts": [*parts, {"text": question.words}]}]}
-    path = f"/v1beta/models/{quote(question.model, safe='')}:generateContent"
-    return _read(post(question.address, path, body, {"x-goog-api-key": key(KEY, place)}, question.silent_s), place)
+    place = one_call.place_of(question.address)
+    secret = one_call.key(KEY, place)
+    with one_call.line(question.address, secret, question.silent_s) as http:
+        from google.genai import Client, types
 
-
-def _read(told: dict[str, Any], place: str) -> Answer:
-    try:
-        feedback = (told.get("promptFeedback") or {}).get("blockReason")
-        first = (told.get("candidates") or [{}])[0]
-        why = first.get("finishReason") or ""
-        parts = (first.get("content") or {}).get("parts") or []
-        text = "".join(part.get("text", "") for part in parts if not part.get("thought"))
-        usage = told.get("usageMetadata") or {}
-        counts = usage.get("promptTokenCount"), usage.get("candidatesTokenCount")
-    except (IndexError, TypeError, AttributeError) as cause:
-        raise garbage(f"it answered no candidate: {str(told)[:80]}", place) from cause
-    if feedback or why not in ("", "STOP", "MAX_TOKENS"):
-        raise JudgeError(
-            f"it declines to judge this film: {str(feedback or why)[:120]}", code="declined", place=place,
-            next_move="take another judge for it, and for all others",
-        )  # fmt: skip
-    if why == "MAX_TOKENS":
-        raise JudgeError("its answer was cut off", code="cut_off", place=place, next_move="take a model that says less")
-    if not text.strip():
-        raise garbage("it answered nothing", place)
-    return Answer(text, str(told.get("modelVersion") or ""), *(n if isinstance(n, int) else None for n in counts))
+        logging.getLogger("google_genai").setLevel(logging.ERROR)  # it tells which key of the environment it would take
+        parts = [
+            types.Part(
+                inline_data=types.Blob(mime_type=piece.media_type, data=piece.data),
+                # without it, one frame a second of a film is looked at
+                video_metadata=types.VideoMetadata(fps=FRAMES_PER_S) if piece.media_type.startswith("video/") else None,
+            )
+            for piece in question.pieces
+        ]
+        over = types.HttpOptions(
+            base_url=question.address, api_version="v1beta", httpx_client=http, timeout=int(question.silent_s * 1000)
+        )
+        told = Client(api_key=secret, vertexai=False, http_options=over).models.generate_content(
+            model=question.model, contents=types.Content(role="user", parts=[*parts, types.Part(text=question.words)])
+        )
+        first = told.candidates[0] if told.candidates else None
+        why = first.finish_reason.value if first and first.finish_reason else ""
+        blocked = told.prompt_feedback.block_reason if told.prompt_feedback else None
+        if blocked or why not in ("", "STOP", "MAX_TOKENS"):
+            raise one_call.declined(blocked.value if blocked else why, place)
+        said = (first.content.parts if first and first.content else None) or []
+        text = "".join(part.text or "" for part in said if not part.thought)
+        usage = told.usage_metadata
+        counts = (usage.prompt_token_count, usage.candidates_token_count) if usage else ()
+        return one_call.answer(text, why == "MAX_TOKENS", place, told.model_version, *counts)
