@@ -7,7 +7,7 @@ export PIP_DISABLE_PIP_VERSION_CHECK := 1
 export PIP_CONSTRAINT := .ci/constraints.txt
 PYTEST = $(BIN)/python -m pytest $(if $(REPORT),--junit-xml="$(REPORT)")
 
-.PHONY: help demo test tests quick lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-validation test-conformance test-harness test-semantic test-ray docs catalog lock clean
+.PHONY: help demo test tests quick lint style types set-up ci fmt bench examples gallery test-faults test-tricks test-validation test-conformance test-harness test-semantic test-campaign test-ray docs catalog lock clean
 .DEFAULT_GOAL := help
 
 help: ## List the targets
@@ -17,7 +17,8 @@ demo: .venv/.core ## Build and accept the billiards world from its plan, and say
 	$(BIN)/worldwright go examples/two-billiard-balls/plan.md --run runs/demo --approve --accept
 	@echo; echo "Open $(CURDIR)/runs/demo/report.html in a browser."
 
-test: lint tests ## Everything that must hold
+test: style ## Everything that must hold
+	@$(MAKE) --no-print-directory -j2 types tests  # the checker of types is one process: alone it would leave a core idle
 
 tests: .venv/.dev ## The tests alone
 	@$(BIN)/python -m compileall -q servers  # what was edited since set-up, which each of thousands of processes would compile
@@ -75,9 +76,12 @@ test-harness: .venv/.dev ## The contract in the real Claude Code, Codex and Open
 test-semantic: .venv/.semantic ## Ranking by meaning with torch and LanceDB in place of numpy and a file
 	WORLDWRIGHT_SEMANTIC=1 $(PYTEST) tests/worldwright/retrieve -p no:xdist
 
-test-ray: .venv/.dev ## Campaigns on Ray itself, on this machine
+test-campaign: .venv/.dev ## Twenty-four sweeps of an accepted example on two workers, whose driver and then a worker are killed (make test does two)
+	WORLDWRIGHT_SWEEPS=24 PYTHONPATH=tests $(PYTEST) tests/worldwright/campaign/test_example_sweeps.py -p no:xdist
+
+test-ray: .venv/.dev ## Campaigns on Ray itself: on this machine, and the same sweeps on a cluster of two nodes started here
 	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,hulls,scenes,cluster,dev]'
-	WORLDWRIGHT_RAY=1 PYTHONPATH=tests $(PYTEST) tests/worldwright/campaign/test_on_ray.py -p no:xdist
+	WORLDWRIGHT_RAY=1 WORLDWRIGHT_SWEEPS=24 PYTHONPATH=tests $(PYTEST) tests/worldwright/campaign/test_on_ray.py -p no:xdist
 
 catalog: .venv/.core ## A page to browse every asset and every offer of a packaged library
 	$(BIN)/worldwright asset page runs/catalog

@@ -4,7 +4,7 @@
 #   LLVM 17 or newer: final films are traced 3 to 5 times as fast (optional)
 # With `harness` also what the harnesses need:
 #   npm: brings them       ripgrep: OpenCode does not start without it       socat: Claude Code confines its shell with it
-# With `suites` also what all that CI runs needs: those, and make and git.
+# With `suites` also what all that CI runs needs: those, make and git, and Chromium, in which the live page is driven (optional).
 set -euo pipefail
 
 missing=()
@@ -19,6 +19,7 @@ need_program bwrap bubblewrap
 if [ "${1:-}" = suites ]; then
   need_program make make
   need_program git git
+  command -v chromium-browser >/dev/null || need_program chromium chromium
 fi
 if [ "${1:-}" = suites ] || [ "${1:-}" = harness ]; then
   need_program npm npm
@@ -46,7 +47,7 @@ apt-get update -qq
 for package in "${missing[@]}"; do
   # libosmesa6 has left the newest distributions; EGL alone is enough there. Older ones have no libllvm19.
   apt-get install -y -qq --no-install-recommends "$package" >/dev/null || {
-    case "$package" in libosmesa6 | bubblewrap | libllvm19) ;; *) exit 1 ;; esac
+    case "$package" in libosmesa6 | bubblewrap | libllvm19 | chromium) ;; *) exit 1 ;; esac
     echo "$package is not available here; going on without it"
   }
 done

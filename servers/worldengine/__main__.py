@@ -1,4 +1,4 @@
-"""The engine's process: `python -m worldengine bundle|physics|live|storyboard|still|video|final|frame|scene|sheet|view
+"""The engine's process: `python -m worldengine bundle|physics|unmoved|live|storyboard|still|video|final|frame|scene|sheet|view
 --world FILE --program FILE --out DIR …`.
 
 `physics --replay RECORDING` drives the world by the inputs that a recording holds: the same motion, and nobody is asked.
@@ -16,7 +16,20 @@ from pathlib import Path
 
 import worldkit  # checks the environment contract before anything else is imported
 
-PASSES = ("bundle", "physics", "live", "storyboard", "still", "video", "final", "frame", "scene", "sheet", "view")
+PASSES = (
+    "bundle",
+    "physics",
+    "unmoved",
+    "live",
+    "storyboard",
+    "still",
+    "video",
+    "final",
+    "frame",
+    "scene",
+    "sheet",
+    "view",
+)
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -34,6 +47,10 @@ def main(argv: Sequence[str] | None = None) -> int:
             from .clock import physics
 
             physics.run(given, options)
+        elif options.run == "unmoved":
+            from .recording import unmoved
+
+            unmoved.run(given, options)
         elif options.run == "live":
             from .clock import live_run
 

@@ -1,12 +1,10 @@
 """`worldwright live RUN`: a world at the pace of the wall clock, driven from a browser."""
 
-import json
 import math
 import signal
 import sys
 import threading
 import time
-from contextlib import suppress
 from typing import Any
 
 import click
@@ -27,6 +25,13 @@ TICK_S, SHOW_S = 0.2, 5.0
 @click.option("--at-once", is_flag=True, help="Begin before anybody drives.")
 @click.option("--follow", default="", metavar="BODY", help="What the following camera follows; a car, else what moves.")
 @click.option("--pictures/--no-pictures", default=True, help="Draw what the page shows.")
+@click.option(
+    "--look",
+    type=click.Choice(["quick", "film"]),
+    default="quick",
+    show_default=True,
+    help="Of the pictures: in plain light, or as the house draws films, at six times the price.",
+)
 @click.option("--size", default="400x224", show_default=True, help="Of the pictures, pixels.")
 @click.option("--port", type=click.IntRange(0, 65535), default=0, help="Of the page; a free one without it.")
 @click.option(
@@ -40,7 +45,9 @@ TICK_S, SHOW_S = 0.2, 5.0
     "the environment variable WORLDWRIGHT_LIVE_TOKEN is read too. It goes over the network as it is (http).",
 )
 @click.option(
-    "--prove/--no-prove", default=True, help="At the end, drive it again by its stream, and sign what that proves."
+    "--prove/--no-prove",
+    default=True,
+    help="At the end, drive it again by its stream, and sign what that proves; nobody can sign it later.",
 )
 def command(
     run: str,
@@ -49,6 +56,7 @@ def command(
     at_once: bool,
     follow: str,
     pictures: bool,
+    look: str,
     size: str,
     port: int,
     host: str,
@@ -57,13 +65,17 @@ def command(
 ) -> None:
     """Drive a world live, from the page that this prints the address of, until it is interrupted.
 
+    Exit status 3: proved, but signed by no key that is known here.
+
     It is the accepted world, else the one that was recorded last. What drives it is stored at the step where it took effect, and
     kept in RUN/drives, also if the process is killed: scan it, film it, prove it again.
     """
     from .cli import report_errors
 
     sys.exit(
-        report_errors(lambda: drive(run, speed, seconds, at_once, follow, pictures, size, port, host, token, prove))
+        report_errors(
+            lambda: drive(run, speed, seconds, at_once, follow, pictures, look, size, port, host, token, prove)
+        )
     )
 
 
@@ -74,6 +86,7 @@ def drive(
     at_once: bool,
     follow: str,
     pictures: bool,
+    look: str,
     size: str,
     port: int,
     host: str,
@@ -84,7 +97,7 @@ def drive(
     import secrets
 
     from .ends.chase_pictures import LiveView, PictureThread, followed
-    from .ends.driven import EVENTS, finish
+    from .ends.driven import finish
     from .ends.live_page import LivePage, loopback
     from .ends.live_source import LiveSource
     from .ends.live_world import LiveWorld
@@ -106,11 +119,11 @@ def drive(
     source = LiveSource.find(run)
     followed(source.model, source, follow)
     world = LiveWorld(source, speed, seconds, waits=not at_once)
-    log, view, page = (world.folder / EVENTS).open("a", encoding="utf-8", buffering=1), None, None
+    view, page = None, None
 
     def note(what: str, more: dict[str, Any]) -> None:
         try:
-            log.write(json.dumps({"at": round(time.time(), 3), "what": what, **more}) + "\n")
+            world.witness.note(what, more)
         finally:  # a peer chose some of these words
             click.echo(line(f"{what}: " + ", ".join(f"{value}" for value in more.values())), err=True)
 
@@ -120,7 +133,7 @@ def drive(
     before = {number: signal.signal(number, lambda *_: ended.set()) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         if pictures:
-            view = PictureThread(lambda: LiveView(source, (width, height), follow), lambda: world.newest)
+            view = PictureThread(lambda: LiveView(source, (width, height), follow, look), lambda: world.newest)
             view.ready.wait(60)
         page = LivePage(world, seats, view, host, port, token or ("" if loopback(host) else secrets.token_urlsafe(16)))
         click.echo(f"{page.address}  drives {', '.join(names)}; end it with Ctrl-C")
@@ -132,17 +145,17 @@ def drive(
         for part in (page, view):
             if part is not None:
                 part.close()
-        with suppress(OSError):  # a full disk
-            log.close()
     if not world.folder.is_dir():
         click.echo(
             f"ended: {world.facts.get('ended', 'before its first step')}; nothing was driven, and nothing is kept"
         )
         return 0
     click.echo(f"ended: {world.facts.get('ended', 'before its first step')}; kept in {world.folder}")
-    if prove:
-        click.echo(finish(world.folder).text())
-    return 0
+    if not prove:
+        return 0
+    found = finish(world.folder, world.witness)
+    click.echo(found.text())
+    return found.exit_code
 
 
 def _watch(world: Any, ended: threading.Event) -> None:

@@ -227,9 +227,12 @@ class Worlds:
         from .campaign import trajectories
 
         folder = self.store.folder / trajectories.FOLDER / f"split={part}"
-        if not folder.is_dir():
+        whole = (folder.parent / trajectories.SCHEMA).is_file()
+        if not folder.is_dir() or not whole:
             raise NotFoundError(
-                f"there is no part `{part}` of its trajectories",
+                f"there is no part `{part}` of its trajectories"
+                if whole
+                else "its trajectories are not written to the end",
                 place=str(folder),
                 next_move=f"`worldwright campaign trajectories {self.store.folder.name}`; known: {', '.join(trajectories.PARTS)}",
             )

@@ -21,8 +21,9 @@ from worldwright.stage.tools import start, wait
 
 PLAN = Path(__file__).parents[2] / "examples/breakfast-table/plan.md"
 SECONDS = 60
-GOAL = 0.2
-"""Of the first pass: what start-up, hashing and copying may take."""
+GOAL = 0.25
+"""Of the first pass: what start-up, hashing and copying may take. Three processes start, some 3 s on two cores, whatever the
+length of the world; the first pass of this one takes 14 s."""
 
 
 def main() -> int:
@@ -59,7 +60,10 @@ def main() -> int:
     if not good:
         print("the camera repair was simulated again, or the repaired physics was not")
         return 1
-    return report(Figure("camera repair / first pass", second["wall_s"] / first["wall_s"], GOAL))
+    return report(
+        Figure("steps simulated by a camera repair", second["simulated"], 0, "steps"),
+        Figure("camera repair / first pass", second["wall_s"] / first["wall_s"], GOAL),
+    )
 
 
 def _physics(run: Run, source: str) -> dict:

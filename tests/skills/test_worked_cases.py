@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forked_engine import forked_engine
 from worldengine.film import described, light_meter, motion_facts
 from worldengine.film.directed import Screening
 from worldengine.recording import stored
@@ -36,7 +37,8 @@ class Filmed:
         case, self.folder = folder / name, folder
         self.plan = read_plan(case / "plan.md").plan
         (case / "simulation.py").write_text(planned.source(self.plan), encoding="utf-8")
-        runpy.run_path(str(case / "simulation.py"), run_name="__main__")
+        with forked_engine():
+            runpy.run_path(str(case / "simulation.py"), run_name="__main__")
         self.recording = stored.open(folder / "run/trajectory")
         facts = {"fps": 24, "size": list(SIZE), "movers": self.plan.movers()}
         motion_facts.write(self.recording, folder / "motion.npz", facts)

@@ -72,6 +72,19 @@ class Among(Made):
         return spec
 
 
+class Long(Among):
+    """The two balls beside a plank, 1.2 m long and 4 cm thick."""
+
+    MOVERS = ("ball", "large", "plank")
+
+    def world(self):
+        spec = super().world()
+        plank = spec.worldbody.add_body(name="plank", pos=(0, 6, 0.02))
+        plank.add_freejoint()
+        plank.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.6, 0.1, 0.02))
+        return spec
+
+
 SIDE = still((0.2, -2.5, 0.6), (0.2, 0, 0.1))
 
 
@@ -246,6 +259,26 @@ def test_a_twin_that_rides_on_another_mover_is_told_and_one_on_what_stands_where
     film = among.film(lambda f: f.draw("other", "sphere", size, **where))
     assert film.drawn_only() == said
     assert among.said(film, 3)[2] == ("drawn: other" if "as large" in said[0] else "")
+
+
+@pytest.fixture(scope="module")
+def long(tmp_path_factory):
+    return Long(tmp_path_factory.mktemp("long"))
+
+
+@pytest.mark.parametrize(
+    ("shape", "size", "pos", "shown"),
+    [
+        ("box", (1.25, 0.25, 0.06), (0, 0, 0.01), ""),  # a coat of paint
+        ("box", (1.2, 0.3, 0.5), (0, 0, 0.22), ""),  # a body of sheet on its chassis
+        ("box", (1.2, 0.2, 0.04), (0, 0, 0.2), "drawn: other"),  # one more plank that hovers over it
+        ("sphere", 0.62, (0.0, 0, 0), "drawn: other"),  # the large ball's twin, stuck on the plank
+        ("sphere", 0.62, (0.2, 0, 0.24), "drawn: other"),
+    ],
+)
+def test_what_a_long_mover_wears_is_told_from_what_rides_on_it(long, shape, size, pos, shown):
+    film = long.film(lambda f: f.draw("other", shape, size, to="plank", pos=pos))
+    assert "as large as" in film.drawn_only()[0] and long.said(film, 3)[2] == shown
 
 
 def test_what_moves_without_a_shape_of_its_own_has_no_size_to_be_as_large_as(among):

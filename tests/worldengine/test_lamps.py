@@ -1,6 +1,7 @@
 """Lamps of a film light what is near them, in both renderers, go along with what carries them, and are bounded."""
 
 import json
+from functools import cache
 
 import mujoco
 import numpy as np
@@ -50,6 +51,11 @@ class Lit:
             assert screening.frames.renderer == renderer, screening.frames.reason
             return image
 
+    @cache  # noqa: B019 - one for the module
+    def dark(self, renderer):
+        """Without any lamp; drawn once."""
+        return self.picture(lambda film: None, renderer)
+
 
 @pytest.fixture(scope="module")
 def lit(tmp_path_factory):
@@ -59,7 +65,7 @@ def lit(tmp_path_factory):
 @pytest.mark.gl
 @pytest.mark.parametrize("renderer", ["preview", "traced"])
 def test_a_lamp_lights_what_is_near_it(lit, renderer):
-    dark = lit.picture(lambda film: None, renderer)
+    dark = lit.dark(renderer)
     left = lit.picture(lambda film: film.lamp("left", (-1, 0, 0.6), strength=2), renderer) - dark
     right = lit.picture(lambda film: film.lamp("right", (1, 0, 0.6), strength=2), renderer) - dark
     assert left[30:, :48].mean() > 2 * left[30:, 48:].mean() > 0
@@ -167,7 +173,7 @@ def test_a_panel_lights_what_is_before_it_as_a_lamp_of_its_strength_does(lit, re
     def panel(**more):
         return lambda film: film.panel("panel", (-0.8, 0, 1.6), **{**DOWN, "strength": 2, **more})
 
-    dark = lit.picture(lambda film: None, renderer)
+    dark = lit.dark(renderer)
     lamp = lit.picture(lambda film: film.lamp("l", (-0.8, 0, 1.6), strength=2, colour="#fff6e8"), renderer) - dark
     for seen in (True, False):
         shone = lit.picture(panel(seen=seen), renderer) - dark
@@ -184,7 +190,7 @@ def test_a_panel_is_seen_unless_it_is_told_not_to_be(lit, renderer):
         return lambda film: film.panel("w", (-0.5, 1.0, 0.9), (0.5, 0.5), towards=(-0.5, -4, 0.9), **more)
 
     seen, unseen = (lit.picture(window(seen=there), renderer) for there in (True, False))
-    dark = lit.picture(lambda film: None, renderer)
+    dark = lit.dark(renderer)
     bright = seen - unseen > 60
     assert 20 < bright.sum() < 700
     rows, columns = np.nonzero(bright)

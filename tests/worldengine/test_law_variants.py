@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forked_engine import forked_engine
 from hung_springs import Springs, motor
 from worldengine.recording import stored
 from worldkit import program
@@ -30,7 +31,8 @@ def simulated(folder: Path, control=None, law=None, duration: float = 0.05, ever
 
     words = ["--pass", "physics", "--out", str(folder), *more]
     settings = {"duration": duration, "control_every": every, "laws": [law or Springs()]}
-    assert program.main(build, control, argv=words, **settings) == 0, (folder / "error.json").read_text()
+    with forked_engine():
+        assert program.main(build, control, argv=words, **settings) == 0, (folder / "error.json").read_text()
     return stored.open(folder / "trajectory")
 
 

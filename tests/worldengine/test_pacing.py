@@ -35,6 +35,16 @@ def test_a_second_takes_a_second_over_the_speed(speed, steps):
     assert (paced.overruns, paced.lost_s, paced.jumps) == (0, 0.0, 0)
 
 
+def test_steps_that_nobody_has_to_do_with_are_left_to_the_engine():
+    found, paced = [], pace(Wall(), rows=64, most=203)
+    for step in paced:
+        found += range(step, step + 1 + paced.ahead)
+        assert step % 10 == 0 or step % 64 == 0
+    assert found == list(range(203))
+    looked = list(pace(Wall(), rows=64, most=203, speed=5.0, steady=True))
+    assert looked == [0, 20, 40, 60, 64, 80, 100, 120, 128, 140, 160, 180, 192, 200]
+
+
 def test_what_is_a_little_late_is_caught_up_and_counted():
     wall = Wall()
 

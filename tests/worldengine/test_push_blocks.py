@@ -8,7 +8,7 @@ import pytest
 
 from small_worlds import ball, empty, record
 from worldengine.inputs.pushes import twist
-from worldengine.recording import push_blocks, stored
+from worldengine.recording import push_blocks, stored, stream_files
 from worldengine.recording.push_blocks import Block, PushStream
 
 
@@ -18,7 +18,7 @@ def told(folder: Path, *blocks: Block) -> dict[str, np.ndarray]:
     stream.write(blocks)
     stream.close()
     table = stored.Table(folder / "interventions.arrows", stored.TABLES["interventions"])
-    return dict(push_blocks.join(table, stored._read(folder / push_blocks.FILE)[0]))
+    return dict(push_blocks.join(table, [batch for batch, _ in stream_files.batches(folder / push_blocks.FILE)]))
 
 
 def block(kind: str, acts: np.ndarray, names: list[str], width: int, first_s: float = 0.0) -> Block:

@@ -50,6 +50,12 @@ def test_columns_of_one_batch_are_views_into_the_file(tmp_path):
     assert not record(heap(), tmp_path / "u", 20, batch_rows=5).pos.flags.writeable
 
 
+def test_a_world_in_which_nothing_can_break_loads_nothing_that_breaks(tmp_path, monkeypatch):
+    for name in ("worldkit.breaking", "worldkit.breaking.letting_go"):
+        monkeypatch.setitem(sys.modules, name, None)  # it cannot be imported
+    assert len(record(heap(), tmp_path / "t", 3)) == 4
+
+
 def test_contacts_are_mapped_and_not_unpacked_into_memory(tmp_path):
     """Of what many bodies do to each other the table is as large as the state."""
     record(heap(), tmp_path / "t", 50, batch_rows=1000)

@@ -42,7 +42,7 @@ class Drawn:
     def told(self) -> dict:
         return {}
 
-    lacking = None
+    lacking = give_way = None
 
     def reckoned(self, number: int, drawn: list[float], read) -> np.ndarray | None:
         return None
@@ -485,3 +485,51 @@ def test_where_paths_cannot_be_traced_the_two_kinds_of_the_preview_are_all(tmp_p
         shown.count, shown.shots, state = 2, [range(2)], Refined(tmp_path / "frames", 2, "it")
         assert refine(shown, state, float("inf"), lambda: None)
     assert state.samples == [4, 4]
+
+
+class Slow(Halfway):
+    """Frames that take a second each on a clock of their own; some lack what others could give them."""
+
+    def __init__(self, count: int, clock: list[float], every: bool) -> None:
+        super().__init__([range(count)])
+        self.clock, self.every, self.takes_s, self.give_way = clock, every, [], self._give_way
+
+    def lacking(self, frame: int, before: int, after: int) -> bool:
+        return self.every
+
+    def _give_way(self, takes_s: float) -> None:
+        self.takes_s.append(takes_s)
+
+    def picture(self, number: int, samples: float) -> np.ndarray:
+        self.clock[0] += 1.0 if samples == LEVELS[0] else 3.0
+        self.asked.append((number, samples))
+        return np.zeros((SIZE[1], SIZE[0], 3), np.uint8)
+
+
+@pytest.mark.parametrize(
+    ("seconds", "every", "drawn"),
+    [
+        (8, False, 3),  # 11 frames far apart do not fit: after three drafts that is plain
+        (30, True, 11),  # they do, and not the 70 between that nothing shows
+        (30, False, 0),
+        (95, True, 0),
+    ],
+)
+def test_a_film_that_cannot_be_traced_in_its_minutes_gives_way_as_a_whole(tmp_path, monkeypatch, seconds, every, drawn):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+    film = Slow(81, clock, every)
+    state = Refined(tmp_path, 81, "it")
+    if not drawn:
+        refine(film, state, seconds, lambda: None)
+        assert not film.takes_s
+        return
+    with pytest.raises(refining.FellBackError):
+        refine(film, state, seconds, lambda: None)
+    assert len(film.asked) == drawn and film.takes_s == [pytest.approx(81 if every else 11, rel=0.05)]
+
+
+def test_that_tracing_would_take_longer_is_told():
+    summary = {"frames": 9, "drawn": 9, "taken_over": 0, "reckoned": 0, "samples": {"least": 1, "most": 1}, "rest_s": 0,
+               "complete": True, "renderer": {"name": "preview"}, "tracing_takes_s": 200.0}  # fmt: skip
+    assert "drawn by `preview`, since tracing a whole film takes about 4 minutes" in refined.said(summary)

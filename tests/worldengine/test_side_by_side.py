@@ -55,8 +55,8 @@ def drawn(words, out, monkeypatch, count):
     out.mkdir()
     assert engine.main([*words, "--out", str(out)]) == 0
     told = json.loads((out / "result.json").read_text())
-    with av.open(str(out / "film.mp4")) as film:
-        return [frame.to_ndarray() for frame in film.decode(video=0)], sum(map(bool, taken)), told["film"]
+    with av.open(str(out / ("film.mp4" if "film" in told else "side.mp4"))) as film:
+        return [frame.to_ndarray() for frame in film.decode(video=0)], sum(map(bool, taken)), told.get("film")
 
 
 @pytest.mark.gl
@@ -65,6 +65,15 @@ def test_two_processes_draw_the_film_of_one(words, tmp_path, monkeypatch):
     together, others, same = drawn(words, tmp_path / "together", monkeypatch, 2)
     first = side_by_side.STARTING
     assert (none, others) == (0, (len(alone) - first) // 2) and others and said == same
+    assert len(alone) == len(together) and all(map(np.array_equal, alone, together))
+
+
+@pytest.mark.gl
+def test_two_processes_draw_the_planned_cameras_of_one(words, tmp_path, monkeypatch):
+    planned = words[: words.index("--film")]
+    alone, none, _ = drawn(planned, tmp_path / "alone", monkeypatch, 1)
+    together, others, _ = drawn(planned, tmp_path / "together", monkeypatch, 2)
+    assert (none, others) == (0, (len(alone) - side_by_side.STARTING) // 2) and others
     assert len(alone) == len(together) and all(map(np.array_equal, alone, together))
 
 

@@ -17,10 +17,11 @@ from worldengine.inputs.ports import Ports
 from worldengine.recording import describing, stored
 from worldengine.recording.record import Recorder
 from worldengine.recording.replay import Replay
-from worldengine.solvers import SEAM, Row, called, check, magnets
+from worldengine.solvers import SEAM, Row, called, check
 from worldengine.variants.altered import Variant, alter
 from worldkit import portable
 from worldkit.errors import ProgramError
+from worldkit.fields import bores
 from worldkit.world import start
 
 RADIUS = 0.1
@@ -297,8 +298,8 @@ def rims(outer, inner, length, sides=24):
 @pytest.mark.parametrize("length", [0.01, 0.036, 0.04, 0.044, 0.3])
 def test_a_tube_is_known_by_its_bore_however_long_it_is(length):
     tube = rims(0.02, 0.018, length)
-    assert magnets._bore(tube) == pytest.approx((0.018, 0.02))
-    assert magnets._bore(tube[:, [1, 2, 0]]) is None and magnets._bore(tube[:, [2, 0, 1]]) is None, "it lies along z"
+    assert bores.radii_of(tube) == pytest.approx((0.018, 0.02))
+    assert bores.radii_of(tube[:, [1, 2, 0]]) is None and bores.radii_of(tube[:, [2, 0, 1]]) is None, "it lies along z"
 
 
 @pytest.mark.parametrize(
@@ -307,4 +308,4 @@ def test_a_tube_is_known_by_its_bore_however_long_it_is(length):
     ids=["a rod", "a bore too narrow", "a block", "a cup"],
 )  # fmt: skip
 def test_what_is_no_tube_has_no_bore(corners):
-    assert magnets._bore(corners) is None
+    assert bores.radii_of(corners) is None

@@ -113,3 +113,33 @@ def test_a_disk_that_spins_by_a_sixth_of_a_turn_keeps_its_outline():
     off = np.abs(smeared - picture).max(axis=2)
     assert off[away > 31.5].max() == 0, "nothing is flung out along the tangents"
     assert off[(away > 26) & (away < 28)].mean() > 20, "and its pattern is smeared"
+
+
+@pytest.mark.parametrize("axis", [(0, 1, 0), (1, 0, 0), (0, 0, -1), (0.6, 0.0, -0.8), (-0.48, 0.6, 0.64)])
+@pytest.mark.parametrize("short", [0.0, 1e-12, 1e-9, 1e-4])
+def test_half_a_turn_goes_along_its_arc(axis, short):
+    """Its skew part is nothing, so the other one has to tell the axis; which way round it goes, nobody can."""
+    x, y, z = axis
+    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+
+    def by(angle):
+        return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+    pivot = np.array([0.3, -0.2, 0.5])
+    turn = by(np.pi - short)
+    half, step = streaks._screwed(turn[None], (pivot - turn @ pivot)[None], 0.5)
+    ways = [by(sign * (np.pi - short) / 2) for sign in (1, -1)][: 1 if short >= 1e-9 else 2]
+    (sure,) = [way for way in ways if np.allclose(half[0], way, atol=1e-6)]
+    assert step[0] == pytest.approx(pivot - sure @ pivot, abs=1e-6)
+
+
+def test_what_turns_half_around_is_smeared():
+    picture, shown = scene()
+    turned = REST.copy()
+    turned[MOVER, :, :3] = np.diag([-1.0, 1.0, -1.0])
+    turned[MOVER, :, 3] = (0.4, 0, 0)
+    assert (streaks.streaked(picture, shown, turned, view()) != picture).any()
+    turned[MOVER, :, 3] = 0.0
+    picture[SQUARE][::4] = (250, 250, 250)
+    changed = np.abs(streaks.streaked(picture, shown, turned, view()).astype(int) - picture).max(axis=2)
+    assert changed[42:76:2, 62:66].max() > 30

@@ -185,9 +185,11 @@ def test_more_parameters_than_there_is_room_for_are_refused(ends):
 
 def test_a_silent_author_is_named_with_the_time(ends, monkeypatch):
     monkeypatch.setattr(author_link, "ANSWER_S", 0.3)
-    _, _, voice, answers = asked(ends, lambda message: time.sleep(5))
+    heard = threading.Event()
+    _, _, voice, answers = asked(ends, lambda message: heard.wait(30))
     with pytest.raises(PeerError, match=r"the author's process does not answer \(t = 0"):
         question(voice, answers)
+    heard.set()
 
 
 def test_one_that_floods_the_pipe_is_named_too(ends, monkeypatch):

@@ -190,3 +190,44 @@ def test_what_is_no_skin_is_refused() -> None:
     model, data = at_rest('<worldbody><geom name="egg" type="ellipsoid" size="1 1 2"/></worldbody>')
     with pytest.raises(ProgramError, match="egg"):
         Skin((points, triangles), RUBBER, Gas()).start(model, data)
+
+
+class Leaking(Skin):
+    name, bodies, shown_by = "leaking", ("world",), "leaking"
+
+
+def test_by_a_hole_it_empties_in_the_textbooks_time_and_flies_off() -> None:
+    """A wall that hardly gives: the root of the pressure falls evenly, to nothing after 2 V sqrt(p0) / (p_out C A sqrt(2 / rho))."""
+    model, data = at_rest('<option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/></worldbody>')
+    began, hole = 2000.0, 0.002
+    wall = Wall(young=2.5e9, thickness=1e-3, density=1000.0)
+    gas = Gas(pressure=101325.0 + began, hole=hole, hole_at=0)
+    skin = Leaking(ball(0.05, middle=(0, 0, 1), finer=1), wall, gas)
+    out = skin.points[0] - (0, 0, 1)
+    skin.start(model, data)
+    opened = 0.6 * np.pi / 4 * hole**2
+    ends = (
+        2
+        * skin.room
+        * np.sqrt(began)
+        / (101325.0 * opened * np.sqrt(2 / (101325.0 * 0.0289647 / (8.314462618 * 293.15))))
+    )
+    given, step, over = np.zeros(3), ends / 60, []
+    for _ in range(45):
+        given += step * skin.step(model, data, step)[0, :3]
+        over.append(skin.pressure - 101325.0)
+    shares = 1 - step * np.arange(1, 46) / ends
+    assert np.sqrt(np.array(over) / began) == pytest.approx(shares, abs=0.005)
+    momentum = (skin.mass[:, None] * skin.velocities).sum(axis=0)
+    assert momentum == pytest.approx(-given, abs=1e-9), "what the jet carries away goes to the world"
+    # Of 2 C A p over the time: p falls as the square of what is left of it.
+    pushed = 2 * opened * began * ends / 3 * (1 - shares[-1] ** 3)
+    assert momentum @ out / np.linalg.norm(out) == pytest.approx(-pushed, rel=0.03)
+
+
+def test_a_hole_needs_a_world_that_it_blows_at() -> None:
+    class Lacking(Skin):
+        bodies = ("crate",)
+
+    with pytest.raises(ProgramError, match="blown at"):
+        Lacking(ball(1.0, finer=1), RUBBER, Gas(hole=0.01))

@@ -146,3 +146,35 @@ def test_what_is_said_afterwards_changes_it():
 def test_the_skill_names_every_set():
     text = (Path(__file__).parents[2] / "skills/film/SKILL.md").read_text()
     assert [name for name in NAMES if f"`{name}`" not in text] == []
+
+
+@pytest.mark.parametrize("hour", sets.hours.HOURS)
+@pytest.mark.parametrize("name", ["street", "living_room"])
+def test_a_set_has_the_light_of_its_hour_and_its_lamps_burn_after_sunset(name, hour):
+    facts, _, _ = described(name, 0.6, hour=hour)
+    told = {key: value for one in facts["air"] for key, value in one.items()}
+    dark = hour in sets.hours.LIT
+    assert (told["light_strength"] < 0.35) is (dark or (hour == "overcast" and name != "living_room"))
+    assert bool(facts["lamps"]) is dark
+    if name == "street":
+        lit = [t for t in facts["things"] if "lit panes" in t["name"]]
+        assert bool(lit) is dark and all(t["look"]["glow"] > 0 for t in lit)
+
+
+def test_a_lamp_by_night_gives_the_ground_below_it_the_light_of_its_hour():
+    for name in ("street",):
+        facts, _, film = described(name, 1.0, hour="night")
+        high = [lamp["pos"][2] - film.recorded.floor_z for lamp in facts["lamps"]]
+        given = [lamp["strength"] / h**2 for lamp, h in zip(facts["lamps"], high, strict=True)]
+        assert given == pytest.approx([sets.hours.BELOW] * len(given)) and len(given) <= 4
+
+
+def test_the_sky_that_a_plan_states_lights_the_lamps_and_an_unknown_hour_lists_those_that_there_are():
+    known = recorded(1.0)
+    known.light = {"sky": "night"}
+    film = Film(known)
+    film.set("park")
+    assert film.description()[0]["lamps"]
+    with pytest.raises(ProgramError, match="hour 'evening'") as refused:
+        Film(recorded(1.0)).set("park", hour="evening")
+    assert "dusk" in refused.value.next_move

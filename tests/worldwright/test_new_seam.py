@@ -20,21 +20,15 @@ NAME = "quite_new"
 
 @pytest.fixture(scope="module")
 def house(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A copy of the code and of the seams' tests."""
+    """A copy of the code and of the seams' tests, with a new entry in every seam."""
     home = tmp_path_factory.mktemp("house")
     for part in ("servers", "tests"):
         shutil.copytree(ROOT / part, home / part, ignore=shutil.ignore_patterns("__pycache__"))
     (home / "catalog").symlink_to(ROOT / "catalog")
     shutil.copy(ROOT / "pyproject.toml", home)
+    for kind in SEAMS:
+        new_entry.scaffold(kind, f"{NAME}_{kind}", root=home / "servers" / "worldwright")
     return home
-
-
-@pytest.fixture(params=SEAMS)
-def kind(request, house: Path):
-    """A seam with a new entry, which is gone afterwards."""
-    path = new_entry.scaffold(request.param, NAME, root=house / "servers" / "worldwright")[0]
-    yield request.param
-    path.unlink()
 
 
 def run(house: Path, *words: str) -> subprocess.CompletedProcess[str]:
@@ -45,19 +39,22 @@ def run(house: Path, *words: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.mark.gl
 @pytest.mark.slow
-def test_its_seams_tests_fail_for_it_and_for_no_other(kind: str, house: Path) -> None:
-    done = run(house, "pytest", "-q", "-p", "no:xdist", "-k", NAME, *SEAMS[kind].tests.split())
+def test_its_seams_tests_fail_for_it_and_for_no_other(house: Path) -> None:
+    tests = [test for seam in SEAMS.values() for test in seam.tests.split()]
+    done = run(house, "pytest", "-q", "-p", "no:xdist", "-k", NAME, *tests)
     assert done.returncode == 1, done.stdout + done.stderr
     failed = [line for line in done.stdout.splitlines() if line.startswith("FAILED")]
-    assert failed and all(NAME in line for line in failed), done.stdout
+    assert all(NAME in line for line in failed), done.stdout
+    assert all(any(f"{NAME}_{kind}" in line for line in failed) for kind in SEAMS), done.stdout
     assert "ERROR" not in done.stdout, "it is whole: it fails by what it does, not by how it is written"
 
 
-def test_it_is_well_formed(kind: str, house: Path) -> None:
-    path = house / "servers" / SEAMS[kind].folder / f"{NAME}.py"
-    assert "AUTHOR" in path.read_text(encoding="utf-8")
+def test_it_is_well_formed(house: Path) -> None:
+    paths = [house / "servers" / seam.folder / f"{NAME}_{kind}.py" for kind, seam in SEAMS.items()]
+    assert all("AUTHOR" in path.read_text(encoding="utf-8") for path in paths)
     for words in (("ruff", "check"), ("ruff", "format", "--check"), ("mypy",)):
-        done = run(house, *words, "--config-file" if words[0] == "mypy" else "--config", "pyproject.toml", str(path))
+        config = "--config-file" if words[0] == "mypy" else "--config"
+        done = run(house, *words, config, "pyproject.toml", *map(str, paths))
         assert done.returncode == 0, done.stdout + done.stderr
 
 

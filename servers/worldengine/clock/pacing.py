@@ -28,9 +28,12 @@ class Pace:
         most: so many steps are taken at most.
         between: called with the number of the step before which the clock is looked at, again and again where that is far off; False
             ends it.
+        rows: every so many steps a state is recorded.
+        steady: no answer changes between two looks at the clock.
         clock, sleep: of the wall, s.
 
     Attributes:
+        ahead: how many steps after the one that was given last nobody has to do with; the next one comes behind them.
         overruns: how often a part was computed later than it was due.
         worst_s: the furthest it has been behind, s.
         lost_s: by how much all in all the clock was set anew, s.
@@ -46,23 +49,29 @@ class Pace:
         between: Callable[[int], bool],
         clock: Callable[[], float] = time.monotonic,
         sleep: Callable[[float], object] = time.sleep,
+        rows: int = 1,
+        steady: bool = False,
     ) -> None:
         self.steps = every * max(1, round(WAKE_S * speed / (step_s * every)))
         """From one look at the clock to the next."""
         self._part_s, self._most = self.steps * step_s / speed, most
+        self._stops = (rows, self.steps if steady else every)
         self._between, self._clock, self._sleep = between, clock, sleep
-        self.overruns = self.jumps = 0
+        self.overruns = self.jumps = self.ahead = 0
         self.worst_s = self.lost_s = 0.0
 
     def __iter__(self) -> Iterator[int]:
-        due = self._clock()
-        for step in range(self._most):
+        due, step, (rows, asks) = self._clock(), 0, self._stops
+        while step < self._most:
             if step % self.steps == 0:
                 waited = self._wait(due, step)
                 if waited is None or not self._between(step):
                     return
                 due = (waited if step else self._clock()) + self._part_s  # before the first, somebody may be waited for
+            following = step + 1
+            self.ahead = min(self._most - following, -following % rows, -following % asks)
             yield step
+            step = following + self.ahead
 
     def _wait(self, due: float, step: int) -> float | None:
         """Sleep until a part is due; returns when it was, by the clock as it may have been set anew, None where it is ended."""

@@ -50,6 +50,7 @@ def simulate(
     every: int = 1,
     tick: Ticker | None = None,
     beside: "Beside | None" = None,
+    leap: "Callable[[], int] | None" = None,
 ) -> int:
     """Advance `steps` steps, recording every `every`-th state, and the last; returns how many were taken.
 
@@ -61,6 +62,8 @@ def simulate(
         inputs: drives the world each step, with derived quantities up to date.
         tick: called after each step with the number of steps done.
         beside: solvers that step with the engine, after the inputs have acted.
+        leap: tells how many steps after the one that was taken no input acts in, no row is of, and nobody else looks at: the engine takes them at once,
+            to the same bits.
 
     Raises:
         DivergedError: a number is no longer finite or sane; it names the body. What was recorded until then is kept.
@@ -104,9 +107,12 @@ def simulate(
             mujoco.mj_step(model, data)
         if beside is not None:
             beside.ended()
+        taken = step + 1
+        if leap is not None and (more := leap()):
+            mujoco.mj_step(model, data, more)
+            taken += more
         if warned.tolist() != seen:
             seen = _warn(model, data, recorder, seen)
-        taken = step + 1
         if tick is not None:
             tick(taken)
     mujoco.mj_forward(model, data)

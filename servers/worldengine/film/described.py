@@ -11,7 +11,7 @@ from worldkit.filming import film_bounds as bounds
 from worldkit.filming.drawn_only import SHAPES
 from worldkit.scene import GROUND
 
-from . import gobos, ground_skins, stand_ins, time_map
+from . import gobos, ground_skins, puffs, stand_ins, time_map
 from .treatment import Treatments
 
 if TYPE_CHECKING:
@@ -57,6 +57,7 @@ class Described:
     arrays: "dict[str, np.ndarray]"
     breeze: tuple[float, float] | None = None
     """The wind that moves what sways, towards x and y, m/s."""
+    puffs: tuple[dict[str, Any], ...] = ()
 
     @property
     def frames(self) -> int:
@@ -91,6 +92,7 @@ class Described:
                 about = [f"on {thing['to']}" * bool(thing["to"]), thing.get("like", "")]
                 said.append(thing["name"] + (f" ({', '.join(filter(None, about))})" if any(about) else ""))
         said += [stand_ins.covered(one, self.things) for one in self.surfaces]
+        said += [f"{one['name']} (puffs)" for one in self.puffs]
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
@@ -201,7 +203,7 @@ def _checked(
     air = [_air(one) for one in told["air"]]
     return Described(
         tuple(shots), captions, Treatments(air, stated, gobos.told(told)), things, surfaces, lamps, panels, looks, share, samples,
-        arrays, _breeze(told),
+        arrays, _breeze(told), puffs.check(told, arrays, n),
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from worldkit import cameras, turning
 from worldkit.filming.viewpoints import axes
 
 from ..recording.replay import Replay
-from . import camera_roll, smear, stand_ins, streaks, time_map
+from . import camera_roll, puffs, smear, stand_ins, streaks, time_map
 from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
@@ -139,7 +139,10 @@ class Screening:
             return picture
 
     def lettered(self, frame: int, image: "np.ndarray") -> "np.ndarray":
-        """A picture with the words of a frame, which none can leave out: uint8 (height, width, 3)."""
+        """A picture with the puffs and the words of a frame, which none can leave out: uint8 (height, width, 3)."""
+        if self.film.puffs:
+            film, treatment = self.film, self.film.treatments.at(frame / self.fps)
+            image = puffs.over(image, film.arrays, film.puffs, frame, self.surfaces(frame), treatment)
         return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
 
     def words(self, frame: int) -> tuple[float, bool, str, str, str]:

@@ -69,6 +69,16 @@ class Frames:
         except Exception as error:
             self._fall_back(error)
 
+    def give_way(self) -> None:
+        """Let the next plainer renderer draw from now on, by choice: `told` then names it alone."""
+        self.close()
+        self.renderer = self.wanted = renderers.plainer(self.renderer) or self.renderer
+        try:
+            self._drawing = renderers.SEAM.find(self.renderer).take(self.model, self.width, self.height)
+        except Exception as error:
+            self._fall_back(error)
+        self.treat(self._treatment)
+
     @property
     def _open(self) -> renderers.Drawing:
         if self._drawing is None:

@@ -6,7 +6,7 @@ The author's process reads this and nothing else of the recording; see `worldkit
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..recording import still_surfaces
+from ..recording import law_channels, still_surfaces
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -39,12 +39,13 @@ def write(recording: "Recording", path: Path, facts: dict[str, Any], told: "Mapp
     touch = _touches(recording, time)
     cameras = list(map(str, recording.meta.get("cameras", ())))
     place = {name: np.array(value, dtype=str) for name, value in (told or {}).items()}
+    laws = law_channels.read(recording)
     np.savez(
         path,
         time=time[rows] - time[0], pos=recording.pos[rows], quat=recording.quat[rows], middle=middle, half=half,
         bodies=np.array(recording.names, dtype=str), cameras=np.array(cameras, dtype=str),
         movers=np.array([name for name in facts.get("movers", ()) if name in recording.names], dtype=str),
-        fps=int(facts["fps"]), size=np.array(facts["size"], dtype=int), floor_z=_floor(recording), **{**touch, **ground, **place},
+        fps=int(facts["fps"]), size=np.array(facts["size"], dtype=int), floor_z=_floor(recording), **{**touch, **ground, **place, **laws},
     )  # fmt: skip
 
 

@@ -50,10 +50,13 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     same = fingerprint(model) == recording.meta["model"]["fingerprint"]
     started = time.perf_counter()
     film = None if options.film is None else described.read(options.film, recording, lights.of(model))
+    if options.share and film is None:
+        draw_share(model, recording, given, options)
+        return
     if options.share and film is not None:
-        from .screened import draw_share
+        from . import screened
 
-        draw_share(model, recording, film, given, options)
+        screened.draw_share(model, recording, film, given, options)
         return
     if options.run == "frame":
         summary = frame(model, recording, film, given, options)
@@ -64,7 +67,8 @@ def run(given: "Given", options: argparse.Namespace) -> None:
         rest = model, recording, options.cameras, out
         if film is None:
             tick = Progress(out, 0, "frames")
-            summary = video(*rest, tick, options.reuse, given.size, given.fps) or {}
+            beside = getattr(options, "words", ()), getattr(options, "room_mb", 0) << 20
+            summary = video(*rest, tick, options.reuse, given.size, given.fps, False, *beside) or {}
         else:
             summary = film_first(rest, film, given, options)
     result = {"ok": True, "pass": options.run, **summary, "trajectory_sha256": recording.sha256, "same_model": same}
@@ -181,19 +185,23 @@ def video(
     size: tuple[int, int],
     fps: int,
     only_known: bool = False,
+    words: Sequence[str] = (),
+    room_bytes: int = 0,
 ) -> dict[str, Any] | None:
     """Draw `<camera>.mp4`, where frame k shows the recorded row nearest to k / fps; `mj_step` is never called.
 
     What a pass in `earlier` drew of the same is taken over; `drawn` counts the frames that were not. None, and no film, when
-    any would have to be drawn and `only_known` is set.
+    any would have to be drawn and `only_known` is set. With the words of this process's own command line, other processes draw a
+    part of it, within a room for all, where every camera is drawn.
     """
     from worldkit import cameras
 
     from .drawn_frames import Frames
     from .known_pictures import Known
+    from .planned_views import PlannedViews
+    from .side_by_side import Drawn, Others
 
     names = choose_cameras(model, names)
-    replay = Replay(model, recording)
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     rows = frame_rows(recording.time, fps)
     with ExitStack() as stack:
@@ -205,15 +213,14 @@ def video(
             for name in known.taken:
                 (out / name).unlink()
             return None
+        views = PlannedViews(model, recording, new, rows, frames)
+        total = len(views)
+        others = stack.enter_context(Others(words if new == names else (), total, size, room_bytes))
         films = {name: stack.enter_context(Video(out / f"{name}.mp4", *size, fps)) for name in new}
-        done, total = 0, len(rows) * len(new)
-        for row in rows if new else ():
-            data = replay.show(int(row))
-            cameras.track(model, data)
-            for name, film in films.items():
-                film.add(frames.image(data, name, quality="video"))
-                done += 1
-                tick(done, total)
+        for place in range(total):
+            shown = others.take(place, frames.renderer) or Drawn(views.picture(place), [])
+            films[views.name(place)].add(shown.picture)
+            tick(place + 1, total)
         renderer = frames.told()
     return {
         "cameras": list(names),
@@ -222,9 +229,24 @@ def video(
         "size": list(size),
         "seconds": len(rows) / fps,
         "renderer": renderer,
-        "drawn": done,
+        "drawn": total,
         **known.told(renderer),
     }
+
+
+def draw_share(model: "mujoco.MjModel", recording: "Recording", given: "Given", options: argparse.Namespace) -> None:
+    """Draw a share of the plan's cameras for the process that asked for it (`side_by_side`)."""
+    from worldkit import cameras
+
+    from . import side_by_side
+    from .drawn_frames import Frames
+    from .planned_views import PlannedViews
+
+    names, size = choose_cameras(model, options.cameras), given.size
+    cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
+    with Frames(model, *size) as frames, os.fdopen(options.to, "wb") as pipe:
+        views = PlannedViews(model, recording, names, frame_rows(recording.time, given.fps), frames)
+        side_by_side.draw(views, options.share, range(len(views)), pipe)
 
 
 def directed(

@@ -3,7 +3,7 @@
 Frames far apart are drafted first, at half the size with their surfaces' colours at the whole: every eighth, then those between
 that cannot be reckoned from them (`between.py`), so that a film stands whenever it is cut. Then these are drawn again in place,
 shot by shot, with more samples, twice before any other is traced; and so on with three times the samples each round, as long as
-the minutes last. What is not traced by then is reckoned from the traced frames before and after it while the file is written. Of a
+the minutes last. A film that cannot be traced in its minutes is drawn as a whole by the preview (`in_time.py`). What is not traced by then is reckoned from the traced frames before and after it while the file is written. Of a
 shot whose camera and light stand still, the last frame and the first are traced as a whole, the others only where they differ
 from both. What is drawn lies in `frames/`, a folder for each film, without its words, and is gone on with later.
 """
@@ -25,6 +25,7 @@ from . import renderers
 from .drawing_order import rounds
 from .encode import Video
 from .identity import identity
+from .in_time import InTime
 from .kept_frames import DRAFT, FACTOR, FIRST, Refined
 
 if TYPE_CHECKING:
@@ -61,6 +62,9 @@ class Shown(Protocol):
     lacking: Callable[[int, int, int], bool] | None
     """Whether a frame cannot well be reckoned from two others; None where every frame has to be drawn."""
 
+    give_way: Callable[[float], None] | None
+    """Let a plainer renderer draw from now on, since a whole film takes so many seconds; None where there is none."""
+
     def picture(self, number: int, samples: float) -> "np.ndarray":
         """One frame with so many samples a pixel, without its words: uint8 (height, width, 3)."""
 
@@ -84,6 +88,9 @@ class FellBackError(Exception):
 class OfTheAuthor:
     """The film that `film.py` describes; `tick` is called whenever something of a frame begins to be drawn."""
 
+    _takes_s = 0.0
+    """What tracing all of it takes, s, where it gave way."""
+
     def __init__(
         self,
         given: "Given",
@@ -106,6 +113,13 @@ class OfTheAuthor:
         self._geometry: Geometry | None = Geometry(screening.surfaces, screening.placed) if self._traced else None
         self.lacking: Callable[[int, int, int], bool] | None = self._lacking if self._traced else None
         self._unreckoned = ""
+        self.give_way: Callable[[float], None] | None = self._give_way if self._traced else None
+
+    def _give_way(self, takes_s: float) -> None:
+        """The preview draws, where tracing takes longer than there is time."""
+        self._takes_s = takes_s
+        self._screening.frames.give_way()
+        self.renderer, self.lacking, self.give_way = self._screening.frames.renderer, None, None
 
     @property
     def _traced(self) -> bool:
@@ -173,7 +187,8 @@ class OfTheAuthor:
 
     def told(self) -> dict[str, Any]:
         """The renderer, what the film tells of itself, and, as `unreckoned`, why frames were reckoned no more."""
-        failed = {"unreckoned": self._unreckoned} if self._unreckoned else {}
+        failed: dict[str, Any] = {"unreckoned": self._unreckoned} if self._unreckoned else {}
+        failed |= {"tracing_takes_s": round(self._takes_s, 1)} if self._takes_s else {}
         told = {"cameras": ["film"], "renderer": self._screening.frames.told(), "film": self._film.told(self._fps)}
         return told | failed
 
@@ -266,13 +281,15 @@ def traced_levels() -> Iterator[float]:
 def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
     """Draw frames until the clock (`time.perf_counter`) reaches `end`, s; at least one that can be shown.
 
-    Returns whether nothing is left that would make it better. A frame is begun only if it is likely to be done in time, by what
+    Returns whether nothing is left that would make it better; raises `FellBackError` where a film gives way. A frame is begun only if it is likely to be done in time, by what
     the last ones took for each sample: the first of a shot are the dearest, since what stands still is drawn with them. The very
     first is begun whatever is expected, since that was found by another process, maybe beside others; and with it the renderer
     gets ready, which tells of those after it only that they take no longer.
     """
     begun: set[tuple[int, float]] = set()
     draft, keeping, asked = next(iter(shown.levels())), 0.0, shown.lacking
+
+    judge = InTime(shown.shots, asked, end) if asked is not None and shown.give_way is not None else None
 
     def lacking(frame: int, before: int, after: int) -> bool:
         return asked is None or time.perf_counter() > end or asked(frame, before, after)
@@ -281,6 +298,14 @@ def refine(shown: Shown, state: Refined, end: float, tick: Any) -> bool:
         now = time.perf_counter()  # to ask what is lacking takes time that is not this frame's own
         if now > end and any(state.samples):
             return False
+        if (
+            judge is not None
+            and not judge.done
+            and (takes_s := judge.judged(state, now))
+            and shown.give_way is not None
+        ):
+            shown.give_way(takes_s)
+            raise FellBackError
         if state.samples[number] >= samples:
             continue
         shot = 0 if samples == draft else max(k for k, shot in enumerate(shown.shots) if shot.start <= number)

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     import numpy as np
 
     from .directed import Screening
+    from .planned_views import PlannedViews
 
 LEAST_FRAMES = 36
 """A process is worth its start, of some seconds, for so many frames of its own."""
@@ -179,7 +180,7 @@ class _Hand:
         self._thread.join()
 
 
-def draw(screening: "Screening", share: tuple[int, int], frames: Sequence[int], pipe: BinaryIO) -> None:
+def draw(screening: "Screening | PlannedViews", share: tuple[int, int], frames: Sequence[int], pipe: BinaryIO) -> None:
     """Draw a share (k, n) of these frames of a film, every n-th of them from k on, into a pipe, as one of the others; ends when nobody
     reads any more."""
     number, count = share

@@ -14,6 +14,8 @@ LIKE = 0.5
 """From this share of a mover's longest side on, something is as large as it."""
 COVERS = 0.9
 """What is fixed to a body and has this share of each of its sides, around its middle, covers it."""
+TWIN = 0.25
+"""What differs by less in each of its sides (the logarithm of their ratio) has another's shape."""
 MOVES_M = 1e-3
 ROWS = 100
 """At so many moments, evenly spread, it is asked where the movers were."""
@@ -80,16 +82,26 @@ def _worn(
     middle: "np.ndarray",
     half: "np.ndarray",
 ) -> bool:
-    """Whether a thing dresses the very mover it is fixed to: it lies about its middle, is about as large, from half to twice, and
-    goes nowhere by itself. What is seen to move is that mover then, as under a skin; a smaller one may look like another mover."""
+    """Whether a thing dresses the very mover it is fixed to: the middle of one lies within the other, it is about as large, from half
+    to twice, is no other mover's twin, and goes nowhere by itself. What is seen to move is that mover then,
+    as under a skin; a smaller one may look like another mover, and what rides above it or beside it may be taken for one more."""
     import numpy as np
+
+    from worldkit.turning import turned
 
     if thing["to"] not in names or thing.get("ways"):
         return False
     own = names.index(thing["to"])
-    near = np.linalg.norm(middle[own] - centre) < 0.5 * np.linalg.norm(half[own])
-    longest = 2 * half[own].max()
-    return bool(near and LIKE * longest <= size.max() <= longest / LIKE)
+    away = centre - middle[own]
+    back = np.array(thing["quat"], dtype=float) * (1, -1, -1, -1)
+    around = (np.abs(turned(back[None], away[None])[0]) <= size / 2).all()
+    longest, sides = 2 * half.max(axis=1), np.sort(2 * half, axis=1)
+    unlike = np.abs(np.log(np.sort(size) / sides)).max(axis=1)  # by its side that differs most
+    return bool(
+        (around or (np.abs(away) <= half[own]).all())
+        and LIKE * longest[own] <= size.max() <= longest[own] / LIKE
+        and (unlike[own] <= unlike.min() or unlike.min() > TWIN)
+    )
 
 
 def _like(

@@ -1,6 +1,6 @@
 """The commands of somebody who drives a world live, and what acts where they fall silent.
 
-A command is a number with a name: a control itself, or a pedal of a car (`worldkit.vehicles`), whose controls follow from it in
+A command is a number with a name: a control itself, or a pedal of a vehicle (`worldkit.vehicles`), whose controls follow from it in
 each state. It holds as long as it is repeated: after `timeout_s` of the wall clock without a word its failsafe acts, at once
 where the driver says that he leaves. What is beyond its bounds is kept within them; what is no finite number is not heard.
 """
@@ -17,6 +17,7 @@ from worldkit.errors import ProgramError
 if TYPE_CHECKING:
     import mujoco
 
+    from worldkit.vehicles import Bicycle
     from worldkit.vehicles.found_cars import FoundCar
 
 PEDALS = ("steering", "throttle", "brake")
@@ -86,19 +87,28 @@ class Console:
 
     Args:
         rows: the commands.
-        cars: the cars whose pedals are among them, by name.
+        cars: the vehicles whose pedals are among them, by name.
         ctrl: the controls as the world begins: what `hold` holds before anybody has spoken.
         clock: of the wall, s.
     """
 
     def __init__(
-        self, rows: tuple[Command, ...], cars: "Mapping[str, FoundCar]", ctrl: Any, clock: Callable[[], float]
+        self, rows: tuple[Command, ...], cars: "Mapping[str, FoundCar | Bicycle]", ctrl: Any, clock: Callable[[], float]
     ) -> None:
-        self._rows, self._cars, self._clock = {row.name: row for row in rows}, cars, clock
+        self._rows, self._clock = {row.name: row for row in rows}, clock
         self.values = {row.name: float(ctrl[row.control]) if row.control >= 0 else 0.0 for row in rows}
         for row in rows:
             if row.failsafe != HOLD:
                 self.values[row.name] = row.kept(float(row.failsafe))
+        from worldkit.vehicles import pedals
+
+        self._pedals = pedals
+        self._plain = [(row.name, row.control) for row in rows if row.control >= 0]
+        called = {"steering": "steering_deg", "throttle": "throttle", "brake": "brake"}
+        self._driven = [
+            (name, car, [(called[row.pedal], row.name) for row in rows if row.car == name])
+            for name, car in cars.items()
+        ]
         self._heard: dict[str, float] = {}
         self._last_word: float | None = None
         self._ends_after_s = min((row.ends_after_s for row in rows), default=math.inf)
@@ -143,14 +153,8 @@ class Console:
 
     def write(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
         """Write the controls that follow from the commands in this state."""
-        from worldkit.vehicles import pedals
-
-        for name, row in self._rows.items():
-            if row.control >= 0:
-                data.ctrl[row.control] = self.values[name]
-        for name, car in self._cars.items():
-            asked = {row.pedal: self.values[row.name] for row in self._rows.values() if row.car == name}
-            pedals(
-                car, model, data, name,
-                steering_deg=asked.get("steering", 0.0), throttle=asked.get("throttle", 0.0), brake=asked.get("brake", 0.0),
-            )  # fmt: skip
+        values, ctrl = self.values, data.ctrl
+        for name, control in self._plain:
+            ctrl[control] = values[name]
+        for name, car, asked in self._driven:
+            self._pedals(car, model, data, name, **{pedal: values[row] for pedal, row in asked})

@@ -246,6 +246,10 @@ class Place:
                 cause, "interventions", "give it contype=0, conaffinity=0, no joints, and a point for each"
             )
 
+    def places(self, data: "mujoco.MjData") -> "np.ndarray":
+        """(n, 3) m: where what is drawn lies, in data whose kinematics are done."""
+        return getattr(data, self._array)[self._at]
+
     def show(self, data: "mujoco.MjData", points: "np.ndarray", colours: "np.ndarray | None" = None) -> None:
         """Lay what is drawn at the points (n, 3), m, in data whose kinematics are done; colours (n, 3) sRGB, or None."""
         getattr(data, self._array)[self._at] = points

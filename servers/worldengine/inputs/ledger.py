@@ -17,6 +17,7 @@ from worldkit.naming import names
 from worldkit.speaking import HELD
 from worldkit.watch import Edit, owner_of
 
+from ..recording.bonds import bonds_of
 from ..recording.columns import VALUES
 from .messages import Messages
 from .pushes import Pushes, displacement, twist
@@ -40,8 +41,6 @@ class Ledger:
     def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", ports: "Ports", recorder: "Recorder") -> None:
         import mujoco
         import numpy as np
-
-        from worldkit.breaking.letting_go import bonds_of
 
         self._model, self._data, self._recorder = model, data, recorder
         self.pushes = Pushes(model, data, ports, lambda blocks: recorder.later("pushes", blocks))

@@ -1,5 +1,6 @@
 """Drive a world by somebody's commands; what else is declared acts as a recording says, at the same steps, as far as that goes."""
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
@@ -45,10 +46,10 @@ class Operated(Drive):
 
         super().__init__(model, data, ports)
         self._console, self._every, self._beside, self._until = console, every, beside, until
-        self._controls = ports.entries.get("ctrl", [])
+        self._controls = np.array(ports.entries.get("ctrl", []), int)
         self._vector = np.full(ports.width, np.nan)
         self._vector[: ports.width - len(self.answers.changing)] = 0.0
-        self._written: np.ndarray | None = None
+        self._written = b""
 
     def act(self, step: int, row: Callable[[], object] | None) -> None:
         """Apply what is commanded now."""
@@ -79,8 +80,6 @@ class Operated(Drive):
         self._ledger.messages.flush()
 
     def _ask(self, step: int) -> None:
-        import numpy as np
-
         edits: list[Edit] = []
         once, width = False, len(self._controls)
         lasting = len(self._vector) - len(self.answers.changing)
@@ -91,12 +90,12 @@ class Operated(Drive):
         elif self._beside is not None:
             self._vector[width:lasting] = 0.0
         if not once:
-            self._vector[lasting:] = np.nan
+            self._vector[lasting:] = math.nan
         self._console.write(self._model, self._data)
         self._vector[:width] = self._data.ctrl[self._controls]
-        lasts = self._vector[:lasting]
-        if edits or once or self._written is None or not np.array_equal(lasts, self._written):
+        lasts = self._vector[:lasting].tobytes()
+        if edits or once or lasts != self._written:
             self.answers.replay(self._vector, edits)
-            self._written = lasts.copy()
+            self._written = lasts
         else:
             self.answers.news = False

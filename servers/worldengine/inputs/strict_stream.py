@@ -14,9 +14,10 @@ from worldkit.laws import HUGE
 from worldkit.speaking import HELD
 from worldkit.watch import LOOKS, Edit
 
-from ..recording import point_colours
+from ..recording import point_colours, stream_files
 from ..recording.columns import FORETOLD_COLUMNS, LATER, OF_MEDIA, TABLES, arrow_schema
 from ..recording.stored import by_laws
+from ..recording.stream_files import REMEDY
 from .ports import Ports, flat
 
 if TYPE_CHECKING:
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
 SUMS = ("mass", "momentum", "energy", "weight", "stored", "volume", "held")
 """The columns of `balances` in the order in which a law tells them."""
 ANOTHER = "it is of another medium than is due"
-REMEDY = "restore it as it was recorded, or record the world anew"
 
 
 class Recorded:
@@ -51,8 +51,11 @@ class Recorded:
     ) -> None:
         import numpy as np
 
+        asks = -(-steps // every)
+        elements = sum(flat(model, name).size if kept is None else len(kept) for name, kept in ports.parameters)
+        rooms = {"inputs": ports.width * asks, "edits": elements * asks}
         for name in ("inputs", "edits", *(OF_MEDIA if ports.media else ())):
-            _whole(recording.folder / f"{name}.arrows", name)
+            _whole(recording.folder / f"{name}.arrows", name, rooms.get(name))
         self._lasting = sum(len(ports.entries.get(name, ())) for name in HELD)
         self.vector = np.full(ports.width, np.nan)
         self.vector[: self._lasting] = 0.0
@@ -220,19 +223,12 @@ def _behind(rows: "Rows", points: "Table", mediums: int) -> None:
     rows.refuse((medium < 0) | beside & (before | ~follows & (point != 0)), ANOTHER, medium)
 
 
-def _whole(path: Path, name: str) -> None:
-    """Refuse a file that is torn, or that is no such table; one that is not there says that nothing was sent."""
-    import pyarrow as pa
-
-    if not path.exists():
-        return
-    try:
-        with pa.memory_map(str(path)) as file, pa.ipc.open_stream(file) as reader:
-            earlier = tuple(column for column in TABLES[name] if (name, column.name) not in LATER)
-            forms = (TABLES[name], FORETOLD_COLUMNS if name == "inputs" else earlier)
-            if not any(reader.schema.equals(arrow_schema(form)) for form in forms):
-                raise RecordingError(f"{path.name} is no table of {name}: its columns are others", str(path), REMEDY)
-            for batch in reader:
-                batch.validate(full=True)
-    except (pa.ArrowException, OSError, ValueError) as cause:
-        raise RecordingError(f"{path.name} is damaged: {str(cause).splitlines()[0]}", str(path), REMEDY) from cause
+def _whole(path: Path, name: str, rows: int | None) -> None:
+    """Refuse a file that is torn, has more rows than can have been sent, or is no such table; one that is not there says that
+    nothing was sent."""
+    earlier = tuple(column for column in TABLES[name] if (name, column.name) not in LATER)
+    forms = [arrow_schema(form) for form in (TABLES[name], FORETOLD_COLUMNS if name == "inputs" else earlier)]
+    schema = stream_files.schema(path)
+    if schema is not None and not any(schema.equals(form) for form in forms):
+        raise RecordingError(f"{path.name} is no table of {name}: its columns are others", str(path), REMEDY)
+    stream_files.batches(path, rows=rows)

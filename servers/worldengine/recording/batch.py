@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from .bonds import bonds_of
 from .columns import TABLES
 
 if TYPE_CHECKING:
@@ -56,8 +57,6 @@ class Batch:
         # Those rows act on half the rotation (a quaternion's vector part) times the weld's torque scale, `data[10]`.
         self._turning = 0.5 * model.eq_data[:, 10]
         self.eq_stress = np.zeros((capacity, model.neq))
-        from worldkit.breaking.letting_go import bonds_of
-
         self.bonds = bonds_of(model)
         self.tendon_limit = np.zeros((capacity, model.ntendon))
         self.carries = bool(model.neq or model.ntendon)

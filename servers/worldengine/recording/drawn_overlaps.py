@@ -51,7 +51,8 @@ def find(model: "mujoco.MjModel", recording: "Recording") -> list[dict[str, Any]
     def touching(row: int) -> set[frozenset[int]]:
         return _touching(model, contacts, row) if len(contacts) else set()
 
-    rows = np.unique(np.linspace(0, len(recording) - 1, ROWS).round().astype(int))
+    evenly = np.linspace(0, len(recording) - 1, ROWS).round().astype(int)
+    rows = np.array(list(dict.fromkeys(evenly.tolist())))  # each once; `np.unique` loads numpy.ma
     return search(model, recording.time, rows, replay.show, touching)
 
 

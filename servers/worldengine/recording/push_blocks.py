@@ -94,9 +94,17 @@ def join(table: Any, batches: "Iterable[Any]") -> "Mapping[str, np.ndarray]":
     parts = [_rows(batch, n) for batch in batches for n in range(batch.num_rows)]
     if not parts:
         return {}
-    columns = {name: np.concatenate([*(part[name] for part in parts), table[name]]) for name in table.columns}
-    order = np.argsort(columns["time"], kind="stable")
-    return {name: column[order] for name, column in columns.items()}
+    order: np.ndarray | None = None
+    columns: dict[str, np.ndarray] = {}
+    for name in table.columns:  # `time` first; a part's column goes once it is joined: the ledger of a crowd is large
+        columns[name] = np.concatenate([*(part.pop(name) for part in parts), table[name]])
+        if name == "time":
+            order = np.argsort(columns[name], kind="stable")
+            if np.array_equal(order, np.arange(len(order))):
+                order = None
+        if order is not None:
+            columns[name] = columns[name][order]
+    return columns
 
 
 def _rows(batch: Any, n: int) -> "dict[str, np.ndarray]":

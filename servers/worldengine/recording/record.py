@@ -26,11 +26,13 @@ from worldkit.files import write_json
 from worldkit.speaking import ARRAYS
 
 from .batch import Batch
+from .bonds import bonds_of
 from .coded_words import Words
 from .columns import FORETOLD_COLUMNS, OF_MEDIA, SCHEMA_VERSION, TABLES, Column, arrow_schema, as_meta, state_columns
 from .derived_columns import Derived
 from .foretold import BYTES, FEWEST, WEIGHTS, Forecast
 from .push_blocks import PushStream
+from .stream_files import LESS, MOST_BYTES
 
 if TYPE_CHECKING:
     import mujoco
@@ -72,8 +74,6 @@ class Recorder:
         if (self._folder / "meta.json").exists():
             raise RecordingError("there is a recording in this folder already", str(folder), "record into a new folder")
         sizes = {"bodies": model.nbody - 1, **{k: int(getattr(model, k)) for k in _SIZES}}
-        from worldkit.breaking.letting_go import bonds_of
-
         sizes["stressed"] = model.neq if bonds_of(model) else 0
         self._channels = dict(channels or {})
         self.columns = (*state_columns(sizes), *self._channels)
@@ -266,6 +266,7 @@ class _Stream:
 
         self._columns = columns
         self._schema = arrow_schema(columns)
+        self._path, self._room = path, MOST_BYTES if path.stem in PACKED else None
         self._sink = pa.OSFile(str(path), "wb")
         options = pa.ipc.IpcWriteOptions(compression="zstd" if path.stem in PACKED else None)
         self._writer = pa.ipc.new_stream(self._sink, self._schema, options=options)
@@ -281,9 +282,17 @@ class _Stream:
             if column.dtype == "string":
                 arrays.append(value.arrow() if isinstance(value, Words) else pa.array(value, pa.string()))
                 continue
-            flat = pa.array(np.asarray(value, column.dtype).reshape(-1))
+            numbers = np.ascontiguousarray(value, column.dtype).reshape(-1)
+            kind = field.type.value_type if column.shape else field.type
+            flat = pa.Array.from_buffers(kind, len(numbers), [None, pa.py_buffer(numbers)])  # `pa.array` loads numpy.ma
             arrays.append(pa.FixedSizeListArray.from_arrays(flat, type=field.type) if column.shape else flat)
-        self._writer.write_batch(pa.RecordBatch.from_arrays(arrays, schema=self._schema), about)
+        batch = pa.RecordBatch.from_arrays(arrays, schema=self._schema)
+        if self._room is not None:
+            self._room -= batch.nbytes
+            if self._room < 0:  # what nobody would read again is not written
+                what = f"{self._path.name} would have more than {MOST_BYTES / 2**20:.0f} MiB of rows"
+                raise RecordingError(what, str(self._path), LESS)
+        self._writer.write_batch(batch, about)
 
     def close(self) -> None:
         """End the stream."""

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import RecordingError
 
-from . import push_blocks
+from . import push_blocks, stream_files
 from .columns import CAMERAS_FILE, LATER, OF_MEDIA, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
 from .foretold import BYTES, WEIGHTS, Forecast, weights_of
 from .record import HASHED, combine
@@ -39,13 +39,23 @@ class Table:
     """
 
     def __init__(self, path: Path, columns: tuple[Column, ...], limit: int | None = None) -> None:
-        self._path = path
+        self._path, self._limit = path, limit
         self.columns = {column.name: column for column in columns}
-        self._batches, self._about = _read(path)
-        self._length = sum(batch.num_rows for batch in self._batches)
-        if limit is not None:
-            self._length = min(self._length, limit)
         self._made: dict[str, np.ndarray] = {}
+
+    @cached_property
+    def _read(self) -> stream_files.Batches:
+        """What the file holds: it is opened when the first row of it is asked for."""
+        return stream_files.batches(self._path, torn=True)
+
+    @cached_property
+    def _batches(self) -> "list[pa.RecordBatch]":
+        return [batch for batch, _ in self._read]
+
+    @cached_property
+    def _length(self) -> int:
+        whole = sum(batch.num_rows for batch in self._batches)
+        return whole if self._limit is None else min(whole, self._limit)
 
     def __len__(self) -> int:
         return self._length
@@ -113,13 +123,12 @@ class Inputs(Table):
         if not self._batches or column.name in self._batches[0].schema.names:
             return super()._parts(column)
         forecast, found = Forecast(), []
-        for batch, about in zip(self._batches, self._about, strict=True):
+        for batch, about in self._read:
             try:
                 step, entry, *errors = (batch[name].to_numpy() for name in ("step", "entry", *BYTES))
                 found.append(forecast.decode(step, entry, errors, weights_of(about.get(WEIGHTS, b""))))
             except ValueError as cause:
-                where = f"{self._path.name} is damaged: {cause}"
-                raise RecordingError(where, str(self._path), "restore it as it was recorded, or record anew") from cause
+                raise stream_files.damaged(self._path, cause) from cause
         return found
 
 
@@ -188,7 +197,8 @@ class Recording:
     def interventions(self) -> Table:
         """The interventions: what acted on the state besides the engine's own step; pushes are kept in blocks (`push_blocks`)."""
         table = self._table("interventions")
-        table.take(push_blocks.join(table, _read(self.folder / push_blocks.FILE)[0]))
+        blocks = stream_files.batches(self.folder / push_blocks.FILE, torn=True)
+        table.take(push_blocks.join(table, (block for block, _ in blocks)))
         return table
 
     @cached_property
@@ -367,27 +377,6 @@ def _numbers(array: "pa.Array", column: Column) -> "np.ndarray":
         width = array.type.list_size
         flat = array.values.slice(array.offset * width, len(array) * width)
     return flat.to_numpy(zero_copy_only=True).reshape(-1, *column.shape)
-
-
-def _read(path: Path) -> "tuple[list[pa.RecordBatch], list[Mapping[bytes, bytes]]]":
-    """All whole record batches of a stream file, and what is said about each; a torn tail ends the lists, a missing file is empty."""
-    import pyarrow as pa
-
-    batches: list[pa.RecordBatch] = []
-    about: list[Mapping[bytes, bytes]] = []
-    if not path.exists() or not path.stat().st_size:
-        return batches, about
-    try:
-        reader = pa.ipc.open_stream(pa.memory_map(str(path)))
-        while True:
-            batch, said = reader.read_next_batch_with_custom_metadata()
-            batches.append(batch)
-            about.append(said or {})
-    except StopIteration:
-        pass
-    except (pa.ArrowInvalid, OSError):
-        pass  # the process died while writing this batch
-    return batches, about
 
 
 def _json(path: Path, meaning: str) -> dict[str, Any]:

@@ -36,16 +36,10 @@ OPTIONAL = {
 }
 EACH = frozenset({"remanence", "saturation", "conductivity"})
 STANDING = True
-SPHERE, CYLINDER, BOX, MESH = 2, 5, 6, 7
+SPHERE, CYLINDER, BOX = 2, 5, 6
 """mjtGeom."""
 ENERGY = Column("energy", (), "J", "of the field, 0 with all bodies far apart")
 HEAT = Column("heat", (), "J", "of eddy currents, since the start")
-HOLLOW = 0.3
-"""A tube's bore is at least this share of its width."""
-THINNEST = 0.005
-"""And its wall at least this share of its radius."""
-ROUND = 0.05
-"""Its corners lie on its two cylinders, and these end together, but for this share."""
 REACH = 3.5
 """So many of its radii away from a magnet, what a tube brakes is below a thousandth."""
 
@@ -92,7 +86,7 @@ class Magnets:
     ) -> None:
         import numpy as np
 
-        from worldkit.fields import filaments
+        from worldkit.fields import bores, filaments
 
         count = len(bodies)
         self._model, self._bodies = model, np.array(bodies)
@@ -112,8 +106,7 @@ class Magnets:
                     "interventions",
                     "give it one of remanence, saturation (above 0) and conductivity (above 0), and 0 for the others",
                 )
-            geoms = [g for g in range(model.ngeom) if model.geom_bodyid[g] == body]
-            solid = [g for g in geoms if model.geom_contype[g] or model.geom_conaffinity[g]] or geoms
+            solid = bores.solid(model, body)
             if kinds[0]:
                 self._magnets += [(row, g, _magnet(filaments, model, g, self._remanence[row], name)) for g in solid]
             if kinds[1]:
@@ -245,7 +238,7 @@ def _conductor(
     """A net in its own frame, its middle (3,) and turn (3, 3) in the body's, and how far from a magnet it counts, m."""
     import numpy as np
 
-    from worldkit.fields import eddies
+    from worldkit.fields import bores, eddies
     from worldkit.turning import matrices
 
     if len(geoms) == 1 and model.geom_type[geoms[0]] == BOX:
@@ -255,48 +248,11 @@ def _conductor(
         turn = matrices(model.geom_quat[geoms[0]]) @ np.eye(3)[:, order]
         width, depth, thickness = map(float, size[order])
         return eddies.plate(width, depth, thickness, conductivity), model.geom_pos[geoms[0]].copy(), turn, np.inf
-    meshes = [g for g in geoms if model.geom_type[g] == MESH]
-    corners = [_corners(model, g) for g in meshes]
-    if len(meshes) == len(geoms) and corners:
-        points = np.concatenate(corners)
-        low, high = points.min(axis=0), points.max(axis=0)
-        middle = (low + high) / 2
-        for axis in range(3):
-            order = [(axis + 1) % 3, (axis + 2) % 3, axis]
-            if (bore := _bore(points[:, order] - middle[order])) is not None:
-                net = eddies.tube(*bore, (high - low)[axis], conductivity)
-                return net, middle, np.eye(3)[:, order], REACH * bore[1]
+    if (found := bores.of_geoms(model, geoms)) is not None:
+        net = eddies.tube(found.inner, found.outer, found.length, conductivity)
+        return net, found.middle, found.turn, REACH * found.outer
     what = f"{name!r} conducts, and is neither a straight tube along an axis of its own nor one box"
     raise ProgramError(what, "interventions", "give it the primitive `tube` with a straight path, or `box`")
-
-
-def _bore(points: "np.ndarray") -> tuple[float, float] | None:
-    """Inner and outer radius, m, of a straight tube along z about the origin, whose corners (v, 3) these are; None of any other shape.
-
-    Every corner lies on one of two cylinders, both of which reach from end to end, and none within the bore.
-    """
-    import numpy as np
-
-    radius, half = np.hypot(*points[:, :2].T), np.abs(points[:, 2]).max()
-    outer, inner = float(radius.max()), float(radius.min())
-    if not HOLLOW * outer < inner < (1 - THINNEST) * outer:
-        return None
-    outside = radius > (inner + outer) / 2
-    flat = all(np.ptp(radius[side]) < ROUND * outer for side in (outside, ~outside))
-    ends = all(np.ptp(points[side, 2]) > 2 * (1 - ROUND) * half for side in (outside, ~outside))
-    return (inner, outer) if flat and ends else None
-
-
-def _corners(model: "mujoco.MjModel", geom: int) -> "np.ndarray":
-    """(v, 3) m: of a mesh, in its body's frame."""
-    import numpy as np
-
-    from worldkit.turning import matrices
-
-    mesh = int(model.geom_dataid[geom])
-    first = model.mesh_vertadr[mesh]
-    own = model.mesh_vert[first : first + model.mesh_vertnum[mesh]]
-    return np.asarray(model.geom_pos[geom] + own @ matrices(model.geom_quat[geom]).T)
 
 
 def start(

@@ -2,12 +2,12 @@
 
 Where two surfaces meet, the larger friction acts, so that a slippery thing would still rub on rough ground. A pair of two geoms
 has a friction of its own, which is scaled; all other contacts of these geoms take theirs from them, as they are given
-priority over whatever they meet, and with it softness, rebound and kind: those that the contacts had. Source: MuJoCo manual,
-"Contact parameters".
+priority over whatever they meet, flexes too, and with it softness, rebound, adhesion and kind: those that the contacts had. So a
+factor of 1 changes nothing. Source: MuJoCo manual, "Contact parameters".
 """
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from worldkit.errors import ProgramError
 
@@ -35,57 +35,91 @@ def of_geoms(model: "mujoco.MjModel", geoms: Sequence[int], factor: float) -> No
     mine = np.isin(model.pair_geom1, geoms) | np.isin(model.pair_geom2, geoms)
     made = [(geom, _contact(model, geom)) for geom in geoms]
     model.pair_friction[mine] *= factor
-    for geom, (solref, solimp, condim, friction) in made:
-        model.geom_solref[geom], model.geom_solimp[geom], model.geom_condim[geom] = solref, solimp, condim
-        model.geom_friction[geom] = factor * friction
-    model.geom_priority[geoms] = model.geom_priority.max() + 1
+    for geom, contact in made:
+        model.geom_solref[geom], model.geom_solimp[geom], model.geom_condim[geom] = contact[2:5]
+        model.geom_adhesion[geom] = contact.adhesion
+        model.geom_friction[geom] = factor * contact.friction
+    model.geom_priority[geoms] = max(model.geom_priority.max(), model.flex_priority.max(initial=0)) + 1
 
 
-def _contact(model: "mujoco.MjModel", geom: int) -> tuple["np.ndarray", "np.ndarray", int, "np.ndarray"]:
-    """solref (2,), solimp (5,), condim and friction (3,) of the contacts of a geom that have no pair of their own; where the
-    frictions differ the smallest."""
+class Contact(NamedTuple):
+    """What decides a contact: of a surface, or of two that meet."""
+
+    priority: int
+    share: float
+    solref: "np.ndarray"
+    solimp: "np.ndarray"
+    condim: int
+    friction: "np.ndarray"
+    adhesion: float
+
+    def alike(self, other: "Contact") -> bool:
+        """Whether they are of one kind, softness, rebound and adhesion."""
+        same = (self.condim, self.adhesion) == (other.condim, other.adhesion)
+        return same and self.solref.tolist() == other.solref.tolist() and self.solimp.tolist() == other.solimp.tolist()
+
+
+def _contact(model: "mujoco.MjModel", geom: int) -> Contact:
+    """The contacts of a geom that have no pair of their own; where the frictions differ the smallest."""
     import numpy as np
 
-    ours = (model.geom_solref[geom], model.geom_solimp[geom], int(model.geom_condim[geom]), model.geom_friction[geom])
     weld = model.body_weldid[model.geom_bodyid]
     paired = {frozenset(pair) for pair in zip(model.pair_geom1.tolist(), model.pair_geom2.tolist(), strict=True)}
-    meets = (model.geom_contype[geom] & model.geom_conaffinity) | (model.geom_contype & model.geom_conaffinity[geom])
     others = [
         int(other)
-        for other in np.flatnonzero((meets != 0) & (weld != weld[geom]))
+        for other in np.flatnonzero(_meets(model, geom, "geom") & (weld != weld[geom]))
         if frozenset((geom, int(other))) not in paired
     ]
-    found = [_mixed(model, geom, other) for other in others]
+    soft = np.flatnonzero(_meets(model, geom, "flex")).tolist()
+    ours = _surface(model, "geom", geom)
+    found = [_mixed(ours, _surface(model, "geom", other)) for other in others]
+    found += [_mixed(ours, _surface(model, "flex", flex)) for flex in soft]
     if not found:
         return ours
-    first = found[0]
-    if any(other[2] != first[2] or any(not np.array_equal(first[k], other[k]) for k in (0, 1)) for other in found[1:]):
-        names = sorted({model.geom(other).name or f"geom {other}" for other in others})
+    if not all(found[0].alike(other) for other in found):
+        names = {model.geom(other).name or f"geom {other}" for other in others}
+        names |= {model.flex(flex).name or f"flex {flex}" for flex in soft}
         raise ProgramError(
-            f"the friction of {model.geom(geom).name or 'it'} alone cannot be changed: it meets {', '.join(names[:4])} with unlike softness "
-            "or rebound",
+            f"the friction of {model.geom(geom).name or 'it'} alone cannot be changed: it meets {', '.join(sorted(names)[:4])} with unlike "
+            "softness, rebound or adhesion",
             "",
             "name the cause `friction`, or give what meets rows under `pairs`",
         )
-    return (*first[:3], np.min([other[3] for other in found], axis=0))
+    return found[0]._replace(friction=np.min([other.friction for other in found], axis=0))
 
 
-def _mixed(model: "mujoco.MjModel", one: int, other: int) -> tuple["np.ndarray", "np.ndarray", int, "np.ndarray"]:
-    """solref, solimp, condim and friction of a contact of two geoms, as the engine makes them."""
+def _meets(model: "mujoco.MjModel", geom: int, kind: str) -> "np.ndarray":
+    """(n,) which geoms, or flexes, may touch a geom by their masks."""
     import numpy as np
 
-    above = int(model.geom_priority[one]) - int(model.geom_priority[other])
-    if above:
-        geom = one if above > 0 else other
-        condim = int(model.geom_condim[geom])
-        return model.geom_solref[geom].copy(), model.geom_solimp[geom].copy(), condim, model.geom_friction[geom].copy()
-    first, second = (float(model.geom_solmix[geom]) for geom in (one, other))
-    share = 0.5 if first + second < 1e-12 else first / (first + second)
-    mine, theirs = model.geom_solref[one], model.geom_solref[other]
-    soft = share * mine + (1 - share) * theirs if min(mine[0], theirs[0]) > 0 else np.minimum(mine, theirs)
-    return (
-        soft,
-        share * model.geom_solimp[one] + (1 - share) * model.geom_solimp[other],
-        int(max(model.geom_condim[one], model.geom_condim[other])),
-        np.maximum(model.geom_friction[one], model.geom_friction[other]),
+    types, affinities = (getattr(model, f"{kind}_{name}") for name in ("contype", "conaffinity"))
+    met = (model.geom_contype[geom] & affinities) | (types & model.geom_conaffinity[geom])
+    return np.asarray(met != 0)
+
+
+def _surface(model: "mujoco.MjModel", kind: str, index: int) -> Contact:
+    """What a geom, or a flex, has by itself."""
+    names = ("priority", "solmix", "solref", "solimp", "condim", "friction")
+    priority, *rest = (getattr(model, f"{kind}_{name}")[index] for name in names)
+    adhesion = float(model.geom_adhesion[index]) if kind == "geom" else 0.0
+    share, solref, solimp, condim, friction = rest
+    return Contact(int(priority), float(share), solref.copy(), solimp.copy(), int(condim), friction.copy(), adhesion)
+
+
+def _mixed(one: Contact, other: Contact) -> Contact:
+    """The contact of two surfaces, as the engine makes it: of unlike priority it is the higher one's, adhesion too."""
+    import numpy as np
+
+    if one.priority != other.priority:
+        return max(one, other, key=lambda surface: surface.priority)
+    total = one.share + other.share
+    share = 0.5 if total < 1e-12 else one.share / total
+    mean = lambda a, b: share * a + (1 - share) * b  # noqa: E731
+    hard = min(one.solref[0], other.solref[0]) <= 0
+    return one._replace(
+        solref=np.minimum(one.solref, other.solref) if hard else mean(one.solref, other.solref),
+        solimp=mean(one.solimp, other.solimp),
+        condim=max(one.condim, other.condim),
+        friction=np.maximum(one.friction, other.friction),
+        adhesion=one.adhesion + other.adhesion,
     )

@@ -1,6 +1,5 @@
 """`Film`: what is shown, from where, how fast, in what light, with what around it. A description, drawn by another process."""
 
-import sys
 from typing import Any
 
 import numpy as np
@@ -12,7 +11,7 @@ from .film_bounds import FAR_M, MOST_FRAMES, NATURAL_SHUTTER, PLACES
 from .frame_by_frame import grown, sampled
 from .lettered_plates import Labelled
 from .limbs import Limbs
-from .plain_refusals import refusing
+from .plain_refusals import line, refusing
 from .recorded import Recorded
 from .viewpoints import Viewpoint, axes
 
@@ -92,7 +91,7 @@ class Film(Labelled, Limbs):
         first = sum(len(shot["times"]) for shot in self._shots)
         if first + len(times) > MOST_FRAMES:
             raise ProgramError(f"the film has more than {MOST_FRAMES} frames", "film.py", "show less of it so slowly")
-        self._shots.append({"camera": camera, "times": times, "line": _line()})
+        self._shots.append({"camera": camera, "times": times, "line": line()})
         self.reached, self.now = reached, (first + len(times)) / self.recorded.fps
 
     def usual(self) -> None:
@@ -121,7 +120,7 @@ class Film(Labelled, Limbs):
                 "start=0 is where the film begins",
             )
         told = {"text": text, "start_s": begin, "end_s": begin + float(seconds), "place": place}
-        self._captions.append(told | {"line": _line()})
+        self._captions.append(told | {"line": line()})
 
     def shutter(self, share: float = 0.5, *, samples: int = 8) -> None:
         """Motion blur: the shutter is open for `share` of each frame's time, drawn as the mean of at most `samples` pictures.
@@ -134,17 +133,20 @@ class Film(Labelled, Limbs):
             raise ProgramError("a shutter is open for 0 to 1 of a frame, in 1 to 32 samples", "film.py", "shutter(0.5)")
         self._shutter, self._samples = float(share), int(samples)
 
-    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1, colour: str = "") -> None:
+    def set(self, name: str, *, facing_deg: float = -57.0, seed: int = 1, colour: str = "", hour: str = "") -> None:
         """Surroundings in one line: `film.set("meadow")`, drawn only, with light, sky and air that suit them.
 
         `facing_deg` is the side from which the camera looks (an azimuth; `wide()` looks from -57) and which is kept free;
-        another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`. Light and sky that the plan states stay as they are; what is said
-        afterwards (light, mood, grade) changes it.
+        another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`. `hour` is
+        `noon`, `golden_hour`, `overcast`, `misty_morning`, `dusk` or `night`, when street, park and room have their lamps lit;
+        without it a set has its own, or that of the sky which the plan states. Light and sky that the plan states stay as
+        they are; what is said afterwards (light, mood, grade) changes it.
 
         Raises:
-            ProgramError: there is no such set, what happens is too large for it, or it has no such wall.
+            ProgramError: there is no such set or hour, what happens is too large for it, or it has no such wall.
         """
-        sets.build(self, name, facing_deg, seed, colour)
+        stated = str(self.recorded.light.get("sky", ""))
+        sets.build(self, name, facing_deg, seed, colour, hour or (stated if stated in sets.hours.HOURS else ""))
         self.as_planned()
 
     # -- the description -----------------------------------------------------------------------------------------------
@@ -166,8 +168,11 @@ class Film(Labelled, Limbs):
         for shot in self._shots:
             shots.append({"first": first, "frames": len(shot["times"]), "planned": shot["camera"].planned})
             first += len(shot["times"])
+        things = [*self._things]
+        for thing, at, told_at in self._grown:
+            self.line = told_at
+            things.append(grown(thing, at, times))
         self.line = 1
-        things = [*self._things, *(grown(thing, at, times) for thing, at in self._grown)]
         facts = {
             "schema": 1, "shots": shots, "captions": self._words(arrays), "air": self._air,
             "things": [thing.facts(arrays, number, self._breeze is not None) for number, thing in enumerate(things)],
@@ -179,6 +184,9 @@ class Film(Labelled, Limbs):
             "ground": None if self._ground_look is None else look_facts(self._ground_look, arrays, "look_ground"),
             "shutter": self._shutter, "samples": self._samples,
         }  # fmt: skip
+        if puffs := self._blown(times, arrays):
+            facts["puffs"] = puffs
+        self.line = 1
         facts |= {"breeze": self._breeze} if self._breeze else {}
         return facts | ({"gobo": self._gobo} if self._gobo else {}), arrays
 
@@ -201,11 +209,3 @@ class Film(Labelled, Limbs):
             found.append({name: one[name] for name in ("text", "start_s", "end_s")} | {"place": place or "bottom"})
         self.line = 1
         return found
-
-
-def _line() -> int:
-    """The line of film.py that is at work."""
-    frame: Any = sys._getframe(1)
-    while frame is not None and not frame.f_code.co_filename.endswith("film.py"):
-        frame = frame.f_back
-    return int(frame.f_lineno) if frame is not None else 1

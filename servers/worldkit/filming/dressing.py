@@ -11,18 +11,18 @@ from . import sward, swaying_weights, trees
 from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
-from .patterned_light import PatternedLight
-from .plain_refusals import whole
+from .plain_refusals import line, whole
 from .recorded import Recorded
+from .smoke import Smoke
 
 
-class Dressing(PatternedLight):
+class Dressing(Smoke):
     """The things and looks of a film; `recorded` is what happened."""
 
     def __init__(self, recorded: Recorded) -> None:
         super().__init__(recorded)
         self._things: list[Thing] = []
-        self._grown: list[tuple[Thing, Callable[[np.ndarray], Any]]] = []
+        self._grown: list[tuple[Thing, Callable[[np.ndarray], Any], int]] = []
         self._surfaces: list[dict[str, Any]] = []
         self._lamps: list[dict[str, Any]] = []
         self._panels: list[dict[str, Any]] = []
@@ -177,7 +177,7 @@ class Dressing(PatternedLight):
             parts["leaves"].append((one.leaves + foot, one.leaf_faces))
             sways["wood"].append(swaying_weights.of_wood(one.wood, height))
             sways["leaves"].append(swaying_weights.of_leaves(one.leaves, height))
-        green = leaves or {"conifer": "#2f4a2c", "broadleaf": "#557a32"}[kind]
+        green = leaves or {"conifer": "#2f4a2c", "broadleaf": "foliage"}[kind]
         for part, look in (("wood", bark), ("leaves", green)):
             starts = np.cumsum([0, *(len(points) for points, _ in parts[part])])
             faces = np.concatenate([f + s for (_, f), s in zip(parts[part], starts, strict=False)])
@@ -247,7 +247,7 @@ class Dressing(PatternedLight):
             self._add(Thing(name, "mesh", size, look, place, turn, vertices=one.vertices, faces=one.faces, uv=one.uv))
         else:
             self._add(Thing(name, "sphere", size, look, place, turn))
-        self._grown.append((self._things.pop(), at))
+        self._grown.append((self._things.pop(), at, line()))
 
     def surface(
         self, name: str, *, of: str | Sequence[str], look: str | Surface = "wax", blended: bool = False
@@ -262,7 +262,7 @@ class Dressing(PatternedLight):
         """
         known(look)
         wanted = [of] if isinstance(of, str) else list(of)
-        names = [*self.recorded.bodies, *(thing.name for thing, _ in self._grown if thing.shape == "sphere")]
+        names = [*self.recorded.bodies, *(thing.name for thing, *_ in self._grown if thing.shape == "sphere")]
         found = [each for each in names if any(fnmatchcase(each, pattern) for pattern in wanted)]
         taken = {each for one in self._surfaces for each in one["of"]}
         if not found or taken & set(found):
@@ -389,7 +389,7 @@ class Dressing(PatternedLight):
 
     def _named(self, name: str) -> None:
         """Refuse a name that something else has, or none."""
-        taken = {other.name for other in (*self._things, *(grown for grown, _ in self._grown))}
+        taken = {other.name for other in (*self._things, *(grown for grown, *_ in self._grown))}
         taken |= {one["name"] for one in (*self._surfaces, *self._lamps, *self._panels)}
         if not isinstance(name, str) or not 0 < len(name) <= 60 or name in taken:
             raise ProgramError(f"what is drawn needs a name of its own, not {name!r}", "film.py", "name it anew")

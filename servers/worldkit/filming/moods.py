@@ -33,9 +33,9 @@ MOODS: dict[str, dict[str, dict[str, Any]]] = {
         "grade": {"exposure_stops": 0.5, "contrast": 1.06, "saturation": 1.05, "temperature": -0.14, "vignette": 0.3, "glow": 0.1},
     },
     "night": {
-        "light": {"azimuth_deg": -125.0, "elevation_deg": 50.0, "colour": "#b9ccff", "strength": 0.34, "softness_deg": 3.0},
-        "sky": {"zenith": "#05070f", "horizon": "#121a2c", "ground": "#0c0e12", "glow": 0.1, "stars": 1.0},
-        "grade": {"exposure_stops": 0.9, "contrast": 1.06, "saturation": 0.9, "temperature": -0.1, "vignette": 0.4, "glow": 0.12},
+        "light": {"azimuth_deg": -125.0, "elevation_deg": 40.0, "colour": "#a9c1ff", "strength": 0.12, "softness_deg": 2.0},
+        "sky": {"zenith": "#0a1024", "horizon": "#202c4a", "ground": "#0c0e12", "glow": 0.5, "clouds": 0.12, "stars": 1.0},
+        "grade": {"exposure_stops": 0.9, "contrast": 1.06, "saturation": 0.95, "temperature": -0.04, "vignette": 0.3, "glow": 0.14},
     },
     "high_key": {
         "light": {"azimuth_deg": -120.0, "elevation_deg": 55.0, "colour": "#ffffff", "strength": 0.75, "softness_deg": 8.0},

@@ -2,6 +2,7 @@
 
 import functools
 import inspect
+import sys
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -26,6 +27,14 @@ def whole(seed: Any, least: int = 0) -> int:
     if isinstance(seed, bool) or not hasattr(seed, "__index__") or not seed >= least:
         raise ProgramError(f"{seed!r} is no whole number from {least}", "film.py", "seed=1, say")
     return int(seed)
+
+
+def line() -> int:
+    """The line of film.py that is at work."""
+    frame: Any = sys._getframe(1)
+    while frame is not None and not frame.f_code.co_filename.endswith("film.py"):
+        frame = frame.f_back
+    return int(frame.f_lineno) if frame is not None else 1
 
 
 def _refusing(name: str, method: Callable[..., Any]) -> Callable[..., Any]:

@@ -12,6 +12,7 @@ import numpy as np
 from ..errors import ProgramError
 from ..turning import matrices
 from . import ground
+from .laws_shown import Laws
 
 WORLD = "world"
 GROUND = ("vertices", "faces", "owner", "names")
@@ -37,6 +38,8 @@ class Recorded:
     """
 
     def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
+        self.asked_of_motion = False
+        """Whether somebody asked how anything moves: what then goes wrong on a made-up recording may be that one's fault."""
         self.time = np.asarray(arrays["time"], dtype=float)
         """(T,) s, from 0."""
         self._pos, self._quat = np.asarray(arrays["pos"]), np.asarray(arrays["quat"])
@@ -68,6 +71,7 @@ class Recorded:
         """The looks that the plan gives its things, by name."""
         if "looks" in arrays:
             self.looks = {str(name): str(look) for name, look in np.asarray(arrays["looks"]).reshape(-1, 2)}
+        self._laws = Laws(arrays)
         self._ground = {name: np.asarray(arrays[f"ground_{name}"]) for name in GROUND if f"ground_{name}" in arrays}
         self._heights: dict[str, ground.Height] = {}
         moving = np.ptp(self._pos, axis=0).max(axis=-1) > 1e-3 if len(self.bodies) else np.zeros(0, bool)
@@ -130,14 +134,23 @@ class Recorded:
 
     def position(self, body: str, at: float | np.ndarray) -> np.ndarray:
         """Centre of what is seen of a body (the box around its shapes) at some recorded times: (3,), or (N, 3), m."""
+        self.asked_of_motion = True
         times, number = np.atleast_1d(np.asarray(at, dtype=float)), self.index(body)
         turn = matrices(self._quat[:, number])
         centre = self._pos[:, number] + turn @ self._middle[number]
         found = np.stack([np.interp(times, self.time, centre[:, axis]) for axis in range(3)], axis=-1)
         return found if np.ndim(at) else found[0]
 
+    def origin(self, body: str, at: float | np.ndarray) -> np.ndarray:
+        """Where the frame of a body lies at some recorded times: (3,), or (N, 3), m."""
+        self.asked_of_motion = True
+        times, way = np.atleast_1d(np.asarray(at, dtype=float)), self._pos[:, self.index(body)]
+        found = np.stack([np.interp(times, self.time, way[:, axis]) for axis in range(3)], axis=-1)
+        return found if np.ndim(at) else found[0]
+
     def orientation(self, body: str, at: float | np.ndarray) -> np.ndarray:
         """Rotation matrices of a body at the recorded rows nearest to some times: (3, 3), or (N, 3, 3)."""
+        self.asked_of_motion = True
         rows = self.rows(np.atleast_1d(np.asarray(at, dtype=float)))
         found = matrices(self._quat[rows, self.index(body)])
         return found if np.ndim(at) else found[0]
@@ -209,11 +222,30 @@ class Recorded:
         turn = matrices(self._quat[row : row + 1, self.index(body)])[0]
         return np.asarray((np.asarray(points, dtype=float) - self._pos[row, self.index(body)]) @ turn)
 
+    @property
+    def laws(self) -> tuple[str, ...]:
+        """The author's laws, and other media that move points."""
+        return self._laws.names
+
+    def points(self, law: str, at: float | np.ndarray) -> np.ndarray:
+        """Where the points of a law are at some recorded times: (P, 3), or (N, P, 3), m; in the order of `law.points`.
+
+        So `points("balloon", t)[:, 12]` is the way of one of them. Where there is no such law, a `ProgramError` names those there are.
+        """
+        self.asked_of_motion = True
+        return self._laws.points(law, at)
+
+    def told(self, law: str, what: str, at: float | np.ndarray) -> np.ndarray:
+        """What a law tells of itself at some recorded times, a number or (N,): its `mass`, kg, `energy` and `stored`, J, `volume`, m^3."""
+        self.asked_of_motion = True
+        return self._laws.told(law, what, at)
+
     def touches(self, one: str = "", other: str = "") -> list[Touch]:
         """Beginnings of contacts, in the order of time, of all bodies or of those named (`world` is a name, too)."""
         for name in (one, other):
             if name and name != WORLD:
                 self.index(name)
+        self.asked_of_motion = True
         wanted = {name for name in (one, other) if name}
         return [touch for touch in self._touches if wanted <= set(touch.bodies)]
 
@@ -223,6 +255,7 @@ class Recorded:
         What touches again and again about as strongly, as something that rolls or rests does, gives no blow; speed that hardly
         changes is no event.
         """
+        self.asked_of_motion = True
         later = [touch for touch in self._touches if touch.time_s > max(0.05, 0.05 * self.duration)]
         for blows in ([touch for touch in later if WORLD not in touch.bodies], later):
             forces = [touch.force_n for touch in blows]

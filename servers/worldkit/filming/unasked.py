@@ -10,7 +10,7 @@ def film(film: Film) -> None:
     if recorded.setting == "outdoor" and whereabouts.own_land(recorded):
         whereabouts.countryside(film, azimuth)
     elif name := whereabouts.choose(recorded):
-        film.set(name, facing_deg=azimuth)
+        film.set(name, facing_deg=azimuth, hour=whereabouts.hour(recorded))
         if recorded.floor:  # the plan says what the ground is
             film.ground(recorded.floor)
     if any(recorded.wind[:2]):

@@ -34,6 +34,12 @@ OUTDOORS: dict[str, str] = {
     "meadow": "meadow grass field lawn horse cow flower wind butterfly",
     "night_sky": "night star moon firework comet",
 }
+HOURS: dict[str, str] = {
+    "night": "night midnight moonlight moonlit streetlight starlit",
+    "dusk": "dusk twilight evening",
+    "golden_hour": "sunset sunrise",
+    "overcast": "overcast cloudy rain drizzle",
+}
 FALLBACK = {"room": "living_room", "outdoor": "meadow"}
 SMALL_M = 0.4
 """What happens within this radius, in a room of no kind, is a still life: a room would be out of focus behind it."""
@@ -70,6 +76,12 @@ def choose(recorded: Recorded) -> str:
     if usual in fit or recorded.setting not in FALLBACK:
         return usual
     return next((name for name in ("gym", "meadow") if name in fit), "")
+
+
+def hour(recorded: Recorded) -> str:
+    """The time of day that the words of a plan name, where it states no light; empty where they name none."""
+    scores = Counter[str]() if recorded.light else _scores(recorded.words, HOURS)
+    return max(scores, key=lambda name: scores[name]) if any(scores.values()) else ""
 
 
 def _scores(words: Iterable[str], wanted: dict[str, str]) -> Counter[str]:

@@ -52,6 +52,8 @@ class Look:
     be told by the way that light goes in it."""
     wall: bool = False
     """A closed skin of it that a law moves is a thin wall with air inside: a bottle of glass. A liquid fills its skin."""
+    thin: float = 0.0
+    """A leaf: the share of the light on its other side that comes through it, 0..1."""
     mark: bool = False
     """A sphere of this look carries a thin band and two dots, so that its spin can be seen."""
     emission: float = 0.0

@@ -3,6 +3,7 @@
 A height field carries at most 50 contacts with one geom, and is right for heights of 0 to 1 times its size: each tile has its own.
 """
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from .road_surface import Road
@@ -27,6 +28,8 @@ def add(
     yaw_deg: float = 0.0,
     verge_m: float = VERGE_M,
     surface: dict[str, Any] | None = None,
+    places: Sequence[tuple[float, float]] | None = None,
+    drawn: bool = True,
 ) -> "mujoco.MjsBody":
     """Add a road with a verge on both sides, its file's origin at `pos`, m.
 
@@ -38,6 +41,8 @@ def add(
         yaw_deg: its turn about z.
         verge_m: how far the ground goes on beside it, as high as its edge.
         surface: from `contacts.surface`.
+        places: lower left corners of those of its `tiles` that are wanted; all when None.
+        drawn: give it its look, asphalt between grass.
 
     Raises:
         ValueError: there is a body of this name, or the road would take too many tiles.
@@ -54,17 +59,16 @@ def add(
     # The body's frame is the middle of the box around it, as of every object of a plan.
     at = np.add(pos, (c * middle[0] - s * middle[1], s * middle[0] + c * middle[1], middle[2]))
     body = spec.worldbody.add_body(name=name, pos=at, quat=(np.cos(turn / 2), 0, 0, np.sin(turn / 2)))
-    places = tiles(road, verge_m)
     side = round(TILE_M / CELL_M) + 1
     ticks = np.linspace(0, TILE_M, side)
-    for number, (left, low) in enumerate(places, 1):
+    for number, (left, low) in enumerate(tiles(road, verge_m) if places is None else places, 1):
         grid = np.stack(np.meshgrid(left + ticks, low + ticks), axis=-1).reshape(-1, 2)
         heights, _ = road.height(grid)
         bottom, rise = float(heights.min()), max(float(np.ptp(heights)), 1e-3)
         tile = f"{name}_{number}"
         field = spec.add_hfield(name=tile, nrow=side, ncol=side, size=(TILE_M / 2, TILE_M / 2, rise, BELOW_M))
         field.userdata = ((heights - bottom) / rise).astype(np.float32).tolist()
-        material = _drawn(spec, tile, road, left, low)
+        material = _drawn(spec, tile, road, left, low) if drawn else ""
         body.add_geom(
             name=tile, type=mujoco.mjtGeom.mjGEOM_HFIELD, hfieldname=tile, material=material,
             pos=np.array((left + TILE_M / 2, low + TILE_M / 2, bottom)) - middle, **(surface or {}),

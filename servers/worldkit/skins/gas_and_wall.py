@@ -33,6 +33,13 @@ class Gas:
     wet: bool = False
     """Saturated with steam, as over hot water: its pressure (Magnus) is part of that at closing, and goes as it condenses."""
 
+    hole: float = 0.0
+    """m, diameter of a hole, by which it leaves as through an orifice; 0: it has none."""
+    hole_at: int = 0
+    """The point of the skin that the hole is at; the jet pushes the triangles around it inwards."""
+    discharge: float = 0.6
+    """Of the hole: that of a sharp edge (ISO 5167); about 1 of a rounded one."""
+
     def temperature(self, time: float) -> float:
         """K."""
         return self.around + (self.warm - self.around) * float(np.exp(-time / self.takes))

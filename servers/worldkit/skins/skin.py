@@ -9,7 +9,7 @@ milliseconds with its own stiffness, nothing softened, where an explicit step wo
 away (shorter `longest`, livelier). It never makes energy.
 
 Gas is one pressure, p = n R T / V, with that of steam where it is wet, its temperature Newton's: T = T_around + (T_warm - T_around) exp(-t / takes). Its weight, its
-buoyancy and that of a liquid are left out. Walls do not feel each other: a bottle may cave in, not be crumpled flat. A flat mesh of
+buoyancy and that of a liquid are left out. By a hole it leaves as through an orifice, C A sqrt(2 p / rho), and its jet pushes back. Walls do not feel each other: a bottle may cave in, not be crumpled flat. A flat mesh of
 triangles is stiffer against folds finer than a few of its sides.
 """
 
@@ -20,11 +20,11 @@ import numpy as np
 
 from ..errors import ProgramError
 from ..naming import names
-from . import met_geoms
+from . import leaking, met_geoms
 from .banded import Banded
 from .gas_and_wall import GAS, Gas, Wall
 from .pressed_on import Met, lightness, turned
-from .thin_elements import Hinges, Sheet
+from .thin_elements import Hinges, Sheet, curved
 
 if TYPE_CHECKING:
     import mujoco
@@ -64,8 +64,10 @@ class Skin:
         self.wall, self.gas, self._longest, self._pinned = wall, gas, longest, np.array(pinned, int)
         young, poisson = wall.young, 0.5 if wall.rubber else wall.poisson
         thickness = np.broadcast_to(np.asarray(wall.thickness, float), len(self.triangles))
-        if (self._pinned.size or wall.air) and "world" not in self.bodies:
-            raise ProgramError(f"what holds or brakes {self.name} is missing", self.name, 'let "world" be in `bodies`')
+        if (self._pinned.size or wall.air or gas.hole) and "world" not in self.bodies:
+            raise ProgramError(
+                f"what holds, brakes or is blown at by {self.name} is missing", self.name, 'let "world" be in `bodies`'
+            )
         unstretched = self.points / wall.stretched
         try:
             self.hinges = Hinges(unstretched, self.triangles, young, poisson, thickness, wall.yields)
@@ -236,8 +238,13 @@ class Skin:
             if moved < CLOSE * self._side:
                 break
         self.velocities, wrench = task.ends(x)
+        self.given += float((task.jet * (x - self.points)).sum())  # the jet's push is the gas's work, too
         self._pressed = sum(met.left(x) for met in task.met)
         self.points = x
+        if self.moles is not None:  # by the mean pressure of the step, half of which has left by then
+            mean = (over + self.pressure - self.gas.outside) / 2
+            lost = h * leaking.leaves(self.gas, mean, self.time)
+            self.moles -= h * leaking.leaves(self.gas, mean - self.pressure * lost / (2 * self.moles), self.time)
         self.given += (over + self.pressure - self.gas.outside) / 2 * (self.room - room)
         self.hinges.flow(x)
         return wrench
@@ -249,7 +256,9 @@ class _Step:
     def __init__(self, skin: Skin, model: "mujoco.MjModel", data: "mujoco.MjData", h: float, gone: float) -> None:
         self.skin, self.h, self.x0 = skin, h, skin.points
         self.mass = skin.mass[:, None]
-        self.pull = skin._pull
+        over = 0.0 if skin.moles is None else skin.pressure - skin.gas.outside
+        self.jet = leaking.jet(skin.gas, skin.points, skin.triangles, over)
+        self.pull = skin._pull + self.jet / self.mass
         self.aim = self.x0 + h * skin.velocities + h * h * self.pull
         self.strain, self.angle = skin.sheet.strain(self.x0), skin.hinges.angle(self.x0)
         self.thick = skin.wall.damping / h
@@ -315,7 +324,7 @@ class _Step:
             slope += (self.outside - pressure) * grows
             stiffer = pressure**2 / self.warmth
             if full is not None and bold:
-                full = full + (self.outside - pressure) * _curved(x[skin.triangles])
+                full = full + (self.outside - pressure) * curved(x[skin.triangles])
         each = np.zeros((len(x), 3, 3))
         for met in self.met:
             met.add(x, slope, each)
@@ -373,7 +382,7 @@ class _Step:
             self._act(wrench, met.row, x, push)
         if "world" in skin.bodies:
             world = list(skin.bodies).index("world")
-            self._act(wrench, world, x, self.mass * skin.wall.air * speed)
+            self._act(wrench, world, x, self.mass * skin.wall.air * speed - self.jet)
             self._act(wrench, world, x[skin._pinned], -lacks[skin._pinned])
         free = skin._free
         # What the search left over is nobody's push: momentum is kept to the last digit.
@@ -383,16 +392,3 @@ class _Step:
     def _act(self, wrench: Array, row: int, at: Array, force: Array) -> None:
         wrench[row, :3] += force.sum(axis=0)
         wrench[row, 3:] += np.cross(at - self.middles[row], force).sum(axis=0)
-
-
-def _curved(corners: Array) -> Array:
-    """(f, 9, 9) m: how the room's slope turns with corners (f, 3, 3), each pair by the third."""
-    found = np.zeros((len(corners), 3, 3, 3, 3))
-    for one in range(3):
-        third = corners[:, (one + 2) % 3] / 6
-        for axis in range(3):
-            a, b = (axis + 1) % 3, (axis + 2) % 3
-            found[:, one, a, (one + 1) % 3, b] = third[:, axis]
-            found[:, one, b, (one + 1) % 3, a] = -third[:, axis]
-        found[:, (one + 1) % 3, :, one] = np.swapaxes(found[:, one, :, (one + 1) % 3], 1, 2)
-    return found.reshape(-1, 9, 9)

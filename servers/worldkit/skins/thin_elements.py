@@ -164,3 +164,16 @@ class Hinges:
         """Let what is bent beyond the yield strain stay so."""
         off = self.bent(self.angle(x))
         self.rest = self.rest + off - np.clip(off, -self.most, self.most)
+
+
+def curved(corners: Array) -> Array:
+    """(f, 9, 9) m: how the room's slope turns with corners (f, 3, 3), each pair by the third."""
+    found = np.zeros((len(corners), 3, 3, 3, 3))
+    for one in range(3):
+        third = corners[:, (one + 2) % 3] / 6
+        for axis in range(3):
+            a, b = (axis + 1) % 3, (axis + 2) % 3
+            found[:, one, a, (one + 1) % 3, b] = third[:, axis]
+            found[:, one, b, (one + 1) % 3, a] = -third[:, axis]
+        found[:, (one + 1) % 3, :, one] = np.swapaxes(found[:, one, :, (one + 1) % 3], 1, 2)
+    return found.reshape(-1, 9, 9)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 from .adding import Vehicle
 from .axles import OnAxles
 from .bicycle_numbers import Bicycle
-from .tracked_numbers import Tracked
 from .two_wheels import balanced
 from .wheeled import BRAKE_GAIN, ackermann
 
@@ -87,7 +86,7 @@ def pedals(
     if isinstance(vehicle, Bicycle):
         data.actuator(f"{name}_steer_f").ctrl[0] = balanced(vehicle, data, name, steering_deg)
         data.actuator(f"{name}_drive").ctrl[0] = _within_power(throttle * vehicle.drive_n_m, abs(spins["r"]), power)
-    elif isinstance(vehicle, Tracked):
+    elif vehicle.belts:
         _belts(vehicle, data, name, spins, steering_deg, throttle, power)
     else:
         _on_axles(vehicle, data, name, spins, steering_deg, throttle, power)
@@ -116,7 +115,7 @@ def _on_axles(
 
 
 def _belts(
-    vehicle: Tracked,
+    vehicle: "OnAxles | FoundCar",
     data: "mujoco.MjData",
     name: str,
     spins: dict[str, float],

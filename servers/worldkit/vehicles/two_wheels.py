@@ -3,9 +3,11 @@
 Its parts are `NAME`, `NAME_fork`, `NAME_f_wheel` and `NAME_r_wheel`; its joints `NAME_steer` (rad), `NAME_f_axle`, `NAME_r_axle`; its
 actuators `NAME_steer_f` (rad), `NAME_drive` (N·m at the rear wheel), `NAME_brake_f`, `NAME_brake_r` (0 to 1).
 
-The rider's law: with the lean p (rad, to the left), the lean q that the wanted curve asks for (tan q = v² / (g R)), the height h of
-the centre of mass and the wheelbase L, a point mass on a wheeled line falls by h p" = g p - v² d / L. The rider steers
-d = L / v² (g q + (g + h w²)(p - q) + 2 h w p'), so that p - q dies out as a critically damped oscillation of quickness w. Where he is
+The rider's law: with the lean p (rad, to the left), the height h of the centre of mass, the wheelbase L and the angle d between the
+tracks of the wheels, a point mass on a wheeled line falls by h p" = g p - v² d / L. For the circle of d he wants the lean q with
+g tan q = v² d / L - g s t d / h: the fork's trail t puts the front wheel beside the frame, and with it the line that he balances on,
+by its share s of the load. He steers d' = L / v² (v² d / L + (g + h w²)(p - q) + 2 h w p'), so that p - q dies out as a critically
+damped oscillation of quickness w; the fork, whose axis leans, turns as far as its wheel's track then needs at this lean. Where he is
 too slow for that (below `SLOWEST_M_S`) he steers as if he rode so fast, and falls. Source: K. J. Åström, R. E. Klein and A. Lennartsson, Bicycle
 Dynamics and Control, IEEE Control Systems Magazine 25 (2005), "simple models".
 """
@@ -57,7 +59,7 @@ def add_bicycle(
     for corner, owner, at in (("f", fork, (0.0, 0.0, 0.0)), ("r", body, (-half, 0.0, 0.0))):
         _wheel(spec, owner, bicycle, name, corner, at)
     servo = spec.add_actuator(name=f"{name}_steer_f", target=f"{name}_steer", trntype=joint)
-    servo.set_to_position(kp=400, kv=12)
+    servo.set_to_position(kp=4_000, kv=40)
     motor = spec.add_actuator(name=f"{name}_drive", target=f"{name}_r_axle", trntype=joint)
     motor.set_to_motor()
     motor.ctrllimited = mujoco.mjtLimited.mjLIMITED_TRUE
@@ -113,7 +115,7 @@ def _wheel(
 
 def balanced(bicycle: Bicycle, data: "mujoco.MjData", name: str, steering_deg: float) -> float:
     """The angle that the rider steers in this state, rad, who wants to ride the circle of `steering_deg`."""
-    from math import atan, cos, radians, tan
+    from math import atan, cos, radians, sin, tan
 
     import numpy as np
 
@@ -124,9 +126,12 @@ def balanced(bicycle: Bicycle, data: "mujoco.MjData", name: str, steering_deg: f
     speed = max(abs(float(motion[:3] @ forward)), SLOWEST_M_S)
     lean_rate = -float(motion[3])
     bend = tan(radians(steering_deg)) / bicycle.wheelbase_m
-    wanted = atan(speed**2 * bend / G)
     quick, high = bicycle.quickness_rad_s, bicycle.height_of_mass_m
-    asked = G * tan(wanted) + (G + high * quick**2) * (lean - wanted) + 2 * high * quick * lean_rate
-    angle = atan(bicycle.wheelbase_m / speed**2 * asked) / cos(radians(bicycle.head_deg))
+    # The steered wheel touches the ground to the outside of the frame, so that he leans a little less.
+    beside = bicycle.front_share * bicycle.trail_m * bend * bicycle.wheelbase_m
+    wanted = atan(speed**2 * bend / G - beside / high)
+    asked = speed**2 * bend + (G + high * quick**2) * (lean - wanted) + 2 * high * quick * lean_rate
+    ground, tilt = bicycle.wheelbase_m / speed**2 * asked, radians(bicycle.head_deg)
+    angle = atan(ground * cos(lean) / max(cos(tilt) + ground * sin(tilt) * sin(lean), 0.1))
     most = radians(bicycle.steering_deg)
     return min(max(angle, -most), most)

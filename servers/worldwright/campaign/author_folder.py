@@ -61,7 +61,7 @@ def make(folder: Path, harness: str, campaign: Path) -> None:
         else:
             shutil.copyfile(source / name, target)
     files = generated.files()
-    for name, text in (files | harnesses.find(harness).unattended(files)).items():
+    for name, text in (files | harnesses.find(harness).unattended(files, folder)).items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         write_atomic(folder / name, text)
     for link in generated.links():

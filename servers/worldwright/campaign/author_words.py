@@ -31,7 +31,7 @@ class Author(Frozen):
     harness: str
     """The name of its file in `contract/harnesses`: `claude_code`, `codex`, `opencode`."""
     program: str = ""
-    """Its program, by name or path; the harness's own command without it."""
+    """Its program, by name or by path, relative to the campaign's file; the harness's own command without it."""
     model: Annotated[str, Field(max_length=200)] = ""
     """By the harness's name of it; its own choice without it."""
     options: tuple[Annotated[str, Field(max_length=4000)], ...] = ()

@@ -8,6 +8,7 @@ axis of the grid (`values`, or `from`, `to`, `steps`) or is drawn anew for each 
 
 import json
 import math
+import os
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -259,6 +260,10 @@ def read(path: Path) -> Campaign:
     if campaign.name is None:
         name = "".join(c if c.isalnum() and c.isascii() else "-" for c in path.stem.lower()).strip("-")[:64]
         campaign = campaign.model_copy(update={"name": name or "campaign"})
+    author = campaign.author
+    if author and "/" in author.program:  # workers look from elsewhere; a bare name is one of the search path
+        beside = Path(os.path.abspath(path.parent / author.program))  # noqa: PTH100 - a link keeps its name: it may be what is meant
+        campaign = campaign.model_copy(update={"author": author.model_copy(update={"program": str(beside)})})
     return campaign
 
 

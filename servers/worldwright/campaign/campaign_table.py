@@ -21,7 +21,7 @@ STRETCH = 10_000
 TEXTS = (
     "world", "category", "prompt", "outcome", "cause", "cause_step", "cause_said", "interventions",
     "plan_sha256", "program_sha256", "world_sha256", "trajectory_sha256", "environment_sha256", "key",
-    "folder", "recording", "report", "poster", "worker", "author", "transcript",
+    "folder", "recording", "report", "poster", "film", "worker", "author", "transcript",
 )  # fmt: skip
 COUNTS = ("number", "iterations", "runs", "begun", "tokens_read", "tokens_written")
 NUMBERS = ("seconds", "margin", "memory_mb", "usd", "author_seconds")

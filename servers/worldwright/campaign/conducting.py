@@ -96,11 +96,12 @@ class Count:
     without_row: dict[str, tuple[float, int]] = field(default_factory=dict)
     """US dollars and tokens of these, by world; its row tells them again."""
 
-    def take_back(self, world: str, usd: float, tokens: int) -> None:
-        """What was paid for a world that has no row."""
+    def paid(self, world: str, usd: float, tokens: int) -> None:
+        """What was paid so far for a world that has no row."""
+        before = self.without_row.get(world, (0.0, 0))
         self.without_row[world] = (usd, tokens)
-        self.usd += usd
-        self.tokens += tokens
+        self.usd += usd - before[0]
+        self.tokens += tokens - before[1]
 
     def add(self, row: Row) -> None:
         """One row more."""
@@ -123,9 +124,14 @@ def counted(store: Store) -> Count:
         count.add(row)
     for world in world_author.worlds(store) if begun.campaign.author else ():
         if store.row(world) is None:
-            paid = world_author.written(store, begun, world)
-            count.take_back(world, paid.usd or 0.0, paid.tokens_read + paid.tokens_written)
+            _count_paid(count, store, begun, world)
     return count
+
+
+def _count_paid(count: Count, store: Store, begun: Begun, world: str) -> None:
+    """Count what an author took for a world without a row, by what it printed."""
+    written = world_author.written(store, begun, world)
+    count.paid(world, written.usd or 0.0, written.tokens_read + written.tokens_written)
 
 
 def standing(store: Store, count: Count | None = None) -> Standing:
@@ -177,7 +183,10 @@ def crew_of(campaign: Campaign, work: Work, memory_mb: float, say: Say) -> Proce
     """Who does the work: Ray where it is installed or asked for, else our own processes, which is said once."""
     limit = campaign.per_world.seconds + GRACE_S
     if campaign.hands == "ray" or campaign.address or (campaign.hands == "auto" and on_ray.installed()):
-        return on_ray.Tasks(campaign.workers, work, limit, campaign.address, memory_mb)
+        tasks = on_ray.Tasks(campaign.workers, work, limit, campaign.address, memory_mb)
+        if tasks.dashboard:
+            say(f"Ray's dashboard: http://{tasks.dashboard}")
+        return tasks
     count = campaign.workers or _processors()
     if campaign.hands == "auto":
         say(
@@ -277,6 +286,7 @@ class _Conducting:
             if times < self.begun.campaign.per_world.begun:
                 self.again.append(one)
                 self.spent[one.world] = spent
+                _count_paid(self.count, self.store, self.begun, one.world)
                 return
             said = f"it was begun {times} times; the last time {ended.died or 'it left no row'}"
             move = "see its folder; `worldwright campaign resume --again worker_died` begins it once more"

@@ -67,6 +67,8 @@ class Tasks:
         self._ray: Any = ray
         self._seconds = seconds
         self._under: dict[Any, _Under] = {}
+        self.dashboard = ""
+        """Where Ray's own page is, `host:port`, if it was started here and has one."""
         # Ray looks for its processes by this; nothing is told to its makers.
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
         self._started = not ray.is_initialized()
@@ -90,13 +92,14 @@ class Tasks:
             else:
                 # As our own processes are: at Ray's niceness of 15 a world starves beside whatever else is at work, while its time runs.
                 os.environ.setdefault(NICENESS, "0")
-                self._ray.init(
+                began = self._ray.init(
                     address="local",
                     num_cpus=count,
-                    include_dashboard=False,
+                    include_dashboard=None,  # where it is installed (`ray[default]`), on the loopback
                     object_store_memory=STORE_MB << 20,
                     **quiet,
                 )
+                self.dashboard = getattr(began, "dashboard_url", "") or ""
         except Exception as cause:  # Ray raises many kinds, each with its own words
             raise CampaignError(
                 f"Ray does not answer: {str(cause).splitlines()[0] if str(cause) else type(cause).__name__}",

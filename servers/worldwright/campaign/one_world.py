@@ -331,6 +331,7 @@ def _row(store: Store, begun: Begun, one: Task, walked: Walked, minutes: dict[st
         recording=_inside(store, recording),
         report=_inside(store, folder / "report.html"),
         poster=_poster(store, folder, state.folder),
+        film=_film(store, folder, state.folder),
         memory_mb=round(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024, 1),
         worker=f"{socket.gethostname()}:{os.getpid()}",
         **world_author.written(store, begun, one.world).model_dump(),
@@ -350,6 +351,13 @@ def _poster(store: Store, folder: Path, evidence: Path) -> str:
         *sorted(evidence.glob("storyboard/*.jpg")),
     ]
     return next((name for path in found if (name := _inside(store, path))), "")
+
+
+def _film(store: Store, folder: Path, evidence: Path) -> str:
+    """Its film: of those that lie together the author's, else the first by name."""
+    films = [sorted((place / "video").glob("*.mp4")) for place in (folder / "accepted", evidence)]
+    ordered = [sorted(some, key=lambda path: path.stem != "film") for some in films]
+    return next((_inside(store, path) for some in ordered for path in some), "")
 
 
 def _result(path: Path) -> PassResult | None:

@@ -8,7 +8,8 @@
 A file has `world`, `number`, `row`, `time` (s), one `vary.FIELD` a swept field, and each chosen column of the recording as a list
 of numbers, row-major over its shape. Worlds of one draw share what was drawn, so they are always in one part: the part is a
 function of the sweep's seed and the draw's number alone (of a world's address, where nothing is drawn), and no world changes its
-part when a campaign grows. Shares are therefore kept on average only.
+part when a campaign grows. Shares are therefore kept on average only. What an earlier call wrote of worlds that are begun again, or
+left no recording this time, is taken away; `schema.json` is written last, so that without it the set is not whole.
 
     import pyarrow.dataset
     train = pyarrow.dataset.dataset("runs/falls/trajectories", partitioning="hive").filter(pyarrow.dataset.field("split") == "train")
@@ -16,6 +17,8 @@ part when a campaign grows. Shares are therefore kept on average only.
 
 import hashlib
 import json
+import math
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -27,10 +30,12 @@ from .campaign_file import Campaign, CampaignError
 from .campaign_store import Store
 from .world_row import Row
 
-FOLDER = "trajectories"
+FOLDER, SCHEMA = "trajectories", "schema.json"
 PARTS, SHARES = ("train", "validation", "test"), (0.8, 0.1, 0.1)
 COLUMNS = ("qpos", "qvel", "ctrl", "pos", "quat", "energy")
 """Chosen where nobody says which."""
+MOST_NUMBERS = 1 << 22
+"""Of one column that are written at a time: places in a list are numbers of 32 bits, and a long recording does not fit into memory."""
 
 
 def part_of(campaign: Campaign, row: Row, shares: tuple[float, float, float] = SHARES) -> str:
@@ -59,7 +64,7 @@ def write(
     Raises:
         CampaignError: the shares do not add up, a column is none of any recording's, or no world left a recording.
     """
-    if min(shares) < 0 or abs(sum(shares) - 1) > 1e-9:
+    if not all(share >= 0 for share in shares) or not abs(sum(shares) - 1) <= 1e-9:  # so written, a NaN is refused
         raise CampaignError(
             "the shares of train, validation and test add up to 1", next_move="say for example 0.8 0.1 0.1"
         )
@@ -67,9 +72,16 @@ def write(
     counts, told = dict.fromkeys(PARTS, 0), dict[str, dict[str, Any]]()
     with writing("the data set", folder):
         for row in store.rows():
-            if row.recording and (shapes := _world(store, row, columns, folder, part_of(campaign, row, shares))):
+            path = folder / f"split={part_of(campaign, row, shares)}" / f"{row.world}.parquet"
+            if row.recording and (shapes := _world(store, row, columns, path)):
                 counts[part_of(campaign, row, shares)] += 1
                 told.setdefault(row.plan_sha256 if campaign.sweep is None else "sweep", shapes)
+            else:
+                path.unlink(missing_ok=True)
+        for path in folder.glob("split=*/*"):
+            kept = store.row(path.stem)  # a draft that was broken off is of no world
+            if kept is None or path.parent.name != f"split={part_of(campaign, kept, shares)}":
+                path.unlink()
         if not told:
             raise CampaignError(
                 "no world of this campaign left a recording",
@@ -77,11 +89,11 @@ def write(
                 next_move="worldwright campaign status",
             )
         about = {"columns": told, "shares": dict(zip(PARTS, shares, strict=True)), "worlds": counts}
-        write_json(folder / "schema.json", about)
+        write_json(folder / SCHEMA, about)
     return counts
 
 
-def _world(store: Store, row: Row, columns: tuple[str, ...], folder: Path, part: str) -> dict[str, Any]:
+def _world(store: Store, row: Row, columns: tuple[str, ...], path: Path) -> dict[str, Any]:
     """Write one world's file; what its columns are. Nothing is written of a recording that cannot be read."""
     import numpy as np
     import pyarrow as pa
@@ -99,31 +111,45 @@ def _world(store: Store, row: Row, columns: tuple[str, ...], folder: Path, part:
                 next_move=f"known: {', '.join(name for name in known if name != 'time')}",
             )
         time = np.asarray(recording.time)
-        cells: dict[str, Any] = {
-            "world": pa.array([row.world] * len(time)),
-            "number": pa.array(np.full(len(time), row.number)),
-            "row": pa.array(np.arange(len(time))),
-            "time": pa.array(time),
-        }
-        cells |= {f"vary.{name}": pa.array(np.full(len(time), float(value))) for name, value in row.values.items()}
-        for name in columns:
-            flat = np.ascontiguousarray(getattr(recording, name)).reshape(len(time), -1)
-            ends = np.arange(len(time) + 1, dtype=np.int32) * flat.shape[1]
-            cells[name] = pa.ListArray.from_arrays(pa.array(ends), pa.array(flat.reshape(-1)))
+        arrays = {name: getattr(recording, name) for name in columns}
+        widths = {name: math.prod(array.shape[1:]) for name, array in arrays.items()}
     except (stored.RecordingError, RecordingError):
         return {}
     shapes = {
         name: {"shape": list(known[name].shape), "unit": known[name].unit, "description": known[name].description}
         for name in ("time", *columns)
     }
-    table = pa.table(cells).replace_schema_metadata(
-        {"worldwright": json.dumps({"outcome": row.outcome, "columns": shapes})}
-    )
-    for other in PARTS:  # the shares were others, the last time
-        (folder / f"split={other}" / f"{row.world}.parquet").unlink(missing_ok=True)
-    path = folder / f"split={part}" / f"{row.world}.parquet"
+
+    def stretch(begin: int, end: int) -> pa.Table:
+        cells: dict[str, Any] = {
+            "world": pa.array([row.world] * (end - begin), pa.string()),
+            "number": pa.array(np.full(end - begin, row.number)),
+            "row": pa.array(np.arange(begin, end)),
+            "time": pa.array(time[begin:end]),
+        }
+        cells |= {f"vary.{name}": pa.array(np.full(end - begin, float(value))) for name, value in row.values.items()}
+        for name, array in arrays.items():
+            ends = np.arange(end - begin + 1, dtype=np.int32) * np.int32(widths[name])
+            cells[name] = pa.ListArray.from_arrays(
+                pa.array(ends), pa.array(np.ascontiguousarray(array[begin:end]).ravel())
+            )
+        return pa.table(cells)
+
+    (path.parents[1] / SCHEMA).unlink(missing_ok=True)  # until all of it is written
     path.parent.mkdir(parents=True, exist_ok=True)
     draft = path.with_name(f".{path.name}")
-    pa.parquet.write_table(table, draft, compression="zstd")
+    schema = stretch(0, 0).schema.with_metadata(
+        {"worldwright": json.dumps({"outcome": row.outcome, "columns": shapes})}
+    )
+    with pa.parquet.ParquetWriter(draft, schema, compression="zstd") as writer:
+        for begin, end in stretches(len(time), max(widths.values(), default=1)):
+            writer.write_table(stretch(begin, end))
     draft.replace(path)
     return shapes
+
+
+def stretches(rows: int, width: int) -> Iterator[tuple[int, int]]:
+    """Stretches of a recording's rows, of which the widest column has so many numbers a row; at least one, an empty one of none."""
+    length = max(1, MOST_NUMBERS // max(1, width))
+    for begin in range(0, max(1, rows), length):
+        yield begin, min(rows, begin + length)

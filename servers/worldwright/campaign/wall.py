@@ -1,14 +1,15 @@
 """The page of a campaign: what came of it, failures grouped by cause, histograms of margins, and a wall of its worlds.
 
-`index.html` lies in the campaign's folder and reads nothing but the posters and reports beside it. Rows are gone through twice:
+`index.html` lies in the campaign's folder and reads nothing but the posters, films and reports beside it; a film plays under the pointer. Rows are gone through twice:
 once for the columns and the order, then by number for the table, the page and whoever else looks at each; of a very large campaign
 the page shows the worlds that come first.
 """
 
 import json
 import math
+from array import array
 from collections import Counter, defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -72,7 +73,7 @@ class Seen:
 
     outcomes: Counter[str] = field(default_factory=Counter)
     groups: dict[tuple[str, str], Group] = field(default_factory=dict)
-    margins: dict[str, list[float]] = field(default_factory=lambda: defaultdict(list))
+    margins: dict[str, "array[float]"] = field(default_factory=lambda: defaultdict(lambda: array("d")))
     units: dict[str, str] = field(default_factory=dict)
     shown: list[Row] = field(default_factory=list)
     total: int = 0
@@ -154,7 +155,7 @@ def render(store: Store, seen: Seen) -> str:
     )
 
 
-def histogram(name: str, values: list[float], unit: str = "") -> Histogram:
+def histogram(name: str, values: Sequence[float], unit: str = "") -> Histogram:
     """The histogram of finite values, at least one."""
     low, high = min(values), max(values)
     if high - low <= 1e-12 * max(1.0, abs(low)):
@@ -183,6 +184,7 @@ def _tile(row: Row) -> dict[str, Any]:
         "m": round(margin, 6) if margin is not None and math.isfinite(margin) else None,
         "v": ", ".join(_values(row)),
         "p": row.poster,
+        "f": row.film,
         "r": row.report or (f"{row.folder}/" if row.folder else ""),
     }
     return {name: value for name, value in told.items() if value not in ("", None)}

@@ -1,33 +1,34 @@
 """A world written by a coding harness without a person: started in a folder of its own, watched, and moved in when it ends.
 
 Each session is `authors/xx/<world>/N/`: `transcript.jsonl` (what it printed), `errors.txt`, `told.json` (how it ended, written
-before anything is moved, so that a session that came to its end is never paid again), `process` (whom to end, should the worker die).
+before anything is moved, so that a session that came to its end is never paid again), `process` (whom to end, should the worker and
+`author_watch` die).
 """
 
-import contextlib
 import os
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from pathlib import Path
 from typing import IO
 
-from worldkit.files import write_atomic, write_json
+from worldkit.files import write_json
 
-from ..model.errors import WorldwrightError
 from ..model.evidence.run import Run
 from ..model.frozen import Frozen
 from ..stage import family
-from . import author_folder
+from . import author_folder, author_watch
 from .author_folder import AuthorError
 from .author_talk import Talk
 from .author_words import Author
+from .campaign_file import Campaign
 from .campaign_store import Begun, Store
 from .world_row import Written
 
-LOOK_S, ENDS_S = 0.25, 10.0
-"""How often it is looked at; how long it has between the polite word and the last."""
+LOOK_S = 0.25
+"""How often it is looked at."""
 LAST = 400
 """Characters of what it said that stand in a row."""
 
@@ -105,17 +106,7 @@ def worlds(store: Store) -> list[str]:
 def stop(store: Store, world: str) -> bool:
     """End the session of a world that a worker left behind, with all that it started; whether one lived."""
     session = _last(store, world)
-    if session is None:
-        return False
-    try:
-        pid, since = (session / "process").read_text().split()
-        if _since(int(pid)) == since:
-            _end(int(pid))
-            _stop_passes(session)
-            return True
-    except (OSError, ValueError):  # it was never started
-        pass
-    return False
+    return session is not None and author_watch.stop(session)
 
 
 def _session(session: Path, begun: Begun, prompt: str, deadline: float) -> tuple[str, str, str]:
@@ -130,29 +121,34 @@ def _session(session: Path, begun: Begun, prompt: str, deadline: float) -> tuple
             return "harness_missing", said, f"npm install -g {talk.harness.PACKAGE}, or name it in `author.program`"
         words = talk.harness.headless(prompt, author.model, room, begun.campaign.per_world.usd)
         with talk.path.open("wb") as out, (session / "errors.txt").open("wb") as errors:
-            process = _started([program, *author.options, *words], room, out, errors)
+            watch = _started(session, [program, *author.options, *words], room, out, errors)
     except AuthorError as error:
         return error.code, str(error.cause), error.next_move
     except (OSError, ValueError) as error:  # no such program any more, too long a line, a NUL in the prompt
         return "harness_missing", f"{talk.harness.NAME} cannot be started: {error}", "see `author.program`"
-    write_atomic(session / "process", f"{process.pid} {_since(process.pid)}")
     try:
-        cut = _watched(process, talk, begun, room, deadline)
+        cut = _watched(watch, talk, begun, room, deadline)
     finally:
-        _end(process.pid)
-        process.wait()
-        _stop_passes(session)
-    return cut or _how(process.returncode, talk, session, begun.campaign.per_world.usd)
+        assert watch.stdin is not None
+        watch.stdin.close()  # its word to end the harness
+        if not family.ends_within(watch, 3 * author_watch.ENDS_S):
+            watch.kill()
+        watch.wait()
+        author_watch.stop(session)  # where the watch was itself killed
+    return cut or _how(watch.returncode, talk, session, begun.campaign)
 
 
-def _started(words: list[str], room: Path, out: IO[bytes], errors: IO[bytes]) -> "subprocess.Popen[bytes]":
+def _started(
+    session: Path, words: list[str], room: Path, out: IO[bytes], errors: IO[bytes]
+) -> "subprocess.Popen[bytes]":
+    """The harness, below a process that ends with us."""
     from ..contract import harnesses
 
     inside = {name for harness in harnesses.known().values() for name in harness.SHELL_SETS}
     return subprocess.Popen(
-        words,
+        [sys.executable, "-P", "-m", author_watch.__name__, str(session), *words],
         cwd=room,
-        stdin=subprocess.DEVNULL,
+        stdin=subprocess.PIPE,
         stdout=out,
         stderr=errors,
         start_new_session=True,
@@ -172,6 +168,8 @@ def _watched(
             return "over_time", f"{said}; it last said: {_cut(talk.last) or '(nothing)'}", "raise per_world.seconds"
         if limits.usd is not None and spent is not None and spent > limits.usd:
             return _over_usd(spent, limits.usd)
+        if spent == 0 and (unpriced := _unpriced(talk, begun.campaign)):
+            return unpriced
         if limits.runs is not None and _runs(room) > limits.runs:
             return "over_runs", f"its author ran its physics more than {limits.runs} times", "raise per_world.runs"
         if talk.too_long:
@@ -179,10 +177,12 @@ def _watched(
     return None
 
 
-def _how(code: int, talk: Talk, session: Path, most_usd: float | None) -> tuple[str, str, str]:
+def _how(code: int, talk: Talk, session: Path, campaign: Campaign) -> tuple[str, str, str]:
     """How a session that ended by itself ended."""
     talk.read(whole=True)
-    errors = _tail(session / "errors.txt")
+    errors, most_usd = _tail(session / "errors.txt"), campaign.per_world.usd
+    if not (session / author_watch.PROCESS).exists():
+        return "harness_missing", f"{talk.harness.NAME} cannot be started: {_cut(errors)}", "see `author.program`"
     name, move = talk.harness.NAME, f"read authors/{session.parent.parent.name}/{session.parent.name}/{session.name}"
     if talk.over_usd:
         return "over_usd", f"{name} ended it for what it cost: {_cut(talk.last)}", "raise per_world.usd"
@@ -193,8 +193,9 @@ def _how(code: int, talk: Talk, session: Path, most_usd: float | None) -> tuple[
         said = _cut(talk.wrong or errors)
         return "not_logged_in", f"{name} has no account here: {said}", f"log in: start `{talk.harness.PROGRAM}` once"
     if code:
-        killed = code < 0 or code == 128 + signal.SIGKILL
-        how = f"was killed (signal {-code if code < 0 else code - 128})" if killed else f"ended with status {code}"
+        how = f"ended with status {code}"
+        if code < 0 or code - 128 in (signal.SIGKILL, signal.SIGTERM, signal.SIGSEGV, signal.SIGABRT, signal.SIGBUS):
+            how = f"was killed (signal {-code if code < 0 else code - 128})"
         why = _cut(talk.wrong or errors)
         return "harness_died", f"{name} {how}{f': {why}' if why else ', and said nothing'}", move
     if not talk.events:
@@ -202,7 +203,24 @@ def _how(code: int, talk: Talk, session: Path, most_usd: float | None) -> tuple[
         return "rubbish", f"{name} {said}: {_cut(_tail(talk.path) or errors)}", move
     if talk.wrong:
         return "harness_failed", f"{name} could not go on: {_cut(talk.wrong)}", move
-    return "", "", ""
+    return _unpriced(talk, campaign) or ("", "", "")
+
+
+def _unpriced(talk: Talk, campaign: Campaign) -> tuple[str, str, str] | None:
+    """Why no limit of US dollars would ever end it: it counts tokens, and tells no money for them."""
+    cost = talk.cost()
+    limited = campaign.per_world.usd is not None or campaign.budget.usd is not None
+    if not limited or cost.usd or not (cost.read or cost.written) or talk.author.prices is not None:
+        return None
+    told = "no money" if cost.usd is None else "0 US dollars"
+    said = (
+        f"{talk.harness.NAME} tells {told} for {cost.read + cost.written:,} tokens: no limit of `usd` would ever end it"
+    )
+    return (
+        "no_prices",
+        said,
+        "give `author.prices: {read, written}`, US dollars for a million tokens, or leave `usd` out",
+    )
 
 
 def _over_usd(spent: float, most: float) -> tuple[str, str, str]:
@@ -227,38 +245,6 @@ def _set_aside(store: Store, world: str, session: Path) -> None:
     session.mkdir(parents=True)
     if store.world(world).exists():
         store.world(world).rename(session / "before")
-
-
-def _stop_passes(session: Path) -> None:
-    from ..stage.job import Job
-
-    for folder in (session / "project/runs").glob("*/"):
-        for job in Job.all(Run(folder)):
-            with contextlib.suppress(WorldwrightError):
-                job.cancel()
-
-
-def _end(pid: int) -> None:
-    """End a process and all that descends from it: first politely, since a harness then ends its servers."""
-    processes = family.census(pid).processes
-    for sent in (signal.SIGTERM, signal.SIGKILL):
-        with contextlib.suppress(OSError):
-            os.killpg(pid, sent)
-        ends = time.monotonic() + ENDS_S
-        while sent == signal.SIGTERM and any(map(_since, processes)) and time.monotonic() < ends:
-            time.sleep(0.02)
-    for process in processes:
-        with contextlib.suppress(OSError):
-            os.kill(process, signal.SIGKILL)
-
-
-def _since(pid: int) -> str:
-    """When a living process began, in the kernel's ticks, which tells it from a later one of its number; empty: it does not live."""
-    try:
-        words = Path(f"/proc/{pid}/stat").read_text(errors="replace").rpartition(")")[2].split()
-    except OSError:
-        return ""
-    return "" if words[0] in "ZX" else words[19]
 
 
 def _author(begun: Begun) -> Author:

@@ -92,6 +92,8 @@ class Row(Written, cache_strings="keys"):
     """Relative to the campaign's folder, too."""
     report: str = ""
     poster: str = ""
+    film: str = ""
+    """The accepted film, else the one of its evidence; the author's before a camera's."""
     memory_mb: float = 0.0
     """Largest resident memory of its worker so far."""
     worker: str = ""

@@ -3,7 +3,7 @@
 from ..model.errors import PlanError
 from ..model.plan.committed import AssetRow
 from ..model.plan.imported import is_model, is_road, is_sculpt, load, sculpture
-from . import vehicles_text
+from . import plants_text, vehicles_text
 from .python_text import Raw, call, constant_name, literal
 from .stances import Stances
 
@@ -14,6 +14,8 @@ def written(objects: Stances, row: AssetRow) -> str:
         return vehicles_text.road(objects, row)
     if row.vehicle is not None:
         return vehicles_text.written(objects, row)
+    if row.plant is not None:
+        return plants_text.written(objects, row)
     own_of = _models(objects, row) if is_model(row) else {}
     keywords = {} if is_model(row) else _sculpt(objects, row) if is_sculpt(row) else _mesh(objects, row)
     function, what = (

@@ -1,7 +1,8 @@
 """An accepted world without its program: the file that is the world, its facts, its plan, and the inputs that drove it."""
 
 import json
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -31,6 +32,8 @@ class AcceptedWorld:
     folder: Path
     given: "Given"
     plan: "Plan"
+    stamped: Mapping[str, str] = field(default_factory=dict)
+    """SHA-256 of the files that the stamp lists, by name."""
 
     @classmethod
     def read(cls, name: Path | str) -> "AcceptedWorld":
@@ -72,7 +75,7 @@ class AcceptedWorld:
                 )
         facts = folder / FACTS
         given = Given.read(folder / WORLD, facts / "program.json", facts / "inputs.json")
-        return cls(folder, given, read_plan(folder / "plan.md").plan)
+        return cls(folder, given, read_plan(folder / "plan.md").plan, stamped)
 
     @cached_property
     def model(self) -> "mujoco.MjModel":

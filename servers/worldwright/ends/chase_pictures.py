@@ -20,7 +20,10 @@ if TYPE_CHECKING:
     from .live_source import LiveSource
 
 CHASE = "chase"
-SIZE, FPS, QUALITY = (400, 224), 15.0, 72
+SIZE, FPS, QUALITY = (400, 224), 20.0, 72
+QUICK, FILM = "quick", "film"
+LOOKS = (QUICK, FILM)
+SUN = (-0.4, 0.3, -0.87)
 FOVY_DEG = 50.0
 BEHIND, ABOVE, AHEAD = 1.3, 0.5, 0.4
 """Where the camera stands and looks, in sizes of what it follows."""
@@ -37,12 +40,14 @@ class LiveView:
     Args:
         source: the world.
         size: width and height, pixels.
+        follow: a body.
+        look: `quick`, in plain light, or `film`, as the house draws films, at several times the price.
 
     Raises:
         NotFoundError: the world has no camera of the name that is asked for.
     """
 
-    def __init__(self, source: "LiveSource", size: tuple[int, int] = SIZE, follow: str = "") -> None:
+    def __init__(self, source: "LiveSource", size: tuple[int, int] = SIZE, follow: str = "", look: str = QUICK) -> None:
         import mujoco
 
         from worldengine.film.drawn_frames import Frames
@@ -56,6 +61,8 @@ class LiveView:
         while spec.camera(self.chase) is not None:
             self.chase += "_"
         spec.worldbody.add_camera(name=self.chase, fovy=FOVY_DEG)
+        if look == QUICK:
+            plainly_lit(spec)
         self._model = model = spec.compile()
         self.cameras = (self.chase, *(n for n in names(model, "camera", model.ncam) if n != self.chase))
         poses = source.poses()
@@ -66,7 +73,7 @@ class LiveView:
         self._size_m = _size_m(model, model.body(self.followed).id)
         self._heading = np.array([1.0, 0.0]) if self._turns else np.array([0.6, 0.8])
         self._data, self._time = mujoco.MjData(model), 0.0
-        self._frames = Frames(model, *size)
+        self._frames = Frames(model, *size, renderer="classic" if look == QUICK else "")
 
     def draw(self, state: np.ndarray, camera: str = "") -> np.ndarray:
         """(height, width, 3) uint8 of a state (`worldengine.clock.state_frames`); the following camera without a name."""
@@ -109,6 +116,31 @@ class LiveView:
     def close(self) -> None:
         """Free the renderer."""
         self._frames.close()
+
+
+def plainly_lit(spec: "mujoco.MjSpec") -> None:
+    """Light a world for the engine's own renderer: day, a sky, no shadows, and pixels drawn once.
+
+    Of a car in 400 x 224 that takes 13 ms of a processor, a sixth of the 80 ms that the house's own look takes, whose four passes over
+    all vertices, soft shadows and development a hand at the wheel cannot wait for. A hard shadow would double it.
+    """
+    import mujoco
+
+    spec.visual.quality.offsamples = 0
+    spec.visual.headlight.active = 1
+    spec.visual.headlight.ambient, spec.visual.headlight.diffuse = (0.42, 0.42, 0.44), (0.2, 0.2, 0.2)
+    spec.visual.headlight.specular = (0.05, 0.05, 0.05)
+    for light in spec.lights:
+        light.active = False
+    spec.worldbody.add_light(
+        type=mujoco.mjtLightType.mjLIGHT_DIRECTIONAL, dir=SUN, diffuse=(0.6, 0.58, 0.55), specular=(0.2, 0.2, 0.2),
+        castshadow=False,
+    )  # fmt: skip
+    if not any(texture.type == mujoco.mjtTexture.mjTEXTURE_SKYBOX for texture in spec.textures):
+        spec.add_texture(
+            name="sky of the live picture", type=mujoco.mjtTexture.mjTEXTURE_SKYBOX, width=64, height=384,
+            builtin=mujoco.mjtBuiltin.mjBUILTIN_GRADIENT, rgb1=(0.35, 0.5, 0.72), rgb2=(0.82, 0.86, 0.9),
+        )  # fmt: skip
 
 
 def _cars(model: "mujoco.MjModel") -> tuple[str, ...]:

@@ -3,16 +3,15 @@
 Anybody who can write the folder can have written them, so each is read by a schema, and what is a link is refused.
 """
 
-import fcntl
 import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Literal, NoReturn
 
-from pydantic import ConfigDict, Field, FiniteFloat, PositiveInt, ValidationError
+from pydantic import ConfigDict, Field, FiniteFloat, NonNegativeInt, PositiveInt, ValidationError
 
-from ..model import json_object
+from ..model import json_object, try_lock
 from ..model.errors import GateError
 from ..model.evidence.run import Run, sha256_file
 from ..model.frozen import Frozen
@@ -58,6 +57,18 @@ class Span(Frozen):
     to_s: FiniteFloat
 
 
+class Pace(Frozen):
+    """How the pace of the wall clock was kept, by the engine's own word; nothing of a process that was killed."""
+
+    why: str = Field(default="", max_length=300)
+    """Why it ended."""
+    overruns: NonNegativeInt | None = None
+    worst_s: FiniteFloat | None = None
+    lost_s: FiniteFloat | None = None
+    jumps: NonNegativeInt | None = None
+    refused: NonNegativeInt | None = None
+
+
 class Predicate(Frozen):
     """What a drive's statement says; `driven.stated` finds each of it anew."""
 
@@ -72,7 +83,9 @@ class Predicate(Frozen):
     """of so many."""
     trajectory_sha256: str
     inputs_sha256: str
-    pace: dict[str, str | int | FiniteFloat]
+    pace: Pace
+    witnessed: bool = False
+    """Whether the process of the live world stated this; False where it was finished later, and then nobody signs."""
 
 
 class _Digest(Frozen):
@@ -139,8 +152,10 @@ def held(folder: Path) -> Iterator[None]:
         refuse(folder / BEGUN, f"its beginning cannot be read: {cause.strerror}")
     with file:
         try:
-            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
+            free = try_lock.taken(file.fileno())
+        except OSError as cause:
+            refuse(folder / BEGUN, f"it cannot be held: {cause.strerror}", "copy the run to a file system with locks")
+        if not free:
             refuse(folder, "this drive still runs, or is proved by another process", "end it (Ctrl-C), then prove it")
         yield
 
@@ -160,6 +175,18 @@ def statement(folder: Path) -> Statement:
     """Its statement; a `GateError` where there is none that makes sense."""
     found: Statement = _read(folder / STATEMENT, Statement)
     return found
+
+
+def pace(folder: Path) -> Pace:
+    """How its pace was kept; a `GateError` where what was written of it makes no sense."""
+    path = folder / LIVE / "result.json"
+    if not path.is_file():
+        return Pace()
+    said = facts(folder, f"{LIVE}/{path.name}")
+    try:
+        return Pace.model_validate({name: said[name] for name in Pace.model_fields if name in said})
+    except ValueError as cause:
+        refuse(path, f"{path.name} makes no sense: {_first(cause)}")
 
 
 def spans(folder: Path, seconds: float) -> tuple[Span, ...]:

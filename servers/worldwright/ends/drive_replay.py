@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 
 SAME = ("time", "qpos", "qvel", "act")
 """Columns of the rows recorded live that the replay must repeat."""
-WALL_S, MEMORY_MB, FILE_MB = 3600.0, 8192, 8192
-"""Of the replay: seconds of its own, MiB of memory, MiB of one file."""
+STILL_S, MEMORY_MB, FILE_MB = 120.0, 8192, 8192
+"""Of the replay: seconds of its own in which no step is taken, MiB of memory, MiB of one file. Its length is that of the drive."""
 
 
 @contextmanager
@@ -55,11 +55,12 @@ def steps_of(live: "Recording") -> int:
     return steps
 
 
-def again(folder: Path, room: Path, every: int) -> "Recording":
+def again(folder: Path, given: Path, room: Path, every: int) -> "Recording":
     """Drive the world again by the stream, confined, in a clean process, into a folder of its own.
 
     Args:
         folder: of the drive.
+        given: where the copies lie that are driven: world, facts, inputs, stream.
         room: a new folder to record in.
         every: steps between two rows recorded live, as many as possible of which must be rows of the replay.
 
@@ -70,12 +71,12 @@ def again(folder: Path, room: Path, every: int) -> "Recording":
 
     from ..stage import confined
 
-    given = {"world": "world.mjz", "program": "program.json", "inputs": "inputs.json", "replay": STREAM}
-    words = [word for name, file in given.items() for word in (f"--{name}", str(folder / file))]
+    parts = {"world": "world.mjz", "program": "program.json", "inputs": "inputs.json", "replay": STREAM}
+    words = [word for name, file in parts.items() for word in (f"--{name}", str(given / file))]
     call = [sys.executable, "-s", "-P", "-m", "worldengine", "physics", *words, "--meets", str(every), "--out", "{out}"]
     ended = confined.run(
-        call, reads=[folder / file for file in given.values()], wanted=("error.json",), wall_s=WALL_S,
-        memory_mb=MEMORY_MB, file_mb=FILE_MB, kept=room,
+        call, reads=[given / file for file in parts.values()], wanted=("error.json",), wall_s=STILL_S,
+        memory_mb=MEMORY_MB, file_mb=FILE_MB, kept=room, advances=True,
     )  # fmt: skip
     if ended.status != "ended" or ended.exit_code:
         said = (json_object.told(ended.files.get("error.json", b"")) or {}).get("message")

@@ -1,10 +1,11 @@
 """The world that is stepped live: an accepted one as it was stamped, else the one that was built and recorded last."""
 
 import hashlib
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from ..model import json_object
 from ..model.errors import GateError
@@ -18,6 +19,8 @@ if TYPE_CHECKING:
     from worldengine.given import Given
 
     from ..model.plan.committed import Plan
+
+PROGRAM, INPUTS = "program.json", "inputs.json"
 
 
 @dataclass(frozen=True)
@@ -36,6 +39,8 @@ class LiveSource:
     """What was recorded: an npz file or a recording's folder."""
     stamp_sha256: str = ""
     """Of the stamp of an accepted world."""
+    digests: Mapping[str, str] = field(default_factory=dict)
+    """SHA-256 of plan, world and facts as they were stamped or recorded, by the names that they have in a drive."""
 
     @classmethod
     def find(cls, name: Path | str) -> "LiveSource":
@@ -53,6 +58,7 @@ class LiveSource:
             return cls(
                 run, world.plan, world.folder / "plan.md", world.folder / WORLD, folder, _driven(folder),
                 world.folder / MOTION, stamp,
+                {"plan.md": world.stamped["plan.md"], **_named(world.stamped, f"{FACTS}/")},
             )  # fmt: skip
         from ..model.evidence import environment
         from ..model.plan.plan_text import read_plan
@@ -65,16 +71,18 @@ class LiveSource:
                 next_move="write a plan whose interventions declare the controls (skill importing-models)",
             )
         physics = recorded(run, run.evidence_key(environment.current().sha256()))
-        said = (json_object.read(physics / "result.json") or {}).get("world_sha256")
-        if not (physics / WORLD).is_file() or sha256_file(physics / WORLD) != said:
-            raise GateError(
-                f"{WORLD} is not the world that was recorded",
-                place=str(physics / WORLD),
-                next_move=f"worldwright stage start {run.folder} --stage physics",
-            )
+        digests = _named((json_object.read(physics / "result.json") or {}).get("files"))
+        for name, digest in {WORLD: digests[WORLD], PROGRAM: digests["facts.json"], INPUTS: digests[INPUTS]}.items():
+            if not (physics / name).is_file() or sha256_file(physics / name) != digest:
+                raise GateError(
+                    f"{name} is not what was recorded",
+                    place=str(physics / name),
+                    next_move=f"worldwright stage start {run.folder} --stage physics",
+                )
+        digests["plan.md"] = sha256_file(run.plan)
         motion = physics / "trajectory"
         plan = read_plan(run.plan).plan
-        return cls(run, plan, run.plan, physics / WORLD, physics, _driven(motion), motion)
+        return cls(run, plan, run.plan, physics / WORLD, physics, _driven(motion), motion, "", digests)
 
     @cached_property
     def given(self) -> "Given":
@@ -101,6 +109,13 @@ class LiveSource:
             recording = stored.open(self.motion)
             return recording.pos, recording.quat
         return None, None
+
+
+def _named(files: Any, at: str = "") -> dict[str, str]:
+    """World and facts out of a list of files by SHA-256; what is not listed has none."""
+    listed = files if isinstance(files, dict) else {}
+    names = {WORLD: WORLD, f"{at}{PROGRAM}": "facts.json", f"{at}{INPUTS}": INPUTS}
+    return {ours: str(listed.get(theirs, "")) for theirs, ours in names.items()}
 
 
 def _driven(folder: Path) -> Path | None:

@@ -1,6 +1,5 @@
 """A world that lives in a process of its own, as others here see it: its newest state, its commands, its end."""
 
-import fcntl
 import shutil
 import socket
 import subprocess
@@ -15,14 +14,19 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.files import write_json
 
-from ..model.errors import JobError
+from ..model import try_lock
+from ..model.errors import GateError, JobError
 from ..model.evidence.run import sha256_file
 from ..model.storage import StorageError, writing
-from ..stage.sandbox.confinement import environment
+from ..stage import confined, family, plain, sandbox
+from ..stage.confined import ENDLESS_CPU_S
+from ..stage.sandbox.confinement import Confinement, environment
+from ..stage.sandbox.enter import enter
 from ..stamp import keyring, signing
 from .drive_folder import BEGINNING, BEGUN, DRIVES, GIVEN, LIVE, Begun
 from .live_source import LiveSource
 from .offered_commands import offered
+from .witness import Witness
 
 if TYPE_CHECKING:
     import numpy as np
@@ -33,6 +37,8 @@ BEGIN_S = 120.0
 FAREWELL_S = 30.0
 SPEEDS = (0.01, 100.0)
 LONGEST_S = 100_000.0
+FILE_BYTES, MEMORY_BYTES = 8 << 30, 12 << 30
+"""Of one file that the engine writes, and of its address space."""
 
 
 class LiveWorld:
@@ -47,13 +53,14 @@ class LiveWorld:
 
     Attributes:
         commands: what may be commanded.
+        witness: writes down who drives, and vouches for what is left.
         newest: (facts, state). Facts: `step`, `time_s`, `factor` (simulated seconds in the last second), `overruns`, `worst_s`,
             `lost_s`, `waits`, `silent` (commands whose failsafe acts), `commands`; `ended` once it has. The state is a vector of
             `worldengine.clock.state_frames.PARTS`.
 
     Raises:
-        GateError: the plan declares nothing to drive.
-        JobError: the engine did not begin.
+        GateError: the plan declares nothing to drive, or the world is no longer what was stamped.
+        JobError: the engine did not begin, or nothing confines it here.
         StorageError: the folder cannot be written.
     """
 
@@ -72,6 +79,14 @@ class LiveWorld:
         self._newest: tuple[dict[str, Any], np.ndarray | None] = ({}, None)
         self.told: list[Callable[[], object]] = []
         """They are called, on another thread, when there is a newer state, and at the end."""
+        self._level = sandbox.level()
+        if not confined.allowed(self._level):
+            raise JobError(
+                "no level of the sandbox confines here, and a world's file may be anybody's",
+                code="refused",
+                place=str(source.run.folder),
+                next_move="worldwright doctor; or WORLDWRIGHT_SANDBOX=rlimits, for a world that you trust",
+            )
         self._lay()
         self._pending: dict[str, Any] = {}
         self._lock, self._wake, self._over, self._first = (
@@ -98,33 +113,53 @@ class LiveWorld:
                 shutil.copyfile(path, self.folder / name)
             write_json(self.folder / "commands.json", [row.written() for row in self.commands])
             (self.folder / BEGINNING).mkdir()
+            files = {name: sha256_file(self.folder / name) for name in GIVEN}
+            for name, digest in source.digests.items():
+                if files[name] != digest:
+                    shutil.rmtree(self.folder, ignore_errors=True)
+                    raise GateError(
+                        f"{name} changed while the drive began: it is not what was "
+                        f"{'stamped' if source.stamp_sha256 else 'recorded'}",
+                        place=str(source.run.folder),
+                        next_move=f"worldwright stamp status {source.run.folder}",
+                    )
             said = Begun(
                 drive=self.folder.name, run=source.run.name, stamp_sha256=source.stamp_sha256, speed=self.speed,
-                begun_at=self.begun, files={name: sha256_file(self.folder / name) for name in GIVEN},
+                begun_at=self.begun, files=files,
             )  # fmt: skip
             write_json(self.folder / BEGUN, said.model_dump(mode="json"))
-            # Whoever holds it lets nobody prove the drive meanwhile; the engine holds it, too, and may outlive this process.
+            # Whoever holds it lets nobody prove the drive meanwhile; the engine holds it, too, until its last row is written.
             self._held = (self.folder / BEGUN).open("rb")
-            fcntl.flock(self._held, fcntl.LOCK_EX)
+            try_lock.taken(self._held.fileno())
+            self.witness = Witness(self.folder, files)
         with suppress(signing.SigningError, StorageError):  # then the end is not signed either
             signing.sign(self.folder / BEGINNING, Path(BEGUN).name, keyring.own())
 
     def _start(self, seconds: float, waits: bool) -> None:
+        """Start the engine, confined as every pass is: it sees this world and writes what it records, and has this one socket."""
         ours, theirs = socket.socketpair()
-        words = ["live", "--world", "world.mjz", "--program", "facts.json", "--inputs", "inputs.json", "--out", LIVE]
-        words += ["--commands", "commands.json", "--socket", str(theirs.fileno())]
+        self._room = tempfile.TemporaryDirectory(prefix="worldwright-live-", ignore_cleanup_errors=True)
+        out, scratch, token = self.folder / LIVE, Path(self._room.name), family.new_token()
+        out.mkdir()
+        files = {"world": "world.mjz", "program": "facts.json", "inputs": "inputs.json", "commands": "commands.json"}
+        given = {name: self.folder.absolute() / file for name, file in files.items()}
+        if self.source.drove is not None:
+            given["replay"] = self.source.drove.resolve()
+        words = ["live", *(word for name, path in given.items() for word in (f"--{name}", str(path)))]
+        words += ["--out", str(out.absolute()), "--socket", str(theirs.fileno())]
         words += ["--speed", repr(float(self.speed)), "--seconds", repr(float(seconds))]
         words += ["--waits"] if waits else []
-        if self.source.drove is not None:
-            words += ["--replay", str(self.source.drove.resolve())]
-        with (self.folder / "engine.log").open("wb") as log:
-            self._process = subprocess.Popen(
-                call(words), cwd=self.folder, env=environment(tempfile.gettempdir()), stdin=subprocess.DEVNULL,
-                pass_fds=(theirs.fileno(), self._held.fileno()),
-                stdout=log, stderr=log, start_new_session=True,
+        confinement = Confinement(
+            out=out.absolute(), reads=tuple(given.values()), scratch=scratch, cpu_s=ENDLESS_CPU_S,
+            file_bytes=FILE_BYTES, memory_bytes=MEMORY_BYTES, token=token, processes=16, threads=128,
+            environment=environment(str(scratch)),
+        )  # fmt: skip
+        with theirs, (self.folder / "engine.log").open("wb") as log:
+            self._entered = enter(
+                sandbox.LADDER[self._level], call(words), confinement, stdout=log, stderr=log,
+                descriptors=(theirs.fileno(), self._held.fileno()),
             )  # fmt: skip
-        theirs.close()
-        self._socket = ours
+        self._process, self._token, self._socket = self._entered.process, token, ours
         for work in (self._hear, self._say):
             threading.Thread(target=work, name=f"live{work.__name__}", daemon=True).start()
 
@@ -166,13 +201,17 @@ class LiveWorld:
         try:
             status = self._process.wait(FAREWELL_S)
         except subprocess.TimeoutExpired:
-            self._process.kill()
+            family.end(self._process.pid, self._token)
             status = self._process.wait()
+        family.sweep(self._token)
         self._over.wait(FAREWELL_S)
         self._wake.set()
         self._socket.close()
         self._held.close()
+        self._room.cleanup()
+        self.witness.ended()
         if not self.facts.get("step"):
+            self.witness.close()
             shutil.rmtree(self.folder, ignore_errors=True)
         return status
 
@@ -207,11 +246,7 @@ class LiveWorld:
                     self._socket.sendall(json.dumps(said).encode() + b"\n")
 
     def _failure(self) -> str:
-        import json
-
-        with suppress(OSError, ValueError, KeyError):
-            return str(json.loads((self.folder / LIVE / "error.json").read_bytes())["message"])
-        return ""
+        return str(plain.read_json(self.folder / LIVE / "error.json").get("message", ""))
 
     def _log_end(self) -> str:
         with suppress(OSError):

@@ -1,4 +1,4 @@
-"""What a person may command of a world that is stepped live: its declared controls, and the pedals of its cars."""
+"""What a person may command of a world that is stepped live: its declared controls, and the pedals of its vehicles."""
 
 import math
 from pathlib import Path
@@ -37,14 +37,14 @@ def offered(model: "mujoco.MjModel", plan: "Plan", given: "Given", drove: Path |
         GateError: the plan declares no control, or gives the pedals of a car one number.
     """
     from worldengine.inputs.ports import Ports
-    from worldkit.vehicles.found_cars import controls, find_cars
+    from worldkit.vehicles.found_cars import find_cars
 
     indices = tuple(Ports(model, given.inputs).entries.get("ctrl", ()))
     found = {row.name: row for row in control_inputs(model, plan, indices, recorded(model, given, drove))}
     said = _live(plan)
     rows: list[Command] = []
     for name, car in find_cars(model).items():
-        own = controls(name)
+        own = car.actuators(name)
         if not found.keys() >= set(own):
             continue
         live = next((said[control] for control in own if control in said), Live())

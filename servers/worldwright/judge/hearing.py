@@ -1,7 +1,8 @@
 """Every film before the judge: each vote is asked for once, kept as it comes, and never paid again.
 
 What is wrong with one film (it is declined, or answered in no form) leaves that film undecided; what is wrong with the judge (no
-right, not there, too many questions) ends the hearing, and what was voted stays.
+right, not there, too many questions) ends the hearing, and what was voted stays. Films that failed the last time are asked about
+last, so that a few of them never keep the others from being heard.
 """
 
 import contextlib
@@ -127,6 +128,7 @@ def _heard(
             records.write(_not_shown(scenarios[id], entrant, bench, error))
             heard.undecided[id] = f"{error.code}: {error.cause}"
             say(f"{id}: {error.cause}")
+    waiting.sort(key=lambda one: bool(one[0].failed_code))
     for record, words in waiting:
         id, question = record.id, Question(words, records.pieces(record), *_called(bench))
         try:
@@ -137,6 +139,7 @@ def _heard(
                 say(f"{id}: vote {len(record.votes)} of {bench.votes}")
             record.decided()
             heard.decided += 1
+            alike = [""]
         except TieError as error:
             heard.undecided[id] = error.cause
         except JudgeError as error:

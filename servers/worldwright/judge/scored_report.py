@@ -56,6 +56,13 @@ class Own(Frozen):
             return "judge not calibrated"
         return "" if self.calibrated.fit else "judge UNFIT"
 
+    @property
+    def claimed(self) -> str:
+        """How claimed outcomes came about, with how many runs that is not told of; why stands with each of them below."""
+        told = [self.staging.text()] if self.staging else []
+        told += [f"{len(self.not_audited)} runs not audited"] if self.not_audited else []
+        return "; ".join(told) or "no film of a run"
+
 
 class Report(Frozen):
     """All of it."""
@@ -158,8 +165,7 @@ def markdown(report: Report) -> str:
             rows.append((one.name, "", "withheld", "withheld", "withheld", "", f"{len(one.undecided)} films undecided"))
             continue
         g = one.tally.overall
-        staging = one.staging.text() if one.staging else "no accepted run"
-        rows.append((one.name, str(g.both.of), g.sa.text(), g.pc.text(), g.both.text(), staging, one.remark))
+        rows.append((one.name, str(g.both.of), g.sa.text(), g.pc.text(), g.both.text(), one.claimed, one.remark))
     lines += _table(heads, rows)
     lines += ["", f"In brackets: Wilson's interval of 95 %. Published: {anchor_rows.CITED}."]
     if report.own:

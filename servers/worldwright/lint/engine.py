@@ -208,6 +208,11 @@ def findings(
         )
 
 
+def law_rows(plan: Plan) -> Iterator[str]:
+    """Names of the author's own laws that a plan declares."""
+    yield from (row.solver.name for row in plan.simulation_parameters.interventions if row.solver and row.solver.file)
+
+
 def in_order(found: Iterable[Finding]) -> list[Finding]:
     """Sort by line, column and code; findings without a line come first."""
     return sorted(found, key=lambda f: (f.line or 0, f.column or 0, f.code))
@@ -308,8 +313,15 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
 
     failure = try_film(path.parent)
     if failure is None:
-        first = f"`worldwright go {path.parent} --until expect`, then ask again"
-        return [], f"{path.name}: {NOT_TRIED}: nothing is recorded of its program and plan yet; {first}"
+        first = f"`worldwright go {path.parent} --until lint` says what it lacks, then ask again"
+        return [], f"{path.name}: {NOT_TRIED}: there is no world of its program and plan yet; {first}"
+    if failure.get("code") == "needs_recording":
+        where = f"line {failure['line']}: " if failure.get("line") else ""
+        why = "that may be the missing motion's, and is tried again on the recording"
+        return (
+            [],
+            f"{path.name}: tried on the world as it starts, where nothing moves: {where}{failure['message'].removeprefix('NeedsRecordingError: ')}; {why}",
+        )
     if not failure:
         return [], f"{path.name}: described and drawn; next: `worldwright stage frames {path.parent} --show shots`"
     line = int(failure.get("line") or 1)
@@ -355,7 +367,7 @@ def check_program_file(
         return found, ""
     if model is None and any(about_names(f.code) for f in found):  # an author's ignore does not make a name exist
         return found, f"{path.name}: the world is not built until its names are right"
-    from .compiled import fetch
+    from .compiled import fetch, law_trial
 
     if wall_s < LEAST_WALL_S:
         return found, f"{path.name}: the world is not built: the call's time went into the files before it"
@@ -374,6 +386,15 @@ def check_program_file(
     if outcome.status == "nothing":
         return found, f"{path.name}: the program makes no world"
     said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
-    if outcome.pass_s is not None:
-        said += f"; by its first steps the physics takes about {max(outcome.pass_s, 1):.2g} s here"
-    return in_order([*found, *check_world(program, outcome, planned)]), said
+    price = outcome.pass_s
+    found += check_world(program, outcome, planned)
+    rehearsed = law_trial.of(path, plan, outcome, found, wall_s)
+    beside = rehearsed is None and plan is not None and any(law_rows(plan))
+    if beside and bundle is not None and price is not None:  # the file has no laws: they are the program's
+        price = fetch.world(path, wall_s=wall_s).pass_s
+        said += "" if price is not None else "; its laws were not asked in time, so its price is not known"
+    if price is not None:
+        said += f"; by its first steps{' and its laws' * beside} the physics takes about {max(price, 1):.2g} s here"
+    if rehearsed is not None:
+        return in_order([*found, *rehearsed.findings]), f"{said}\n{path.name}: {rehearsed.said}"
+    return in_order(found), said

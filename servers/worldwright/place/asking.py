@@ -1,5 +1,6 @@
 """Ask the pre-roll process which objects penetrate, and what happens when they are released."""
 
+import hashlib
 import json
 import os
 import signal
@@ -16,7 +17,7 @@ from ..model import call_time, processor_time
 from ..model.errors import JobError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
 from ..model.plan.formed import arguments
-from ..model.plan.imported import is_model, load
+from ..model.plan.imported import is_model, is_road, load
 from ..model.plan.layout import Scene
 from . import kept_answers
 from .start import Motion
@@ -201,10 +202,12 @@ def _request(plan: Plan, scene: Scene, names: set[str], floating: bool, loose: b
                 "name": placed.name,
                 "asset": row.filename if isinstance(row, AssetRow) and row.type == "mesh" else None,
                 "model": _model(plan, row),
+                "vehicle": _vehicle(row),
+                "road": _road(plan, row),
                 "primitive": row.primitive
                 if isinstance(row, SceneObject)
                 else "box"
-                if row.type in ("sculpt", "vehicle", "road")
+                if row.type in ("sculpt", "plant")
                 else None,
                 "wall": row.wall_thickness if isinstance(row, SceneObject) else None,
                 "size": row.size if isinstance(row, SceneObject) else placed.size,
@@ -233,6 +236,21 @@ def _model(plan: Plan, row: SceneObject | AssetRow) -> dict[str, Any] | None:
     model = load(row, plan.folder)
     told: dict[str, Any] = {"text": model.text, "folder": model.folder}
     return told | ({"files": model.files, "root": str(plan.folder.absolute())} if model.files and plan.folder else {})
+
+
+def _vehicle(row: SceneObject | AssetRow) -> dict[str, Any] | None:
+    """Kind and numbers of a vehicle, which is put there on its wheels."""
+    if not isinstance(row, AssetRow) or row.vehicle is None:
+        return None
+    return {"kind": row.vehicle.kind, "numbers": row.vehicle.numbers}
+
+
+def _road(plan: Plan, row: SceneObject | AssetRow) -> dict[str, str] | None:
+    """The file of a road, and what it holds: an answer that was kept is of this surface."""
+    if not isinstance(row, AssetRow) or not is_road(row) or plan.folder is None:
+        return None
+    path = (plan.folder / row.filename).absolute()
+    return {"file": str(path), "sha256": hashlib.sha256(path.read_bytes()).hexdigest()}
 
 
 def _parts(plan: Plan, row: SceneObject | AssetRow) -> list[dict[str, Any]]:

@@ -1,7 +1,7 @@
 """The chain of rows and formulas from the base to an object's numbers."""
 
 from ..model.plan.committed import Plan
-from ..model.plan.imported import is_model, is_road, is_sculpt, is_vehicle
+from ..model.plan.imported import is_model, is_plant, is_road, is_sculpt, is_vehicle
 from .placement_results import Explained, Explanation
 from .resolution import Resolution
 
@@ -57,6 +57,9 @@ def _sizes(plan: Plan) -> dict[str, str]:
             continue
         if is_vehicle(row):
             owners |= dict.fromkeys(row.instances, "length_m, width_m and height_m of its vehicle")
+            continue
+        if is_plant(row):
+            owners |= dict.fromkeys(row.instances, "the limbs and leaves that its plant's numbers grow")
             continue
         if is_sculpt(row):
             owners |= dict.fromkeys(row.instances, "size given in assets")

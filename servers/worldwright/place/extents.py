@@ -100,8 +100,8 @@ def _asset(plan: Plan, row: AssetRow) -> Box:
         except PlanError as error:
             raise _UnknownSizeError(error.cause, error.next_move, "filename") from error
         return _boxed(row.name, (high[0] - low[0], high[1] - low[1], high[2] - low[2]))
-    if row.vehicle is not None:
-        return _boxed(row.name, row.vehicle.made().extents)
+    if (told := row.vehicle or row.plant) is not None:
+        return _boxed(row.name, told.made().extents)
     from worldkit import assets
 
     if row.name not in plan.asset_dimensions:

@@ -4,7 +4,7 @@ An engine error may end its process, and engines print, so the server never step
 JSON request on standard input (`asking.simulate`) and writes its answer to the file `out` named there.
 
 Its world has a ground plane and every object with its real collision shapes at its resolved pose, and nothing else: no
-initial motion, no control. While it is at work it says where in the file `out`.progress, which its caller watches.
+initial motion, no control. A vehicle stands on its wheels, a road is its surface. While it is at work it says where in the file `out`.progress, which its caller watches.
 """
 
 import json
@@ -140,6 +140,8 @@ def _build(request: dict[str, Any]) -> Any:
 
     from worldkit import assets, beside_program, bodies, contacts, models
 
+    from . import grounds
+
     spec = mujoco.MjSpec()
     spec.option.timestep = request["time_step"]
     spec.option.gravity = request["gravity"]
@@ -167,6 +169,10 @@ def _build(request: dict[str, Any]) -> Any:
             body = assets.add(spec, row["asset"], height=row["size"][2], **common)
             for geom in [geom for geom in body.geoms if geom.contype == 0 and geom.conaffinity == 0]:
                 spec.delete(geom)
+        elif row["vehicle"]:
+            grounds.vehicle(spec, row)
+        elif row["road"]:
+            grounds.road(spec, row, request["objects"], common["surface"])
         else:
             _primitive(bodies, spec, row, common)
         if row.get("moved"):

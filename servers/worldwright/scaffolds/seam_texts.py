@@ -200,7 +200,7 @@ def diagnose(root: Path) -> Diagnosis | None:
     return Diagnosis(PROGRAM, False, "AUTHOR: is not looked at yet", "AUTHOR: what the person does", essential=False)
 
 
-def unattended(files: dict[str, str]) -> dict[str, str]:
+def unattended(files: dict[str, str], folder: Path) -> dict[str, str]:
     """AUTHOR: of its files those that are other where nobody is there to be asked."""
     return {{}}
 

@@ -40,3 +40,10 @@ def unlike_part(part: "Part", *, exact: bool) -> tuple[str, str]:
 
     why = repeated.unmade(part)
     return ("" if why else repeated.unlike(part, exact=exact)), why
+
+
+def unbalanced(balances: tuple[Any, ...]) -> list[str]:
+    """For lint (no tool): see `anomalies.checks.unbalanced_law.early`."""
+    from .anomalies.checks import unbalanced_law as law
+
+    return law.early(balances)

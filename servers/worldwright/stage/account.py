@@ -96,11 +96,8 @@ def _acted(trajectory: Trajectory, plan: Plan | None) -> Iterator[str]:
     if ledger is None:
         return
     declared = covering(plan.declared() if plan else (), trajectory.flex_points)
-    rows: dict[tuple[str, str], list[int]] = {}
-    for n, pair in enumerate(zip(ledger.kind, ledger.target, strict=True)):
-        rows.setdefault((str(pair[0]), str(pair[1])), []).append(n)
     lines, seen = [], set()
-    for (kind, target), mine in rows.items():
+    for (kind, target), mine in ledger.groups.items():
         row = declaration(kind, target, declared)
         if row is not None:
             seen.add(id(row))

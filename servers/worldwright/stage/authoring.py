@@ -55,7 +55,7 @@ def place(source: Path) -> dict[str, Any]:
     }
 
 
-def call(program: Path, motion: Path, out: Path | str) -> list[str]:
-    """The command line that lets the author describe the film."""
-    words = [str(program), "--motion", str(motion), "--out", str(out)]
+def call(program: Path, motion: Path, out: Path | str, unmoved: bool = False) -> list[str]:
+    """The command line that lets the author describe the film; `unmoved`: the motion is that of no recording."""
+    words = [str(program), "--motion", str(motion), "--out", str(out), *(["--unmoved"] if unmoved else [])]
     return [sys.executable, "-s", "-P", "-m", "worldkit.filming.telling", *words]

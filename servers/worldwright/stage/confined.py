@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from .kept_sculpts import Given
 
 TICK_S = 0.2
+PROGRESS = "progress.json"
+ENDLESS_CPU_S = 30 * 86_400
+"""The kernel wants a number; a run that counts its progress is ended when it stands still."""
 STARVED = 20.0
 """A run that gets less than this part of its time is ended all the same."""
 MB = 1 << 20
@@ -60,6 +63,7 @@ def run(
     home: Callable[[Path], object] | None = None,
     cancelled: Callable[[], bool] = lambda: False,
     kept: Path | None = None,
+    advances: bool = False,
 ) -> Confined:
     """Run a command to its end in the sandbox; `{out}` in it stands for the one folder it may write.
 
@@ -76,6 +80,8 @@ def run(
         home: lays something into its throw-away home, whose folder it is given, before it starts.
         cancelled: asked several times a second; the run is ended when it says so.
         kept: the folder that it may write, which stays, for what is too large to be handed over; a throw-away one without it.
+        advances: it tells in `progress.json` how much is done (`worldkit.reporting.Progress`); then `wall_s` begins anew whenever
+            that grows, and its length is bounded by what it has to do, not by a clock.
 
     Raises:
         CallOverError: the client's call ended first; what was sculpted until then is kept.
@@ -95,7 +101,7 @@ def run(
             out=out,
             reads=tuple(path.absolute() for path in (*reads, *(_places(sculpts)))),
             scratch=scratch,
-            cpu_s=int(wall_s) + 1,
+            cpu_s=ENDLESS_CPU_S if advances else int(wall_s) + 1,
             file_bytes=file_mb * MB,
             memory_bytes=memory_mb * MB + (4 << 30),
             token=family.new_token(),
@@ -107,7 +113,8 @@ def run(
         # Its output goes to a file, so that the limit on files holds for it, too.
         with (Path(folder) / "log.txt").open("w+b") as log:
             began = time.monotonic()
-            status, code = _watched(sandbox.LADDER[name], words, confinement, log, wall_s, memory_mb * MB, cancelled)
+            limits = wall_s, memory_mb * MB, advances
+            status, code = _watched(sandbox.LADDER[name], words, confinement, log, limits, cancelled)
             wall = time.monotonic() - began
             log.seek(max(0, log.seek(0, os.SEEK_END) - LOG_BYTES))
             tail = log.read().decode(errors="replace")
@@ -148,6 +155,12 @@ class OwnTime:
         return max(self.spent_s, (now_s - self._began) / STARVED)
 
 
+def _done(out: Path) -> float:
+    """How much a run says is done; 0 where it says nothing that makes sense."""
+    said = plain.read_json(out / PROGRESS).get("done")
+    return float(said) if isinstance(said, int | float) and abs(said) < 1e15 else 0.0
+
+
 def _matching(out: Path, pattern: str) -> list[str]:
     """At most so many names in a folder that fit a pattern, sorted."""
     return sorted(path.name for path in out.glob(pattern))[:MOST_MATCHING]
@@ -158,18 +171,21 @@ def _watched(
     call: list[str],
     confinement: Confinement,
     log: object,
-    wall_s: float,
-    memory: int,
+    limits: tuple[float, int, bool],
     cancelled: Callable[[], bool],
 ) -> tuple[str, int]:
+    wall_s, memory, advances = limits
     entered = enter(level, call, confinement, stdout=log, stderr=subprocess.STDOUT)
     process, status = entered.process, "ended"
-    own, computed = OwnTime(time.monotonic()), [0.0]
+    own, computed, done, since = OwnTime(time.monotonic()), [0.0], 0.0, 0.0
     try:
         while not family.ends_within(process, TICK_S, computed.append):
             seen = family.census(process.pid)
             computed.append(seen.cpu_s)
-            if own.after(time.monotonic(), seen.cpu_s, seen.wanting) > wall_s:
+            spent = own.after(time.monotonic(), seen.cpu_s, seen.wanting)
+            if advances and (now := _done(confinement.out)) > done:
+                done, since = now, spent
+            if spent - since > wall_s:
                 status = "timed_out"
                 break
             if call_time.left_s() < 0:

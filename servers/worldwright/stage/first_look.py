@@ -29,9 +29,26 @@ def at_start(run: Run, camera: str | None, eye: str | None, target: str | None, 
         NotFoundError, PlanError: there is no program, and no plan that makes one; or `eye` and `target` are no standpoint.
         JobError: the program does not run; the error has its line.
     """
+    through = standpoint(camera, eye, target, fov_deg)
+    with tempfile.TemporaryDirectory(prefix="worldwright-first-") as folder:
+        here = Path(folder)
+        built(run, here)
+        words = ["sheet", f"--world={here / WORLD}", f"--program={here / FACTS}", "--size", SIZE, *through]
+        found = engine(words, (here / WORLD, here / FACTS), (SHEET,), again=AGAIN)
+    said = found["result.json"]
+    caption = f"{', '.join(said['cameras'])} at the start; nothing is recorded of this program and plan"
+    shown = Looked(size=said["size"], renderer=said["renderer"]["name"], glances=())
+    return Illustrated(shown, (Picture(found[SHEET], caption, "jpeg"),))
+
+
+def built(run: Run, here: Path) -> None:
+    """Build the program's world in the sandbox, and leave it and its facts in the folder `here`: `WORLD`, `FACTS`.
+
+    Raises:
+        PlanError, JobError: as `at_start`.
+    """
     from ..model.plan.plan_text import read_plan
 
-    through = standpoint(camera, eye, target, fov_deg)
     plan = read_plan(run.plan).plan if run.plan.is_file() else None
     if plan is not None:
         sculpting_step.prepare(plan)
@@ -39,20 +56,13 @@ def at_start(run: Run, camera: str | None, eye: str | None, target: str | None, 
     files = {"simulation.py": program, **beside}
     for name, content in files.items():
         _readable(run.folder / name, content)
-    with tempfile.TemporaryDirectory(prefix="worldwright-first-") as folder:
-        here, source = Path(folder), Path(folder) / "source"
-        for name, content in files.items():
-            write_atomic(source / name, content)
-        words = [sys.executable, "-s", str(source / "simulation.py"), "--pass", "build", "--out", "{out}"]
-        made = run_process(words, (source,), (WORLD, FACTS), sculpts=kept_sculpts.given(files), again=AGAIN)
-        for name in (WORLD, FACTS):
-            write_atomic(here / name, made[name])
-        words = ["sheet", f"--world={here / WORLD}", f"--program={here / FACTS}", "--size", SIZE, *through]
-        found = engine(words, (here / WORLD, here / FACTS), (SHEET,), again=AGAIN)
-    said = found["result.json"]
-    caption = f"{', '.join(said['cameras'])} at the start; nothing is recorded of this program and plan"
-    shown = Looked(size=said["size"], renderer=said["renderer"]["name"], glances=())
-    return Illustrated(shown, (Picture(found[SHEET], caption, "jpeg"),))
+    source = here / "source"
+    for name, content in files.items():
+        write_atomic(source / name, content)
+    words = [sys.executable, "-s", str(source / "simulation.py"), "--pass", "build", "--out", "{out}"]
+    made = run_process(words, (source,), (WORLD, FACTS), sculpts=kept_sculpts.given(files), again=AGAIN)
+    for name in (WORLD, FACTS):
+        write_atomic(here / name, made[name])
 
 
 def _readable(path: Path, content: bytes) -> None:

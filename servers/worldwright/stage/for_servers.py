@@ -165,17 +165,29 @@ def look_at_start(run: Run, camera: str | None, eye: str | None, target: str | N
 def try_film(folder: Path) -> dict[str, str] | None:
     """For other servers (no tool): let the author describe the film of a run, and draw one small picture of it.
 
-    Returns how it failed (`code`, `message`, `line`, `next_move`), empty if it did not; None without a recording.
-    """
-    from ..model.errors import CallOverError, GateError, JobError
+    Where nothing is recorded yet it is tried on the world as it starts (`stage.film_trial`).
 
+    Returns how it failed (`code`, `message`, `line`, `next_move`), empty if it did not; None where there is no world to try it on.
+    The code `needs_recording` says that the missing recording may be why.
+    """
+    from ..model.errors import CallOverError, GateError, JobError, PlanError
+    from ..model.evidence import environment
+    from . import film_trial
+
+    run = Run.find(folder)
     try:
-        draw_moment(Run.find(folder), 0.0, None, (64, 36))
-    except (NotFoundError, GateError):
+        try:
+            draw_moment(run, 0.0, None, (64, 36))
+        except (NotFoundError, GateError):
+            key = run.evidence_key(environment.current().sha256()) if run.program.is_file() else None
+            film_trial.tried(run, key)
+    except (NotFoundError, GateError, PlanError):
         return None
     except CallOverError:
         raise  # it tells nothing of the film
     except JobError as failure:
+        if not film_trial.is_films(failure):
+            return None
         line = failure.place.rpartition(":")[2]
         said = {"code": failure.code, "message": failure.cause, "next_move": failure.next_move}
         return {**said, "line": line if line.isdecimal() else ""}

@@ -90,7 +90,7 @@ def each(
     for at_s, camera, (width, height) in wanted:
         words += ["--seen", f"{width}x{height}:{float(at_s)}:{camera}"]
     filmed = any(camera == FILM for _, camera, _ in wanted)
-    limits = {"wall_s": WALL_S * len(wanted)}
+    limits: dict[str, Any] = {"wall_s": WALL_S * len(wanted)}
     found = draw_frame(run, recorded(run, key), (), SIZE, filmed, words, words, (FRAME[:-4] + "*.png",), **limits)
     names = [FRAME, *(f"frame-{number}.png" for number in range(2, len(wanted) + 1))]
     return [found.get(name) for name in names]
@@ -160,6 +160,7 @@ def draw_frame(
     through: Sequence[str],
     more: Sequence[str] = (),
     wanted: Sequence[str] = (FRAME, "frame-*.png"),
+    unmoved: bool = False,
     **limits: float,
 ) -> dict[str, Any]:
     """What the engine tells and leaves (`FRAME`, `frame-2.png` …) of moments of the film where it is `filmed`, else `through` a camera.
@@ -173,11 +174,12 @@ def draw_frame(
         through: the engine's words for a camera; the first of the plan when empty.
         more: further words for the engine, of a film.
         wanted: names of what the engine must leave, or patterns of what it may.
+        unmoved: `physics` holds no recording, but a world that stands still.
         limits: of the process, if they are not the usual ones; see `short_runs`.
     """
     moments = [at_s] if isinstance(at_s, int | float) else at_s
     with tempfile.TemporaryDirectory(prefix="worldwright-frame-") as folder:
-        told = [describe(run, physics, Path(folder))] if filmed else []
+        told = [describe(run, physics, Path(folder), unmoved)] if filmed else []
         words = ["frame", *given_words(physics), "--size", f"{size[0]}x{size[1]}"]
         words += [word for at in moments for word in ("--at", str(float(at)))]
         words += ["--film", str(told[0]), *more] if told else through
@@ -201,8 +203,11 @@ def minutes(seconds: float) -> str:
     return f"{seconds / 60:.0f} min" if seconds > 100 else f"{seconds:.0f} s"
 
 
-def describe(run: Run, physics: Path, here: Path) -> Path:
-    """Have the run's film described in the sandbox, or the house's own where it has none; returns the folder of the description, below `here`."""
+def describe(run: Run, physics: Path, here: Path, unmoved: bool = False) -> Path:
+    """Have the run's film described in the sandbox, or the house's own where it has none; returns the folder of the description, below `here`.
+
+    `unmoved`: `physics` holds no recording, but a world that stands still.
+    """
     source, told = here / "source", here / authoring.FOLDER
     files = pictures_of.files(run)
     for name, content in files.items():
@@ -210,7 +215,7 @@ def describe(run: Run, physics: Path, here: Path) -> Path:
     motion, written = source / authoring.MOTION, source / authoring.PROGRAM
     source.mkdir(parents=True, exist_ok=True)
     authoring.lay_out(physics / "trajectory", physics / "program.json", motion, run.source)
-    call = authoring.call(written if written.is_file() else authoring.UNASKED, motion, "{out}")
+    call = authoring.call(written if written.is_file() else authoring.UNASKED, motion, "{out}", unmoved)
     found = run_process(call, (source,), (DESCRIPTION, ARRAYS), sculpts=given(files) if files else None)
     for name in (DESCRIPTION, ARRAYS):
         write_atomic(told / name, found[name])
@@ -220,4 +225,5 @@ def describe(run: Run, physics: Path, here: Path) -> Path:
 def given_words(physics: Path) -> list[str]:
     """The engine's words for the world, its facts and its recording in the evidence of a physics pass."""
     files = {"world": "world.mjz", "program": "program.json", "inputs": "inputs.json", "from": "trajectory"}
-    return [word for name, file in files.items() for word in (f"--{name}", str(physics / file))]
+    found = {name: physics / file for name, file in files.items() if name != "inputs" or (physics / file).is_file()}
+    return [word for name, path in found.items() for word in (f"--{name}", str(path))]

@@ -80,6 +80,10 @@ def said(summary: dict[str, Any]) -> str:
         parts.append(
             f"they are drawn by `{by['name']}`, since `{by['instead_of']}` failed ({why}); worldwright doctor tells more"
         )
+    if takes_s := summary.get("tracing_takes_s"):
+        parts.append(
+            f"they are drawn by `{by['name']}`, since tracing a whole film takes about {max(1, math.ceil(takes_s / 60))} minutes: give so many at once"
+        )
     parts += [f"{reckoned} are reckoned between them by how all that is seen moves"] if reckoned else []
     parts += [f"{held} show the nearest drawn one"] if held else []
     parts += [f"none could be reckoned any more ({summary['unreckoned']})"] if summary.get("unreckoned") else []

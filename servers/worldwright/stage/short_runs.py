@@ -28,6 +28,7 @@ def run_process(
     home: Callable[[Path], object] | None = None,
     again: str = AGAIN,
     less: str = LESS,
+    advances: bool = False,
 ) -> dict[str, Any]:
     """Run a process in the sandbox; returns what it left, by name, with its `result.json` read.
 
@@ -41,6 +42,7 @@ def run_process(
         home: lays something into its throw-away home.
         again: the command that shows the failure once more.
         less: what to do when it takes too much.
+        advances: `wall_s` begins anew whenever it has advanced; see `confined.run`.
 
     Raises:
         JobError: it failed, was stopped, or left too little; a line of the author's is in its place.
@@ -56,13 +58,16 @@ def run_process(
             file_mb=512,
             home=home,
             sculpts=sculpts,
+            advances=advances,
         )
     except CallOverError as early:
         raise call_time.over(again) from early
     said = {name: plain.as_object(ended.files.get(name, b"")) for name in (RESULT, ERROR)}
     if ended.status != "ended":
         why = {
-            "timed_out": f"it took more than {wall_s:g} s of processor time",
+            "timed_out": f"nothing advanced for {wall_s:g} s"
+            if advances
+            else f"it took more than {wall_s:g} s of processor time",
             "out_of_memory": f"it took more than {memory_mb / 1024:g} GB of memory",
         }
         cause = why.get(ended.status, f"it was stopped: {ended.status}")

@@ -7,7 +7,10 @@ shorter of both.
 
 from pathlib import Path
 
+from pydantic import model_validator
+
 from ..model.frozen import Frozen
+from .kept import Kept
 from .statement import Statement
 
 NAME = "motion.json"
@@ -32,6 +35,14 @@ class Motion(Frozen):
     """Per sample and body: path length so far."""
     turned_deg: tuple[tuple[float, ...], ...]
     """Per sample and body: accumulated rotation so far."""
+
+    @model_validator(mode="after")
+    def _whole(self) -> "Motion":
+        for name in ("position", "quaternion", "travelled_m", "turned_deg"):
+            rows = getattr(self, name)
+            if len(rows) != len(self.time_s) or any(len(row) != len(self.bodies) for row in rows):
+                raise ValueError(f"{name} has no number for each sample and body")
+        return self
 
 
 class Difference(Frozen):
@@ -119,7 +130,5 @@ def compare(stamped: Motion, now: Motion) -> Difference:
 
 
 def stamped_motion(accepted: Path, statement: Statement) -> Motion | None:
-    """The motion kept in an accepted folder, when there is one."""
-    if not statement.digest_of(NAME):
-        return None
-    return Motion.model_validate_json((accepted / NAME).read_bytes())
+    """The motion kept in an accepted folder, when there is one that can be read."""
+    return Kept.read(accepted / NAME, Motion).value if statement.digest_of(NAME) else None

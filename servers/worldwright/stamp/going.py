@@ -8,11 +8,10 @@ evidence of this program and plan answers is not done again, so a walk that ran 
 import time
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from pathlib import Path
 from typing import Literal
 
 from ..model.errors import CallOverError, WorldwrightError
-from ..model.evidence import approval
+from ..model.evidence import approval, pictures_of
 from ..model.evidence.build_steps import StepName
 from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
@@ -20,6 +19,7 @@ from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
 from . import audited, gates, next_repair, picture_claims, scope
 from .gone import Gone, Wrong
+from .smallest_seen import smallest_seen
 from .state import State
 from .steps import Step, one
 
@@ -115,7 +115,7 @@ class Going:
                 self.say(name, "waiting", f"{due}\nnext: {turn}")
                 break
             except RunningError as still:
-                self.under_way.append(str(still))
+                self.under_way += [str(still)] if str(still) not in self.under_way else []
             else:
                 self.say(name, "done", self.held[name])
         if {"causes", "stills", "video"} <= self.held.keys() and (robust := audited.robust_beside(self.run)):
@@ -159,8 +159,13 @@ class Going:
             for name in group:
                 if name != "place" or State(self.run).plan is not None:  # what cannot be read cannot be placed
                     yield name, getattr(self, name)
-            if "expect" in group:
+            first = self.film_due() and not self.wrong and self.until not in group
+            if ("expect" in group and not first) or ("video" in group and not (self.storyboard or self.under_way)):
                 self.draw()
+
+    def film_due(self) -> bool:
+        """Whether the author's own film is still to be drawn: it comes before any other picture, as it is what was asked for."""
+        return (self.run.folder / pictures_of.FILM).is_file() and self.step("video").status == "missing"
 
     def step(self, name: StepName) -> Step:
         """Where a step stands now, by the files."""
@@ -232,7 +237,7 @@ class Going:
         from ..lint.tools import check_program
 
         if (known := self.step("lint")).holds and not scope.changed(State(self.run), self.run.program.name):
-            return known.detail
+            return "\n".join([known.detail, *self.film()])
         with suppress(WrongError, WorldwrightError):  # what went wrong lint tells together with all the rest
             self.passed("bundle")
         report = check_program([self.run.program], plan=self.run.plan)
@@ -240,7 +245,19 @@ class Going:
         if errors:
             raise WrongError(*((str(f), f"edit {f.file or self.run.program}") for f in errors))
         remarks = [str(f) for f in report.findings][:MOST_REMARKS]
-        return "\n".join([f"{report.rules} rules", *report.worlds, *remarks])
+        return "\n".join([f"{report.rules} rules", *report.worlds, *remarks, *self.film()])
+
+    def film(self) -> list[str]:
+        """What is said of `film.py`, tried on the start of the world before its motion is paid for; afterwards its pass says it."""
+        from ..lint.tools import check_program
+
+        path = self.run.folder / pictures_of.FILM
+        if not path.is_file() or self.step("physics").holds:
+            return []
+        report = check_program([path])
+        if errors := [f for f in report.findings if f.severity == "error"]:
+            raise WrongError(*((str(f), f"edit {path}") for f in errors))
+        return [*report.worlds]
 
     # -- what the recording says ---------------------------------------------------------------------------------------
 
@@ -287,7 +304,7 @@ class Going:
         remarks = by_kind(a for a in anomalies if a.severity == "warn")
         said = [self.step("scan").detail]
         with suppress(WorldwrightError):  # without the recording there is nothing to add
-            said += [f"smallest in the pictures: {small}"] if (small := _smallest(self.run)) else []
+            said += [f"smallest in the pictures: {small}"] if (small := smallest_seen(self.run)) else []
         return "\n".join([*said, *remarks[:MOST_REMARKS]])
 
     def expect(self) -> str:
@@ -338,7 +355,7 @@ class Going:
         from ..stage.tools import latest, start
 
         with suppress(WorldwrightError):  # the pass says so itself when its turn comes
-            for stage in self.pictures():
+            for stage in ("video",) if self.film_due() else self.pictures():
                 job = latest(self.run, stage)
                 if job is None or job.state == "lost":
                     self.ended[stage] = start(self.name, stage=stage).account
@@ -373,27 +390,11 @@ class Going:
         return self.step("causes").detail
 
     def stills(self) -> str:
-        """Each camera's picture of the beginning."""
+        """Each camera's picture of the beginning; an author's film comes first."""
+        if self.film_due():
+            self.passed("video")
         return self.passed("stills")
 
     def video(self) -> str:
         """Each camera's film."""
         return self.passed("video") if "video" in self.pictures() else self.step("video").detail
-
-
-_SMALLEST: dict[tuple[Path, str, str], str] = {}
-"""Of the last recording, by its run, key and hash: it is read for this once, however often a walk is taken up again."""
-
-
-def _smallest(run: Run) -> str:
-    """See `scan.tools.smallest`."""
-    from ..scan.tools import smallest
-
-    state = State(run)
-    about = (run.folder, state.key.key if state.key else "", state.trajectory_sha256)
-    said = _SMALLEST.get(about)
-    if said is None:
-        said = smallest(run)
-        _SMALLEST.clear()  # which another walk beside may do at any moment, too
-        _SMALLEST[about] = said
-    return said

@@ -46,20 +46,17 @@ def acted(recording: Path, declared: tuple[Intervention, ...]) -> tuple[Acted, .
             place=str(recording),
             next_move="run the physics pass again with this version of worldkit",
         )
-    groups: dict[tuple[str, str], list[tuple[float, float]]] = {}
-    for kind, target, time, work in zip(ledger.kind, ledger.target, ledger.time, ledger.work_j, strict=True):
-        groups.setdefault((str(kind), str(target)), []).append((float(time), float(work)))
     found = []
-    for (kind, target), events in sorted(groups.items()):
-        row = declaration(kind, target, declared)
+    for (kind, target), rows in sorted(ledger.groups.items()):
+        row, times = declaration(kind, target, declared), ledger.time[rows]
         found.append(
             Acted(
                 kind=kind,
                 target=target,
-                count=len(events),
-                first_s=min(time for time, _ in events),
-                last_s=max(time for time, _ in events),
-                work_j=sum(work for _, work in events),
+                count=len(rows),
+                first_s=float(times.min()),
+                last_s=float(times.max()),
+                work_j=float(ledger.work_j[rows].sum()),
                 declared=row is not None,
                 law=row.law if row else "",
             )

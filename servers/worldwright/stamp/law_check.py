@@ -18,7 +18,7 @@ from ..model.errors import GateError, WorldwrightError
 from ..model.progress import Progress
 from . import bundle, digest, measured_again, media_apart
 from .as_stamped import Check
-from .proof import FACTS, WORLD, Proved, beside, lay_out, prove
+from .proof import DRIVEN, FACTS, WORLD, Proved, beside, lay_out, prove
 from .statement import Statement
 
 NAME = "law"
@@ -37,10 +37,9 @@ def concerns(folder: Path) -> bool:
     """Whether anything entered the kept world of an accepted folder, or its program may have a `control` that could send it.
 
     The facts beside the world are the stranger's, so that only the program's own text can say that there is none, and where the
-    plan declares what a `control` may write, not even that: the program has to show it.
+    plan declares what a `control` may write, not even that: the program has to show it. What lies there is not read: a file that
+    could drive the world is enough.
     """
-    from worldengine.recording import stored
-
     from ..lint import tools as lint
     from ..stage import tools as stage
 
@@ -52,8 +51,8 @@ def concerns(folder: Path) -> bool:
         unsaid = stated.get("control", "unknown") is not None or bool(stated.get("laws", "unknown"))
         open_to_it = any("solver" not in row for row in stage.declared_inputs(folder / "plan.md"))
         unshown = unsaid or not lint.states_alone(program)
-        return controlled or unshown or open_to_it or bool(stored.inputs_digest(facts))
-    except (OSError, ValueError, AttributeError, WorldwrightError, stored.RecordingError):
+        return controlled or unshown or open_to_it or any((facts / name).exists() for name in DRIVEN)
+    except (OSError, ValueError, AttributeError, RecursionError, WorldwrightError):
         return True
 
 

@@ -5,6 +5,7 @@ and pictures are all of the copied bytes. Of what the stamp does not list only t
 is ever asked of it.
 """
 
+import errno
 import fcntl
 import os
 import shutil
@@ -149,6 +150,9 @@ def _take(folder: int, name: str, target: Path) -> None:
     except OSError:
         return
     with os.fdopen(handle, "rb") as source:
-        if stat.S_ISREG(os.fstat(handle).st_mode):
+        told = os.fstat(handle)
+        if stat.S_ISREG(told.st_mode):
+            if told.st_size > shutil.disk_usage(target.parent).free:  # a file of holes says so before it fills the disk
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), name)
             with target.open("wb") as out:
                 shutil.copyfileobj(source, out, 1 << 20)

@@ -68,9 +68,33 @@ def test_numbers_of_which_no_body_can_be_made_are_refused(kind, numbers):
         kind(**numbers)
 
 
-def test_a_truck_is_not_found_as_a_car():
-    assert "it" in find_cars(world(vehicles.Car())[0])
-    assert "it" not in find_cars(world(vehicles.Truck())[0])
+OTHERS = (
+    vehicles.Truck(wheelbase_m=5.0, driven="all", steering_deg=30.0),
+    vehicles.Tracked(road_wheels=4, track_m=2.0, drive_n_m=30_000.0),
+    vehicles.Bicycle(
+        wheelbase_m=1.1, length_m=1.8, trail_m=0.06, head_deg=20.0, mass_kg=80.0, front_share=0.42, height_of_mass_m=0.9
+    ),
+)
+
+
+@pytest.mark.parametrize("vehicle", [*ALL, *OTHERS], ids=lambda v: v.word)
+def test_a_vehicle_of_any_kind_is_found_in_its_world_and_driven_as_by_its_own_numbers(vehicle):
+    model, data = world(vehicle, speed=3.0)
+    found = find_cars(model)
+    assert list(found) == ["it"] and set(found["it"].actuators("it")) == set(vehicle.actuators("it"))
+    for steering, throttle, brake in ((0.0, 0.1, 0.0), (6.0, 0.2, 0.0), (-3.0, -0.3, 0.0), (4.0, 0.0, 0.5)):
+        drive(vehicle, model, data, 0.1, steering_deg=steering, throttle=throttle, brake=brake)
+        asked = {"steering_deg": steering, "throttle": throttle, "brake": brake}
+        vehicles.pedals(vehicle, model, data, "it", **asked)
+        mine = data.ctrl.copy()
+        data.ctrl[:] = np.nan
+        vehicles.pedals(found["it"], model, data, "it", **asked)
+        assert data.ctrl == pytest.approx(mine, rel=1e-6, abs=1e-9)
+
+
+def test_a_trailer_does_not_drive_by_itself():
+    model, _ = world(vehicles.Car(), trailer=vehicles.Trailer())
+    assert list(find_cars(model)) == ["it"]
 
 
 @pytest.mark.parametrize("vehicle", ALL[1:4], ids=lambda v: v.word)
@@ -175,7 +199,8 @@ def _load(model, data, wheel):
 def test_a_tracked_vehicle_turns_on_the_spot_as_its_skidding_wheels_allow():
     """The yaw rate at which the sum of Coulomb frictions, each against its wheel's slip, has no moment about the middle.
 
-    The engine's skidding contacts let a wheel hop, so that its load comes and goes: measured 13 % slower than with even loads.
+    The engine's contact law lifts what skids: a wheel's load comes and goes (a quarter of the time it is off the ground), and the
+    vehicle turns 6 % slower than with even loads, at a quarter of the time step as well, by 3 % with contacts five times softer.
     """
     tracked, turned = vehicles.Tracked(), []
     model, data = world(tracked)
@@ -201,7 +226,7 @@ def test_a_tracked_vehicle_turns_on_the_spot_as_its_skidding_wheels_allow():
         middle = (low + high) / 2
         low, high = (low, middle) if moment(middle) > 0 else (middle, high)
     assert low < 0.95 * belt / half  # it skids: slower than belts on rails would turn it
-    assert rate == pytest.approx(low, rel=0.17)
+    assert rate == pytest.approx(low, rel=0.09)
     assert np.hypot(*data.qpos[:2]) < 0.1
 
 
@@ -232,8 +257,10 @@ def test_a_rider_leans_into_a_bend_as_its_speed_asks_and_stays_up(speed):
     assert lowest < -1e-4 or data.qpos[1] > 1  # first he steers away from the bend, then falls into it
     lean = np.radians(leaned(data))
     yaw = rate / np.cos(lean)
-    assert np.tan(lean) == pytest.approx(now * yaw / G, rel=0.06)
-    assert now / yaw == pytest.approx(bicycle.wheelbase_m / np.tan(np.radians(bend)), rel=0.12)
+    # Trail puts the front wheel beside the frame, and with it, by its share of the load, the line that he balances on.
+    beside = bicycle.front_share * bicycle.trail_m * np.radians(bend) / bicycle.height_of_mass_m
+    assert np.tan(lean) == pytest.approx(now * yaw / G - beside, rel=0.02)
+    assert now / yaw == pytest.approx(bicycle.wheelbase_m / np.tan(np.radians(bend)), rel=0.03)
 
 
 def test_a_bicycle_falls_without_its_rider():

@@ -1,6 +1,7 @@
 """Ray as the hands of a campaign: what it is asked for, and what becomes of what it raises. Ray itself is not installed here.
 
-`make test-ray` installs it, and runs the last tests on a Ray of this machine: its own, and a cluster of two nodes.
+`make test-ray` installs it, and runs the last tests on a Ray of this machine: its own, and a cluster of two nodes, which does
+twenty-four sweeps of an accepted example.
 """
 
 import contextlib
@@ -15,6 +16,7 @@ import types
 
 import pytest
 
+import example_sweeps
 import stub_worlds
 from stub_worlds import FAILS, MASS
 from worldwright.campaign import conducting, on_ray, setting_out
@@ -33,6 +35,7 @@ class StandIn(types.ModuleType):
     def __init__(self, dies=(), silent=()):
         super().__init__("ray")
         self.dies, self.silent, self.asked, self.tasks = dict(dies), set(silent), {}, {}
+        self.dashboard = ""
         self.shut, self.holds = 0, [{"CPU": 4.0, "memory": 8e9}]
 
     def is_initialized(self):
@@ -42,6 +45,7 @@ class StandIn(types.ModuleType):
         self.asked["init"] = words
         if words["address"] == "nobody:1":
             raise ConnectionError("Could not connect to nobody:1\nmore words")
+        return types.SimpleNamespace(dashboard_url=self.dashboard)
 
     def nodes(self):
         dead = {"Alive": False, "Resources": {"CPU": 64.0, "memory": 8e12}}
@@ -101,14 +105,14 @@ def ray(monkeypatch):
 
 @pytest.fixture
 def begun(tmp_path, small_plan):
-    """Begins a campaign over masses, or over another number of the plan."""
+    """Begins a campaign over masses."""
 
-    def begin(values, folder=None, field=MASS, **words) -> Store:
+    def begin(values, **words) -> Store:
         (tmp_path / "plan.md").write_text(small_plan, encoding="utf-8")
         file = tmp_path / "c.yaml"
-        sweep = {"fields": {field: {"values": list(values)}}}
+        sweep = {"fields": {MASS: {"values": list(values)}}}
         file.write_text(json.dumps({"plan": "plan.md", "report": False, "sweep": sweep, **words}))
-        return setting_out.begun(setting_out.checked(file), file, folder or tmp_path / "campaign", approved=False)
+        return setting_out.begun(setting_out.checked(file), file, tmp_path / "campaign", approved=False)
 
     return begin
 
@@ -118,8 +122,15 @@ def test_where_ray_is_installed_it_does_the_work_and_is_left(begun, ray):
     end = conducting.conduct(store, stub_worlds.do, say=lambda said: pytest.fail(said))
     assert end.done == 4 and end.outcomes == {"failed": 1, "held": 3} and module.shut == 1
     assert os.environ[on_ray.NICENESS] == "0", "as our own processes"
-    assert module.asked["init"]["address"] == "local" and module.asked["init"]["include_dashboard"] is False
+    assert module.asked["init"]["address"] == "local" and module.asked["init"]["include_dashboard"] is None
     assert module.asked["remote"]["max_retries"] == 0 and module.asked["remote"]["num_cpus"] == 1
+
+
+def test_the_dashboard_is_named_where_there_is_one(begun, ray):
+    said, store = [], begun([1])
+    ray().dashboard = "127.0.0.1:8265"
+    conducting.conduct(store, stub_worlds.do, say=said.append)
+    assert said == ["Ray's dashboard: http://127.0.0.1:8265"]
 
 
 def test_a_cluster_is_asked_by_its_address_and_for_the_memory_that_worlds_took(begun, ray):
@@ -191,8 +202,6 @@ def test_no_cluster_and_no_ray_are_said_with_what_to_do(begun, ray, monkeypatch)
 
 
 if "WORLDWRIGHT_RAY" in os.environ:
-    BOTTOM = "topology.scene_predicates[0].params.bottom"
-    HEIGHTS = (0.45, 0.5, 0.55, 0.6)
 
     def test_ray_itself_does_the_work(begun):
         store = begun(range(1, 5), hands="ray", workers=2)
@@ -236,7 +245,7 @@ if "WORLDWRIGHT_RAY" in os.environ:
             time.sleep(0.1)
         pytest.fail(f"no Ray listens at {address}")
 
-    def test_two_nodes_give_the_trajectories_that_this_machine_gives(begun, cluster, tmp_path):
+    def test_two_nodes_give_the_trajectories_that_this_machine_gives(cluster, tmp_path):
         ray = __import__("ray")  # which `make test-ray` installs
 
         ray.init(address=cluster, log_to_driver=False)
@@ -244,15 +253,13 @@ if "WORLDWRIGHT_RAY" in os.environ:
             if sum(node["Alive"] for node in ray.nodes()) == 2:
                 break
             time.sleep(0.1)
-        hashes = {}
+        hashes, worlds = {}, max(4, example_sweeps.SWEEPS)
         for hands, where in (("processes", ""), ("ray", cluster)):
-            (tmp_path / hands).mkdir()
-            words = {"hands": hands, "address": where, "workers": 2, "until": "physics"}
-            # Heights, not masses: what falls freely falls as all else does, and equal motions have one hash.
-            store = begun(HEIGHTS, folder=tmp_path / hands / "campaign", field=BOTTOM, **words)
+            file = example_sweeps.campaign(tmp_path / hands, worlds, hands=hands, address=where, workers=2)
+            store = setting_out.begun(setting_out.checked(file), file, tmp_path / hands / "campaign", approved=True)
             end = conducting.conduct(store, perform if hands == "processes" else stub_worlds.on_a_node)
-            assert end.outcomes == {"held": 4}, [row.cause for row in store.rows()]
+            assert end.outcomes == {"held": worlds}, [row.cause for row in store.rows()]
             hashes[hands] = {row.world: row.trajectory_sha256 for row in store.rows()}
         ray.shutdown()
-        assert hashes["ray"] == hashes["processes"] and len(set(hashes["ray"].values())) == 4
+        assert hashes["ray"] == hashes["processes"] and len(set(hashes["ray"].values())) == worlds
         assert noted(store) == ["0", "0"], "each node did its share"

@@ -1,5 +1,6 @@
 """Two real worlds of a sweep, from the plan to the table, and what Python reads of them."""
 
+import itertools
 import json
 
 import mujoco
@@ -157,9 +158,11 @@ def test_the_command_line_counts_shows_and_reports(fallen, tmp_path, short):
     assert refused.exit_code == 2 and "known words: name, plan" in refused.output
 
 
-def test_the_recordings_are_a_data_set_that_is_split_by_the_draw(fallen):
+@pytest.mark.parametrize("at_once", [1, 100, 1 << 22])
+def test_the_recordings_are_a_data_set_that_is_split_by_the_draw(fallen, monkeypatch, at_once):
     from worldwright.campaign import trajectories
 
+    monkeypatch.setattr(trajectories, "MOST_NUMBERS", at_once)
     counts = trajectories.write(fallen)
     assert sum(counts.values()) == 2
     about = json.loads((fallen.folder / "trajectories/schema.json").read_text())
@@ -182,6 +185,43 @@ def test_the_recordings_are_a_data_set_that_is_split_by_the_draw(fallen):
         campaign.trajectories("testing")
     wrong = CliRunner().invoke(main, ["campaign", "trajectories", str(fallen.folder), "--column", "qposs"])
     assert wrong.exit_code == 2 and "no column `qposs`" in wrong.output and "qvel" in wrong.output
+
+
+def test_what_an_earlier_call_left_of_other_worlds_is_taken_away(fallen):
+    from worldwright.campaign import trajectories
+
+    folder, (first, second) = fallen.folder / "trajectories", fallen.rows()
+    trajectories.write(fallen)
+    for name in ("split=test/0123456789abcdef.parquet", f"split=train/.{first.world}.parquet"):
+        (folder / name).parent.mkdir(exist_ok=True)
+        (folder / name).write_bytes(b"PAR1")
+    fallen.keep(second.model_copy(update={"recording": ""}))  # as if it were begun again, and came to nothing
+    try:
+        assert sum(trajectories.write(fallen).values()) == 1
+    finally:
+        fallen.keep(second)
+    assert [path.stem for path in folder.glob("split=*/*")] == [first.world]
+    (folder / "schema.json").unlink()
+    with pytest.raises(NotFoundError, match="not written to the end"):
+        worldwright.load(fallen.folder).trajectories("train")
+
+
+@pytest.mark.parametrize(
+    "shares", [("nan", "0.5", "0.5"), ("0.5", "nan", "0.5"), ("0.8", "0.3", "-0.1"), ("1", "1", "0")]
+)
+def test_shares_that_are_none_are_refused(fallen, shares):
+    said = CliRunner().invoke(main, ["campaign", "trajectories", str(fallen.folder), "--shares", *shares])
+    assert said.exit_code == 2 and "add up to 1" in said.output
+
+
+def test_places_in_a_list_never_leave_their_32_bits():
+    from worldwright.campaign import trajectories
+
+    for rows, width in ((50_000_000, 100), (3, 10**8), (0, 7), (5, 0)):
+        found = list(trajectories.stretches(rows, width))
+        assert found[0][0] == 0 and found[-1][1] == rows
+        assert all((end - begin) * width < 2**31 for begin, end in found)
+        assert all(first[1] == second[0] for first, second in itertools.pairwise(found))
 
 
 def test_worlds_of_one_draw_are_in_one_part_and_stay_there():

@@ -7,7 +7,7 @@ import re
 import pyarrow.parquet
 import pytest
 
-from worldwright.campaign import campaign_table, conducting, wall
+from worldwright.campaign import campaign_table, conducting, one_world, wall
 from worldwright.campaign.campaign_file import Campaign
 from worldwright.campaign.campaign_store import Base, Begun, Store
 from worldwright.campaign.world_row import Cause, Margin, Row
@@ -69,7 +69,15 @@ def test_the_page_and_the_standing_say_what_an_authors_figures_leave_out(store, 
 
 
 def test_the_page_groups_failures_draws_margins_and_links_reports(store):
-    store.keep(row(0, margins=margins(0.5), report="worlds/00/x/report.html", poster="worlds/00/x/p.webp"))
+    store.keep(
+        row(
+            0,
+            margins=margins(0.5),
+            report="worlds/00/x/report.html",
+            poster="worlds/00/x/p.webp",
+            film="worlds/00/x/f.mp4",
+        )
+    )
     for number in (1, 2):
         store.keep(
             row(
@@ -90,11 +98,22 @@ def test_the_page_groups_failures_draws_margins_and_links_reports(store):
         "o": "held",
         "m": 0.5,
         "p": "worlds/00/x/p.webp",
+        "f": "worlds/00/x/f.mp4",
         "r": "worlds/00/x/report.html",
     }
     assert [tile["n"] for tile in tiles] == [0, 1, 2, 3]
     assert "0.falls: -0.5 to 0.5 m," in " ".join(page.split()) and "1 of 2 below 0" in page
     assert 'x1="50.00"' in page, "where 0 lies is drawn"
+
+
+def test_the_film_of_a_world_is_the_accepted_one_of_its_author(store):
+    folder, evidence = store.world("ab" * 8), store.world("ab" * 8) / "evidence/key"
+    assert one_world._film(store, folder, evidence) == ""
+    for place, name in ((evidence, "film"), (folder / "accepted", "above"), (folder / "accepted", "film")):
+        film = place / f"video/{name}.mp4"
+        film.parent.mkdir(parents=True, exist_ok=True)
+        film.touch()
+        assert store.folder / one_world._film(store, folder, evidence) == film
 
 
 def test_two_may_write_the_table_at_once_and_none_leaves_a_draft(tmp_path):

@@ -4,6 +4,7 @@
 """
 
 import json
+import multiprocessing as mp
 import subprocess
 import sys
 import time
@@ -12,13 +13,14 @@ from pathlib import Path
 import pytest
 
 import stub_worlds
-from worldwright.campaign import author_folder, conducting, one_world, setting_out, world_author
+from worldwright.campaign import author_folder, author_watch, conducting, one_world, setting_out, world_author
 from worldwright.campaign.author_talk import Talk
 from worldwright.campaign.author_words import Author, Prices
 from worldwright.campaign.campaign_file import Budget, CampaignError, parse
 from worldwright.campaign.campaign_store import LONGEST_PROMPT, Store
 from worldwright.campaign.campaign_table import flat
 from worldwright.campaign.one_world import task
+from worldwright.campaign.worker_processes import Ended
 from worldwright.campaign.world_row import Row
 from worldwright.contract import harnesses
 
@@ -26,10 +28,12 @@ RESULT = {
     "type": "result", "subtype": "success", "is_error": False, "result": "done", "total_cost_usd": 0.5,
     "modelUsage": {"a": {"inputTokens": 100, "cacheReadInputTokens": 50, "outputTokens": 20}},
 }  # fmt: skip
+STEP = {"type": "step_finish", "part": {"id": "a", "cost": 0, "tokens": {"input": 900, "output": 100}}}
 TURN = {"type": "turn.completed", "usage": {"input_tokens": 1_000_000, "output_tokens": 1_000_000}}
 ACTS = {
     "writes": f"write(); print(json.dumps({RESULT}))",
     "ends as codex": f"write(); print(json.dumps({TURN}))",
+    "tells no price": f"print(json.dumps({STEP}), flush=True); time.sleep(60)",
     "ends without a plan": f"print(json.dumps({RESULT}))",
     "is killed": "os.kill(os.getpid(), 9)",
     "exits 137": "print('out of memory', file=sys.stderr); sys.exit(137)",
@@ -42,7 +46,7 @@ ACTS = {
 }
 STUB = """#!{python}
 import json, os, pathlib, subprocess, sys, time
-prompt = " ".join(sys.argv).partition("generate --auto ")[2]
+prompt = " ".join(sys.argv).partition("--auto ")[2]
 def write():
     run = pathlib.Path("runs/ball")
     run.mkdir()
@@ -135,14 +139,59 @@ def test_what_hangs_or_costs_too_much_is_ended_with_all_that_it_started(asked, a
     store = asked(act, per_world=limit)
     row = rows(store)[act]
     assert row.outcome == "gave_up" and row.cause.kind == kind and row.usd == usd
+    assert_nothing_is_left(store)
+
+
+def assert_nothing_is_left(store: Store) -> None:
     (session,) = (store.folder / "authors").glob("*/*/1")
     pid = (session / "process").read_text().split()[0]
-    for _ in range(200):  # who was killed is gone when the kernel next comes to it
+    for _ in range(600):  # who was killed is gone when the kernel next comes to it
         group = subprocess.run(["pgrep", "-g", pid], capture_output=True, text=True).stdout.split()
-        if not any(world_author._since(int(each)) for each in group):
+        if not any(author_watch.since(int(each)) for each in group):
             return
         time.sleep(0.05)
     pytest.fail("an orphan of the author would go on being paid")
+
+
+def test_an_author_ends_with_its_worker_whoever_kills_that(asked):
+    store = asked("hangs")
+    worker = mp.get_context("spawn").Process(target=one_world.perform, args=(task(store, store.begun, 0),))
+    worker.start()
+    for _ in range(1200):
+        if any((store.folder / "authors").glob("*/*/1/process")):
+            break
+        time.sleep(0.05)
+    worker.kill()
+    worker.join()
+    assert_nothing_is_left(store)
+
+
+def test_a_limit_of_money_that_could_never_end_an_author_ends_it_at_once(asked):
+    store = asked("tells no price", author={"harness": "opencode"}, budget={"usd": 5})
+    row = rows(store)["tells no price"]
+    assert row.outcome == "failed" and row.cause.kind == "no_prices" and row.tokens_read == 900
+    assert "tells 0 US dollars for 1,000 tokens" in row.cause.said and "author.prices" in row.cause.next_move
+
+
+def test_a_program_is_named_relative_to_the_campaigns_file(asked, monkeypatch):
+    monkeypatch.chdir("/")
+    store = asked("writes", author={"program": "./harness"})
+    assert rows(store)["writes"].outcome == "held"
+    assert parse("prompts: [a]\nauthor: {harness: opencode, program: mine}").author.program == "mine"
+
+
+def test_what_was_paid_before_a_worker_died_counts_at_once(asked, monkeypatch):
+    class Dying(stub_worlds.Here):
+        def ended(self, timeout_s):
+            one = self.under.popleft()
+            session = Store(one.folder).author(one.world) / "1"
+            session.mkdir(parents=True)
+            (session / "transcript.jsonl").write_text(json.dumps({"type": "result", "total_cost_usd": 3}))
+            yield Ended(task=one, died="it was killed")
+
+    monkeypatch.setattr(conducting, "crew_of", lambda *_: Dying(1))
+    end = conducting.conduct(asked("writes", "writes more", budget={"usd": 2}))
+    assert end.stopped == "the budget of 2 US dollars is used up" and end.usd == 3 and end.done == 0
 
 
 def test_what_is_known_to_cost_too_much_only_at_its_end_is_over_its_limit_too(asked):
@@ -189,7 +238,7 @@ def test_what_a_dead_worker_left_behind_is_ended_and_its_cost_stays_in_the_row(a
     session.mkdir(parents=True)
     (session / "transcript.jsonl").write_text(json.dumps({"type": "result", "total_cost_usd": 2}))
     orphan = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], start_new_session=True)
-    (session / "process").write_text(f"{orphan.pid} {world_author._since(orphan.pid)}")
+    (session / "process").write_text(f"{orphan.pid} {author_watch.since(orphan.pid)}")
     (store.world(one.world)).mkdir(parents=True)
     (store.world(one.world) / "half").write_text("half a world")
     row = rows(store)["writes"]
@@ -216,7 +265,7 @@ def test_cancel_ends_an_author_whose_worker_was_killed(asked):
     session = store.author(task(store, store.begun, 0).world) / "1"
     session.mkdir(parents=True)
     orphan = subprocess.Popen([sys.executable, "-c", "import time; time.sleep(60)"], start_new_session=True)
-    (session / "process").write_text(f"{orphan.pid} {world_author._since(orphan.pid)}")
+    (session / "process").write_text(f"{orphan.pid} {author_watch.since(orphan.pid)}")
     try:
         assert "1 of its authors" in setting_out.cancelled(store)
         assert orphan.wait(10) < 0
@@ -235,7 +284,7 @@ def test_another_process_of_the_same_number_is_left_alone(asked):
     try:
         (session / "process").write_text(f"{other.pid} 1")
         world_author.stop(store, one.world)
-        assert world_author._since(other.pid), "it lives"
+        assert author_watch.since(other.pid), "it lives"
     finally:
         other.kill()
         other.wait()

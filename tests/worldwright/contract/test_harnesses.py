@@ -213,3 +213,16 @@ def test_skills_name_only_tools_that_exist():
     for path in (REPO / "skills").glob("*/SKILL.md"):
         for server, tool in re.findall(rf"`({'|'.join(expose.SERVERS)})\.(\w+)`", path.read_text()):
             assert f"{server}.{tool}" in TOOLS, f"{path.parent.name}: {server}.{tool}"
+
+
+def test_claude_code_is_not_told_what_the_projects_around_an_authors_folder_say(monkeypatch):
+    monkeypatch.setattr(Path, "home", lambda: Path("/home/me"))
+    harness, room = harnesses.find("claude_code"), Path("/home/me/a (b)[c]/runs/project")
+    settings = json.loads(
+        harness.unattended({".claude/settings.json": '{"permissions": {}}'}, room)[".claude/settings.json"]
+    )
+    left_out = settings["claudeMdExcludes"]
+    assert {"/home/me/a ?b??c?/CLAUDE.md", "/home/me/a ?b??c?/runs/.claude/rules/**", "/CLAUDE.md"} <= set(left_out)
+    assert not [one for one in left_out if one.startswith(("/home/me/CLAUDE", "/home/me/.claude", str(room)))]
+    words = harness.headless("a ball", "", room, None)
+    assert "--strict-mcp-config" in words and str(room / ".mcp.json") in words, "nor gets it their servers"

@@ -1,5 +1,6 @@
 """What is driven is seen from behind, whichever way it turns; pictures are drawn on a thread while somebody looks."""
 
+import dataclasses
 import threading
 
 import cv2
@@ -9,6 +10,7 @@ import pytest
 
 from small_worlds import empty, floor
 from worldengine.clock.state_frames import signature
+from worldengine.film import renderers
 from worldengine.given import Given
 from worldkit import portable, vehicles
 from worldwright.ends import chase_pictures
@@ -62,6 +64,25 @@ def test_it_follows_from_behind_and_turns_after_what_turns(source):
             view.draw(state(view._model), "top")
     finally:
         view.close()
+
+
+@pytest.mark.gl
+def test_the_quick_look_is_bright_whatever_lights_the_world_has(source, tmp_path):
+    spec = portable.spec(source.world)
+    spec.visual.headlight.active = 0
+    for n in range(3):
+        spec.worldbody.add_light(name=f"lamp_{n}", pos=(n, 0, 3), castshadow=True)
+    portable.write(spec, tmp_path / "world.mjz")
+    dark = dataclasses.replace(source, world=tmp_path / "world.mjz")
+    dark.__dict__["given"] = source.given
+    for look, drawn_by in (("quick", "classic"), ("film", renderers.wanted())):
+        view = LiveView(dark, SIZE, look=look)
+        try:
+            picture = view.draw(state(view._model))
+            assert view._frames.renderer == drawn_by and view._model.vis.quality.offsamples == 4 * (look == "film")
+            assert 60 < picture.mean() < 240 and picture[:20].mean() > 100, "the ground, and a sky above it"
+        finally:
+            view.close()
 
 
 @pytest.mark.gl

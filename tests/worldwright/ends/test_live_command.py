@@ -68,7 +68,8 @@ def test_it_is_driven_from_its_printed_address_until_it_is_interrupted(driven_ru
 @pytest.mark.gl
 def test_a_drive_is_filmed(driven_run):
     (folder,) = driven.listed(driven_run[0])
-    made = drive_film.film(folder, ("side",))
+    made, stated = drive_film.film(folder, ("side",))
+    assert stated.vouched
     assert [path.name for path in made] == ["side.mp4"] and made[0].stat().st_size > 1000
 
 

@@ -1,7 +1,6 @@
 """What is driven: the accepted world as it was stamped, else the one that was recorded last; nothing that is neither."""
 
 import hashlib
-import json
 import shutil
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import pytest
 from worldwright.ends.live_source import LiveSource
 from worldwright.model.errors import GateError
 from worldwright.model.evidence import environment
+from worldwright.model.evidence.reports import PassResult
 from worldwright.model.evidence.run import Run
 
 EXAMPLE = Path(__file__).parents[3] / "examples/slack-rope-pulls-box"
@@ -28,8 +28,12 @@ def recorded(roped, tmp_path):
     shutil.copy(roped.run / "accepted/world.mjz", physics)
     for name in ("program.json", "inputs.json"):
         shutil.copy(roped.run / "accepted/world" / name, physics)
-    digest = hashlib.sha256((physics / "world.mjz").read_bytes()).hexdigest()
-    (physics / "result.json").write_text(json.dumps({"ok": True, "world_sha256": digest}))
+    files = {
+        name: hashlib.sha256((physics / name).read_bytes()).hexdigest()
+        for name in ("world.mjz", "program.json", "inputs.json")
+    }
+    result = PassResult(stage="physics", ok=True, files=files, summary={"world_sha256": files["world.mjz"]})
+    (physics / "result.json").write_text(result.model_dump_json())
     return folder
 
 
@@ -45,7 +49,7 @@ def test_a_recorded_world_is_driven_before_it_is_accepted(recorded):
     assert source.drove == source.world.parent / "trajectory" and source.poses()[0].shape[1:] == (3, 3)
     with source.world.open("ab") as world:
         world.write(b"x")
-    with pytest.raises(GateError, match="not the world that was recorded"):
+    with pytest.raises(GateError, match=r"world\.mjz is not what was recorded"):
         LiveSource.find(recorded)
     (recorded / "plan.md").write_text((recorded / "plan.md").read_text() + "\n")
     with pytest.raises(GateError, match="no recording of this program and plan"):

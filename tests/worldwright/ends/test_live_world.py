@@ -73,16 +73,13 @@ def run(roped, seal, tmp_path):
 
 @contextlib.contextmanager
 def served(world, **more):
-    log = (world.folder / driven.EVENTS).open("a", buffering=1)
-    note = lambda what, told: log.write(json.dumps({"what": what, **told}) + "\n")  # noqa: E731
-    seats = Seats(["pull"], world.command, world.left, lambda: world.facts.get("time_s", 0.0), note)
+    seats = Seats(["pull"], world.command, world.left, lambda: world.facts.get("time_s", 0.0), world.witness.note)
     page = LivePage(world, seats, None, **more)
     try:
         yield page
     finally:
         world.close()
         page.close()
-        log.close()
 
 
 def flood(peer):
@@ -123,7 +120,7 @@ def test_a_drive_over_its_page_is_kept_and_proved_whatever_its_peers_do(run):
         until(lambda: moved(world) == 0.0 and "pull" in world.facts["silent"])
         until(lambda: world.facts["time_s"] > began + 0.7)
     assert world.over and world.facts["ended"] == "its driver's end was closed"
-    found = finish(world.folder)
+    found = finish(world.folder, world.witness)
     assert found.complete and found.rows > 5 and "signed by this machine's key" in found.signed
     (span,) = found.driven_by
     assert span["driver"] == "Ada" and 0 <= span["from_s"] < span["to_s"] < found.simulated_s
@@ -138,6 +135,19 @@ def test_a_drive_over_its_page_is_kept_and_proved_whatever_its_peers_do(run):
         prove(world.folder)
 
 
+def test_steps_that_are_left_to_the_engine_are_the_same(run, seal):
+    """Nothing drove this world before, so nothing can change between two looks at the clock."""
+    (run / "accepted/world/inputs.arrows").unlink()
+    seal(run)
+    world = LiveWorld(LiveSource.find(run), speed=4.0, seconds=1.7, waits=False)
+    world.command({"pull": 0.1})
+    assert world.wait(PATIENCE_S)
+    world.close()
+    assert moved(world) == 0.1
+    found = finish(world.folder, world.witness)
+    assert found.vouched and found.rows == found.rows_live > 10
+
+
 def test_what_was_driven_outlives_a_kill(run):
     world = LiveWorld(LiveSource.find(run))
     with served(world) as page:
@@ -148,7 +158,8 @@ def test_what_was_driven_outlives_a_kill(run):
         until(lambda: ada.drive(pull=0.2) or (states.stat().st_size > size and world.facts["time_s"] > at + 0.3))
         os.kill(world._process.pid, signal.SIGKILL)
         assert "ended" in ada.hear("ended") and world.wait(PATIENCE_S)
-    found = finish(world.folder)
+    found = finish(world.folder, world.witness)
+    assert found.vouched, "the process that ran it outlived the engine, and saw what it left"
     assert not found.complete and "killed" in found.text() and found.simulated_s >= at
     recording = stored.open(world.folder / "physics/trajectory")
     assert recording.complete and recording.ctrl[-1, 0] == 0.2

@@ -156,6 +156,29 @@ def test_three_films_in_a_row_that_fail_alike_end_the_hearing(stand_in, records,
     assert found.ended is not None and found.ended.code == "garbage" and len(stand_in.asked) == 3 * 3
 
 
+def test_films_that_failed_are_asked_about_last_and_do_not_keep_the_others_from_being_heard(
+    stand_in, records, scenario, film, bench
+):
+    scenarios = {f"00{n}": scenario.model_copy(update={"id": f"00{n}"}) for n in range(1, 6)}
+    films = {id: Entrant(film()) for id in scenarios}
+    stand_in.replies = [(200, b"<html>", {})]
+    assert hearing.hear(records, scenarios, films, bench).ended is not None
+    stand_in.replies = [*[(200, chat(said()), {})] * 6, (200, b"<html>", {})]
+    found = hearing.hear(records, scenarios, films, bench)
+    assert found.decided == 2 and records.read("004").votes and records.read("005").votes
+    assert list(found.undecided) == ["001", "002", "003"]
+
+
+def test_a_decided_film_between_those_that_fail_ends_their_row(stand_in, records, scenario, film, bench):
+    scenarios = {f"00{n}": scenario.model_copy(update={"id": f"00{n}"}) for n in range(1, 6)}
+    films = {id: Entrant(film()) for id in ("002", "003", "001", "004", "005")}
+    stand_in.replies = [(200, chat(said()), {})]
+    hearing.hear(records, scenarios, {"001": films["001"]}, bench)
+    stand_in.replies = [*[(200, b"<html>", {})] * 9, (200, chat(said()), {})]
+    found = hearing.hear(records, scenarios, films, bench)
+    assert found.ended is None and found.decided == 2 and list(found.undecided) == ["002", "003", "004"]
+
+
 def test_what_was_recorded_cannot_be_changed_unseen(stand_in, records, scenario, film, bench):
     stand_in.replies = [(200, chat(said("Event")), {})]
     heard(records, scenario, film(), bench)

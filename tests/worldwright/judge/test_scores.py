@@ -8,6 +8,7 @@ import pytest
 
 from worldwright.judge import anchor_rows, ballot, eighty, intervals, scored_report, tally
 from worldwright.judge.ballot import TieError
+from worldwright.judge.staging_audit import Staging
 from worldwright.judge.verdict_record import Protocol
 
 FIELDS = ("Objects", "Event", "Standard_1", "Standard_2")
@@ -113,3 +114,19 @@ def test_a_name_or_a_refusal_loads_nothing_from_anywhere():
     page, text = scored_report.html(report), scored_report.markdown(report)
     assert "c.example" in page and "<img" not in page and "<a " not in page
     assert "](" not in text and "<http" not in text and "<img" not in text
+
+
+def test_a_run_whose_audit_failed_is_no_run_that_was_not_accepted():
+    protocol = Protocol(judge="gemini", model="m", address="a", form="frames", frames=3, words_sha256="0" * 64)
+    own = scored_report.Own(name="mine", protocol=protocol, tally=tally.tally({"1": "a"}, {"1": decided("YYYY")}))
+    told = {"1": "expect.json is not the one that was stamped"}
+    for one, said in (
+        (own, "no film of a run"),
+        (own.model_copy(update={"not_audited": told}), "1 runs not audited"),
+        (
+            own.model_copy(update={"not_audited": told, "staging": Staging(counts={"emerged": 2})}),
+            "of 2: 2 emerged; 1 runs not audited",
+        ),
+    ):
+        row = next(x for x in scored_report.markdown(scored_report.Report(own=(one,))).splitlines() if "| mine |" in x)
+        assert f"| {said} |" in row

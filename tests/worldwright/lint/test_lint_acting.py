@@ -79,6 +79,7 @@ def test_contacts_are_what_the_engine_makes_of_two_geoms(one, other, paired, apa
         assert np.allclose(touch.solref_friction, contact.solreffriction)
         assert np.allclose(touch.solimp, contact.solimp)
         assert touch.margin == pytest.approx(contact.includemargin)
+        assert touch.adhesion == pytest.approx(contact.adhesion)
 
 
 def test_pairs_against_hopping_act_like_the_contacts_they_replace():

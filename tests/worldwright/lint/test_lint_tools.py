@@ -133,7 +133,8 @@ def test_the_example_programs_are_clean(program, tmp_path):
     run.mkdir()
     for name in ("plan.md", "simulation.py"):
         shutil.copy(program.parent / name, run / name)
-    assert tools.check_program([run / "simulation.py"]).findings == ()
+    report = tools.check_program([run / "simulation.py"])
+    assert report.findings == () and "compiled" in report.worlds[0]
 
 
 def test_a_broken_plan_is_a_report_not_an_error(tmp_path):

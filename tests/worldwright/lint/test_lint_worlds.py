@@ -9,7 +9,7 @@ import pytest
 
 from worldwright.lint import engine, source, tools
 from worldwright.lint.case import plan_with
-from worldwright.lint.compiled import fetch
+from worldwright.lint.compiled import fetch, planned
 from worldwright.lint.observed import observing
 from worldwright.lint.program_view import Program
 from worldwright.lint.rules.model.acting._twins import changed
@@ -18,7 +18,6 @@ from worldwright.model.errors import CallOverError
 from worldwright.stage import confined
 from worldwright.stage import tools as stage
 
-EXAMPLES = Path(__file__).parents[3] / "examples"
 SCRIPT = """\
 import mujoco
 
@@ -38,6 +37,9 @@ data = mujoco.MjData(model)
 while True:
     mujoco.mj_step(model, data)
 """
+ENDLESS = "while True:\n    pass\n"
+BOTTOMLESS = "import sys\nsys.setrecursionlimit(10 ** 9)\ndef f():\n    f()\nf()\n"
+LOUD = "while True:\n    print('x' * 10 ** 6)\n"
 
 
 def written(folder, text, name="simulation.py"):
@@ -73,27 +75,19 @@ def test_a_model_file_with_parts_is_compiled_with_all_it_names(tmp_path):
     assert [(f.code, f.line) for f in report.findings] == [("WM112", 3)]
 
 
-@pytest.mark.parametrize("program", sorted(EXAMPLES.glob("*/simulation.py")), ids=lambda path: path.parent.name)
-def test_the_worlds_of_the_examples_are_clean(program):
-    from worldwright.model.plan.plan_text import read_plan
-
-    found, said = engine.check_program_file(program, read_plan(program.parent / "plan.md").plan, True)
-    assert found == [] and "compiled" in said
-
-
 @pytest.mark.parametrize(
     ("text", "status"),
     [
-        ("while True:\n    pass\n", "timed_out"),
+        (ENDLESS, "timed_out"),
         ("x = []\nwhile True:\n    x.append(bytes(1 << 24))\n", ("failed", "out_of_memory", "died")),
         ("import os\nos._exit(3)\n", "died"),
         ("import os, signal\nos.kill(os.getpid(), signal.SIGKILL)\n", "died"),
         ("raise SystemExit(3)\n", "failed"),
         (
-            "import sys\nsys.setrecursionlimit(10 ** 9)\ndef f():\n    f()\nf()\n",
+            BOTTOMLESS,
             ("failed", "died", "timed_out", "out_of_memory"),
         ),
-        ("while True:\n    print('x' * 10 ** 6)\n", ("failed", "died", "timed_out")),
+        (LOUD, ("failed", "died", "timed_out")),
         ("x = 1\n", "nothing"),
         ("def build():\n    return 7\n", "failed"),
         ("import mujoco\nmujoco.mj_step(None, None)\n", "failed"),
@@ -101,7 +95,8 @@ def test_the_worlds_of_the_examples_are_clean(program):
 )
 def test_hostile_programs_end_in_bounded_time(tmp_path, text, status):
     began = time.monotonic()
-    outcome = fetch.world(written(tmp_path, text), wall_s=3.0)
+    ends_by_itself = text not in (ENDLESS, BOTTOMLESS, LOUD)  # the others would burn all the time that they get
+    outcome = fetch.world(written(tmp_path, text), wall_s=3.0 if ends_by_itself else 1.0)
     assert outcome.status in ((status,) if isinstance(status, str) else status)
     assert time.monotonic() - began < 60
     found = engine.check_world(Program(source.parse(text)), outcome)
@@ -275,3 +270,55 @@ def test_the_world_of_an_archive_is_compiled_once_in_a_row(tmp_path, monkeypatch
     for _ in range(2):
         fetch.world(other, is_mjcf=True, lasting_s=0.5)
     assert seen[-2:] == [(b"unpriced", 0.5)] * 2
+
+
+SLOW_S = 0.004
+LAW = f'''
+import time
+
+class Slow:
+    """A law that does nothing, slowly."""
+
+    name, shown_by, bodies = "slow", "", ("b0", "world")
+
+    def start(self, model, data):
+        self.asked = 0
+
+    def step(self, model, data, seconds):
+        assert abs(seconds - 4 * model.opt.timestep) < 1e-12
+        time.sleep({SLOW_S})
+        return np.zeros((2, 6))
+'''
+
+
+def test_what_a_law_takes_is_in_the_price(tmp_path):
+    text = FALLING.replace("COUNT", "1").replace("SECONDS", "10.0, control_every=4, laws=[Slow()]")
+    text = text.replace("\ndef build", f"\nimport numpy as np\n{LAW}\n\ndef build", 1)
+    outcome = fetch.world(written(tmp_path, text))
+    steps = outcome.texts["rehearsed"]["steps"]
+    assert outcome.pass_s > 0.8 * SLOW_S * steps / 4
+
+
+def test_the_price_of_a_world_with_laws_is_asked_of_its_program_where_the_world_is_there_as_a_file(
+    tmp_path, monkeypatch
+):
+    priced = []
+
+    def world(path, *, is_mjcf=False, **more):
+        priced.append((Path(path).name, is_mjcf))
+        told = {"taken": 1, "seconds": 40.0 if not is_mjcf else 1.0, "steps": 2}
+        return fetch.Outcome("nothing" if path.name == "none" else "compiled", texts={"rehearsed": told}, arrays={})
+
+    monkeypatch.setattr(fetch, "world", world)
+    monkeypatch.setattr(engine, "check_world", lambda *_: [])
+    monkeypatch.setattr(planned, "beside", lambda plan, text, made, wall_s: (made(), None))
+    program = written(tmp_path, FALLING.replace("COUNT", "1").replace("SECONDS", "1.0"))
+    plan = plan_with({})
+    bundle = (tmp_path / "world.mjz", 1.0)
+    said = engine.check_program_file(program, plan, bundle=bundle)[1]
+    assert "by its first steps the physics takes about 2 s" in said and priced == [("world.mjz", True)]
+    monkeypatch.setattr(engine, "law_rows", lambda _: iter(["slow"]))
+    said = engine.check_program_file(program, plan, bundle=bundle)[1]
+    assert "by its first steps and its laws the physics takes about 80 s" in said and priced[2:] == [
+        ("simulation.py", False)
+    ]

@@ -5,8 +5,8 @@ from worldwright.model.plan.committed import SimulationParameters
 SAID = {"friction": 0.3, "torsional_friction": 0.0015, "source": "a table"}
 
 
-def parameters(**more):
-    return SimulationParameters(time_step=0.001, simulation_duration=1.0, **more)
+def parameters(used=("peg", "ground", "rubber", "wood", "ice", "tyre"), **more):
+    return SimulationParameters(time_step=0.001, simulation_duration=1.0, **more).yielding(used)
 
 
 def test_an_unsaid_friction_is_no_larger_than_the_smallest_that_is_said():
@@ -29,3 +29,11 @@ def test_sliding_friction_and_pairs_decide_nothing_of_other_materials():
 def test_an_unsaid_friction_is_not_raised():
     made = parameters(materials={"tyre": {"rolling_friction": 0.02}, "ground": {"friction": 0.4}})
     assert made.materials["ground"].rolling_friction == 0.0001
+
+
+def test_a_material_that_nothing_is_made_of_decides_nothing():
+    """Else a row about no thing of the plan takes a marble's rolling friction away, and no row about it says so."""
+    soap = {"rolling_friction": 0.0, "friction": 0.1}
+    materials = {"glass": {"friction": 0.4}, "soap": soap}
+    assert parameters(used=("glass",), materials=materials).materials["glass"].rolling_friction == 0.0001
+    assert parameters(used=("glass", "soap"), materials=materials).materials["glass"].rolling_friction == 0.0

@@ -15,6 +15,7 @@ from worldwright.draft import draft
 from worldwright.lint.compiled.fetch import Outcome
 from worldwright.lint.compiled.measure import facts
 from worldwright.lint.compiled.view import ModelView
+from worldwright.lint.rules.model import overlaps_at_start
 from worldwright.lint.rules.model.acting import touchable_shape_differs
 from worldwright.lint.tools import check_plan
 from worldwright.model.errors import PlanError
@@ -131,10 +132,14 @@ def test_whole_numbers_stay_whole():
     assert made.assets[0].vehicle.made().corners[-1] == "4r"
 
 
-def test_what_a_driver_does_was_chosen_by_somebody():
+def test_what_a_driver_does_and_which_way_he_takes_was_chosen_by_somebody():
     follows = plan({"kind": "car", "follows": {"path": [[0, 0], [9, 0]], "speed_m_s": 5}})
     assert dict(_chosen(follows))["assets.car.vehicle.follows.speed_m_s"] == [5.0]
     assert "assets.car.vehicle.follows.across_m_s2" not in dict(_chosen(follows))
+    assert dict(_chosen(follows))["assets.car.vehicle.follows.path"] == [0, 0, 9, 0]
+    assert "assets.car.vehicle.follows.closed" not in dict(_chosen(follows))
+    ring = {"path": [[0, 0], [9, 0], [9, 9]], "closed": True, "speed_m_s": 5}
+    assert "assets.car.vehicle.follows.closed" in dict(_chosen(plan({"kind": "car", "follows": ring})))
     assert dict(_chosen(plan({"kind": "car", "inputs": BRAKES})))["assets.car.vehicle.inputs.0.throttle"] == [0.2]
 
 
@@ -280,6 +285,19 @@ def test_a_road_is_a_named_input_of_the_plan_and_what_it_drives_on(tmp_path):
             space["control"](model, data)
             mujoco.mj_step(model, data, nstep=5)
         assert abs(space["CAR_DRIVER"].off_m) < 0.4 and data.qpos[1] > 12
+
+
+def test_what_starts_in_a_road_is_found_in_the_built_world_alone(tmp_path):
+    """The layout takes a road as the box around it, and asks nobody who stands in that."""
+    made = on_a_road(tmp_path)
+    places = made.topology.body_positions
+    deeper = places["car"].model_copy(update={"z": places["car"].z - 0.4})
+    sunk = made.topology.model_copy(update={"body_positions": places | {"car": deeper}})
+    made = made.model_copy(update={"topology": sunk}).read_from(tmp_path)
+    with below(tmp_path):
+        model = built(made)[2]
+    found = list(overlaps_at_start.check(ModelView(Outcome("compiled", *facts(model)), None, made)))
+    assert any(f.message.startswith("road starts 2") and f.message.endswith(" deep in car_fl_wheel") for f in found)
 
 
 def test_a_road_that_is_built_otherwise_is_found(tmp_path):

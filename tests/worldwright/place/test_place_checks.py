@@ -663,3 +663,5 @@ def test_of_frictions_that_differ_the_one_in_force_is_told():
     pair = {"between": ["top", "table"], "friction": 0.1, "torsional_friction": 0.002}
     said = "top on table: friction 0.1, torsional friction 0.002 m, rolling friction 0.0001 m, as its pair says"
     assert said in told({"oak": maple, "maple": maple}, (pair,))
+    (line,) = told({"oak": {"friction": 0.3}, "maple": maple | {"rolling_friction": 0.0, "torsional_friction": 0.005}})
+    assert line == "oak: rolling friction 0 m, unsaid, by the word of maple (else 0.0001 m)"

@@ -7,6 +7,7 @@ from typing import Any
 
 import mujoco
 
+from forked_engine import forked_engine
 from worldkit import program
 from worldwright.model.evidence.audits import CausesReport, InterventionReport
 from worldwright.model.evidence.reports import ScanReport
@@ -56,9 +57,9 @@ class World:
         if self.before:
             self.before()
         argv = ["--pass", "physics", "--out", str(folder), *words]
-        assert program.main(self.build, self.control, duration=self.duration, argv=argv) == 0, (
-            folder / "error.json"
-        ).read_text()
+        with forked_engine():
+            status = program.main(self.build, self.control, duration=self.duration, argv=argv)
+        assert status == 0, (folder / "error.json").read_text()
         return read_trajectory(folder / "trajectory")
 
 

@@ -53,6 +53,24 @@ def test_who_sleeps_is_ended_too():
     assert python("import time; time.sleep(60)", wall_s=1.0).status == "timed_out"
 
 
+ADVANCES = """
+import json, pathlib, sys, time
+out = pathlib.Path(sys.argv[1])
+for done in range(8):
+    (out / ".next").write_text(json.dumps({"done": 1 + done // PACE, "total": 8}))
+    (out / ".next").replace(out / "progress.json")
+    time.sleep(0.4)
+"""
+
+
+def test_what_advances_may_take_its_time_and_what_stands_still_may_not():
+    def ended(pace):
+        return python(ADVANCES.replace("PACE", str(pace)), wall_s=1.2, advances=True).status
+
+    assert ended(1) == "ended"
+    assert ended(100) == "timed_out"
+
+
 def test_the_end_of_a_call_ends_it_by_the_clock():
     """As an error that says to call again: what ran has not failed."""
     with call_time.limited(1.0), pytest.raises(CallOverError, match="280 s that a call may take") as over:

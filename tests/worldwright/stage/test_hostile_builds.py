@@ -63,7 +63,7 @@ def rewritten(text: str, claims: int = 0) -> str:
 
 TRUNCATED = "data = (OUT / 'world.mjz').read_bytes()\n(OUT / 'world.mjz').write_bytes(data[: len(data) // 2])"
 HOSTILE = {
-    "loops": ("while True: pass", "", "timed_out", "", {"still_s": 2.0}),
+    "loops": ("while True: pass", "", "timed_out", "", {"still_s": 1.0}),
     "loops in the engine": ("spec.option.timestep = 1e-12", "", "program", "steps", {}),
     "returns nothing": ("return", "", "program", r"returned NoneType, not a world \(end it with `return spec`\)", {}),
     "returns a text": ("return 'spec'", "", "program", "returned str, not a world", {}),

@@ -56,9 +56,9 @@ def test_a_pass_that_succeeds_becomes_evidence_and_is_never_paid_twice(make, lev
 
 def test_a_job_tells_the_processor_time_of_its_confined_processes(make, level, finish):
     """Also at the level that leaves the program's process to whoever adopts it."""
-    burning = "import time\nwhile time.process_time() < 2.0:\n    pass\n"
+    burning = "import time\nwhile time.process_time() < 1.0:\n    pass\n"
     job = finish(make(burning + GOOD), stage="bundle")
-    assert job.state == "succeeded" and job.cpu_s >= 2.0, job
+    assert job.state == "succeeded" and job.cpu_s >= 1.0, job
 
 
 PREAMBLE = """

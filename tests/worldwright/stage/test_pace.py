@@ -74,12 +74,12 @@ def test_a_pass_that_advances_may_take_all_its_time_and_one_that_stands_still_ma
         "inferred: [",
         'interventions:\n  - {kind: force, bodies: [ball], law: "a breath", trigger: always, source: "a test"}\ninferred: [',
     )
-    slow = TIRED.replace("PAUSE", "0.02").replace("DURATION", "0.6")
-    job = finish(make(slow, "advances", declared), still_s=4)
-    assert job.state == "succeeded" and job.wall_s > 6, job.text()
+    slow = TIRED.replace("PAUSE", "0.02").replace("DURATION", "0.4")
+    job = finish(make(slow, "advances", declared), still_s=2.5)
+    assert job.state == "succeeded" and job.wall_s > 4, job.text()
     asleep = TIRED.replace("PAUSE", "60").replace("DURATION", "0.6")
-    job = finish(make(asleep, "stands", declared), still_s=4)
-    assert (job.state, job.code) == ("failed", "timed_out") and "nothing advanced for 4 s" in job.message, job.text()
+    job = finish(make(asleep, "stands", declared), still_s=2)
+    assert (job.state, job.code) == ("failed", "timed_out") and "nothing advanced for 2 s" in job.message, job.text()
 
 
 BALL = TIRED.replace("program.main(build, control, duration=DURATION)", "program.main(build, duration=0.02)")

@@ -6,11 +6,13 @@ Counted, not timed: a process that imports the engine costs about a second of a 
 import subprocess
 from collections import Counter
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from worldwright.model.evidence.run import Run
 from worldwright.stage.job import Job
+from worldwright.stamp import going
 from worldwright.stamp import tools as stamp
 
 ASKED_ONCE = ("--version", "probe.py")
@@ -72,3 +74,73 @@ def test_audits_and_films_wait_for_the_first_picture(tmp_path, small_plan):
     while not (gone := stamp.go(str(folder), timeout_s=1)).storyboard:
         assert gone.state == "running", gone.text()
         assert {job.spec.stage for job in Job.all(Run(folder))} <= {"bundle", "physics", "storyboard"}
+
+
+FILM = """\
+from worldkit.filming import Film, wide
+
+
+def film(film: Film) -> None:
+    film.particles("dust", lambda t: t[:, None, None] * [[[0.1, 0.0, float('inf')]]], diameter=0.01)
+    film.shot(wide(), until=0.1)
+"""
+
+
+@pytest.mark.slow
+def test_an_authors_film_is_tried_before_physics(tmp_path, small_plan):
+    folder = tmp_path / "ball"
+    folder.mkdir()
+    (folder / "plan.md").write_text(small_plan, encoding="utf-8")
+    stamp.go(str(folder))
+    stamp.approve(str(folder), by="tester")
+    (folder / "film.py").write_text(FILM)
+    while (gone := stamp.go(str(folder))).state == "running":
+        pass
+    assert gone.state == "stopped" and gone.wrong[0].step == "lint", gone.text()
+    assert "film.py:5" in gone.wrong[0].what
+    assert {job.spec.stage for job in Job.all(Run(folder))} == {"bundle"}
+
+
+class Walk(going.Going):
+    """A walk whose steps hold, and that notes what is drawn, in its order; a film takes `calls` of them."""
+
+    calls = 1
+    drawn: list[str]
+
+    def passed(self, stage):
+        if stage == "video" and self.calls:
+            raise going.RunningError("video: under way")
+        self.drawn.append(stage)
+        return ""
+
+    def step(self, name):
+        return SimpleNamespace(holds=True, detail="", status="holds" if "video" in self.drawn else "missing")
+
+    def begin_pictures(self):
+        self.drawn.append("film begins" if self.film_due() else "pictures begin")
+
+    def draw(self):
+        self.drawn.append("storyboard")
+        self.storyboard = "there"
+
+    def told(self, turn):
+        return tuple(self.drawn)
+
+    def nothing(self):
+        return ""
+
+    check = place = approve = draft = lint = physics = scan = expect = causes = nothing
+
+
+def walked(folder: Path, calls: int, until=None) -> tuple[str, ...]:
+    walk = Walk(Run(folder), until=until)
+    walk.calls, walk.drawn = calls, []
+    return walk.go()
+
+
+def test_an_authors_film_is_drawn_before_any_other_picture(tmp_path):
+    assert walked(tmp_path, 0) == ("storyboard", "pictures begin", "stills", "video")
+    (tmp_path / "film.py").write_text(FILM)
+    assert walked(tmp_path, 1) == ("film begins",)
+    assert walked(tmp_path, 0) == ("film begins", "video", "stills", "video", "storyboard")
+    assert walked(tmp_path, 0, until="expect") == ("storyboard",)

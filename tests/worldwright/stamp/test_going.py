@@ -19,7 +19,7 @@ from worldwright.model.evidence.run import Run
 from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
 from worldwright.stage.job import Job
-from worldwright.stamp import going
+from worldwright.stamp import going, smallest_seen
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
@@ -112,9 +112,9 @@ def test_what_one_walk_keeps_another_may_drop_meanwhile(fresh, monkeypatch):
         def __setitem__(self, *_):
             """Another thread clears it at once."""
 
-    monkeypatch.setattr(going, "_SMALLEST", Dropped())
+    monkeypatch.setattr(smallest_seen, "_SMALLEST", Dropped())
     monkeypatch.setattr(scan, "smallest", lambda _: "ball 9 px")
-    assert going._smallest(Run(fresh)) == "ball 9 px"
+    assert smallest_seen.smallest_seen(Run(fresh)) == "ball 9 px"
 
 
 @pytest.mark.slow

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from worldengine.recording import stored
 from worldwright.stamp import law_check
 
 PLAIN = "program.main(build, "
@@ -62,6 +63,23 @@ def test_a_call_that_may_never_be_made_says_nothing(accepted: Path, copy: Callab
     text = program.read_text(encoding="utf-8")
     assert text.count('if __name__ == "__main__":\n    ') == 1
     program.write_text(text.replace('if __name__ == "__main__":\n    ', where), encoding="utf-8")
+    assert law_check.concerns(folder)
+
+
+@pytest.mark.parametrize("content", [b"", b"no arrow file at all"])
+def test_a_file_that_could_drive_the_world_is_enough_and_is_not_read(
+    accepted: Path, copy: Callable[[Path], Path], monkeypatch: pytest.MonkeyPatch, content: bytes
+) -> None:
+    """Here no limit of memory holds, as it does where the world is driven by it."""
+    folder = copy(accepted) / "accepted"
+    (folder / "world" / "inputs.arrows").write_bytes(content)
+    monkeypatch.delattr(stored, "Replayable")
+    assert law_check.concerns(folder)
+
+
+def test_facts_that_nest_without_end_are_asked_about(accepted: Path, copy: Callable[[Path], Path]) -> None:
+    folder = copy(accepted) / "accepted"
+    (folder / "world" / "program.json").write_text("[" * 200_000, encoding="utf-8")
     assert law_check.concerns(folder)
 
 

@@ -1,5 +1,6 @@
 """What `verify` judges is one copy of an accepted folder: whoever writes there meanwhile changes nothing of the answer."""
 
+import os
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -8,6 +9,7 @@ import pytest
 
 from worldwright.model.errors import GateError
 from worldwright.model.evidence.run import Run
+from worldwright.model.storage import StorageError
 from worldwright.stamp import bundle, keyring, private_copy, signing, verification
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.statement import Statement
@@ -66,6 +68,14 @@ def test_the_copy_has_every_listed_byte_and_of_the_rest_the_names(accepted: Path
             "stills/extra.png is not in the stamp",
         ]
     assert not taken.folder.exists()
+
+
+def test_a_file_of_holes_that_no_disk_holds_is_refused_at_once(accepted: Path, copy: Copy) -> None:
+    folder = copy(accepted)
+    os.truncate(folder / "accepted" / "world.mjz", 1 << 43)
+    with pytest.raises(StorageError) as caught, private_copy.of(Run(folder)):
+        pass
+    assert caught.value.code == "disk_full" and "world.mjz" in caught.value.place
 
 
 def test_an_accepted_folder_behind_a_link_is_refused(accepted: Path, copy: Copy, tmp_path: Path) -> None:

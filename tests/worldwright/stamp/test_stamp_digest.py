@@ -1,11 +1,16 @@
 """Holding one motion against another."""
 
+import json
 import math
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from worldwright.stamp.digest import Motion, compare
+from worldwright.stamp.digest import NAME, Motion, compare, stamped_motion
 
 
 def motion(x: float = 0.0, turn_deg: float = 0.0, travelled: float = 0.0, turned: float = 0.0) -> Motion:
@@ -60,3 +65,26 @@ def test_other_bodies_or_another_length_never_match() -> None:
 
 def test_nan_never_matches() -> None:
     assert not compare(motion(), motion(x=math.nan)).within
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"position": [[[0, 0, 0]]]},
+        {"quaternion": [[], [[1, 0, 0, 0]]]},
+        {"travelled_m": [[0.0], [0.0, 1.0]]},
+        {"time_s": []},
+        None,
+    ],
+    ids=str,
+)
+def test_a_strangers_motion_that_is_none_is_no_motion_and_no_crash(
+    change: dict[str, Any] | None, tmp_path: Path
+) -> None:
+    whole = motion()
+    content = json.dumps(whole.model_dump(mode="json") | change) if change else "[" * 200_000
+    (tmp_path / NAME).write_text(content, encoding="utf-8")
+    listed: Any = SimpleNamespace(digest_of=lambda _: "listed")
+    assert stamped_motion(tmp_path, listed) is None
+    (tmp_path / NAME).write_text(whole.model_dump_json(), encoding="utf-8")
+    assert stamped_motion(tmp_path, listed) == whole

@@ -15,6 +15,7 @@ from ...errors import ProgramError
 from ...seams import Seam
 from ..plain_refusals import whole
 from ..recorded import Recorded
+from . import hours
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
@@ -33,7 +34,9 @@ class Set(Protocol):
 SETS: Seam[Set] = Seam(__name__, Set, "set")
 ROOMS = ("living_room", "workshop", "gym")
 """Sets with walls and furniture, which stand around the furniture of the world, too."""
-NO_SETS = ("pieces", "land", "furniture")
+ON_TOPS = ("kitchen_counter", "laboratory", "still_life")
+"""Sets on the top of a table, in a room."""
+NO_SETS = ("pieces", "land", "furniture", "hours", "town")
 """Modules of this folder that the sets are made with."""
 
 
@@ -60,6 +63,8 @@ class Place:
     random: np.random.Generator
     colour: str = ""
     """Of the wall, where the film names one."""
+    hour: str = ""
+    """The time of day, one of `hours.HOURS`; empty is the set's own."""
     standing: float = 0.0
     """The radius, m, with the things of the world that stand near what moves; a room leaves them their place."""
 
@@ -87,6 +92,11 @@ class Place:
             random=np.random.default_rng(whole(seed)),
             standing=max([radius, *_furniture(recorded, middle)]),
         )  # fmt: skip
+
+    @property
+    def dark(self) -> bool:
+        """Whether lamps burn at this hour."""
+        return self.hour in hours.LIT
 
     def spot(self, away: float, turn_deg: float, up: float = 0.0) -> tuple[float, float, float]:
         """A point `away` m from the middle, seen from the camera `turn_deg` to the right (180: straight behind), `up` m."""
@@ -120,15 +130,17 @@ def _furniture(recorded: Recorded, middle: np.ndarray) -> list[float]:
     return [far for far in found if far < 2 * LAND_M]
 
 
-def build(film: "Dressing", name: str, facing_deg: float, seed: int, colour: str = "") -> None:
-    """Draw a set around what is recorded.
+def build(film: "Dressing", name: str, facing_deg: float, seed: int, colour: str = "", hour: str = "") -> None:
+    """Draw a set around what is recorded, at an hour of `hours.HOURS` or, with none, at its own.
 
     Raises:
-        ProgramError: there is no such set, what happens is too large for it, or it has no wall of a colour of choice.
+        ProgramError: there is no such set or hour, what happens is too large for it, or it has no wall of a colour of choice.
     """
     names = [known for known in SETS.names() if known not in NO_SETS]
     if name not in names:
         raise ProgramError(f"there is no set {name!r}", "film.py", f"use one of: {', '.join(names)}")
+    if hour not in ("", *hours.HOURS):
+        raise ProgramError(f"no set has the hour {hour!r}", "film.py", f"use one of: {', '.join(hours.HOURS)}")
     place, found = Place.of(film.recorded, facing_deg, seed), SETS.find(name)
     if place.radius > found.WIDEST:
         larger = [known for known in names if place.radius <= SETS.find(known).WIDEST]
@@ -140,5 +152,9 @@ def build(film: "Dressing", name: str, facing_deg: float, seed: int, colour: str
     if colour and not hasattr(found, "COLOUR"):
         choice = ", ".join(known for known in names if hasattr(SETS.find(known), "COLOUR"))
         raise ProgramError(f"the set {name!r} has no wall whose colour is chosen", "film.py", f"use {choice}")
-    place = replace(place, colour=colour)
+    place = replace(place, colour=colour, hour=hour)
     found.build(film, replace(place, radius=place.standing) if name in ROOMS else place)
+    if hour and name in (*ROOMS, *ON_TOPS):
+        hours.indoors(film, place, 0.95 if name in ON_TOPS else 2.3)
+    elif hour:
+        hours.outdoors(film, place)

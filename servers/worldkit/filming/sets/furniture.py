@@ -54,6 +54,8 @@ def walls(
     frame += [block(0.06, 0.06, 1.25, (x, -0.06, 0.85)) for x in (-0.72, 0.0, 0.72)]
     put(film, place, "window", frame, place.spot(away, 270.0), "plastic_white", 90.0)
     pane = Surface(colour="#dfeaf6", glow=2.2, roughness=0.2)
+    if place.dark:
+        pane = Surface(colour="#22335c", glow=0.5 if place.hour == "dusk" else 0.12, roughness=0.08)
     put(film, place, "daylight", [block(1.4, 0.02, 1.2, (0, -0.05, 0.88))], place.spot(away, 270.0), pane, 90.0)
 
 
@@ -107,7 +109,10 @@ def sofa(film: "Dressing", place: Place, at: tuple[float, float, float], colour:
 
 
 def lamp(film: "Dressing", place: Place, at: tuple[float, float, float], high: float = 1.6) -> None:
-    """A floor lamp that is lit."""
+    """A floor lamp that is lit; after sunset it lights the room."""
+    if place.dark:
+        x, y, z = at
+        film.lamp("floor lamp", (x, y, z + high), strength=2.2, colour="#ffc98a", radius=0.04)
     put(
         film,
         place,

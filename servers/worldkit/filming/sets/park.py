@@ -1,8 +1,8 @@
-"""A park: lawn, a gravel path, a bench, broad trees near and far."""
+"""A park: lawn, a gravel path, a bench, lanterns, broad trees near and far."""
 
 from typing import TYPE_CHECKING
 
-from . import Place, furniture, land, pieces
+from . import Place, furniture, land, pieces, town
 
 if TYPE_CHECKING:
     from ..dressing import Dressing
@@ -11,7 +11,7 @@ WIDEST = 40.0
 
 
 def build(film: "Dressing", place: Place) -> None:
-    """Draw a park: lawn, a gravel path, a bench, broad trees near and far."""
+    """Draw a park: lawn, a gravel path, a bench, lanterns, broad trees near and far."""
     film.mood("noon")
     film.light(azimuth_deg=place.facing_deg - 55, elevation_deg=46)
     film.ground("grass")
@@ -27,6 +27,8 @@ def build(film: "Dressing", place: Place) -> None:
     feet = [pieces.block(0.05, 0.5, 0.42, (side, 0, 0)) for side in (-0.7, 0.7)]
     feet += [pieces.block(0.05, 0.04, 0.5, (side, 0.26, 0.42)) for side in (-0.7, 0.7)]
     furniture.put(film, place, "bench's feet", feet, spot, "steel_dark")
+    for number, (away, turn) in enumerate(((place.radius + 2.6, 68.0), (1.4 * place.radius + 4.2, 203.0))):
+        town.park_lamp(film, place, number + 1, place.spot(away, turn))
     land.wood(film, place, "broadleaf", 9, reach + 5, reach + 28, 9.0, "trees")
     land.wood(film, place, "broadleaf", 10, reach + 26, reach + 46, 10.0, "far trees")
     land.edge_of_a_wood(film, place, away=62 + 2 * place.radius, height=13.0)

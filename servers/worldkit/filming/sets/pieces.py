@@ -33,6 +33,16 @@ def block(x: float, y: float, z: float, at: tuple[float, float, float] = (0, 0, 
     return form.vertices + np.array([at[0], at[1], at[2] + z / 2]), form.faces
 
 
+def boxes(rows: Iterable[tuple[float, float, float, tuple[float, float, float]]]) -> Mesh:
+    """Plain boxes as one mesh: of each its full extents and the middle of its underside, m. Each has edges of its own, which are sharp."""
+    told = np.array([(x, y, z, *at) for x, y, z, at in rows], dtype=float).reshape(-1, 1, 6)
+    signs = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
+    sides = np.array([(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)])
+    corners = 0.5 * signs[sides.ravel()] * told[..., :3] + told[..., 3:] + told[..., 2:3] * np.array([0, 0, 0.5])
+    quads = 4 * np.arange(6 * len(told))[:, None]
+    return corners.reshape(-1, 3), np.concatenate([quads + np.array(one) for one in ((0, 1, 2), (0, 2, 3))])
+
+
 def turned(profile: list[tuple[float, float]], at: tuple[float, float, float] = (0, 0, 0), smooth: int = 3) -> Mesh:
     """A thing of revolution by (radius, height), m, from the ground up; its foot stands `at`."""
     form = forms.lathe(profile=profile, smooth=smooth)
@@ -109,26 +119,3 @@ def wooded(colour: str, random: np.random.Generator) -> Surface:
     hedge = (np.abs((11 * along + 1.3 * broad + 2 * up) % 1.0 - 0.5) > 0.47)[..., None]
     picture = np.where(hedge & (share < 0.5), woods, share * woods + (1 - share) * fields)
     return Surface(picture=(255 * np.clip(picture, 0, 1)).astype(np.uint8), roughness=0.95)
-
-
-def facade(wall: str, random: np.random.Generator, storeys: int = 4, bays: int = 5) -> Surface:
-    """The front of a house as a picture, 3 m a storey and 2.4 m a bay: windows with frames, sills, some with curtains."""
-    from ..drawn_only import rgb
-
-    storey, bay = 120, 96
-    picture = np.empty((storeys * storey, bays * bay, 3))
-    picture[:] = np.array(rgb(wall)) * 255
-    picture *= 1 + 0.05 * random.normal(size=picture.shape[:2])[..., None]
-    for row in range(storeys):
-        for column in range(bays):
-            top, left = row * storey + 26, column * bay + 24
-            picture[top - 5 : top + 69, left - 5 : left + 53] = 226
-            glass = np.linspace(70, 120, 64)[:, None] * random.uniform(0.5, 1.1)
-            picture[top : top + 64, left : left + 48] = glass[..., None] * np.array([0.82, 0.95, 1.08])
-            if random.random() < 0.45:
-                drawn = int(random.uniform(8, 44))
-                picture[top : top + drawn, left : left + 48] = np.array([214, 204, 186]) * random.uniform(0.7, 1.0)
-            picture[top : top + 64, left + 22 : left + 26] = 226
-            picture[top + 68 : top + 75, left - 9 : left + 57] = 190
-        picture[row * storey : row * storey + 4] *= 0.8
-    return Surface(picture=np.clip(picture, 0, 255).astype(np.uint8), roughness=0.85, tile_m=bays * 2.4)

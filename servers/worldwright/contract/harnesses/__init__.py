@@ -53,8 +53,13 @@ class Harness(Protocol):
     TRUST: str
     """Why it is not safe without a person's word for its hooks, in a folder that it has never seen; empty where it is."""
 
-    def unattended(self, files: dict[str, str]) -> dict[str, str]:
-        """Those of all generated files that are other where nobody is there to be asked, as in a campaign."""
+    def unattended(self, files: dict[str, str], folder: Path) -> dict[str, str]:
+        """Those of all generated files that are other where nobody is there to be asked, as in a campaign.
+
+        Args:
+            files: all of them, by path.
+            folder: the project's, which has a git root of its own; what lies in the folders around it is not to be read.
+        """
 
     def headless(self, prompt: str, model: str, folder: Path, most_usd: float | None) -> list[str]:
         """The words after its program that make a world of a prompt with nobody there, each event told as a line of JSON.

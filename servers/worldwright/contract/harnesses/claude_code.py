@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -102,16 +103,26 @@ def diagnose(root: Path) -> Diagnosis | None:
     return Diagnosis("claude", not missing, found, "sudo apt-get install -y bubblewrap socat", essential=False)
 
 
-def unattended(files: dict[str, str]) -> dict[str, str]:
-    """Its settings without the question whether a plan is approved."""
+def unattended(files: dict[str, str], folder: Path) -> dict[str, str]:
+    """Its settings without the question whether a plan is approved, and without the words of the projects around its folder.
+
+    It reads them in every folder above its own, whatever its git root is; those of the person's home are the person's.
+    """
     settings = json.loads(files[".claude/settings.json"])
     settings["permissions"]["ask"] = []
+    # As patterns: a sign that means something in one stands for any sign, since Claude Code reads a backslash as a slash.
+    around = [
+        re.sub(r"[][\\*?{}()!+@|]", "?", str(above)) for above in folder.resolve().parents if above != Path.home()
+    ]
+    words = ("CLAUDE.md", "CLAUDE.local.md", ".claude/CLAUDE.md", ".claude/rules/**", "AGENTS.md")
+    settings["claudeMdExcludes"] = [f"{above.rstrip('/')}/{name}" for above in around for name in words]
     return {".claude/settings.json": json.dumps(settings, indent=2) + "\n"}
 
 
 def headless(prompt: str, model: str, folder: Path, most_usd: float | None) -> list[str]:
-    """Print mode, each event a line; it ends by itself when it has cost as much as it may."""
+    """Print mode, each event a line; it ends by itself when it has cost as much as it may. No servers but its folder's own."""
     words = ["-p", f"/generate --auto {prompt}", "--output-format", "stream-json", "--verbose"]
+    words += ["--strict-mcp-config", "--mcp-config", str(folder / ".mcp.json")]
     words += ["--allowedTools", ",".join(mcp_names(PERSONAL))]
     words += ["--model", model] if model else []
     return words + (["--max-budget-usd", f"{most_usd:.6g}"] if most_usd is not None else [])

@@ -75,7 +75,7 @@ def diagnose(root: Path) -> Diagnosis | None:
     return Diagnosis("codex", state in ("trusted", "managed"), found, fix, essential=False)
 
 
-def unattended(files: dict[str, str]) -> dict[str, str]:
+def unattended(files: dict[str, str], folder: Path) -> dict[str, str]:
     """Its configuration, in which a plan's approval is not asked about."""
     import tomllib
 

@@ -79,7 +79,7 @@ def diagnose(root: Path) -> Diagnosis | None:
     return Diagnosis("opencode", here, found, "sudo apt-get install -y ripgrep", essential=False)
 
 
-def unattended(files: dict[str, str]) -> dict[str, str]:
+def unattended(files: dict[str, str], folder: Path) -> dict[str, str]:
     """Its configuration, in which a plan's approval is not asked about."""
     config = json.loads(files[".opencode/opencode.json"])
     config["permission"] |= {tool.replace(".", "_"): "allow" for tool in PERSONAL}

@@ -79,8 +79,8 @@ class Capture:
         program.main = main  # type: ignore[assignment]
 
 
-def run(path: Path, mark: Path) -> tuple[Any, dict[str, Any]]:
-    """Run a program up to its world; returns (model, facts), with no model when it makes none."""
+def run(path: Path, mark: Path) -> tuple[Any, dict[str, Any], dict[str, Any]]:
+    """Run a program up to its world; returns (model, facts, what works beside it), with no model when it makes none."""
     import mujoco
 
     capture = Capture(mark)
@@ -104,10 +104,13 @@ def run(path: Path, mark: Path) -> tuple[Any, dict[str, Any]]:
 
         seed = capture.keywords.get("seed", 0)
         model = world.make(build, world.seeded(seed if isinstance(seed, int) else 0)[0])
-        return model, {"made_by": "build", "duration_s": capture.keywords.get("duration")}
+        beside: dict[str, Any] = {
+            name: capture.keywords[name] for name in ("laws", "control_every") if name in capture.keywords
+        }
+        return model, {"made_by": "build", "duration_s": capture.keywords.get("duration")}, beside
     if capture.models:
-        return capture.models[-1], {"made_by": "script"}
-    return None, {"made_by": "nothing"}
+        return capture.models[-1], {"made_by": "script"}, {}
+    return None, {"made_by": "nothing"}, {}
 
 
 def failure(error: BaseException, path: Path) -> dict[str, Any]:
@@ -128,7 +131,7 @@ def main(kind: str, path: Path, out: Path, lasting_s: float | None = None) -> No
     from worldkit import portable
 
     outcome: dict[str, Any] = {}
-    model = None
+    model, beside = None, dict[str, Any]()
     config = mujoco.MjLogConfig.get()
     config.logto_file = False
     config.set()
@@ -141,7 +144,7 @@ def main(kind: str, path: Path, out: Path, lasting_s: float | None = None) -> No
                 (out / "compiling").unlink()
                 outcome |= {"made_by": "file", "duration_s": lasting_s}
             else:
-                model, more = run(path, out / "compiling")
+                model, more, beside = run(path, out / "compiling")
                 outcome.update(more)
         except BaseException as error:
             outcome.update(failure(error, path))
@@ -156,7 +159,7 @@ def main(kind: str, path: Path, out: Path, lasting_s: float | None = None) -> No
         with contextlib.suppress(
             Exception
         ):  # a world that blows up here does so in the pass, too, which says it better
-            outcome["rehearsed"] = rehearse(model, float(seconds), out)
+            outcome["rehearsed"] = rehearse(model, float(seconds), out, **beside)
             (out / "outcome.json").write_text(json.dumps(outcome), encoding="utf-8")
 
 

@@ -138,6 +138,7 @@ def _hfield_sha256(model: mujoco.MjModel, field: int) -> str:
 
 def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
     """The start: poses, velocities, contacts, residuals, effective inverse inertias."""
+    from worldengine import read_by_solvers
     from worldengine.recording.seen import geom_rgba, skinned, visible
 
     shown = np.asarray(visible(model), bool)
@@ -178,7 +179,7 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "own_high": own_high,
         "bare_low": bare_low,
         "bare_high": bare_high,
-        "body_surface": _surfaces(model),
+        **read_by_solvers.told(model),
         "geom_solid": np.array([_solid(model, g) for g in range(model.ngeom)]),
         "geom_middle": np.array([_spread(model, g)[0] for g in range(model.ngeom)]).reshape(-1, 3),
         "geom_spread": np.array([_spread(model, g)[1] for g in range(model.ngeom)]).reshape(-1, 3, 3),
@@ -187,16 +188,6 @@ def _state(model: mujoco.MjModel, data: mujoco.MjData) -> dict[str, np.ndarray]:
         "geom_volume": np.array([_volume(model, g) for g in range(model.ngeom)]),
         "actuator_invweight": _actuator_invweight(model, data),
     }
-
-
-def _surfaces(model: mujoco.MjModel) -> np.ndarray:
-    """(nbody,) m^2: what each body cools over; 0 without geoms."""
-    from worldkit.fields.surface_area import of_body
-
-    found = np.zeros(model.nbody)
-    for body in np.unique(model.geom_bodyid):
-        found[body] = of_body(model, int(body))
-    return found
 
 
 def _near(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:

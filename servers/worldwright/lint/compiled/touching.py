@@ -214,9 +214,10 @@ class Touching:
         if one[3] != other[3]:
             above = one if one[3] > other[3] else other
             dim, mu, ref, imp = above[condim], above[friction], above[solref], above[solimp]
+            sticks = above[23:].sum()
         else:
             dim, mu = max(one[condim], other[condim]), np.maximum(one[friction], other[friction])
-            total = one[4] + other[4]
+            sticks, total = one[23:].sum() + other[23:].sum(), one[4] + other[4]
             share = one[4] / total if total >= 1e-15 else 0.5
             imp = share * one[solimp] + (1 - share) * other[solimp]
             both = one[solref][0] > 0 and other[solref][0] > 0
@@ -231,7 +232,7 @@ class Touching:
             tuple(imp.tolist()),
             float(one[5] + other[5]),
             float(one[6] + other[6]),
-            float(one[23:].sum() + other[23:].sum()),
+            float(sticks),
             (*surface[0], *surface[1]),
         )
 

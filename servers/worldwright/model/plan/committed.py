@@ -7,7 +7,7 @@ Frame: z up, +X front, +Y left, metres, kilograms, seconds, degrees. Sizes are f
 the axis-aligned bounding box. Source: the reference paper's appendix "Plan Format" and "Scene Coordinate System".
 """
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
@@ -106,12 +106,15 @@ class SimulationParameters(Frozen):
             raise ValueError(f"must be a positive, finite number of seconds, got {value}")
         return value
 
-    @model_validator(mode="after")
-    def _unsaid_frictions_yield(self) -> "SimulationParameters":
-        least = least_said(self.materials.values())
-        object.__setattr__(self, "materials", {name: yielded(row, least) for name, row in self.materials.items()})
-        object.__setattr__(self, "pairs", tuple(yielded(row, least) for row in self.pairs))
-        return self
+    def yielding(self, used: Collection[str]) -> "SimulationParameters":
+        """The same, with frictions that rows leave unsaid no larger than what the `used` materials say: one that nothing is made of
+        says nothing of how other things rub."""
+        least = least_said(row for name, row in self.materials.items() if name in used)
+        told = {
+            "materials": {name: yielded(row, least) for name, row in self.materials.items()},
+            "pairs": tuple(yielded(row, least) for row in self.pairs),
+        }
+        return self.model_copy(update=told)
 
     @property
     def gravity_vector(self) -> Vec3:
@@ -276,8 +279,16 @@ class Plan(Frozen):
         """The row of `scene_objects`, as it is written, of each scene object; empty where none has a `count`."""
         return ()
 
+    @cached_property
+    def made_of(self) -> frozenset[str]:
+        """Names of the materials of things, and of the ground."""
+        parts = [part.material for row in self.scene_objects for part in row.parts]
+        rows = [row.material for row in self.scene_objects] + [row.material for row in self.assets]
+        return frozenset(name for name in ("ground", *rows, *parts) if name)
+
     @model_validator(mode="after")
     def _copied(self) -> "Plan":
+        self.__dict__["simulation_parameters"] = self.simulation_parameters.yielding(self.made_of)
         if copied := copies.families(self):
             breakage.check(self)
             broken = {row.name: row for row in self.scene_objects if row.breaks is not None}

@@ -70,6 +70,11 @@ def is_vehicle(row: Any) -> bool:
     return isinstance(row, AssetRow) and row.vehicle is not None
 
 
+def is_plant(row: Any) -> bool:
+    """Whether a row is made by `worldkit.plants`."""
+    return isinstance(row, AssetRow) and row.plant is not None
+
+
 def inner(plan: Plan) -> tuple[str, ...]:
     """What the names of parts and joints begin with that models, sculptures and vehicles bring in."""
     return tuple(f"{name}_" for row in plan.assets if row.type in WITH_PARTS for name in row.instances)
@@ -112,10 +117,11 @@ def _road_box(path: str, _changed: int, _size: int) -> tuple[Vec3, Vec3]:
     return roads.box(roads.read(path))
 
 
-def vehicle(row: AssetRow, instance: str) -> Imported:
-    """A vehicle with the names that its parts have in the world."""
-    assert row.vehicle is not None
-    made = row.vehicle.made()
+def made_here(row: AssetRow, instance: str) -> Imported:
+    """A vehicle or a plant with the names that its parts have in the world."""
+    told = row.vehicle or row.plant
+    assert told is not None
+    made = told.made()
     x, y, z = made.extents
     return Imported(
         text="",
@@ -242,10 +248,10 @@ def contents(plan: Plan) -> dict[str, bytes]:
 
 
 def all_of(plan: Plan) -> Iterator[tuple[str, AssetRow, Imported]]:
-    """Every instance of every model of a plan that loads, and of every vehicle, with its row and the names it has in the world."""
+    """Every instance of every model of a plan that loads, and of every vehicle and plant, with its row and the names it has in the world."""
     for row in plan.assets:
-        if is_vehicle(row):
-            yield from ((instance, row, vehicle(row, instance)) for instance in row.instances)
+        if is_vehicle(row) or is_plant(row):
+            yield from ((instance, row, made_here(row, instance)) for instance in row.instances)
         elif is_model(row):
             for instance in row.instances:
                 with suppress(PlanError):

@@ -16,7 +16,7 @@ class Touch(Frozen):
     """Sliding friction coefficient, unitless."""
     torsional_friction: float = Field(0.005, ge=0)
     """Metres (MuJoCo's convention: a coefficient times a contact radius). Of two surfaces the larger acts; unsaid, it is never
-    larger than the smallest that a material of the plan says."""
+    larger than the smallest that a material says of which a thing of the plan is made."""
     rolling_friction: float = Field(0.0001, ge=0)
     """Metres; unsaid as above."""
     restitution: float | None = Field(None, ge=0, le=1)

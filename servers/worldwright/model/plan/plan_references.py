@@ -20,7 +20,7 @@ _ACTED_ON = "acted on"
 _WORDS = {"reference": "object", "mover": "object", "parent": "object", "side": "object", "object or row": "object"} | {
     _ACTED_ON: "object, joint, tendon or actuator"
 }
-WITH_PARTS = ("mjcf", "urdf", "sculpt", "vehicle")
+WITH_PARTS = ("mjcf", "urdf", "sculpt", "vehicle", "plant")
 """Types of assets whose parts have names of their own, behind the asset's and `_`."""
 _SAFE = re.compile(r"[A-Za-z_][A-Za-z0-9_-]{0,62}")
 

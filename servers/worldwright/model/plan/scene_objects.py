@@ -14,6 +14,7 @@ from ..frozen import Frozen
 from .breakage import Breaks
 from .formed import BY_POINTS, NUMBERS, foreign, form
 from .object_parts import ObjectPart, Vec3
+from .plant_rows import Plant
 from .vehicle_rows import Vehicle
 from .walking_rows import Walks
 
@@ -207,16 +208,18 @@ def _vector(values: Any) -> Vec3:
 
 
 class AssetRow(Frozen):
-    """A catalog mesh, a model, something sculpted, a vehicle or a surveyed road, `count` times."""
+    """A catalog mesh, a model, something sculpted, a vehicle, a plant or a surveyed road, `count` times."""
 
     name: str
-    type: Literal["mesh", "mjcf", "urdf", "sculpt", "vehicle", "road"] = "mesh"
+    type: Literal["mesh", "mjcf", "urdf", "sculpt", "vehicle", "plant", "road"] = "mesh"
     filename: str
     """The exact catalog key; of an mjcf or urdf the file, relative to the plan's folder or the catalog; of a sculpt the file
-    beside the plan that makes it, `sculpt/vase.py` or `sculpt/vase.py:NAME`; a vehicle has none: its kind stands for it; of a
+    beside the plan that makes it, `sculpt/vase.py` or `sculpt/vase.py:NAME`; a vehicle or plant has none: its kind stands for it; of a
     road an OpenCRG file beside the plan."""
     vehicle: Vehicle | None = None
     """What it is and how it is driven, of a vehicle."""
+    plant: Plant | None = None
+    """What it is, of a plant, whose root is held."""
     walks: Walks | None = None
     """The policy that walks it, of an mjcf or urdf."""
     size: Vec3 | None = None
@@ -231,16 +234,18 @@ class AssetRow(Frozen):
     @model_validator(mode="before")
     @classmethod
     def _of_its_kind(cls, data: Any) -> Any:
-        """A vehicle is called after its kind where others name a file; a road never moves."""
-        if isinstance(data, dict) and data.get("type") == "road":
-            return _tupled({"fixed": True, **data})
-        if not isinstance(data, dict) or data.get("type") != "vehicle":
+        """A vehicle or plant is called after its kind where others name a file; a road never moves, nor does a plant's root."""
+        if not isinstance(data, dict):
             return _tupled(data)
-        vehicle = data.get("vehicle")
-        kind = str(vehicle.get("kind", "") if isinstance(vehicle, dict) else getattr(vehicle, "kind", ""))
+        of = data.get("type")
+        held = {"fixed": True} if of in ("road", "plant") else {}
+        if of not in ("vehicle", "plant"):
+            return _tupled({**held, **data})
+        told = data.get(of)
+        kind = str(told.get("kind", "") if isinstance(told, dict) else getattr(told, "kind", ""))
         if data.get("filename", kind) != kind:
-            raise ValueError("a vehicle is made of its kind and its numbers, and reads no file: remove `filename`")
-        return _tupled({**data, "filename": kind})
+            raise ValueError(f"a {of} is made of its kind and its numbers, and reads no file: remove `filename`")
+        return _tupled({**held, **data, "filename": kind})
 
     @model_validator(mode="after")
     def _as_a_road(self) -> "AssetRow":
@@ -258,6 +263,14 @@ class AssetRow(Frozen):
             raise ValueError(
                 "a vehicle rolls, and its tyres' friction is one of its `numbers`: remove `fixed`, `is_dynamic` and `material`"
             )
+        return self
+
+    @model_validator(mode="after")
+    def _as_a_plant(self) -> "AssetRow":
+        if (self.type == "plant") != (self.plant is not None):
+            raise ValueError("`type: plant` and `plant: {kind: bough}` (or tree, bush) go together")
+        if self.plant is not None and not self.fixed:
+            raise ValueError("the root of a plant is held: remove `fixed`")
         return self
 
     @model_validator(mode="after")

@@ -5,6 +5,7 @@ Frozen numpy arrays in the units and the frame of `worldwright.model.recording.t
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -70,3 +71,13 @@ class Interventions:
     """(K, 6) in the kind's own unit, zero-padded."""
     work_j: Array
     """(K,) J done on the system."""
+
+    @cached_property
+    def groups(self) -> dict[tuple[str, str], Array]:
+        """The rows of each kind on each target, in the order in which they first acted: of a crowd there are millions."""
+        number: dict[tuple[str, str], int] = {}
+        pairs = zip(self.kind, self.target, strict=True)
+        which = np.fromiter((number.setdefault(pair, len(number)) for pair in pairs), np.int32, len(self.time))
+        order = np.argsort(which, kind="stable")
+        ends = np.searchsorted(which[order], np.arange(len(number) + 1))
+        return {(str(k), str(t)): order[ends[n] : ends[n + 1]] for (k, t), n in number.items()}

@@ -123,6 +123,12 @@ def read_recording(folder: Path) -> Trajectory:
         ) from cause
 
 
+def _shared(words: "np.ndarray") -> list[str]:
+    """The same words, each of them in memory once: millions of rows name a few."""
+    known: dict[str, str] = {}
+    return [known.setdefault(word, word) for word in map(str, words)]
+
+
 def from_recording(recording: Any) -> Trajectory:
     """A motion out of an open recording, or of what has the same attributes."""
     names = tuple(recording.names)
@@ -146,8 +152,8 @@ def from_recording(recording: Any) -> Trajectory:
     acts = recording.interventions
     ledger = Interventions(
         time=acts.time,
-        kind=[str(kind) for kind in acts.kind],
-        target=[str(target) for target in acts.target],
+        kind=_shared(acts.kind),
+        target=_shared(acts.target),
         value=acts.value,
         work_j=acts.work_j,
     )

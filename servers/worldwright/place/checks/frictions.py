@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from ...model.plan.committed import AssetRow, Plan, SceneObject
-from ...model.plan.pairings import FRICTIONS, Touch, said
+from ...model.plan.pairings import FRICTIONS, YIELDING, Touch, said
 from .checked_layout import CheckedLayout
 
 GROUND = "ground"
@@ -19,10 +19,24 @@ MOST = 6
 
 def check(layout: CheckedLayout) -> None:
     """Tell the frictions in force of the pairs that matter."""
-    lines = list(told(layout.plan))
+    lines = [*given_way(layout.plan), *told(layout.plan)]
     layout.at_start += lines[:MOST]
     if len(lines) > MOST:
         layout.at_start.append(f"… and {len(lines) - MOST} more pairs of materials that do not say the same frictions")
+
+
+def given_way(plan: Plan) -> Iterator[str]:
+    """One line for each friction that materials leave unsaid and that another one's word makes smaller than it would be."""
+    rows = {name: row for name, row in plan.simulation_parameters.materials.items() if name in plan.made_of}
+    for kind in YIELDING:
+        usual, unsaid = getattr(Touch(), kind), [name for name, row in rows.items() if kind not in said(row)]
+        if smaller := [name for name in unsaid if getattr(rows[name], kind) < usual]:
+            value = getattr(rows[smaller[0]], kind)
+            who = [name for name, row in rows.items() if said(row).get(kind) == value]
+            yield (
+                f"{', '.join(smaller)}: {kind.replace('_', ' ')} {value:g} m, unsaid, by the word of {', '.join(who)} "
+                f"(else {usual:g} m)"
+            )
 
 
 def told(plan: Plan) -> Iterator[str]:

@@ -53,11 +53,8 @@ def acting(trajectory: Trajectory, context: Context) -> Iterator[Acting]:
     ledger, context = trajectory.interventions, context.of_recording(trajectory)
     if ledger is None:
         return
-    groups: dict[tuple[str, str], list[int]] = {}
-    for row, pair in enumerate(zip(ledger.kind, ledger.target, strict=True)):
-        groups.setdefault((str(pair[0]), str(pair[1])), []).append(row)
     step = trajectory.time_step or trajectory.interval_s
-    for (kind, target), rows in sorted(groups.items()):
+    for (kind, target), rows in sorted(ledger.groups.items()):
         times, values = ledger.time[rows], ledger.value[rows]
         force = values[:, 1:2] if kind == "control" else values[:, :3]
         impulse = force.sum(axis=0) * (step if kind in ("force", "control") else 0.0)

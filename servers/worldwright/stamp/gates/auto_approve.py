@@ -2,7 +2,7 @@
 
 A value needs no mark when the prompt states it or when it names its source. This covers what changes the outcome: the
 time step, the duration, masses, starting motion, non-standard gravity,
-what drivers of vehicles do, where robots walk, and material constants. That each mark names a
+what drivers of vehicles do and the way they take, where robots walk, and material constants. That each mark names a
 value that exists is `WP124`.
 
 Why: in auto mode nobody reads the plan before the code is written, so what was assumed must be readable afterwards.
@@ -76,6 +76,9 @@ def _driven(plan: Plan) -> Iterator[tuple[str, list[float]]]:
         way = f"{VEHICLES}{row.name}.vehicle"
         if (follows := row.vehicle.follows) is not None:
             usual = type(follows).model_fields
+            yield f"{way}.follows.path", [abs(number) for point in follows.path for number in point]
+            if follows.closed:  # no number of the prompt could say so
+                yield f"{way}.follows.closed", [float("nan")]
             for name in ("speed_m_s", "across_m_s2", "faster_m_s2", "slower_m_s2", "left_m"):
                 if (value := getattr(follows, name)) != usual[name].default:
                     yield f"{way}.follows.{name}", [abs(value)]

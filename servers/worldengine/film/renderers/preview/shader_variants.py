@@ -39,6 +39,8 @@ class Features:
     """It reflects the picture itself."""
     coloured: bool
     """Its corners have colours of their own."""
+    thin: int
+    """Light comes through it, so many hundredths."""
     simple: bool
     """It omits relief, contact shadows and fine glints, as mirror images do."""
 
@@ -79,6 +81,7 @@ def features(
         gobo=gobo,
         mirror=mirror,
         coloured=coloured,
+        thin=round(100 * look.thin),
         simple=simple,
     )
 

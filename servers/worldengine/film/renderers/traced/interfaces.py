@@ -55,7 +55,7 @@ class Interfaces:
         import drjit as dr
         import mitsuba as mi
 
-        own = {number: _index(shape.bsdf()) for shape, number in shapes}
+        own = {number: refraction(shape.bsdf()) for shape, number in shapes}
         apart = told_apart([index for index in own.values() if index > 0])
         kinds = np.zeros(max(own) + 1, np.uint32)
         for number, index in own.items():
@@ -157,7 +157,7 @@ def bent(si: Any, way: Any, crossing: Crossing) -> Bent:
     return Bent(mirrored, back, through)
 
 
-def _index(coating: Any) -> float:
+def refraction(coating: Any) -> float:
     """The index of refraction of a material of Mitsuba's through which light goes bent; 0 of any other."""
     import mitsuba as mi
 

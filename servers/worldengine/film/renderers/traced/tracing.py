@@ -85,7 +85,7 @@ class Tracing:
         """Scenes that do not know yet that something has moved."""
         self._denoiser: tuple[Any, Denoiser] | None = None
         self._depth = CLEAR_DEPTH if self.figures.clear or self._strands.clear else DEPTH
-        self._clear = [*self.figures.passing(), *self._strands.passing] if self.figures.coatings.fades else []
+        self._clear = [*self.figures.passing(), *self._strands.passing]
         self._plates = plates.Shelf()
         self._plain: Classic | None = None
         self.figures.place(rest)

@@ -54,6 +54,13 @@ def choose() -> str:
     raise MissingRendererError("no variant of Mitsuba can be loaded here", "mitsuba", INSTALL)
 
 
+def compiled() -> bool:
+    """Whether the variant that is set computes many paths at once."""
+    import mitsuba
+
+    return str(mitsuba.variant()) != PLAIN
+
+
 def candidates(gpu: bool, llvm: bool) -> tuple[str, ...]:
     """The variants to try, the fastest first."""
     return (GPU,) * gpu + (COMPILED,) * llvm + (PLAIN,)

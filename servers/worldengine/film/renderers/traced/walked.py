@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import absorbed, behind_glass
+from . import absorbed, behind_glass, plainly_through, variant
 
 AT_ONCE = 64
 """Samples a pixel that are traced in one go, since the memory they take grows with them."""
@@ -70,13 +70,14 @@ def light(
         samples: a pixel.
         seed: of their chances.
         where: (h, w) of the pixels that are walked, a mask of any size.
-        clear: shapes that light goes through, with how much of each colour fades there, 1/m.
+        clear: shapes that light goes through, with how much of each colour fades there, 1/m; computed plainly, nothing does.
     """
     import mitsuba as mi
 
+    compiled = variant.compiled()
     path = (
         absorbed.walker(depth, clear)
-        if clear
+        if clear and compiled
         else mi.load_dict({"type": "path", "max_depth": depth, "rr_depth": absorbed.LONGEST})
     )
     total: Any = np.float32(0)
@@ -87,6 +88,10 @@ def light(
         else:
             drawn = _some(scene, sensor, path, some, seed + first, where)
         total = total + drawn * np.float32(some / samples)
+    if clear and not compiled:
+        width, height = sensor.film().size()
+        some_of = None if where is None else spread(where, int(height), int(width))
+        total = total + plainly_through.light(scene, sensor, [shape for shape, _ in clear], some_of)
     return np.asarray(total)
 
 
@@ -95,7 +100,7 @@ def guides(scene: Any, sensor: Any, samples: int, where: np.ndarray | None = Non
     path tracer itself would double its time. Colours and normals are those behind what is `clear`."""
     import mitsuba as mi
 
-    if clear:
+    if clear and variant.compiled():
         through = behind_glass.walker(absorbed.media(clear))
         if where is not None:
             return _some(scene, sensor, through, samples, 0, where)[..., -behind_glass.CHANNELS :]

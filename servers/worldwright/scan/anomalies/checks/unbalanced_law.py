@@ -21,6 +21,7 @@ from dataclasses import replace
 import numpy as np
 
 from ....model.finding import AnomalySeverity
+from ....model.recording.law_balances import LawBalance
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic, own_laws
 from ..sign import Case, Context, Sign
@@ -30,7 +31,7 @@ STAGING = True
 NEEDS = ()
 MOMENTUM, ENERGY = (0.02, 0.10), (0.05, 0.20)
 MASS, VOLUME = (0.01, 0.10), 0.05
-GAMBLED_J = 1e-6
+GAMBLED_J, EARLY = 1e-6, 0.02
 """Less energy than this is nobody's."""
 
 
@@ -41,25 +42,35 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         said = "the sums of the author's own laws were recorded less than twice, so that nothing tells what they give and take"
         yield Sign("world", whole, 0.0, 2.0, "instants", "blocking", said)
     for law in trajectory.balances:
-        window = (float(law.t[0]), float(law.t[-1]))
-        body = law.bodies[0] if law.bodies else "world"
+        yield from of_law(law)
 
-        def sign(share: float, threshold: float, blocks: float, message: str) -> Sign:
-            severity: AnomalySeverity = "blocking" if share > blocks else "warn"
-            said = f"the law {law.name}, the author's own, {message}"  # noqa: B023 (called at once)
-            return Sign(body, window, share, threshold, "of what is exchanged", severity, said)  # noqa: B023
 
-        if (share := law.from_nowhere) > MOMENTUM[0]:
-            told = f"has momentum from nowhere: {share:.1%} of all impulses that it exchanges"
-            yield sign(share, *MOMENTUM, told)
-        if law.made_j > GAMBLED_J and (share := law.made_j / law.scale_j) > ENERGY[0]:
-            yield sign(
-                share, *ENERGY, f"makes {law.made_j:.3g} J from nothing, {share:.0%} of what it stores and gives"
-            )
-        if law.mass_change > MASS[0]:
-            yield sign(law.mass_change, *MASS, f"changes its mass by {law.mass_change:.1%}")
-        if (share := law.volume_change or 0.0) > VOLUME:
-            yield sign(share, VOLUME, np.inf, f"changes its volume by {share:.1%}")
+def early(balances: tuple[LawBalance, ...]) -> list[str]:
+    """What does not balance in a law's first moments, when what lies still has hardly exchanged anything: energy counts there only as
+    a share of all that is stored."""
+    least = [max(GAMBLED_J, EARLY * float(np.abs(law.stored).max())) for law in balances]
+    return [sign.message for law, j in zip(balances, least, strict=True) for sign in of_law(law, j)]
+
+
+def of_law(law: LawBalance, least_j: float = GAMBLED_J) -> Iterator[Sign]:
+    """Yield each sum of one law that does not balance; less energy than `least_j` is none."""
+    window = (float(law.t[0]), float(law.t[-1]))
+    body = law.bodies[0] if law.bodies else "world"
+
+    def sign(share: float, threshold: float, blocks: float, message: str) -> Sign:
+        severity: AnomalySeverity = "blocking" if share > blocks else "warn"
+        said = f"the law {law.name}, the author's own, {message}"
+        return Sign(body, window, share, threshold, "of what is exchanged", severity, said)
+
+    if (share := law.from_nowhere) > MOMENTUM[0]:
+        told = f"has momentum from nowhere: {share:.1%} of all impulses that it exchanges"
+        yield sign(share, *MOMENTUM, told)
+    if law.made_j > least_j and (share := law.made_j / law.scale_j) > ENERGY[0]:
+        yield sign(share, *ENERGY, f"makes {law.made_j:.3g} J from nothing, {share:.0%} of what it stores and gives")
+    if law.mass_change > MASS[0]:
+        yield sign(law.mass_change, *MASS, f"changes its mass by {law.mass_change:.1%}")
+    if (share := law.volume_change or 0.0) > VOLUME:
+        yield sign(share, VOLUME, np.inf, f"changes its volume by {share:.1%}")
 
 
 def _spring(**wrong: float) -> Trajectory:

@@ -32,10 +32,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     ledger = trajectory.interventions
     if ledger is None or not len(ledger.time):
         return
-    groups: dict[tuple[str, str], list[int]] = {}
-    for i, pair in enumerate(zip(ledger.kind, ledger.target, strict=True)):
-        groups.setdefault((str(pair[0]), str(pair[1])), []).append(i)
-    for (kind, target), rows in groups.items():
+    for (kind, target), rows in ledger.groups.items():
         if context.declares(kind, target):
             continue
         size = float(np.sqrt((ledger.value[rows] ** 2).sum(axis=1)).max())

@@ -277,16 +277,28 @@ void main() {
 #endif
     float tight = clamp(pow(ao + nv, exp2(-8.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
 
-    // Key light.
+    // Key light. What is thin is lit from behind as well: the side that shows is then not the one that the light meets.
     float direct = max(dot(n, key_direction), 0.0);
-    float visible = lit(world, flat_normal, key_direction, gl_FragCoord.xy);
+#if THIN
+    vec3 through = float(THIN) * 0.01 * diffuse * vec3(1.25, 1.2, 0.55), met = flat_normal;
+    if (dot(met, key_direction) < 0.0) met = -met;
+#else
+    vec3 met = flat_normal;
+#endif
+    float visible = lit(world, met, key_direction, gl_FragCoord.xy);
 #if GOBO
     visible *= texture(gobo, 0.5 + 0.5 * (to_gobo * vec4(world, 1.0)).xy).r;
 #endif
 #if LAMPS
-    if (dot(flat_normal, key_direction) > 0.0) visible = mix(1.0, visible, key_shade);
+    if (dot(met, key_direction) > 0.0) visible = mix(1.0, visible, key_shade);
     vec4 hidden = vec4(0.0);  // of each lamp with shadows, the share that does not come here
-    for (int i = 0; i < lamp_count; i++) hidden[i] = 1.0 - lamp_lit(i, world, flat_normal, gl_FragCoord.xy);
+    for (int i = 0; i < lamp_count; i++) {
+        vec3 side = flat_normal;
+#if THIN
+        if (dot(side, lamp_places[i] - world) < 0.0) side = -side;
+#endif
+        hidden[i] = 1.0 - lamp_lit(i, world, side, gl_FragCoord.xy);
+    }
 #endif
     visible *= mix(1.0, 0.30, smoothstep(pool.z, pool.w, length(world.xy - pool.xy)));
     vec3 h = normalize(v + key_direction);
@@ -294,6 +306,9 @@ void main() {
     float wide = clamp(roughness + 0.35 * key_spread, 0.05, 1.0);
     float sharp = mix(smoothstep(0.16, 0.45, roughness), 1.0, key_sharp);
     vec3 light = diffuse * key_colour * direct * visible;
+#if THIN
+    light += through * key_colour * max(-dot(n, key_direction), 0.0) * visible;
+#endif
     vec3 shine = fresnel * key_colour * direct * visible * glint(direct, nv, max(dot(n, h), 0.0), wide) * sharp;
 #if COAT
     float glance = coat * (0.04 + 0.96 * fifth(1.0 - max(dot(v, h), 0.0)));
@@ -312,6 +327,17 @@ void main() {
 #endif
         float facing = dot(n, toward);
         light += diffuse * tint.rgb * reach * max(0.25 + 0.75 * facing, 0.0) * mix(ao, 1.0, 0.3);
+#if THIN
+        light += through * tint.rgb * reach * max(-facing, 0.0);
+#endif
+#if LAMPS
+        // What the ground below a lamp gives back, as from its middle: half of what the lamp gives goes there, and cosines twice.
+        vec3 below = vec3(where.xy, mirror_z) - world;
+        float high = where.z - mirror_z, b2 = dot(below, below) + 1e-6, from = -below.z * inversesqrt(b2);
+        float down = tint.w < -0.999 ? 1.0 : max(-light_aims[i].z, 0.0) * (1.0 - tint.w);
+        float back = where.w * 2.0 * down * max(from, 0.0) / (high * high + b2 + 0.01) * smoothstep(0.0, 0.05, high);
+        light += diffuse * tint.rgb * ground_mean * back * max(0.35 + 0.65 * dot(n, below) * inversesqrt(b2), 0.0) * ao;
+#endif
 #if !SIMPLE
         facing = max(facing, 0.0);
         vec3 hf = normalize(v + toward);
@@ -344,6 +370,9 @@ void main() {
 #endif
     // Light that bounced off the surface itself brightens its own crevices.
     light += diffuse * ambient * ao / (1.0 - 0.55 * albedo * (1.0 - ao));
+#if THIN
+    light += through * irradiance(-n) * ao;
+#endif
 #if SHEEN
     float edge_on = 1.0 - nv;
     light += sheen * albedo * edge_on * edge_on * edge_on * (ambient * ao + 0.5 * key_colour * visible * (0.3 + 0.7 * direct));

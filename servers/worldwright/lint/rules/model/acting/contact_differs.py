@@ -84,8 +84,19 @@ def _running(constant: str, unit: str) -> tuple[str, dict[str, object]]:
     return text, plan | {"simulation_parameters": known | {"constants": said}}
 
 
+def _sticky(*lines: str) -> tuple[str, dict[str, object]]:
+    """A case with things that stick by 5 N at each point, as the plan has it but for these statements."""
+    text, plan = changed(
+        "for name in ('crate', 'arm'): spec.geom(name).adhesion, spec.geom(name).gap = 5, contacts.REACH_M", *lines
+    )
+    known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
+    wood = known["materials"]["wood"] | {"adhesion": 5}
+    return text, plan | {"simulation_parameters": known | {"materials": known["materials"] | {"wood": wood}}}
+
+
 GOOD = (
     *SOUND,
+    _sticky(),
     sheet(),
     sheet("spec.worldbody.add_body(name='sheet', pos=(0, 3, 1)).add_geom(size=(.01, 0, 0), contype=0, conaffinity=0)"),
     _running("belt_speed", "m/s"),
@@ -97,6 +108,7 @@ GOOD = (
     ),
 )
 BAD = (
+    _sticky("spec.geom('ground').priority = 1"),
     sheet("f.friction[0] = 1.0"),
     sheet("f.contype = f.conaffinity = 0"),
     sheet("spec.geom('crate').solref = (-250000, -20)", "f.name = 'crate_drawn'", "f.contype = f.conaffinity = 0"),

@@ -1,0 +1,127 @@
+"""An author's own laws, stepped for the first fifth of a second before the physics is paid for: do they balance, what do they cost?
+
+A law that fails, blows up or makes momentum or energy shows within milliseconds of simulated time, and would else show after the
+whole of them. What it says is of these first steps: `scan` judges the recording.
+"""
+
+import contextlib
+import io
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ...model import companions, json_object
+from ...model.finding import Finding
+
+if TYPE_CHECKING:
+    from ...model.plan.committed import Plan
+    from .fetch import Outcome
+
+TRIED_S, WALL_S, LEAST_WALL_S, MEMORY_MB = 0.2, 20.0, 3.0, 2048
+
+
+@dataclass(frozen=True)
+class Tried:
+    """What came of it."""
+
+    said: str
+    findings: tuple[Finding, ...] = ()
+
+
+def of(program: Path, plan: "Plan | None", outcome: "Outcome", found: list[Finding], wall_s: float) -> Tried | None:
+    """What the author's laws of a program do in their first steps; None without any. A world that is wrong is not stepped."""
+    from .. import main_call
+
+    rows = plan.simulation_parameters.interventions if plan is not None else ()
+    wrong = any(finding.severity == "error" for finding in found)
+    if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
+        return None
+    lasting = main_call.facts(program).get("duration")
+    return tried(program, float(lasting), wall_s) if isinstance(lasting, int | float) else None
+
+
+def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | None:
+    """Step the laws of a program; None where nothing confines it, where there is no time for it, or it does not come to a step.
+
+    Args:
+        program: `simulation.py`, its laws beside it.
+        lasting_s: how long the whole of it lasts, s.
+        wall_s: the attempt ends after so many seconds of its own.
+    """
+    from ...scan.tools import unbalanced
+    from ...stage.tools import run_confined
+
+    if wall_s < LEAST_WALL_S:
+        return None
+    here = Path(__file__).parent
+    reads = [*(here / f"{name}.py" for name in ("step_laws", "compile_world", "measure", "rehearse")), program]
+    with contextlib.suppress(companions.CompanionError, OSError):  # refused in words where evidence is kept
+        reads += [program.parent / name for name in companions.of(program)]
+    seconds = min(TRIED_S, lasting_s)
+    call = [sys.executable, "-s", str(here / "step_laws.py"), str(program), "{out}", repr(seconds)]
+    wanted, wall_s = ("outcome.json", "sums.npz"), min(wall_s, WALL_S)
+    done = run_confined(call, program=program, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
+    told = json_object.told(done.files.get("outcome.json", b"")) or {}
+    reached, wall = (v if isinstance(v := told.get(n), int | float) else 0.0 for n in ("reached_s", "wall_s"))
+    whole = f"the whole {lasting_s:g} s about {wall * lasting_s / reached:.2g} s" if reached > 0 else ""
+    if "failure" in told:
+        return Tried("its laws fail in their first steps", (_failed(told, program),))
+    if done.status == "timed_out" and reached > 0:
+        return Tried(f"its laws: {reached:.3g} s take {wall:.1f} s, {whole}: make a step cheaper (skill media)")
+    balances = _balances(told, done.files.get("sums.npz", b""))
+    if not balances:
+        return None
+    found = tuple(_unbalanced(message, reached, program) for message in unbalanced(balances))
+    cost = f"its laws: the first {reached:.2g} s take {wall:.1f} s, {whole}"
+    return Tried(cost if found else f"{cost}; their sums balance", found)
+
+
+def _balances(told: dict[str, Any], data: bytes) -> tuple[Any, ...]:
+    """What the sums say of each law; nothing where they are none."""
+    import numpy as np
+
+    from ...model.recording.law_balances import LawBalance
+
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as kept:
+            t, sums, pushed, gravity = (np.asarray(kept[n], float) for n in ("t", "sums", "pushed", "gravity"))
+        if not np.isfinite(sums).all() or sums.shape != (len(told["laws"]), len(t), 15):
+            return ()
+        return tuple(
+            LawBalance(
+                str(row["name"]), tuple(map(str, row["bodies"])), t, mass=s[:, 0], momentum=s[:, 1:4], energy=s[:, 4],
+                weight=s[:, 5], stored=s[:, 6], volume=s[:, 7], held=s[:, 8:11], given=s[:, 11:14], work=s[:, 14],
+                pushed=float(push), gravity=gravity,
+            )
+            for row, s, push in zip(told["laws"], sums, pushed, strict=True)
+        )  # fmt: skip
+    except (OSError, ValueError, KeyError, TypeError, EOFError):
+        return ()
+
+
+def _unbalanced(message: str, seconds: float, program: Path) -> Finding:
+    move = "return to each body what pushes back, and tell in energy() the store whose slope the forces are"
+    return Finding(
+        code="WS318",
+        name="unbalanced_law",
+        severity="warning",
+        message=f"within the first {seconds:.2g} s {message}",
+        fix=f"{move}: see `worldwright lint explain WS318`; `scan` blocks what stays so",
+        file=str(program),
+    )
+
+
+def _failed(told: dict[str, Any], program: Path) -> Finding:
+    place, line = str(told.get("place") or told.get("file") or ""), told.get("line")
+    own = told.get("file") == program.name
+    where = f"{place}:{line}: " if place and line and ":" not in place and not own else f"{place}: " if place else ""
+    return Finding(
+        code="WR101",
+        name="program_fails",
+        severity="error",
+        message=f"{where}{told.get('failure')}: {told.get('message')}"[:1000],
+        fix=str(told.get("next_move") or "correct it there"),
+        file=str(program),
+        line=line if own and isinstance(line, int) else None,
+    )

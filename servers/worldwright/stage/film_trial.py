@@ -1,0 +1,51 @@
+"""Try a run's film before its physics: described and drawn once, on a world that stands still for as long as it will last.
+
+What a film may not ask for (a name that there is not, a number that is none, too much of anything) is told with its line then,
+and not after minutes of physics. What a film reckons from how things move may fail here without fault: that is told, and no finding.
+"""
+
+import tempfile
+from pathlib import Path
+
+from worldkit.files import write_atomic
+
+from ..model.errors import JobError
+from ..model.evidence.reports import EvidenceKey
+from ..model.evidence.run import Run
+from . import first_look, gates, one_frame
+from .short_runs import engine
+
+SIZE = (64, 36)
+TRAJECTORY = "trajectory"
+NEEDS = "needs_recording"
+"""Code of a failure that may be the missing motion's."""
+LAID = ("meta.json", "complete.json", "*.arrows", "*.json", "*.npz")
+
+
+def tried(run: Run, key: EvidenceKey | None) -> None:
+    """Try it on the world of the bundle pass, or else on one that is built for this.
+
+    Raises:
+        JobError: the film fails, with its line; code `NEEDS` where the missing recording may be why. Or its world is not to be had:
+            then the error is of another file.
+        PlanError, GateError, NotFoundError: there is no program yet.
+    """
+    with tempfile.TemporaryDirectory(prefix="worldwright-trial-") as folder:
+        here = Path(folder)
+        bundle = run.evidence(key) / "bundle" if key is not None and gates.passed(run, key, "bundle") else None
+        if bundle is None or not all((bundle / name).is_file() for name in (first_look.WORLD, first_look.FACTS)):
+            first_look.built(run, here)
+        else:
+            for name in (first_look.WORLD, first_look.FACTS):
+                write_atomic(here / name, (bundle / name).read_bytes())
+        given = [here / name for name in (first_look.WORLD, first_look.FACTS)]
+        laid = engine(["unmoved", "--world", str(given[0]), "--program", str(given[1])], given, LAID)
+        for name, content in laid.items():
+            if isinstance(content, bytes):
+                write_atomic(here / TRAJECTORY / name, content)
+        one_frame.draw_frame(run, here, 0.0, SIZE, True, (), unmoved=True)
+
+
+def is_films(failure: JobError) -> bool:
+    """Whether a failure is the film's own, and not that of the world that it is tried on."""
+    return not failure.place.startswith("simulation.py")

@@ -1,0 +1,58 @@
+"""Puffs over a picture: soft, hidden by what stands before them, as bright as the light that comes through to them."""
+
+from types import SimpleNamespace
+
+import numpy as np
+
+from worldengine.film import puffs
+from worldengine.film.renderers.preview.eye import View
+from worldengine.film.treatment import Treatment
+
+HEIGHT, WIDTH = 120, 160
+VIEW = View(np.zeros(3), np.array([[1.0, 0, 0], [0, 0, -1.0], [0, 1.0, 0]]).T, (WIDTH / HEIGHT * 0.5, 0.5))
+"""From the origin towards +y, z up."""
+SUN = Treatment(light_azimuth_deg=0.0, light_elevation_deg=80.0)
+
+
+def drawn(places, wide=0.4, opaque=0.5, wall_m=9.0, half_m=9.0):
+    axes = np.stack([[1.0, 0, 0], [0, 0, 1.0], [0, -1.0, 0]], axis=1)
+    view = View(VIEW.eye, axes, VIEW.tangents)
+    depth = np.full((HEIGHT, WIDTH), wall_m, np.float32)
+    depth[:, : WIDTH // 2] = half_m
+    count = len(places)
+    arrays = {
+        "p": np.array([places], np.float32),
+        "w": np.full((1, count), wide, np.float32),
+        "o": np.full((1, count), opaque, np.float32),
+    }
+    row = {"name": "mist", "rgb": (1.0, 1.0, 1.0), "places": "p", "wide": "w", "opaque": "o"}
+    before = np.full((HEIGHT, WIDTH, 3), 40, np.uint8)
+    return puffs.over(before, arrays, (row,), 0, SimpleNamespace(view=view, depth=depth), SUN).astype(float) - before
+
+
+def test_one_is_brightest_in_its_middle_fades_evenly_and_is_nowhere_else() -> None:
+    added = drawn([(0.0, 2.0, 0.0)])[:, :, 1]
+    middle = added[HEIGHT // 2, WIDTH // 2]
+    row = added[HEIGHT // 2, WIDTH // 2 :]
+    assert middle > 8 and np.unravel_index(added.argmax(), added.shape)[0] in range(HEIGHT // 2 - 3, HEIGHT // 2 + 3)
+    assert (np.diff(row) <= 1).all() and np.abs(np.diff(row)).max() < 0.35 * middle
+    assert added[:10].max() == 0 and added[:, :10].max() == 0
+
+
+def test_what_stands_before_it_hides_it() -> None:
+    added = drawn([(0.0, 2.0, 0.0)], half_m=1.0)[:, :, 1]
+    assert added[:, : WIDTH // 2 - 2].max() == 0 and added[:, WIDTH // 2 + 2 :].max() > 8
+
+
+def test_a_cloud_is_dark_where_no_light_comes_through() -> None:
+    rng = np.random.default_rng(0)
+    cloud = rng.uniform((-0.3, 2.0, -0.5), (0.3, 2.6, 0.5), (1500, 3))
+    added = drawn(cloud, wide=0.2, opaque=0.3)[:, :, 1]
+    lit, shaded = added[25:45, 70:90].mean(), added[75:95, 70:90].mean()
+    assert lit > shaded + 3
+
+
+def test_many_cost_what_they_cover() -> None:
+    rng = np.random.default_rng(1)
+    added = drawn(rng.uniform((-1, 2, -1), (1, 4, 1), (20_000, 3)), wide=0.05, opaque=0.05)
+    assert added.max() > 5

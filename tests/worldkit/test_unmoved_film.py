@@ -1,0 +1,76 @@
+"""A film that fails on a world that stands still: whose fault that is."""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from worldkit.errors import ProgramError
+from worldkit.filming import Film, Recorded, lacking_motion, still
+
+ARRAYS = {
+    "time": np.linspace(0.0, 1.0, 61),
+    "pos": np.zeros((61, 1, 3)),
+    "quat": np.tile([1.0, 0.0, 0.0, 0.0], (61, 1, 1)),
+    "middle": np.zeros((1, 3)),
+    "half": np.full((1, 3), 0.1),
+    "bodies": np.array(["ball"]),
+    "cameras": np.array([], str),
+    "movers": np.array(["ball"]),
+    "fps": np.array(24),
+    "size": np.array([64, 36]),
+    "floor_z": np.array(0.0),
+    **{f"touch_{name}": np.zeros(0) for name in ("time", "a", "b", "force")},
+}
+
+
+def shot(film: Film) -> None:
+    film.shot(still((1, 0, 1), (0, 0, 0)), until=1.0)
+
+
+def by_its_way(film: Film) -> None:
+    way = film.recorded.position("ball", np.array([0.0, 1.0]))
+    ahead = np.diff(way, axis=0)[0]
+    with np.errstate(invalid="ignore"):
+        ahead = ahead / np.linalg.norm(ahead)
+    film.draw("arrow", "box", (0.1, 0.1, 0.1), pos=tuple(ahead))
+    shot(film)
+
+
+def by_its_touch(film: Film) -> None:
+    first = film.recorded.touches("ball")[0]
+    film.shot(still((1, 0, 1), (0, 0, 0)), until=first.time_s)
+
+
+def too_many(film: Film) -> None:
+    speed = film.recorded.speed("ball", 0.5)
+    film.particles("dust", lambda t: np.zeros((len(t), 10_001, 3)) + speed)
+    shot(film)
+
+
+def misspelt(film: Film) -> None:
+    film.recorded.touches()
+    film.shoot()  # type: ignore[attr-defined]
+
+
+def failure(told: Callable[[Film], None]) -> tuple[Exception, bool]:
+    film = Film(Recorded(ARRAYS))
+    try:
+        told(film)
+        film.description()
+    except Exception as failed:
+        assert film.recorded.asked_of_motion
+        return failed, lacking_motion.may_hold(failed, told, ARRAYS)
+    raise AssertionError("it does not fail")
+
+
+@pytest.mark.parametrize(("told", "kind"), [(by_its_way, ProgramError), (by_its_touch, IndexError)])
+def test_what_the_missing_motion_may_have_done_is_no_fault_of_the_film(told, kind) -> None:
+    error, may_hold = failure(told)
+    assert isinstance(error, kind) and may_hold
+
+
+@pytest.mark.parametrize(("told", "said"), [(too_many, "at most 10000"), (misspelt, "shoot")])
+def test_what_no_motion_mends_is(told, said) -> None:
+    error, may_hold = failure(told)
+    assert said in str(error) and not may_hold

@@ -1,0 +1,78 @@
+"""An author's law is stepped for a fifth of a second before its physics is paid for."""
+
+from pathlib import Path
+
+import pytest
+
+from worldwright.lint.compiled import law_trial
+
+PROGRAM = """\
+import mujoco
+from laws.spring import Spring
+from worldkit import program, scene
+
+
+def build():
+    spec = scene.new("spring", time_step=0.002)
+    body = spec.worldbody.add_body(name="ball", pos=(0, 0, 1))
+    body.add_freejoint()
+    body.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.05, 0, 0], mass=1.0)
+    shown = spec.worldbody.add_body(name="bob", pos=(0, 0, 0.5))
+    shown.add_geom(type=mujoco.mjtGeom.mjGEOM_SPHERE, size=[0.05, 0, 0], contype=0, conaffinity=0, mass=0)
+    return spec
+
+
+if __name__ == "__main__":
+    program.main(build, duration=2.0, control_every=5, laws=[Spring()])
+"""
+LAW = """\
+import numpy as np
+
+
+class Spring:
+    name, bodies, shown_by = "spring", ("ball",), "bob"
+
+    def start(self, model, data):
+        self.points, self.velocities = np.array([[0.0, 0.0, 0.5]]), np.zeros((1, 3))
+        self.mass, self.at = np.array([1.0]), np.array([0.0, 0.0, 1.0])
+
+    def step(self, model, data, seconds):
+        parts, given = 20, np.zeros(3)
+        h = seconds / parts
+        for n in range(parts):
+            self.at = data.body("ball").xipos + n * h * data.body("ball").cvel[3:]
+            force = 50.0 * (self.at - self.points[0])
+            self.velocities[0] += h * (force + self.mass[0] * model.opt.gravity)
+            self.points += h * self.velocities
+            given -= force / parts
+        return [{felt} * given]
+
+    def energy(self):
+        {raises}
+        return 25.0 * float(((self.at - self.points[0]) ** 2).sum())
+"""
+
+
+def tried(folder: Path, felt: float = 1.0, raises: str = "") -> law_trial.Tried:
+    (folder / "laws").mkdir()
+    (folder / "laws" / "spring.py").write_text(LAW.replace("{felt}", str(felt)).replace("{raises}", raises or "pass"))
+    (folder / "simulation.py").write_text(PROGRAM)
+    found = law_trial.tried(folder / "simulation.py", 2.0)
+    assert found is not None
+    return found
+
+
+def test_one_that_balances_is_told_with_its_cost(tmp_path: Path) -> None:
+    found = tried(tmp_path)
+    assert found.findings == () and "the whole 2 s about" in found.said and "sums balance" in found.said, found
+
+
+def test_one_whose_body_does_not_feel_it_is_told_at_once(tmp_path: Path) -> None:
+    (finding, *_) = tried(tmp_path, felt=0.0).findings
+    assert finding.code == "WS318" and "momentum from nowhere" in finding.message
+
+
+@pytest.mark.parametrize("raises", ["return self.stored"])
+def test_one_that_fails_is_told_with_its_line(tmp_path: Path, raises: str) -> None:
+    (finding,) = tried(tmp_path, raises=raises).findings
+    assert finding.severity == "error" and "spring.py:23" in finding.message and "stored" in finding.message
