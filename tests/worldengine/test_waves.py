@@ -13,6 +13,7 @@ from worldengine.recording import describing, stored
 from worldengine.recording.record import Recorder
 from worldengine.recording.replay import Replay
 from worldengine.solvers import Row, water
+from worldengine.variants import altered
 from worldengine.waves.shown_water import ShownWater
 from worldkit import bodies, scene, waters
 from worldkit.errors import ProgramError
@@ -34,13 +35,15 @@ def run(
     spec: mujoco.MjSpec | None = None,
     floats: tuple[str, ...] = ("ball",),
     steps: int = STEPS,
+    without: tuple[str, ...] = (),
     **constants: float,
 ) -> tuple[mujoco.MjModel, stored.Recording]:
     model = (spec or tank()).compile()
     prepare(model)
+    hold = altered.alter(model, altered.Variant.parse(None, without, ())) if without else None
     data = start(model)
     rows = [Row("water", floats, {"density": 998.0, "level": 0.2, **constants}, "water")]
-    beside = Beside(model, data, rows)
+    beside = Beside(model, data, rows, hold=hold)
     meta = {**describing.describe(model), "solvers": [row.written() for row in rows], "shown": beside.shown}
     with Recorder(model, data, folder, meta, channels=beside.channels) as recorder:
         simulate(model, data, recorder, steps, beside=beside)
@@ -59,6 +62,13 @@ def test_a_ball_splashes_and_the_volume_is_kept(fallen) -> None:
     assert told["immersed"].max() > 5e-5
     assert np.abs(told["volume"]).max() < 1e-15 * 0.2
     assert told["level"][-1] > 0.2 + 0.5 * told["immersed"][-1, 0] / (0.46 * 0.36)
+
+
+def test_a_ball_that_a_trial_of_causes_takes_away_leaves_the_water_still(tmp_path: Path) -> None:
+    _, recording = run(tmp_path / "out", without=("ball",))
+    told = recording.channels("water")
+    assert told["drops"].max() == 0 and told["highest"].max() == pytest.approx(0.2, abs=1e-6)
+    assert recording.pos[-1, recording.body("ball"), 2] == pytest.approx(0.36, abs=1e-6)
 
 
 def test_its_surface_is_drawn_where_it_lay(fallen) -> None:

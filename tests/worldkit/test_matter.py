@@ -125,6 +125,13 @@ def test_snow_that_falls_on_a_board_lies_there_as_high_as_its_mass_says() -> Non
     assert np.linalg.norm(law.velocities, axis=1).mean() < 0.03
 
 
+def test_what_is_poured_tells_how_much_more_of_it_moves_later() -> None:
+    sky = Source(mass=0.24, at=(0, 0, 0.25), starts=0.0, ends=2.0, sides=(0.2, 0.2), speed=1.0)
+    law = Stood(Snow(density=100.0), 0.01, poured=[sky])
+    assert law.grows(0.2, 3.0) == pytest.approx((2 / 3) / 0.05, rel=0.1)  # all from 2 s on, half on the mean before
+    assert Stood(Sand(), 0.01, begins=[block((0, 0, 0.05), (0.1, 0.1, 0.1))]).grows(0.2, 3.0) == pytest.approx(1.0)
+
+
 def test_a_tensor_is_its_principal_values_and_directions() -> None:
     draw = np.random.default_rng(3).normal(size=(3, 3))
     whole = draw @ draw.T

@@ -109,7 +109,7 @@ class Solver(Protocol):
     CONSTANTS: Mapping[str, tuple[str, str]]
     """The constants that its row in a plan must give: name, with unit and meaning. Those that it may give are in `OPTIONAL`, where
     a module has that, those that may have a number for each body in `EACH`. `PUSHES = False`: it pushes nothing; `STANDING = True`:
-    its bodies may stand fast."""
+    its bodies may stand fast. `WEIGHTY = True`: it refuses a world without gravity."""
     CASES: tuple[Case, ...]
     """Worlds with a known outcome, which every integrator and half the time step must give."""
 

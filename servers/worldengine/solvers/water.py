@@ -35,6 +35,7 @@ MOST_CELLS, MOST_CELLS_CUT = 9_000, 1_700
 """Of a rectangle, whose waves cost little, and of any other shore."""
 CELLS_A_HALF, FEWEST_CELLS = 6.0, 900
 """Cells over half the width of the smallest body, and in all, at least."""
+WEIGHTY = True
 HALF_M = 0.1
 """Half the width of a body, as far as the grid goes, where there is none: a pond for itself."""
 LEAST_CELL = 0.0008

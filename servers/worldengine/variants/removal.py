@@ -21,6 +21,13 @@ APART_M = 1e9
 """As a negative margin, m, it lets no distance make a contact."""
 
 
+def taken_away(model: "mujoco.MjModel", body: int) -> bool:
+    """Whether a variant took this body away, or what carries it: nothing of it touches, and it does not move."""
+    root = int(model.body_weldid[body])
+    first, count = int(model.body_dofadr[root]), int(model.body_dofnum[root])
+    return count > 0 and bool((model.dof_armature[first : first + count] >= IMMOVABLE).all())
+
+
 class Removal:
     """Takes things out of a compiled model, or makes them weaker."""
 

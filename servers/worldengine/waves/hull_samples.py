@@ -12,6 +12,8 @@ import numpy as np
 from worldkit.errors import ProgramError
 from worldkit.naming import names
 
+from ..variants.removal import taken_away
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -19,6 +21,8 @@ LUMPS = 360
 """Of one geom, about."""
 DRAG = {2: 0.47, 3: 0.9, 4: 0.6, 5: 0.9, 6: 1.05, 7: 0.9}
 """mjtGeom: drag coefficients of spheres, capsules, ellipsoids, cylinders, boxes, meshes (Hoerner, Fluid-Dynamic Drag, chapter 3)."""
+NEXT_TO_NOTHING = 1e-9
+"""Of its volume has a body that a trial of causes took away: water does not rise for it."""
 Array = np.ndarray
 
 
@@ -39,13 +43,16 @@ class Hulls:
         places, volumes, owners = [np.zeros((0, 3))], [none], [np.zeros(0, int)]
         rises, sizes, drags = [none], [none], [none]
         for order, body in enumerate(bodies):
-            mine = np.flatnonzero((model.geom_bodyid == body) & solid)
+            own = model.geom_bodyid == body
+            gone = not (own & solid).any() and taken_away(model, body)
+            mine = np.flatnonzero(own if gone else own & solid)
             if not len(mine):
                 name = names(model, "body", model.nbody)[body]
                 cause = f"water cannot tell how much of {name!r} is under it: nothing of it is solid"
                 raise ProgramError(cause, "interventions", "name bodies that collide")
             for geom in map(int, mine):
                 points, volume = _lumps(model, geom)
+                volume *= NEXT_TO_NOTHING if gone else 1.0
                 turn = np.zeros(9)
                 _rotation(model.geom_quat[geom], turn)
                 places.append(points @ turn.reshape(3, 3).T + model.geom_pos[geom])

@@ -199,6 +199,12 @@ class Matter:
             felt[list(self.bodies).index("world"), :3] += feels / seconds
         return felt
 
+    def grows(self, first_s: float, whole_s: float) -> float:
+        """How many times as many of its points move, on the mean over `whole_s` s, as over its `first_s` s: of what is poured, few."""
+        starts = np.maximum(self._when, 0.0)
+        first, whole = (np.maximum(until - starts, 0.0).sum() / until for until in (first_s, whole_s))
+        return float(whole / max(first, 1.0))
+
     def energy(self) -> float:
         """J stored in strain and in the spin of each point's surroundings, and what sources have still to give."""
         here, law = slice(0, self.loose), self._law

@@ -9,6 +9,8 @@ import re
 from pathlib import Path
 from typing import Any, cast
 
+from worldkit.materials import LIBRARY
+
 from ..model.errors import GateError
 from ..model.evidence.reports import MEASURED, ExpectReport, ObjectiveResult, ScanReport, VisualDescription
 from ..model.evidence.run import Run
@@ -37,6 +39,11 @@ def describe(run: Run) -> VisualDescription:
         sizes[camera], tones[camera] = _picture(state.folder / "stills" / f"{camera}.png")
     names = state.plan.object_names() if state.plan else ()
     wanted = [n for n in names if not _hidden_on_purpose(state.plan, n)]
+    glasses = _seen_through(state.plan) if state.plan else {}
+    for shown in seen.values():  # the pixels of a glass are those of the water in it, which lies behind its wall
+        for water, glass in glasses.items():
+            if glass in shown:
+                shown.setdefault(water, shown[glass])
     bodies = {body for shown in seen.values() for body in shown} - {"world"}
     shares = {name: {c: _share(shown, name) for c, shown in seen.items()} for name in dict.fromkeys(wanted)}
     concerns = [f"{camera}: {text}" for camera, text in tones.items() if text]
@@ -215,6 +222,14 @@ def _picture(path: Path) -> tuple[tuple[int, int], str]:
 
 def _share(shown: dict[str, dict[str, Any]], name: str) -> float:
     return float(shown.get(name, {}).get("fraction", 0.0) or 0.0)
+
+
+def _seen_through(plan: Plan) -> dict[str, str]:
+    """What shows a liquid, by name, with the clear container that holds it."""
+    rows = [row.solver for row in plan.simulation_parameters.interventions if row.solver is not None]
+    looks = {thing.name: LIBRARY.get(thing.look or "") for thing in plan.scene_objects}
+    held = {row.shown_by: row.container for row in rows if row.shown_by and row.container}
+    return {water: glass for water, glass in held.items() if (look := looks.get(glass)) and look.clear > 0}
 
 
 def _hidden_on_purpose(plan: Plan | None, name: str) -> bool:

@@ -1,5 +1,6 @@
 """An author's law is stepped for a fifth of a second before its physics is paid for."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -65,6 +66,13 @@ def tried(folder: Path, felt: float = 1.0, raises: str = "") -> law_trial.Tried:
 def test_one_that_balances_is_told_with_its_cost(tmp_path: Path) -> None:
     found = tried(tmp_path)
     assert found.findings == () and "the whole 2 s about" in found.said and "sums balance" in found.said, found
+
+
+def test_one_that_is_poured_costs_more_as_a_whole_than_its_first_steps(tmp_path: Path) -> None:
+    cost = re.compile(r"take ([\d.]+) s, the whole 2 s about ([\d.e+]+) s")
+    few = "return 0.0\n\n    def grows(self, first_s, whole_s):\n        return 1e5 * (whole_s > first_s)"
+    first, whole = map(float, cost.search(tried(tmp_path, raises=few).said).groups())
+    assert whole > 1e3 * max(first, 0.05), (first, whole)
 
 
 def test_one_whose_body_does_not_feel_it_is_told_at_once(tmp_path: Path) -> None:

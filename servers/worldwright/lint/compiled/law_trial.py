@@ -59,12 +59,13 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
     with contextlib.suppress(companions.CompanionError, OSError):  # refused in words where evidence is kept
         reads += [program.parent / name for name in companions.of(program)]
     seconds = min(TRIED_S, lasting_s)
-    call = [sys.executable, "-s", str(here / "step_laws.py"), str(program), "{out}", repr(seconds)]
+    call = [sys.executable, "-s", str(here / "step_laws.py"), str(program), "{out}", repr(seconds), repr(lasting_s)]
     wanted, wall_s = ("outcome.json", "sums.npz"), min(wall_s, WALL_S)
     done = run_confined(call, program=program, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
     told = json_object.told(done.files.get("outcome.json", b"")) or {}
-    reached, wall = (v if isinstance(v := told.get(n), int | float) else 0.0 for n in ("reached_s", "wall_s"))
-    whole = f"the whole {lasting_s:g} s about {wall * lasting_s / reached:.2g} s" if reached > 0 else ""
+    known = [v if isinstance(v := told.get(n), int | float) else 0.0 for n in ("reached_s", "wall_s", "grows")]
+    reached, wall, grows = known
+    whole = f"the whole {lasting_s:g} s about {wall * max(grows, 1) * lasting_s / reached:.2g} s" if reached > 0 else ""
     if "failure" in told:
         return Tried("its laws fail in their first steps", (_failed(told, program),))
     if done.status == "timed_out" and reached > 0:

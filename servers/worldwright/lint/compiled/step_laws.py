@@ -1,9 +1,10 @@
 """Step an author's own laws for a moment, and write down their sums: run in the sandbox by `law_trial.py`, never imported into a server.
 
-    step_laws.py FILE OUT SECONDS
+    step_laws.py FILE OUT SECONDS WHOLE
 
 The program is run up to the moment it hands its world to worldkit; then its laws are asked as its process is, by the engine's own
-steps, without its control. `sums.npz` holds what `model.recording.law_balances` is told of each law, `outcome.json` how far it came.
+steps, without its control. `sums.npz` holds what `model.recording.law_balances` is told of each law, `outcome.json` how far it came, and how
+many times as much one of WHOLE seconds costs, by a law's own `grows`.
 """
 
 import json
@@ -18,11 +19,11 @@ from typing import Any
 from compile_world import Capture, Enough  # beside this script, which takes its folder from the path
 
 
-def main(path: Path, out: Path, seconds: float) -> None:
+def main(path: Path, out: Path, seconds: float, whole: float) -> None:
     """Write the outcome; the process's exit code says nothing."""
     told: dict[str, Any] = {"wanted_s": seconds, "reached_s": 0.0, "wall_s": 0.0}
     try:
-        _step(path, out, seconds, told)
+        _step(path, out, seconds, whole, told)
     except BaseException as error:
         frames = [f for f in traceback.extract_tb(error.__traceback__) if Path(f.filename).is_relative_to(path.parent)]
         told |= {"failure": type(error).__name__, "message": str(getattr(error, "cause", error))[:2000]}
@@ -31,7 +32,7 @@ def main(path: Path, out: Path, seconds: float) -> None:
     (out / "outcome.json").write_text(json.dumps(told), encoding="utf-8")
 
 
-def _step(path: Path, out: Path, seconds: float, told: dict[str, Any]) -> None:
+def _step(path: Path, out: Path, seconds: float, whole: float, told: dict[str, Any]) -> None:
     import mujoco
     import numpy as np
 
@@ -75,6 +76,8 @@ def _step(path: Path, out: Path, seconds: float, told: dict[str, Any]) -> None:
         if question == 1:  # what is compiled when it is first called is paid once, and kept
             began = time.perf_counter()
         told |= {"reached_s": max(float(data.time) - ask, 0.0), "wall_s": time.perf_counter() - began}
+        grows = [law.grows(told["reached_s"], whole) for law in own if told["reached_s"] and hasattr(law, "grows")]
+        told["grows"] = max([1.0, *map(float, grows)])
         if question % 8 == 0:  # what is slow is ended from outside
             (out / "outcome.json").write_text(json.dumps(told), encoding="utf-8")
         if question == asks:
@@ -102,6 +105,6 @@ def _step(path: Path, out: Path, seconds: float, told: dict[str, Any]) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), Path(sys.argv[2]), float(sys.argv[3]))
+    main(Path(sys.argv[1]), Path(sys.argv[2]), float(sys.argv[3]), float(sys.argv[4]))
     sys.stdout.flush()
     os._exit(0)  # what the program left running is of no interest

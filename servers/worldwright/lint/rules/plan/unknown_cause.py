@@ -3,7 +3,8 @@
 What it does: resolves every `cause` of an objective: objects, asset rows, joints, tendons, actuators, `gravity`, `wind`,
 `friction`, `control`, or `kind:target` of an intervention; of a body also `.weight`, `.friction` (at its contacts), and
 `.velocity` where it starts with one. Several may be
-joined by `+`. A solver or a law by its own name is an error: what it does to a body is taken away, `solver:BODY`.
+joined by `+`. A solver or a law by its own name is an error: what it does to a body is taken away, `solver:BODY`. So is
+`gravity` with water in the world, which does not lie without it.
 
 Why is this bad: the causal audit takes the cause away and looks whether the effect vanishes. What is not there cannot be
 taken away, so the objective stays without that proof; without a starting velocity the weakened world is the same world.
@@ -32,6 +33,11 @@ RUBBER = {
 }  # fmt: skip
 
 
+WATER = {
+    "interventions": [{"kind": "solver", "bodies": ["crate"], "law": "Archimedes", "source": "CRC", "solver": {"name": "water"}}]
+}  # fmt: skip
+
+
 def _tow(name: str) -> dict:
     return {"name": name, "ends": [{"body": "crate"}, {"offset": [3.0, 0.0, 0.2]}], "slack": 0.5}
 
@@ -43,9 +49,11 @@ GOOD: Changes = (
     {"objectives": [{**CLAIM, "cause": ["friction", "crate.friction", "ground.friction"]}]},
     {"objectives": [{**CLAIM, "cause": "force:crate"}], "simulation_parameters": PUSH},
     {"objectives": [{**CLAIM, "cause": "solver:crate"}], "simulation_parameters": RUBBER},
+    {"objectives": [{**CLAIM, "cause": ["crate", "solver:crate"]}], "simulation_parameters": WATER},
     {"objectives": [{**CLAIM, "cause": "tow+tow_2"}], "topology": {"tendons": [_tow("tow"), _tow("tow_2")]}},
 )
 BAD: Changes = (
+    {"objectives": [{**CLAIM, "cause": "gravity"}], "simulation_parameters": WATER},
     {"objectives": [{**CLAIM, "cause": "slope"}]},
     {"objectives": [{**CLAIM, "cause": "force:crate"}]},
     {"objectives": [{**CLAIM, "cause": ["gravity + wnid"]}]},
@@ -76,6 +84,11 @@ def check(view: PlanView) -> Iterator[Problem]:
     for index, objective in enumerate(plan.objectives):
         for cause in objective.cause:
             for part in (p.strip() for p in cause.split("+")):
+                if part == "gravity" and (wet := _lies_by_weight(plan)):
+                    fix = f"name what falls into it, or what it does to a body: {', '.join(f'{b}, solver:{b}' for b in wet)}"
+                    what = "the cause `gravity` can't be taken away: the solver `water` has no surface without it"
+                    yield view.at(("objectives", index, "cause"), what, fix, severity="error")
+                    continue
                 kind = part.partition(":")[0]
                 whole, _, aspect = part.rpartition(".")
                 if whole in bodies and aspect == "velocity" and part not in known and not _starts_moving(plan, whole):
@@ -100,6 +113,17 @@ def check(view: PlanView) -> Iterator[Problem]:
                     "did you mean " + ", ".join(near) + "?" if near else "name one of: " + ", ".join(sorted(known)[:30])
                 )
                 yield view.at(("objectives", index, "cause"), f"the cause `{part}` is not in the plan", fix)
+
+
+def _lies_by_weight(plan: Plan) -> list[str]:
+    """The bodies of a solver that refuses a world without gravity; none where no such solver steps."""
+    from worldengine.solvers import SEAM
+
+    beside = plan.simulation_parameters.interventions
+    rows = [row for row in beside if row.solver and not row.solver.file and row.solver.name in SEAM.names()]
+    return [
+        b for row in rows if row.solver and getattr(SEAM.find(row.solver.name), "WEIGHTY", False) for b in row.bodies
+    ]
 
 
 def _acts_on(plan: Plan, cause: str) -> list[str]:
