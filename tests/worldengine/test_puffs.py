@@ -56,3 +56,10 @@ def test_many_cost_what_they_cover() -> None:
     rng = np.random.default_rng(1)
     added = drawn(rng.uniform((-1, 2, -1), (1, 4, 1), (20_000, 3)), wide=0.05, opaque=0.05)
     assert added.max() > 5
+
+
+def test_what_is_at_one_edge_shades_nothing_at_the_other() -> None:
+    columns = np.array([(x, 0.0, float(z)) for x in (0.0, 10.0) for z in range(2)])
+    up = np.array([0.0, 0.0, 1.0])
+    thin, thick = (puffs._lit(columns, np.ones(4), np.array([0.1, 0.1, 0.1, far]), up)[0] for far in (0.1, 0.98))
+    assert thin == thick
