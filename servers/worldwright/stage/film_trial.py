@@ -7,13 +7,13 @@ and not after minutes of physics. What a film reckons from how things move may f
 import tempfile
 from pathlib import Path
 
-from worldkit.files import write_atomic
+from worldkit.files import write_atomic, write_json
 
 from ..model import companions
 from ..model.errors import CallOverError, JobError, NotFoundError
 from ..model.evidence.reports import EvidenceKey
 from ..model.evidence.run import Run
-from . import first_look, gates, one_frame
+from . import first_look, gates, one_frame, processes
 from .short_runs import engine
 
 SIZE = (64, 36)
@@ -57,7 +57,12 @@ def _world(run: Run, key: EvidenceKey | None, here: Path) -> None:
         for name in (first_look.WORLD, first_look.FACTS):
             write_atomic(here / name, (bundle / name).read_bytes())
     given = [here / name for name in (first_look.WORLD, first_look.FACTS)]
-    laid = engine(["unmoved", "--world", str(given[0]), "--program", str(given[1])], given, LAID)
+    words = ["unmoved", "--world", str(given[0]), "--program", str(given[1])]
+    if rows := processes.declared(run.plan):  # where media lie that solvers move
+        write_json(here / processes.INPUTS, rows)
+        given.append(here / processes.INPUTS)
+        words += ["--inputs", str(given[-1])]
+    laid = engine(words, given, LAID)
     for name, content in laid.items():
         if isinstance(content, bytes):
             write_atomic(here / TRAJECTORY / name, content)
