@@ -34,7 +34,9 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
     from worldkit.filming import film_bounds as bounds
 
     found = []
-    for one in told.get("puffs", ())[:100]:
+    if len(told.get("puffs", ())) > bounds.MOST_EMITTERS:
+        raise ValueError(f"a film has at most {bounds.MOST_EMITTERS} kinds of puffs, not {len(told['puffs'])}")
+    for one in told.get("puffs", ()):
         row: dict[str, Any] = {"name": str(one["name"])[:60], "rgb": tuple(float(v) for v in one["rgb"])}
         row |= {what: str(one[what]) for what in ("places", "wide", "opaque")}
         places, wide, opaque = (arrays[str(one[what])] for what in ("places", "wide", "opaque"))
