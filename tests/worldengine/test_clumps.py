@@ -38,3 +38,10 @@ def test_no_pair_is_listed_within_a_clump(monkeypatch):
     both = np.concatenate([grid, grid + np.array([13.5, 0, 0])])  # two clumps that do not touch
     assert len(np.unique(clumps.linked(both, np.ones(len(both))))) == 2
     assert sum(listed) <= clumps.NEAREST * len(both)
+
+
+def test_one_alone_and_many_in_one_place_hang_together():
+    assert list(clumps.linked(np.zeros((1, 3)), np.ones(1))) == [0]
+    arrays = {"ways": np.zeros((2, 3, 3)), "sizes": np.ones((2, 3))}
+    (found,) = clumps.sizes(({"name": "dust", "ways": "ways", "sizes": "sizes"},), arrays).values()
+    assert found == pytest.approx([1.0, 1.0])

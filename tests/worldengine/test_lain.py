@@ -1,6 +1,7 @@
 """A law and water in one world: each is recorded at instants of its own, drawn between them, and the law alone is sent again."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import mujoco
 import numpy as np
@@ -8,18 +9,21 @@ import pyarrow as pa
 import pytest
 
 from hung_springs import ROW, Springs, world
+from worldengine.clock import unmoved
 from worldengine.clock.beside import Beside
 from worldengine.clock.simulate import prepare, simulate
+from worldengine.given import Given
 from worldengine.inputs.author_link import Local
 from worldengine.inputs.declared_media import Media
 from worldengine.inputs.ports import Ports
 from worldengine.inputs.replayed_inputs import Asked, Replayed
-from worldengine.recording import describing, lain, point_colours, stored
+from worldengine.recording import describing, lain, law_channels, point_colours, stored
 from worldengine.recording.record import Recorder
 from worldengine.recording.replay import Replay
 from worldengine.solvers import Row
-from worldkit import bodies, waters
+from worldkit import bodies, portable, waters
 from worldkit.errors import RecordingError
+from worldkit.filming.laws_shown import Laws
 from worldkit.world import start
 
 STEPS = 150
@@ -129,3 +133,15 @@ def test_what_is_said_to_be_shown_and_makes_no_sense_is_named(both: stored.Recor
     damaged.meta = {**damaged.meta, "shown": shown}
     with pytest.raises(RecordingError, match=r"`shown` in the recording's meta.json makes no sense"):
         Replay(wet().compile(), damaged)
+
+
+def test_a_world_that_stands_still_has_the_points_of_its_law_and_of_its_water(tmp_path: Path) -> None:
+    portable.write(wet(), tmp_path / "world.mjz")
+    rows = (Row("water", ("ball",), {"density": 998.0, "level": 0.12}, "water"),)
+    given = Given(tmp_path / "world.mjz", 0.5, 24, (64, 48), (), (), 0, "", 10, 0, (), rows, (ROW,))
+    unmoved.run(given, SimpleNamespace(out=tmp_path))
+    recording = stored.open(tmp_path)
+    laws = Laws(law_channels.read(recording))
+    assert laws.names == ("springs", "water")
+    assert laws.points("water", 0.3)[:, 2].max() == pytest.approx(0.12, abs=1e-3)
+    Replay(given.model(), recording).show(3)

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from worldengine.film import puffs
+from worldengine.film import directed, puffs
 from worldengine.film.renderers.preview.eye import View
 from worldengine.film.treatment import Treatment
 
@@ -56,3 +56,26 @@ def test_many_cost_what_they_cover() -> None:
     rng = np.random.default_rng(1)
     added = drawn(rng.uniform((-1, 2, -1), (1, 4, 1), (20_000, 3)), wide=0.05, opaque=0.05)
     assert added.max() > 5
+
+
+def test_what_is_at_one_edge_shades_nothing_at_the_other() -> None:
+    columns = np.array([(x, 0.0, float(z)) for x in (0.0, 10.0) for z in range(2)])
+    up = np.array([0.0, 0.0, 1.0])
+    thin, thick = (puffs._lit(columns, np.ones(4), np.array([0.1, 0.1, 0.1, far]), up)[0] for far in (0.1, 0.98))
+    assert thin == thick
+
+
+def test_where_nothing_says_how_far_away_things_are_they_are_left_out_and_that_is_told(monkeypatch) -> None:
+    film = SimpleNamespace(puffs=("mist",), treatments=SimpleNamespace(at=lambda at: SUN), captions=())
+    screening = directed.Screening.__new__(directed.Screening)
+    screening.film, screening.fps, screening.puffless, asked = film, 24, "", []
+    screening.words = lambda frame: ()
+
+    def surfaces(frame):
+        asked.append(frame)
+        raise RuntimeError("no context")
+
+    screening.surfaces = surfaces
+    monkeypatch.setattr(directed, "letter", lambda image, *words: image)
+    assert [screening.lettered(frame, "plain") for frame in (0, 1)] == ["plain", "plain"]
+    assert asked == [0] and screening.puffless == "RuntimeError: no context"

@@ -38,3 +38,20 @@ def test_they_ebb_with_its_rate() -> None:
 def test_what_cannot_be_is_refused(words, said) -> None:
     with pytest.raises(ProgramError, match=said):
         told(**words)
+
+
+def test_too_many_are_refused_before_they_are_reckoned() -> None:
+    film = Film(Recorded.rehearsal({"ball": np.zeros((10, 3))}, duration=200.0))
+    asked = []
+    film.emit("mist", lambda times: asked.append(len(times)), rate=150_000.0, life=1.0)
+    film.shot(still((0, -3, 1), (0, 0, 1)), until=100.0)
+    with pytest.raises(ProgramError, match="150001 puffs at once in 2400 frames"):
+        film.description()
+    assert asked == []
+
+
+def test_the_hundred_and_first_is_refused_in_words() -> None:
+    film = Film(Recorded.rehearsal({"ball": np.zeros((10, 3))}, duration=1.0))
+    with pytest.raises(ProgramError, match="'mist 100' is one too many"):
+        for number in range(101):
+            film.emit(f"mist {number}", (0, 0, 1))

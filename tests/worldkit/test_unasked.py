@@ -47,6 +47,13 @@ def test_the_place_follows_from_setting_words_and_size(setting, words, length, e
     assert whereabouts.choose(found) == expected
 
 
+def test_a_word_that_only_begins_like_one_of_a_place_or_an_hour_names_neither() -> None:
+    found = told({"thing": rolling(1.0)}, words="a toy on a nightstand beside a chairman, cloudybay and a shelled nut")
+    assert whereabouts.hour(found) == ""
+    assert whereabouts.hour(told({"thing": rolling(1.0)}, words="on two cold nights")) == "night"
+    assert whereabouts._means("branches", "branch") and whereabouts._means("butterflies", "butterfly")
+
+
 def test_a_floor_that_the_plan_names_stays_and_is_no_table_top() -> None:
     found = told({"thing": rolling(0.5)}, words="an egg on a plate", floor="tiles_white")
     assert whereabouts.choose(found) != "kitchen_counter"

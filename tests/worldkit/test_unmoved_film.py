@@ -74,3 +74,16 @@ def test_what_the_missing_motion_may_have_done_is_no_fault_of_the_film(told, kin
 def test_what_no_motion_mends_is(told, said) -> None:
     error, may_hold = failure(told)
     assert said in str(error) and not may_hold
+
+
+def test_who_moves_is_motion_where_the_plan_names_nobody() -> None:
+    nobody = ARRAYS | {"movers": np.array([], str)}
+    film = Film(Recorded(nobody))
+    with pytest.raises(IndexError) as failed:
+        film.recorded.movers[0]  # noqa: B018 (an author's line)
+    assert film.recorded.asked_of_motion
+    assert lacking_motion.may_hold(failed.value, lambda film: film.recorded.movers[0], nobody)
+    named = Recorded(ARRAYS)
+    assert named.movers == ("ball",) and not named.asked_of_motion
+    named.into("ball", np.zeros((1, 3)))
+    assert named.asked_of_motion

@@ -94,6 +94,11 @@ class Beside:
         self._pushes = Pushes(self._model, self._data, self._ports, lambda blocks: recorder.later("pushes", blocks))
         recorder.before_flush.append(self._pushes.flush)
 
+    def lay(self, recorder: "Recorder", laws: int = 0) -> None:
+        """Keep the corners that they move where they are at the start, and nothing else, behind those of so many laws."""
+        self._recorder, self._first = recorder, laws
+        self._keep(last=True)
+
     def measure(self) -> None:
         """Note the velocities, which are computed now."""
         self._pushes.measure()

@@ -1,6 +1,7 @@
 """A recording of a world that nobody has simulated: its start, again and again, for as long as it will last.
 
-A film is tried on it before anything is paid for (`worldwright.stage.film_trial`). What shows an author's law lies as it is built.
+A film is tried on it before anything is paid for (`worldwright.stage.film_trial`). What shows an author's law, or the
+water of a solver, lies as it is built.
 """
 
 import argparse
@@ -32,6 +33,7 @@ def run(given: Given, options: argparse.Namespace) -> None:
     from ..recording import still_surfaces
     from ..recording.describing import describe
     from ..recording.record import Recorder
+    from .beside import Beside
 
     model = given.model()
     world.check_cast(model, given.movers, given.visual_only)
@@ -41,11 +43,16 @@ def run(given: Given, options: argparse.Namespace) -> None:
     meta = {**describe(model, given.visual_only), **cast, **about}
     if given.laws:
         meta["laws"] = [row.written() for row in given.laws]
+    mujoco.mj_forward(model, data)
+    beside = Beside(model, data, given.solvers) if given.solvers else None
+    if beside and beside.shown:
+        meta["shown"] = beside.shown
     rows = int(np.clip(given.duration * RATE_HZ, 1, MOST_ROWS)) + 1
     with Recorder(model, data, options.out, meta) as recorder:
-        mujoco.mj_forward(model, data)
         if given.laws:
             _lay(recorder, model, data, given)
+        if beside:
+            beside.lay(recorder, len(given.laws))
         for time in np.linspace(0.0, given.duration, rows):
             data.time = time
             recorder.before()

@@ -98,6 +98,8 @@ class Screening:
         """Called whenever a moment is set up, since a picture may take minutes."""
         self.frames = Frames(self.model, *size, renderer)
         self._seen: Shaded | None = None
+        self.puffless = ""
+        """Why no puffs are drawn, where the driver does not say how far away is what a picture shows."""
         self._sharp = ""
         """Why nothing is smeared, where the driver cannot draw what a picture shows."""
 
@@ -140,9 +142,14 @@ class Screening:
 
     def lettered(self, frame: int, image: "np.ndarray") -> "np.ndarray":
         """A picture with the puffs and the words of a frame, which none can leave out: uint8 (height, width, 3)."""
-        if self.film.puffs:
+        if self.film.puffs and not self.puffless:
             film, treatment = self.film, self.film.treatments.at(frame / self.fps)
-            image = puffs.over(image, film.arrays, film.puffs, frame, self.surfaces(frame), treatment)
+            try:
+                shown = self.surfaces(frame)
+            except Exception as error:  # drivers fail in ways of their own, and a film without mist is better than none
+                self.puffless = f"{type(error).__name__}: {error}"[:300]
+                return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
+            image = puffs.over(image, film.arrays, film.puffs, frame, shown, treatment)
         return letter(image, frame / self.fps, self.film.captions, *self.words(frame))
 
     def words(self, frame: int) -> tuple[float, bool, str, str, str]:

@@ -34,7 +34,9 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
     from worldkit.filming import film_bounds as bounds
 
     found = []
-    for one in told.get("puffs", ())[:100]:
+    if len(told.get("puffs", ())) > bounds.MOST_EMITTERS:
+        raise ValueError(f"a film has at most {bounds.MOST_EMITTERS} kinds of puffs, not {len(told['puffs'])}")
+    for one in told.get("puffs", ()):
         row: dict[str, Any] = {"name": str(one["name"])[:60], "rgb": tuple(float(v) for v in one["rgb"])}
         row |= {what: str(one[what]) for what in ("places", "wide", "opaque")}
         places, wide, opaque = (arrays[str(one[what])] for what in ("places", "wide", "opaque"))
@@ -170,8 +172,9 @@ def _lit(places: Array, radius: Array, opaque: Array, sun: Array) -> Array:
     area = size[0] * size[1] / GRID**2
     depth = -np.log1p(-np.minimum(opaque, 0.98)) * np.pi * radius**2 / 2 / max(area, 1e-12)
     grid: Array = np.bincount(np.ravel_multi_index(cell.T, (GRID,) * 3), depth, minlength=GRID**3).reshape((GRID,) * 3)
-    for axis in (0, 1):  # a puff is no cell
-        grid = (np.roll(grid, 1, axis) + 2 * grid + np.roll(grid, -1, axis)) / 4
+    wide = np.pad(grid, ((1, 1), (1, 1), (0, 0)))  # a puff is no cell; what it shades beyond the grid is lost
+    wide = (wide[:-2] + 2 * wide[1:-1] + wide[2:]) / 4
+    grid = (wide[:, :-2] + 2 * wide[:, 1:-1] + wide[:, 2:]) / 4
     before = np.cumsum(grid[:, :, ::-1], axis=2)[:, :, ::-1] - grid
     through = np.exp(-before[tuple(cell.T)])
     return np.asarray(DIM + (1 - DIM) * through)

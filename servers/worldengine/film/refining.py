@@ -188,6 +188,7 @@ class OfTheAuthor:
     def told(self) -> dict[str, Any]:
         """The renderer, what the film tells of itself, and, as `unreckoned`, why frames were reckoned no more."""
         failed: dict[str, Any] = {"unreckoned": self._unreckoned} if self._unreckoned else {}
+        failed |= {"puffless": self._screening.puffless} if getattr(self._screening, "puffless", "") else {}
         failed |= {"tracing_takes_s": round(self._takes_s, 1)} if self._takes_s else {}
         told = {"cameras": ["film"], "renderer": self._screening.frames.told(), "film": self._film.told(self._fps)}
         return told | failed

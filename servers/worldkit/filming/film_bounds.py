@@ -2,8 +2,8 @@
 
 MOST_FRAMES, MOST_LAMPS, MOST_PANELS, MOST_COPIES = 20_000, 64, 16, 10_000
 """Each of so many copies is a thing of the drawn world: 2,000 are made in 0.1 s, 10,000 in 3, and twice as many in 15."""
-MOST_PUFFS, MOST_PUFF_NUMBERS = 200_000, 20_000_000
-"""Puffs at once, and in all frames together: 20 bytes each."""
+MOST_PUFFS, MOST_PUFF_NUMBERS, MOST_EMITTERS = 200_000, 20_000_000, 100
+"""Puffs at once, and in all frames together, 20 bytes each; and so many times a film may say `puffs` or `emit`."""
 FAR_M = 1e5
 """Nothing of a film lies further away, or is larger, m; and nothing of it is later, s."""
 PLACES = ("bottom", "top", "title", "left")

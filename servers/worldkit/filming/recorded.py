@@ -76,7 +76,8 @@ class Recorded:
         self._heights: dict[str, ground.Height] = {}
         moving = np.ptp(self._pos, axis=0).max(axis=-1) > 1e-3 if len(self.bodies) else np.zeros(0, bool)
         named = tuple(str(name) for name in arrays["movers"])
-        self.movers = named or tuple(name for name, moves in zip(self.bodies, moving, strict=True) if moves)
+        self._named = bool(named)
+        self._movers = named or tuple(name for name, moves in zip(self.bodies, moving, strict=True) if moves)
         names = (*self.bodies, WORLD)
         self._touches = [
             Touch(float(t), (names[a], names[b]), float(force))
@@ -124,6 +125,12 @@ class Recorded:
                 "ground_owner": np.repeat(np.arange(len(faces)), [len(part) for part in faces]) if faces else nothing,
             }
         )  # fmt: skip
+
+    @property
+    def movers(self) -> tuple[str, ...]:
+        """The bodies that the plan expects to move; all that move where it names none."""
+        self.asked_of_motion |= not self._named
+        return self._movers
 
     def index(self, body: str) -> int:
         """Number of a body; a `ProgramError` names the nearest where there is none."""
@@ -218,6 +225,7 @@ class Recorded:
 
     def into(self, body: str, points: np.ndarray, at: float = 0.0) -> np.ndarray:
         """Points (N, 3) of the world, m, in a body's own frame at a recorded time: what `to=` and skins are drawn in."""
+        self.asked_of_motion = True
         row = int(self.rows(np.array([at]))[0])
         turn = matrices(self._quat[row : row + 1, self.index(body)])[0]
         return np.asarray((np.asarray(points, dtype=float) - self._pos[row, self.index(body)]) @ turn)

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..errors import ProgramError
 from . import drawn_only
-from .film_bounds import MOST_PUFF_NUMBERS, MOST_PUFFS
+from .film_bounds import MOST_EMITTERS, MOST_PUFF_NUMBERS, MOST_PUFFS
 from .patterned_light import PatternedLight
 from .plain_refusals import line, whole
 from .recorded import Recorded
@@ -38,6 +38,12 @@ class Smoke(PatternedLight):
         if not callable(at) or not name:
             raise ProgramError(
                 f"the puffs {name!r} are at a function's places, not {at!r}", "film.py", "def at(times): …"
+            )
+        if len(self._puffs) >= MOST_EMITTERS:
+            raise ProgramError(
+                f"{name!r} is one too many: a film has at most {MOST_EMITTERS} kinds of puffs",
+                "film.py",
+                "let one function give the places of several",
             )
         told = {"name": name, "rgb": drawn_only.rgb(colour)}
         self._puffs.append((told, at, line()))
@@ -106,6 +112,12 @@ class Smoke(PatternedLight):
         key, slots = whole(seed), int(np.ceil(most * life)) + 1
 
         def at(times: Array) -> tuple[Array, Array, Array]:
+            if len(times) * slots > MOST_PUFF_NUMBERS:
+                raise ProgramError(
+                    f"{name!r} has {slots} puffs at once in {len(times)} frames, over {MOST_PUFF_NUMBERS} together",
+                    "film.py",
+                    "lower rate or life, or a shorter film",
+                )
             # Each slot is taken by one puff after another: a puff is known by its number, which says when it left.
             last = np.floor((np.asarray(times, float)[:, None] - start) * most)
             number = last - (last - np.arange(slots)) % slots

@@ -14,23 +14,23 @@ from .sets import Place, land
 INDOORS: dict[str, str] = {
     "kitchen_counter": "kitchen breakfast honey egg bread toast pan cup mug plate bowl spoon fork coffee tea milk cook fruit "
     "apple lemon soup cake dough jar counter dish butter pasta bottle glass straw",
-    "laboratory": "laborator experiment beaker flask laser burner prism lens",
-    "still_life": "pendulum spring magnet gyroscope oscillat newton incline candle balance torsion cork coin top",
+    "laboratory": "laborator- experiment- beaker flask laser burner prism lens",
+    "still_life": "pendulum spring magnet gyroscope oscillat- newton incline candle balanc- torsion cork coin top",
     "workshop": "workshop hammer nail saw drill wrench tool gear crate ladder garage screw engine bench plank pulley rope "
     "chain brick wedge lever hinge",
-    "gym": "basketball court gym dumbbell barbell trampoline hoop gymnast volleyball sport racket badminton tennis",
+    "gym": "basketball court gym dumbbell barbell trampoline hoop gymnast- volleyball sport racket badminton tennis",
     "living_room": "living sofa toy cat lamp carpet book room suitcase domino marble billiard pool snooker bowling doll balloon table chair "
     "child clock vase shoe",
 }
 OUTDOORS: dict[str, str] = {
     "beach": "beach sand shore sea ocean wave shell surf",
-    "snow_field": "snow ski sled sledge ice skat frozen winter",
+    "snow_field": "snow ski sled sledge ice skat- frozen winter",
     "street": "street road asphalt car bicycle bike skateboard kerb pavement truck bus traffic scooter ladder wall house",
     "lake": "lake pond boat duck swan",
     "riverbank": "river stream brook bank bridge",
     "forest": "forest wood fir tree log axe mushroom fox",
-    "mountain_side": "mountain hill slope cliff rock boulder climb avalanche edge",
-    "park": "park playground swing slide kite dog frisbee picnic tether football soccer garden leaf branch twig breeze",
+    "mountain_side": "mountain hill slope cliff rock boulder climb- avalanche edge",
+    "park": "park playground swing slide kite dog frisbee picnic tether- football soccer garden leaf branch twig breeze",
     "meadow": "meadow grass field lawn horse cow flower wind butterfly",
     "night_sky": "night star moon firework comet",
 }
@@ -93,8 +93,10 @@ def _scores(words: Iterable[str], wanted: dict[str, str]) -> Counter[str]:
 
 
 def _means(word: str, stem: str) -> bool:
-    """Whether a word is a form of a stem: short stems stand for themselves and their plural alone."""
-    return word in (stem, f"{stem}s") if len(stem) < 5 else word.startswith(stem)
+    """Whether a word is a stem or its plural; what ends in `-` begins words."""
+    if stem.endswith("-"):
+        return word.startswith(stem[:-1])
+    return word in (stem, f"{stem}s", f"{stem}es", f"{stem.removesuffix('y')}ies")
 
 
 def own_land(recorded: Recorded) -> tuple[str, ...]:

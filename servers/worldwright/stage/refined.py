@@ -86,6 +86,7 @@ def said(summary: dict[str, Any]) -> str:
         )
     parts += [f"{reckoned} are reckoned between them by how all that is seen moves"] if reckoned else []
     parts += [f"{held} show the nearest drawn one"] if held else []
+    parts += [f"its puffs are left out ({summary['puffless']})"] if summary.get("puffless") else []
     parts += [f"none could be reckoned any more ({summary['unreckoned']})"] if summary.get("unreckoned") else []
     parts += (
         [f"{summary['taken_over']} stood already, from an earlier pass of this very film"]
