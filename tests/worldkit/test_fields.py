@@ -174,7 +174,8 @@ def test_heat_goes_nowhere_and_ice_melts_at_one_temperature() -> None:
 
 RING = """<mujoco><worldbody><body name="a"><freejoint/><geom type="box" size=".1 .02 .01" pos=".1 0 0" mass="1"/>
   <geom type="sphere" size=".03" pos="-.1 0 0" mass="1"/><geom type="sphere" size=".5" contype="0" conaffinity="0" mass="0"/></body>
-  <body name="b" pos="0 0 3"><freejoint/><geom type="mesh" mesh="m" mass="1"/></body></worldbody>
+  <body name="b" pos="0 0 3"><freejoint/><geom type="mesh" mesh="m" mass="1"/></body>
+  <body name="c" pos="0 0 6"><freejoint/><geom type="sphere" size=".5" contype="0" conaffinity="0"/></body></worldbody>
   <asset><mesh name="m" vertex="0 0 0 1 0 0 0 1 0 0 0 1"/></asset></mujoco>"""
 
 
@@ -193,10 +194,32 @@ def test_a_body_of_several_shapes_grows_about_its_middle_and_back() -> None:
     assert (model.geom_size == size).all() and model.geom_pos == pytest.approx(place)
 
 
+def test_two_bodies_of_several_shapes_meet_where_they_have_grown() -> None:
+    """Before, the boxes around a body's shapes stayed as they were, and a rod of several parts went through what it met."""
+    rod = "".join(f'<geom type="box" size=".25 .02 .02" pos="{x} 0 0"/>' for x in (-0.75, -0.25, 0.25, 0.75))
+    wall = "".join(f'<geom type="box" size=".1 .1 .02" pos="1.105 0 {z}"/>' for z in (0, 0.1))
+    model = mujoco.MjModel.from_xml_string(
+        f"<mujoco><worldbody><body><freejoint/>{rod}</body><body><freejoint/>{wall}</body></worldbody></mujoco>"
+    )
+    grown, data = expansion.Grown(model, [1, 2], np.array([2e-5, 0.0]), ["world", "rod", "wall"]), mujoco.MjData(model)
+    for warmer, touching in ((0.0, 0), (500.0, 4), (0.0, 0)):
+        grown.follow(np.array([warmer, 0.0]))
+        mujoco.mj_forward(model, data)
+        assert data.ncon == touching
+
+
 @pytest.mark.parametrize(
-    ("share", "warmer", "said"), [((0, 1e-5), 1.0, "mesh"), ((-1e-5, 0), 1.0, "below 0"), ((1e-4, 0), 400.0, "0.04")]
+    ("share", "warmer", "said"),
+    [
+        ((0, 1e-5), 1.0, "mesh"),
+        ((-1e-5, 0), 1.0, "its expansion is -1e-05"),
+        ((0, 0, -1e-5), 1.0, "'c' cannot grow"),
+        ((0, 0, float("nan")), 1.0, "'c' cannot grow"),
+        ((1e-4, 0), 400.0, "0.04"),
+    ],
 )
-def test_what_cannot_grow_or_grows_too_far_is_refused(share: tuple[float, float], warmer: float, said: str) -> None:
+def test_what_cannot_grow_or_grows_too_far_is_refused(share: tuple[float, ...], warmer: float, said: str) -> None:
     model = mujoco.MjModel.from_xml_string(RING)
+    bodies, called = [1, 2, 3][: len(share)], ["world", "a", "b", "c"]
     with pytest.raises(ProgramError, match=said):
-        expansion.Grown(model, [1, 2], np.array(share), ["world", "a", "b"]).follow(np.full(2, warmer))
+        expansion.Grown(model, bodies, np.array(share), called).follow(np.full(len(share), warmer))

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from worldkit.errors import ProgramError
+from worldkit.matter.membranes import Membrane
 from worldkit.skins import Gas, Skin, Wall, ball, closed_shapes, met_geoms, revolved, thin_elements
 
 CAN = [(0, 0), (0.02, 0.0), (0.03, 0.01), (0.03, 0.04), (0.02, 0.05), (0, 0.05)]
@@ -223,6 +224,40 @@ def test_by_a_hole_it_empties_in_the_textbooks_time_and_flies_off() -> None:
     # Of 2 C A p over the time: p falls as the square of what is left of it.
     pushed = 2 * opened * began * ends / 3 * (1 - shares[-1] ** 3)
     assert momentum @ out / np.linalg.norm(out) == pytest.approx(-pushed, rel=0.03)
+
+
+@pytest.mark.parametrize("hole", [0.002, 0.015, 0.030])
+def test_however_wide_a_hole_is_the_gas_leaves_and_its_jet_ends(hole: float) -> None:
+    """Before, a wide one let nothing out, and pushed for ever."""
+    model, data = at_rest('<option gravity="0 0 0"/><worldbody><geom type="plane" size="1 1 1"/></worldbody>')
+    wall = Wall(young=2.5e9, thickness=1e-3, density=1000.0)
+    skin = Leaking(ball(0.05, middle=(0, 0, 1), finer=1), wall, Gas(pressure=103325.0, hole=hole))
+    skin.start(model, data)
+    over = [2000.0]
+    for _ in range(10):
+        skin.step(model, data, 0.004)
+        over.append(skin.pressure - 101325.0)
+    # What leaves is of the textbook's size, until there is no more: the root of the pressure falls evenly.
+    falls = 0.004 * 101325.0 * 0.6 * np.pi / 4 * hole**2 * np.sqrt(2 / 1.2041) / (2 * skin.room)
+    textbook = np.maximum(np.sqrt(2000.0) - falls * np.arange(11), 0) ** 2
+    assert np.array(over) == pytest.approx(textbook, abs=0.05 * 2000.0)
+    assert min(over) > -1.0, "no vacuum is drawn"
+
+
+@pytest.mark.parametrize(
+    ("gas", "match"),
+    [
+        (Gas(hole=-0.001), "hole of -0.001 m"),
+        (Gas(hole=float("nan")), "hole of nan m"),
+        (Gas(hole=0.01, discharge=1.5), "`discharge` of 1.5"),
+        (Gas(hole=0.01, hole_at=42), "at the point 42, where no triangle is"),
+        (Gas(hole=0.01, hole_at=-1), "at the point -1"),
+    ],
+)
+def test_a_hole_is_held_against_the_skin(gas: Gas, match: str) -> None:
+    for law in (Leaking, Membrane):
+        with pytest.raises(ProgramError, match=match):
+            law(ball(0.1, finer=1), RUBBER, gas)
 
 
 def test_a_hole_needs_a_world_that_it_blows_at() -> None:

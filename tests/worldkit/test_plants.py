@@ -64,6 +64,15 @@ def test_a_bare_straight_bough_bends_under_a_weight_as_a_beam_does():
     assert (data.xipos[tip] - before)[2] == pytest.approx(expected, rel=0.1)
 
 
+def test_a_limb_with_one_leaf_shows_it_and_the_lightest_weighs_what_is_told():
+    plant = plants.Bough(leaves=1, twigs=1, parts=1, length_m=0.2, diameter_m=0.001)
+    model, _, _ = grown(plant, seconds=0.0)
+    assert [model.geom(g).name for g in range(model.ngeom) if "foliage" in model.geom(g).name] == [
+        "bough_twig1/foliage_young"
+    ]
+    assert model.body_subtreemass[model.body("bough").id] == pytest.approx(plant.mass_kg, rel=1e-6)
+
+
 def test_hundreds_of_leaves_cost_no_degree_of_freedom():
     few, many = (grown(plants.Bough(leaves=n), seconds=0.0)[0] for n in (60, 900))
     assert few.nv == many.nv <= 40 and many.nmeshface > 5 * 900
@@ -75,7 +84,22 @@ def test_one_seed_grows_one_plant():
 
 @pytest.mark.parametrize(
     ("wrong", "says"),
-    [({"leaves": 5000}, "at most 4000"), ({"diameter_m": 0.5}, "under a fifth"), ({"leaf_m": 0}, "leaf_m")],
+    [
+        ({"leaves": 5000}, "leaves from 0 to 4000"),
+        ({"diameter_m": 0.5}, "under a fifth"),
+        ({"leaf_m": 0}, "leaf_m"),
+        ({"parts": 0}, "parts from 1 to 120, not 0"),
+        ({"parts": 10**9}, "parts from 1 to 120"),
+        ({"twigs": 10**9}, "twigs from 1 to 120"),
+        ({"twigs": 12.0}, "a whole number of twigs"),
+        ({"seed": -1}, "seed from 0"),
+        ({"leaves": float("nan")}, "a whole number of leaves"),
+        ({"length_m": 1e300}, "length_m is a number from 0.02 to 120"),
+        ({"length_m": float("nan")}, "length_m"),
+        ({"rises_deg": float("nan")}, "rises_deg"),
+        ({"diameter_m": 1e-300}, "diameter_m"),
+        ({"damping_s": 1e300}, "damping_s"),
+    ],
 )
 def test_numbers_with_which_none_grows_are_refused(wrong, says):
     with pytest.raises(ValueError, match=says):

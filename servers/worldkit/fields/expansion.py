@@ -32,22 +32,31 @@ class Grown:
         called: the names of all bodies of the model.
 
     Raises:
-        ProgramError: a body that grows has a shape of a mesh, or a coefficient is below 0.
+        ProgramError: a body that grows has a shape of a mesh, or a coefficient is below 0 or not finite.
     """
 
     def __init__(self, model: "mujoco.MjModel", bodies: Sequence[int], expansion: Array, called: Sequence[str]) -> None:
         self._model, self._expansion = model, expansion
+        for row, body in enumerate(bodies):
+            if not 0 <= expansion[row] < np.inf:
+                cause = f"{called[body]!r} cannot grow: its expansion is {expansion[row]:g}"
+                raise ProgramError(cause, "interventions", "give an expansion from 0, 1/K, linear")
         mine = [(row, geom) for row, body in enumerate(bodies) if expansion[row] for geom in _solid(model, body)]
         self._rows, self._geoms = np.array(mine, int).reshape(-1, 2).T
         for row, geom in mine:
-            if expansion[row] < 0 or int(model.geom_type[geom]) not in PRIMITIVES:
-                cause = f"{called[bodies[row]]!r} cannot grow: its expansion is below 0, or its shape is that of a mesh"
+            if int(model.geom_type[geom]) not in PRIMITIVES:
+                cause = f"{called[bodies[row]]!r} cannot grow: its shape is that of a mesh"
                 move = "make it a box, sphere, cylinder, capsule, ellipsoid, or a compound of these"
                 raise ProgramError(cause, "interventions", move)
         middle = model.body_ipos[model.geom_bodyid[self._geoms]]
         self._middle, self._away = middle, model.geom_pos[self._geoms] - middle
         self._size, self._reach = model.geom_size[self._geoms].copy(), model.geom_rbound[self._geoms].copy()
         self._box = model.geom_aabb[self._geoms].copy()
+        self._trees = []  # of each body that grows: its row, and the part of its boxes, about its own frame of inertia
+        for row in sorted({row for row, _ in mine}):
+            first, count = int(model.body_bvhadr[bodies[row]]), int(model.body_bvhnum[bodies[row]])
+            own = slice(first, first + count)
+            self._trees.append((row, own, model.bvh_aabb[own].copy()))
 
     def follow(self, warmer: Array) -> Array:
         """Grow by temperatures (n,) K above those of the start.
@@ -69,6 +78,8 @@ class Grown:
             model.geom_size[self._geoms] = self._size * factor
             model.geom_rbound[self._geoms] = self._reach * factor[:, 0]
             model.geom_aabb[self._geoms] = self._box * factor
+            for row, own, boxes in self._trees:
+                model.bvh_aabb[own] = boxes * (1.0 + strain[row])
         return strain
 
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..errors import ProgramError
 from ..skins.gas_and_wall import GAS, Gas, Wall
-from ..skins.leaking import AIR, opening
+from ..skins.leaking import AIR, held, opening
 from .slack_kernel import advance
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ class Membrane:
         table: m, height of the table.
 
     Raises:
-        ProgramError: the surface is not closed, or it is not on `world` alone.
+        ProgramError: the surface is not closed, a hole is not at it, or it is not on `world` alone.
     """
 
     name: str = "membrane"
@@ -63,6 +63,7 @@ class Membrane:
             raise ProgramError(
                 f"{self.name} feels no bodies", self.name, 'let it lie on the table: bodies = ("world",)'
             )
+        held(gas, self.triangles, self.name)
         self.wall, self.gas, self.creased, self.supple, self.table = wall, gas, creased, supple, table
         rest = self.points / wall.stretched
         p, q = (rest[self.triangles[:, n]] - rest[self.triangles[:, 0]] for n in (1, 2))

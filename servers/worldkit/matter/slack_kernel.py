@@ -137,7 +137,8 @@ def advance(
                 f[hole_at, z] += push
                 sums[z] -= h * push
                 sums[3] += h * push * v[hole_at, z]  # the jet's push is the gas's work, too
-            sums[6] -= h * hole * np.sqrt(2.0 * over / density) * outside / warmth
+            # No more than lets the gas down to the outside's pressure: a wide hole draws no vacuum.
+            sums[6] -= min(h * hole * np.sqrt(2.0 * over / density) * outside, over * room) / warmth
         sums[4], sums[5] = walls, pressed
         if h == 0.0:
             break

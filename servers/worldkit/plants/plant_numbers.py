@@ -3,12 +3,27 @@
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from math import pi
+from numbers import Integral, Real
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .branching import Limb
 
 MOST_LEAVES, MOST_BODIES = 4000, 120
+LONG_M = (0.02, 120.0)
+"""The shortest that has limbs of more than micrometres, the tallest tree that stands."""
+WHOLE = {"leaves": (0, MOST_LEAVES), "seed": (0, 2**63), "parts": (1, MOST_BODIES), "twigs": (1, MOST_BODIES)}
+RANGES = {
+    "diameter_m": (2e-4, 20.0),
+    "leaf_m": (1e-3, 5.0),
+    "modulus_pa": (1e5, 1e12),
+    "wood_kg_m3": (10.0, 5000.0),
+    "damping_s": (1e-6, 100.0),
+    "rises_deg": (-90.0, 90.0),
+}
+"""Of what is told, the least and the most: beyond, nothing grows that could be simulated."""
+LIGHTEST_KG = 2e-4
+"""A limb's wood weighs no less."""
 FILLED = 0.62
 """Area of a leaf as a share of its length times its width."""
 SLENDER = 0.55
@@ -42,14 +57,15 @@ class Plant:
     word = "plant"
 
     def __post_init__(self) -> None:
-        numbers = {
-            name: getattr(self, name) for name in ("diameter_m", "leaf_m", "modulus_pa", "wood_kg_m3", "damping_s")
-        }
-        numbers["length_m" if self.word == "bough" else "height_m"] = self.long_m
-        if bad := [name for name, value in numbers.items() if not 0 < value < float("inf")]:
-            raise ValueError(f"a {self.word}'s {', '.join(bad)} must be positive, finite numbers")
-        if not 0 <= self.leaves <= MOST_LEAVES:
-            raise ValueError(f"a {self.word} has at most {MOST_LEAVES} leaves, not {self.leaves}: let each be larger")
+        own = "length_m" if self.word == "bough" else "height_m"
+        for name, (low, high) in WHOLE.items():
+            value = getattr(self, name, low)
+            if not isinstance(value, Integral) or isinstance(value, bool) or not low <= value <= high:
+                raise ValueError(f"a {self.word} has a whole number of {name} from {low} to {high}, not {value}")
+        for name, (low, high) in {own: LONG_M, **RANGES}.items():
+            value = getattr(self, name, low)
+            if not isinstance(value, Real) or not low <= value <= high:
+                raise ValueError(f"a {self.word}'s {name} is a number from {low:g} to {high:g}, not {value}")
         if self.diameter_m > 0.2 * self.long_m:
             raise ValueError(
                 f"a {self.word} of {self.long_m:g} m cannot be {self.diameter_m:g} m thick: give it a diameter_m under a fifth of it"
@@ -85,7 +101,7 @@ class Plant:
 
     def wood_kg(self, limb: "Limb") -> float:
         """Of the wood of a limb."""
-        return self.wood_kg_m3 * pi / 4 * limb.mean_m**2 * limb.long_m
+        return max(self.wood_kg_m3 * pi / 4 * limb.mean_m**2 * limb.long_m, LIGHTEST_KG)
 
     def leaves_kg(self, limb: "Limb") -> float:
         """Of the leaves on a limb."""

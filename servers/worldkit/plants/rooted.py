@@ -17,7 +17,6 @@ if TYPE_CHECKING:
 LOOKS = ("foliage", "foliage_young")
 YOUNG = 3
 """Every so-manieth leaf is a young one."""
-LIGHTEST_KG = 2e-4
 LEAST_STIFFNESS = 1e-4
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -83,7 +82,7 @@ def _rests(plant: Plant, gravity: float) -> dict[str, tuple[float, float]]:
     moment: dict[str, list[tuple[float, np.ndarray]]] = {limb.name: [] for limb in plant.limbs}
     above = {limb.name: limb.above for limb in plant.limbs}
     for limb in plant.limbs:
-        own = [(max(plant.wood_kg(limb), LIGHTEST_KG), np.add(limb.foot, limb.tip) / 2)]
+        own = [(plant.wood_kg(limb), np.add(limb.foot, limb.tip) / 2)]
         own += [(plant.leaves_kg(limb), _cloud(limb))] if limb.leaves else []
         bearer = limb.name
         while bearer:
@@ -121,7 +120,7 @@ def _weighs(body: "mujoco.MjsBody", plant: Plant, limb: "Limb", surface: dict[st
     touching = surface if not limb.leaves else {"contype": 0, "conaffinity": 0}
     body.add_geom(
         name=body.name, type=mujoco.mjtGeom.mjGEOM_CAPSULE, size=(radius, half, 0), **way, **touching,
-        **COLLIDES | {"mass": max(plant.wood_kg(limb), LIGHTEST_KG)},
+        **COLLIDES | {"mass": plant.wood_kg(limb)},
     )  # fmt: skip
     if limb.leaves:
         side_m = (SEEN * plant.leaf_area_m2 * len(limb.leaves)) ** 0.5
@@ -138,7 +137,7 @@ def _drawn(spec: "mujoco.MjSpec", body: "mujoco.MjsBody", limb: "Limb", stuff: d
     import mujoco
 
     kinds = [("wood", foliage_meshes.wood(limb))]
-    if len(limb.leaves) > 1:
+    if limb.leaves:
         kinds += [
             (look, foliage_meshes.leaves(some))
             for look, some in zip(

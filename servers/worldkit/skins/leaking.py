@@ -6,6 +6,7 @@ rho Q^2 / (C A) = 2 C A p away. The hole is no hole of the mesh: it weighs what 
 
 import numpy as np
 
+from ..errors import ProgramError
 from .gas_and_wall import GAS, Gas
 
 Array = np.ndarray
@@ -13,16 +14,43 @@ AIR = 0.0289647
 """kg/mol."""
 
 
+def held(gas: Gas, triangles: Array, name: str) -> None:
+    """Hold what is told of the hole against the skin called `name`.
+
+    Raises:
+        ProgramError: no hole can be so, or it is at no point of the skin.
+    """
+    corners = np.unique(triangles)
+    if not 0 <= gas.hole < np.inf:
+        cause, move = f"a hole of {gas.hole} m", "`hole` is its diameter, m; 0: none"
+    elif not 0 < gas.discharge <= 1:
+        cause, move = f"a `discharge` of {gas.discharge}", "give it from 0 to 1: 0.6 of a sharp edge"
+    elif gas.hole and not (float(gas.hole_at).is_integer() and int(gas.hole_at) in corners):
+        cause, move = (
+            f"a hole at the point {gas.hole_at}, where no triangle is",
+            f"`hole_at` is one of its {len(corners)} points",
+        )
+    else:
+        return
+    raise ProgramError(f"the skin {name} has {cause}", name, move)
+
+
 def opening(gas: Gas) -> float:
     """m^2 that the jet is wide."""
     return float(np.pi / 4 * gas.hole**2 * gas.discharge)
 
 
-def leaves(gas: Gas, over: float, time: float) -> float:
-    """mol/s that leave at `over` Pa above the outside."""
+def lost(gas: Gas, over: tuple[float, float], dry: float, moles: float, time: float, h: float) -> float:
+    """mol that leave in a step of `h` s, at `over` Pa above the outside at its begin and, had nothing left, at its end.
+
+    By the mean, less half of what leaving takes of the pressure: the root of lost = h k sqrt(mean - dry lost / (2 moles)), as a wide
+    hole's speed is known only together with it. Never more than lets the gas down to the outside's pressure. `dry` Pa is the gas's own.
+    """
     warmth = GAS * gas.temperature(time)
-    density = gas.outside * AIR / warmth
-    return opening(gas) * float(np.sqrt(2.0 * max(over, 0.0) / density)) * gas.outside / warmth
+    most = moles * max(over[1], 0.0) / dry
+    widest = (h * opening(gas) * gas.outside / warmth) ** 2 * 2.0 * warmth / (gas.outside * AIR)  # mol^2/Pa
+    half, whole = widest * dry / (2 * moles), widest * max(sum(over) / 2, 0.0)
+    return min((float(np.sqrt(half**2 + 4 * whole)) - half) / 2, most)
 
 
 def jet(gas: Gas, points: Array, triangles: Array, over: float) -> Array:

@@ -50,7 +50,7 @@ class Skin:
         longest: s; the time from one question to the next is cut in equal steps no longer than this.
 
     Raises:
-        ProgramError: the surface is not closed, or `world` is missing among the bodies.
+        ProgramError: the surface is not closed, a hole is not at it, or `world` is missing among the bodies.
     """
 
     name: str = "skin"
@@ -68,6 +68,7 @@ class Skin:
             raise ProgramError(
                 f"what holds, brakes or is blown at by {self.name} is missing", self.name, 'let "world" be in `bodies`'
             )
+        leaking.held(gas, self.triangles, self.name)
         unstretched = self.points / wall.stretched
         try:
             self.hinges = Hinges(unstretched, self.triangles, young, poisson, thickness, wall.yields)
@@ -241,10 +242,9 @@ class Skin:
         self.given += float((task.jet * (x - self.points)).sum())  # the jet's push is the gas's work, too
         self._pressed = sum(met.left(x) for met in task.met)
         self.points = x
-        if self.moles is not None:  # by the mean pressure of the step, half of which has left by then
-            mean = (over + self.pressure - self.gas.outside) / 2
-            lost = h * leaking.leaves(self.gas, mean, self.time)
-            self.moles -= h * leaking.leaves(self.gas, mean - self.pressure * lost / (2 * self.moles), self.time)
+        if self.moles is not None:
+            overs, dry = (over, self.pressure - self.gas.outside), self.pressure - self.gas.steam(self.time)
+            self.moles -= leaking.lost(self.gas, overs, dry, self.moles, self.time, h)
         self.given += (over + self.pressure - self.gas.outside) / 2 * (self.room - room)
         self.hinges.flow(x)
         return wrench

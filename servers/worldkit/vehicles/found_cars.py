@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING
 
 from .bicycle_numbers import Bicycle
 from .car_numbers import Car
-from .heavy_numbers import Truck
+from .heavy_numbers import Bus, Truck
 from .tracked_numbers import Tracked
 
 if TYPE_CHECKING:
     import mujoco
 
+HEAVY_KG = 3500.0
+"""Four wheels that bear more are a bus's: cars end there (category M1 and N1, Directive 2007/46/EC)."""
 CORNER = re.compile(r"[a-z0-9]+[lr]")
 
 
@@ -33,7 +35,7 @@ class FoundCar:
     belts: tuple[tuple[str, ...], ...]
     """Of a tracked vehicle."""
     power_w: float
-    """Which no world tells: that of its kind."""
+    """Which no world tells: that of the kind whose axles and mass it has."""
 
     def actuators(self, name: str) -> tuple[str, ...]:
         """Names of what `pedals` writes."""
@@ -54,7 +56,7 @@ def find_cars(model: "mujoco.MjModel") -> dict[str, FoundCar | Bicycle]:
             continue
         try:
             one = _bicycle(model, body, name) if brakes == {"f", "r"} else _on_axles(model, name, brakes, known)
-        except (KeyError, ValueError, ZeroDivisionError):
+        except (LookupError, ValueError, ZeroDivisionError):  # an odd world's, as one whose wheels are all on one side
             continue
         if one is not None and known.issuperset(one.actuators(name)):
             found[name] = one
@@ -87,7 +89,10 @@ def _on_axles(model: "mujoco.MjModel", name: str, corners: set[str], known: set[
             return None
         # The joint lets the inner wheel turn as far as it must; a driver's angle is that of the wheel in the middle.
         steering, power = degrees(atan(wheelbase / (wheelbase / tan(radians(most)) + track / 2))), Car.power_w
-        power = power if len(order) == 4 else Truck.power_w
+        if len(order) > 4:
+            power = Truck.power_w
+        elif float(model.body_mass[model.body(name).id]) > HEAVY_KG:  # without what it pulls
+            power = Bus.power_w
     elif not steered and motors == ["drive_l", "drive_r"]:
         steering, power, belts = Tracked.steering_deg, Tracked.power_w, (left, right)
     else:

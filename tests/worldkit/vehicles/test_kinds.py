@@ -10,6 +10,7 @@ from worldkit import contacts, joints, motion, portable, scene, vehicles
 from worldkit.vehicles.found_cars import find_cars
 
 G = 9.81
+ODD = ("al", "bl", "cl", "dl")
 ALL = (vehicles.Car(), vehicles.Truck(), vehicles.Bus(), vehicles.Tracked(), vehicles.Bicycle())
 
 
@@ -82,6 +83,7 @@ def test_a_vehicle_of_any_kind_is_found_in_its_world_and_driven_as_by_its_own_nu
     model, data = world(vehicle, speed=3.0)
     found = find_cars(model)
     assert list(found) == ["it"] and set(found["it"].actuators("it")) == set(vehicle.actuators("it"))
+    assert found["it"].power_w == vehicle.power_w
     for steering, throttle, brake in ((0.0, 0.1, 0.0), (6.0, 0.2, 0.0), (-3.0, -0.3, 0.0), (4.0, 0.0, 0.5)):
         drive(vehicle, model, data, 0.1, steering_deg=steering, throttle=throttle, brake=brake)
         asked = {"steering_deg": steering, "throttle": throttle, "brake": brake}
@@ -90,6 +92,16 @@ def test_a_vehicle_of_any_kind_is_found_in_its_world_and_driven_as_by_its_own_nu
         data.ctrl[:] = np.nan
         vehicles.pedals(found["it"], model, data, "it", **asked)
         assert data.ctrl == pytest.approx(mine, rel=1e-6, abs=1e-9)
+
+
+def test_an_odd_world_that_calls_its_brakes_so_holds_no_vehicle():
+    """Before, it ended a live drive."""
+    hubs = "".join(
+        f'<body name="it_{c}_hub" pos="{x} 0 0"><joint name="{c}"/><geom size=".1"/></body>' for x, c in enumerate(ODD)
+    )
+    brakes = "".join(f'<motor name="it_brake_{c}" joint="{c}"/>' for c in ODD)
+    text = f'<mujoco><worldbody><body name="it">{hubs}</body></worldbody><actuator>{brakes}</actuator></mujoco>'
+    assert find_cars(mujoco.MjModel.from_xml_string(text)) == {}
 
 
 def test_a_trailer_does_not_drive_by_itself():

@@ -51,7 +51,12 @@ def test_a_row_is_a_plant_where_the_plan_has_the_box_around_it_and_nothing_is_le
     [
         ({"kind": "bough", "numbers": {"length": 2.0}, "source": "x"}, {}, "did you mean `length_m`"),
         ({"kind": "bough", "numbers": {"length_m": 2.0}}, {}, "need a `source`"),
-        ({"kind": "tree", "numbers": {"height_m": 0}, "source": "x"}, {}, "height_m must be positive"),
+        (
+            {"kind": "tree", "numbers": {"height_m": 0}, "source": "x"},
+            {},
+            "height_m is a number from 0.02 to 120, not 0",
+        ),
+        ({"kind": "tree", "numbers": {"parts": 2_000_000}, "source": "x"}, {}, "parts from 1 to 120"),
         ({"kind": "bough"}, {"fixed": False}, "root of a plant is held"),
         ({"kind": "bough"}, {"filename": "bough.xml"}, "reads no file"),
         ({"kind": "bough"}, {"type": "mesh", "filename": "chair"}, "go together"),
