@@ -33,7 +33,8 @@ def list_(run: str) -> None:
                 click.echo(f"{folder}: {line(cause.cause)}; {line(cause.next_move)}")
                 continue
             names = ", ".join(dict.fromkeys(line(span["driver"]) for span in said.driven_by))
-            click.echo(f"{folder}: {said.simulated_s:.1f} s, {names or 'nobody'}; {said.signed}")
+            apart = f"; NOT OF THIS RUN AS IT IS: {line(said.apart)}" if said.apart else ""
+            click.echo(f"{folder}: {said.simulated_s:.1f} s, {names or 'nobody'}; {said.signed}{apart}")
 
     report_errors(told)
 

@@ -132,30 +132,33 @@ def drive(
     ended = threading.Event()
     before = {number: signal.signal(number, lambda *_: ended.set()) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
-        if pictures:
-            view = PictureThread(lambda: LiveView(source, (width, height), follow, look), lambda: world.newest)
-            view.ready.wait(60)
-        page = LivePage(world, seats, view, host, port, token or ("" if loopback(host) else secrets.token_urlsafe(16)))
-        click.echo(f"{page.address}  drives {', '.join(names)}; end it with Ctrl-C")
-        _watch(world, ended)
-    finally:
+        try:
+            if pictures:
+                view = PictureThread(lambda: LiveView(source, (width, height), follow, look), lambda: world.newest)
+                view.ready.wait(60)
+            known = token or ("" if loopback(host) else secrets.token_urlsafe(16))
+            page = LivePage(world, seats, view, host, port, known)
+            click.echo(f"{page.address}  drives {', '.join(names)}; end it with Ctrl-C")
+            _watch(world, ended)
+        finally:
+            world.close()
+            for part in (page, view):
+                if part is not None:
+                    part.close()
+        said = f"ended: {world.facts.get('ended', 'before its first step')}"
+        if not world.folder.is_dir():
+            click.echo(f"{said}; nothing was driven, and nothing is kept")
+            return 0
+        click.echo(f"{said}; kept in {world.folder}")
+        if not prove:
+            return 0
+        click.echo("proving; it is signed only if this ends", err=True)
+        found = finish(world.folder, world.witness)
+        click.echo(found.text())
+        return found.exit_code
+    finally:  # only now: a second Ctrl-C would lose the signature for good
         for number, handler in before.items():
             signal.signal(number, handler)
-        world.close()
-        for part in (page, view):
-            if part is not None:
-                part.close()
-    if not world.folder.is_dir():
-        click.echo(
-            f"ended: {world.facts.get('ended', 'before its first step')}; nothing was driven, and nothing is kept"
-        )
-        return 0
-    click.echo(f"ended: {world.facts.get('ended', 'before its first step')}; kept in {world.folder}")
-    if not prove:
-        return 0
-    found = finish(world.folder, world.witness)
-    click.echo(found.text())
-    return found.exit_code
 
 
 def _watch(world: Any, ended: threading.Event) -> None:

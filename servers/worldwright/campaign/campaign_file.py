@@ -202,6 +202,8 @@ class Campaign(Frozen):
     """`auto`: Ray where it is installed, else our own worker processes."""
     address: str = ""
     """Of a Ray cluster, as `host:port`; empty: this machine."""
+    dashboard: bool = False
+    """Open Ray's own page on this machine, which asks nobody for a password."""
     budget: Budget = Budget()
     per_world: PerWorld = PerWorld()
 

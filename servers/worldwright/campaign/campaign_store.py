@@ -44,7 +44,7 @@ BEGINS_S, LOOK_S = 0.5, 0.02
 """Who asks whether a driver is at work holds its lock for a moment: a driver that begins waits so long for it, and looks so often."""
 LIMITS = frozenset({"budget", "per_world", "workers"})
 """What may change while a driver is at work."""
-FREE = LIMITS | {"hands", "address", "report", "name"}
+FREE = LIMITS | {"hands", "address", "dashboard", "report", "name"}
 """What may be other when a campaign goes on: its worlds stay what they are."""
 WRITES = {"harness", "model", "options"}
 """What another author is another world by."""
@@ -140,7 +140,7 @@ class Store:
         return self._write(Begun(campaign=campaign, bases=tuple(bases), approved=approved, word=word))
 
     def _check_same(self, before: Begun, campaign: Campaign, beside: Path) -> None:
-        if _without(before.campaign, FREE) != _without(campaign, FREE):
+        if _unpriced(_without(before.campaign, FREE)) != _unpriced(_without(campaign, FREE)):
             raise CampaignError(
                 "this folder holds another campaign",
                 place=str(self.folder),
@@ -312,6 +312,12 @@ def seed(base: Path, target: Path) -> None:
 def _without(campaign: Campaign, free: frozenset[str]) -> Campaign:
     """A campaign with these words as if its file did not say them."""
     return campaign.model_copy(update={name: Campaign.model_fields[name].default for name in free})
+
+
+def _unpriced(campaign: Campaign) -> Campaign:
+    """A campaign as if nobody had said what its author's tokens cost: no world is another by that."""
+    author = campaign.author and campaign.author.model_copy(update={"prices": None})
+    return campaign.model_copy(update={"author": author})
 
 
 def _base(given: Given, campaign: Campaign, beside: Path) -> tuple[Base, dict[str, bytes]]:

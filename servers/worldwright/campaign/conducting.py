@@ -192,7 +192,8 @@ def crew_of(campaign: Campaign, work: Work, before: Count, say: Say) -> Processe
     """Who does the work: Ray where it is installed or asked for, else our own processes, which is said once."""
     limit = campaign.per_world.seconds + GRACE_S
     if campaign.hands == "ray" or campaign.address or (campaign.hands == "auto" and on_ray.installed()):
-        tasks = on_ray.Tasks(campaign.workers, work, limit, campaign.address, before.memory_mb, before.cores)
+        known = before.memory_mb, before.cores
+        tasks = on_ray.Tasks(campaign.workers, work, limit, campaign.address, *known, campaign.dashboard)
         if tasks.dashboard:
             say(f"Ray's dashboard: http://{tasks.dashboard}")
         return tasks

@@ -51,6 +51,8 @@ class Tasks:
         memory_mb: the largest that such worlds took before; 0: nothing is known.
         cores: the most processors that one of them kept at work; asked for are whole ones, and never less than one, since a world
             that had to wait for its processor looks as if it needed less.
+        dashboard: open Ray's own page where Ray is started here and has one (`ray[default]`). It asks nobody for a password, and whoever
+            reaches it may have Ray run anything.
 
     Raises:
         CampaignError: Ray is not installed, or no cluster answers there.
@@ -64,6 +66,7 @@ class Tasks:
         address: str = "",
         memory_mb: float = 0.0,
         cores: float = 0.0,
+        dashboard: bool = False,
     ) -> None:
         if not installed():
             raise CampaignError(
@@ -81,7 +84,7 @@ class Tasks:
         os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
         self._started = not ray.is_initialized()
         if self._started:
-            self._connect(count and count * max(1, round(cores)), address)
+            self._connect(count and count * max(1, round(cores)), address, dashboard)
         nodes = [node["Resources"] for node in ray.nodes() if node["Alive"]]
         processors = int(sum(node.get("CPU", 0) for node in nodes))
         asked = (memory_mb + SPARE_MB if memory_mb else FIRST_MB) * (1 << 20)
@@ -93,7 +96,7 @@ class Tasks:
         self._count = max(1, min(count or processors - (processors > 2), fit))
         self._remote = ray.remote(num_cpus=each, memory=int(asked), max_retries=0, max_calls=200)(_alone(work))
 
-    def _connect(self, processors: int | None, address: str) -> None:
+    def _connect(self, processors: int | None, address: str, dashboard: bool) -> None:
         quiet: dict[str, Any] = {"log_to_driver": False, "logging_level": "ERROR", "configure_logging": True}
         try:
             if address:
@@ -104,7 +107,7 @@ class Tasks:
                 began = self._ray.init(
                     address="local",
                     num_cpus=processors,
-                    include_dashboard=None,  # where it is installed (`ray[default]`), on the loopback
+                    include_dashboard=dashboard,  # without a word Ray opens it wherever it is installed
                     object_store_memory=STORE_MB << 20,
                     **quiet,
                 )

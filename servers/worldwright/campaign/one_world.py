@@ -23,7 +23,7 @@ from ..model.evidence.build_steps import STEPS, StepName
 from ..model.evidence.reports import PassResult
 from ..model.evidence.run import Run, sha256_file
 from ..model.frozen import Frozen
-from . import world_author
+from . import author_watch, world_author
 from .author_folder import AuthorError
 from .campaign_store import Base, Begun, Store, address, seed
 from .world_row import Cause, Margin, Outcome, Row
@@ -95,12 +95,8 @@ def gave_up(store: Store, one: Task, kind: str, said: str, next_move: str = "", 
 
 def stop_jobs(store: Store, world: str) -> None:
     """End the passes of a world that are under way, and its author."""
-    from ..stage.job import Job
-
     world_author.stop(store, world)
-    for job in Job.all(Run(store.world(world))):
-        with suppress(WorldwrightError):
-            job.cancel()
+    author_watch.end_passes(Run(store.world(world)))
 
 
 def _done(store: Store, begun: Begun, one: Task) -> Row:
@@ -364,7 +360,7 @@ def _film(store: Store, folder: Path, evidence: Path) -> str:
     """Its film: of those that lie together the author's, else the first by name."""
     films = [sorted((place / "video").glob("*.mp4")) for place in (folder / "accepted", evidence)]
     ordered = [sorted(some, key=lambda path: path.stem != "film") for some in films]
-    return next((_inside(store, path) for some in ordered for path in some), "")
+    return next((name for some in ordered for path in some if (name := _inside(store, path))), "")
 
 
 def _result(path: Path) -> PassResult | None:

@@ -77,11 +77,11 @@ def write(
                 counts[part_of(campaign, row, shares)] += 1
                 told.setdefault(row.plan_sha256 if campaign.sweep is None else "sweep", shapes)
             else:
-                path.unlink(missing_ok=True)
-        for path in folder.glob("split=*/*"):
+                _take_away(path)
+        for path in folder.glob("split=*/*.parquet"):
             kept = store.row(path.stem)  # a draft that was broken off is of no world
             if kept is None or path.parent.name != f"split={part_of(campaign, kept, shares)}":
-                path.unlink()
+                _take_away(path)
         if not told:
             raise CampaignError(
                 "no world of this campaign left a recording",
@@ -91,6 +91,13 @@ def write(
         about = {"columns": told, "shares": dict(zip(PARTS, shares, strict=True)), "worlds": counts}
         write_json(folder / SCHEMA, about)
     return counts
+
+
+def _take_away(path: Path) -> None:
+    """Delete a file of an earlier call, if there is one; from then on the set is not whole until it is written to its end."""
+    if path.is_file() or path.is_symlink():
+        (path.parents[1] / SCHEMA).unlink(missing_ok=True)
+        path.unlink()
 
 
 def _world(store: Store, row: Row, columns: tuple[str, ...], path: Path) -> dict[str, Any]:

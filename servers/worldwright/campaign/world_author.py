@@ -69,11 +69,13 @@ def write(store: Store, begun: Begun, world: str, prompt: str, deadline: float) 
     _move_in(session, store, world)
     if told.kind:
         raise AuthorError(told.kind, told.said, str(session), told.next_move)
+    talk = Talk(session / "transcript.jsonl", _author(begun)).read(whole=True)
+    if unpriced := _unpriced(talk, begun.campaign):  # with prices it goes on, and is not paid again
+        raise AuthorError(unpriced[0], unpriced[1], str(session), unpriced[2])
     if not Run(store.world(world)).plan.is_file():
-        last = Talk(session / "transcript.jsonl", _author(begun)).read(whole=True).last
         raise AuthorError(
             "no_plan",
-            f"it ended without a plan; its last words: {_cut(last) or '(none)'}",
+            f"it ended without a plan; its last words: {_cut(talk.last) or '(none)'}",
             str(session),
             "read its transcript",
         )
@@ -168,7 +170,7 @@ def _watched(
             return "over_time", f"{said}; it last said: {_cut(talk.last) or '(nothing)'}", "raise per_world.seconds"
         if limits.usd is not None and spent is not None and spent > limits.usd:
             return _over_usd(spent, limits.usd)
-        if spent == 0 and (unpriced := _unpriced(talk, begun.campaign)):
+        if not talk.ended and (unpriced := _unpriced(talk, begun.campaign)):  # who says that it is done is let end
             return unpriced
         if limits.runs is not None and _runs(room) > limits.runs:
             return "over_runs", f"its author ran its physics more than {limits.runs} times", "raise per_world.runs"
@@ -203,7 +205,7 @@ def _how(code: int, talk: Talk, session: Path, campaign: Campaign) -> tuple[str,
         return "rubbish", f"{name} {said}: {_cut(_tail(talk.path) or errors)}", move
     if talk.wrong:
         return "harness_failed", f"{name} could not go on: {_cut(talk.wrong)}", move
-    return _unpriced(talk, campaign) or ("", "", "")
+    return "", "", ""
 
 
 def _unpriced(talk: Talk, campaign: Campaign) -> tuple[str, str, str] | None:

@@ -22,7 +22,6 @@ if TYPE_CHECKING:
 CHASE = "chase"
 SIZE, FPS, QUALITY = (400, 224), 20.0, 72
 QUICK, FILM = "quick", "film"
-LOOKS = (QUICK, FILM)
 SUN = (-0.4, 0.3, -0.87)
 FOVY_DEG = 50.0
 BEHIND, ABOVE, AHEAD = 1.3, 0.5, 0.4

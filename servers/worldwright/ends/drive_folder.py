@@ -171,6 +171,20 @@ def begun(folder: Path) -> Begun:
     return found
 
 
+def apart(folder: Path, begun: Begun) -> str:
+    """How the run that a drive lies in is another than the one that it began in; empty where it is the same."""
+    run, found = Run(folder.parents[1]), list[str]()
+    if run.name != begun.run:
+        found.append(f"`{begun.run[:80]}` was driven, and it lies in `{run.name}`")
+    stamp = run.stamped / "stamp.json"
+    if begun.stamp_sha256 and (not stamp.is_file() or sha256_file(stamp) != begun.stamp_sha256):
+        found.append("the accepted world that was driven is not the one that lies there now")
+    plan = run.stamped / "plan.md" if begun.stamp_sha256 else run.plan
+    if not plan.is_file() or sha256_file(plan) != begun.files.get("plan.md"):
+        found.append("its plan is another than this run's")
+    return "; ".join(found)
+
+
 def statement(folder: Path) -> Statement:
     """Its statement; a `GateError` where there is none that makes sense."""
     found: Statement = _read(folder / STATEMENT, Statement)

@@ -71,6 +71,8 @@ class Driven(Frozen):
     """Who signed, or why nobody did."""
     vouched: bool
     """Whether a key that is known here signed it."""
+    apart: str = ""
+    """How the run that it lies in is another than the one that was driven; empty: it is the same."""
 
     @property
     def exit_code(self) -> int:
@@ -89,6 +91,7 @@ class Driven(Frozen):
             f"{line(self.run)}: {self.simulated_s:.2f} s driven by {by or 'nobody'}{whole}\n"
             f"  proved      the replay repeats {rows} rows recorded live, bit for bit\n"
             f"  trajectory  {self.trajectory_sha256}\n  inputs      {self.inputs_sha256}\n  {self.signed}\n"
+            f"{f'  NOT OF THIS RUN AS IT IS: {line(self.apart)}{chr(10)}' if self.apart else ''}"
             f"  kept in     {self.folder}\n"
             f"  next: worldwright scan scan {self.folder}/{PHYSICS}/{TRAJECTORY}, or worldwright drive film {self.folder}"
         )
@@ -313,7 +316,7 @@ def _told(folder: Path, said: Predicate, unsigned: str = "") -> Driven:
         folder=str(folder), run=said.begun.run, driven_by=tuple(span.model_dump() for span in said.driven_by),
         simulated_s=said.simulated_s, complete=said.complete, rows=said.rows, rows_live=said.rows_live,
         trajectory_sha256=said.trajectory_sha256, inputs_sha256=said.inputs_sha256,
-        signed=signed, vouched=said.witnessed and held.vouched,
+        signed=signed, vouched=said.witnessed and held.vouched, apart=drive_folder.apart(folder, said.begun),
     )  # fmt: skip
 
 

@@ -10,6 +10,9 @@ That it is the drive is proved by `same`: its recording passes through the rows 
 """
 
 import shutil
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -48,6 +51,7 @@ from worldkit import portable, program
 
 HERE = Path(__file__).parent
 TIME_STEP = {time_step!r}  # s
+BEGAN = {began!r}  # s, what the clock of the world says at its start
 DURATION = {duration!r}  # s
 EVERY = {every}  # steps from one command to the next
 NAMES = json.loads((HERE / "{names}").read_text(encoding="utf-8"))
@@ -67,7 +71,7 @@ def build() -> mujoco.MjSpec:
 
 def control(model: mujoco.MjModel, data: mujoco.MjData) -> None:
     """Whoever drove gave these commands."""
-    question = round(data.time / TIME_STEP) // EVERY
+    question = round((data.time - BEGAN) / TIME_STEP) // EVERY
     data.ctrl[CONTROLS] = VALUES[min(question, len(VALUES) - 1)]
 
 
@@ -114,25 +118,38 @@ def keep(folder: Path, into: Path) -> "Driven":
     facts = drive_folder.facts(folder, "program.json")
     with drive_replay.sound(folder):
         model, controls, values = commands(folder)
-        text = program_text(facts, stated, float(model.opt.timestep))
+        began = float(drive_replay.recorded(folder).time[0])
+        text = program_text(facts, stated, float(model.opt.timestep), began)
     plan = plan_text(folder, stated)
     drivers = _drivers(stated)
-    with writing("the run of the drive", into):
-        into.mkdir(parents=True, exist_ok=True)
-        (into / "prompt.md").write_text(
+    with _whole(into) as room:
+        (room / "prompt.md").write_text(
             f"{line(stated.run)}, driven live by {drivers} for {stated.simulated_s:g} s.\n", encoding="utf-8"
         )
-        (into / "plan.md").write_text(plan, encoding="utf-8")
-        shutil.copyfile(folder / "world.mjz", into / WORLD)
-        np.savez_compressed(into / COMMANDS, controls=controls, values=values)
+        (room / "plan.md").write_text(plan, encoding="utf-8")
+        shutil.copyfile(folder / "world.mjz", room / WORLD)
+        np.savez_compressed(room / COMMANDS, controls=controls, values=values)
         found = {"bodies": names(model, "body", model.nbody)[1:], "cameras": names(model, "camera", model.ncam)}
-        write_json(into / NAMES, {kind: [name for name in rows if name] for kind, rows in found.items()})
+        write_json(room / NAMES, {kind: [name for name in rows if name] for kind, rows in found.items()})
         for name in (STATEMENT, signing.ENVELOPE, signing.PUBLIC):
             if (folder / name).is_file():
-                (into / "driven").mkdir(exist_ok=True)
-                shutil.copyfile(folder / name, into / "driven" / name)
-        write_atomic(into / "simulation.py", text)
+                (room / "driven").mkdir(exist_ok=True)
+                shutil.copyfile(folder / name, room / "driven" / name)
+        write_atomic(room / "simulation.py", text)
     return stated
+
+
+@contextmanager
+def _whole(into: Path) -> Iterator[Path]:
+    """A folder beside a new run to make it in, which takes its place when it is whole; else nothing is left."""
+    with writing("the run of the drive", into):
+        into = into.resolve()
+        into.parent.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".keeping-", dir=into.parent) as room:
+            made = Path(room) / "run"
+            made.mkdir()
+            yield made
+            made.replace(into)
 
 
 def commands(folder: Path) -> "tuple[mujoco.MjModel, np.ndarray, np.ndarray]":
@@ -165,12 +182,12 @@ def commands(folder: Path) -> "tuple[mujoco.MjModel, np.ndarray, np.ndarray]":
     return model, controls, np.array(rows).reshape(len(rows), len(controls))
 
 
-def program_text(facts: dict[str, Any], stated: "Driven", time_step: float) -> str:
-    """The program of the kept run."""
+def program_text(facts: dict[str, Any], stated: "Driven", time_step: float, began: float) -> str:
+    """The program of the kept run, for the drive's time step and what its clock said at its first row, s."""
     lists = {name: tuple(map(str, facts.get(name, ()))) for name in ("movers", "visual_only")}
     width, height = facts["size"]
     return PROGRAM.format(
-        title=f"A world as it was driven live by {_drivers(stated)}.", time_step=time_step,
+        title=f"A world as it was driven live by {_drivers(stated)}.", time_step=time_step, began=began,
         duration=float(facts["duration"]), every=int(facts.get("control_every", 1)), commands=COMMANDS, world=WORLD,
         names=NAMES,
         fps=int(facts["fps"]), size=(int(width), int(height)), seed=int(facts.get("seed", 0)), **lists,

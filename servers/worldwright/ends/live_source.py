@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..model import json_object
 from ..model.errors import GateError
+from ..model.evidence.journal import Journal, results
 from ..model.evidence.run import Run, sha256_file
 from .accepted_world import FACTS, MOTION, WORLD, AcceptedWorld
 
@@ -41,6 +42,8 @@ class LiveSource:
     """Of the stamp of an accepted world."""
     digests: Mapping[str, str] = field(default_factory=dict)
     """SHA-256 of plan, world and facts as they were stamped or recorded, by the names that they have in a drive."""
+    doubt: str = ""
+    """Why nothing that is driven of it is signed; empty: nothing speaks against it."""
 
     @classmethod
     def find(cls, name: Path | str) -> "LiveSource":
@@ -48,7 +51,7 @@ class LiveSource:
 
         Raises:
             NotFoundError: there is no such run.
-            GateError: nothing was accepted or recorded of it, it has no plan, or what was accepted is not as it was stamped.
+            GateError: nothing was accepted or recorded of it, it has no plan, or what was accepted or recorded is not as it was left.
         """
         run = Run.find(name)
         if (run.stamped / "stamp.json").is_file() and (run.stamped / WORLD).is_file():
@@ -63,6 +66,7 @@ class LiveSource:
         from ..model.evidence import environment
         from ..model.plan.plan_text import read_plan
         from ..stage.one_frame import recorded
+        from ..stamp import departures
 
         if not run.plan.is_file():
             raise GateError(
@@ -70,7 +74,9 @@ class LiveSource:
                 place=str(run.folder),
                 next_move="write a plan whose interventions declare the controls (skill importing-models)",
             )
-        physics = recorded(run, run.evidence_key(environment.current().sha256()))
+        key = run.evidence_key(environment.current().sha256())
+        physics = recorded(run, key)
+        _vouched(run, key.key, physics / "result.json")
         digests = _named((json_object.read(physics / "result.json") or {}).get("files"))
         for name, digest in {WORLD: digests[WORLD], PROGRAM: digests["facts.json"], INPUTS: digests[INPUTS]}.items():
             if not (physics / name).is_file() or sha256_file(physics / name) != digest:
@@ -82,7 +88,9 @@ class LiveSource:
         digests["plan.md"] = sha256_file(run.plan)
         motion = physics / "trajectory"
         plan = read_plan(run.plan).plan
-        return cls(run, plan, run.plan, physics / WORLD, physics, _driven(motion), motion, "", digests)
+        other = departures.from_plan(physics / WORLD, plan)
+        doubt = f"the world is not the plan's: {other[0]}" if other else ""
+        return cls(run, plan, run.plan, physics / WORLD, physics, _driven(motion), motion, "", digests, doubt)
 
     @cached_property
     def given(self) -> "Given":
@@ -109,6 +117,15 @@ class LiveSource:
             recording = stored.open(self.motion)
             return recording.pos, recording.quat
         return None, None
+
+
+def _vouched(run: Run, key: str, result: Path) -> None:
+    """Refuse the result of a pass for which no line of the journal speaks: whoever can write the run can write such a file."""
+    again = f"rm -r {result.parent} && worldwright stage start {run.folder} --stage physics"
+    if broken := Journal(run.journal).breaks():
+        raise GateError(f"the journal is not as it was written: {broken[0]}", place=str(run.journal), next_move=again)
+    if results(run.entries(), key).get("physics") != sha256_file(result):
+        raise GateError("no line of the journal vouches for what was recorded", place=str(result), next_move=again)
 
 
 def _named(files: Any, at: str = "") -> dict[str, str]:

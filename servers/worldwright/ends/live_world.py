@@ -131,7 +131,9 @@ class LiveWorld:
             # Whoever holds it lets nobody prove the drive meanwhile; the engine holds it, too, until its last row is written.
             self._held = (self.folder / BEGUN).open("rb")
             try_lock.taken(self._held.fileno())
-            self.witness = Witness(self.folder, files)
+            self.witness = Witness(self.folder, files, self.source.doubt)
+        if self.source.doubt:
+            return
         with suppress(signing.SigningError, StorageError):  # then the end is not signed either
             signing.sign(self.folder / BEGINNING, Path(BEGUN).name, keyring.own())
 

@@ -22,20 +22,30 @@ class Witness:
     Args:
         folder: of the drive.
         files: SHA-256 of what it began with, by name.
+        doubt: why it vouches for nothing, known before the first step.
     """
 
-    def __init__(self, folder: Path, files: Mapping[str, str]) -> None:
-        self.folder = folder
+    def __init__(self, folder: Path, files: Mapping[str, str], doubt: str = "") -> None:
+        self.folder, self._doubt = folder, doubt
         self._saw = {**files, BEGUN: sha256_file(folder / BEGUN)}
         self._events = hashlib.sha256()
-        self._log = (folder / EVENTS).open("xb")
+        self._log = (folder / EVENTS).open("xb", buffering=0)
+        self._length = 0
         self._whole = False
 
     def note(self, what: str, more: Mapping[str, Any]) -> None:
         """Add a line to the events; an `OSError` where the disk is full, a `ValueError` when nothing is noted any more."""
         line = json.dumps({"at": round(time.time(), 3), "what": what, **more}).encode() + b"\n"
-        self._log.write(line)
-        self._log.flush()
+        try:
+            rest = memoryview(line)
+            while rest:
+                rest = rest[self._log.write(rest) :]
+        except OSError:
+            with suppress(OSError):  # half a line is no word of ours: what was noted before, and after, still counts
+                self._log.truncate(self._length)
+                self._log.seek(self._length)
+            raise
+        self._length += len(line)
         self._events.update(line)
 
     def ended(self) -> None:
@@ -56,6 +66,8 @@ class Witness:
     def contradicts(self, stated: Mapping[str, str]) -> str:
         """Why this process cannot sign a statement that lists these files by SHA-256; empty where it saw the same."""
         self.close()
+        if self._doubt:
+            return self._doubt
         if not self._whole:
             return "it did not see its end"
         saw = {**self._saw, EVENTS: self._events.hexdigest()}

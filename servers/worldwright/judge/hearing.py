@@ -139,7 +139,6 @@ def _heard(
                 say(f"{id}: vote {len(record.votes)} of {bench.votes}")
             record.decided()
             heard.decided += 1
-            alike = [""]
         except TieError as error:
             heard.undecided[id] = error.cause
         except JudgeError as error:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ..model.evidence.journal import Journal, reports
+from ..model.evidence.journal import Journal, reports, results
 from ..model.evidence.run import SOURCE, sha256_file
 from .refusal import Refusal
 from .state import State
@@ -103,10 +103,7 @@ def _legalise(state: State, name: str) -> str:
 def _reports(state: State) -> Iterator[Refusal]:
     """Reports and results of this key whose bytes no line of the journal vouches for."""
     key = state.key.key if state.key else ""
-    vouched = reports(state.journal, key)
-    for entry in state.journal:
-        if entry.get("key") == key and entry.get("action") == "stage" and entry.get("result_sha256"):
-            vouched[str(entry.get("stage"))] = str(entry["result_sha256"])
+    vouched = reports(state.journal, key) | results(state.journal, key)
     for name, command in AGAIN.items():
         yield from _vouched(state, state.folder / f"{name}.json", vouched.get(name), command.format(place=state.place))
     for stage in state.passes:

@@ -123,14 +123,15 @@ def test_where_ray_is_installed_it_does_the_work_and_is_left(begun, ray):
     end = conducting.conduct(store, stub_worlds.do, say=lambda said: pytest.fail(said))
     assert end.done == 4 and end.outcomes == {"failed": 1, "held": 3} and module.shut == 1
     assert os.environ[on_ray.NICENESS] == "0", "as our own processes"
-    assert module.asked["init"]["address"] == "local" and module.asked["init"]["include_dashboard"] is None
+    assert module.asked["init"]["address"] == "local" and module.asked["init"]["include_dashboard"] is False
     assert module.asked["remote"]["max_retries"] == 0 and module.asked["remote"]["num_cpus"] == 1
 
 
-def test_the_dashboard_is_named_where_there_is_one(begun, ray):
-    said, store = [], begun([1])
-    ray().dashboard = "127.0.0.1:8265"
+def test_the_dashboard_is_opened_and_named_where_it_is_asked_for(begun, ray):
+    said, store, module = [], begun([1], dashboard=True), ray()
+    module.dashboard = "127.0.0.1:8265"
     conducting.conduct(store, stub_worlds.do, say=said.append)
+    assert module.asked["init"]["include_dashboard"] is True
     assert said == ["Ray's dashboard: http://127.0.0.1:8265"]
 
 

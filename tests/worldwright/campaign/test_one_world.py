@@ -10,6 +10,7 @@ from click.testing import CliRunner
 
 import worldwright
 from worldwright.campaign import one_world, setting_out
+from worldwright.campaign.campaign_file import CampaignError
 from worldwright.campaign.campaign_store import Store
 from worldwright.campaign.one_world import task
 from worldwright.cli import main
@@ -201,6 +202,24 @@ def test_what_an_earlier_call_left_of_other_worlds_is_taken_away(fallen):
     finally:
         fallen.keep(second)
     assert [path.stem for path in folder.glob("split=*/*")] == [first.world]
+    note, place = next(folder.glob("split=*/")) / "notes.txt", next(folder.glob("split=*/")) / "mine.parquet"
+    note.write_text("mine")
+    place.mkdir()
+    for row in (first, second):
+        fallen.keep(row.model_copy(update={"recording": ""}))
+    try:
+        with pytest.raises(CampaignError, match="no world of this campaign left a recording"):
+            trajectories.write(fallen)
+    finally:
+        for row in (first, second):
+            fallen.keep(row)
+    assert not list(folder.glob("split=*/[!m]*.parquet")) and not (folder / "schema.json").exists(), (
+        "it says no set is whole"
+    )
+    assert note.is_file() and place.is_dir(), "what is not ours stays"
+    note.unlink()
+    place.rmdir()
+    trajectories.write(fallen)
     (folder / "schema.json").unlink()
     with pytest.raises(NotFoundError, match="not written to the end"):
         worldwright.load(fallen.folder).trajectories("train")

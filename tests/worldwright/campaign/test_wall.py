@@ -114,6 +114,9 @@ def test_the_film_of_a_world_is_the_accepted_one_of_its_author(store):
         film.parent.mkdir(parents=True, exist_ok=True)
         film.touch()
         assert store.folder / one_world._film(store, folder, evidence) == film
+    film.unlink()
+    film.symlink_to("gone.mp4")
+    assert one_world._film(store, folder, evidence).endswith("accepted/video/above.mp4"), "a link to nothing is no film"
 
 
 def test_two_may_write_the_table_at_once_and_none_leaves_a_draft(tmp_path):

@@ -33,6 +33,11 @@ TURN = {"type": "turn.completed", "usage": {"input_tokens": 1_000_000, "output_t
 ACTS = {
     "writes": f"write(); print(json.dumps({RESULT}))",
     "ends as codex": f"write(); print(json.dumps({TURN}))",
+    "ends without a price": f"write(); print(json.dumps({ {name: RESULT[name] for name in RESULT if name != 'total_cost_usd'} }))",
+    "leaves a child": "subprocess.Popen([sys.executable, '-c', \"import os, time, pathlib; "
+    "pathlib.Path('../child').write_text(str(os.getpid())); time.sleep(60)\"], start_new_session=True)\n"
+    f"while not pathlib.Path('../child').exists(): time.sleep(0.02)\nwrite(); print(json.dumps({RESULT}))",
+    "links its jobs": f"write(); os.symlink('/tmp', 'runs/ball/jobs'); print(json.dumps({RESULT}))",
     "tells no price": f"print(json.dumps({STEP}), flush=True); time.sleep(60)",
     "ends without a plan": f"print(json.dumps({RESULT}))",
     "is killed": "os.kill(os.getpid(), 9)",
@@ -151,6 +156,53 @@ def assert_nothing_is_left(store: Store) -> None:
             return
         time.sleep(0.05)
     pytest.fail("an orphan of the author would go on being paid")
+
+
+def test_what_left_the_session_of_a_harness_ends_with_it_too(asked):
+    store = asked("leaves a child")
+    assert rows(store)["leaves a child"].outcome == "held"
+    (child,) = (store.folder / "authors").glob("*/*/1/child")
+    assert not author_watch.since(int(child.read_text())), "it would go on being paid"
+
+
+def test_a_harness_that_cannot_be_ended_afterwards_does_not_go_on(tmp_path):
+    (tmp_path / author_watch.PROCESS).mkdir()  # what it runs as cannot be noted there
+    alone = [
+        sys.executable,
+        "-c",
+        f"import os, pathlib, time; pathlib.Path({str(tmp_path / 'pid')!r}).write_text(str(os.getpid())); time.sleep(60)",
+    ]
+    words = [sys.executable, "-P", "-m", author_watch.__name__, str(tmp_path), *alone]
+    told = subprocess.run(words, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=30)
+    assert told.returncode == 127 and "cannot be noted" in told.stderr
+    assert not (tmp_path / "pid").exists() or not author_watch.since(int((tmp_path / "pid").read_text()))
+
+
+def test_a_linked_folder_of_jobs_fails_no_session_that_came_to_its_end(asked):
+    row = rows(asked("links its jobs", until="check"))["links its jobs"]
+    assert row.cause is None or row.cause.step != "author", row.cause
+
+
+def test_passes_end_also_where_their_harness_is_gone(tmp_path, monkeypatch):
+    ended = []
+    monkeypatch.setattr(author_watch, "end_passes", ended.append)
+    (tmp_path / "project/runs/ball").mkdir(parents=True)
+    (tmp_path / author_watch.PROCESS).write_text("1 7")  # of this number another process lives
+    assert not author_watch.stop(tmp_path)
+    assert [run.folder.name for run in ended] == ["ball"]
+
+
+def test_a_world_without_a_price_is_paid_once(asked, tmp_path):
+    store = asked("ends without a price", budget={"usd": 5})
+    row = rows(store)["ends without a price"]
+    assert row.cause.kind == "no_prices"
+    store.forget(row)
+    assert rows(store)["ends without a price"].cause.kind == "no_prices"
+    store.forget(row)
+    priced = asked("ends without a price", author={"prices": {"read": 100, "written": 1000}}, budget={"usd": 5})
+    row = rows(priced)["ends without a price"]
+    assert row.outcome == "held" and row.usd == pytest.approx(0.035)
+    assert (tmp_path / "calls").read_text().count("\n") == 1
 
 
 def test_an_author_ends_with_its_worker_whoever_kills_that(asked):

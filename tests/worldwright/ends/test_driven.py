@@ -18,7 +18,9 @@ from worldwright import driven_worlds
 from worldwright.ends import drive_film, drive_folder, driven
 from worldwright.ends.live_source import LiveSource
 from worldwright.ends.live_world import LiveWorld
+from worldwright.ends.witness import Witness
 from worldwright.model.errors import GateError, JobError, NotFoundError
+from worldwright.model.evidence.run import sha256_file
 from worldwright.stamp import keyring, signing
 
 
@@ -140,6 +142,52 @@ def test_only_the_process_that_ran_it_signs(stated, lived, tmp_path):
     (folder / driven.STATEMENT).unlink()
     found = driven.finish(folder, lived[1])
     assert not found.vouched and "events.jsonl is not what it left" in found.signed
+
+
+def test_a_drive_beside_another_plan_is_told_apart(stated, tmp_path):
+    folder = copied(stated, tmp_path)
+    run = folder.parents[1]
+    assert driven.checked(folder).apart == ""
+    for place in (run, run / "accepted"):
+        with (place / "plan.md").open("a") as plan:
+            plan.write("\n")
+    (run / "accepted/stamp.json").write_text("{}")
+    moved = run.rename(run.with_name("ramp"))
+    (said,) = told("list", moved).output.splitlines()
+    assert "`rope` was driven, and it lies in `ramp`" in said and "its plan is another" in said
+    assert "the accepted world that was driven is not the one" in said
+    assert "NOT OF THIS RUN AS IT IS: `rope`" in told("prove", moved / "drives" / folder.name).output
+
+
+def test_a_disk_that_was_full_for_a_moment_costs_one_line_and_not_the_signature(tmp_path):
+    class Full:
+        """Takes half of a line, and no more until there is room again."""
+
+        def __init__(self, log):
+            self.log, self.room = log, 1
+
+        def write(self, data):
+            if self.room == 0:
+                raise OSError(28, "No space left on device")
+            self.room -= 1
+            return self.log.write(bytes(data)[:9])
+
+        def __getattr__(self, name):
+            return getattr(self.log, name)
+
+    (tmp_path / "begun").mkdir()
+    (tmp_path / drive_folder.BEGUN).write_text("{}")
+    witness = Witness(tmp_path, {})
+    witness.note("came", {})
+    before, log = (tmp_path / driven.EVENTS).read_bytes(), witness._log
+    witness._log = Full(log)
+    with pytest.raises(OSError, match="No space"):
+        witness.note("drives", {"name": "Ada"})
+    witness._log = log
+    assert (tmp_path / driven.EVENTS).read_bytes() == before
+    witness.note("released", {"to_s": 1.0})
+    witness.ended()
+    assert not witness.contradicts({name: sha256_file(tmp_path / name) for name in (driven.EVENTS, drive_folder.BEGUN)})
 
 
 def test_a_kill_while_it_is_signed_leaves_a_drive_that_is_proved(stated, tmp_path):

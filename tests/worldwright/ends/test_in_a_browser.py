@@ -1,5 +1,6 @@
 """A person's page: it is opened in a browser, a key drives the world, and pictures are shown."""
 
+import contextlib
 import shutil
 import time
 
@@ -27,12 +28,17 @@ def test_a_key_on_the_page_drives_the_world_and_its_pictures_are_shown(roped, tm
     shutil.copytree(roped.run, tmp_path / "rope", ignore=shutil.ignore_patterns("drives"))
     source = LiveSource.find(tmp_path / "rope")
     world = LiveWorld(source)
-    seats = Seats(["pull"], world.command, world.left, lambda: world.facts.get("time_s", 0.0), world.witness.note)
-    view = PictureThread(lambda: LiveView(source), lambda: world.newest)
-    view.ready.wait(60)
-    page = LivePage(world, seats, view)
-    browser = Browser(installed(), page.address + "?name=Ada", str(tmp_path / "home"))
-    try:
+    with contextlib.ExitStack() as left:
+        left.callback(world.close)
+        seats = Seats(["pull"], world.command, world.left, lambda: world.facts.get("time_s", 0.0), world.witness.note)
+        view = PictureThread(lambda: LiveView(source), lambda: world.newest)
+        left.callback(view.close)
+        view.ready.wait(60)
+        page = LivePage(world, seats, view)
+        left.callback(page.close)
+        left.callback(world.close)  # the page tells its end
+        browser = Browser(installed(), page.address + "?name=Ada", str(tmp_path / "home"))
+        left.callback(browser.close)
         until(lambda: not world.facts["waits"])
         assert "you drive" in browser.value("document.getElementById('who').textContent")
         browser.press("ArrowUp")
@@ -40,9 +46,4 @@ def test_a_key_on_the_page_drives_the_world_and_its_pictures_are_shown(roped, tm
         width = "document.getElementById('picture').naturalWidth"
         until(lambda: browser.value(width) == 400)
         until(lambda: "pull" in browser.value("document.getElementById('commands').textContent"))
-    finally:
-        browser.close()
-        world.close()
-        page.close()
-        view.close()
     assert view.problem == ""

@@ -1,20 +1,24 @@
 """A drive kept as a run: its program gives the commands again, through the rows that were recorded live, bit for bit."""
 
+import runpy
 import shutil
 import subprocess
 import sys
+import types
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from worldwright import driven_worlds
-from worldwright.ends import driven, kept_drive
+from worldwright.ends import drive_folder, driven, kept_drive
 from worldwright.ends.live_source import LiveSource
 from worldwright.ends.live_world import LiveWorld
 from worldwright.lint.tools import check_program
 from worldwright.model.errors import GateError
 from worldwright.model.plan.plan_text import read_plan
+from worldwright.model.storage import StorageError
 
 CAR = Path(__file__).parents[1] / "world/driven_car_plan.md"
 
@@ -23,7 +27,7 @@ CAR = Path(__file__).parents[1] / "world/driven_car_plan.md"
 def drive(roped, tmp_path_factory):
     run = tmp_path_factory.mktemp("kept") / "rope"
     shutil.copytree(roped.run, run, ignore=shutil.ignore_patterns("drives"))
-    world = LiveWorld(LiveSource.find(run), speed=4.0, seconds=0.9, waits=False)
+    world = LiveWorld(LiveSource.find(run), speed=4.0, seconds=0.9)
     world.witness.note("drives", {"name": 'Ada "\\n#: {x}', "where": "here", "from_s": 0.0})
     while not world.wait(0.02):
         world.command({"pull": 0.2})
@@ -60,6 +64,31 @@ def test_a_kept_drive_is_a_run_that_moves_as_it_was_driven(drive, kept):
     subprocess.run(call, check=True, capture_output=True)
     with pytest.raises(GateError, match="other states than the drive"):
         kept_drive.same(recording, drive)
+
+
+def test_a_world_whose_clock_begins_late_is_asked_its_first_question_first(drive, tmp_path):
+    facts = drive_folder.facts(drive, "program.json")
+    text = kept_drive.program_text(facts, driven.checked(drive), 0.001, 5.0)
+    (tmp_path / kept_drive.NAMES).write_text("{}")
+    np.savez(tmp_path / kept_drive.COMMANDS, controls=[0], values=[[1.0], [2.0], [3.0]])
+    (tmp_path / "simulation.py").write_text(text)
+    program = runpy.run_path(str(tmp_path / "simulation.py"))
+    every = program["EVERY"]
+    data = types.SimpleNamespace(time=5.0, ctrl=np.zeros(1))
+    for step, value in ((0, 1.0), (every, 2.0), (2 * every, 3.0)):
+        data.time = 5.0 + 0.001 * step
+        program["control"](None, data)
+        assert data.ctrl[0] == value
+
+
+def test_a_run_that_cannot_be_made_whole_leaves_nothing(drive, tmp_path, monkeypatch):
+    def full(*_):
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(kept_drive, "write_atomic", full)
+    with pytest.raises(StorageError):
+        kept_drive.keep(drive, tmp_path / "new")
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_car_that_followed_a_path_is_declared_to_be_driven(drive, tmp_path):

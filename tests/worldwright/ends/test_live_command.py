@@ -43,6 +43,7 @@ def driven_run(roped, tmp_path_factory):
             process.send_signal(signal.SIGINT)
             while said["kind"] != "ended":
                 said = json.loads(socket.recv(timeout=60))
+            process.send_signal(signal.SIGINT)  # an impatient hand: what it would lose, nobody signs later
         told, heard = process.communicate(timeout=60)
     finally:
         process.kill()

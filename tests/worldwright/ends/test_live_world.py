@@ -139,7 +139,7 @@ def test_steps_that_are_left_to_the_engine_are_the_same(run, seal):
     """Nothing drove this world before, so nothing can change between two looks at the clock."""
     (run / "accepted/world/inputs.arrows").unlink()
     seal(run)
-    world = LiveWorld(LiveSource.find(run), speed=4.0, seconds=1.7, waits=False)
+    world = LiveWorld(LiveSource.find(run), speed=4.0, seconds=1.7)  # it stands still until the first command
     world.command({"pull": 0.1})
     assert world.wait(PATIENCE_S)
     world.close()

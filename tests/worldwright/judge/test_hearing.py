@@ -156,6 +156,17 @@ def test_three_films_in_a_row_that_fail_alike_end_the_hearing(stand_in, records,
     assert found.ended is not None and found.ended.code == "garbage" and len(stand_in.asked) == 3 * 3
 
 
+def test_a_film_that_was_decided_before_says_nothing_of_the_judge(stand_in, records, scenario, film, bench):
+    scenarios = {f"00{n}": scenario.model_copy(update={"id": f"00{n}"}) for n in range(1, 6)}
+    films = {id: Entrant(film()) for id in scenarios}
+    stand_in.replies = [(200, chat(said()), {})]
+    assert hearing.hear(records, scenarios, {"003": films["003"]}, bench).decided == 1
+    stand_in.asked.clear()
+    stand_in.replies = [(200, b"<html>", {})]
+    found = hearing.hear(records, scenarios, films, bench)
+    assert found.ended is not None and len(stand_in.asked) == 3 * 3, "001, 002 and 004 failed alike in a row"
+
+
 def test_films_that_failed_are_asked_about_last_and_do_not_keep_the_others_from_being_heard(
     stand_in, records, scenario, film, bench
 ):
@@ -172,9 +183,8 @@ def test_films_that_failed_are_asked_about_last_and_do_not_keep_the_others_from_
 def test_a_decided_film_between_those_that_fail_ends_their_row(stand_in, records, scenario, film, bench):
     scenarios = {f"00{n}": scenario.model_copy(update={"id": f"00{n}"}) for n in range(1, 6)}
     films = {id: Entrant(film()) for id in ("002", "003", "001", "004", "005")}
-    stand_in.replies = [(200, chat(said()), {})]
-    hearing.hear(records, scenarios, {"001": films["001"]}, bench)
-    stand_in.replies = [*[(200, b"<html>", {})] * 9, (200, chat(said()), {})]
+    good, bad = (200, chat(said()), {}), (200, b"<html>", {})
+    stand_in.replies = [*[bad] * 6, *[good] * 3, *[bad] * 3, good]
     found = hearing.hear(records, scenarios, films, bench)
     assert found.ended is None and found.decided == 2 and list(found.undecided) == ["002", "003", "004"]
 

@@ -161,6 +161,12 @@ def reports(entries: Iterable[dict[str, Any]], key: str) -> dict[str, str]:
     return found
 
 
+def results(entries: Iterable[dict[str, Any]], key: str) -> dict[str, str]:
+    """The hashes of the results of an evidence key's passes, by stage, as the last line about each says."""
+    told = (e for e in entries if e.get("key") == key and e.get("action") == "stage" and e.get("result_sha256"))
+    return {str(entry.get("stage")): str(entry["result_sha256"]) for entry in told}
+
+
 def _without(text: str, mark: str) -> str:
     """A line without its last field, which begins with this mark."""
     head, found, _ = text.rpartition(mark)
