@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 SUMS = ("mass", "momentum", "energy", "weight", "stored", "volume", "held")
 """The columns of `balances` in the order in which a law tells them."""
 ANOTHER = "it is of another medium than is due"
+ENOUGH = 4096
+"""So many rows are read whatever there is room for, since the first of them that is wrong is then named with its cause."""
 
 
 class Recorded:
@@ -55,7 +57,7 @@ class Recorded:
         elements = sum(flat(model, name).size if kept is None else len(kept) for name, kept in ports.parameters)
         rooms = {"inputs": ports.width * asks, "edits": elements * asks}
         for name in ("inputs", "edits", *(OF_MEDIA if ports.media else ())):
-            _whole(recording.folder / f"{name}.arrows", name, rooms.get(name))
+            _whole(recording.folder / f"{name}.arrows", name, max(rooms[name], ENOUGH) if name in rooms else None)
         self._lasting = sum(len(ports.entries.get(name, ())) for name in HELD)
         self.vector = np.full(ports.width, np.nan)
         self.vector[: self._lasting] = 0.0

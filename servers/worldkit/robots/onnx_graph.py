@@ -12,6 +12,10 @@ VARINT, EIGHT, LENGTH, FOUR = 0, 1, 2, 5
 GRAPH, NODE, INPUT, OUTPUT, VALUE = 7, 1, 11, 12, 13
 OP_TYPE, DOMAIN = 4, 7
 EXTERNAL_DATA, DATA_LOCATION = 13, 14
+OF_TENSOR = (*range(1, 15), 16)
+"""Every field that a tensor has; what is another may be one to a runtime that reads otherwise."""
+KEYS, NUMBERS = 1 << 32, 1 << 64
+"""A field's key is below the first, any other number below the second: a runtime drops the bits beyond, and reads another field."""
 INSIDE = {
     "model": {7: "graph", 25: "function"},
     "graph": {1: "node", 5: "tensor", 15: "sparse"},
@@ -47,13 +51,16 @@ def weighs_elsewhere(data: bytes) -> bool:
     """Whether a tensor's numbers lie in another file, which no hash of this one covers.
 
     Raises:
-        ValueError: it is no ONNX file.
+        ValueError: it is no ONNX file, or a tensor has a field that is none of a tensor's.
     """
-    return any(
-        number == EXTERNAL_DATA or (number == DATA_LOCATION and kind == VARINT and _number(body, 0)[0] != 0)
-        for tensor in _all(data, "tensor")
-        for number, kind, body, _ in _fields(tensor)
-    )
+    elsewhere = False
+    for tensor in _all(data, "tensor"):
+        for number, kind, body, _ in _fields(tensor):
+            if number not in OF_TENSOR:
+                raise ValueError(f"a tensor has a field {number}, which is none of a tensor's")
+            located = number == DATA_LOCATION and kind == VARINT and _number(body, 0)[0] != 0
+            elsewhere |= located or number == EXTERNAL_DATA
+    return elsewhere
 
 
 def freed(data: bytes) -> bytes:
@@ -130,6 +137,8 @@ def _fields(message: bytes) -> Iterator[tuple[int, int, bytes, tuple[int, int]]]
     while at < len(message):
         start = at
         key, at = _number(message, at)
+        if not 8 <= key < KEYS:
+            raise ValueError(f"byte {start} begins a field with no number of a field's")
         kind = key & 7
         if kind == VARINT:
             before = at
@@ -155,6 +164,8 @@ def _number(message: bytes, at: int) -> tuple[int, int]:
         value |= (byte & 0x7F) << shift
         at += 1
         if byte < 0x80:
+            if value >= NUMBERS or (byte == 0 and shift):
+                raise ValueError(f"byte {at - 1} ends a number that is written longer than it is")
             return value, at
         shift += 7
     raise ValueError("it is cut off")

@@ -7,6 +7,7 @@ It is run by onnxruntime on one thread, so that a repetition gives the same digi
 """
 
 import hashlib
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -92,6 +93,9 @@ def read(file: str, *, observation: int, action: int, sha256: str = "") -> Polic
 def opened(path: Path, *, observation: int, action: int, sha256: str = "") -> Policy:
     """`read` for a file wherever it lies."""
     data = checked(path, sha256)
+    os.environ["ORT_DISABLE_TELEMETRY"] = (
+        "1"  # read as it is imported, else it writes a device's name down and sends reports
+    )
     try:
         import onnxruntime
     except ImportError as error:

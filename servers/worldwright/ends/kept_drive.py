@@ -24,7 +24,7 @@ from ..model.plan.plan_edit import edit
 from ..model.plan.plan_text import parse_plan, read_plan
 from ..model.printable import line
 from ..model.storage import writing
-from ..stamp import signing
+from ..stamp import driven_live, signing
 from . import drive_folder, drive_replay, driven
 from .drive_folder import STATEMENT, STREAM, TRAJECTORY
 
@@ -35,7 +35,6 @@ if TYPE_CHECKING:
     from .driven import Driven
 
 WORLD, COMMANDS, NAMES = "driven_world.mjz", "driven_commands.npz", "driven_names.json"
-MOST_NAMES = 200
 PROGRAM = '''"""{title}
 
 The world is the file that was driven, and its controls are what was commanded then, at the steps where that took effect.
@@ -230,8 +229,7 @@ def plan_text(folder: Path, stated: "Driven") -> str:
 
 def _drivers(stated: "Driven") -> str:
     """Whose hand it was, by the names that were given: letters, digits and blanks alone, since they go into texts that are read."""
-    names = ("".join(c for c in row["driver"] if c.isalnum() or c in " -_.") for row in stated.driven_by)
-    return ", ".join(dict.fromkeys(name.strip() for name in names if name.strip()))[:MOST_NAMES] or "nobody"
+    return driven_live.named(row["driver"] for row in stated.driven_by)
 
 
 def same(recording: Path, folder: Path) -> int:

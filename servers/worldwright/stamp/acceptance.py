@@ -22,6 +22,7 @@ from . import (
     departures,
     digest,
     drawn_by_program,
+    driven_live,
     exactness,
     gates,
     judged,
@@ -106,6 +107,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         repeats.same(state, stripped, proved)
         repeats.whole(state, proved)
         _as_planned(state, proved)
+        driven_live.declared(state.run, state.plan.declared() if state.plan else (), proved)
         repeats.measured(state, proved)
         left = max(1.0, deadline - time.monotonic())
         driven = repeats.driven_again(work / "again", program, plan, proved, timeout_s=left, progress=progress)
@@ -297,10 +299,7 @@ def _predicate(
             for o in expect.objectives
             for e in o.expectations
         ),
-        declared_interventions=tuple(
-            f"{row.kind} on {', '.join(row.bodies)}: {row.law} (trigger: {row.trigger}; source: {row.source})"
-            for row in plan.declared()
-        ),
+        declared_interventions=driven_live.declared(state.run, plan.declared(), proved),
         journal_head=shown.journal.head(),
         reviewer=review.reviewer,
         review_came=state.came("review"),

@@ -89,28 +89,39 @@ def is_small(folder: Path) -> bool:
 
 
 def unlisted(folder: Path, statement: Statement) -> list[str]:
-    """What lies in an accepted folder and its stamp does not list; in a small form, besides the journal and a handed-in film."""
-    known = {*(s.name for s in statement.subject), *UNLISTED}
-    if is_small(folder):  # where the run itself stands accepted, one handed in since lies in it
-        known |= {"journal.jsonl", *handed_in.NAMES}
+    """What lies in an accepted folder and its stamp does not list; in a small form, besides the journal."""
+    known = {*(s.name for s in statement.subject), *UNLISTED, *["journal.jsonl"] * is_small(folder)}
     return [name for name in files_in(folder) if name not in known]
 
 
-def beside_small(folder: Path, statement: Statement) -> list[str]:
-    """What lies beside the listed files of a small form, as a build leaves it there, each file or folder once; the stamp
-    says nothing of it. Nothing in another folder, where all that is not listed is damage."""
-    if not is_small(folder):
-        return []
-    shown = (
-        f"{name.split('/')[0]}{'/' * ('/' in name)}" for name in unlisted(folder, statement) if _left(folder, name)
+def empty_folders(folder: Path) -> list[str]:
+    """Folders below `folder` in which nothing lies, as `NAME/`: no list of files can name them."""
+    return sorted(
+        f"{path.relative_to(folder).as_posix()}/"
+        for path in (Path(inside) for inside, folders, names in os.walk(folder) if not folders and not names)
+        if path != folder
     )
-    return [*dict.fromkeys(shown)]
+
+
+def beside_small(folder: Path, statement: Statement) -> list[str]:
+    """What lies beside the listed files of a small form, as a build or a film handed in since is left there, each file or
+    folder once, empty ones too; the stamp says nothing of it. Of another folder the empty folders alone: there all else that is
+    not listed is damage."""
+    empty = empty_folders(folder)
+    if not is_small(folder):
+        return empty
+    left = [name for name in unlisted(folder, statement) if _left(folder, name)]
+    shown = (f"{name.split('/')[0]}{'/' * ('/' in name)}" for name in left)
+    tops = [*dict.fromkeys(shown)]
+    return [*tops, *(name for name in empty if f"{name.split('/')[0]}/" not in tops)]
 
 
 def _left(folder: Path, name: str) -> bool:
-    """Whether something unlisted in a small form is what a build leaves there: of evidence, folders by key; no link."""
+    """Whether something unlisted in a small form is what a build leaves there, of evidence folders by key, or a film handed in
+    to the run that stands accepted there; no link."""
     top, *below = name.split("/")
-    return top in BESIDE and (len(below) > 1 or top != "evidence") and not (folder / top).is_symlink()
+    kept = name in handed_in.NAMES or (top in BESIDE and (len(below) > 1 or top != "evidence"))
+    return kept and not (folder / top).is_symlink()
 
 
 def left_by_builds(statement: Statement | None) -> set[str]:

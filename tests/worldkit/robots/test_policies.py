@@ -1,6 +1,9 @@
 """A policy takes many robots at once, gives each what it would alone, and whatever is none of its kind is named."""
 
 import hashlib
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -92,6 +95,32 @@ def test_what_a_policy_holds_deeper_is_looked_at(tmp_path, within, code):
     with pytest.raises(policies.PolicyError) as told:
         policies.checked(path)
     assert told.value.code == code and told.value.next_move
+
+
+@pytest.mark.parametrize(
+    ("tensor", "says"),
+    [
+        (message((8, b"w"), (1 << 29 | 14, 1)), "no number of a field's"),
+        (message((8, b"w"), (1 << 29 | 13, b"")), "no number of a field's"),
+        (message((8, b"w")) + b"\xf0\x80\x00\x01", "longer than it is"),
+        (message((8, b"w"), (14, 1 << 64)), "longer than it is"),
+        (message((8, b"w"), (17, 1)), "none of a tensor's"),
+    ],
+    ids=["location", "data", "padded", "too_large", "unknown"],
+)
+def test_a_field_that_a_runtime_would_read_otherwise_is_refused(tmp_path, tensor, says):
+    path = packaged_dogs.policy(tmp_path / "walk.onnx", 6, 2, within=((5, tensor),))
+    with pytest.raises(policies.PolicyError, match=says) as told:
+        policies.checked(path)
+    assert told.value.code == "unreadable"
+
+
+def test_the_runtime_writes_nothing_down_of_this_machine(tmp_path):
+    path = packaged_dogs.policy(tmp_path / "walk.onnx", 6, 2)
+    code = f"from pathlib import Path; from worldkit.robots.policies import opened; opened(Path({str(path)!r}), observation=6, action=2)"
+    home = {"HOME": str(tmp_path / "home"), "XDG_CACHE_HOME": str(tmp_path / "home/cache")}
+    subprocess.run([sys.executable, "-c", code], check=True, env={**os.environ, **home, "ORT_DISABLE_TELEMETRY": "0"})
+    assert not (tmp_path / "home").exists()
 
 
 def test_what_is_no_number_and_what_has_no_rows_is_refused(tmp_path):

@@ -215,4 +215,17 @@ def test_what_a_stamp_does_not_list_is_refused_in_its_folders_and_named_beside_t
     checks = static(Run(folder), folder)
     assert all(check.ok for check in checks)
     (told,) = [check.detail for check in checks if check.note]
-    assert told.startswith("evidence/, report.html: in no list")
+    assert told.startswith("evidence/, report.html, ") and "stills/, video/: in no list" in told, told
+
+
+def test_a_film_that_no_stamp_lists_and_an_empty_folder_are_named(small: tuple[Path, Statement]) -> None:
+    folder, statement = small
+    (folder / "handed_in.mp4").write_bytes(b"of another world")
+    (folder / "secret" / "room").mkdir(parents=True)
+    checks = static(Run(folder), folder)
+    assert all(check.ok for check in checks) and bundle.damage(folder, statement) == []
+    (told,) = [check.detail for check in checks if check.note]
+    assert told.startswith("handed_in.mp4, secret/room/: in no list")
+    (folder / "handed_in.mp4").unlink()
+    (folder / "handed_in.mp4").symlink_to("/dev/null")
+    assert bundle.damage(folder, statement) == ["handed_in.mp4 is a link, and not in the stamp"]
