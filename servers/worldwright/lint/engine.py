@@ -1,6 +1,7 @@
 """Run the rules of a shelf over a program or a plan."""
 
 import ast
+import time
 from collections.abc import Iterable, Iterator
 from functools import cache, partial
 from pathlib import Path
@@ -317,11 +318,9 @@ def check_film(program: Program, path: Path) -> tuple[list[Finding], str]:
         return [], f"{path.name}: {NOT_TRIED}: there is no world of its program and plan yet; {first}"
     if failure.get("code") == "needs_recording":
         where = f"line {failure['line']}: " if failure.get("line") else ""
-        why = "that may be the missing motion's, and is tried again on the recording"
-        return (
-            [],
-            f"{path.name}: tried on the world as it starts, where nothing moves: {where}{failure['message'].removeprefix('NeedsRecordingError: ')}; {why}",
-        )
+        said = failure["message"].removeprefix("NeedsRecordingError: ")
+        why = f"{where}{said}; that may be the missing motion's, and is tried again on the recording"
+        return [], f"{path.name}: tried on the world as it starts, where nothing moves: {why}"
     if not failure:
         return [], f"{path.name}: described and drawn; next: `worldwright stage frames {path.parent} --show shots`"
     line = int(failure.get("line") or 1)
@@ -349,7 +348,7 @@ def check_program_file(
         wall_s: the most time that building may take, s.
         bundle: the world that this program has built already, as one file, and how long it is simulated, s.
     """
-    source = sources.read(path)
+    source, began = sources.read(path), time.monotonic()
     found = check_source(source, plan, contract)
     program = Program(source, plan, contract)
     if program.films:
@@ -388,10 +387,10 @@ def check_program_file(
     said = f"{path.name}: world {outcome.status.replace('_', ' ')} in {outcome.wall_s:.1f} s, sandbox {outcome.level}"
     price = outcome.pass_s
     found += check_world(program, outcome, planned)
-    rehearsed = law_trial.of(path, plan, outcome, found, wall_s)
+    rehearsed = law_trial.of(path, plan, outcome, found, began + wall_s - time.monotonic())
     beside = rehearsed is None and plan is not None and any(law_rows(plan))
     if beside and bundle is not None and price is not None:  # the file has no laws: they are the program's
-        price = fetch.world(path, wall_s=wall_s).pass_s
+        price = fetch.world(path, wall_s=max(LEAST_WALL_S, began + wall_s - time.monotonic())).pass_s
         said += "" if price is not None else "; its laws were not asked in time, so its price is not known"
     if price is not None:
         said += f"; by its first steps{' and its laws' * beside} the physics takes about {max(price, 1):.2g} s here"

@@ -2,10 +2,12 @@
 
 import re
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 from worldwright.lint.compiled import law_trial
+from worldwright.model.errors import CallOverError
 
 PROGRAM = """\
 import mujoco
@@ -84,3 +86,19 @@ def test_one_whose_body_does_not_feel_it_is_told_at_once(tmp_path: Path) -> None
 def test_one_that_fails_is_told_with_its_line(tmp_path: Path, raises: str) -> None:
     (finding,) = tried(tmp_path, raises=raises).findings
     assert finding.severity == "error" and "spring.py:23" in finding.message and "stored" in finding.message
+
+
+def test_sums_that_are_no_numbers_are_told(tmp_path: Path) -> None:
+    (finding,) = tried(tmp_path, raises="return float('nan')").findings
+    assert finding.code == "WS318" and "spring blows up" in finding.message or "nan" in finding.message, finding
+
+
+def test_a_call_that_ends_meanwhile_takes_no_finding_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def over(*given: object) -> None:
+        raise CallOverError("over")
+
+    monkeypatch.setattr(law_trial, "tried", over)
+    (tmp_path / "simulation.py").write_text(PROGRAM)
+    row = SimpleNamespace(solver=SimpleNamespace(file="laws/spring.py"))
+    plan = SimpleNamespace(simulation_parameters=SimpleNamespace(interventions=(row,)))
+    assert law_trial.of(tmp_path / "simulation.py", plan, SimpleNamespace(status="compiled"), [], 20.0) is None

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ...model import companions, json_object
+from ...model.errors import CallOverError
 from ...model.finding import Finding
 
 if TYPE_CHECKING:
@@ -38,7 +39,9 @@ def of(program: Path, plan: "Plan | None", outcome: "Outcome", found: list[Findi
     if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
         return None
     lasting = main_call.facts(program).get("duration")
-    return tried(program, float(lasting), wall_s) if isinstance(lasting, int | float) else None
+    with contextlib.suppress(CallOverError):  # what is found already stands
+        return tried(program, float(lasting), wall_s) if isinstance(lasting, int | float) else None
+    return None
 
 
 def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | None:
@@ -70,12 +73,27 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
         return Tried("its laws fail in their first steps", (_failed(told, program),))
     if done.status == "timed_out" and reached > 0:
         return Tried(f"its laws: {reached:.3g} s take {wall:.1f} s, {whole}: make a step cheaper (skill media)")
-    balances = _balances(told, done.files.get("sums.npz", b""))
+    if odd := _not_finite(told, data := done.files.get("sums.npz", b"")):
+        message = f"the law {odd} blows up: its sums are not finite"
+        return Tried("its laws blow up in their first steps", (_unbalanced(message, reached, program),))
+    balances = _balances(told, data)
     if not balances:
         return None
     found = tuple(_unbalanced(message, reached, program) for message in unbalanced(balances))
     cost = f"its laws: the first {reached:.2g} s take {wall:.1f} s, {whole}"
     return Tried(cost if found else f"{cost}; their sums balance", found)
+
+
+def _not_finite(told: dict[str, Any], data: bytes) -> str:
+    """The name of the first law whose sums are no numbers; empty where all are."""
+    import numpy as np
+
+    try:
+        with np.load(io.BytesIO(data), allow_pickle=False) as kept:
+            rows = zip(told["laws"], np.asarray(kept["sums"], float), strict=True)
+            return next((str(row["name"]) for row, sums in rows if not np.isfinite(sums).all()), "")
+    except (OSError, ValueError, KeyError, TypeError, EOFError):
+        return ""
 
 
 def _balances(told: dict[str, Any], data: bytes) -> tuple[Any, ...]:
