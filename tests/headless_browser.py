@@ -1,5 +1,6 @@
 """Headless Chromium with one page, spoken to by its DevTools protocol, for what only a browser shows of a page."""
 
+import contextlib
 import itertools
 import json
 import shutil
@@ -8,14 +9,26 @@ import time
 import urllib.request
 from pathlib import Path
 
-from websockets.sync.client import connect
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
 
 PATIENCE_S = 60.0
 
 
 def installed() -> str:
-    """The program, where this machine has it; else empty."""
-    return next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), "")
+    """The program, where this machine has it; else empty. One from a snap sees no home of ours, and shows no page."""
+    found = map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))
+    return next((program for program in found if program and not _of_a_snap(Path(program))), "")
+
+
+def _of_a_snap(program: Path) -> bool:
+    """Whether it only leads into a snap, as a link or as a short script."""
+    real = program.resolve()
+    if real.is_relative_to("/snap") or real.name == "snap":
+        return True
+    with real.open("rb") as file:
+        start = file.read(4096)
+    return start.startswith(b"#!") and b"/snap/bin" in start
 
 
 class Browser:
@@ -26,11 +39,19 @@ class Browser:
         self.process = subprocess.Popen(
             [program, *words, f"--user-data-dir={home}", address], stderr=subprocess.DEVNULL, stdout=subprocess.DEVNULL
         )
+        try:
+            self._socket = self._reached(home)
+        except BaseException:
+            self._end()
+            raise
+        self._numbers = itertools.count(1)
+
+    def _reached(self, home: str) -> ClientConnection:
+        """Its one page, spoken to."""
         port = _until(lambda: (Path(home) / "DevToolsActivePort").read_text().split()[0])
         listed = f"http://127.0.0.1:{port}/json"
         told = _until(lambda: next(one for one in json.load(urllib.request.urlopen(listed)) if one["type"] == "page"))
-        self._socket = connect(told["webSocketDebuggerUrl"], max_size=None).__enter__()
-        self._numbers = itertools.count(1)
+        return connect(told["webSocketDebuggerUrl"], max_size=None).__enter__()
 
     def do(self, method: str, **what: object) -> dict:
         """Call a method of the protocol; its result."""
@@ -51,8 +72,16 @@ class Browser:
 
     def close(self) -> None:
         """End it."""
-        self.do("Browser.close")
-        self.process.wait(PATIENCE_S)
+        with contextlib.suppress(ConnectionClosed, TimeoutError):  # it may be gone before it answers
+            self.do("Browser.close")
+        self._end()
+
+    def _end(self) -> None:
+        try:
+            self.process.wait(PATIENCE_S if hasattr(self, "_socket") else 0)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
 
 
 def _until(found):

@@ -123,7 +123,11 @@ def _vouched(run: Run, key: str, result: Path) -> None:
     """Refuse the result of a pass for which no line of the journal speaks: whoever can write the run can write such a file."""
     again = f"rm -r {result.parent} && worldwright stage start {run.folder} --stage physics"
     if broken := Journal(run.journal).breaks():
-        raise GateError(f"the journal is not as it was written: {broken[0]}", place=str(run.journal), next_move=again)
+        raise GateError(
+            f"the journal is not as it was written: {broken[0]}",
+            place=str(run.journal),
+            next_move=f"restore it; worldwright stamp status {run.folder} tells what to do without a copy",
+        )
     if results(run.entries(), key).get("physics") != sha256_file(result):
         raise GateError("no line of the journal vouches for what was recorded", place=str(result), next_move=again)
 
