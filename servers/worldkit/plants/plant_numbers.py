@@ -60,12 +60,12 @@ class Plant:
         own = "length_m" if self.word == "bough" else "height_m"
         for name, (low, high) in WHOLE.items():
             value = getattr(self, name, low)
-            if not isinstance(value, Integral) or isinstance(value, bool) or not low <= value <= high:
+            if not isinstance(value, Integral) or isinstance(value, bool) or not low <= int(value) <= high:
                 raise ValueError(f"a {self.word} has a whole number of {name} from {low} to {high}, not {value}")
-        for name, (low, high) in {own: LONG_M, **RANGES}.items():
-            value = getattr(self, name, low)
-            if not isinstance(value, Real) or not low <= value <= high:
-                raise ValueError(f"a {self.word}'s {name} is a number from {low:g} to {high:g}, not {value}")
+        for name, (least, most) in {own: LONG_M, **RANGES}.items():
+            value = getattr(self, name, least)
+            if not isinstance(value, Real) or not least <= float(value) <= most:
+                raise ValueError(f"a {self.word}'s {name} is a number from {least:g} to {most:g}, not {value}")
         if self.diameter_m > 0.2 * self.long_m:
             raise ValueError(
                 f"a {self.word} of {self.long_m:g} m cannot be {self.diameter_m:g} m thick: give it a diameter_m under a fifth of it"

@@ -140,7 +140,7 @@ class Store:
         return self._write(Begun(campaign=campaign, bases=tuple(bases), approved=approved, word=word))
 
     def _check_same(self, before: Begun, campaign: Campaign, beside: Path) -> None:
-        if _unpriced(_without(before.campaign, FREE)) != _unpriced(_without(campaign, FREE)):
+        if _without(before.campaign, FREE) != _without(campaign, FREE):
             raise CampaignError(
                 "this folder holds another campaign",
                 place=str(self.folder),
@@ -310,14 +310,10 @@ def seed(base: Path, target: Path) -> None:
 
 
 def _without(campaign: Campaign, free: frozenset[str]) -> Campaign:
-    """A campaign with these words as if its file did not say them."""
-    return campaign.model_copy(update={name: Campaign.model_fields[name].default for name in free})
-
-
-def _unpriced(campaign: Campaign) -> Campaign:
-    """A campaign as if nobody had said what its author's tokens cost: no world is another by that."""
+    """A campaign with these words, and what its author's tokens cost, as if its file did not say them."""
     author = campaign.author and campaign.author.model_copy(update={"prices": None})
-    return campaign.model_copy(update={"author": author})
+    said = {name: Campaign.model_fields[name].default for name in free}
+    return campaign.model_copy(update={"author": author, **said})
 
 
 def _base(given: Given, campaign: Campaign, beside: Path) -> tuple[Base, dict[str, bytes]]:
