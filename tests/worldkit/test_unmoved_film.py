@@ -80,7 +80,7 @@ def test_who_moves_is_motion_where_the_plan_names_nobody() -> None:
     nobody = ARRAYS | {"movers": np.array([], str)}
     film = Film(Recorded(nobody))
     with pytest.raises(IndexError) as failed:
-        film.recorded.movers[0]  # noqa: B018 (an author's line)
+        film.recorded.movers[0]
     assert film.recorded.asked_of_motion
     assert lacking_motion.may_hold(failed.value, lambda film: film.recorded.movers[0], nobody)
     named = Recorded(ARRAYS)

@@ -73,7 +73,9 @@ def linked(places: np.ndarray, wide: np.ndarray) -> np.ndarray:
     from scipy.spatial import cKDTree
 
     count, reach = len(places), REACH * float(wide.max())
-    away, others = cKDTree(places).query(places, range(1, min(NEAREST, count) + 1), distance_upper_bound=reach * (1 + 1e-9))
+    away, others = cKDTree(places).query(
+        places, range(1, min(NEAREST, count) + 1), distance_upper_bound=reach * (1 + 1e-9)
+    )
     some = np.isfinite(away)
     ones = np.repeat(np.arange(count), some.sum(axis=1))
     clump = _joined(np.stack([ones, others[some]], axis=1), places, wide, np.arange(count))
