@@ -312,8 +312,7 @@ def seed(base: Path, target: Path) -> None:
 def _without(campaign: Campaign, free: frozenset[str]) -> Campaign:
     """A campaign with these words, and what its author's tokens cost, as if its file did not say them."""
     author = campaign.author and campaign.author.model_copy(update={"prices": None})
-    said = {name: Campaign.model_fields[name].default for name in free}
-    return campaign.model_copy(update={"author": author, **said})
+    return campaign.model_copy(update={n: Campaign.model_fields[n].default for n in free} | {"author": author})
 
 
 def _base(given: Given, campaign: Campaign, beside: Path) -> tuple[Base, dict[str, bytes]]:
@@ -322,9 +321,8 @@ def _base(given: Given, campaign: Campaign, beside: Path) -> tuple[Base, dict[st
     try:
         found = _asked(given, beside) if campaign.author else _content(beside / given.plan, given)
     except WorldwrightError as error:
-        return about.model_copy(
-            update={"wrong": str(error.cause), "kind": error.code, "next_move": error.next_move}
-        ), {}
+        wrong = {"wrong": str(error.cause), "kind": error.code, "next_move": error.next_move}
+        return about.model_copy(update=wrong), {}
     digest = hashlib.sha256()
     for name, content in sorted(found.items()):
         digest.update(f"{name}\n{hashlib.sha256(content).hexdigest()}\n".encode())
