@@ -11,7 +11,7 @@ from hung_springs import ROW, STEPS, Springs, motor, run, world
 from worldengine.inputs import declared_media as media_of
 from worldengine.inputs.declared_media import Media, Medium
 from worldengine.inputs.ports import Ports
-from worldengine.recording import stored
+from worldengine.recording import law_channels, stored
 from worldengine.recording.lain import between
 from worldengine.recording.replay import Replay
 from worldkit import program
@@ -256,6 +256,22 @@ def test_many_points_are_recorded_less_often_down_to_a_rate(monkeypatch: pytest.
     assert Media(model, [ROW], 0.04).every == 1
     monkeypatch.setattr(media_of, "POINTS_A_SECOND", 3000)
     assert Media(model, [ROW], 0.001).every == 40, "25 times a second, however many"
+
+
+def test_a_run_whose_points_no_recording_keeps_is_refused_before_its_first_step() -> None:
+    """Before, it was stopped when 2 GiB were full, and told to ask less often, which changes nothing."""
+    model = world(points=3000).compile()  # 4.2 MB a second
+    assert Media(model, [ROW], 0.001, (), 500_000).end == 500_000
+    with pytest.raises(ProgramError, match=r"3000 points .* in 600 s are 2403 MiB, more than 2048") as refused:
+        Media(model, [ROW], 0.001, (), 600_000)
+    assert "the run be shorter" in refused.value.next_move
+
+
+def test_a_recording_without_points_tells_of_its_laws_all_the_same(tmp_path: Path) -> None:
+    run(tmp_path / "out", steps=7)
+    (tmp_path / "out" / "media.arrows").unlink()
+    told = law_channels.read(stored.open(tmp_path / "out"))
+    assert list(told["law_names"]) == ["springs"] and told["law0_points"].shape == (0, 0, 3)
 
 
 def test_a_law_is_summed_at_the_end_too_and_asked_often_enough(tmp_path: Path) -> None:

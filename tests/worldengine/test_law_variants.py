@@ -1,6 +1,7 @@
 """The same world with one thing changed, where an author's law acts: it goes on, and is asked as often."""
 
 import json
+import os
 from pathlib import Path
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from forked_engine import forked_engine
 from hung_springs import Springs, motor
 from worldengine.recording import stored
-from worldkit import program
+from worldkit import handover, program
 
 
 class Watched(Springs):
@@ -62,3 +63,14 @@ def test_at_half_the_step_a_law_is_asked_as_often_and_the_end_is_the_same(tmp_pa
     assert half.time == pytest.approx(whole.time) and (2 * whole.balances.step == half.balances.step).all()
     told = [json.loads((tmp_path / name / "result.json").read_text())["steps"] for name in ("whole", "half")]
     assert told[1] == 2 * told[0]
+
+
+def test_a_forked_engine_ends_as_one_by_itself(capfd: pytest.CaptureFixture[str]) -> None:
+    """An exit keeps its code, what it says is told, and it has the environment that it is given: COLUMNS wide, here."""
+    lines = []
+    with forked_engine():
+        for wide in ("60", "200"):
+            call = handover._call(["no such pass"])
+            assert handover.subprocess.run(call, env={**os.environ, "COLUMNS": wide}).returncode == 2
+            lines.append(capfd.readouterr().err.count("\n"))
+    assert lines[0] > lines[1] > 1

@@ -18,6 +18,7 @@ from worldkit.mirror import words
 from worldkit.naming import names
 
 from ..recording import point_colours
+from ..recording.stream_files import MOST_BYTES, OF_POINTS
 
 if TYPE_CHECKING:
     import mujoco
@@ -31,6 +32,8 @@ MOST_HZ, LEAST_HZ = 100.0, 25.0
 """Points are recorded so often, 1/s of simulated time."""
 POINTS_A_SECOND = 150_000
 """Points recorded a second, about 2 MB packed; above 6,000 points there are more, since `LEAST_HZ` holds: 6 MB for `MOST_POINTS`."""
+POINT_BYTES = 28
+"""A row of `media`: step, medium, point and colour of four bytes, and a place of twelve."""
 PUSHES = ("force", "torque", "solver")
 
 
@@ -78,7 +81,8 @@ class Media:
 
     Raises:
         ProgramError: a body or what shows a law is not there, is simulated, has too many points, is named twice, or is pushed by
-            two; two laws have one name; the laws are asked too seldom, or not at the end.
+            two; two laws have one name; the laws are asked too seldom, or not at the end;
+            their points in all of the run are more than a recording keeps.
     """
 
     def __init__(
@@ -119,6 +123,11 @@ class Media:
         """So many questions lie between two that take the points."""
         self.end = self._end(steps, every)
         """The number of the question at the end of the run, which only takes the points; None where there is none."""
+        if self.end is not None:
+            size = total * (-(-self.end // self.every) + 1) * POINT_BYTES
+            if size > MOST_BYTES:
+                cause = f"{total} points of the laws in {self.end * seconds:g} s are {size >> 20} MiB, more than {MOST_BYTES >> 20} are kept"
+                raise ProgramError(cause, "interventions", OF_POINTS)
         self.alone = False
         """Whether the author's process asks its laws and not its `control`, as in a world without that."""
 

@@ -22,7 +22,7 @@ def read(recording: "Recording") -> dict[str, Any]:
         return {}
     rows, media, step = moved(recording.meta, str(recording.folder)), recording.media, recording.time_step
     medium, when, place = np.asarray(media.medium), np.asarray(media.step), np.asarray(media.place)
-    thin = int(np.ceil(place.size / MOST_NUMBERS))
+    thin = max(1, int(np.ceil(place.size / MOST_NUMBERS)))
     found: dict[str, Any] = {"law_names": np.array([row.name for row in rows], dtype=str)}
     for number in range(len(rows)):
         mine, steps = place[medium == number], np.unique(when[medium == number])

@@ -32,7 +32,7 @@ from .columns import FORETOLD_COLUMNS, OF_MEDIA, SCHEMA_VERSION, TABLES, Column,
 from .derived_columns import Derived
 from .foretold import BYTES, FEWEST, WEIGHTS, Forecast
 from .push_blocks import PushStream
-from .stream_files import LESS, MOST_BYTES
+from .stream_files import LESS, MOST_BYTES, REMEDIES
 
 if TYPE_CHECKING:
     import mujoco
@@ -291,7 +291,7 @@ class _Stream:
             self._room -= batch.nbytes
             if self._room < 0:  # what nobody would read again is not written
                 what = f"{self._path.name} would have more than {MOST_BYTES / 2**20:.0f} MiB of rows"
-                raise RecordingError(what, str(self._path), LESS)
+                raise RecordingError(what, str(self._path), REMEDIES.get(self._path.stem, LESS))
         self._writer.write_batch(batch, about)
 
     def close(self) -> None:

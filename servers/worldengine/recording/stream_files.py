@@ -22,6 +22,9 @@ MOST_BYTES = 2 << 30
 """A packed table has no more than this, unpacked."""
 REMEDY = "restore it as it was recorded, or record the world anew"
 LESS = "ask the author less often (`control_every`), or declare fewer inputs"
+OF_POINTS = "let what is drawn have fewer points, or the run be shorter"
+REMEDIES = {"media": OF_POINTS, "balances": OF_POINTS}
+"""By table, where `LESS` does not help: points and sums are due by the simulated time."""
 SCHEMA, BATCH = 1, 3
 """MessageHeader: the kinds that our files have. Others (dictionaries) would be unpacked, too."""
 Batches = list[tuple["pa.RecordBatch", Mapping[bytes, bytes]]]

@@ -2,8 +2,9 @@
 
 Where two surfaces meet, the larger friction acts, so that a slippery thing would still rub on rough ground. A pair of two geoms
 has a friction of its own, which is scaled; all other contacts of these geoms take theirs from them, as they are given
-priority over whatever they meet, flexes too, and with it softness, rebound, adhesion and kind: those that the contacts had. So a
-factor of 1 changes nothing. Source: MuJoCo manual, "Contact parameters".
+priority over whatever they meet, flexes too, and with it softness, rebound, adhesion and kind: those that the contacts had. Where
+what they meet rubs differently, all of them take the smallest friction that they had, so that a factor of 1 changes nothing only
+where it rubs alike. Source: MuJoCo manual, "Contact parameters".
 """
 
 from collections.abc import Sequence
