@@ -32,12 +32,13 @@ class Studio:
         facts = {"fps": FPS, "size": list(SIZE), "movers": ["ball"]}
         motion_facts.write(self.recording, folder / "motion.npz", facts)
 
-    def film(self, name, *earlier, first=(1, -2, 0.5), speed=1.0, words="it lies", mood="noon", second=None):
+    def film(self, name, *earlier, first=(1, -2, 0.5), speed=1.0, words="it lies", mood="noon", second=None, mist=0.1):
         """Draw a film; how many frames were drawn, those of its shots, and the file."""
         with np.load(self.folder / "motion.npz") as arrays:
             told = Film(Recorded(dict(arrays)))
         told.mood(mood)
         told.shot(still(first, "ball"), until=0.4, speed=speed)
+        told.puffs("mist", lambda t: (0 * t[:, None, None] + np.ones((1, 3)), 0.1 + 0 * t[:, None], _later(t, mist)))
         told.caption(words, seconds=0.2)
         told.shot(second or still((-1, -2, 0.5), "ball"), start=0.4, until=0.7)
         out = self.folder / name
@@ -52,6 +53,10 @@ class Studio:
         (out / "result.json").write_text(json.dumps({"ok": True, "summary": summary, "files": files}))
         assert {path.name for path in out.iterdir()} == {"told", "film.mp4", "result.json"}
         return summary["drawn"], [shot["frames"] for shot in film.shots], (out / "film.mp4").read_bytes()
+
+
+def _later(times, opacity):
+    return np.where(times > 0.45, opacity, 0.1)[:, None]
 
 
 @pytest.fixture(scope="module")
@@ -82,8 +87,13 @@ def test_a_shot_that_only_moves_to_another_place_in_the_film_is_not_drawn_again(
 @pytest.mark.gl
 @pytest.mark.parametrize(
     ("change", "costs"),
-    [({"words": "there it lies"}, 1), ({"mood": "overcast"}, None), ({"second": planned("side")}, 1)],
-    ids=["words", "light", "camera of the plan"],
+    [
+        ({"words": "there it lies"}, 1),
+        ({"mood": "overcast"}, None),
+        ({"second": planned("side")}, 1),
+        ({"mist": 0.3}, 1),
+    ],
+    ids=["words", "light", "camera of the plan", "puffs"],
 )
 def test_what_is_said_of_one_shot_costs_that_one_and_what_is_said_of_the_film_all(studio, change, costs):
     drawn, shots, _ = studio.film(f"changed-{next(iter(change))}", "before", **change)

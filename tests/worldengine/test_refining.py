@@ -510,6 +510,7 @@ class Slow(Halfway):
     ("seconds", "every", "drawn"),
     [
         (8, False, 3),  # 11 frames far apart do not fit: after three drafts that is plain
+        (8, True, 3),  # and what lies between is told, too
         (30, True, 11),  # they do, and not the 70 between that nothing shows
         (30, False, 0),
         (95, True, 0),
@@ -527,6 +528,18 @@ def test_a_film_that_cannot_be_traced_in_its_minutes_gives_way_as_a_whole(tmp_pa
     with pytest.raises(refining.FellBackError):
         refine(film, state, seconds, lambda: None)
     assert len(film.asked) == drawn and film.takes_s == [pytest.approx(81 if every else 11, rel=0.05)]
+
+
+def test_a_film_that_is_mostly_traced_is_not_given_up_for_fewer_minutes(tmp_path, monkeypatch):
+    clock = [0.0]
+    monkeypatch.setattr(refining.time, "perf_counter", lambda: clock[0])
+    film, state = Slow(81, clock, True), Refined(tmp_path, 81, "it")
+    for number in [*range(0, 81, 8), *(k for k in range(60) if k % 8)]:
+        state.keep(number, film.picture(number, LEVELS[0]), LEVELS[0])
+    state = Refined(tmp_path, 81, "it")
+    state.pace.add(LEVELS[0], 1.0, 0.0)
+    refine(film, state, clock[0] + 3, lambda: None)
+    assert not film.takes_s
 
 
 def test_that_tracing_would_take_longer_is_told():

@@ -41,7 +41,11 @@ class InTime:
             self.done = True
             between = missing(self._shots, self._lacking)
             rest = round(max(between - len(drawn - set(self._far)), 0.0))
-        return each * (len(self._far) + between) if each * rest > self._end - now else 0.0
+            if 2 * state.taken_over > len(self._far) + between:  # a film that is mostly traced is not given up
+                return 0.0
+        if each * rest <= self._end - now:
+            return 0.0
+        return each * (len(self._far) + (between if self.done else missing(self._shots, self._lacking)))
 
 
 def missing(shots: Sequence[range], lacking: Lacking) -> float:

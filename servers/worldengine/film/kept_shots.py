@@ -31,6 +31,8 @@ BY_SHOT = ("shots", "captions", "air")
 """What the description says of moments of the film."""
 BY_FRAME = ("ways", "sizes", "turns")
 """What it says of a thing frame by frame, by the names of arrays."""
+BY_FRAME_PUFFS = ("places", "wide", "opaque")
+"""The same of puffs."""
 
 
 @dataclass(frozen=True)
@@ -116,6 +118,7 @@ def keys(screening: "Screening", plain: "mujoco.MjModel", common: str, descripti
         arrays = {name: np.asarray(found[name]) for name in sorted(found.files)}
     film = screening.film
     own = {str(thing[name]) for thing in film.things for name in BY_FRAME if thing.get(name)}
+    own |= {str(row[name]) for row in film.puffs for name in BY_FRAME_PUFFS}
     own = {name for name in arrays if name in own or name in CAMERA}
     whole = hashlib.sha256(common.encode() + drawn(screening.model) + screening.frames.shared())
     whole.update(_text({name: value for name, value in told.items() if name not in BY_SHOT}))
