@@ -140,15 +140,14 @@ class Store:
         return self._write(Begun(campaign=campaign, bases=tuple(bases), approved=approved, word=word))
 
     def _check_same(self, before: Begun, campaign: Campaign, beside: Path) -> None:
-        if _unpriced(_without(before.campaign, FREE)) != _unpriced(_without(campaign, FREE)):
+        if _without(before.campaign, FREE) != _without(campaign, FREE):
             raise CampaignError(
                 "this folder holds another campaign",
                 place=str(self.folder),
                 next_move="name another folder (`--folder`), or go on with that one: `worldwright campaign resume`",
             )
         for base, given in zip(before.bases, campaign.given, strict=True):
-            now, _ = _base(given, campaign, beside)
-            if now.sha256 != base.sha256:
+            if (now := _base(given, campaign, beside)[0]).sha256 != base.sha256:
                 raise CampaignError(
                     f"`{given.plan}`, or what belongs to it, is no longer what this campaign began with"
                     + (f": {now.wrong}" if now.wrong else ""),
@@ -310,14 +309,9 @@ def seed(base: Path, target: Path) -> None:
 
 
 def _without(campaign: Campaign, free: frozenset[str]) -> Campaign:
-    """A campaign with these words as if its file did not say them."""
-    return campaign.model_copy(update={name: Campaign.model_fields[name].default for name in free})
-
-
-def _unpriced(campaign: Campaign) -> Campaign:
-    """A campaign as if nobody had said what its author's tokens cost: no world is another by that."""
+    """A campaign as if its file did not say these words, nor what its author's tokens cost."""
     author = campaign.author and campaign.author.model_copy(update={"prices": None})
-    return campaign.model_copy(update={"author": author})
+    return campaign.model_copy(update={"author": author} | {name: Campaign.model_fields[name].default for name in free})
 
 
 def _base(given: Given, campaign: Campaign, beside: Path) -> tuple[Base, dict[str, bytes]]:
