@@ -189,5 +189,5 @@ def test_a_film_that_nothing_was_recorded_for_is_not_called_clean(small_plan, tm
     )
     report = tools.check_program([tmp_path / "film.py"])
     assert report.findings == ()
-    assert f"worldwright go {tmp_path} --until expect" in report.worlds[0]
+    assert f"worldwright go {tmp_path} --until lint" in report.worlds[0]
     assert report.text().endswith("nothing found by reading; NOT TRIED: film.py")
