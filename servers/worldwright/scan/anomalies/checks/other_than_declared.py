@@ -9,7 +9,7 @@ given again and again are added up over a second. A law `along +X` against the d
 that brakes or resists against the work done. The forces and torques of an author's own law (`solver` with a `file`) are
 held to its row in the same way; of several bodies, one must go along its axis. A control that the plan gives as a number
 against the controls sent, and a motor of the plan, by what it exerts, against the number of its law in N or N·m (with the
-word `constant`, at every instant). For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
+word `constant`, at every instant). What a vehicle's brakes and drive exert, and how it steers, against the plan's timed `inputs`. For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
 earliest time stated and, where two are stated, the last act against the latest. The recording's gravity, and gravity written while it runs, against the plan's or
 the law's m/s^2.
 Threshold: 5 % and 1e-6 of the number; 20 ms, or three recorded rows, of time; a cosine of 0.7; 0.02 m/s^2 of gravity
@@ -31,6 +31,7 @@ from ....model.plan.drives import Actuator
 from ....model.recording.records import Interventions
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
+from .. import driven
 from ..declared import when
 from ..sign import Case, Context, Sign
 
@@ -94,6 +95,8 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             yield from _other_law(trajectory, row, mine)
     yield from _other_control(trajectory, context)
     yield from _other_motor(trajectory, context)
+    if context.plan is not None:
+        yield from driven.check(trajectory, context.plan)
 
 
 def _parts(row: Intervention) -> tuple[Intervention, ...]:
