@@ -31,7 +31,7 @@ from ....model.plan.drives import Actuator
 from ....model.recording.records import Interventions
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
-from .. import driven
+from .. import sent_inputs
 from ..declared import when
 from ..sign import Case, Context, Sign
 
@@ -96,7 +96,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     yield from _other_control(trajectory, context)
     yield from _other_motor(trajectory, context)
     if context.plan is not None:
-        yield from driven.check(trajectory, context.plan)
+        yield from sent_inputs.check(trajectory, context.plan)
 
 
 def _parts(row: Intervention) -> tuple[Intervention, ...]:

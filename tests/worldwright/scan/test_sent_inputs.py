@@ -8,7 +8,7 @@ import pytest
 
 from worldwright.model.plan.vehicle_rows import Vehicle
 from worldwright.model.recording.records import Interventions
-from worldwright.scan.anomalies import driven
+from worldwright.scan.anomalies import sent_inputs
 from worldwright.scan.known import analytic
 
 CAR = Vehicle.model_validate(
@@ -37,6 +37,6 @@ def test_a_driver_that_does_more_than_the_plans_inputs_is_found(part, ctrl, exer
     value = np.zeros((1, 6))
     value[0, :2] = ctrl, exerted
     sent = Interventions(np.array([time]), ["control"], [f"car/car_{part}"], value, np.zeros(1))
-    signs = list(driven.check(replace(analytic.resting(), interventions=sent), plan))
+    signs = list(sent_inputs.check(replace(analytic.resting(), interventions=sent), plan))
     assert bool(signs) == found
     assert all(sign.severity == "blocking" for sign in signs)
