@@ -40,3 +40,14 @@ def test_a_driver_that_does_more_than_the_plans_inputs_is_found(part, ctrl, exer
     signs = list(sent_inputs.check(replace(analytic.resting(), interventions=sent), plan))
     assert bool(signs) == found
     assert all(sign.severity == "blocking" for sign in signs)
+
+
+def test_a_bicycles_rider_balances_and_his_brakes_count():
+    inputs = [{"t": 0, "throttle": 0.2}]
+    row = SimpleNamespace(vehicle=Vehicle.model_validate({"kind": "bicycle", "inputs": inputs}), instances=("bike",))
+    value = np.zeros((3, 6))
+    value[:, 1] = 50.0, 50.0, 1e-3
+    targets = ["bike/bike_steer_f", "bike/bike_brake_f", "bike/bike_drive"]
+    sent = Interventions(np.full(3, 0.1), ["control"] * 3, targets, value, np.zeros(3))
+    signs = sent_inputs.check(replace(analytic.resting(), interventions=sent), SimpleNamespace(assets=(row,)))
+    assert [sign.body for sign in signs] == ["bike_brake_f"]

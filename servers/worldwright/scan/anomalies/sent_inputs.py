@@ -9,7 +9,7 @@ from math import radians
 
 import numpy as np
 
-from worldkit.vehicles.two_wheels import Bicycle
+from worldkit.vehicles.bicycle_numbers import Bicycle
 from worldkit.vehicles.wheeled import ackermann
 
 from ...model.plan.committed import Plan
@@ -49,7 +49,7 @@ def _beyond(
     if part.startswith("brake_"):
         most = made.brake_n_m
         yield np.abs(value[:, 1]) - most * _within(vehicle, "brake", times_s)[1], SHARE * most, "N·m"
-    elif part in made.drives and not made.belts:
+    elif part == "drive" and (isinstance(made, Bicycle) or not made.belts):
         low, high = (made.drive_n_m * share for share in _within(vehicle, "throttle", times_s))
         yield (
             np.maximum(value[:, 1] - np.maximum(high, 0), np.minimum(low, 0) - value[:, 1]),

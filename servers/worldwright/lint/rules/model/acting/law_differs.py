@@ -11,7 +11,7 @@ Use instead: leave options as `scene.new` sets them; a medium's density, viscosi
 No constant fills the world: `oil_viscosity` may speak of a can on a shelf.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
 
@@ -30,13 +30,13 @@ OVERRIDE = (
 MEDIUM_OF = {"medium": {"density": 1.2, "wind": [3, 0, 0], "source": "a table"}}
 
 
-def _in_air(*lines: str, medium: dict[str, object] = MEDIUM_OF) -> tuple[str, dict[str, object]]:
+def _in_air(*lines: str, medium: Mapping[str, object] = MEDIUM_OF) -> tuple[str, dict[str, object]]:
     """A case whose plan has its air and wind itself, or no medium, and constants about others."""
     text, plan = changed(*lines)
     others = {"water_density": (1000, "kg/m^3"), "oil_viscosity": (3, "Pa*s"), "wind_speed": (3, "m/s")}
     constants = {name: {"value": value, "unit": unit, "source": "a table"} for name, (value, unit) in others.items()}
     return text, plan | {
-        "simulation_parameters": plan["simulation_parameters"] | medium | {"constants": constants}  # type: ignore[operator]
+        "simulation_parameters": plan["simulation_parameters"] | dict(medium) | {"constants": constants}  # type: ignore[operator]
     }
 
 
