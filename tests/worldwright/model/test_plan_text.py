@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from worldwright.model.errors import PlanError
+from worldwright.model.plan.declared_inputs import TWO_WAYS, Intervention
 from worldwright.model.plan.plan_text import parse_plan, read_plan
 from worldwright.model.plan.plan_write import write_plan
 
@@ -149,6 +150,31 @@ def test_an_intervention_may_name_what_only_the_program_has():
         assert parse_plan(text.replace("NAME", name)).plan.simulation_parameters.interventions[0].bodies == (name,)
     with pytest.raises(PlanError, match="did you mean `ball`"):  # all but the plan's own name: a slip
         parse_plan(text.replace("NAME", "balls"))
+
+
+@pytest.mark.parametrize(
+    ("law", "refused"),
+    [
+        ("at most 1,011 N along +X", "1,011 N"),
+        ("1,03e1 N", "1,03e1 N"),
+        ("1/11 N", "1/11 N"),
+        ("10⁻² kN·s, 1 N", "0⁻² kN"),
+        ("0.01 × 10^1 N", "10^1 N"),
+        ("0.01 x 10 N", "0.01 x 10 N"),
+        ("draws_at, 0.06 m/s", ""),
+        ("998 kg/m3 x 9.81 m/s2 x wet volume, and 60 N·s/m of drag", ""),
+        ("from 2-5 N to 1e-2 kN, 9.81 m/s^2", ""),
+    ],
+)
+def test_a_number_of_a_law_that_reads_in_two_ways_is_refused(law, refused):
+    found = TWO_WAYS.search(law)
+    assert (found[0] if found else "") == refused
+    row = {"kind": "force", "bodies": ("ball",), "law": law, "source": "a table"}
+    if refused:
+        with pytest.raises(ValueError, match="reads in two ways"):
+            Intervention.model_validate(row)
+    else:
+        Intervention.model_validate(row)
 
 
 def test_a_plan_is_parsed_once_for_each_content(planned, tmp_path):

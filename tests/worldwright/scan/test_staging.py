@@ -202,7 +202,7 @@ def test_a_conveyor_nobody_mentions_is_caught_and_one_the_plan_names_is_not(tmp_
     world = World(build, None, 1.0, ("parcel",), objectives=(carried,))
     found = audit(world, tmp_path / "a")
     assert "WS315" in found.codes()
-    world.objectives = ({**carried, "cause": "belt"},)
+    world.interventions = (declare("force", "belt", law="its surface runs at 0.5 m/s", source="the prompt's belt"),)
     found = audit(world, tmp_path / "b")
     assert "WS315" not in found.codes()
 

@@ -190,10 +190,11 @@ def test_instrumentation_that_changes_the_motion_is_refused(planned: Path, copy:
     without_film(folder)
     program = folder / "simulation.py"
     source = program.read_text(encoding="utf-8")
-    air = "constants: {air_viscosity: {value: 0.001, unit: Pa s, source: made up for a test}}"
+    air = "medium: {density: 0, viscosity: 1, source: made up for a test}"
     plan = folder / "plan.md"
     plan.write_text(plan.read_text(encoding="utf-8").replace("inferred:", f"{air}\ninferred:", 1), encoding="utf-8")
-    push = f"    {BEGIN}\n    spec.option.viscosity = 0.001\n    {END}\n    return spec"
+    lines = ("spec.option.viscosity = 1", BEGIN, "spec.option.viscosity = 1.0009", END, "return spec")
+    push = "\n".join(f"    {line}" for line in lines)
     pushed = source.replace("    return spec", push)
     program.write_text(pushed, encoding="utf-8")
     prepare(folder)

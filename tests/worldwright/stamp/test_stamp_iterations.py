@@ -17,11 +17,10 @@ from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
 Copy = Callable[[Path], Path]
-END = "    return spec"
-HONEY = "    spec.option.viscosity = {}\n    return spec"  # in which nothing falls far
-MEDIA = """constants:
-  viscosity_of_honey: {value: 90, unit: Pa s, source: made up for a test}
-  viscosity_of_tar: {value: 95, unit: Pa s, source: made up for a test}"""
+END = "program.main(build,"
+HELD = """program.main(build, lambda model, data: data.xfrc_applied.__setitem__((-1, 2), {}),"""  # it falls hardly
+THREAD = """interventions:
+  - {kind: force, bodies: [ball], law: "a thread holds it with at most 2 N along +Z", source: made up for a test}"""
 
 
 def repair(run: Run, target: str = "initial_motion") -> Verdict:
@@ -52,7 +51,7 @@ def world(planned: Path, copy: Copy) -> Path:
     folder = copy(planned)
     plan = folder / "plan.md"
     text = plan.read_text(encoding="utf-8").replace("mode: cameras", "mode: none")
-    plan.write_text(text.replace("inferred:", f"{MEDIA}\ninferred:", 1), encoding="utf-8")
+    plan.write_text(text.replace("inferred:", f"{THREAD}\ninferred:", 1), encoding="utf-8")
     stamp.approve(str(folder), by="tester", repairs=3)
     return folder
 
@@ -64,7 +63,7 @@ def test_a_worse_patch_is_rolled_back_and_repairs_end(world: Path) -> None:
     stamp.review(str(world), repair(run, "visual_mismatch"))
     assert sha256_file(run.program) == sha256_file(run.evidence(good) / "source" / "simulation.py")
 
-    low = source.replace(END, HONEY.format(90.0))
+    low = source.replace(END, HELD.format(1.9))
     bad = iterate(world, low)
     assert bad != good
     answer = stamp.review(str(world), repair(run))
@@ -78,7 +77,7 @@ def test_a_worse_patch_is_rolled_back_and_repairs_end(world: Path) -> None:
     assert Journal(run.journal).breaks() == []
     assert not any("outside the write scope" in note for note in status.notes)
 
-    lower = source.replace(END, HONEY.format(95.0))
+    lower = source.replace(END, HELD.format(1.95))
     iterate(world, lower)
     answer = stamp.review(str(world), repair(run))
     assert "blocked: 3 repairs were ordered (the cap is 3)" in answer.what
@@ -101,7 +100,7 @@ def test_a_worse_patch_is_rolled_back_and_repairs_end(world: Path) -> None:
 def test_the_best_so_far_follows_the_numbers_and_else_the_latest(world: Path) -> None:
     run, source = Run(world), (world / "simulation.py").read_text(encoding="utf-8")
     stamp.approve(str(world), by="tester")
-    bad = iterate(world, source.replace(END, HONEY.format(90.0)))
+    bad = iterate(world, source.replace(END, HELD.format(1.9)))
     stamp.review(str(world), repair(run))
     assert iterations.best(State(run)) == bad
     good = iterate(world, source)

@@ -1,11 +1,17 @@
 """What a plan declares to act on the state besides the engine's own step, and the constants of its laws."""
 
+import re
 from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
 from ..frozen import Frozen
+
+TWO_WAYS = re.compile(
+    r"(?:(?<![\w.])\d[\d.]*(?:\s?[/^×·*x]\s?|,)[-−+]?\d[\d.]*(?:[eE][-+]?\d+)?|\d⁻?[⁰¹²³⁴-⁹]+)\s*[kKcmM]?(?:N|Pa|m/s|rad/s|kg/m)(?!\w)"
+)
+"""Numbers that a reader and we would read otherwise: a decimal comma, a fraction, a product, a power of ten in words."""
 
 
 class Constant(Frozen):
@@ -64,6 +70,10 @@ class Intervention(Frozen):
             raise ValueError(f"a row of kind `{self.kind}` has no `live`: nobody drives it; use the kind `control`")
         if self.solver is not None and self.kind != "solver":
             raise ValueError(f"a row of kind `{self.kind}` has no `solver`; use the kind `solver`")
+        if found := TWO_WAYS.search(self.law):
+            raise ValueError(
+                f"its law has the number `{found[0]}`, which reads in two ways; write it as 1011 or 0.01 or 1e-2"
+            )
         return self
 
     def beside(self, constants: Mapping[str, Constant]) -> dict[str, Any]:

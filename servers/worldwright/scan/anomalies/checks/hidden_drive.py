@@ -6,8 +6,8 @@ a gust can be what the prompt asks for; then the plan says it.
 Formula: `option.wind` is not 0 in a medium with density or viscosity; a geom has a surface velocity or adhesion; the
 model has engine plugins. Declared by an intervention of kind `force`, `parameter`, `control` or `solver` naming the body
 or the one it is welded to (for wind: `wind` or `world`; for plugins: `world`), as an objective's cause (never
-the ground, and a moving surface only of what stands still itself: no crate is the cause of its own drive), as the wind of
-the plan's `medium`, or by a material with `adhesion`.
+the ground, and never a moving surface: a cause declares no drive), as the wind of the plan's `medium`, or by a material
+with `adhesion`.
 Threshold: none. Blocking with a plan; without one a remark.
 Source: MuJoCo manual, option/wind, geom/surfacevel, geom/adhesion; the facts on staging.
 """
@@ -15,8 +15,7 @@ Source: MuJoCo manual, option/wind, geom/surfacevel, geom/adhesion; the facts on
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-import numpy as np
-
+from ....model.plan.committed import Intervention
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ..sign import Case, Context, Sign
@@ -50,18 +49,12 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     causes = {name for objective in context.plan.objectives for name in objective.cause} if context.plan else set()
     causes -= GROUND
     for body, message, names in drives:
-        runs = message.endswith(RUNS) and _moves(trajectory, body)
+        runs = message.endswith(RUNS)
         if (causes.intersection(names) and not runs) or any(context.acts_on(name, KINDS) for name in names):
             continue
         severity = "blocking" if context.planned else "info"
         window = (trajectory.t[0], trajectory.t[-1])
         yield Sign(body, window, 1.0, 0.0, "drives", severity, f"{message}; no intervention says so")
-
-
-def _moves(trajectory: Trajectory, body: str) -> bool:
-    return body in trajectory.names and bool(
-        np.ptp(trajectory.pos[:, trajectory.names.index(body)], axis=0).max() > 1e-6
-    )
 
 
 def _sticky(context: Context) -> set[str]:
@@ -101,12 +94,15 @@ def _windy(density: float) -> Trajectory:
     return replace(analytic.resting(), meta={"option": {"wind": [3.0, 0, 0], "density": density, "viscosity": 0.0}})
 
 
+BELT = Intervention(kind="force", bodies=("body",), law="a belt of 0.5 m/s", trigger="always", source="the prompt")
 GOOD = (
-    lambda: Case("a belt that the plan names as the cause", _belt(surfacevel=True), _caused()),
+    lambda: Case("glue that the plan names as the cause", _belt(adhesion=True), _caused()),
+    lambda: Case("a belt that the plan declares", _belt(surfacevel=True), Context(planned=True, interventions=(BELT,))),
     lambda: Case("a still surface", _belt(surfacevel=False), Context(planned=True)),
     lambda: Case("wind in a vacuum", _windy(0.0), Context(planned=True)),
 )
 BAD = (
+    lambda: Case("a belt that is its own cause", _belt(surfacevel=True), _caused()),
     lambda: Case("a crate on tracks that is its own cause", _belt(analytic.falling(), surfacevel=True), _caused()),
     lambda: Case("a secret conveyor", _belt(surfacevel=True), Context(planned=True), severity="blocking"),
     lambda: Case("a secret wind", _windy(1.2), Context(planned=True), severity="blocking"),

@@ -8,7 +8,8 @@ the ledger against the first number stated, or the greater end of a range (kN an
 given again and again are added up over a second. A law `along +X` against the direction of all that acts, summed; a law
 that brakes or resists against the work done. The forces and torques of an author's own law (`solver` with a `file`) are
 held to its row in the same way; of several bodies, one must go along its axis. A control that the plan gives as a number
-against the controls sent. For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
+against the controls sent, and a motor of the plan, by what it exerts, against the number of its law in N or N·m (with the
+word `constant`, at every instant). What a vehicle's brakes and drive exert, and how it steers, against the plan's timed `inputs`. For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
 earliest time stated and, where two are stated, the last act against the latest. The recording's gravity, and gravity written while it runs, against the plan's or
 the law's m/s^2.
 Threshold: 5 % and 1e-6 of the number; 20 ms, or three recorded rows, of time; a cosine of 0.7; 0.02 m/s^2 of gravity
@@ -23,11 +24,14 @@ from dataclasses import replace
 import numpy as np
 
 from ....model.plan import law_words
-from ....model.plan.committed import Intervention, Plan, SimulationParameters
+from ....model.plan.committed import Intervention, Plan, SimulationParameters, Topology
 from ....model.plan.declaration import owner
 from ....model.plan.declared_inputs import Beside
+from ....model.plan.drives import Actuator
+from ....model.recording.records import Interventions
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
+from .. import sent_inputs
 from ..declared import when
 from ..sign import Case, Context, Sign
 
@@ -45,6 +49,9 @@ LAWS = {
 """Options of the world that a plan can declare, with the kind of number that binds each and its unit."""
 UNIT = {"force": "N", "torque": "N·m", "velocity": "m/s"}
 ENDS = re.compile(r"\b(until|till|before|up to)\b|<", re.IGNORECASE)
+CONSTANT = re.compile(r"\bconstant\b", re.IGNORECASE)
+LESS = re.compile(r"\b(less|minus|at most|up to|until|while|till|times)\b", re.IGNORECASE)
+"""Words by which a law has more to it than its constant."""
 SECONDS = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s\b|seconds?)")
 
 
@@ -87,6 +94,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             yield from _other_time(trajectory, row, mine)
             yield from _other_law(trajectory, row, mine)
     yield from _other_control(trajectory, context)
+    yield from _other_motor(trajectory, context)
+    if context.plan is not None:
+        yield from sent_inputs.check(trajectory, context.plan)
 
 
 def _parts(row: Intervention) -> tuple[Intervention, ...]:
@@ -205,6 +215,38 @@ def _other_control(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
             )
 
 
+def _other_motor(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
+    """Find motors of the plan that exert more than their law says, or that change though it says `constant`."""
+    plan, ledger = context.plan, trajectory.interventions
+    if plan is None or ledger is None:
+        return
+    hinges = {row.name for row in plan.topology.joints if row.type == "hinge"}
+    targets = {
+        row.name: "torque" if row.joint in hinges else "force" for row in plan.topology.actuators if row.kind == "motor"
+    }
+    for (kind, target), rows in ledger.groups.items():
+        name = target.rsplit("/", 1)[-1]
+        if kind != "control" or name not in targets:
+            continue
+        exerted = np.asarray(ledger.value)[rows, 1]
+        for law in (
+            row.law for row in context.interventions if row.kind == "control" and {*row.bodies} & {name, target}
+        ):
+            most = law_words.limit(law, targets[name])
+            if most is None:
+                continue
+            off = np.abs(exerted) - most
+            if CONSTANT.search(law) and not LESS.search(law) and len(exerted):
+                off = np.where(
+                    exerted == 0, 0.0, np.abs(exerted - np.copysign(most, exerted[np.argmax(np.abs(exerted))]))
+                )
+            worst, unit = int(np.argmax(off)), UNIT[targets[name]]
+            if off[worst] > SHARE * most + 1e-6:
+                time = float(np.asarray(ledger.time)[rows[worst]])
+                message = f"{name} exerts {exerted[worst]:.4g} {unit}; its declared law says {most:.4g}: {law}"
+                yield Sign(name, (time, time), float(abs(exerted[worst])), most, unit, "blocking", message)
+
+
 def _other_time(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
     ledger = trajectory.interventions
     assert ledger is not None
@@ -242,7 +284,24 @@ def _gravity(z: float) -> Case:
     return Case(f"the plan says {z:g} m/s^2", analytic.resting(), Context(planned=True, plan=plan))
 
 
+def _motor(*exerted: float, law: str = "constant force of 2 N along +X") -> Case:
+    row = Intervention(kind="control", bodies=("push",), law=law, source="the prompt")
+    plan = _gravity(-analytic.G).context.plan
+    assert plan is not None
+    drives = Topology.model_construct(joints=(), actuators=(Actuator(name="push", joint="rails"),))
+    plan = plan.model_copy(update={"topology": drives})
+    value = np.zeros((len(exerted), 6))
+    value[:, 0] = value[:, 1] = exerted
+    count = len(exerted)
+    times_s = np.linspace(0.1, 0.5, count)
+    sent = Interventions(times_s, ["control"] * count, ["push"] * count, value, np.zeros(count))
+    context = Context(planned=True, plan=plan, interventions=(row,))
+    return Case(f"a motor that exerts {exerted} N: {law}", replace(analytic.resting(), interventions=sent), context)
+
+
 GOOD = (
+    lambda: _motor(2.0, 2.0, 0.0),
+    lambda: _motor(2.0, 1.0, law="constant pull of 2 N, less 4 N·s/m of the speed"),
     lambda: _pushed(5.0),
     lambda: _pushed(40.0, "as the wind: rho c A v^2 / 2, v = 3 m/s"),
     lambda: _pushed(60.0, "at most 0.06 kN, less 40 N·s/m of the speed"),
@@ -258,6 +317,10 @@ GOOD = (
     lambda: _own_law(40.0, "a spring of 5 N m/rad, at most 50 N m", "torque"),
 )
 BAD = (
+    lambda: replace(_motor(40.0, 2.0, -40.0), severity="blocking"),
+    lambda: replace(_motor(2.0, 0.5), severity="blocking"),
+    lambda: replace(_motor(2.0, -2.0), severity="blocking"),
+    lambda: replace(_motor(3.0, law="pushes with at most 2 N"), severity="blocking"),
     lambda: replace(_pushed(40.0, "a breeze of 1 N, far below its weight of 49 N"), severity="blocking"),
     lambda: replace(_pushed(5.0, "5 N along -X"), severity="blocking"),
     lambda: replace(_pushed(5.0, "brakes with 5 N against the motion"), severity="blocking"),

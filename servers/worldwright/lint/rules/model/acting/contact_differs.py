@@ -11,8 +11,8 @@ Why is this bad: the friction that is written on a geom need not act: a pair or 
 twice as far on the same plan.
 
 Use instead: `contacts.surface` with the plan's constants on every geom of the body, priorities and pairs left alone; to let
-two bodies pass through each other, say so in the plan with `visual_only`. A surface that runs has a constant `belt_speed` in
-m/s or rad/s.
+two bodies pass through each other, say so in the plan with `visual_only`. A surface that runs has an intervention of kind
+`force`, `parameter`, `control` or `solver` that names its body, with its speed (`0.8 m/s`, `2 rad/s`) in its law.
 """
 
 from collections.abc import Iterator
@@ -23,6 +23,7 @@ import numpy as np
 from worldkit.contacts import restitution_of
 from worldkit.sliding import GRIP
 
+from .....model.plan.law_words import numbers
 from ....compiled.touching import Touch, Touching
 from ....compiled.view import ModelView
 from ....harm import Measured, after
@@ -76,12 +77,13 @@ def _block(wanted: tuple[Bar, ...], *built: Bar) -> tuple[str, dict[str, object]
     }
 
 
-def _running(constant: str, unit: str) -> tuple[str, dict[str, object]]:
-    """A case with a ground that runs at 0.45 m/s, the value of this constant."""
+def _running(constant: str, law: str, of: str) -> tuple[str, dict[str, object]]:
+    """A case with a ground that runs at 0.45 m/s, the value of this constant, and an intervention on a body."""
     text, plan = changed("spec.geom('ground').surfacevel = (0.45, 0, 0, 0, 0, 0)")
     known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
-    said = {constant: {"value": 0.45, "unit": unit, "source": "a drawing"}}
-    return text, plan | {"simulation_parameters": known | {"constants": said}}
+    said = {constant: {"value": 0.45, "unit": "m/s", "source": "a drawing"}}
+    row = {"kind": "force", "bodies": [of], "law": law, "trigger": "always", "source": "the prompt's belt"}
+    return text, plan | {"simulation_parameters": known | {"constants": said, "interventions": [row]}}
 
 
 def _sticky(*lines: str) -> tuple[str, dict[str, object]]:
@@ -99,7 +101,7 @@ GOOD = (
     _sticky(),
     sheet(),
     sheet("spec.worldbody.add_body(name='sheet', pos=(0, 3, 1)).add_geom(size=(.01, 0, 0), contype=0, conaffinity=0)"),
-    _running("belt_speed", "m/s"),
+    _running("speed", "runs at 0.45 m/s along +X", "ground"),
     _block(EVEN, *EVEN),
     _block(KNOBBED, (0.25, -0.25, -0.05, "LEAD"), (0.25, 0.25, -0.05, "LEAD"), KNOBBED[1]),
     changed(
@@ -121,7 +123,8 @@ BAD = (
     changed("spec.geom('crate').contype = spec.geom('crate').conaffinity = 0"),
     changed("spec.add_exclude(bodyname1='crate', bodyname2='arm')"),
     changed("spec.geom('ground').surfacevel = (1, 0, 0, 0, 0, 0)"),
-    _running("crate_surface_thickness", "m"),
+    _running("belt_speed", "a push of 1 N", "ground"),
+    _running("belt_speed", "runs at 0.45 m/s", "crate"),
     changed("spec.geom('crate').adhesion = 30"),
     changed("spec.geom('crate').margin = 0.02"),
     changed("spec.geom('crate').gap = 0.02"),
@@ -142,8 +145,8 @@ SHARE, LEAST = 0.01, 1e-3
 SPIN_M, ROLL_M = 0.005, 1e-4
 """Torsional and rolling friction, m, of a plan that states none: a program may leave these out."""
 SOFTEST_S = 0.02
-RUNNING = ("belt", "conveyor", "surface", "treadmill", "turntable")
-"""Words by which a constant speaks of a surface that runs, m/s or rad/s; who makes it run, an intervention says (WS315)."""
+DRIVES = ("force", "parameter", "control", "solver")
+"""Kinds of interventions that can say that a surface runs, and how fast."""
 MOST = 12
 """So many pairs of one body are shown: more would say the same."""
 
@@ -270,13 +273,29 @@ def _describe_difference(view: ModelView, built: Touch, planned: Touch, *, solid
         return f"{{}} count as touching {shown(built.gap)} m before they meet (gap)"
     if abs(built.adhesion - planned.adhesion) > 1e-9 and not stated(view.plan, built.adhesion, "adhesion", "stick"):
         return f"{{}} stick together by up to {shown(built.adhesion)} N at each point, which the plan does not say"
-    speeds = [v for v in built.surface if v]
-    turning = [v for index, v in enumerate(built.surface) if v and index % 6 >= 3]
-    if built.surface != planned.surface and not all(
-        stated(view.plan, v, *RUNNING, unit="rad/s" if v in turning else "m/s") for v in speeds
-    ):
-        return f"a surface between {{}} runs at {shown(speeds)}, which is no constant of the plan"
+    if built.surface != planned.surface and not all(_told(view, v) for v in built.surface if v):
+        speeds = [v for v in built.surface if v]
+        return f"a surface between {{}} runs at {shown(speeds)}, which no intervention says"
     return ""
+
+
+def _told(view: ModelView, speed: float) -> bool:
+    """Whether an intervention gives a body whose surface runs at this speed just that speed."""
+    assert view.plan is not None
+    for geom in np.flatnonzero(np.isclose(np.abs(view.geom_surfacevel), abs(speed)).any(axis=1)).tolist():
+        names = {
+            view.name("geom", geom),
+            view.name("body", int(view.geom_bodyid[geom])),
+            holder(view, int(view.geom_bodyid[geom])),
+        }
+        if not any(
+            row.kind in DRIVES
+            and names.intersection(row.bodies)
+            and np.isclose(numbers(row.law, "velocity"), abs(speed), rtol=1e-3).any()
+            for row in view.plan.simulation_parameters.interventions
+        ):
+            return False
+    return True
 
 
 def _yields(built: Touch, planned: Touch) -> bool:
