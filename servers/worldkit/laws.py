@@ -6,8 +6,9 @@ points and sums cross with them, are recorded as a medium of its name, and move 
 the geoms of one body, in their order.
 
 Of the sums, momentum, energy of motion and energy by weight are computed here, from masses, points and velocities as the law tells
-them; what is stored, its volume, and what it gives to the world are the law's word. It runs in the author's process: the sums catch
-a mistake, and a cheat only where it does not make up points to match. What bodies were given is the engine's own record.
+them; what is stored, its volume, and what it gives to the world are the law's word. Velocities are held to the way that the points go
+(`told_motion`). It runs in the author's process: the sums catch a mistake, and a cheat only where it does not make up points to match.
+What bodies were given is the engine's own record.
 """
 
 import inspect
@@ -21,6 +22,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 from .errors import ProgramError, WorldkitError
 from .mirror import words
 from .naming import names
+from .told_motion import ToldMotion
 
 if TYPE_CHECKING:
     import mujoco
@@ -61,7 +63,7 @@ class Law(Protocol):
     points: "np.ndarray"
     """(n, 3) m."""
     velocities: "np.ndarray"
-    """(n, 3) m/s."""
+    """(n, 3) m/s, with which the points go."""
 
     def start(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
         """Take the initial state of the world and make that of the points."""
@@ -180,7 +182,7 @@ class Stepped:
             at += 8 * len(numbers)
             told = numbers[TOTALS : TOTALS + 3 * row["points"]].reshape(-1, 3), numbers[TOTALS + 3 * row["points"] :]
             of = np.array([bodies.index(body) for body in law.bodies], np.intp)
-            self._laws.append((law, of, numbers[:TOTALS], told, np.zeros(3)))
+            self._laws.append((law, of, numbers[:TOTALS], told, np.zeros(3), ToldMotion(law.name)))
             pushed.append(of[of > 0])
         self._gravity = model.opt.gravity.copy()  # which nobody can write afterwards
         self._pushed = np.concatenate([np.zeros(0, np.intp), *pushed])
@@ -198,9 +200,10 @@ class Stepped:
             ProgramError: a law raises, or returns what cannot be.
         """
         first = 0
-        for law, bodies, totals, (points, colours), held in self._laws:
+        for law, bodies, totals, (points, colours), held, motion in self._laws:
             if not self._asked:
                 self._of(law, data, "start", partial(law.start, model, data))
+                self._looked(law, data, motion)
             if self._asked % self._every == 0 or self._asked == self._end:
                 points[:], velocities, mass = self._told(law, len(points))
                 colours[:] = self._coloured(law, data, len(points))
@@ -215,6 +218,7 @@ class Stepped:
             self._wrench[first : first + len(loose)] = loose
             first += len(loose)
             self._sane(law, data)
+            self._looked(law, data, motion)
         self._asked += 1
 
     def push(self, data: "mujoco.MjData") -> bool:
@@ -281,6 +285,9 @@ class Stepped:
         if not self._of(law, data, "points", far) < HUGE:
             cause = f"the points of the law {law.name} blew up at t = {data.time:.4f} s"
             raise ProgramError(cause, law.name, "step it more finely (several steps within one), soften it, or damp it")
+
+    def _looked(self, law: Law, data: "mujoco.MjData", motion: ToldMotion) -> None:
+        self._of(law, data, "points", partial(motion.look, law, self._seconds, data.time))
 
     def _checked(self, law: Law, forces: Any, count: int, data: "mujoco.MjData") -> "np.ndarray":
         """(k, 6) force and torque."""

@@ -7,7 +7,8 @@ Formula: for a declared force, torque or velocity whose law states a number in t
 the ledger against the first number stated, or the greater end of a range (kN and mN·m converted); velocities that are
 given again and again are added up over a second. A law `along +X` against the direction of all that acts, summed; a law
 that brakes or resists against the work done. The forces and torques of an author's own law (`solver` with a `file`) are
-held to its row in the same way; of several bodies, one must go along its axis. A control that the plan gives as a number
+held to its row in the same way; of several bodies, one must go along its axis. A torque of which its row says nothing is held
+to the force that it states, times how far its points ever are from the body. A control that the plan gives as a number
 against the controls sent, and a motor of the plan, by what it exerts, against the number of its law in N or N·m (with the
 word `constant`, at every instant). What a vehicle's brakes and drive exert, and how it steers, against the plan's timed `inputs`. For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
 earliest time stated and, where two are stated, the last act against the latest. The recording's gravity, and gravity written while it runs, against the plan's or
@@ -29,6 +30,7 @@ from ....model.plan.declaration import owner
 from ....model.plan.declared_inputs import Beside
 from ....model.plan.drives import Actuator
 from ....model.recording.records import Interventions
+from ....model.recording.shown_points import Lay, ShownPoints
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from .. import sent_inputs
@@ -39,6 +41,8 @@ CODE = "WS317"
 STAGING = True
 NEEDS = ("pos",)
 SHARE, DELAY_S, GRAVITY, ASTRAY = 0.05, 0.02, 0.02, 0.7
+INSTANTS = 64
+"""At which is looked how far the points of a law are from its bodies."""
 EACH = re.compile(r"\b(each|every|per)\b", re.IGNORECASE)
 LAWS = {
     "gravity": ("gravity", "m/s^2"),
@@ -117,6 +121,8 @@ def _acting(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> np.n
 def _stronger(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
     ledger, most = trajectory.interventions, law_words.limit(row.law, row.kind)
     assert ledger is not None
+    if most is None and row.kind == "torque" and row.solver is not None and law_words.limit(row.law, "force"):
+        yield from _levered(trajectory, row, mine)
     if most is None:
         return
     size = np.sqrt((_acting(trajectory, row, mine) ** 2).sum(axis=1))
@@ -132,6 +138,30 @@ def _stronger(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> It
     body = row.bodies[0] if row.solver is None else target if target in row.bodies else owner(target)
     message = f"the {row.kind} on {body} reaches {size[worst]:.3g} {unit}; its declared law says {most:.3g}"
     yield Sign(body, (time, time), size[worst], most, unit, "blocking", message)
+
+
+def _levered(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
+    """Find a torque of an author's own law that the force it states could not give from where its points are."""
+    ledger, force = trajectory.interventions, law_words.limit(row.law, "force")
+    assert ledger is not None and row.solver is not None and force is not None
+    if (shown := row.solver.shown_by) not in trajectory.media.names:
+        return
+    lay = trajectory.media.of(shown)
+    size = np.sqrt((np.asarray(ledger.value)[mine][:, 3:] ** 2).sum(axis=1))
+    targets = np.asarray(ledger.target, dtype=str)[mine]
+    for body in {*row.bodies} & {*trajectory.names}:
+        whose = np.array([target == body or owner(target) == body for target in targets], dtype=bool)
+        if not whose.any():
+            continue
+        rows = np.unique(np.linspace(0, len(trajectory.t) - 1, INSTANTS).astype(int))
+        at = trajectory.pos[:, trajectory.index(body)]
+        reach = max(float(np.sqrt(((lay.at(trajectory.t[n]) - at[n]) ** 2).sum(axis=1)).max()) for n in rows)
+        worst = int(np.argmax(size * whose))
+        if size[worst] > (most := force * reach) * (1 + SHARE) + 1e-6:
+            time = float(np.asarray(ledger.time)[mine][worst])
+            said = f"its declared law says {force:.3g} N, and its points reach {reach:.3g} m: {most:.3g} N·m"
+            message = f"the torque on {body} reaches {size[worst]:.3g} N·m; {said}"
+            yield Sign(body, (time, time), size[worst], most, "N·m", "blocking", message)
 
 
 def _astray(trajectory: Trajectory, row: Intervention, mine: np.ndarray) -> Iterator[Sign]:
@@ -273,6 +303,16 @@ def _own_law(value: float, law: str = "a band of 200 N/m, at most 5 N", kind: st
     return Case(f"an own law: {value:g} of {kind} under {law}", push, Context(planned=True, interventions=(row,)))
 
 
+def _lever(value: float) -> Case:
+    """A torque of a law that states 5 N and has a point 0.2 m above the body."""
+    case, lay = _own_law(value, "at most 5 N", "torque"), Lay(np.zeros(1), np.array([[0.0, 0.0, 0.25]]))
+    trajectory = case.trajectory
+    ledger = trajectory.interventions
+    assert ledger is not None
+    turning = replace(ledger, value=np.roll(np.asarray(ledger.value), 3, axis=1))
+    return replace(case, trajectory=replace(trajectory, interventions=turning, media=ShownPoints({"band": lay})))
+
+
 def _gravity(z: float) -> Case:
     plan = Plan.model_construct(
         plan_type="scene",
@@ -315,6 +355,7 @@ GOOD = (
     lambda: _own_law(40.0, "a damper of 10 N/(m/s), at most 50 N"),
     lambda: _own_law(40.0, "a spring of 20 N per m, at most 50 N"),
     lambda: _own_law(40.0, "a spring of 5 N m/rad, at most 50 N m", "torque"),
+    lambda: _lever(0.9),
 )
 BAD = (
     lambda: replace(_motor(40.0, 2.0, -40.0), severity="blocking"),
@@ -332,6 +373,7 @@ BAD = (
     lambda: replace(_own_law(40.0, "at most 2 N m", "torque"), severity="blocking"),
     lambda: replace(_own_law(40.0, "a spring of 200 N per m, at most 5 N"), severity="blocking"),
     lambda: replace(_own_law(40.0, "a spring of 50 N m/rad, at most 5 N m", "torque"), severity="blocking"),
+    lambda: replace(_lever(1.5), severity="blocking"),
     lambda: replace(_own_law(40.0, "at most 5 N per wheel"), severity="blocking"),
     lambda: replace(_own_law(5.0, "at most 5 N along -X"), severity="blocking"),
     lambda: replace(_own_law(5.0, "brakes with 5 N against the motion"), severity="blocking"),
