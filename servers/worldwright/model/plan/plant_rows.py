@@ -1,13 +1,11 @@
 """Plants as rows of a plan: `type: plant`, whose root is held and whose limbs bend; `worldkit.plants` owns the numbers of each kind."""
 
-from dataclasses import fields
-from difflib import get_close_matches
-from functools import lru_cache
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 from pydantic import model_validator
 
 from ..frozen import Frozen
+from . import numbered_kind
 
 if TYPE_CHECKING:
     from worldkit.plants import Plant as Made
@@ -37,23 +35,10 @@ class Plant(Frozen):
         Raises:
             ValueError: a number that it does not have, or one with which none can grow.
         """
-        return _made(self.kind, tuple(sorted(self.numbers.items())))
-
-
-@lru_cache(maxsize=64)
-def _made(kind: str, numbers: tuple[tuple[str, Any], ...]) -> "Made":
-    from worldkit import plants
-
-    made = getattr(plants, kind.capitalize())
-    known = {field.name for field in fields(made)} - {"height_m" if kind == "bough" else "length_m"}
-    for name, _ in numbers:
-        if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f"did you mean `{near[0]}`?" if near else f"it has: {', '.join(sorted(known))}"
-            raise ValueError(f"a {kind} has no number `{name}`: {hint}")
-    try:
-        plant: Made = made(**dict(numbers))
-        _ = plant.limbs
-    except (TypeError, ZeroDivisionError, IndexError) as error:
-        raise ValueError(f"a {kind} cannot be grown of these numbers: {error}") from error
-    return plant
+        not_its = frozenset({"height_m" if self.kind == "bough" else "length_m"})
+        plant: Made = numbered_kind.made("worldkit.plants", self.kind, tuple(sorted(self.numbers.items())), not_its)
+        try:
+            _ = plant.limbs  # grown once, and kept with it
+        except (ZeroDivisionError, IndexError) as error:
+            raise ValueError(f"a {self.kind} cannot be grown of these numbers: {error}") from error
+        return plant

@@ -5,14 +5,13 @@ controls of its actuators by that; one that is launched at a speed has its wheel
 """
 
 import itertools
-from difflib import get_close_matches
-from functools import lru_cache
 from math import cos, hypot, radians, sin
 from typing import TYPE_CHECKING, Any, Literal
 
 from pydantic import Field, model_validator
 
 from ..frozen import Frozen
+from . import numbered_kind
 from .declared_inputs import Intervention
 
 if TYPE_CHECKING:
@@ -104,7 +103,8 @@ class Vehicle(Frozen):
         Raises:
             ValueError: a number that it does not have, or one with which it cannot stand.
         """
-        return _made(self.kind, tuple(sorted(self.numbers.items())))
+        vehicle: Made = numbered_kind.made("worldkit.vehicles", self.kind, tuple(sorted(self.numbers.items())))
+        return vehicle
 
     @property
     def driven(self) -> bool:
@@ -121,26 +121,6 @@ class Vehicle(Frozen):
             now |= changed
             found.append((row.done_s, dict(now)))
         return found
-
-
-@lru_cache(maxsize=64)
-def _made(kind: str, numbers: tuple[tuple[str, Any], ...]) -> "Made":
-    from dataclasses import fields
-
-    from worldkit import vehicles
-
-    made = getattr(vehicles, kind.capitalize())
-    known = {field.name for field in fields(made)}
-    for name, _ in numbers:
-        if name not in known:
-            near = get_close_matches(name, known, n=1)
-            hint = f"did you mean `{near[0]}`?" if near else f"it has: {', '.join(sorted(known))}"
-            raise ValueError(f"a {kind} has no number `{name}`: {hint}")
-    try:
-        vehicle: Made = made(**dict(numbers))
-    except TypeError as error:
-        raise ValueError(f"a {kind} cannot be made of these numbers: {error}") from error
-    return vehicle
 
 
 def parameters(plan: Written) -> Written:
