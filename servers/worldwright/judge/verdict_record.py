@@ -133,12 +133,15 @@ class FilmRecord(Frozen):
 
     @property
     def subject_sha256(self) -> str:
-        """Over what was judged, shown and asked; without the votes and where the film came from."""
-        told = self.model_dump_json(exclude={"votes", "failed", "failed_code", "run", "wanted"})
+        """Over what was judged and asked; without the votes, where the film came from, and the pictures made of the film.
+
+        A decoder that gives other last bits would otherwise have votes paid again.
+        """
+        told = self.model_dump_json(exclude={"votes", "failed", "failed_code", "run", "wanted", "exhibit"})
         return hashlib.sha256(told.encode()).hexdigest()
 
     def same_as(self, other: "FilmRecord") -> bool:
-        """Whether both are about the same film, shown and asked alike."""
+        """Whether both are about the same film, asked about alike."""
         return self.subject_sha256 == other.subject_sha256
 
 

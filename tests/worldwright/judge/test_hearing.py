@@ -50,6 +50,9 @@ def test_votes_are_kept_in_the_judges_words_and_never_paid_again(stand_in, recor
     for kind in ("questions", "exhibits"):
         assert list((records.folder / kind).iterdir())
     assert len(records.pieces(record)) == 3
+    assert records.find(record.model_copy(update={"exhibit": ("0.jpg",), "votes": ()})) == record, (
+        "whatever the decoder gives"
+    )
 
 
 def test_the_judge_is_told_nothing_of_how_the_film_came_about(stand_in, records, scenario, film, bench, tmp_path):
