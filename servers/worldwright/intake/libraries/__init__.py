@@ -44,7 +44,7 @@ class Library(Protocol):
 
     def lay(self, key: str, folder: Path) -> tuple[Path, dict[str, Any]]:
         """Lay out the mesh of an offer and what belongs to it in a folder; returns its file, and what `taking_in.add` is asked
-        besides what the offer is called.
+        besides what the offer is called. An `asset.yaml` in a folder of the key's name is an asset that is whole.
 
         Raises:
             IntakeFailedError: what the package holds under that key is not whole, or more than may be laid out.
