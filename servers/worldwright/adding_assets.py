@@ -1,6 +1,7 @@
-"""`worldwright asset add FILE` and `retrieve.add_asset`: a mesh of the user's becomes an asset that plans can name.
+"""`worldwright asset add FILE`, `asset keep RUN NAME` and their tools: a mesh of the user's, or what a run of theirs sculpted, becomes
+an asset that plans can name.
 
-It is a tool of `retrieve`, which finds assets, and stands here, since taking one in needs the sandbox, which is `stage`'s.
+They are tools of `retrieve`, which finds assets, and stand here, since taking one in needs the sandbox, which is `stage`'s.
 """
 
 from pathlib import Path
@@ -8,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from .expose import Positional
 from .model.picture import Illustrated
 from .model.progress import Progress, silent
 
@@ -67,4 +69,29 @@ def add_asset(
     )
 
 
-TOOLS = (add_asset,)
+def keep_sculpt(
+    run: Annotated[str, Field(description="The run, by name or folder."), Positional()],
+    name: Annotated[str, Field(description="Its row of `assets` of type sculpt."), Positional()],
+    key: Annotated[str | None, Field(description="What plans call it; without it the row's name.")] = None,
+    category: Annotated[str | None, Field(description="What it is, e.g. science, furniture.")] = None,
+    description: Annotated[str | None, Field(description="One sentence by which it is found.")] = None,
+    licence: Annotated[str | None, Field(description="Its licence, e.g. CC-BY-4.0.")] = None,
+    creator: Annotated[str | None, Field(description="Who made it, as the licence wants it named.")] = None,
+    to: Annotated[
+        Literal["own", "catalog"], Field(description="Your own folder, seen from every project, or this catalog.")
+    ] = "own",
+    replace: Annotated[bool, Field(description="Take the place of an asset of the same key there.")] = False,
+    progress: Progress = silent,
+) -> Illustrated:
+    """Keep what a run sculpted as an asset: source, meshes, hulls, mass, materials, the joints between its parts.
+
+    Afterwards `find_asset` finds it, and another plan names its key; with its parts moving, `KEY/moving.xml` as a row of type mjcf.
+    """
+    from .intake.keeping import keep
+
+    asked = {"key": key, "category": category, "description": description, "licence": licence, "creator": creator}
+    told = {word: value for word, value in asked.items() if value is not None}
+    return keep(run, name, told, to, replace=replace, progress=progress)
+
+
+TOOLS = (add_asset, keep_sculpt)

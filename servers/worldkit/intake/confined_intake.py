@@ -1,7 +1,7 @@
 """The confined process of an intake: `python -m worldkit.intake.confined_intake REQUEST.json OUT`.
 
 It leaves in OUT the files of the asset's folder, and of a world to draw it in (`world.mjz`, `program.json`); or `error.json`
-and status 1. REQUEST has the keys of `taken_in.take_in`, and `file`.
+and status 1. REQUEST has the keys of `taken_in.take_in`, and `file`; of a sculpted thing those of `kept_sculpt.taken`.
 """
 
 import json
@@ -15,7 +15,7 @@ from typing import Any
 
 from ..errors import IntakeError
 from ..files import write_json
-from . import stillness, taken_in, unpacked
+from . import kept_sculpt, moving_parts, stillness, taken_in, unpacked
 
 ON = "name another --up if it is another side that is down"
 
@@ -27,7 +27,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     file = request.parent / asked["file"]
     try:
         with tempfile.TemporaryDirectory() as scratch:
-            _take_in(file, asked, Path(scratch), out)
+            _take_in(request.parent, asked, Path(scratch), out)
         write_json(out / "result.json", {"ok": True, "pass": "intake"})
     except IntakeError as error:
         told = {"code": error.code, "cause": error.cause, "place": error.place, "next": error.next_move}
@@ -42,28 +42,45 @@ def main(argv: Sequence[str] | None = None) -> int:
     return 0
 
 
-def _take_in(file: Path, asked: dict[str, Any], scratch: Path, out: Path) -> None:
+def _take_in(given: Path, asked: dict[str, Any], scratch: Path, out: Path) -> None:
+    file = given / asked["file"]
+    if "of" in asked:
+        finish(*kept_sculpt.taken(given, asked), scratch, out, kept_sculpt.HEADER, kept_sculpt.ON)
+        return
     if file.is_dir():
         file = unpacked.the_mesh(file, file.name)
     elif file.suffix.lower() in unpacked.ARCHIVES:
         file = unpacked.unpack(file, scratch / "unpacked")
-    files, facts = taken_in.take_in(file, asked)
-    key = asked["key"]
+    finish(*taken_in.take_in(file, asked), scratch, out)
+
+
+def finish(
+    files: dict[str, bytes],
+    facts: dict[str, Any],
+    scratch: Path,
+    out: Path,
+    header: str = taken_in.HEADER,
+    on: str = ON,
+) -> None:
+    """Stand an asset on a floor, look for a cavity, and leave in `out` its folder's files and a world to draw it in."""
+    key = facts["key"]
     # What is measured from here on is measured of the files as they will lie in the catalog.
     os.environ["WORLDWRIGHT_CATALOG"], os.environ["WORLDWRIGHT_ASSETS"] = (
         str(scratch / "catalog"),
         str(scratch / "none"),
     )
     catalog = scratch / "catalog"
-    taken_in.write(catalog / key, files, facts)
+    taken_in.write(catalog / key, files, facts, header)
     facts["measured"] |= stillness.stood(key)
+    if moving_parts.FILE in files:
+        facts["measured"]["moving_stands"] = stillness.stood(key, moving=True)["stands"]
     if not facts["measured"]["stands"]:
-        facts["mended"].append(f"it does not stand still as it is: {ON}")
+        facts.setdefault("mended", []).append(f"it does not stand still as it is: {on}")
     if (found := stillness.cavity(key)) is not None:
         facts["measured"]["cavity"] = found
         if found["holds"]:  # what is put upon a thing would else be put where nothing stays
             facts["supports"] = [_inside(found, facts["metric_height"])]
-    taken_in.write(catalog / key, files, facts)
+    taken_in.write(catalog / key, files, facts, header)
     stillness.picture(key, out)
     for path in sorted((catalog / key).iterdir()):
         shutil.copyfile(path, out / path.name)

@@ -18,17 +18,18 @@ BALL = 0.45
 """Diameter of the ball that is dropped, as a share of the cavity's width."""
 
 
-def stood(key: str) -> dict[str, Any]:
-    """Stand an asset on a floor for five seconds.
+def stood(key: str, *, moving: bool = False) -> dict[str, Any]:
+    """Stand an asset on a floor for five seconds; with `moving`, by its `moving.xml`, whose parts may swing as they stand.
 
     Returns:
         `stands`, `tilt_deg`, `drift_m` from where it was put, and `moves_m` in the last second.
     """
     import mujoco
 
-    model, data, height = _world(key)
+    model, data, height = _world(key, moving=moving)
     body = model.body("thing").id
     steps, last = round(SECONDS / STEP_S), round(1.0 / STEP_S)
+    began = data.xpos[body].copy()
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     for step in range(steps):
         mujoco.mj_step(model, data)
@@ -36,9 +37,10 @@ def stood(key: str) -> dict[str, Any]:
             low, high = np.minimum(low, data.xpos[body]), np.maximum(high, data.xpos[body])
     if _diverged(data):
         return {"stands": False, "why": "its motion diverged"}
-    size = float(max(height, 2 * model.geom_rbound[model.geom_bodyid == body].max()))
+    own = model.body_rootid[model.geom_bodyid] == body
+    size = float(max(height, 2 * model.geom_rbound[own].max()))
     tilt = float(np.degrees(np.arccos(np.clip(data.xmat[body].reshape(3, 3)[2, 2], -1, 1))))
-    drift = float(np.linalg.norm(data.xpos[body] - (0, 0, height / 2)))
+    drift = float(np.linalg.norm(data.xpos[body] - began))
     moves = float(np.linalg.norm(high - low))
     stands = tilt < TILT_DEG and drift < DRIFT * size + 1e-3 and moves < STILL * size + 1e-4
     return {"stands": stands, "tilt_deg": round(tilt, 2), "drift_m": round(drift, 5), "moves_m": round(moves, 6)}
@@ -110,15 +112,23 @@ def _diverged(data: "mujoco.MjData") -> bool:
     return any(data.warning[int(kind)].number for kind in kinds) or not np.isfinite(data.qpos).all()
 
 
-def _world(key: str, ball: float = 0.0, above: float = 0.0) -> "tuple[mujoco.MjModel, mujoco.MjData, float]":
+def _world(
+    key: str, ball: float = 0.0, above: float = 0.0, *, moving: bool = False
+) -> "tuple[mujoco.MjModel, mujoco.MjData, float]":
     """An asset loose on a floor, and a ball of wood over it if one is wanted."""
     import mujoco
 
-    from .. import assets, contacts, scene
+    from .. import assets, contacts, models, scene
+    from .moving_parts import FILE
 
     spec = scene.new("stand", time_step=STEP_S)
-    height = assets.find(key).metric_height
-    assets.add(spec, key, name="thing", height=height, pos=(0, 0, height / 2))
+    asset = assets.find(key)
+    height = asset.metric_height
+    if moving:
+        text = (asset.folder / FILE).read_text(encoding="utf-8")
+        models.attach(spec, text, name="thing", pos=(0, 0, height / 2), folder=key)
+    else:
+        assets.add(spec, key, name="thing", height=height, pos=(0, 0, height / 2))
     if ball:
         body = spec.worldbody.add_body(name="ball", pos=(0, 0, above + 0.6 * ball))
         body.add_freejoint()

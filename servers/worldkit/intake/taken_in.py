@@ -12,6 +12,7 @@ from . import declared_sizes, drawn_pieces, mending, moving_parts, shown_meshes,
 from .drawn_pieces import Array
 from .mending import Solid
 
+HEADER = "Taken in by `worldwright asset add`; what is measured here is of the files beside it."
 LARGE, FULL, HOLLOW = 0.02, 0.2, 120.0
 """A built-up thing larger than so many m^3 that fills so much of its box is hollow, and has this density, kg/m^3, on the whole."""
 HOLLOW_SOURCE = "between a refrigerator (70 kg in 0.65 m^3), a sofa and a car, our judgement"
@@ -91,18 +92,18 @@ def take_in(file: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[s
     return files, facts
 
 
-def write(folder: Path, files: dict[str, bytes], facts: dict[str, Any]) -> None:
+def write(folder: Path, files: dict[str, bytes], facts: dict[str, Any], header: str = HEADER) -> None:
     """Write an asset's folder, its `asset.yaml` last."""
     for name, content in files.items():
         write_atomic(folder / name, content)
-    write_atomic(folder / "asset.yaml", text(facts))
+    write_atomic(folder / "asset.yaml", text(facts, header))
 
 
-def text(facts: dict[str, Any]) -> str:
+def text(facts: dict[str, Any], header: str = HEADER) -> str:
     """`asset.yaml`."""
     kept = {key: value for key, value in facts.items() if value not in ([], {}, None, "")}
     body = yaml.safe_dump(kept, sort_keys=False, allow_unicode=True, width=120, default_flow_style=None)
-    return f"# Taken in by `worldwright asset add`; what is measured here is of the files beside it.\n{body}"
+    return f"# {header}\n{body}"
 
 
 def _box(clouds: list[Array]) -> tuple[Array, Array]:

@@ -1,4 +1,4 @@
-"""`worldwright asset`: take in a mesh file, list the assets of every source, show one."""
+"""`worldwright asset`: take in a mesh file, keep what a run sculpted, list the assets of every source, show one."""
 
 from typing import Annotated
 
@@ -7,12 +7,13 @@ from pydantic import Field
 
 from worldkit.data_folders import own_root
 
-from ..adding_assets import add_asset
+from ..adding_assets import add_asset, keep_sculpt
 from ..cli import verb
 from ..model.errors import NotFoundError
 from ..model.frozen import Frozen
 from .catalog_page import page
 from .of_pictures import mint
+from .of_words import picture
 from .packaged_robots import robot
 from .unpacking import unpack
 
@@ -139,12 +140,14 @@ command = click.Group(
     "asset",
     {
         "add": verb(add_asset),
+        "keep": verb(keep_sculpt),
         "list": verb(list_assets),
         "show": verb(show),
         "unpack": verb(unpack),
         "robot": verb(robot),
         "page": verb(page),
         "mint": verb(mint),
+        "picture": verb(picture),
     },
-    help="Make an asset of a mesh file of yours; list the assets of every source; show one; unpack a robot; write a page of all.",
+    help="Make an asset of a mesh file of yours, or of what a run sculpted; list the assets of every source; show one; unpack a robot; write a page of all.",
 )

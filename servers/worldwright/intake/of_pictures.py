@@ -1,10 +1,10 @@
-"""`worldwright asset mint PICTURE`: a server that the user runs makes a mesh of a picture, which is taken in like any file.
+"""`worldwright asset mint PICTURE`: a server makes a mesh of a picture, which is taken in like any file.
 
-What a server made of a picture is kept by the hash of both, so that nothing is made, or paid, twice.
+The picture's plain ground is cut away, a price is confirmed before it is spent, and what a server made of a picture is kept by the
+hash of both, so that nothing is made, or paid, twice.
 """
 
 import hashlib
-import os
 import re
 import tempfile
 from pathlib import Path
@@ -14,20 +14,21 @@ from pydantic import Field
 
 from worldkit.data_folders import data_root
 from worldkit.files import write_atomic
-from worldkit.intake import declared_sizes
 
 from ..expose import Positional
 from ..model.errors import NotFoundError
 from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
 from ..model.storage import writing
-from .minters import SEAM
+from . import given_pictures, minters
+from .orders import Order
 from .refusing import IntakeFailedError
 from .taking_in import add
+from .web_calls import MintError
 
-MOST_PICTURE = 16 << 20
 NO_MESH = ("truncated", "no_mesh", "unreadable", "unknown_format", "not_finite", "zero_volume")
 """What an intake says of a mesh that is worth nothing: it is asked for anew."""
+KINDS = (".glb", ".obj")
 
 
 def mint(
@@ -36,9 +37,15 @@ def mint(
     ],
     height: Annotated[float, Field(description="How high it stands in the real world, m: no server tells.", gt=0)],
     key: Annotated[str | None, Field(description="What plans call it; without it the picture's name.")] = None,
-    server: Annotated[str, Field(description="Which kind of server it is.")] = "hunyuan3d",
+    server: Annotated[
+        str, Field(description="Which kind of server it is: hunyuan3d, trellis, triposr, meshy, tripo.")
+    ] = "hunyuan3d",
     address: Annotated[
         str | None, Field(description="Where it listens; without it the server's environment variable.")
+    ] = None,
+    cut: Annotated[bool, Field(description="Cut the thing from a plain ground first.")] = True,
+    confirm_price: Annotated[
+        float | None, Field(description="What you are willing to pay; asked without it, the price is told.")
     ] = None,
     material: Annotated[str | None, Field(description="What it is of: density, friction, restitution.")] = None,
     licence: Annotated[
@@ -48,32 +55,45 @@ def mint(
     progress: Progress = silent,
 ) -> Illustrated:
     """Have a server make a mesh of a picture, and take it in as an asset of your own; without a server, sculpt the thing."""
-    if server not in SEAM.names():
+    if server not in minters.SEAM.names():
         raise NotFoundError(
             f"no kind of server is called {server!r}",
             place="server",
-            next_move=f"name one of: {', '.join(SEAM.names())}",
+            next_move=f"name one of: {', '.join(minters.SEAM.names())}",
         )
-    minter = SEAM.find(server)
-    where = address or os.environ.get(minter.variable(), "")
-    if not where:
-        raise NotFoundError(
-            f"no {server} server is named", place=f"--address, or {minter.variable()}",
-            next_move=f"{minter.starting()}; or sculpt the thing (skill sculpting)",
-        )  # fmt: skip
-    data = _picture(picture)
+    minter = minters.SEAM.find(server)
+    there = minter.TERMS.server(server, address)
+    data = given_pictures.read(picture)
+    told = ""
+    if cut:
+        data, told = given_pictures.cut(data)
     name = hashlib.sha256(f"{server}\n".encode() + data).hexdigest()
-    kept = data_root() / "minted" / f"{name}.glb"
-    if not kept.is_file():
-        made = minter.mint(data, where)
+    folder = data_root() / "minted"
+    kept = next((file for kind in KINDS if (file := folder / f"{name}{kind}").is_file()), None)
+    order = Order(folder / f"{name}.ordered", lambda said: progress(0, 0, f"{server}: {said}"))
+    if kept is None:
+        if not order.file.is_file():
+            minter.TERMS.price.confirm(confirm_price, server)
+        try:
+            made = minter.mint(data, there, order)
+            kind = _kind(made)
+            if kind is None:
+                raise there.garbage(repr(made[:40]), "GLB")
+        except MintError as error:
+            if order.file.is_file():
+                error.next_move += f"; its work is kept in {order.file}: without that file it is begun, and paid, anew"
+            raise
+        kept = folder / f"{name}{kind}"
         with writing("the mesh", kept):
             write_atomic(kept, made)
+        order.done()
+    said = "; ".join([f"made by {server} of the picture {picture.name}", *([told] if told else []), *order.said])
     asked = {
         "key": key or re.sub(r"[^a-z0-9]+", "_", picture.stem.lower()).strip("_"), "height": height, "material": material,
-        "licence": licence, "source": f"made by {server} of the picture {picture.name}",
+        "licence": licence, "source": said,
     }  # fmt: skip
-    with tempfile.TemporaryDirectory(prefix="worldwright-minted-") as folder:
-        file = Path(folder) / "minted.glb"
+    with tempfile.TemporaryDirectory(prefix="worldwright-minted-") as scratch:
+        file = Path(scratch) / f"minted{kept.suffix}"
         file.write_bytes(kept.read_bytes())
         asked = {word: value for word, value in asked.items() if value is not None}
         try:
@@ -84,14 +104,9 @@ def mint(
             raise
 
 
-def _picture(path: Path) -> bytes:
-    if not path.is_file():
-        raise NotFoundError("there is no such picture", place=str(path), next_move="give the path of a PNG or JPEG")
-    with path.open("rb") as file:
-        data = file.read(MOST_PICTURE + 1)
-    if len(data) > MOST_PICTURE or declared_sizes.picture(data[: declared_sizes.HEADER_BYTES], path.name) == (0, 0):
-        raise IntakeFailedError(
-            f"it is no PNG or JPEG of at most {MOST_PICTURE >> 20} MB", code="no_picture", place=str(path),
-            next_move="save it as PNG or JPEG, smaller",
-        )  # fmt: skip
-    return data
+def _kind(made: bytes) -> str | None:
+    """How a file of this content is called; None for what is no mesh."""
+    if made[:4] == b"glTF":
+        return ".glb"
+    lines = made[:4096].decode("ascii", errors="replace").splitlines()
+    return ".obj" if any(re.match(r"v\s+[-+.\d]", line) for line in lines) else None

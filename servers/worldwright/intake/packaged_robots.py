@@ -7,6 +7,8 @@ from pydantic import Field
 
 from worldkit.errors import IntakeError
 from worldkit.robots import packaged
+from worldkit.robots.arms import ARMS
+from worldkit.robots.drones import DRONES
 from worldkit.robots.gaits import GAITS
 
 from ..expose import Positional
@@ -30,6 +32,10 @@ class LaidRobot(Frozen):
         folder = Path(self.model).parent.name
         size = " x ".join(f"{side:g}" for side in self.extents_m)
         row = f"{{name: {folder}, type: mjcf, filename: {folder}/{Path(self.model).name}"
+        if self.key in ARMS:
+            row += f", fixed: true, picks: {{thing: NAME, places_on: NAME, arm: {self.key}}}"
+        if self.key in DRONES:
+            row += f", flies: {{drone: {self.key}, through: [[X, Y, Z]]}}"
         if self.gait:
             row += f", walks: {{policy: {folder}/walk.onnx, gait: {self.gait}, speed_m_s: 0.8}}"
         lines = [
@@ -43,7 +49,7 @@ class LaidRobot(Frozen):
 
 def robot(
     key: Annotated[
-        str, Field(description="Of the robot, as find_asset tells it: go2, go1, g1, yam, t1, k1."), Positional()
+        str, Field(description="Of the robot, as find_asset tells it: go2, go1, g1, yam, cf21b, t1, k1."), Positional()
     ],
     folder: Annotated[Path, Field(description="A new folder beside the plan, e.g. runs/NAME/go2."), Positional()],
 ) -> LaidRobot:

@@ -8,7 +8,7 @@ import shutil
 import sys
 import tempfile
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 from worldkit.files import write_json
 from worldkit.intake import unpacked
@@ -23,12 +23,17 @@ from ..stage import confined, plain, short_runs
 from . import libraries, registering, substances
 from .refusing import IntakeFailedError
 
+if TYPE_CHECKING:
+    from ..stage.kept_sculpts import Given
+
 Destination = Literal["own", "catalog"]
 MEMORY_MB = 6144
 LEAST_S, MOST_S, S_A_MB = 120.0, 900.0, 20.0
 MOST_BESIDE, BESIDE_BYTES = 200, 256 << 20
 KEY = re.compile(r"[a-z][a-z0-9_]{0,59}")
-FILES = ("asset.yaml", "look_*.obj", "hull_*.obj", "picture_*.png", "moving.xml", "part_*.obj")
+ENTRY = "asset.yaml"
+"""What a library lays out under this name is whole."""
+FILES = (ENTRY, "look_*.obj", "hull_*.obj", "picture_*.png", "moving.xml", "part_*.obj")
 WORLD = ("world.mjz", "program.json")
 PASSED = ("height", "units", "up", "front", "mass", "extents", "rotation", "built_up")
 """What the confined process is asked as it stands."""
@@ -64,7 +69,8 @@ class Added(Frozen):
     def text(self) -> str:
         """What it is, what was done for it, and how a plan names it."""
         size = " x ".join(f"{side:g}" for side in self.extents_m)
-        lines = [f"{self.key}: {size} m, {self.mass_kg:.3g} kg, collides as {self.collides_as}"]
+        touching = f", collides as {self.collides_as}" if self.collides_as else ""
+        lines = [f"{self.key}: {size} m, {self.mass_kg:.3g} kg{touching}"]
         lines.append(f"  {'stands still on a floor for 5 s' if self.stands else 'does not stand still on a floor'}")
         if self.holds is not None:
             lines.append(f"  a ball dropped into it {'rests inside' if self.holds else 'does not stay inside'}")
@@ -101,6 +107,8 @@ def add(
     if offer is not None:
         with tempfile.TemporaryDirectory(prefix="worldwright-offer-") as folder:
             laid, told = libraries.SEAM.find(offer.library).lay(offer.key, Path(folder))
+            if laid.name == ENTRY:
+                return _whole(laid.parent, asked, to, replace, progress)
             called = {"description": offer.described(), "category": offer.name.lower()}
             return _added(laid, {**told, **called, **asked}, to, replace, progress)
     file = file.absolute()
@@ -112,6 +120,27 @@ def add(
     return _added(file, asked, to, replace, progress)
 
 
+def _whole(laid: Path, asked: dict[str, Any], to: Destination, replace: bool, progress: Progress) -> Illustrated:
+    """What a library lays out as an asset is registered as it is.
+
+    Raises:
+        IntakeFailedError: something is asked that its maker has decided.
+        RegisterError: the key is taken.
+    """
+    if asked:
+        raise IntakeFailedError(
+            f"{laid.name} is an asset as it is, with its own {', '.join(sorted(asked))}", code="decided", place=laid.name,
+            next_move=f"worldwright asset add {laid.name}; a plan's `asset_dimensions` gives it another height",
+        )  # fmt: skip
+    root = registering.root_of(to)
+    registering.free(laid.name, root, replace)
+    files = {path.name: path.read_bytes() for path in laid.iterdir() if path.is_file()}
+    picture = files.get("thumbnail.png", b"")
+    placed = registering.register(laid.name, files, root, replace=replace)
+    progress(3, 3, "registered")
+    return added_of(placed, picture, "" if picture else "it could not be drawn")
+
+
 def _added(file: Path, asked: dict[str, Any], to: Destination, replace: bool, progress: Progress) -> Illustrated:
     request = _request(file, asked)
     root = registering.root_of(to)
@@ -121,16 +150,16 @@ def _added(file: Path, asked: dict[str, Any], to: Destination, replace: bool, pr
         given = Path(folder) / "given"
         request["assumed"] += _lay(file, given)
         write_json(given / "request.json", request)
-        ended = _confined(file, given)
+        ended = confined_files(file, given)
         progress(1, 3, "drawing")
         files = {name: data for name, data in ended.items() if name not in WORLD}
-        picture, why = _drawn({name: ended[name] for name in WORLD if name in ended}, Path(folder) / "laid")
+        picture, why = drawn(ended, Path(folder) / "laid")
     progress(2, 3, "registering")
     if picture:
         files["thumbnail.png"] = picture
     placed = registering.register(request["key"], files, root, replace=replace)
     progress(3, 3, "registered")
-    return _told(placed, picture, why)
+    return added_of(placed, picture, why)
 
 
 def _request(file: Path, asked: dict[str, Any]) -> dict[str, Any]:
@@ -232,14 +261,15 @@ def _copied(paths: list[Path], folder: Path, given: Path, left: int) -> list[str
     )
 
 
-def _confined(file: Path, given: Path) -> dict[str, bytes]:
+def confined_files(file: Path, given: Path, sculpts: "Given | None" = None) -> dict[str, bytes]:
     """What the confined process leaves, by name."""
     size = sum(path.stat().st_size for path in given.rglob("*") if path.is_file())
     own = min(MOST_S, LEAST_S + S_A_MB * size / (1 << 20))
     call = [sys.executable, "-s", "-P", "-m", "worldkit.intake.confined_intake", str(given / "request.json"), "{out}"]
     ended = confined.run(
-        call, reads=(given,), wanted=(*FILES, *WORLD, "error.json"), wall_s=own, memory_mb=MEMORY_MB, file_mb=256
-    )
+        call, reads=(given,), wanted=(*FILES, *WORLD, "error.json"), wall_s=own, memory_mb=MEMORY_MB, file_mb=256,
+        sculpts=sculpts,
+    )  # fmt: skip
     if ended.status == "ended" and ended.exit_code == 0 and "asset.yaml" in ended.files:
         return ended.files
     told = plain.as_object(ended.files.get("error.json", b""))
@@ -261,8 +291,9 @@ def _confined(file: Path, given: Path) -> dict[str, bytes]:
     )  # fmt: skip
 
 
-def _drawn(world: dict[str, bytes], laid: Path) -> tuple[bytes, str]:
-    """The thumbnail, drawn by the engine in the sandbox; without one, why."""
+def drawn(ended: dict[str, bytes], laid: Path) -> tuple[bytes, str]:
+    """The thumbnail, drawn by the engine in the sandbox of the world among these files; without one, why."""
+    world = {name: ended[name] for name in WORLD if name in ended}
     if len(world) < len(WORLD):
         return b"", "there was no world to draw"
     laid.mkdir()
@@ -283,7 +314,10 @@ def _drawn(world: dict[str, bytes], laid: Path) -> tuple[bytes, str]:
     return made, ""
 
 
-def _told(folder: Path, picture: bytes, why: str) -> Illustrated:
+def added_of(
+    folder: Path, picture: bytes, why: str, again: str = "add it again with --replace and another --up"
+) -> Illustrated:
+    """What is told of an asset that was registered, with its picture or why it has none; `again` is what may make it stand."""
     import yaml
 
     from worldkit.assets.reading import read_asset
@@ -310,6 +344,6 @@ def _told(folder: Path, picture: bytes, why: str) -> Illustrated:
         mended=mended,
         next_move=f"a plan names it in `assets`: {row}, and its height, {size[2]:g}, in `asset_dimensions`"
         if stands
-        else f"add it again with --replace and another --up, or place it so that it lies: `worldwright asset show {asset.key}`",
+        else f"{again}, or place it so that it lies: `worldwright asset show {asset.key}`",
     )
     return Illustrated(told, (Picture(picture, f"{asset.key}: seen from three quarters"),) if picture else ())

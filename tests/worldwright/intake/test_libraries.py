@@ -8,7 +8,7 @@ import trimesh
 
 from worldwright.adding_assets import add_asset
 from worldwright.intake import libraries
-from worldwright.intake.libraries import sweethome_furniture
+from worldwright.intake.libraries import own_kits, sweethome_furniture
 from worldwright.intake.refusing import IntakeFailedError
 from worldwright.model.errors import NotFoundError
 from worldwright.retrieve.tools import find_asset
@@ -37,6 +37,7 @@ def library(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder.mkdir()
     monkeypatch.setenv("WORLDWRIGHT_SWEETHOME", str(folder))
     monkeypatch.setenv("WORLDWRIGHT_ASSETS", str(tmp_path / "own"))
+    monkeypatch.setattr(own_kits, "offers", tuple)  # the project's own, which are always offered
     return folder
 
 

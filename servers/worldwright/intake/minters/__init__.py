@@ -7,28 +7,18 @@ from typing import Protocol
 
 from worldkit.seams import Seam
 
-from ...model.errors import WorldwrightError
-
-
-class MintError(WorldwrightError):
-    """A server made no mesh; `code` says why: `unreachable`, `refused`, `rate_limited` or `garbage`."""
-
-    def __init__(self, cause: str, *, code: str, place: str, next_move: str) -> None:
-        super().__init__(cause, place=place, next_move=next_move)
-        self.code = code
+from ..orders import Order, Terms
+from ..web_calls import Server
 
 
 class Minter(Protocol):
     """What a module of this folder defines."""
 
-    def variable(self) -> str:
-        """The name of the environment variable that holds its address."""
+    TERMS: Terms
+    """How it is come by, and what it costs."""
 
-    def starting(self) -> str:
-        """How a user comes by one, in a few words."""
-
-    def mint(self, picture: bytes, address: str) -> bytes:
-        """The GLB that it makes of a picture (PNG or JPEG).
+    def mint(self, picture: bytes, server: Server, order: Order) -> bytes:
+        """The GLB (or OBJ) that it makes of a picture (PNG or JPEG).
 
         Raises:
             MintError: it is not there, refuses, or answers something else.
