@@ -36,9 +36,9 @@ BARE = re.sub(r'<asset>.*</asset>|<geom type="mesh".*?/>|<actuator>.*</actuator>
 SHIN = "v 0 0 0\nv 0.01 0 0\nv 0 0.01 0\nv 0 0 -0.2\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 
 
-def install(folder: Path, monkeypatch: pytest.MonkeyPatch) -> packaged.Robot:
-    """Lay a wheel with the dog where packages are looked for; its key is that of a robot with a gait."""
-    for name, text in (("dogs/dog.xml", DOG), ("dogs/assets/shin.obj", SHIN), ("dogs/LICENSE", "do as you like\n")):
+def install(folder: Path, monkeypatch: pytest.MonkeyPatch, key: str = KEY, model: str = DOG) -> packaged.Robot:
+    """Lay a wheel with the dog where packages are looked for, or with another model; its key is that of a robot that is driven."""
+    for name, text in (("dogs/dog.xml", model), ("dogs/assets/shin.obj", SHIN), ("dogs/LICENSE", "do as you like\n")):
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         (folder / name).write_text(text)
     told = folder / "dogs_of_ours-2.0.dist-info/METADATA"
@@ -46,10 +46,9 @@ def install(folder: Path, monkeypatch: pytest.MonkeyPatch) -> packaged.Robot:
     told.write_text("Metadata-Version: 2.4\nName: dogs-of-ours\nVersion: 2.0\nLicense-Expression: MIT\n")
     monkeypatch.syspath_prepend(str(folder))
     robot = packaged.Robot(
-        KEY, "dogs-of-ours", "dogs/dog.xml", "quadruped robot dog, of ours", "a breeder", "", (0.5, 0.4, 0.4)
+        key, "dogs-of-ours", "dogs/dog.xml", "quadruped robot dog, of ours", "a breeder", "", (0.5, 0.4, 0.4)
     )
-    monkeypatch.setitem(packaged.ROBOTS, KEY, robot)
-    packaged._file.cache_clear()
+    monkeypatch.setitem(packaged.ROBOTS, key, robot)
     return robot
 
 

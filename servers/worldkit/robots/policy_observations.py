@@ -1,4 +1,4 @@
-"""What a walking policy is shown of its robot, as MuJoCo Playground's joystick tasks lay it out.
+"""What a walking policy is shown of its robot, as MuJoCo Playground's joystick tasks lay it out; of many robots row by row.
 
 Each number is in the order of the policy's own training. Lengths are metres, angles radians, times seconds; the frame is
 that of the inertial sensor (a site). Source: MuJoCo Playground, `locomotion/go1/joystick.py`, `t1/joystick.py`, `g1/joystick.py`
@@ -41,7 +41,7 @@ def four_legs(
     """
     import numpy as np
 
-    return np.concatenate((felt, away, rates, last, command))
+    return np.concatenate((felt, away, rates, last, command), axis=-1)
 
 
 def scaled_four_legs(
@@ -53,7 +53,7 @@ def scaled_four_legs(
     """
     import numpy as np
 
-    return np.concatenate((0.25 * felt[3:6], felt[6:], command, away, 0.05 * rates, last))
+    return np.concatenate((0.25 * felt[..., 3:6], felt[..., 6:], command, away, 0.05 * rates, last), axis=-1)
 
 
 def two_legs(
@@ -71,7 +71,7 @@ def two_legs(
     """
     import numpy as np
 
-    return np.concatenate((felt, command, away, rates, last, np.cos(phase), np.sin(phase)))
+    return np.concatenate((felt, command, away, rates, last, np.cos(phase), np.sin(phase)), axis=-1)
 
 
 def stride(time: float, standing: bool = False) -> "np.ndarray":

@@ -57,27 +57,41 @@ class Walkers:
         if data.time >= self._next - 0.5 * model.opt.timestep:
             late = self._time - self._next >= self.gait.tick  # time leapt: ticks that were missed are not made up for
             self._next = (self._time if late else self._next) + self.gait.tick
-            rows = [self._row(model, data, number, np.asarray(command)) for number, command in enumerate(commands)]
-            self._last = self.policy(np.array(rows))
-        home, scale = np.asarray(self.gait.home), np.asarray(self.gait.scale)
-        for actuators, action in zip(self._actuators, self._last, strict=True):
-            data.ctrl[actuators] = home + scale * action
+            self._last = self.policy(self._shown(model, data, np.array(commands, dtype=float)))
+            self._targets = np.asarray(self.gait.home) + np.asarray(self.gait.scale) * self._last
+        data.ctrl[self._actuators] = self._targets
 
     def _start(self, model: "mujoco.MjModel", time: float) -> None:
         import numpy as np
 
         own = [[f"{name}_{joint}" for joint in self.gait.joints] for name in self.names]
-        self._angles = [[model.joint(one).qposadr[0] for one in row] for row in own]
-        self._rates = [[model.joint(one).dofadr[0] for one in row] for row in own]
-        self._actuators = [[model.actuator(self.gait.servo(one)).id for one in row] for row in own]
-        self._last = np.zeros((len(own), len(self.gait.joints)))
-        self._next = time
+        self._angles = np.array([[model.joint(one).qposadr[0] for one in row] for row in own])
+        self._rates = np.array([[model.joint(one).dofadr[0] for one in row] for row in own])
+        self._actuators = np.array(
+            [
+                [model.actuator(f"{name}_{self.gait.servo(joint)}").id for joint in self.gait.joints]
+                for name in self.names
+            ]
+        )
+        self._seen = np.array([joint not in self.gait.unseen for joint in self.gait.joints], dtype=float)
+        self._last = np.zeros(self._angles.shape)
+        self._next = self._first = time
 
-    def _row(self, model: "mujoco.MjModel", data: "mujoco.MjData", number: int, command: "np.ndarray") -> "np.ndarray":
-        away = data.qpos[self._angles[number]] - self.gait.home
-        felt = policy_observations.felt(model, data, f"{self.names[number]}_{self.gait.site}")
-        layout = getattr(policy_observations, self.gait.shown)
-        return layout(felt, away, data.qvel[self._rates[number]], self._last[number], command)
+    def _shown(self, model: "mujoco.MjModel", data: "mujoco.MjData", commands: "np.ndarray") -> "np.ndarray":
+        """(N, observation) what the policy is shown of the robots."""
+        import numpy as np
+
+        sites = [f"{name}_{self.gait.site}" for name in self.names]
+        felt = np.array([policy_observations.felt(model, data, site) for site in sites])
+        away = self._seen * (data.qpos[self._angles] - self.gait.home)
+        shown = [felt, away, self._seen * data.qvel[self._rates], self._last, commands]
+        if self.gait.strides:
+            time = float(data.time) - self._first
+            shown.append(
+                np.array([policy_observations.stride(time, standing=not command.any()) for command in commands])
+            )
+        rows: np.ndarray = getattr(policy_observations, self.gait.shown)(*shown)
+        return rows
 
 
 def walkers(names: Sequence[str], gait: str, file: str, *, sha256: str = "") -> Walkers:

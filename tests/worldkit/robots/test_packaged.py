@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 import packaged_dogs
+import packaged_machines
 from worldkit import model_files, models
 from worldkit.beside_program import below
 from worldkit.errors import IntakeError
-from worldkit.robots import packaged
-from worldkit.robots.gaits import GAITS
+from worldkit.robots import ARMS, DRONES, GAITS, packaged
 
 
 def test_a_robot_stands_in_its_home_pose_with_its_servos(tmp_path, monkeypatch):
@@ -39,6 +39,29 @@ def test_a_robot_stands_in_its_home_pose_with_its_servos(tmp_path, monkeypatch):
     assert data.geom("FR_foot").xpos[2] == pytest.approx(
         0.4 - 0.4, abs=1e-6
     )  # straight legs at angle 0, as in the wheel
+
+
+@pytest.mark.parametrize(("key", "model"), [("yam", packaged_machines.ARM), ("cf21b", packaged_machines.DRONE)])
+def test_an_arm_and_a_drone_get_what_drives_them(tmp_path, monkeypatch, key, model):
+    packaged_dogs.install(tmp_path / "site", monkeypatch, key, model)
+    made = mujoco.MjModel.from_xml_path(str(packaged.lay(key, tmp_path / "run/it")))
+    driven = [made.actuator(number) for number in range(made.nu)]
+    if key == "yam":
+        arm = ARMS[key]
+        assert [one.name for one in driven] == [arm.motor(joint) for joint in arm.driven]
+        assert [made.joint(one.trnid[0]).name for one in driven] == list(arm.driven)
+        assert [one.forcerange[1] for one in driven] == [28, 28, 28, 10, 10, 10, 20]
+        assert made.joint("joint6").armature[0] == 0.0018 and made.joint("left_finger").armature[0] == 2.6
+    else:
+        drone = DRONES[key]
+        assert [one.name for one in driven] == [rotor.name for rotor in drone.rotors]
+        assert all(tuple(one.ctrlrange) == (0, 0.2) for one in driven)
+        assert np.allclose([one.gear[[2, 5]] for one in driven], [(1, rotor.spin * 0.00594) for rotor in drone.rotors])
+        assert (
+            made.ngeom == 1
+            and made.geom("col_box").contype[0] == 1
+            and made.body_subtreemass[0] == pytest.approx(0.0434)
+        )
 
 
 def test_what_is_not_there_or_not_whole_leaves_nothing(tmp_path, monkeypatch):

@@ -1,14 +1,26 @@
 """Walkers are shown what their policy was trained with, all in one call a tick, and their servos hold its answer."""
 
+from pathlib import Path
+
 import mujoco
 import numpy as np
 import pytest
 
 import packaged_dogs
-from worldkit.robots import GAITS, Walkers, along, policy_observations
+from worldkit import contacts, model_files, models, scene
+from worldkit.beside_program import below
+from worldkit.robots import GAITS, Walkers, along, packaged, policy_observations
 from worldkit.robots.policies import opened
 
 GAIT = GAITS[packaged_dogs.KEY]
+SHARED = next(
+    (
+        path
+        for place in Path(__file__).parents
+        if (path := place / "shared/data/policies/playground/t1_policy.onnx").is_file()
+    ),
+    Path("t1_policy.onnx"),
+)
 
 
 @pytest.fixture
@@ -96,6 +108,30 @@ def test_each_layout_has_the_width_of_its_policy():
     )
 
 
+def test_one_on_two_legs_is_shown_its_stride_and_no_head():
+    gait, heard = GAITS["t1"], Heard()
+    heard.observation, heard.action = gait.observation, len(gait.joints)
+    joints = "".join(
+        f'<body><joint name="t1_{joint}" axis="0 0 1"/><geom size="0.01"/></body>' for joint in gait.joints
+    )  # each of its own
+    servos = "".join(f'<position name="t1_{gait.servo(joint)}" joint="t1_{joint}"/>' for joint in gait.joints)
+    model = mujoco.MjModel.from_xml_string(
+        f'<mujoco><worldbody><body><freejoint/><geom size="0.1"/><site name="t1_torso"/></body>{joints}</worldbody>'
+        f"<actuator>{servos}</actuator></mujoco>"
+    )
+    data = mujoco.MjData(model)
+    data.qpos[7:] = np.asarray(gait.home) + 0.1
+    walkers = Walkers(("t1",), gait, heard)
+    for time, command in ((0.0, (0.8, 0, 0)), (0.02, (0.0, 0, 0))):
+        data.time = time
+        mujoco.mj_forward(model, data)
+        walkers(model, data, [command])
+    first, second = (rows[0] for rows in heard.shown)
+    assert np.allclose(first[12:35], [0, 0] + [0.1] * 21) and np.allclose(first[9:12], (0.8, 0, 0))
+    assert np.allclose(first[81:], (1, -1, 0, 0)) and np.allclose(second[81:], (-1, -1, 0, 0))  # it stands
+    assert np.allclose(data.ctrl, np.asarray(gait.home) + 0.4)
+
+
 def test_along_steers_back_to_its_line(two):
     _, data = two
     assert along(data, "dog_1_trunk", speed=0.8, y=1.0) == (0.8, 0.0, 0.0)
@@ -119,3 +155,31 @@ def test_a_policy_of_another_gait_is_refused(tmp_path):
     path = packaged_dogs.policy(tmp_path / "w.onnx", 45, 12)
     with pytest.raises(ValueError, match="takes 45"):
         Walkers(("dog",), GAIT, opened(path, observation=45, action=12))
+
+
+REAL = [
+    pytest.param(key, path, id=key)
+    for key, path in (("t1", SHARED), ("go2", None))
+    if key in packaged.found() and (path is None or path.is_file())
+]
+"""Robots of wheels, with published policies, where this machine has them."""
+if REAL:
+
+    @pytest.mark.parametrize(("key", "policy"), REAL)
+    def test_a_packaged_robot_walks_five_metres_and_stands(tmp_path, key, policy):
+        made = model_files.whole(packaged.lay(key, tmp_path / key), tmp_path)
+        gait, spec = GAITS[key], scene.new("pitch", time_step=0.002)
+        grip = contacts.surface(friction=0.8, time_constant=0.008)
+        half = packaged.ROBOTS[key].extents[2] / 2
+        with below(tmp_path):
+            models.attach(spec, made.text, name=key, pos=(0, 0, half), files=made.files, surface=grip)
+        model = spec.compile()
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        walk = opened(policy or tmp_path / key / "walk.onnx", observation=gait.observation, action=len(gait.joints))
+        walkers, height = Walkers((key,), gait, walk), data.body(key).xpos[2]
+        while data.time < 9:
+            walkers(model, data, [along(data, key, speed=0.8 if data.body(key).xpos[0] < 5 else 0.0)])
+            mujoco.mj_step(model, data)
+        x, y, z = data.body(key).xpos
+        assert 5 < x < 6 and abs(y) < 0.2 and z > 0.8 * height and data.body(key).xmat[8] > 0.95

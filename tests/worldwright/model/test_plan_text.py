@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from worldwright.model.errors import PlanError
-from worldwright.model.plan.declared_inputs import TWO_WAYS, Intervention
+from worldwright.model.plan.declared_inputs import Intervention, two_ways
 from worldwright.model.plan.plan_text import parse_plan, read_plan
 from worldwright.model.plan.plan_write import write_plan
 
@@ -161,20 +161,27 @@ def test_an_intervention_may_name_what_only_the_program_has():
         ("10⁻² kN·s, 1 N", "0⁻² kN"),
         ("0.01 × 10^1 N", "10^1 N"),
         ("0.01 x 10 N", "0.01 x 10 N"),
+        ("1/2 * 40 N per wheel", "2 * 40 N"),
+        ("0.5 * 1.2 kg/m^3 * c A v^2, at most 40 N", ""),
+        ("1/2 * 40 N/m, 0.5 * 3 N s/m of it", ""),
+        ("1,2 kg/m^3", "1,2 kg/m"),
         ("draws_at, 0.06 m/s", ""),
         ("998 kg/m3 x 9.81 m/s2 x wet volume, and 60 N·s/m of drag", ""),
         ("from 2-5 N to 1e-2 kN, 9.81 m/s^2", ""),
     ],
 )
 def test_a_number_of_a_law_that_reads_in_two_ways_is_refused(law, refused):
-    found = TWO_WAYS.search(law)
-    assert (found[0] if found else "") == refused
+    assert two_ways(law, "force") == refused
     row = {"kind": "force", "bodies": ("ball",), "law": law, "source": "a table"}
     if refused:
         with pytest.raises(ValueError, match="reads in two ways"):
             Intervention.model_validate(row)
     else:
         Intervention.model_validate(row)
+
+
+def test_a_product_of_densities_is_refused_where_the_density_is_what_the_law_sets():
+    assert two_ways("0.5 * 1.2 kg/m^3", "parameter") == "0.5 * 1.2 kg/m"
 
 
 def test_a_plan_is_parsed_once_for_each_content(planned, tmp_path):

@@ -34,7 +34,7 @@ def test_a_row_declares_and_drafts_all_of_it(written):
     assert not [f for f in check_plan(written).findings if f.severity == "error"]
     plan = read_plan(written).plan
     row = plan.assets[0]
-    servos = row.walks.servos("go1")
+    servos = tuple(row.walks.driven("go1"))
     assert [a.name for a in plan.topology.actuators] == list(servos)
     (control,) = plan.simulation_parameters.interventions
     assert control.bodies == servos and control.kind == "control" and "35.55 N·m" in control.law

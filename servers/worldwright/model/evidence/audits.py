@@ -104,11 +104,32 @@ class Seen(Frozen):
     """When they were first and last seen inside each other."""
 
 
+class Standing(Frozen):
+    """What acts all the time from inside the engine's step: a number of the model, which nobody sends."""
+
+    kind: str
+    """`wind`, `running surface` or `adhesion`."""
+    target: str
+    peak: float
+    """In `unit`."""
+    unit: str
+    declared: bool = False
+    law: str = ""
+    source: str = ""
+
+    @property
+    def text(self) -> str:
+        """One line for a person."""
+        said = f"declared: {self.law} (source: {self.source})" if self.declared else "UNDECLARED"
+        return f"{self.kind} of {self.target}, throughout, {self.peak:.3g} {self.unit}; {said}"
+
+
 class InterventionReport(Frozen):
     """Everything that acts besides the engine's step, who carries the load, and what is only drawn."""
 
     trajectory_sha256: str
     acting: tuple[Acting, ...] = ()
+    standing: tuple[Standing, ...] = ()
     load_paths: tuple[LoadPath, ...] = ()
     """The largest impulse first; at most forty."""
     carriers: tuple[Carrier, ...] = ()

@@ -16,7 +16,7 @@ from typing import Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from ..frozen import Frozen
-from . import breakage, copies, vehicle_rows, walking_declared
+from . import breakage, copies, robots_declared, soft_rows, vehicle_rows
 from .declared_inputs import Constant, Intervention
 from .drives import Actuator, Tendon
 from .implementation_steps import CameraRow, Step, seen_as_in_image
@@ -289,15 +289,17 @@ class Plan(Frozen):
     @model_validator(mode="after")
     def _copied(self) -> "Plan":
         self.__dict__["simulation_parameters"] = self.simulation_parameters.yielding(self.made_of)
+        soft_rows.check(self)
+        robots_declared.check(self)
         if copied := copies.families(self):
             breakage.check(self)
             broken = {row.name: row for row in self.scene_objects if row.breaks is not None}
             self.__dict__.update(copies.changes(self, copied), families=copied, broken=broken)
         if any(row.vehicle is not None for row in self.assets):
             self.__dict__["simulation_parameters"] = vehicle_rows.parameters(self)
-        if any(row.walks is not None for row in self.assets):
-            self.__dict__["topology"] = self.topology.model_copy(update={"actuators": walking_declared.actuators(self)})
-            acting = {"interventions": walking_declared.interventions(self)}
+        if any(robots_declared.does(row) is not None for row in self.assets):
+            self.__dict__["topology"] = self.topology.model_copy(update={"actuators": robots_declared.actuators(self)})
+            acting = {"interventions": robots_declared.interventions(self)}
             self.__dict__["simulation_parameters"] = self.simulation_parameters.model_copy(update=acting)
         self.visualization.hung(self.families)
         return self

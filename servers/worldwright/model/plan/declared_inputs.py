@@ -8,10 +8,28 @@ from pydantic import Field, model_validator
 
 from ..frozen import Frozen
 
+RATE = r"(?!\s*/|\s*[·*]?\s*s\b|\s+per\s+(?:unit|[kcm]?[msg]|rad|deg|met|sec|turn))"
+"""Behind a force or a torque of its own: not of a spring's or a damper's (`N/m`, `N s/m`, `N per m`, `N m/rad`)."""
+POWER = r"[-−+]?\d[\d.]*(?:[eE][-+]?\d+)?"
 TWO_WAYS = re.compile(
-    r"(?:(?<![\w.])\d[\d.]*(?:\s?[/^×·*x]\s?|,)[-−+]?\d[\d.]*(?:[eE][-+]?\d+)?|\d⁻?[⁰¹²³⁴-⁹]+)\s*[kKcmM]?(?:N|Pa|m/s|rad/s|kg/m)(?!\w)"
+    rf"(?:(?<![\w.])\d[\d.]*(?:(?P<product>\s?[/×·*x]\s?)|\s?\^\s?|,){POWER}|\d⁻?[⁰¹²³⁴-⁹]+)"
+    r"\s*(?P<unit>[kKcmM]?(?:N|Pa|m/s|rad/s|kg/m)(?!\w))"
 )
 """Numbers that a reader and we would read otherwise: a decimal comma, a fraction, a product, a power of ten in words."""
+FREE_PRODUCT = re.compile(rf"(?P<unit>[kKcmM]?N(?!\w))(?!{RATE})|kg/m")
+"""Units of which a product holds nobody to its last number: of a spring, a damper, a density (`0.5 * 1.2 kg/m^3`)."""
+
+
+def two_ways(law: str, kind: str) -> str:
+    """The first number of a law of this kind that reads in two ways; empty where none does.
+
+    A product or fraction (`1/2 * 40 N/m`) is one only where we would hold the world to its last factor.
+    """
+    for found in TWO_WAYS.finditer(law):
+        free = FREE_PRODUCT.match(law, found.start("unit")) if found["product"] else None
+        if free is None or (not free["unit"] and kind == "parameter"):
+            return found[0]
+    return ""
 
 
 class Constant(Frozen):
@@ -70,9 +88,9 @@ class Intervention(Frozen):
             raise ValueError(f"a row of kind `{self.kind}` has no `live`: nobody drives it; use the kind `control`")
         if self.solver is not None and self.kind != "solver":
             raise ValueError(f"a row of kind `{self.kind}` has no `solver`; use the kind `solver`")
-        if found := TWO_WAYS.search(self.law):
+        if found := two_ways(self.law, self.kind):
             raise ValueError(
-                f"its law has the number `{found[0]}`, which reads in two ways; write it as 1011 or 0.01 or 1e-2"
+                f"its law has the number `{found}`, which reads in two ways; write it as 1011 or 0.01 or 1e-2"
             )
         return self
 

@@ -5,13 +5,13 @@ A law is written for people. A number with a unit, an axis and a direction again
 
 import re
 from collections.abc import Mapping
+from math import hypot
 
 from .committed import Constant
+from .declared_inputs import RATE
 
-__all__ = ["BRAKES", "direction", "interval", "limit", "named", "numbers"]
+__all__ = ["BRAKES", "direction", "interval", "limit", "named", "numbers", "said"]
 NUMBER = r"(?P<number>\d+(?:\.\d+)?(?:[eE][-+]?\d+)?)\s*"
-RATE = r"(?!\s*/|\s*[·*]?\s*s\b|\s+per\s+(?:unit|[kcm]?[msg]|rad|deg|met|sec|turn))"
-"""Behind a force or a torque of its own: not of a spring's or a damper's (`N/m`, `N s/m`, `N per m`, `N m/rad`)."""
 FORCE = NUMBER + r"(?P<prefix>[kKmM]?)N(?![\w·*/.-]*m\b)(?!\s*[·*]?\s*m\b)(?!\w)" + RATE
 TORQUE = NUMBER + r"(?P<prefix>[kKmM]?)N\s?[·* .]?\s?m(?!\w)" + RATE
 SPEED = NUMBER + r"(?P<prefix>[kcm]?)(?:m|rad)/s(?![\w²^])"
@@ -38,6 +38,17 @@ ALONG = re.compile(r"(?:along|towards?|in)\s+(?:the\s+)?(?P<sign>[+-])\s?(?P<axi
 def numbers(law: str, kind: str) -> tuple[float, ...]:
     """Every magnitude that a law states in the unit of its kind (N, N·m, m/s or rad/s; `gravity`: m/s^2), in its order."""
     return tuple(float(m["number"]) * PREFIX[m["prefix"]] for m in UNITS[kind].finditer(law)) if kind in UNITS else ()
+
+
+def said(law: str, kind: str, constants: Mapping[str, Constant]) -> tuple[float, ...]:
+    """Every magnitude that a law states in the unit of its kind, itself or by the name of a constant; of a vector its length, too."""
+    found = list(numbers(law, kind))
+    for name, constant in constants.items():
+        if re.search(rf"\b{re.escape(name)}\b", law):
+            given = constant.value if isinstance(constant.value, tuple) else (constant.value,)
+            given = (*given, hypot(*given)) if len(given) > 1 else given
+            found += [v for one in given for v in numbers(f"{abs(one):.17g} {constant.unit}", kind)]
+    return tuple(found)
 
 
 def limit(law: str, kind: str) -> float | None:

@@ -206,6 +206,9 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
             follows = _dict(_dict(row.get("vehicle")).get("follows"))
             if follows.get("road"):
                 yield "road", follows["road"], (*path, "vehicle", "follows", "road")
+            for key in ("thing", "places_on"):
+                if isinstance(picks := row.get("picks"), dict):
+                    yield from _one("object", picks, (*path, "picks"), key)
     for key in _dict(data.get("asset_dimensions")):
         yield "asset row", key, ("asset_dimensions", key)
     for key in _at(data, "topology", "body_positions"):

@@ -11,10 +11,14 @@ from pydantic import Field, field_validator, model_validator
 from worldkit.parts import Whole, laid_out, plus, rotation, turned
 
 from ..frozen import Frozen
+from . import soft_rows
+from .arm_rows import Picks
 from .breakage import Breaks
+from .flight_rows import Flies
 from .formed import BY_POINTS, NUMBERS, foreign, form
 from .object_parts import ObjectPart, Vec3
 from .plant_rows import Plant
+from .soft_rows import Soft
 from .vehicle_rows import Vehicle
 from .walking_rows import Walks
 
@@ -88,6 +92,8 @@ class SceneObject(Frozen):
     """Points put between each two of `profile` or `path`, on a smooth curve through them."""
     breaks: Breaks | None = None
     """How it breaks, if it can: its pieces are called `name_1` … `name_N`."""
+    soft: Soft | None = None
+    """How it is soft, if it is: cloth or jelly."""
     deg_x: float = Field(0.0, ge=-180, le=180)
     """Tilt about its own x, degrees, before any yaw: 90 lays a cylinder along y. Not for containers and planes."""
     hollow: bool = False
@@ -136,6 +142,8 @@ class SceneObject(Frozen):
             raise ValueError(f"a {self.primitive} has no one surface to be hollow in: remove `hollow`")
         if self.deg_x and self.primitive in ("box_container", "plane"):
             raise ValueError(f"a {self.primitive} cannot be tilted: remove `deg_x`")
+        if self.soft is not None:
+            soft_rows.fits(self)
         return self
 
     @model_validator(mode="after")
@@ -222,6 +230,10 @@ class AssetRow(Frozen):
     """What it is, of a plant, whose root is held."""
     walks: Walks | None = None
     """The policy that walks it, of an mjcf or urdf."""
+    picks: Picks | None = None
+    """What it picks up and where it puts it, of an mjcf that is an arm."""
+    flies: Flies | None = None
+    """Where it flies, of an mjcf that is a drone."""
     size: Vec3 | None = None
     """Full extents in metres of a sculpt: what the plan claims, and the file is held to. Of nothing else."""
     count: int = Field(1, ge=1, le=10_000)
@@ -277,6 +289,16 @@ class AssetRow(Frozen):
     def _on_its_feet(self) -> "AssetRow":
         if self.walks is not None and (self.type not in ("mjcf", "urdf") or self.fixed or not self.is_dynamic):
             raise ValueError("what `walks` is a model (`type: mjcf` or `urdf`) that is free to move: remove `fixed`")
+        if self.flies is not None and (self.type != "mjcf" or self.fixed or self.count > 1):
+            raise ValueError(
+                "what `flies` is one model (`type: mjcf`) that is free to move: remove `fixed` and `count`"
+            )
+        if self.picks is not None and (self.type != "mjcf" or not self.fixed or self.count > 1):
+            raise ValueError(
+                "what `picks` is one model (`type: mjcf`) whose base stands: say `fixed: true`, no `count`"
+            )
+        if sum(told is not None for told in (self.walks, self.picks, self.flies)) > 1:
+            raise ValueError("a robot does one of `walks`, `picks` and `flies`")
         return self
 
     @model_validator(mode="after")

@@ -1,6 +1,6 @@
 """Robots that walk as rows of a plan: which policy walks a model, how it was trained, and where the robot is to go.
 
-A model's row that says `walks` declares its servos and their controls by that (`walking_declared`), as a vehicle that is driven does.
+A model's row that says `walks` declares its servos and their controls by that (`robots_declared`), as a vehicle that is driven does.
 The policy is a file beside the plan: who approves the plan approves it, by its hash.
 """
 
@@ -25,7 +25,7 @@ class Walks(Frozen):
     policy: str = Field(pattern=r"\.onnx$")
     """An ONNX file beside the plan, relative to it: observations of `gait` in, one action a joint out."""
     gait: str
-    """What the policy was trained with: joints, home pose, servos, observation. go1, go2."""
+    """What the policy was trained with: joints, home pose, servos, observation. go1, go2, t1."""
     sha256: str = Field("", pattern=r"^([0-9a-fA-F]{64})?$")
     """Of the file, where it is to be one that was published."""
     address: str = ""
@@ -54,10 +54,25 @@ class Walks(Frozen):
             raise ValueError(f"`{self.policy}` lies elsewhere: put the file beside the plan and name it from there")
         return self
 
-    def servos(self, name: str) -> tuple[str, ...]:
-        """The servos of a robot in the world."""
+    def driven(self, name: str) -> dict[str, str]:
+        """The servos of a robot in the world, each with its joint."""
         gait = GAITS[self.gait]
-        return tuple(f"{name}_{gait.servo(joint)}" for joint in gait.joints)
+        return {f"{name}_{gait.servo(joint)}": f"{name}_{joint}" for joint in gait.joints}
+
+    @property
+    def law(self) -> str:
+        """What acts."""
+        gait = GAITS[self.gait]
+        return (
+            f"position servos, at most {max(servo.limit for servo in gait.servos):g} N·m, whose targets the policy {self.policy} sets every "
+            f"{gait.tick:g} s: the home pose plus {', '.join(f'{scale:g}' for scale in sorted({*gait.scale}))} rad times its action, for "
+            f"{self.speed_m_s:g} m/s along {self.heading_deg:g} degrees"
+        )
+
+    @property
+    def source(self) -> str:
+        """Where that is from."""
+        return f"walks.policy {self.policy}" + (f", {self.address}" if self.address else "")
 
 
 def policy_of(row: Written, folder: Path | None) -> Path | None:

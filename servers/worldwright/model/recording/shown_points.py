@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from worldengine.recording import point_colours
+
 from ..errors import NotFoundError
 from . import laws_told
 
@@ -20,12 +22,24 @@ class Lay:
     """(F,) s."""
     flat: Array
     """(F n, 3) m: instant after instant; memory-mapped where the recording has no other medium."""
+    hues: Array | None = None
+    """(F n,) colours as one number each (`point_colours`), where its law tells some."""
 
     def at(self, time_s: float) -> Array:
         """(n, 3) m at the last recorded instant up to a time; at the first where that is earlier."""
+        return np.asarray(self.flat[self._instant(time_s)], dtype=float)
+
+    def coloured(self, time_s: float) -> Array | None:
+        """(n, 3) sRGB from 0 to 1 at that instant; None where a point has no colour."""
+        if self.hues is None:
+            return None
+        told = np.asarray(self.hues[self._instant(time_s)])
+        return None if (told < 0).any() else point_colours.shares(told)
+
+    def _instant(self, time_s: float) -> slice:
         count = len(self.flat) // len(self.t)
         one = max(0, int(np.searchsorted(self.t, time_s + 1e-9, side="right")) - 1)
-        return np.asarray(self.flat[one * count : (one + 1) * count], dtype=float)
+        return slice(one * count, (one + 1) * count)
 
 
 @dataclass(frozen=True)
@@ -70,4 +84,6 @@ class ShownPoints:
         whole = int((counts == counts.max(initial=0)).sum())  # a torn recording ends within an instant
         if not whole:
             raise NotFoundError(f"no point of '{name}' was recorded", next_move="run the physics pass again")
-        return Lay(instants[:whole] * float(self.recording.time_step), places[: whole * int(counts.max())])
+        last = whole * int(counts.max())
+        hues = np.asarray(media.colour)[mine][:last] if "colour" in media.columns else None
+        return Lay(instants[:whole] * float(self.recording.time_step), places[:last], hues)
