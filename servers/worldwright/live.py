@@ -1,13 +1,16 @@
-"""`worldwright live RUN`: a world at the pace of the wall clock, driven from a browser."""
+"""`worldwright live RUN`: a world at the pace of the wall clock, driven from a browser or over ROS 2."""
 
 import math
 import signal
 import sys
 import threading
 import time
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
+
+if TYPE_CHECKING:
+    from .ends.ros_live import RosAsked
 
 TICK_S, SHOW_S = 0.2, 5.0
 
@@ -49,6 +52,17 @@ TICK_S, SHOW_S = 0.2, 5.0
     default=True,
     help="At the end, drive it again by its stream, and sign what that proves; nobody can sign it later.",
 )
+@click.option("--ros", is_flag=True, help="On a ROS 2 network, too (extra `ros`): /clock, /odom, /cmd_vel, ….")
+@click.option("--ros-domain", type=click.IntRange(0, 232), help="ROS_DOMAIN_ID, else 0, without it.")
+@click.option("--ros-node", default="", metavar="NAME", help="Of the node; worldwright without it.")
+@click.option(
+    "--ros-interface",
+    default="",
+    metavar="ADDRESS",
+    help="Another than loopback: whoever reaches it may drive, without a token.",
+)
+@click.option("--ros-images", type=click.Choice(["compressed", "raw"]), help="Publish the page's pictures.")
+@click.option("--ros-lidar", is_flag=True, help="Publish a ring of 360 distances about what is followed.")
 def command(
     run: str,
     speed: float,
@@ -62,6 +76,8 @@ def command(
     host: str,
     token: str,
     prove: bool,
+    ros: bool,
+    **more: Any,
 ) -> None:
     """Drive a world live, from the page that this prints the address of, until it is interrupted.
 
@@ -74,9 +90,30 @@ def command(
 
     sys.exit(
         report_errors(
-            lambda: drive(run, speed, seconds, at_once, follow, pictures, look, size, port, host, token, prove)
+            lambda: drive(
+                run, speed, seconds, at_once, follow, pictures, look, size, port, host, token, prove, _asked(ros, more)
+            )
         )
     )
+
+
+def _asked(ros: bool, more: dict[str, Any]) -> "RosAsked | None":
+    """What is asked of the end that speaks ROS 2; None without it."""
+    from .model.errors import NotFoundError
+
+    given = {
+        name.removeprefix("ros_"): value
+        for name, value in more.items()
+        if value is not False and value not in (None, "")
+    }
+    if not ros:
+        if given:
+            names = ", ".join(f"--ros-{name}" for name in given)
+            raise NotFoundError(f"{names} does nothing without --ros", next_move="add --ros, or leave it out")
+        return None
+    from .ends.ros_live import RosAsked, own_domain
+
+    return RosAsked(**{"domain": own_domain(), **given} if "domain" not in given else given)
 
 
 def drive(
@@ -92,6 +129,7 @@ def drive(
     host: str,
     token: str,
     prove: bool,
+    ros: "RosAsked | None" = None,
 ) -> int:
     """Serve one drive to its end; returns the exit status."""
     import secrets
@@ -116,10 +154,12 @@ def drive(
         raise NotFoundError(
             f"{size!r} is no size of a picture", next_move="write it as WIDTHxHEIGHT, e.g. 400x224"
         ) from None
+    if ros is not None and ros.images != "none" and not pictures:
+        raise NotFoundError("there are no pictures to publish", next_move="leave out --no-pictures, or --ros-images")
     source = LiveSource.find(run)
-    followed(source.model, source, follow)
+    body = followed(source.model, source, follow)
     world = LiveWorld(source, speed, seconds, waits=not at_once)
-    view, page = None, None
+    view, page, network = None, None, None
 
     def note(what: str, more: dict[str, Any]) -> None:
         try:
@@ -137,10 +177,18 @@ def drive(
                 view = PictureThread(lambda: LiveView(source, (width, height), follow, look), lambda: world.newest)
                 view.ready.wait(60)
             known = token or ("" if loopback(host) else secrets.token_urlsafe(16))
+            if ros is not None:
+                from .ends.ros_live import RosEnd
+
+                network = RosEnd(world, seats, ros, body, view)
             page = LivePage(world, seats, view, host, port, known)
             click.echo(f"{page.address}  drives {', '.join(names)}; end it with Ctrl-C")
-            _watch(world, ended)
+            if network is not None:
+                click.echo(f"ROS 2: {network.address}")
+            _watch(world, ended, network)
         finally:
+            if network is not None:
+                network.close()
             world.close()
             for part in (page, view):
                 if part is not None:
@@ -161,11 +209,14 @@ def drive(
             signal.signal(number, handler)
 
 
-def _watch(world: Any, ended: threading.Event) -> None:
+def _watch(world: Any, ended: threading.Event, network: Any = None) -> None:
     """Wait for the end, and show what is late on the way."""
-    shown, due = 0, time.monotonic() + SHOW_S
+    shown, due, problem = 0, time.monotonic() + SHOW_S, ""
     while not (ended.wait(TICK_S) or world.over):
         facts = world.facts
+        if network is not None and network.problem != problem:
+            problem = network.problem
+            click.echo(problem, err=True)
         if time.monotonic() < due or facts.get("overruns", 0) == shown:
             continue
         shown, due = facts["overruns"], time.monotonic() + SHOW_S

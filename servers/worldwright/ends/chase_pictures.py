@@ -193,16 +193,19 @@ class PictureThread:
 
     Attributes:
         camera: through which it is drawn; any thread may change it to one of `cameras`.
-        wanted: whether anybody looks.
+        wanted: whether anybody looks at the page.
+        always: whether anybody looks elsewhere.
         jpeg: (number, bytes) of the newest picture.
+        image: (height, width, 3) uint8, the same.
         problem: why nothing is drawn.
     """
 
     def __init__(self, view: Callable[[], LiveView], newest: Callable[[], tuple[Any, Any]], fps: float = FPS) -> None:
         self._view, self._newest, self._fps = view, newest, fps
-        self.camera, self.wanted, self.problem = "", False, ""
+        self.camera, self.wanted, self.always, self.problem = "", False, False, ""
         self.cameras: tuple[str, ...] = ()
         self.jpeg: tuple[int, bytes] = (0, b"")
+        self.image = np.zeros((0, 0, 3), np.uint8)
         self.made: list[Callable[[], object]] = []
         """They are called, on the thread, when there is a newer picture."""
         self._ended, self.ready = threading.Event(), threading.Event()
@@ -225,10 +228,10 @@ class PictureThread:
         self.cameras, shown, due = view.cameras, (None, ""), time.monotonic()
         self.ready.set()
         try:
-            while not self._ended.wait(max(due - time.monotonic(), 0.0) if self.wanted else IDLE_S):
+            while not self._ended.wait(max(due - time.monotonic(), 0.0) if self.wanted or self.always else IDLE_S):
                 state = self._newest()[1]
                 camera = self.camera if self.camera in self.cameras else ""
-                if not self.wanted or state is None or (state is shown[0] and camera == shown[1]):
+                if not (self.wanted or self.always) or state is None or (state is shown[0] and camera == shown[1]):
                     due = time.monotonic() + 1 / self._fps
                     continue
                 due = max(due + 1 / self._fps, time.monotonic())
@@ -236,6 +239,7 @@ class PictureThread:
                 image = view.draw(state, camera)
                 done, data = cv2.imencode(".jpg", image[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, QUALITY])
                 if done:
+                    self.image = image
                     self.jpeg = (self.jpeg[0] + 1, data.tobytes())
                     for call_back in self.made:
                         call_back()

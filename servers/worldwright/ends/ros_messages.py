@@ -79,7 +79,7 @@ class Told:
 
     def clock(self, row: int) -> dict[str, Any]:
         """rosgraph_msgs/Clock."""
-        return {"clock": _stamp(self.ns(row))}
+        return {"clock": stamp(self.ns(row))}
 
     def transforms(self, row: int, bodies: list[int]) -> dict[str, Any]:
         """tf2_msgs/TFMessage: these bodies in `world`."""
@@ -88,8 +88,8 @@ class Told:
                 "header": self._header(row),
                 "child_frame_id": self.frames[body],
                 "transform": {
-                    "translation": _xyz(self._recording.pos[row, body]),
-                    "rotation": _turn(self._recording.quat[row, body]),
+                    "translation": xyz(self._recording.pos[row, body]),
+                    "rotation": turn(self._recording.quat[row, body]),
                 },
             }
             for body in bodies
@@ -109,14 +109,14 @@ class Told:
     def odometry(self, row: int, body: int) -> dict[str, Any]:
         """nav_msgs/Odometry of a loose body's origin; nothing is uncertain, so its covariances are 0."""
         recording, nothing = self._recording, [0.0] * 36
-        turn = matrices(recording.quat[row, body][None])[0]
-        linear, angular = (turn.T @ values[row, body] for values in (recording.linvel, recording.angvel))
-        place = {"position": _xyz(recording.pos[row, body]), "orientation": _turn(recording.quat[row, body])}
+        turned = matrices(recording.quat[row, body][None])[0]
+        linear, angular = (turned.T @ values[row, body] for values in (recording.linvel, recording.angvel))
+        place = {"position": xyz(recording.pos[row, body]), "orientation": turn(recording.quat[row, body])}
         return {
             "header": self._header(row),
             "child_frame_id": self.frames[body],
             "pose": {"pose": place, "covariance": nothing},
-            "twist": {"twist": {"linear": _xyz(linear), "angular": _xyz(angular)}, "covariance": nothing},
+            "twist": {"twist": {"linear": xyz(linear), "angular": xyz(angular)}, "covariance": nothing},
         }
 
     def control(self, row: int, control: int) -> dict[str, Any]:
@@ -125,19 +125,22 @@ class Told:
 
     def picture(self, ns: int, jpeg: bytes, camera: str) -> dict[str, Any]:
         """sensor_msgs/CompressedImage."""
-        return {"header": {"stamp": _stamp(ns), "frame_id": camera}, "format": "jpeg", "data": jpeg}
+        return {"header": {"stamp": stamp(ns), "frame_id": camera}, "format": "jpeg", "data": jpeg}
 
     def _header(self, row: int, frame: str = WORLD) -> dict[str, Any]:
-        return {"stamp": _stamp(self.ns(row)), "frame_id": frame}
+        return {"stamp": stamp(self.ns(row)), "frame_id": frame}
 
 
-def _stamp(ns: int) -> dict[str, int]:
+def stamp(ns: int) -> dict[str, int]:
+    """builtin_interfaces/Time."""
     return {"sec": ns // 10**9, "nanosec": ns % 10**9}
 
 
-def _xyz(values: "np.ndarray") -> dict[str, float]:
+def xyz(values: "np.ndarray") -> dict[str, float]:
+    """A vector or a point, of its three numbers."""
     return dict(zip("xyz", map(float, values), strict=True))
 
 
-def _turn(quat: "np.ndarray") -> dict[str, float]:
+def turn(quat: "np.ndarray") -> dict[str, float]:
+    """geometry_msgs/Quaternion of w x y z."""
     return dict(zip("wxyz", map(float, quat), strict=True))

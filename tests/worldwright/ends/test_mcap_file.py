@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, record
-from worldwright.ends import mcap_file, ros_messages
+from worldwright.ends import mcap_file, ros_messages, ros_rows
 from worldwright.model.errors import GateError, NotFoundError
 
 pytest.importorskip("mcap", reason="the extra `mcap` is not installed")
@@ -116,7 +116,7 @@ def test_plan_and_hash_go_with_it(told, recording):
 
 
 def test_every_row_can_be_told_and_nonsense_is_refused(recording, tmp_path):
-    assert mcap_file.chosen_rows(recording, 0) == list(range(501))
+    assert ros_rows.chosen_rows(recording, 0) == list(range(501))
     with pytest.raises(NotFoundError, match="rows a second"):
         mcap_file.write(recording, tmp_path / "a.mcap", rate_hz=-1)
     with pytest.raises(NotFoundError, match="no film"):
@@ -142,11 +142,11 @@ def test_a_film_is_told_frame_by_frame(recording, tmp_path):
 
 
 def test_names_become_topics():
-    assert [mcap_file.topic(name) for name in ("ball", "2nd ball", "käse/x")] == ["ball", "_2nd_ball", "k_se_x"]
+    assert [ros_rows.topic(name) for name in ("ball", "2nd ball", "käse/x")] == ["ball", "_2nd_ball", "k_se_x"]
 
 
 def test_two_names_never_become_one_topic(tmp_path):
-    assert mcap_file.topics(["a b", "a_b", "a_b_2", "a/b"]) == ["a_b", "a_b_3", "a_b_2", "a_b_4"]
+    assert ros_rows.topics(["a b", "a_b", "a_b_2", "a/b"]) == ["a_b", "a_b_3", "a_b_2", "a_b_4"]
     spec = empty()
     for number, name in enumerate(("a ball", "a_ball")):
         ball(spec, name, (0, number, 2))
@@ -189,6 +189,8 @@ def test_a_run_is_exported_with_its_plan(recording, tmp_path, monkeypatch):
     assert path == tmp_path / "recording.mcap" and len([1 for name, *_ in messages(path) if name == "/clock"]) == 6
     with path.open("rb") as stream:
         assert [bytes(one.data) for one in make_reader(stream).iter_attachments()] == [b"# The plan of a door"]
+    bag = exported.write(Run(tmp_path), "rosbag2", rate_hz=10)
+    assert bag == tmp_path / "recording.bag" and (bag / "plan.md").read_text() == "# The plan of a door"
     video, filmed = {"summary": {"cameras": ["side"], "film": {}}}, {}
     monkeypatch.setattr(gates, "passed", lambda run, key, stage: filmed.get(stage))
     with pytest.raises(GateError, match="as they would be drawn now"):
