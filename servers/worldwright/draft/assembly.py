@@ -264,7 +264,7 @@ class _Writer:
                     keywords |= {"target": row.target}
             elif row.view is not None:
                 keywords["view"] = row.view
-            subjects = row.subjects or self.plan.movers()
+            subjects = row.subjects or self.bodies_that_move()
             if subjects:
                 keywords["subjects"] = self.crowds.listed(subjects)
             if row.fovy != type(row).model_fields["fovy"].default:
@@ -273,6 +273,11 @@ class _Writer:
                 keywords["follow"] = True
             lines.append(call("cameras.add", Raw("spec"), row.name, **keywords))
         return "\n".join(lines)
+
+    def bodies_that_move(self) -> tuple[str, ...]:
+        """What some step expects to move; a soft thing is no body, its points are."""
+        soft = {row.name for row in self.plan.scene_objects if row.soft is not None}
+        return tuple(name for name in self.plan.movers() if name not in soft)
 
     def motion(self) -> str:
         """Initial velocities and joint coordinates."""
@@ -299,7 +304,7 @@ class _Writer:
         """The call that hands the world to the runtime."""
         recording = self.plan.recording_mode
         keywords: dict = {"duration": Raw("DURATION"), "fps": recording.fps, "size": recording.size}
-        if movers := self.plan.movers():
+        if movers := self.bodies_that_move():
             keywords["movers"] = self.crowds.listed(movers)
         if self.parameters.seed:
             keywords["seed"] = self.parameters.seed

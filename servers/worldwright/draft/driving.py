@@ -46,7 +46,7 @@ def control(plan: Plan, needs: Needs) -> str:
     # Neither a solver beside the engine nor the wind of the medium, which `build` has, needs anything from here.
     interventions = [row for row in parameters.interventions if row.solver is None and not _said_again(row, parameters)]
     driven = {row.name: row for row in plan.topology.actuators if row.control is not None}
-    drivers = commanded(plan) | robots_text.commanded(plan)
+    drivers, blown = commanded(plan) | robots_text.commanded(plan), robots_text.blown(plan)
     if not interventions and not driven:
         return ""
     bonded = {name for whole in plan.broken for name in plan.families[whole]}
@@ -58,7 +58,7 @@ def control(plan: Plan, needs: Needs) -> str:
         lines.append(f"    data.actuator({literal(name)}).ctrl[0] = {value}")
     for item in interventions:
         text = f"{item.kind} on {', '.join(item.bodies)}: {item.law} (trigger: {item.trigger}; source: {item.source})"
-        if item.bodies in drivers:
+        if item.bodies in drivers or item.law in blown:
             continue
         if item.kind == "control" and driven and set(item.bodies) <= driven_names(plan, driven):
             lines.insert(2, comment(text))

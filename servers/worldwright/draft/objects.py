@@ -8,7 +8,7 @@ from ..model.plan.committed import AssetRow, Joint, Plan, SceneObject
 from ..model.plan.declared_inputs import Beside
 from ..model.plan.formed import arguments
 from ..model.plan.layout import Scene
-from . import breakables_text, imports
+from . import breakables_text, imports, softs_text
 from .laws_text import Laws
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
@@ -43,6 +43,8 @@ class Objects(Stances):
                 if broken not in looped:
                     looped.add(broken)
                     parts.append(breakables_text.written(self.plan, self.scene, self.needs, self.plan.broken[broken]))
+            elif item.soft is not None:
+                parts.append(softs_text.written(self, item))
             elif (family := self.alike.get(item.name)) is None:
                 parts.append(self.scene_object(item))
             elif family not in looped:

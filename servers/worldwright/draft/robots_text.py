@@ -1,37 +1,53 @@
-"""Write what walks robots: one policy for all robots of a row as a constant, and the line of `control` that commands them."""
+"""Write what drives robots: policies, arms and drones as constants, and the lines of `control` that tell them what to do."""
 
 from math import radians
 from typing import Any
 
 from ..model.plan.committed import Plan
+from ..model.plan.robots_declared import does
 from ..model.plan.scene_objects import AssetRow
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
 
 
 def made(plan: Plan, needs: Needs) -> str:
-    """The walkers of each row, as constants."""
+    """What drives the robots of each row, as constants."""
     parts = []
     for row in plan.assets:
-        if (walks := row.walks) is None:
+        if does(row) is None:
             continue
         needs.use("robots")
-        said = ", ".join(part for part in (walks.address, walks.licence) if part)
-        parts += [comment(f"{walks.policy}: {said}", 0)] if said else []
-        known = {"sha256": walks.sha256} if walks.sha256 else {}
-        parts.append(
-            call(f"{_walkers(row)} = robots.walkers", row.instances, walks.gait, walks.policy, indent=0, **known)
-        )
+        given: tuple[Any, ...] = ()
+        known: dict[str, Any] = {}
+        make = ""
+        if (walks := row.walks) is not None:
+            said = ", ".join(part for part in (walks.address, walks.licence) if part)
+            parts += [comment(f"{walks.policy}: {said}", 0)] if said else []
+            known = {"sha256": walks.sha256} if walks.sha256 else {}
+            make, given = "walkers", (row.instances, walks.gait, walks.policy)
+        elif (picks := row.picks) is not None:
+            make, given = "picker", (row.name, picks.arm, picks.thing, picks.places_on)
+            known = _changed(picks, board="board", from_s="from_s", speed_m_s="speed")
+        elif (flies := row.flies) is not None:
+            make, given = "flier", (row.name, flies.drone, flies.through)
+            known = _changed(flies, speed_m_s="speed", hover_s="hover_s")
+            if (gusts := flies.gusts) is not None:
+                parts.append(comment(f"{row.name}, gusts: {gusts.source}", 0))
+                known["gusts"] = Raw(call("robots.Gusts", gusts.mean_m_s, gusts.strength_m_s, indent=0))
+        parts.append(call(f"{_constant(row)} = robots.{make}", *given, indent=0, **known))
     return "\n".join(parts) + "\n" if parts else ""
 
 
 def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
-    """The lines of `control` that tell the robots of each row where to go, by their servos."""
+    """The lines of `control` that tell the robots of each row what to do, by what is declared to act on them."""
     found = {}
     for row in plan.assets:
+        if (told := does(row)) is None:
+            continue
+        controlled = tuple(actuator for name in row.instances for actuator in told.driven(name))
+        found[controlled] = f"    {_constant(row)}(model, data)"
         if (walks := row.walks) is None:
             continue
-        servos = tuple(servo for name in row.instances for servo in walks.servos(name))
         speed = literal(walks.speed_m_s)
         if walks.until_s is not None:
             speed += f" if data.time < {literal(walks.until_s)} else 0.0"
@@ -39,11 +55,25 @@ def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
         line |= {"y": walks.y_m} if walks.y_m is not None else {}
         line |= {"heading": round(radians(walks.heading_deg), 9)} if walks.heading_deg else {}
         along = call("robots.along", Raw("data"), Raw("name"), indent=0, **line)
-        found[servos] = (
-            f"    told = [{along} for name in {_walkers(row)}.names]\n    {_walkers(row)}(model, data, told)"
+        found[controlled] = (
+            f"    told = [{along} for name in {_constant(row)}.names]\n    {_constant(row)}(model, data, told)"
         )
     return found
 
 
-def _walkers(row: AssetRow) -> str:
-    return f"{constant_name(row.name)}_WALKERS"
+def blown(plan: Plan) -> frozenset[str]:
+    """The laws of the gusts that drones make act themselves."""
+    return frozenset(
+        row.flies.gusts.law for row in plan.assets if row.flies is not None and row.flies.gusts is not None
+    )
+
+
+def _changed(told: Any, **names: str) -> dict[str, Any]:
+    """What a row says otherwise than by default, by the names that the program has for it."""
+    fields = type(told).model_fields
+    return {own: value for key, own in names.items() if (value := getattr(told, key)) != fields[key].default}
+
+
+def _constant(row: AssetRow) -> str:
+    made = "WALKERS" if row.walks is not None else "PICKER" if row.picks is not None else "FLIER"
+    return f"{constant_name(row.name)}_{made}"

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mujoco.introspect import structs
 
+from worldkit import softs
 from worldwright.lint import engine, tools
 from worldwright.lint.case import plan_with
 from worldwright.lint.compiled import planned, touching
@@ -17,7 +18,7 @@ from worldwright.lint.compiled.fetch import Outcome
 from worldwright.lint.compiled.measure import facts
 from worldwright.lint.compiled.view import ModelView
 from worldwright.lint.harm import outcome_of
-from worldwright.lint.rules.model.acting import standing_differs
+from worldwright.lint.rules.model.acting import soft_differs, standing_differs
 from worldwright.lint.rules.model.acting._twins import PLAN, changed
 from worldwright.model.errors import JobError
 from worldwright.model.storage import StorageError
@@ -296,3 +297,13 @@ def test_a_world_of_the_plan_that_a_limit_stopped_is_told_as_such(status):
     plan = plan_with(PLAN)
     (said,) = engine.check_acting(outcome_of(changed()[0]), Outcome(status, wall_s=20.0), plan)
     assert "this machine could not make" in said.message and said.fix != "correct the plan"
+
+
+def test_a_flex_that_bends_by_no_numbers_has_none_of_another():
+    spec = mujoco.MjSpec()
+    softs.add(spec, "jelly", softs.Jelly(1e5, points=3), size=(0.2, 0.2, 0.2), pos=(0, 0, 1), mass=1)
+    softs.add(spec, "cloth", softs.Cloth(1e5, points=3), size=(0.5, 0.5, 0.01), pos=(2, 0, 1), mass=0.1)
+    arrays, texts = facts(spec.compile())
+    view = ModelView(Outcome("compiled", arrays=arrays, texts=texts))
+    sizes = [len(soft_differs._slice(view, "flex_bending", "flex_bendingadr", flex)) for flex in range(2)]
+    assert sizes == [0, view.flex_bending.size] and sizes[1] > 0

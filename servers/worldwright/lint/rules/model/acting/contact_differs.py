@@ -12,7 +12,7 @@ twice as far on the same plan.
 
 Use instead: `contacts.surface` with the plan's constants on every geom of the body, priorities and pairs left alone; to let
 two bodies pass through each other, say so in the plan with `visual_only`. A surface that runs has an intervention of kind
-`force`, `parameter`, `control` or `solver` that names its body, with its speed (`0.8 m/s`, `2 rad/s`) in its law.
+`force`, `parameter`, `control` or `solver` that names its body, with its speed (`0.8 m/s`, `2 rad/s`, a constant's name) in its law.
 """
 
 from collections.abc import Iterator
@@ -23,7 +23,7 @@ import numpy as np
 from worldkit.contacts import restitution_of
 from worldkit.sliding import GRIP
 
-from .....model.plan.law_words import numbers
+from .....model.plan import law_words
 from ....compiled.touching import Touch, Touching
 from ....compiled.view import ModelView
 from ....harm import Measured, after
@@ -77,9 +77,9 @@ def _block(wanted: tuple[Bar, ...], *built: Bar) -> tuple[str, dict[str, object]
     }
 
 
-def _running(constant: str, law: str, of: str) -> tuple[str, dict[str, object]]:
+def _running(constant: str, law: str, of: str, way: tuple[float, float] = (0.45, 0)) -> tuple[str, dict[str, object]]:
     """A case with a ground that runs at 0.45 m/s, the value of this constant, and an intervention on a body."""
-    text, plan = changed("spec.geom('ground').surfacevel = (0.45, 0, 0, 0, 0, 0)")
+    text, plan = changed(f"spec.geom('ground').surfacevel = ({way[0]}, {way[1]}, 0, 0, 0, 0)")
     known: dict = plan["simulation_parameters"]  # type: ignore[assignment]
     said = {constant: {"value": 0.45, "unit": "m/s", "source": "a drawing"}}
     row = {"kind": "force", "bodies": [of], "law": law, "trigger": "always", "source": "the prompt's belt"}
@@ -102,6 +102,8 @@ GOOD = (
     sheet(),
     sheet("spec.worldbody.add_body(name='sheet', pos=(0, 3, 1)).add_geom(size=(.01, 0, 0), contype=0, conaffinity=0)"),
     _running("speed", "runs at 0.45 m/s along +X", "ground"),
+    _running("belt_speed", "runs at belt_speed", "ground"),
+    _running("belt_speed", "runs askew at 0.45 m/s", "ground", (0.36, 0.27)),
     _block(EVEN, *EVEN),
     _block(KNOBBED, (0.25, -0.25, -0.05, "LEAD"), (0.25, 0.25, -0.05, "LEAD"), KNOBBED[1]),
     changed(
@@ -125,6 +127,7 @@ BAD = (
     changed("spec.geom('ground').surfacevel = (1, 0, 0, 0, 0, 0)"),
     _running("belt_speed", "a push of 1 N", "ground"),
     _running("belt_speed", "runs at 0.45 m/s", "crate"),
+    _running("belt_speed", "runs at belt_speed", "ground", (0.45, 0.45)),
     changed("spec.geom('crate').adhesion = 30"),
     changed("spec.geom('crate').margin = 0.02"),
     changed("spec.geom('crate').gap = 0.02"),
@@ -178,10 +181,12 @@ def _soft(view: ModelView, built: Touching, planned: Touching, soft: dict[str, l
 
     How they rebound and give way is the matter's own doing, which no contact of a solid thing can be held against.
     """
+    by_plan = flexed(planned.view)
     for one, flexes in soft.items():
         for other in sorted({*planned.geoms} & {*built.geoms} - {one, *soft}):
             touches = set[Touch]().union(*(built.of_flex(flex, other) for flex in flexes), built.between(one, other))
-            message = _difference(view, touches, planned.between(one, other), solid=False)
+            wanted = set[Touch]().union(*(planned.of_flex(flex, other) for flex in by_plan.get(one, ())))
+            message = _difference(view, touches, wanted | planned.between(one, other), solid=False)
             if message:
                 said = message.format(f"{one} and {other}")
                 yield view.at(
@@ -273,28 +278,39 @@ def _describe_difference(view: ModelView, built: Touch, planned: Touch, *, solid
         return f"{{}} count as touching {shown(built.gap)} m before they meet (gap)"
     if abs(built.adhesion - planned.adhesion) > 1e-9 and not stated(view.plan, built.adhesion, "adhesion", "stick"):
         return f"{{}} stick together by up to {shown(built.adhesion)} N at each point, which the plan does not say"
-    if built.surface != planned.surface and not all(_told(view, v) for v in built.surface if v):
+    if built.surface != planned.surface and not all(_told(view, built.surface[n : n + 6]) for n in (0, 6)):
         speeds = [v for v in built.surface if v]
         return f"a surface between {{}} runs at {shown(speeds)}, which no intervention says"
     return ""
 
 
-def _told(view: ModelView, speed: float) -> bool:
-    """Whether an intervention gives a body whose surface runs at this speed just that speed."""
+def _told(view: ModelView, surface: tuple[float, ...]) -> bool:
+    """Whether interventions give each body with a surface (6,), m/s and rad/s, just its speed, askew or along each axis."""
     assert view.plan is not None
-    for geom in np.flatnonzero(np.isclose(np.abs(view.geom_surfacevel), abs(speed)).any(axis=1)).tolist():
+    parameters = view.plan.simulation_parameters
+    running = np.isclose(view.geom_surfacevel.reshape(-1, 6), surface).all(axis=1)
+    for geom in np.flatnonzero(running).tolist() if any(surface) else ():
         names = {
             view.name("geom", geom),
             view.name("body", int(view.geom_bodyid[geom])),
             holder(view, int(view.geom_bodyid[geom])),
         }
-        if not any(
-            row.kind in DRIVES
-            and names.intersection(row.bodies)
-            and np.isclose(numbers(row.law, "velocity"), abs(speed), rtol=1e-3).any()
-            for row in view.plan.simulation_parameters.interventions
-        ):
+        laws = [row.law for row in parameters.interventions if row.kind in DRIVES and names.intersection(row.bodies)]
+        known = [speed for law in laws for speed in law_words.said(law, "velocity", parameters.constants)]
+        for part in np.abs(surface).reshape(2, 3):
+            if not (_among(known, np.sqrt((part**2).sum())) or _among(known, *part[part > 0])):
+                return False
+    return True
+
+
+def _among(known: list[float], *speeds: float) -> bool:
+    """Whether each of some speeds is a number of its own among those that laws state; none is where there is none, or it is 0."""
+    left = list(known)
+    for speed in filter(None, speeds):
+        same = [value for value in left if np.isclose(value, speed, rtol=1e-3)]
+        if not same:
             return False
+        left.remove(same[0])
     return True
 
 
