@@ -182,7 +182,9 @@ class Stepped:
             at += 8 * len(numbers)
             told = numbers[TOTALS : TOTALS + 3 * row["points"]].reshape(-1, 3), numbers[TOTALS + 3 * row["points"] :]
             of = np.array([bodies.index(body) for body in law.bodies], np.intp)
-            self._laws.append((law, of, numbers[:TOTALS], told, np.zeros(3), ToldMotion(law.name)))
+            self._laws.append(
+                (law, of, numbers[:TOTALS], told, np.zeros(3), ToldMotion(law.name, model.opt.gravity.tolist()))
+            )
             pushed.append(of[of > 0])
         self._gravity = model.opt.gravity.copy()  # which nobody can write afterwards
         self._pushed = np.concatenate([np.zeros(0, np.intp), *pushed])

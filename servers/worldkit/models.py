@@ -20,6 +20,7 @@ from . import beside_program, model_files
 from .bodies import pose_below
 from .joints import Joint
 from .joints import attach as attach_joint
+from .model_looks import dress
 from .model_references import outside
 
 if TYPE_CHECKING:
@@ -78,8 +79,6 @@ def attach(
     """
     import mujoco
 
-    from . import materials
-
     rest = _rest(parsed(text, name, folder, files), name)
     child = parsed(text, name, folder, files)
     root = _root(child, name)
@@ -87,6 +86,8 @@ def attach(
     _strip(child, root, fixed or parent is not None or joint is not None)
     for actuator in [] if actuators is None else [a for a in child.actuators if a.name not in actuators]:
         child.delete(actuator)
+    for number, tie in enumerate(child.equalities):
+        tie.name = tie.name or f"tie_{number}"  # a plan's own world has it too, and is compared with this one by names
     before = root.name
     owner, pose, quat = pose_below(spec, name, pos, yaw_deg, parent)
     body = owner.add_frame().attach_body(root, f"{name}_", "")
@@ -103,12 +104,7 @@ def attach(
         _seen_once(part)
         for number, geom in enumerate(part.geoms):
             geom.name = geom.name or f"{part.name}/{number}"
-            if not geom.material and geom.rgba[:3].tolist() == [0.5, 0.5, 0.5]:
-                geom.material = materials.add(spec, look or "plastic_white")
-            if surface and (geom.contype or geom.conaffinity):
-                for key, value in surface.items():
-                    if key != "density":
-                        setattr(geom, key, value)
+            dress(spec, geom, f"{name}_", look, surface)
     if fixed:
         for part in body.bodies:
             spec.add_exclude(bodyname1=name, bodyname2=part.name)

@@ -672,6 +672,15 @@ def test_however_much_a_corner_has_to_say_the_speed_stands_in_it():
     assert np.allclose(slow[:, first[0] : first[0] + span], alone[:, first[1] : first[1] + span], atol=60)
 
 
+def test_the_corner_says_it_without_a_dark_ground_and_small():
+    grey = np.full((720, 1280, 3), 200, np.uint8)
+    shown = letter(grey, 1.0, [], 0.5, False).astype(int)[..., 0]
+    rows, columns = np.nonzero(np.abs(shown - 200) > 8)
+    words = shown[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
+    assert np.ptp(rows) < 0.05 * 720 and np.median(words) > 170
+    assert words.max() - words.min() > 70, "and it can be read on a bright picture"
+
+
 def test_captions_come_and_go():
     black = np.zeros((270, 480, 3), np.uint8)
     captions = [{"text": "A ball falls", "place": "bottom", "start_s": 1.0, "end_s": 3.0}]

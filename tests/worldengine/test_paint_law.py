@@ -1,8 +1,9 @@
 """The worked law of the skill media, poured for a second and a half: volume, weight, flow and mixing."""
 
-import re
+import importlib.util
 import types
 from pathlib import Path
+from typing import Any
 
 import mujoco
 import numpy as np
@@ -14,32 +15,28 @@ from worldengine.inputs.declared_media import Medium
 from worldengine.recording import point_colours, stored
 from worldkit import moved_shapes
 
-PAGE = Path(__file__).parents[2] / "skills" / "media" / "references" / "paint.md"
+LAWS = Path(__file__).parents[2] / "skills/media/references/two-paints/laws"
 STEPS = 60
 """Of 0.02 s."""
 
 
 @pytest.fixture(scope="module")
 def law() -> types.ModuleType:
-    """The page's law as a module, with the function of its program that makes the skin."""
-    text, more = re.findall(
-        r"^```python program\n(.*?)^```$", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL
-    )
-    module = types.ModuleType("paint")
-    exec(compile(text, "laws/paint.py", "exec"), module.__dict__)  # the page's own text
-    body = more[more.index("def film") : more.index("program.main")]
-    exec(compile(body, "simulation.py", "exec"), module.__dict__ | {"moved_shapes": moved_shapes}, made := {})
-    module.film = made["film"]
+    """The case's law as a module."""
+    spec = importlib.util.spec_from_file_location("paint", LAWS / "paint.py")
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
     return module
 
 
-def canvas(law: types.ModuleType) -> mujoco.MjSpec:
+def canvas(paint: Any) -> mujoco.MjSpec:
     spec = empty(time_step=0.02)
     board = spec.worldbody.add_body(
         name="canvas", pos=(0, 0, 0.1), quat=(np.cos(np.radians(7)), np.sin(np.radians(7)), 0, 0)
     )
-    board.add_geom(name="canvas", type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.3, 0.22, 0.01), rgba=(0.9, 0.9, 0.87, 1))
-    law.film(spec)
+    board.add_geom(name="canvas", type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.2, 0.16, 0.01), rgba=(0.9, 0.9, 0.87, 1))
+    moved_shapes.surface(spec, "film", paint.points, paint.triangles)
     return spec
 
 
@@ -47,7 +44,8 @@ def canvas(law: types.ModuleType) -> mujoco.MjSpec:
 def poured(law: types.ModuleType, tmp_path_factory: pytest.TempPathFactory) -> stored.Recording:
     folder = tmp_path_factory.mktemp("paint") / "out"
     rows = (Medium("paint", (), "film", world=True),)
-    return run(folder, law.Paint(0.9, 1250.0), canvas(law), rows, steps=STEPS)
+    paint = law.Paint(0.9, 1250.0)
+    return run(folder, paint, canvas(paint), rows, steps=STEPS)
 
 
 def test_no_volume_no_mass_and_no_momentum_comes_from_nowhere(poured: stored.Recording) -> None:

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import numpy as np
 
-from worldengine.film import directed, puffs
+from worldengine.film import directed, puffs, stand_ins, thick_puffs
 from worldengine.film.renderers.preview.eye import View
 from worldengine.film.treatment import Treatment
 
@@ -79,3 +79,47 @@ def test_where_nothing_says_how_far_away_things_are_they_are_left_out_and_that_i
     monkeypatch.setattr(directed, "letter", lambda image, *words: image)
     assert [screening.lettered(frame, "plain") for frame in (0, 1)] == ["plain", "plain"]
     assert asked == [0] and screening.puffless == "RuntimeError: no context"
+
+
+def cloud(places, wide, opaque):
+    """One kind of puffs in one frame."""
+    count = len(places)
+    arrays = {"p": np.array([places], np.float32), "w": np.full((1, count), wide), "o": np.full((1, count), opaque)}
+    return {"name": "mist", "rgb": (1, 1, 1), "places": "p", "wide": "w", "opaque": "o"}, arrays
+
+
+def test_what_puffs_hide_half_of_is_behind_them() -> None:
+    eye, ball = np.zeros(3), np.array([0.0, 4.0, 0.0])
+    for places, opaque, hides in (
+        ([(0, 2, 0)], 0.6, True),
+        ([(0, 2, 0)], 0.4, False),
+        ([(0, 2, 0), (0, 3, 0)], 0.4, True),  # two of them let 0.36 through
+        ([(0, 5, 0)], 0.9, False),  # behind the ball
+        ([(0, -2, 0)], 0.9, False),  # behind the eye
+        ([(0.5, 2, 0)], 0.9, False),  # aside
+    ):
+        one, arrays = cloud(places, 0.4, opaque)
+        assert thick_puffs.before((one,), arrays, 0, eye, ball) == ("mist" if hides else "")
+    assert thick_puffs.before((), {}, 0, eye, ball) == ""
+
+
+def test_thick_puffs_are_told_as_large_as_a_mover_and_thin_ones_are_not() -> None:
+    boxed = {
+        "name": "skin",
+        "body": "ball",
+        "type": "sphere",
+        "aabb": [0, 0, 0, 0.1, 0.1, 0.1],
+        "pos": [0, 0, 0],
+        "quat": [1, 0, 0, 0],
+    }
+    recording = SimpleNamespace(
+        meta={"movers": ["ball"], "geoms": [boxed], "movements": {}}, names=["ball"], time=np.zeros(2),
+        pos=np.zeros((2, 1, 3)), quat=np.tile((1.0, 0, 0, 0), (2, 1, 1)),
+    )  # fmt: skip
+    row = [(0.1 * n, 0.0, 0.0) for n in range(2)]
+    for places, opaque, told in ((row, 0.7, True), (row, 0.2, False), (row * 8, 0.2, True)):
+        one, arrays = cloud(places, 0.15, opaque)
+        (found,) = stand_ins.of_puffs((one,), arrays, recording)
+        assert ("as large as ball" in found.get("like", "")) == told, (opaque, len(places))
+        film = SimpleNamespace(things=(), puffs=(found,), arrays=arrays)
+        assert stand_ins.words(film, 0) == ("drawn: mist" if told else "")

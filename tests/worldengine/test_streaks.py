@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from worldengine.film import streaks
+from worldengine.film import round_things, screws, streaks
 from worldengine.film.carrying import Surfaces
 from worldengine.film.renderers.preview.eye import View
 
@@ -127,7 +127,7 @@ def test_half_a_turn_goes_along_its_arc(axis, short):
 
     pivot = np.array([0.3, -0.2, 0.5])
     turn = by(np.pi - short)
-    half, step = streaks._screwed(turn[None], (pivot - turn @ pivot)[None], 0.5)
+    half, step = screws.screwed(turn[None], (pivot - turn @ pivot)[None], 0.5)
     ways = [by(sign * (np.pi - short) / 2) for sign in (1, -1)][: 1 if short >= 1e-9 else 2]
     (sure,) = [way for way in ways if np.allclose(half[0], way, atol=1e-6)]
     assert step[0] == pytest.approx(pivot - sure @ pivot, abs=1e-6)
@@ -143,3 +143,50 @@ def test_what_turns_half_around_is_smeared():
     picture[SQUARE][::4] = (250, 250, 250)
     changed = np.abs(streaks.streaked(picture, shown, turned, view()).astype(int) - picture).max(axis=2)
     assert changed[42:76:2, 62:66].max() > 30
+
+
+def test_a_ball_that_spins_keeps_its_outline_and_one_that_is_no_ball_would_not():
+    """Its axis lies across the view, as of one that rolls towards the camera: what is above it would come onto it."""
+    picture, things, depth = np.full((*SIZE, 3), 90, np.uint8), np.full(SIZE, WALL, np.int32), np.full(SIZE, 4.0)
+    row, column = np.indices(SIZE)
+    away = np.hypot(row - 59.5, column - 79.5)
+    ball = away < 30
+    picture[ball], things[ball] = (220, 30, 30), MOVER
+    depth[ball] = 2.0 - 0.6 * np.sqrt(1 - (away[ball] / 30) ** 2)
+    picture[ball & (row % 12 < 4)] = (250, 250, 250)
+    turned, angle = REST.copy(), 1.2
+    turned[MOVER, :, :3] = [[1, 0, 0], [0, np.cos(angle), -np.sin(angle)], [0, np.sin(angle), np.cos(angle)]]
+    shown = Surfaces(things, depth.astype(np.float32), REST, view())
+    flung = np.abs(streaks.streaked(picture, shown, turned, view()).astype(int) - picture).max(axis=2)
+    assert flung[away > 32].max() > 20, "as a part of a larger thing"
+    shown = Surfaces(things, depth.astype(np.float32), REST, view(), rounds=np.array([round_things.ALL_ROUND, 0, 0]))
+    smeared = streaks.streaked(picture, shown, turned, view())
+    off = np.abs(smeared.astype(int) - picture).max(axis=2)
+    assert off[away > 32].max() == 0 and off[away < 20].max() > 20
+    assert smeared[(away > 26) & (away < 29), 1].max() < 254 and smeared[away < 29, 0].min() > 180, (
+        "nothing shows through it"
+    )
+
+
+@pytest.mark.parametrize("most", [0.0, 0.1, 9.0])
+def test_a_rolling_cylinder_swings_but_spins_no_more_than_so_much(most):
+    def by(axis, angle):
+        x, y, z = axis
+        cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        return np.eye(3) + np.sin(angle) * cross + (1 - np.cos(angle)) * cross @ cross
+
+    now = at((0, 0, 0), (1, 0, 0), (2, 0, 0))
+    now[:, :, :3] *= (0.2, 0.2, 0.5)
+    then = now.copy()
+    swing, spin = by((1, 0, 0), 0.2), by((0, 0, 1), 0.7)
+    then[:, :, :3] = swing @ spin @ now[:, :, :3]
+    then[:, :, 3] += 0.3
+    found = round_things.spun(
+        now, then, np.array([round_things.ABOUT_Z, round_things.ALL_ROUND, round_things.NOT]), most
+    )
+    assert found[0, :, :3] == pytest.approx(swing @ by((0, 0, 1), min(most, 0.7)) @ now[0, :, :3], abs=1e-9)
+    whole = swing @ spin
+    angle = np.arccos((np.trace(whole) - 1) / 2)
+    left = found[1, :, :3] @ np.linalg.inv(now[1, :, :3])
+    assert np.arccos(np.clip((np.trace(left) - 1) / 2, -1, 1)) == pytest.approx(min(most, angle), abs=1e-6)
+    assert np.array_equal(found[2], then[2]) and np.array_equal(found[:, :, 3], then[:, :, 3])

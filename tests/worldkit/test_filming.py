@@ -398,7 +398,7 @@ def test_trees_keep_their_budget_stand_on_the_ground_and_are_the_same_again(on_h
     with pytest.raises(ProgramError, match="beside its ground"):
         on_hill.tree("more", kind, at=[(5, 0)], z="hill")
     with pytest.raises(ProgramError, match="conifer or broadleaf"):
-        on_hill.tree("more", "palm", at=[(0, 0)])
+        on_hill.tree("more", "baobab", at=[(0, 0)])
 
 
 def test_a_limb_is_one_tapered_skin_over_a_chain_each_piece_fixed_to_its_body():

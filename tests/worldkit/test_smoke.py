@@ -27,6 +27,15 @@ def test_they_leave_at_its_rate_and_go_no_further_than_their_drag_lets_them() ->
     assert all((one == other).all() for one, other in zip(told()[1:], (places, wide, opaque), strict=True))
 
 
+def test_where_a_puff_comes_from_is_asked_once_and_not_in_every_frame() -> None:
+    film = Film(Recorded.rehearsal({"ball": np.zeros((10, 3))}, duration=1.0))
+    asked = []
+    film.emit("mist", lambda times: (asked.append(len(times)), np.zeros((len(times), 3)))[1], rate=100.0, life=0.5)
+    film.shot(still((0, -3, 1), (0, 0, 1)), until=1.0)
+    film.description()
+    assert sum(asked) <= 100 * 1.5 + 2  # those that left, and one life of seats not yet taken
+
+
 def test_they_ebb_with_its_rate() -> None:
     time, _, wide, _ = told(rate=lambda t: 200.0 * (t < 0.4))
     assert (wide[time > 0.92] == 0).all() and (wide[np.abs(time - 0.35) < 0.05] > 0).any()

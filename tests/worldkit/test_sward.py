@@ -90,5 +90,13 @@ def test_the_edge_of_a_wood_is_far_behind_and_each_crown_another():
         assert np.hypot(*(edge.vertices[:, :2] - place.middle).T).min() > 40
     points, faces = far_woods.crowns(np.array([(0.0, 0.0), (30.0, 0.0)]), 10.0, 0.0, random)
     one, other = np.split(points, 2)
-    assert len(faces) * 2 == len(points) and abs(np.ptp(one[:, 2]) - np.ptp(other[:, 2])) > 1e-3
+    assert (
+        np.array_equal(np.unique(faces), np.arange(len(points))) and abs(np.ptp(one[:, 2]) - np.ptp(other[:, 2])) > 1e-3
+    )
+    largest = np.linalg.norm(np.diff(points[faces[: 2 * far_woods.CLUMPS]], axis=1), axis=2).max()
+    assert largest < 0.15 * np.ptp(one[:, 2]), "a clump is foliage, not a sheet as large as a door"
+    hearts = one[4 * far_woods.CLUMPS :]
+    assert np.hypot(hearts[:, 0], hearts[:, 1]).max() < np.hypot(one[:, 0], one[:, 1]).max(), (
+        "the closed part is within"
+    )
     assert points[:, 2].min() > -2.0 and 4.0 < points[:, 2].max() < 12.5

@@ -38,7 +38,34 @@ def test_those_that_they_have_are_not() -> None:
     looked(going(0.0, 0.0))
 
 
-def test_what_flows_through_a_grid_and_what_is_poured_is_not_asked() -> None:
+def flowing(told: float, way: float = 0.0) -> list[SimpleNamespace]:
+    """Matter that flows from the first point of a grid to the other, 0.1 m away, at a hundredth a question: 0.001 m by 0.01 s."""
+    places = [START + np.array([way * n, 0, 0]) for n in range(30)]
+    return [law(place, (told, 0, 0), (1.0 - 0.01 * n, 1.0 + 0.01 * n)) for n, place in enumerate(places)]
+
+
+def test_what_flows_through_a_grid_is_held_by_its_centre_of_mass() -> None:
+    looked(flowing(0.05))  # of 2 kg 0.01 kg go 0.1 m in 0.01 s
+    for told in (0.0, -0.05, 0.5):
+        with pytest.raises(ProgramError, match="tells velocities"):
+            looked(flowing(told))
+
+
+def test_masses_that_keep_changing_hide_no_motion() -> None:
+    jitter = [lambda n: (1.0 + 1e-12 * (n % 2), 1.0 - 1e-12 * (n % 2)), lambda n: (1.0 + 1e-6 * n, 1.0 - 1e-6 * n)]
+    for mass in jitter:
+        looked(going(0.5, 0.5, mass=mass))
+        for speed, told in ((0.5, 0.0), (0.5, -0.5), (0.0, 3.0)):
+            with pytest.raises(ProgramError, match="tells velocities"):
+                looked(going(speed, told, mass=mass))
+    there_and_back = [
+        law(START + 0.005 * n * np.array([[1.0, 0, 0], [-1.0, 0, 0]]), (0, 0, 0), jitter[0](n)) for n in range(30)
+    ]
+    with pytest.raises(ProgramError, match="they went"):  # whose centre of mass stays
+        looked(there_and_back)
+
+
+def test_what_flows_in_and_what_is_poured_is_not_asked() -> None:
     looked(going(0.0, 0.5, mass=lambda n: (1.0 + n, 1.0 - 0.01 * n)))
     looked([law(START, (0, 0, 0))] * 5 + [law(START + np.array([3.0, 0, 0]), (0, 0, 0))] * 25)
 

@@ -54,6 +54,8 @@ class Surfaces:
     """How wide outlines are mixed with what is behind them; 0 where that is not asked for."""
     behind: "Surfaces | None" = None
     """The same without all that is see-through; None where nothing is, or where that is not asked for."""
+    rounds: np.ndarray | None = None
+    """How each thing is round, by `round_things`: (N,)."""
 
     @cached_property
     def near(self) -> np.ndarray:

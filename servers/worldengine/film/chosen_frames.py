@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from worldkit.files import write_atomic
 
 from ..recording.replay import Replay
-from .encode import write_png
+from .encode import PASSING, write_png
 from .light_meter import reading
 from .picture_grid import labelled, laid_out
 from .renderers import FINAL, Quality
@@ -141,7 +141,7 @@ def each(
                 if drawn and time.perf_counter() > until:
                     break
                 _, at_s, camera = options.seen[place]
-                write_png(options.out / picture_name(place), draw(at_s, camera))
+                write_png(options.out / picture_name(place), draw(at_s, camera), PASSING)
                 drawn.append(place)
     return {"cameras": list(dict.fromkeys(options.seen[place][2] for place in drawn)), "drawn": drawn}
 

@@ -25,7 +25,7 @@ def sizes(things: "tuple[dict[str, Any], ...]", arrays: "dict[str, np.ndarray]")
     if flying:
         count = sum(arrays[thing["ways"]].shape[1] for thing in flying)
         frames = len(arrays[flying[0]["ways"]])
-        looked = min(frames, int(np.clip(POINTS // count, 4, FRAMES)))
+        looked = min(frames, looks_at(count))
         owner = np.repeat(np.arange(len(flying)), [arrays[thing["ways"]].shape[1] for thing in flying])
         for frame in np.unique(np.linspace(0, frames - 1, looked).astype(int)):
             points = np.concatenate([arrays[thing["ways"]][frame] for thing in flying])
@@ -35,6 +35,16 @@ def sizes(things: "tuple[dict[str, Any], ...]", arrays: "dict[str, np.ndarray]")
                 for number in np.unique(owner[seen][mine]):
                     found[flying[number]["name"]].append(side)
     return {name: np.array(sides) for name, sides in found.items()}
+
+
+def looks_at(count: int) -> int:
+    """In how many frames so many points are looked at."""
+    return int(np.clip(POINTS // max(count, 1), 4, FRAMES))
+
+
+def sides(points: np.ndarray, radii: np.ndarray) -> list[float]:
+    """The longest sides, m, of all clumps of at least two of balls (P, 3), m, of radii (P,), m."""
+    return [side for _, side in _clumps(points, radii)]
 
 
 def _radius(thing: "dict[str, Any]", arrays: "dict[str, np.ndarray]") -> float:

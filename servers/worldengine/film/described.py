@@ -92,7 +92,7 @@ class Described:
                 about = [f"on {thing['to']}" * bool(thing["to"]), thing.get("like", "")]
                 said.append(thing["name"] + (f" ({', '.join(filter(None, about))})" if any(about) else ""))
         said += [stand_ins.covered(one, self.things) for one in self.surfaces]
-        said += [f"{one['name']} (puffs)" for one in self.puffs]
+        said += [f"{one['name']} ({', '.join(filter(None, ('puffs', one.get('like'))))})" for one in self.puffs]
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
@@ -203,7 +203,7 @@ def _checked(
     air = [_air(one) for one in told["air"]]
     return Described(
         tuple(shots), captions, Treatments(air, stated, gobos.told(told)), things, surfaces, lamps, panels, looks, share, samples,
-        arrays, _breeze(told), puffs.check(told, arrays, n),
+        arrays, _breeze(told), stand_ins.of_puffs(puffs.check(told, arrays, n), arrays, recording),
     )  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from worldkit import cameras, turning
 from worldkit.filming.viewpoints import axes
 
 from ..recording.replay import Replay
-from . import camera_roll, puffs, smear, stand_ins, streaks, time_map
+from . import camera_roll, puffs, smear, stand_ins, streaks, thick_puffs, time_map
 from .described import Described
 from .drawn_frames import Frames
 from .dressed import CAMERA, DressedReplay, dress, surfaces
@@ -98,6 +98,7 @@ class Screening:
         """Called whenever a moment is set up, since a picture may take minutes."""
         self.frames = Frames(self.model, *size, renderer)
         self._seen: Shaded | None = None
+        self._shown = 0
         self.puffless = ""
         """Why no puffs are drawn, where the driver does not say how far away is what a picture shows."""
         self._sharp = ""
@@ -264,6 +265,7 @@ class Screening:
         self.tick()
         film = self.film
         shot, low, high, part = self._between(at)
+        self._shown = low if part < 0.5 else high
 
         def told(name: str) -> Any:
             values = film.arrays[name]
@@ -314,7 +316,7 @@ class Screening:
         """The film's own things that cover the middle of a moving body in the frame drawn last: `ball behind pillar`.
 
         The plan's cameras are drawn without them, so evidence is never hidden; the statement tells where the film hides it.
-        What sways counts where the breeze has carried it.
+        What sways counts where the breeze has carried it; puffs, where together they hide half of what is behind them.
         """
         if self._blown is not None and self._movers:
             self._swaying.blow(self._replay.data, self._blown)
@@ -330,7 +332,8 @@ class Screening:
         eye = np.array(data.cam_xpos[self._camera])
         groups = np.array([1, 1, 1, 0, 0, 0], np.uint8)
         skins = {f"drawn.{thing['name']}" for thing in self.film.things if thing.get("instead")}
-        stands = self.film.things or any(panel["seen"] for panel in self.film.panels)
+        clouds = () if self.puffless else self.film.puffs
+        stands = clouds or self.film.things or any(panel["seen"] for panel in self.film.panels)
         for name in self._movers if stands else ():
             body = self.model.body(name).id
             to = data.xipos[body] - eye
@@ -351,6 +354,8 @@ class Screening:
                     break
                 # Neither the mover itself nor its skin hides it.
                 gone += met + PAST_M
+            if cloud := thick_puffs.before(clouds, self.film.arrays, self._shown, eye, data.xipos[body]):
+                found.append(f"{name} behind {cloud}")
         return found
 
     def segmentation(self) -> "np.ndarray":

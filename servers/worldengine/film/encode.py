@@ -25,15 +25,15 @@ DELAY = 2
 """So many frames before its place a packet is decoded. The encoder needs no more for frames that look both ways, but fewer in a
 part of one or two, and times of decoding may not run back from part to part."""
 
-PNG_LEVEL = 5
-"""How hard a still is packed, of 9."""
+PNG_LEVEL, PASSING = 5, 1
+"""How hard a still is packed, of 9, and one that is read once and thrown away."""
 
 
-def write_png(path: Path, image: "np.ndarray") -> None:
+def write_png(path: Path, image: "np.ndarray", level: int = PNG_LEVEL) -> None:
     """Atomically write an RGB picture, uint8 (height, width, 3)."""
     import cv2  # a tenth of a second sooner there than what writes films
 
-    good, coded = cv2.imencode(".png", image[:, :, ::-1], (cv2.IMWRITE_PNG_COMPRESSION, PNG_LEVEL))
+    good, coded = cv2.imencode(".png", image[:, :, ::-1], (cv2.IMWRITE_PNG_COMPRESSION, level))
     if not good:
         raise OSError(f"{path.name} cannot be written as PNG")
     write_atomic(path, coded.tobytes())

@@ -128,27 +128,9 @@ def _cut(text: str, size: int, weight: int, most: int) -> str:
 
 
 def _badge(image: "np.ndarray", words: str) -> None:
-    """Write how fast the film runs, and what fits beside it, on a dark tag in the upper right corner."""
-    import cv2
-    import numpy as np
-
+    """Write how fast the film runs, and what fits beside it, small and without a ground in the upper right corner."""
     height, width = image.shape[:2]
-    size = max(round(height * 0.036), 11)
-    pad, edge = round(size * 0.55), round(height * 0.035)
-    words = _cut(words, size, 500, width - 2 * (edge + pad))
-    wide, tall = _extent(words, size, 500)
-    x0, y0, x1, y1 = width - edge - wide - 2 * pad, edge, width - edge, edge + tall + 2 * pad
-    tag = np.zeros((height, width), np.uint8)
-    radius = min(pad, (y1 - y0) // 2)
-    for box in ((x0 + radius, y0, x1 - radius, y1), (x0, y0 + radius, x1, y1 - radius)):
-        cv2.rectangle(tag, box[:2], box[2:], 255, -1)
-    for corner in (
-        (x0 + radius, y0 + radius),
-        (x1 - radius, y0 + radius),
-        (x0 + radius, y1 - radius),
-        (x1 - radius, y1 - radius),
-    ):
-        cv2.circle(tag, corner, radius, 255, -1, cv2.LINE_AA)
-    share = tag.astype(np.float32)[..., None] / 255 * 0.55
-    image[...] = (image * (1 - share) + np.array([18, 18, 20], np.float32) * share).astype(np.uint8)
-    _write(image, words, (x0 + pad, y1 - pad), size, 500, (255, 255, 255), 1.0)
+    size, edge = max(round(height * 0.028), 11), round(height * 0.035)
+    words = _cut(words, size, 450, width - 2 * edge)
+    wide, tall = _extent(words, size, 450)
+    _write(image, words, (width - edge - wide, edge + tall), size, 450, (250, 248, 244), 0.9)

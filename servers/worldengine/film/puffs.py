@@ -53,6 +53,11 @@ def check(told: dict[str, Any], arrays: dict[str, Array], frames: int) -> tuple[
     return tuple(found)
 
 
+def depth_of(opaque: Array) -> Array:
+    """The optical depth in the middle of puffs that hide such shares of what is behind them."""
+    return np.asarray(-np.log1p(-np.minimum(opaque, 0.98)))
+
+
 def over(
     picture: Array,
     arrays: dict[str, Array],
@@ -83,7 +88,7 @@ def over(
         return picture
     light = _lit(places[there], radius, opaque, _sun(treatment))
     x, y, wide, deep, radius, opaque, rgb, light = (a[inside] for a in (x, y, wide, deep, radius, opaque, rgb, light))
-    thick = -np.log1p(-np.minimum(opaque, 0.98))
+    thick = depth_of(opaque)
     colour = (rgb**2.2) * light[:, None]
     edges = np.geomspace(deep.min() * 0.999, deep.max() * 1.001, SLICES + 1)
     slices = np.clip(np.searchsorted(edges, deep) - 1, 0, SLICES - 1)
@@ -170,7 +175,7 @@ def _lit(places: Array, radius: Array, opaque: Array, sun: Array) -> Array:
     low, size = along.min(axis=0), np.maximum(np.ptp(along, axis=0), 2 * float(radius.mean()))
     cell = np.clip(((along - low) / size * GRID).astype(int), 0, GRID - 1)
     area = size[0] * size[1] / GRID**2
-    depth = -np.log1p(-np.minimum(opaque, 0.98)) * np.pi * radius**2 / 2 / max(area, 1e-12)
+    depth = depth_of(opaque) * np.pi * radius**2 / 2 / max(area, 1e-12)
     grid: Array = np.bincount(np.ravel_multi_index(cell.T, (GRID,) * 3), depth, minlength=GRID**3).reshape((GRID,) * 3)
     wide = np.pad(grid, ((1, 1), (1, 1), (0, 0)))  # a puff is no cell; what it shades beyond the grid is lost
     wide = (wide[:-2] + 2 * wide[1:-1] + wide[2:]) / 4

@@ -1,6 +1,6 @@
 """What is drawn only and could be taken for a mover: as large as it, and flying or riding about, or standing in its place.
 
-Particles are as large as what they make together (`clumps`), above all under one surface. It may be drawn, and says so: its size in statement and report, and its name in the picture's corner, unless it is the dress of the very mover it is fixed to.
+Particles are as large as what they make together (`clumps`), above all under one surface, and so are puffs of smoke that are too thick for any (`thick_puffs`). It may be drawn, and says so: its size in statement and report, and its name in the picture's corner, unless it is the dress of the very mover it is fixed to.
 """
 
 from typing import TYPE_CHECKING, Any
@@ -48,9 +48,7 @@ def told(
     from .motion_facts import boxes
 
     under = {name: surface["name"] for surface in surfaces for name in surface["of"]}
-    moving = movers(recording)
-    shaped = {geom["body"] for geom in recording.meta["geoms"] if geom["type"] != "plane"}
-    names = [name for name in moving if name in shaped]  # a vertex of a cloth has no size of its own
+    moving, names = movers(recording), _shaped(recording)
     if not names or not things:
         return things
     index = [recording.names.index(name) for name in names]
@@ -72,6 +70,27 @@ def told(
         worn = bool(like) and rides and _worn(thing, size, centre, names, middle, half)
         found.append(thing | like | ({"worn": True} if worn else {}))
     return tuple(found)
+
+
+def of_puffs(
+    rows: "tuple[dict[str, Any], ...]", arrays: "dict[str, np.ndarray]", recording: "Recording"
+) -> "tuple[dict[str, Any], ...]":
+    """The puffs, with `like` of those of which some are together as thick as a thing, and as large as a mover."""
+    from . import thick_puffs
+    from .motion_facts import boxes
+
+    names = _shaped(recording) if rows else []
+    if not names:
+        return rows
+    _, half = boxes(recording)
+    largest = 2 * half[[recording.names.index(name) for name in names]].max(axis=1)
+    return tuple(one | _clumped(thick_puffs.sizes(one, arrays), False, names, largest) for one in rows)
+
+
+def _shaped(recording: "Recording") -> list[str]:
+    """The movers that have a size: a vertex of a cloth has none of its own."""
+    shaped = {geom["body"] for geom in recording.meta["geoms"] if geom["type"] != "plane"}
+    return [name for name in movers(recording) if name in shaped]
 
 
 def _worn(
@@ -178,6 +197,8 @@ def covered(surface: dict[str, Any], things: "tuple[dict[str, Any], ...]") -> st
 
 def words(film: Any, frame: int) -> str:
     """What the picture says of them: `drawn: dust`; empty where none is shown. What a mover wears, the statement alone tells."""
+    from . import thick_puffs
+
     shown = [
         thing.get("under") or thing["name"]
         for thing in film.things
@@ -185,5 +206,7 @@ def words(film: Any, frame: int) -> str:
         and not thing.get("worn")
         and (not thing.get("ways") or film.arrays[thing["sizes"]][frame].max() > 0)
     ]
+    puffs = [one for one in film.puffs if one.get("like")]
+    shown += [one["name"] for one in puffs if thick_puffs.thick(one, film.arrays, frame).any()]
     shown = list(dict.fromkeys(shown))
     return f"drawn: {', '.join(shown[:3])}{' …' * (len(shown) > 3)}" if shown else ""

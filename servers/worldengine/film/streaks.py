@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from . import carrying
+from . import carrying, round_things, screws
 
 if TYPE_CHECKING:
     from .carrying import Surfaces
@@ -26,8 +26,6 @@ FEWEST, MOST = 3, 24
 """Places that are added up."""
 LONGEST = 0.15
 """No streak is longer than this share of the picture's height: a longer one would be steps."""
-SHAPED = 1e-3
-"""By so much no two edges of a thing are out of the square that only turns."""
 LIGHT = (np.arange(256, dtype=np.float32) / 255) ** 2.2
 STEPS = 4095
 SHADE = np.rint(255 * (np.arange(STEPS + 1) / STEPS) ** (2 / 2.2)).astype(np.uint8)
@@ -76,6 +74,10 @@ class Goers(NamedTuple):
     """How its way bends, pixels: at a share s of it, from -1/2 to 1/2, it is s * way + s² * bow beside its middle; float32 (N, 2)."""
     depth: np.ndarray
     """How far away it is, m (N,)."""
+    round: np.ndarray
+    """Where the thing is round, and turns (R,): numbers of these pixels; its outline goes otherwise than its pattern."""
+    outline: tuple[np.ndarray, np.ndarray]
+    """Ways and bows (R, 2) of that outline."""
 
     def around(self, height: int, width: int) -> tuple[slice, slice]:
         """Rows and columns of the part of a picture that is read for them."""
@@ -89,6 +91,11 @@ class Goers(NamedTuple):
         """Columns and rows of what comes to these pixels at a share of its way, which it goes on an arc that ends here."""
         x, y = (share * (share * self.bows - self.ways)).T
         return self.columns + x, self.rows + y
+
+    def outlines(self, share: float) -> tuple[np.ndarray, np.ndarray]:
+        """The same of the outlines of what is round: columns and rows (R,)."""
+        x, y = (share * (share * self.outline[1] - self.outline[0])).T
+        return self.columns[self.round] + x, self.rows[self.round] + y
 
     def moved(self, part: tuple[slice, slice]) -> Goers:
         """The same in a part of the picture."""
@@ -151,15 +158,29 @@ def _along_all(light: np.ndarray, ways: np.ndarray, mover: np.ndarray) -> np.nda
 
 
 def _goers(now: Surfaces, poses: np.ndarray, view: View, mover: np.ndarray, share: float) -> Goers:
+    rounds = now.rounds
+    held = poses if rounds is None else round_things.spun(now.poses, poses, rounds)
+    if rounds is not None:
+        poses = round_things.spun(now.poses, poses, rounds, round_things.MOST_RAD / max(share, 1e-9))
     longest = LONGEST * now.depth.shape[0]
     rows, columns = np.nonzero(mover)
     far, _ = _ways(now, poses, view, rows, columns, now.things[mover], now.depth[mover], share)
     rim = int(np.ceil(min(float(np.abs(far).max()), longest) / 2)) + 1
     rows, columns, things, depth = carrying.rimmed(now, mover, np.ones((2 * rim + 1,) * 2, np.uint8), rim)
-    ways, bows = _ways(now, poses, view, rows, columns, things, depth, share)
+    ways, bows = _shortened_arc(*_ways(now, poses, view, rows, columns, things, depth, share), longest)
+    some = np.zeros(0, int) if rounds is None else np.flatnonzero(rounds[things])
+    outline = ways[:0], bows[:0]
+    if len(some):
+        own = _ways(now, held, view, rows[some], columns[some], things[some], depth[some], share)
+        outline = _shortened_arc(*own, longest)
+    return Goers(rows, columns, ways, bows, depth, some, outline)
+
+
+def _shortened_arc(ways: np.ndarray, bows: np.ndarray, longest: float) -> tuple[np.ndarray, np.ndarray]:
+    """Ways (N, 2) that are not too long, pixels, and how they bend then."""
     short = _shortened(ways, longest)
     left = np.hypot(short[:, 0], short[:, 1]) / np.maximum(np.hypot(ways[:, 0], ways[:, 1]), 1e-9)
-    return Goers(rows, columns, short, (bows * left[:, None] ** 2).astype(np.float32), depth)
+    return short, (bows * left[:, None] ** 2).astype(np.float32)
 
 
 def _ways(
@@ -185,55 +206,8 @@ def _ways(
 
     rest = np.broadcast_to(np.eye(3), (len(kinds), 3, 3)), np.zeros((len(kinds), 3))
     turn, step = carrying.motion(now.poses[kinds], poses[kinds])
-    before, after = (gone(now.view, *_screwed(turn, step, share * half)) for half in (-0.5, 0.5))
+    before, after = (gone(now.view, *screws.screwed(turn, step, share * half)) for half in (-0.5, 0.5))
     return after - before + gone(view, *rest), 2.0 * (before + after)
-
-
-def _screwed(turn: np.ndarray, step: np.ndarray, times: float) -> tuple[np.ndarray, np.ndarray]:
-    """A small motion (N, 3, 3) and (N, 3), m, so many times over: on along its screw, and straight on where a thing changes its shape."""
-    rigid = np.abs(turn @ np.swapaxes(turn, 1, 2) - np.eye(3)).max(axis=(1, 2)) < SHAPED
-    over = turn - np.eye(3)
-    axis, angle = _turning(turn)
-    square, still = axis @ axis, np.abs(angle) < 1e-9
-
-    def swept(by: np.ndarray) -> np.ndarray:
-        """By which a step along a screw that turns by some angles (N,) becomes what its end goes, and which is the sum of the turns."""
-        wide = np.where(still, 1.0, by)
-        first, second = (1.0 - np.cos(wide)) / wide, 1.0 - np.sin(wide) / wide
-        return np.where(
-            still[:, None, None], np.eye(3), np.eye(3) + first[:, None, None] * axis + second[:, None, None] * square
-        )
-
-    by = times * angle
-    turned = np.eye(3) + np.sin(by)[:, None, None] * axis + (1.0 - np.cos(by))[:, None, None] * square
-    along = np.linalg.solve(swept(angle), step[..., None])
-    carried = times * (swept(by) @ along)[..., 0]
-    return (
-        np.where(rigid[:, None, None], turned, np.eye(3) + times * over),
-        np.where(rigid[:, None], carried, times * step),
-    )
-
-
-def _turning(turn: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """By which unit vectors, as cross products (N, 3, 3), and how far, rad (N,), some turns (N, 3, 3) turn.
-
-    Half a turn is the same either way around, and so is its streak, as long before the middle as after it.
-    """
-    back = np.swapaxes(turn, 1, 2)
-    skew, cosine = 0.5 * (turn - back), 0.5 * (np.trace(turn, axis1=1, axis2=2) - 1.0)
-    around = np.stack([skew[:, 2, 1], skew[:, 0, 2], skew[:, 1, 0]], axis=1)
-    sine = np.linalg.norm(around, axis=1)
-    # Of far turns the skew part fades: the other one has the axis, but for its sign.
-    least = np.maximum(1.0 - cosine, 1e-12)[:, None, None]
-    outer = (0.5 * (turn + back) - cosine[:, None, None] * np.eye(3)) / least
-    longest = np.diagonal(outer, axis1=1, axis2=2).argmax(axis=1)
-    far = np.take_along_axis(outer, longest[:, None, None], axis=2)[:, :, 0]
-    far = far / np.maximum(np.linalg.norm(far, axis=1), 1e-12)[:, None]
-    far = np.where(((far * around).sum(axis=1) < 0)[:, None], -far, far)
-    x, y, z = np.where((cosine < 0)[:, None], far, around / np.maximum(sine, 1e-12)[:, None]).T
-    rest = np.zeros_like(x)
-    axis = np.stack([rest, -z, y, z, rest, -x, -y, x, rest], axis=1).reshape(-1, 3, 3)
-    return axis, np.arctan2(sine, cosine)
 
 
 def _over(
@@ -252,6 +226,7 @@ def _over(
 
     mine = mover.astype(np.float32)
     four = cv2.merge([*cv2.split(own * mine[..., None]), mine])
+    soft = cv2.blur(four, (3, 3)) if len(goers.round) else four  # an outline that stays where it is would be stairs
     # What is behind a thing shows where it is for a part of the time: it looks as what is seen beside the thing.
     behind = _without(around, mover, near <= near[mover].max() * (1 + carrying.EDGE))[goers.rows, goers.columns]
     total, counted = np.zeros((len(goers.rows), 4), np.float32), np.zeros((len(goers.rows), 1), np.float32)
@@ -259,12 +234,23 @@ def _over(
     for share in _taps(goers.ways):
         at = goers.origins(share)
         part = _read(four, at, cv2.INTER_LINEAR)
+        if len(goers.round):
+            own_places = goers.outlines(share)
+            part[goers.round] = _within(part[goers.round], _read(soft, own_places, cv2.INTER_LINEAR))
+            for places, theirs in zip(at, own_places, strict=True):
+                places[goers.round] = theirs
         front = (_read(near, at, cv2.INTER_NEAREST) > hides) & (part[:, 3:] < 0.5)  # something else is in front of it
         total += np.where(front, np.float32(0.0), part)
         counted += ~front
     known = counted[:, 0] > 0
     total, behind = total[known] / counted[known], behind[known]
     return goers.rows[known], goers.columns[known], total[:, :3] + (1.0 - total[:, 3:]) * behind
+
+
+def _within(pattern: np.ndarray, outline: np.ndarray) -> np.ndarray:
+    """What is round, (N, 4) with what it covers last: the colours of its pattern, as far as they are its own, within its outline."""
+    theirs = np.where(pattern[:, 3:] > 0.5, pattern, outline)
+    return np.asarray(theirs * (outline[:, 3:] / np.maximum(theirs[:, 3:], 1e-3)))
 
 
 def _read(picture: np.ndarray, at: tuple[np.ndarray, np.ndarray], how: int) -> np.ndarray:

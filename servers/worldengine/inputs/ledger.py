@@ -1,7 +1,8 @@
 """Keep the ledger: the log of what was sent to a world, with the work that each entry did.
 
 Only messages change a world besides the engine's own step, and every message passes through here, so nothing has to be
-inferred. The ledger tells what acted: pushes while they push, changes of the state when they are made.
+inferred. The ledger tells what acted: pushes while they push, changes of the state when they are made. By which law it acted is the
+word of the plan's row that declares it: a name that the program gave its own pushes would be what it says of itself.
 
 Work, in joules, done on the system:
     force, torque, control: see `pushes`.
@@ -13,9 +14,9 @@ Work, in joules, done on the system:
 
 from typing import TYPE_CHECKING, Any
 
+from worldkit.model_arrays import Edit, owner_of
 from worldkit.naming import names
 from worldkit.speaking import HELD
-from worldkit.watch import Edit, owner_of
 
 from ..recording.bonds import bonds_of
 from ..recording.columns import VALUES

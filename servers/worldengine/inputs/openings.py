@@ -4,7 +4,7 @@ A plan declares rows of a kind and some names; the ledger speaks of a kind and a
 `gate.geom_friction[skin]`. A row opens a target of its kind that it names, or whose body it names.
 """
 
-from worldkit.watch import LOOKS
+from worldkit.model_arrays import LOOKS
 
 BY_SOLVER = ("force", "torque", "velocity", "pose")
 """What a declared `solver` (an engine beside MuJoCo) may write."""

@@ -12,7 +12,7 @@ from .strict_stream import Recorded
 if TYPE_CHECKING:
     import mujoco
 
-    from worldkit.watch import Edit
+    from worldkit.model_arrays import Edit
 
     from .commands import Console
 

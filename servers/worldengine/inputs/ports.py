@@ -7,9 +7,9 @@ flat indices by array, in the order of `worldkit.speaking.ARRAYS`: that is the l
 from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import ProgramError
+from worldkit.model_arrays import owner_of
 from worldkit.naming import names
 from worldkit.speaking import ARRAYS
-from worldkit.watch import BULKY, SHAPES, owner_of
 
 from . import flex_points
 from .openings import opens
@@ -137,16 +137,15 @@ class Ports:
         """(array of the model or option, flat indices, None for all of it) of the parameters that are open, by name."""
         import numpy as np
 
-        from worldkit.watch import Edit, Watch
+        from worldkit.model_arrays import Edit, values
 
         if self._rows is not None and not any(kind == "parameter" for kind, _ in self._rows):
             return []
-        values = {**Watch(self._model).values(), **Watch(self._model, bulky=True).values()}
-        values = {name: value for name, value in values.items() if _safe(name, value, self._rows is None)}
+        safe = {name: value for name, value in values(self._model).items() if _safe(name, value, self._rows is None)}
         if self._rows is None:
-            return [(name, None) for name in sorted(values)]
+            return [(name, None) for name in sorted(safe)]
         found: list[tuple[str, list[int] | None]] = []
-        for name, value in sorted(values.items()):
+        for name, value in sorted(safe.items()):
             everything = Edit(name, np.arange(len(value)), value.astype(float), looks_only=False)
             mine = [
                 i
@@ -157,9 +156,6 @@ class Ports:
             if mine:
                 found.append((name, sorted(mine)))
         return found
-
-
-__all__ = ["BULKY", "SHAPES", "Ports"]
 
 
 CHOICES = ("geom_contype", "geom_conaffinity", "geom_group", "geom_priority", "site_group")

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from worldkit.channel import PeerError
 from worldkit.mirror import Mirror, address, differ, move
+from worldkit.model_arrays import LOOKS, Edit
 from worldkit.speaking import EDIT, HELD, MOST_EDITS, STATE, SWITCHES
-from worldkit.watch import LOOKS, Edit
 
 from .ports import Ports, flat
 

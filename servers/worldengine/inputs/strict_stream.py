@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 
 from worldkit.errors import RecordingError
 from worldkit.laws import HUGE
+from worldkit.model_arrays import LOOKS, Edit
 from worldkit.speaking import HELD
-from worldkit.watch import LOOKS, Edit
 
 from ..recording import point_colours, stream_files
 from ..recording.columns import FORETOLD_COLUMNS, LATER, OF_MEDIA, TABLES, arrow_schema

@@ -163,6 +163,8 @@ def _geom(model: "mujoco.MjModel", g: int, name: str, bodies: list[str]) -> dict
         "condim": int(model.geom_condim[g]),
         "surfacevel": bool(model.geom_surfacevel[g].any()),
         "adhesion": bool(model.geom_adhesion[g].any()),
+        **({"surface": model.geom_surfacevel[g].ravel().tolist()} if model.geom_surfacevel[g].any() else {}),
+        **({"adhesion_n": float(model.geom_adhesion[g].max())} if model.geom_adhesion[g].any() else {}),
     }
 
 

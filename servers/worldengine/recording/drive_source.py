@@ -3,6 +3,9 @@
 Control code may read anything, so what counts is the syntax tree of the whole file. Left out are docstrings, comments,
 layout, and statements `cameras.add(…)` whose arguments are written out as plain values. Where the rest mentions cameras,
 lights, colours or a way to reach them by another name, or imports more than arithmetic, nothing is promised.
+
+It catches nobody: it spares a pass after a repair of cameras. To ask `control` again beside the engine would tell as much of any
+change, and costs most of a pass; acceptance does it, whatever is promised here.
 """
 
 import ast

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     import mujoco
     import numpy as np
 
-    from worldkit.watch import Edit
+    from worldkit.model_arrays import Edit
 
     from ..inputs.ports import Ports
 
@@ -93,7 +93,7 @@ class Shares:
         """Remember the inputs before the first answer."""
         import numpy as np
 
-        from worldkit.watch import Watch
+        from worldkit import model_arrays
 
         self._model, self._data = model, data
         entries = ports.entries
@@ -117,8 +117,7 @@ class Shares:
         self._wanted = self._state_first.copy()
         self._flip, self._flip_first, _ = of(SWITCHES)
         self._index = {name: np.array(entries.get(name, ()), np.intp) for name in (*STATE, *SWITCHES)}
-        watches = (Watch(model), Watch(model, bulky=True)) if self._hold.owners else ()
-        self._pristine = {name: value for watch in watches for name, value in watch.values().items()}
+        self._pristine = model_arrays.values(model) if self._hold.owners else {}
 
     def show(self, numbers: "np.ndarray", held: "np.ndarray", state: "np.ndarray") -> None:
         """Write into the author's copy of the data, for held inputs, what the author wrote itself."""
@@ -170,7 +169,7 @@ class Shares:
             return edit.values * self._hold.laws[edit.array]
         import numpy as np
 
-        from worldkit.watch import owner_of
+        from worldkit.model_arrays import owner_of
 
         values, at = edit.values.copy(), {int(i): n for n, i in enumerate(edit.index)}
         for target, index, _ in owner_of(self._model, edit):

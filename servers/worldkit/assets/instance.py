@@ -157,6 +157,10 @@ def _materials(spec: "mujoco.MjSpec", asset: Asset, look: str | None) -> dict[st
 
 def _material(spec: "mujoco.MjSpec", asset: Asset, material: str, look: str | None) -> str:
     changes = asset.looks.get(look, {}).get(material, {}) if look is not None else {}
+    if (table := {**asset.materials[material], **changes}.get("look")) is not None:
+        from .. import materials
+
+        return materials.add(spec, table)
     name = f"{asset.key}.{material}" + (f".{look}" if changes else "")
     if spec.material(name) is None:
         values = {**asset.materials[material], **changes}

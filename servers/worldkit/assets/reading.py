@@ -34,7 +34,7 @@ OPTIONAL = [
     "measured",
 ]
 CONTACT = ("friction", "restitution", "torsional", "rolling")
-MATERIAL = ("texture", "rgba", "specular", "shininess", "reflectance", "metallic", "roughness", "emission")
+MATERIAL = ("look", "texture", "rgba", "specular", "shininess", "reflectance", "metallic", "roughness", "emission")
 SHAPES = {
     "hull": ("file",),
     "sphere": ("diameter",),
@@ -203,9 +203,22 @@ def _material(row: _Row, folder: Path, dotted: str) -> dict[str, Any]:
     for key in item.data:
         if key == "texture":
             values[key] = item.file(key, folder)
+        elif key == "look":
+            values[key] = _look(item)
         else:
             values[key] = item.numbers(key, 4) if key == "rgba" else item.number(key)
     return values
+
+
+def _look(item: _Row) -> str:
+    from ..materials import look
+
+    name = item.text("look")
+    try:
+        look(name)
+    except ValueError as error:
+        item.fail("look", str(error))
+    return name
 
 
 def _visual(item: _Row, folder: Path, materials: Mapping[str, Any]) -> tuple[Path, str]:

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from ..errors import ProgramError
-from . import sward, swaying_weights, trees
+from . import groves, sward, swaying_weights
 from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
@@ -144,47 +144,23 @@ class Dressing(Smoke):
         at: Sequence[tuple[float, float]],
         height: float = 8.0,
         z: float | str | Height | None = None,
+        season: str = "summer",
         leaves: str | Surface = "",
-        bark: str | Surface = "#5b4a3a",
+        bark: str | Surface = "",
         seed: int = 1,
     ) -> None:
-        """Trees that are drawn only: a `conifer` or a `broadleaf` at each of some places (x, y), m, about `height` m high.
+        """Trees that are drawn only: one of a kind at each of some places (x, y), m, about `height` m high.
 
-        They stand on the ground or on `z` as `grass` does; each differs from the others, and is the same at every drawing of
-        one `seed`. A tree costs at most 6000 triangles: a wood of 100 far away is 600000, the most of one call.
+        A kind is `oak`, `birch`, `pine`, `willow`, `palm`, `bush` or `hedge` (a piece twice as long as high, along x), in `spring`,
+        `summer`, `autumn` or `winter`; or, for woods far away, `conifer` or `broadleaf`. They stand on the ground or on `z` as
+        `grass` does; each differs from the others, and is the same at every drawing of one `seed`. The fewer, the finer: a tree has
+        at most 24,000 triangles, one of 100 has 6000; more than 100 need another call.
 
         Raises:
-            ProgramError: there is no such kind, there are none or more than 100 places, or one of them is beside the ground.
+            ProgramError: there is no such kind or season, there are none or more than 100 places, or one is beside the ground.
         """
-        if kind not in trees.KINDS or not 1 <= len(at) <= 100 or not height > 0:
-            raise ProgramError(
-                f"1 to 100 trees of {' or '.join(trees.KINDS)}, got {len(at)} of {kind!r}",
-                "film.py",
-                "name one of them",
-            )
-        places = np.asarray(at, dtype=float).reshape(-1, 2)
-        levels = np.asarray(self._ground(z)(places[:, 0], places[:, 1]), dtype=float)
-        if not np.isfinite(levels).all():
-            where = places[~np.isfinite(levels)][0].tolist()
-            raise ProgramError(f"a tree of {name!r} at {where} stands beside its ground", "film.py", "move it")
-        random = np.random.default_rng(whole(seed))
-        parts: dict[str, list[tuple[np.ndarray, np.ndarray]]] = {"wood": [], "leaves": []}
-        sways: dict[str, list[np.ndarray]] = {"wood": [], "leaves": []}
-        for place, level in zip(places, levels, strict=True):
-            one = trees.tree(kind, height * random.uniform(0.8, 1.1), int(random.integers(1 << 30)))
-            foot = np.array([*place, level - 0.02])
-            parts["wood"].append((one.wood + foot, one.wood_faces))
-            parts["leaves"].append((one.leaves + foot, one.leaf_faces))
-            sways["wood"].append(swaying_weights.of_wood(one.wood, height))
-            sways["leaves"].append(swaying_weights.of_leaves(one.leaves, height))
-        green = leaves or {"conifer": "#2f4a2c", "broadleaf": "foliage"}[kind]
-        for part, look in (("wood", bark), ("leaves", green)):
-            starts = np.cumsum([0, *(len(points) for points, _ in parts[part])])
-            faces = np.concatenate([f + s for (_, f), s in zip(parts[part], starts, strict=False)])
-            points = np.concatenate([points for points, _ in parts[part]])
-            title = name if part == "wood" else f"{name} ({part})"
-            told, still = np.concatenate(sways[part]), ((0, 0, 0), (1, 0, 0, 0))
-            self._add(Thing(title, "mesh", (1, 1, 1), matt(look), *still, vertices=points, faces=faces, sways=told))
+        for thing in groves.planted(name, kind, at, self._ground(z), height, season, leaves, bark, whole(seed)):
+            self._add(thing)
 
     def breeze(self, speed: float | None = None, *, towards_deg: float | None = None) -> None:
         """Let a wind move the grass, the leaves and branches of trees, and every mesh with `sways`; drawn only.

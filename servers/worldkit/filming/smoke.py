@@ -118,21 +118,23 @@ class Smoke(PatternedLight):
                     "film.py",
                     "lower rate or life, or a shorter film",
                 )
-            # Each slot is taken by one puff after another: a puff is known by its number, which says when it left.
+            # Each slot is taken by one puff after another: a puff is known by its number, which says when it left. Where
+            # from and how fast is asked once of each, however many frames it is in.
             last = np.floor((np.asarray(times, float)[:, None] - start) * most)
             number = last - (last - np.arange(slots)) % slots
-            birth = start + (number + _chance(number, key)) / most
-            age = np.asarray(times, float)[:, None] - birth
-            alive = (age > 0) & (age < life) & (number >= 0) & (birth < end)
+            each, seat = np.unique(number, return_inverse=True)
+            seat = seat.reshape(number.shape)
+            birth = start + (each + _chance(each, key)) / most
             born = np.clip(birth, 0.0, self.recorded.duration)
-            flat = born.ravel()
-            foot, way = where(flat).reshape(*born.shape, 3), ways(flat).reshape(*born.shape, 3)
-            alive &= _chance(number, key + 1) * most < _varying(rate, flat).reshape(born.shape)
+            leaves = (each >= 0) & (birth < end) & (_chance(each, key + 1) * most < _varying(rate, born))
+            foot, way = (np.asarray(ask(born), float).reshape(-1, 3)[seat] for ask in (where, ways))
+            fast = (_varying(speed, born) * (0.75 + 0.5 * _chance(each, key + 4)))[seat]
+            age = np.asarray(times, float)[:, None] - birth[seat]
+            alive = (age > 0) & (age < life) & leaves[seat]
             share = np.clip(age / life, 0.0, 1.0)
             gone = -np.expm1(-drag * np.maximum(age, 0.0)) / drag
             aside = np.tan(np.radians(spread_deg)) * np.sqrt(_chance(number, key + 2))
             way = _tilted(way, aside, 2 * np.pi * _chance(number, key + 3))
-            fast = _varying(speed, flat).reshape(born.shape) * (0.75 + 0.5 * _chance(number, key + 4))
             place = foot + way * (fast * gone)[..., None]
             place[..., 2] += rise * np.maximum(age, 0.0)
             wide = diameter[0] + (diameter[1] - diameter[0]) * np.sqrt(share)

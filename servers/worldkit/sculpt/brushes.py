@@ -134,6 +134,23 @@ def label(
     return mask if normals is None else mask * (sign * normals[:, axis] > 0.2)
 
 
+def dial(
+    points: Array,
+    count: int,
+    inner: float,
+    outer: float,
+    width: float,
+    centre: Sequence[float] = (0, 0, 0),
+    axis: str = "x",
+) -> Array:
+    """A mask of `count` ticks round a centre, from one diameter to another, `width` m wide: a clock, a gauge; across x, y or z."""
+    away = np.delete(np.asarray(points) - np.asarray(centre, dtype=float), AXES[axis], axis=1)
+    far = np.hypot(*away.T)
+    turn = np.arctan2(away[:, 0], away[:, 1]) * count / (2 * np.pi)
+    across = np.abs(turn - np.round(turn)) * 2 * np.pi / count * far
+    return np.asarray((across < width / 2) & (far > inner / 2) & (far < outer / 2), dtype=float)
+
+
 def _chance(cell: Array, seed: int) -> Array:
     """A number (N,) from 0 to 1 for each cell (N, 3), by an integer hash."""
     c = cell.astype(np.int64).astype(np.uint32)

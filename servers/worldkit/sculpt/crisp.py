@@ -157,6 +157,58 @@ def loft(sections: Sequence[Sequence[Vec3]]) -> Solid:
     return Solid(_closed(points, np.array(faces), "loft"))
 
 
+def turned(outline: Outline, deg: float = 360.0) -> Solid:
+    """A closed outline of (radius, height) turned about z, clear of it: a ring, a tyre, a pipe; or part of the way round."""
+    points = np.asarray(outline, dtype=float)
+    if points.ndim != 2 or points.shape[1] != 2 or (points[:, 0] < 0).any():
+        raise ValueError("turned: the outline is a closed row of (radius, height), no radius negative")
+    return Solid(_section(points).revolve(SEGMENTS, deg))
+
+
+def torus(diameter: float, thickness: float, deg: float = 360.0) -> Solid:
+    """A ring lying flat: its outer diameter, and the diameter of its round wire; or part of one, from +x."""
+    return turned([(x + (diameter - thickness) / 2, z) for x, z in ring(thickness, 20)], deg)
+
+
+def ball(diameter: float) -> Solid:
+    """A ball."""
+    import manifold3d
+
+    return Solid(manifold3d.Manifold.sphere(diameter / 2, 48))
+
+
+def cylinder(diameter: float, height: float, bevel: float = 0.0) -> Solid:
+    """An upright cylinder from z = 0, its rims bevelled by so many metres."""
+    if not 0 <= 2 * bevel < min(diameter, height):
+        raise ValueError(
+            f"cylinder: a bevel of {bevel} m does not fit a diameter of {diameter} m and a height of {height} m"
+        )
+    r, b = diameter / 2, bevel
+    return lathe([(r - b, 0), (r, b), (r, height - b), (r - b, height)] if b else [(r, 0), (r, height)])
+
+
+def pipe(outside: float, inside: float, height: float) -> Solid:
+    """An upright pipe from z = 0, by its diameters."""
+    return turned([(inside / 2, 0), (outside / 2, 0), (outside / 2, height), (inside / 2, height)])
+
+
+def wire(points: Sequence[Vec3], diameter: float, smooth: bool = True, scales: Sequence[float] | None = None) -> Solid:
+    """A round rod through points, m: a wire, a leg, a handle, a hose; `scales` are of its diameter at each of them."""
+    return sweep(ring(diameter, 20), points, smooth, scales)
+
+
+def around(solid: Solid, count: int, axis: str | Vec3 = "z") -> Solid:
+    """So many copies of a solid at equal angles round an axis through the origin."""
+    return together(*(solid.rotate(360 * k / count, axis) for k in range(count)))
+
+
+def together(*solids: Solid) -> Solid:
+    """The union of several."""
+    import manifold3d
+
+    return Solid(manifold3d.Manifold.batch_boolean([one.manifold for one in solids], manifold3d.OpType.Add))
+
+
 def sweep(outline: Outline, path: Sequence[Vec3], smooth: bool = True, scales: Sequence[float] | None = None) -> Solid:
     """An outline of (x, y) carried along a path, upright on it: a handle, a rail, a horn, a moulding.
 

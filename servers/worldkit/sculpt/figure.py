@@ -217,6 +217,14 @@ def assemble(
     return bodies
 
 
+def fill(spec: "mujoco.MjSpec", body: "mujoco.MjsBody", part: Part, centre: Array) -> None:
+    """Draw and weigh a part in a body that is there, and let it collide; the body's origin is the figure's point `centre` (3,), m."""
+    solid = part.made()
+    _draw(spec, body, part.name, solid, centre, part.look, part.roughness, part.metallic)
+    _weigh(body, part.name, solid, centre, part.mass, part.density, part.surface)
+    _collide(spec, body, part.name, solid, centre, part.surface)
+
+
 def box_around(parts: Sequence[Part]) -> tuple[Array, Array]:
     """Lowest and highest corner (3,) of the box around parts, in the figure's coordinates, m."""
     solids = [part.made() for part in parts]

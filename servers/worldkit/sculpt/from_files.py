@@ -66,17 +66,8 @@ def from_file(
         ValueError: not exactly one part has no parent, or what `add` refuses.
     """
     with sculpted(file, of) as held:
-        parts = named_parts(name, held)
-        if mass is not None:
-            own = [_weight(part, surface) for part in parts]
-            parts = [replace(part, mass=mass * share / sum(own)) for part, share in zip(parts, own, strict=True)]
-        elif surface is not None and "density" in surface:
-            parts = [replace(part, mass=None, density=surface["density"]) for part in parts]
-        given: dict[str, Any] = {
-            key: value for key, value in (("surface", surface), ("look", look)) if value is not None
-        }
+        parts = as_planned(named_parts(name, held), mass, surface, look)
         root = next(number for number, part in enumerate(parts) if part.parent is None)
-        parts = [replace(part, **given) for part in parts]
         parts[root] = replace(parts[root], parent=parent)
         low, high = box_around(parts)
         middle = (low + high) / 2
@@ -84,6 +75,20 @@ def from_file(
             spec, parts, pos=pos, yaw_deg=yaw_deg, origin=(float(middle[0]), float(middle[1]), float(middle[2])), fixed=fixed,
             placed_joints={name: joint} if joint is not None else {},
         )[name]  # fmt: skip
+
+
+def as_planned(
+    parts: Sequence[Part], mass: float | None, surface: dict[str, Any] | None, look: str | None
+) -> list[Part]:
+    """Parts with the mass of all together, the contact properties and the look that a plan gives, as of `from_file`."""
+    parts = list(parts)
+    if mass is not None:
+        own = [_weight(part, surface) for part in parts]
+        parts = [replace(part, mass=mass * share / sum(own)) for part, share in zip(parts, own, strict=True)]
+    elif surface is not None and "density" in surface:
+        parts = [replace(part, mass=None, density=surface["density"]) for part in parts]
+    given: dict[str, Any] = {key: value for key, value in (("surface", surface), ("look", look)) if value is not None}
+    return [replace(part, **given) for part in parts]
 
 
 def named_parts(name: str, parts: Sequence[Part]) -> list[Part]:

@@ -94,7 +94,10 @@ def corners_of(points: Array) -> Array:
     polar, turn = np.arccos(1 - k / (2 * CORNERS)), np.pi * (1 + 5**0.5) * k
     ways = np.column_stack([np.cos(turn) * np.sin(polar), np.sin(turn) * np.sin(polar), np.cos(polar)])
     chosen = np.array(list(dict.fromkeys((hull @ np.concatenate([np.eye(3), -np.eye(3), ways]).T).argmax(axis=0))))
-    return hull[chosen[: 2 * CORNERS]]
+    if len(chosen) > 2 * CORNERS:  # the ways run from top to bottom: the first alone would leave nothing to stand on
+        rest = np.linspace(6, len(chosen) - 1, 2 * CORNERS - 6).round().astype(int)
+        chosen = np.concatenate([chosen[:6], chosen[rest]])
+    return hull[chosen]
 
 
 def _cost(pieces: "list[tuple[manifold3d.Manifold, float]]", total: float) -> float:

@@ -103,11 +103,12 @@ def inset(points: Array, by: float) -> Array:
     return np.asarray(section.to_polygons()[0], dtype=float)
 
 
-def curve(points: Array, closed: bool = False, steps: int = STEPS) -> Array:
+def curve(points: Outline | Array, closed: bool = False, steps: int = STEPS) -> Array:
     """The Catmull-Rom curve through points (N, D), `steps` straight pieces between two of them.
 
     Source: E. Catmull, R. Rom, "A class of local interpolating splines" (1974).
     """
+    points = np.asarray(points, dtype=float)
     count = len(points)
     if closed:
         around = np.concatenate([points[-1:], points, points[:2]])

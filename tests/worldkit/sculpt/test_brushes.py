@@ -51,3 +51,11 @@ def test_words_stay_on_their_side():
 def test_what_cannot_be_is_refused_with_words(wrong):
     with pytest.raises(ValueError, match=r".{15}"):
         wrong()
+
+
+def test_a_dial_has_its_ticks_where_the_hours_are():
+    turns = np.radians(np.arange(0, 360, 1.0))
+    on = np.stack([np.zeros(360), 0.04 * np.sin(turns), 0.04 * np.cos(turns)], axis=1)
+    mask = brushes.dial(on, 12, 0.07, 0.09, 0.001)
+    assert np.flatnonzero(mask).tolist() == list(range(0, 360, 30))
+    assert not brushes.dial(1.2 * on, 12, 0.07, 0.09, 0.001).any()

@@ -63,3 +63,27 @@ def test_hard_edges_are_drawn_hard_and_round_ones_round():
 def test_what_cannot_be_made_is_refused_with_words(wrong):
     with pytest.raises(ValueError, match=r".{15}"):
         wrong()
+
+
+@pytest.mark.parametrize(
+    ("solid", "volume"),
+    [
+        (lambda: crisp.ball(0.1), math.pi * 0.1**3 / 6),
+        (lambda: crisp.cylinder(0.1, 0.2), math.pi * 0.05**2 * 0.2),
+        (lambda: crisp.pipe(0.1, 0.08, 0.2), math.pi * (0.05**2 - 0.04**2) * 0.2),
+        (lambda: crisp.torus(0.1, 0.02), 2 * math.pi**2 * 0.04 * 0.01**2),
+        (lambda: crisp.torus(0.1, 0.02, 90), math.pi**2 / 2 * 0.04 * 0.01**2),
+        (lambda: crisp.wire([(0, 0, 0), (0, 0.1, 0), (0, 0.2, 0)], 0.02), math.pi * 0.01**2 * 0.2),
+        (lambda: crisp.around(crisp.ball(0.02).translate(x=0.1), 6), math.pi * 0.02**3),
+    ],
+    ids=["ball", "cylinder", "pipe", "torus", "a quarter of one", "wire", "around"],
+)
+def test_round_things_have_the_volume_of_geometry(solid, volume):
+    assert closed(solid()).volume == pytest.approx(volume, rel=0.025)
+
+
+def test_a_bevelled_cylinder_keeps_its_size_and_one_too_large_is_refused():
+    low, high = closed(crisp.cylinder(0.1, 0.2, 0.01)).bounds
+    assert low == pytest.approx((-0.05, -0.05, 0), abs=1e-6) and high == pytest.approx((0.05, 0.05, 0.2), abs=1e-6)
+    with pytest.raises(ValueError, match="does not fit"):
+        crisp.cylinder(0.1, 0.02, 0.01)

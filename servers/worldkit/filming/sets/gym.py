@@ -12,7 +12,9 @@ WIDEST = 14.0
 
 def build(film: "Dressing", place: Place) -> None:
     """Draw a sports hall: a court with lines, wall bars, a bench, mats and balls, high windows of light."""
-    film.light(azimuth_deg=place.facing_deg - 65, elevation_deg=55, colour="#fffaf0", strength=0.85, softness_deg=7)
+    film.light(
+        azimuth_deg=place.facing_deg - 65, elevation_deg=55, colour="#fffaf0", strength=0.95, softness_deg=6, fill=0.6
+    )
     film.grade(contrast=1.05, vignette=0.16)
     film.ground("wood_court")
     away = max(4.0, 1.2 * place.radius + 3.0)

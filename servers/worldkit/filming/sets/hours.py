@@ -26,7 +26,7 @@ SEEN_FROM: dict[str, tuple[str, float, float]] = {
 NIGHT_AIR: dict[str, Any] = {"colour": "#0b1120", "visibility_m": 700.0, "height_m": 40.0}
 """What a set's own mist is by night."""
 THROUGH_WINDOWS: dict[str, dict[str, Any]] = {
-    "noon": {"colour": "#fff4e4", "strength": 1.05, "elevation_deg": 48.0, "softness_deg": 1.5, "fill": 0.7},
+    "noon": {"colour": "#fff4e4", "strength": 1.1, "elevation_deg": 48.0, "softness_deg": 1.5, "fill": 0.5},
     "golden_hour": {"colour": "#ffb36b", "strength": 1.1, "elevation_deg": 15.0, "softness_deg": 1.5, "fill": 0.42},
     "overcast": {"colour": "#e6ecf2", "strength": 0.4, "elevation_deg": 40.0, "softness_deg": 9.0, "fill": 0.75},
     "misty_morning": {"colour": "#ffe6c6", "strength": 0.6, "elevation_deg": 20.0, "softness_deg": 6.0, "fill": 0.65},

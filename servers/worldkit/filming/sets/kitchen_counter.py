@@ -14,7 +14,7 @@ WIDEST = 0.9
 def build(film: "Dressing", place: Place) -> None:
     """Draw a kitchen: the ground is the counter's top; tiles behind it, jars, a board with a knife, a pan on the wall."""
     film.light(
-        azimuth_deg=place.facing_deg - 60, elevation_deg=32, colour="#ffeccf", strength=0.95, softness_deg=2, fill=0.5
+        azimuth_deg=place.facing_deg - 60, elevation_deg=32, colour="#ffeccf", strength=1.05, softness_deg=2, fill=0.38
     )
     film.grade(contrast=1.04, temperature=0.04, vignette=0.16)
     film.ground("wood_oak")

@@ -16,7 +16,7 @@ WIDEST = 1.2
 def build(film: "Dressing", place: Place) -> None:
     """Draw a laboratory bench: the ground is its top, pale and clean; glassware, a stand, a rack of tubes, cupboards behind."""
     film.light(
-        azimuth_deg=place.facing_deg - 58, elevation_deg=33, colour="#fff4e4", strength=0.95, softness_deg=2, fill=0.5
+        azimuth_deg=place.facing_deg - 58, elevation_deg=33, colour="#fff4e4", strength=1.05, softness_deg=2, fill=0.38
     )
     film.grade(contrast=1.04, saturation=0.96, temperature=-0.04, vignette=0.14)
     film.ground("plastic_white")

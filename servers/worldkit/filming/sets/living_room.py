@@ -13,7 +13,12 @@ WIDEST = 2.2
 def build(film: "Dressing", place: Place) -> None:
     """Draw a living room: a sofa, a rug, books, a lamp that is lit, pictures, a plant, daylight from a window."""
     film.light(
-        azimuth_deg=place.facing_deg - 75, elevation_deg=34, colour="#fff0dc", strength=0.95, softness_deg=2.5, fill=0.6
+        azimuth_deg=place.facing_deg - 75,
+        elevation_deg=34,
+        colour="#fff0dc",
+        strength=1.05,
+        softness_deg=2.5,
+        fill=0.44,
     )
     film.grade(contrast=1.04, temperature=0.05, vignette=0.18)
     film.ground("wood_planks")

@@ -32,3 +32,4 @@ def build(film: "Dressing", place: Place) -> None:
     land.wood(film, place, "broadleaf", 9, reach + 5, reach + 28, 9.0, "trees")
     land.wood(film, place, "broadleaf", 10, reach + 26, reach + 46, 10.0, "far trees")
     land.edge_of_a_wood(film, place, away=62 + 2 * place.radius, height=13.0)
+    land.range_of_hills(film, place, away=220 + 3 * place.radius, height=30, look="#54683f", name="hills", rough=0.3)

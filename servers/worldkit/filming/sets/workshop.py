@@ -15,7 +15,12 @@ WIDEST = 4.0
 def build(film: "Dressing", place: Place) -> None:
     """Draw a workshop: concrete floor, a bench with a vice, tools on a board, crates, timber, a lamp over the bench."""
     film.light(
-        azimuth_deg=place.facing_deg - 70, elevation_deg=38, colour="#fff1dc", strength=0.95, softness_deg=2.5, fill=0.6
+        azimuth_deg=place.facing_deg - 70,
+        elevation_deg=38,
+        colour="#fff1dc",
+        strength=1.05,
+        softness_deg=2.5,
+        fill=0.44,
     )
     film.grade(contrast=1.08, saturation=0.95, temperature=0.05, vignette=0.24)
     film.ground("concrete")

@@ -60,7 +60,7 @@ class FirstSeen:
             GL.glReadPixels(0, 0, target.width, target.height, GL.GL_RG, GL.GL_FLOAT, both)
             things = self.painter.numbers()[np.rint(both[::-1, :, 0]).astype(np.int32)]
             rim, depth = RIM_PX if coarser == 1 else 0, np.ascontiguousarray(both[::-1, :, 1])
-            return Surfaces(things, depth, self.painter.poses(), view, rim, behind)
+            return Surfaces(things, depth, self.painter.poses(), view, rim, behind, self.painter.rounds())
 
         return seen(None, seen(False) if coarser > 1 and self.painter.clear() else None)
 

@@ -13,7 +13,7 @@ from .eye import View
 class Occlusion:
     """How much of the surroundings each pixel sees, smoothed; `result` holds it with the pixel's distance."""
 
-    def __init__(self, width: int, height: int, taps: int, strength: float = 2.2):
+    def __init__(self, width: int, height: int, taps: int, strength: float = 2.7):
         self.width, self.height, self._taps, self._strength = width, height, taps, strength
         self.guide = gl.Target(width, height, GL.GL_RGBA32F, depth=True, linear=False)
         self._raw = gl.Target(width, height, GL.GL_RG32F, linear=False)

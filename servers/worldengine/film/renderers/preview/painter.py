@@ -90,6 +90,11 @@ class Painter:
         poses[:, :, :3] *= np.where(size > 0, size, 1.0)[:, None]
         return poses
 
+    def rounds(self) -> np.ndarray:
+        """How each thing is round, by `round_things` (N,)."""
+        own = self.things.rounds
+        return np.concatenate([own, np.zeros(max(len(self._rows) - len(own), 0), int)])
+
     def numbers(self) -> np.ndarray:
         """The number of each thing, -1 of what has no shape of its own, and at last -1 of none: int32 (N + 1,)."""
         numbers = np.append(np.arange(len(self._rows), dtype=np.int32), np.int32(-1))

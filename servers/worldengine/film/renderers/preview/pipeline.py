@@ -31,7 +31,7 @@ from .lighting import relight, sky_uniforms
 from .occlusion import Occlusion
 from .painter import Painter
 from .scenery import light_rows, own_lights, panel_rows, setting_of, space_of
-from .shadows import ShadowMap
+from .shadows import ShadowMap, covered
 from .surroundings import Surroundings, irradiance, noise_map, slide_map
 from .things import FLOATS, SIDE_MODE, Batch, Things
 
@@ -250,18 +250,6 @@ class Pipeline:
         program.texture("noise_map", 3, self._noise)
         GL.glDrawArrays(GL.GL_TRIANGLES, 0, 3)
 
-    def _focus(self, view: View, whole: tuple[np.ndarray, float]) -> tuple[np.ndarray, float]:
-        """The disc that the shadow map should cover: the whole scene, or the part of a larger one that the camera sees."""
-        centre, radius = whole
-        offset = centre - view.eye
-        along = float(np.clip(offset @ view.forward, 0.05 * radius, 4.0 * radius))
-        seen = 1.7 * along * float(np.hypot(*view.tangents)) + 0.15 * radius
-        if seen >= radius:
-            return centre, radius
-        pull = view.eye + along * view.forward - centre
-        reach = max(radius - 0.5 * seen, 0.0)
-        return centre + pull * min(1.0, reach / max(float(np.linalg.norm(pull)), 1e-9)), seen
-
     def _open(self, view: View, height: int, *, mirrored: bool = False) -> None:
         """Clear the bound target and draw depth alone, so that only visible surfaces get shaded."""
         GL.glEnable(GL.GL_DEPTH_TEST)
@@ -299,7 +287,7 @@ class Pipeline:
         everything = np.minimum(low, self.low), np.maximum(high, self.high)
         whole = self.centre, float(np.linalg.norm(np.maximum(everything[1] - self.centre, self.centre - everything[0])))
         stage.shadow.draw(
-            self._key, self.setting.key_spread, *self._focus(view, whole), whole,
+            self._key, self.setting.key_spread, *covered(view, whole, self._treatment.focus_m), whole,
             lambda program: painter.draw(program, None, height, flipped=True, ground=False, walls=False),
         )  # fmt: skip
         small = stage.occlusion.height

@@ -8,6 +8,7 @@ import numpy as np
 from OpenGL import GL
 
 from . import gl
+from .eye import View
 
 BLOCK = 16
 WIDEST = 6.0 * 16 / 2048
@@ -25,6 +26,25 @@ def frame_of(direction: np.ndarray) -> np.ndarray:
 def steady(radius: float) -> float:
     """The next larger power of the square root of two, so that the map's scale does not creep from frame to frame."""
     return float(2.0 ** (np.ceil(2.0 * np.log2(max(radius, 1e-4))) / 2.0))
+
+
+def covered(view: View, whole: tuple[np.ndarray, float], focus_m: float = 0.0) -> tuple[np.ndarray, float]:
+    """The disc, its middle and radius, m, that the map should cover: the whole scene, or the part that the camera sees.
+
+    Around what it focuses on, if anything: hills on the horizon must not make the map so wide that a pole near by is thinner
+    than one of its pixels, and throws no shadow.
+    """
+    centre, radius = whole
+    along = focus_m or float(np.clip((centre - view.eye) @ view.forward, 0.05 * radius, 4.0 * radius))
+    around = 0.15 * radius
+    if focus_m:
+        around = min(around, 2.0 * along)
+    seen = 1.7 * along * float(np.hypot(*view.tangents)) + around
+    if seen >= radius:
+        return centre, radius
+    pull = view.eye + along * view.forward - centre
+    reach = max(radius - 0.5 * seen, 0.0)
+    return centre + pull * min(1.0, reach / max(float(np.linalg.norm(pull)), 1e-9)), seen
 
 
 class ShadowMap:

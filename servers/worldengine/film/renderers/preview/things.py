@@ -13,7 +13,7 @@ import numpy as np
 from worldkit.materials.look import Look
 
 from ....recording.seen import UNSET_RGBA, geom_rgba, shown_rgba, skinned
-from ... import swaying
+from ... import round_things, swaying
 from . import mean_chord
 from .finish import Finish, linear, of_material, plain
 
@@ -138,6 +138,10 @@ class Things:
         self.breeze: tuple[float, float, float] | None = None
         """The wind towards x and y, m/s, and the time, s."""
         self._balls = np.flatnonzero(model.geom_type[self.geoms] == int(kinds.mjGEOM_SPHERE))
+        turned = np.isin(model.geom_type[self.geoms], [int(kinds.mjGEOM_CYLINDER), int(kinds.mjGEOM_CAPSULE)])
+        self.rounds = np.where(turned, round_things.ABOUT_Z, round_things.NOT)
+        self.rounds[self._balls] = round_things.ALL_ROUND
+        """How each thing is round, by `round_things`."""
         self._supports_of_fixed = False
 
     def _rgba(self, geom: int) -> np.ndarray:
