@@ -175,7 +175,7 @@ def scan(
             folder, key, plan, trajectory, acted,
             refined=refine, causes=causes, robust=robust, timeout_s=timeout_s, progress=progress,
         )  # fmt: skip
-    told = tuple(row.text for row in acted.acting)
+    told = (*(row.text for row in acted.standing), *(row.text for row in acted.acting))
     return _scanned(run, report, **audited.model_dump(), acting=told[:MOST_TOLD])
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from worldkit.turning import about, product
 from worldwright.model.plan.committed import Objective
-from worldwright.model.recording.shown_points import Lay, ShownPoints
+from worldwright.model.recording.shown_points import ShownPoints
 from worldwright.scan.audits.moment import event_s
 from worldwright.scan.known.analytic import bouncing, falling, resting, sliding
 from worldwright.scan.known.motions import thrown
@@ -133,7 +133,7 @@ def moved(trajectory, yaw, shift):
             normal=contacts.normal @ turn.T,
             position=contacts.position @ turn.T + [*shift, 0],
         )
-    media = {name: Lay(lay.t, lay.flat @ turn.T + [*shift, 0]) for name, lay in trajectory.media.known.items()}
+    media = {name: replace(lay, flat=lay.flat @ turn.T + [*shift, 0]) for name, lay in trajectory.media.known.items()}
     return replace(
         trajectory,
         media=ShownPoints(media),

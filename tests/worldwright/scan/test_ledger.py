@@ -36,6 +36,28 @@ def test_a_push_has_its_impulse_and_its_work(tmp_path):
     assert row.airborne_s == pytest.approx(0.2)
 
 
+def test_what_acts_from_inside_the_step_stands_in_the_ledger(tmp_path):
+    def build():
+        spec = empty()
+        box(spec, "lane", (0, 0, 0.1), mass=2.0)
+        spec.geom("lane").surfacevel = (0.3, 0.4, 0, 0, 0, 2.0)
+        part = spec.body("lane").add_body(name="pad", pos=(0, 0, 0.12))  # the row names what it is fixed to
+        part.add_geom(name="pad", type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.05, 0.05, 0.02), mass=0.1, adhesion=3.0)
+        spec.option.wind, spec.option.density = (0, 3.0, 4.0), 1.2
+        return spec
+
+    world = World(build, None, 0.01, ("lane",), (declare("force", "lane"),))
+    report = listed(world, tmp_path)
+    told = {(row.kind, row.unit): (row.target, row.peak, row.declared) for row in report.standing}
+    assert told == {
+        ("wind", "m/s"): ("world", 5.0, False),
+        ("running surface", "m/s"): ("lane", 0.5, True),
+        ("running surface", "rad/s"): ("lane", 2.0, True),
+        ("adhesion", "N"): ("pad", 3.0, True),
+    }
+    assert not report.acting and "UNDECLARED" in report.standing[0].text
+
+
 def test_who_carries_a_stack(tmp_path):
     def build():
         spec = empty()

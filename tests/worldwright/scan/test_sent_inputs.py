@@ -51,3 +51,18 @@ def test_a_bicycles_rider_balances_and_his_brakes_count():
     sent = Interventions(np.full(3, 0.1), ["control"] * 3, targets, value, np.zeros(3))
     signs = sent_inputs.check(replace(analytic.resting(), interventions=sent), SimpleNamespace(assets=(row,)))
     assert [sign.body for sign in signs] == ["bike_brake_f"]
+
+
+def test_a_driver_who_is_asked_seldom_does_meanwhile_what_the_inputs_said_then():
+    back = Vehicle.model_validate({"kind": "car", "inputs": [{"t": 0, "brake": 0.5}, {"t": 0.05, "brake": 0.0}]})
+    times = np.arange(0, 0.2, 0.002)
+    plan = SimpleNamespace(assets=(SimpleNamespace(vehicle=back, instances=("car",)),))
+    for until, found in ((0.08, False), (0.2, True)):  # asked at 0 s only; so seldom is nobody asked
+        mine = times[times < until]
+        value = np.zeros((len(mine), 6))
+        value[:, 0], value[:, 1] = 0.01, 0.5 * back.made().brake_n_m
+        sent = Interventions(
+            mine, ["control"] * len(mine), ["car/car_brake_fl"] * len(mine), value, np.zeros(len(mine))
+        )
+        signs = list(sent_inputs.check(replace(analytic.resting(), interventions=sent), plan))
+        assert bool(signs) == found

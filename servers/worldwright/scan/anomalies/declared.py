@@ -22,6 +22,21 @@ TIME = re.compile(
 """A trigger that looks at the clock alone: `t >= 3 s`, `at 3 s`, `after 2 s`, `0.5 s`."""
 
 
+ENDS = re.compile(r"\b(until|till|before|up to)\b|<", re.IGNORECASE)
+SECONDS = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s\b|seconds?)")
+
+
+def times(trigger: str) -> tuple[float, float]:
+    """(begin, end) in s of what a trigger by the clock allows; infinite where it does not say."""
+    if when(trigger) != "time":
+        return -np.inf, np.inf
+    text = re.sub(r"(\d+(?:\.\d+)?)\s*(?:\.\.|to|and|-|–)\s*(?=\d+(?:\.\d+)?\s*(?:ms|s))", r"\1 s to ", trigger)
+    said = sorted(float(number) * (1e-3 if unit == "ms" else 1.0) for number, unit in SECONDS.findall(text))
+    if len(said) == 1:
+        return (-np.inf, said[0]) if ENDS.search(trigger) else (said[0], np.inf)
+    return (said[0], said[-1]) if said else (-np.inf, np.inf)
+
+
 def when(trigger: str) -> Trigger:
     """Whether a declared trigger holds always, looks at the clock, or at the state of the world."""
     if always(trigger):

@@ -18,6 +18,7 @@ from ..anomalies.checks.unloaded_tendon import weights
 from ..anomalies.declared import when
 from ..anomalies.engine import CHECKS
 from ..anomalies.sign import Context, spans
+from .standing_drives import standing
 
 MOST_ROWS = 40
 LOADED = 1e-3
@@ -38,6 +39,7 @@ def report(trajectory: Trajectory, context: Context, anomalies: tuple[Anomaly, .
     return InterventionReport(
         trajectory_sha256=trajectory.sha256,
         acting=tuple(acting(trajectory, context)),
+        standing=tuple(standing(trajectory, context))[:MOST_ROWS],
         load_paths=tuple(load_paths(trajectory))[:MOST_ROWS],
         carriers=tuple(carriers(trajectory))[:MOST_ROWS],
         overlaps=tuple(

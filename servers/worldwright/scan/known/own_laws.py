@@ -19,6 +19,7 @@ def spring(
     lies: float = 1.0,
     rate: float = 3.0,
     felt: float = 1.0,
+    weighs: float = 1.0,
 ) -> LawBalance:
     """The sums of a mass on a spring.
 
@@ -30,6 +31,7 @@ def spring(
         lies: the share of its weight that what stands fast carries; the rest only falls.
         rate: of its swinging, rad/s.
         felt: the share of the pull that the mass itself feels.
+        weighs: kg, of all of it, with springs as much weaker.
     """
     t = np.linspace(0.0, 2.0, 201)
     own = np.outer(np.cos(rate * t), [1.0, 0.0, 0.0])
@@ -42,16 +44,16 @@ def spring(
         name="spring",
         bodies=("body",),
         t=t,
-        mass=mass_at,
-        momentum=felt * own + (1.0 - lies) * pulled,
-        energy=stored + made * t + let_down,
-        weight=let_down,
-        stored=stored,
+        mass=weighs * mass_at,
+        momentum=weighs * (felt * own + (1.0 - lies) * pulled),
+        energy=weighs * (stored + made * t + let_down),
+        weight=weighs * let_down,
+        stored=weighs * stored,
         volume=np.ones_like(t) + volume * t,
-        given=kept * (own[0] - own),
-        held=lies * pulled,
-        work=2.0 - stored,
-        pushed=kept * float(np.abs(np.diff(own[:, 0])).sum()),
+        given=weighs * kept * (own[0] - own),
+        held=weighs * lies * pulled,
+        work=weighs * (2.0 - stored),
+        pushed=weighs * kept * float(np.abs(np.diff(own[:, 0])).sum()),
         gravity=gravity,
     )
 
@@ -81,3 +83,23 @@ def pouring(
     pos = np.tile(middle, (len(t), 1))
     media = ShownPoints({"paint": Lay(t, places.reshape(-1, 3))})
     return motion(t, pos, 0 * pos, quat=turned, free=False, meta={"geoms": [plate]}, media=media)
+
+
+def two_paints(share: float = 1.0) -> Trajectory:
+    """A yellow and a blue puddle of 0.1 by 0.1 m, 2 mm deep, side by side, which spread; a share of both turns green within 2 s.
+
+    Args:
+        share: of the points, from the line between them outwards.
+    """
+    t = clock(2.0, 0.1)
+    side = np.arange(-0.1, 0.1, 0.005) + 0.0025
+    x, y = np.array([a.ravel() for a in np.meshgrid(side, side / 2)]) + np.random.default_rng(3).uniform(
+        -4e-4, 4e-4, (2, len(side) ** 2)
+    )
+    spread = 1 + 0.2 * t[:, None]
+    places = np.stack([spread * x, spread * y, np.full((len(t), len(x)), 0.002)], axis=2)
+    yellow, blue, green = 0xFFC814, 0x1428A0, 0x3C7840
+    green_now = np.abs(x) < 0.1 * share * np.minimum(t, 1.0)[:, None]
+    hues = np.where(green_now, green, np.where(x < 0, yellow, blue))
+    media = ShownPoints({"paint": Lay(t, places.reshape(-1, 3), hues.ravel())})
+    return motion(t, np.zeros((len(t), 3)), np.zeros((len(t), 3)), media=media)

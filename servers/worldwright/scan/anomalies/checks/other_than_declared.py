@@ -10,7 +10,8 @@ that brakes or resists against the work done. The forces and torques of an autho
 held to its row in the same way; of several bodies, one must go along its axis. A torque of which its row says nothing is held
 to the force that it states, times how far its points ever are from the body. A control that the plan gives as a number
 against the controls sent, and a motor of the plan, by what it exerts, against the number of its law in N or N·m (with the
-word `constant`, at every instant). What a vehicle's brakes and drive exert, and how it steers, against the plan's timed `inputs`. For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
+word `constant`, at every instant). A force, torque or motor whose law says `constant` or `steady`, against the
+time for which its trigger lets it act. What a vehicle's brakes and drive exert, and how it steers, against the plan's timed `inputs`. For a trigger that is a time (`at t = 2 s`, `from 1 s to 1.5 s`), the first act against the
 earliest time stated and, where two are stated, the last act against the latest. The recording's gravity, and gravity written while it runs, against the plan's or
 the law's m/s^2.
 Threshold: 5 % and 1e-6 of the number; 20 ms, or three recorded rows, of time; a cosine of 0.7; 0.02 m/s^2 of gravity
@@ -33,8 +34,8 @@ from ....model.recording.records import Interventions
 from ....model.recording.shown_points import Lay, ShownPoints
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
-from .. import sent_inputs
-from ..declared import when
+from .. import kept_up, sent_inputs
+from ..declared import times
 from ..sign import Case, Context, Sign
 
 CODE = "WS317"
@@ -52,22 +53,6 @@ LAWS = {
 }
 """Options of the world that a plan can declare, with the kind of number that binds each and its unit."""
 UNIT = {"force": "N", "torque": "N·m", "velocity": "m/s"}
-ENDS = re.compile(r"\b(until|till|before|up to)\b|<", re.IGNORECASE)
-CONSTANT = re.compile(r"\bconstant\b", re.IGNORECASE)
-LESS = re.compile(r"\b(less|minus|at most|up to|until|while|till|times)\b", re.IGNORECASE)
-"""Words by which a law has more to it than its constant."""
-SECONDS = re.compile(r"(\d+(?:\.\d+)?)\s*(ms|s\b|seconds?)")
-
-
-def times(trigger: str) -> tuple[float, float]:
-    """(begin, end) in s of what a trigger by the clock allows; infinite where it does not say."""
-    if when(trigger) != "time":
-        return -np.inf, np.inf
-    text = re.sub(r"(\d+(?:\.\d+)?)\s*(?:\.\.|to|and|-|–)\s*(?=\d+(?:\.\d+)?\s*(?:ms|s))", r"\1 s to ", trigger)
-    said = sorted(float(number) * (1e-3 if unit == "ms" else 1.0) for number, unit in SECONDS.findall(text))
-    if len(said) == 1:
-        return (-np.inf, said[0]) if ENDS.search(trigger) else (said[0], np.inf)
-    return (said[0], said[-1]) if said else (-np.inf, np.inf)
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -94,6 +79,9 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         )
         if mine.any():
             yield from _stronger(trajectory, row, mine)
+            if row.kind in ("force", "torque") and row.solver is None:
+                size = np.sqrt((_acting(trajectory, row, mine) ** 2).sum(axis=1))
+                yield from kept_up.check(trajectory, row, row.kind, targets[mine], np.asarray(ledger.time)[mine], size)
             yield from _astray(trajectory, row, mine)
             yield from _other_time(trajectory, row, mine)
             yield from _other_law(trajectory, row, mine)
@@ -259,17 +247,17 @@ def _other_motor(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         if kind != "control" or name not in targets:
             continue
         exerted = np.asarray(ledger.value)[rows, 1]
-        for law in (
-            row.law for row in context.interventions if row.kind == "control" and {*row.bodies} & {name, target}
-        ):
-            most = law_words.limit(law, targets[name])
+        for row in (one for one in context.interventions if one.kind == "control" and {*one.bodies} & {name, target}):
+            law, most = row.law, law_words.limit(row.law, targets[name])
             if most is None:
                 continue
             off = np.abs(exerted) - most
-            if CONSTANT.search(law) and not LESS.search(law) and len(exerted):
-                off = np.where(
-                    exerted == 0, 0.0, np.abs(exerted - np.copysign(most, exerted[np.argmax(np.abs(exerted))]))
-                )
+            if kept_up.constant(law) and len(exerted):
+                sign = exerted[np.argmax(np.abs(exerted))]
+                off = np.where(exerted == 0, 0.0, np.abs(exerted - np.copysign(most, sign)))
+                own = np.full(len(rows), name)
+                times_s = np.asarray(ledger.time)[rows]
+                yield from kept_up.check(trajectory, row, targets[name], own, times_s, np.abs(exerted))
             worst, unit = int(np.argmax(off)), UNIT[targets[name]]
             if off[worst] > SHARE * most + 1e-6:
                 time = float(np.asarray(ledger.time)[rows[worst]])
@@ -324,8 +312,8 @@ def _gravity(z: float) -> Case:
     return Case(f"the plan says {z:g} m/s^2", analytic.resting(), Context(planned=True, plan=plan))
 
 
-def _motor(*exerted: float, law: str = "constant force of 2 N along +X") -> Case:
-    row = Intervention(kind="control", bodies=("push",), law=law, source="the prompt")
+def _motor(*exerted: float, law: str = "constant force of 2 N along +X", trigger: str = "while it is held") -> Case:
+    row = Intervention(kind="control", bodies=("push",), law=law, trigger=trigger, source="the prompt")
     plan = _gravity(-analytic.G).context.plan
     assert plan is not None
     drives = Topology.model_construct(joints=(), actuators=(Actuator(name="push", joint="rails"),))
@@ -339,9 +327,28 @@ def _motor(*exerted: float, law: str = "constant force of 2 N along +X") -> Case
     return Case(f"a motor that exerts {exerted} N: {law}", replace(analytic.resting(), interventions=sent), context)
 
 
+def _steady(share: float, law: str = "a constant wind of 5 N along +X", trigger: str = "always") -> Case:
+    """A push that acts for a share of every tenth of a second."""
+    push = analytic.resting()
+    row = Intervention(kind="force", bodies=("body",), law=law, trigger=trigger, source="the prompt")
+    step = push.time_step or push.interval_s
+    at = np.arange(push.t[0], push.t[-1], step)
+    at = at[(at / 0.1) % 1.0 < share]
+    value = np.tile((5.0, 0, 0, 0, 0, 0), (len(at), 1))
+    acts = Interventions(at, ["force"] * len(at), ["body"] * len(at), value, np.zeros(len(at)))
+    context = Context(planned=True, interventions=(row,))
+    return Case(f"{share:.0%} of the time: {law}, {trigger}", replace(push, interventions=acts), context)
+
+
 GOOD = (
+    lambda: _steady(1.0),
+    lambda: _steady(0.5, "gusts of 5 N along +X"),
+    lambda: _steady(0.5, "5 N along +X by a spring constant of 200 N/m"),
+    lambda: _steady(0.5, trigger="when the body is in the tunnel"),
+    lambda: _steady(0.5, trigger="height of body < 0.1 m"),
     lambda: _motor(2.0, 2.0, 0.0),
     lambda: _motor(2.0, 1.0, law="constant pull of 2 N, less 4 N·s/m of the speed"),
+    lambda: _motor(2.0, 0.4, law="keeps a constant speed of 0.3 m/s with 2 N"),
     lambda: _pushed(5.0),
     lambda: _pushed(40.0, "as the wind: rho c A v^2 / 2, v = 3 m/s"),
     lambda: _pushed(60.0, "at most 0.06 kN, less 40 N·s/m of the speed"),
@@ -358,9 +365,15 @@ GOOD = (
     lambda: _lever(0.9),
 )
 BAD = (
+    lambda: replace(_steady(0.5), severity="blocking"),
+    lambda: replace(_steady(0.5, trigger="once the gate is open"), severity="blocking"),
+    lambda: replace(_steady(0.8, "a steady 5 N along +X"), severity="blocking"),
+    lambda: replace(_motor(2.0, 2.0, trigger="always"), severity="blocking"),
     lambda: replace(_motor(40.0, 2.0, -40.0), severity="blocking"),
     lambda: replace(_motor(2.0, 0.5), severity="blocking"),
     lambda: replace(_motor(2.0, -2.0), severity="blocking"),
+    lambda: replace(_motor(3.0, 0.4, law="keeps a constant speed of 0.3 m/s with 2 N"), severity="blocking"),
+    lambda: replace(_motor(2.0, 0.4, law="a constant force of 2 N, at a constant speed"), severity="blocking"),
     lambda: replace(_motor(3.0, law="pushes with at most 2 N"), severity="blocking"),
     lambda: replace(_pushed(40.0, "a breeze of 1 N, far below its weight of 49 N"), severity="blocking"),
     lambda: replace(_pushed(5.0, "5 N along -X"), severity="blocking"),

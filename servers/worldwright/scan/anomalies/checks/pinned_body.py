@@ -5,7 +5,7 @@ objective says is free.
 
 Formula: an equality that is on at the start and ties a body of the plan (or a part welded to one) to the world or to
 scenery; a flex with vertices on static bodies. Declared by an intervention of kind `constraint` naming the equality, the
-body or the flex, or by a `weld` among the plan's joints.
+body or the flex, by a `weld` among the plan's joints, or by the `held` sides of what the plan calls `soft`.
 Threshold: none. Blocking with a plan; without one silent for equalities (models are full of them).
 Source: the facts on staging (cloth pinned to static poles; a part pinned that the objective says is free).
 """
@@ -51,6 +51,10 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         )
         yield Sign(held, (trajectory.t[0], trajectory.t[-1]), peak, 0.0, "N", "blocking", message)
     moved = laws_told.drawn(meta)  # by an author's law, or water: only drawn, held by nothing
+    objects = context.plan.scene_objects if context.plan else ()
+    moved |= {
+        row.name for row in objects if row.soft is not None and row.soft.held
+    }  # which ones is held against the model
     for flex in meta.get("flexes") or ():
         if flex.get("pinned") and flex["name"] not in moved and not context.declares("constraint", flex["name"]):
             message = f"{flex['pinned']} of {flex['vertices']} vertices of {flex['name']} are pinned to "

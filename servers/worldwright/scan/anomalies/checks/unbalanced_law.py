@@ -31,8 +31,8 @@ STAGING = True
 NEEDS = ()
 MOMENTUM, ENERGY = (0.02, 0.10), (0.05, 0.20)
 MASS, VOLUME = (0.01, 0.10), 0.05
-GAMBLED_J, EARLY = 1e-6, 0.02
-"""Less energy than this is nobody's."""
+GAMBLED_J, SLOW_J_KG, EARLY = 1e-6, 1e-3, 0.02
+"""Less energy than this is nobody's; of what weighs less than a gram, less than that of 4.5 cm/s."""
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -42,7 +42,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
         said = "the sums of the author's own laws were recorded less than twice, so that nothing tells what they give and take"
         yield Sign("world", whole, 0.0, 2.0, "instants", "blocking", said)
     for law in trajectory.balances:
-        yield from of_law(law)
+        yield from of_law(law, min(GAMBLED_J, SLOW_J_KG * float(np.abs(law.mass).max())))
 
 
 def early(balances: tuple[LawBalance, ...]) -> list[str]:
@@ -89,6 +89,7 @@ GOOD = (
     lambda: Case("a world without a law of its own", analytic.resting()),
     lambda: Case("a spring beside ballast", _spring(ballast=1e4)),
     lambda: Case("a spring that warms up", _spring(made=-0.3)),
+    lambda: Case("a millionth of a gram on a spring", _spring(weighs=1e-9)),
 )
 BAD = (
     lambda: Case("a mass that pulls at nothing", _spring(kept=0.0), severity="blocking"),
@@ -97,6 +98,7 @@ BAD = (
     lambda: Case("a body that feels most of the pull", _spring(kept=0.9), severity="warn"),
     lambda: Case("a body that feels most of a quick pull", _spring(kept=0.9, rate=100.0), severity="warn"),
     lambda: Case("a spring that winds itself up", _spring(made=0.3), severity="blocking"),
+    lambda: Case("a millionth of a gram that winds itself up", _spring(made=0.3, weighs=1e-9), severity="blocking"),
     lambda: Case("a spring that grows heavier", _spring(mass=0.04), severity="warn"),
     lambda: Case("a spring that grows half as heavy again", _spring(mass=0.25), severity="blocking"),
     lambda: Case("a pull at nothing beside ballast", _spring(kept=0.0, ballast=1e4), severity="blocking"),

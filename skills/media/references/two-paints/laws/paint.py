@@ -1,30 +1,23 @@
-# A law, whole: paints poured on a tilted canvas, that run down in streaks and blend
+"""Two paints, poured on a tilted canvas, that run down and blend: a film of height h on a grid, by lubrication.
 
-A film of height h on a grid, by lubrication: gravity draws it down the slope and levels it, h cubed over the viscosity. What the
-pigments take from light (the logarithm of a colour) goes with the volume, so that yellow and blue make green. Five streams pour six
-colours. Measured over 8 s: 12 s of processor time, volume kept to 1e-14. Points of the grid stay; their heights, masses, velocities and
+Gravity draws it down the slope and levels it, h cubed over the viscosity. What the pigments take from light (the logarithm of a
+colour) goes with the volume, so that yellow and blue make green. Points of the grid stay; their heights, masses, velocities and
 colours change. Paint that still waits is the mass of the first ring of its stream; a stream itself is drawn only.
+"""
 
-`laws/paint.py`:
-
-```python program
 import numpy as np
 from scipy.ndimage import gaussian_filter
 
-ACROSS, DOWN, CELL = 148, 108, 0.004  # cells across the canvas and down it, m
+from worldkit import moved_shapes
+
+TILT, MIDDLE = np.radians(14.0), (0.0, -0.00242, 0.05911)  # of the canvas, and the middle of its upper side, m
+ACROSS, DOWN, CELL = 96, 76, 0.004  # cells across the canvas and down it, m
 DRY, SUNK = 2e-4, 3e-4  # m too thin to flow; m by which it is drawn lower
 MINGLES, FINER = 2e-7, 2  # m^2/s between colours that touch; steps in a step
-SPOUTS, HIGH, WIDE = 5, 0.25, 0.006  # streams; m above the canvas; m, the radius of each
+SPOUTS, HIGH, WIDE = 2, 0.25, 0.006  # streams; m above the canvas; m, the radius of each
 RINGS, AROUND = 12, 8  # of the tube that shows one
-POURED, RATE, SPOT, CHANGES = 3.6, 16e-6, 0.01, 0.45  # s; m^3/s each; m where it lands; s from one colour to the next
-INKS = (
-    (0.90, 0.06, 0.28),
-    (1.0, 0.76, 0.04),
-    (0.0, 0.52, 0.60),
-    (0.10, 0.12, 0.60),
-    (0.98, 0.95, 0.90),
-    (0.98, 0.36, 0.04),
-)
+POURED, RATE, SPOT = 3.0, 20e-6, 0.01  # s; m^3/s each; m where it lands
+INKS = ((1.0, 0.78, 0.03), (0.03, 0.20, 0.62))  # yellow, blue
 LOST = -np.log(np.maximum(INKS, 0.03)) * 2.2  # of light, of each colour; of a mixture, the mean by volume
 X, Y = ((np.arange(n) - (n - 1) / 2) * CELL for n in (ACROSS, DOWN))
 TURN = 2 * np.pi * np.arange(AROUND) / AROUND
@@ -38,17 +31,27 @@ class Paint:
 
     def __init__(self, viscosity, density):
         self.viscosity, self.density = viscosity, density  # Pa s, kg/m^3
-
-    def start(self, model, data):
-        canvas = data.geom("canvas")  # not the body, which stays level where the plan tilts the shape (deg_x)
-        self.gravity, self.turn = model.opt.gravity, canvas.xmat.reshape(3, 3).copy()
-        self.middle = canvas.xpos + self.turn @ (0, 0, model.geom("canvas").size[2])
+        self.gravity, self.middle = np.array([0.0, 0.0, -9.81]), np.array(MIDDLE)
+        self.turn = np.array([[1, 0, 0], [0, np.cos(TILT), -np.sin(TILT)], [0, np.sin(TILT), np.cos(TILT)]])
+        self.triangles = self.faces()
         self.film = np.zeros((4, DOWN, ACROSS))  # h, m, and h times what is lost of red, green and blue
         self.flow, self.time, self.left = np.zeros((2, DOWN, ACROSS)), 0.0, np.full(SPOUTS, RATE * POURED)
         weave = gaussian_filter(np.random.default_rng(5).normal(size=(DOWN, ACROSS)), 5.0)
         self.eased = np.clip(1 + 0.35 * weave / weave.std(), 0.3, 1.7)  # it goes more easily here than there
         self.leaves = RATE / (np.pi * WIDE**2)  # m/s
         self.falls = self.falling(HIGH)
+        self.tell()
+
+    def faces(self):  # of the film, and of the tubes of the streams
+        one = (np.arange(DOWN - 1)[:, None] * ACROSS + np.arange(ACROSS - 1)).ravel()
+        cells = [np.stack([one, one + 1, one + ACROSS], 1), np.stack([one + 1, one + ACROSS + 1, one + ACROSS], 1)]
+        tube, first = np.array(moved_shapes.tube(RINGS, AROUND)), ACROSS * DOWN
+        return np.concatenate([*cells, *(tube + first + n * RINGS * AROUND for n in range(SPOUTS))])
+
+    def start(self, model, data):
+        canvas = data.geom("canvas")  # not the body, which stays level where the plan tilts the shape (deg_x)
+        self.gravity, self.turn = model.opt.gravity, canvas.xmat.reshape(3, 3).copy()
+        self.middle = canvas.xpos + self.turn @ (0, 0, model.geom("canvas").size[2])
         self.tell()
 
     def step(self, model, data, seconds):
@@ -65,7 +68,7 @@ class Paint:
             gone = min(RATE * dt, self.left[spout])
             spot = np.exp(-((((X - x) ** 2 + (Y[:, None] - y) ** 2) / SPOT**2) ** 3))  # nearly a disc
             self.left[spout] -= gone
-            inks = np.concatenate([[1.0], self.lost(spout, self.time - self.falls)])
+            inks = np.concatenate([[1.0], LOST[spout]])
             self.film += inks[:, None, None] * spot * (gone / CELL**2 / spot.sum())
 
     def spread(self, seconds, pull):
@@ -106,15 +109,12 @@ class Paint:
 
     def spouts(self, time):
         one, time = np.arange(SPOUTS), np.asarray(time)[..., None]
-        x = 0.105 * (one - (SPOUTS - 1) / 2) + 0.035 * np.sin(2.6 * time + 1.7 * one)
-        return np.stack([x, 0.15 + 0.015 * np.cos(3.1 * time + one)], axis=-1)
+        x = 0.1 * (one - (SPOUTS - 1) / 2) + 0.06 * np.sin(2.6 * time + np.pi * one)
+        return np.stack([x, 0.10 + 0.02 * np.cos(3.1 * time + one)], axis=-1)
 
     def sways(self, time):  # m/s
         one = np.arange(SPOUTS)
-        return np.stack([0.091 * np.cos(2.6 * time + 1.7 * one), -0.0465 * np.sin(3.1 * time + one)], axis=-1)
-
-    def lost(self, spout, time):
-        return LOST[(spout + 2 * np.floor(np.maximum(time, 0) / CHANGES).astype(int)) % len(LOST)]
+        return np.stack([0.156 * np.cos(2.6 * time + np.pi * one), -0.062 * np.sin(3.1 * time + one)], axis=-1)
 
     def falling(self, drop):
         pulls = -self.gravity[2]
@@ -135,7 +135,7 @@ class Paint:
         for spout in range(SPOUTS):
             rings = self.middle + left[:, spout] @ self.turn[:, :2].T + (HIGH - drop)[:, None] * (0, 0, 1)
             points.append((rings[:, None] + wide[:, None, None] * RING).reshape(-1, 3))
-            colours.append(np.repeat(self.lost(spout, self.time - self.falling(drop)), AROUND, axis=0))
+            colours.append(np.tile(LOST[spout], (RINGS * AROUND, 1)))
         self.points, self.colours = np.concatenate(points), np.exp(-np.concatenate(colours) / 2.2)
         self.mass, self.velocities = np.zeros(len(self.points)), np.zeros((len(self.points), 3))
         cells, waits = ACROSS * DOWN, ACROSS * DOWN + np.arange(SPOUTS)[:, None] * RINGS * AROUND + np.arange(AROUND)
@@ -151,30 +151,3 @@ class Paint:
 
     def volume(self):
         return CELL**2 * self.film[0].sum() + self.left.sum()
-```
-
-In `simulation.py`, with `canvas` a box of `size: [0.6, 0.44, 0.02]`, `deg_x: 14`, and 0.5 m free above it:
-
-```python program
-from laws.paint import ACROSS, AROUND, DOWN, HIGH, RING, RINGS, SPOUTS, WIDE, X, Y, Paint
-from worldkit import moved_shapes
-
-
-def film(spec, middle=(0.0, 0.0, 0.1)):
-    """The skin that the law moves, and the tubes of its streams, before anything is poured."""
-    flat = np.stack([*np.meshgrid(X, Y), np.zeros((DOWN, ACROSS))], axis=-1).reshape(-1, 3)
-    tube = np.linspace(HIGH, 0, RINGS)[:, None, None] * (0, 0, 1) + WIDE * RING
-    one = (np.arange(DOWN - 1)[:, None] * ACROSS + np.arange(ACROSS - 1)).ravel()
-    faces = [np.stack([one, one + 1, one + ACROSS], 1), np.stack([one + 1, one + ACROSS + 1, one + ACROSS], 1)]
-    faces += [np.array(moved_shapes.tube(RINGS, AROUND)) + len(flat) + n * RINGS * AROUND for n in range(SPOUTS)]
-    points = np.concatenate([flat, *[tube.reshape(-1, 3)] * SPOUTS]) + middle
-    moved_shapes.surface(spec, "film", points, np.concatenate(faces), look="ceramic_white")
-
-
-program.main(build, duration=8.0, control_every=5, visual_only=("film",), laws=[Paint(viscosity=0.9, density=1250.0)])
-```
-
-The plan's row is `bodies: [world]`, `solver: {name: paint, file: laws/paint.py, shown_by: film}`; the time step 0.004 s. The look gives
-the gloss, the law the colour; the canvas is `plaster` or `fabric_linen`. Light from low at the side shows the relief. What the
-sentence says is claimed of the paint itself: `covers: {medium: film, body: canvas, min_share: 0.7}` (here 0.77 at 8 s). The film is a
-camera's subject like any object.
