@@ -105,11 +105,11 @@ lock: .venv/.dev ## Pin what is installed now
 	@touch $@
 
 .venv/.dev: .venv/.core
-	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,scenes,gym,mcap,robots,judge,dev]'
+	$(BIN)/pip install --quiet --progress-bar on --editable '.[view,film,matter,hulls,scenes,gym,mcap,ros,robots,judge,dev]'
 	@touch $@
 
 .venv/.semantic: .venv/.dev
-	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,scenes,semantic,gym,mcap,robots,dev]'
+	$(BIN)/pip install --quiet --progress-bar on torch==2.13.0 --editable '.[view,film,hulls,scenes,semantic,gym,mcap,ros,robots,dev]'
 	@touch $@
 
 clean: ## Remove the environment and caches; runs are kept

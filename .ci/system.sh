@@ -4,7 +4,8 @@
 #   LLVM 17 or newer: final films are traced 3 to 5 times as fast (optional)
 # With `harness` also what the harnesses need:
 #   npm: brings them       ripgrep: OpenCode does not start without it       socat: Claude Code confines its shell with it
-# With `suites` also what all that CI runs needs: those, make and git, and Chromium, in which the live page is driven (optional).
+# With `suites` also what all that CI runs needs: those, make and git, Chromium, in which the live page is driven (optional), and Fast
+# DDS with a compiler, another vendor's end of a ROS 2 network (optional).
 set -euo pipefail
 
 missing=()
@@ -20,6 +21,8 @@ if [ "${1:-}" = suites ]; then
   need_program make make
   need_program git git
   command -v chromium-browser >/dev/null || need_program chromium chromium
+  need_program g++ g++
+  [ -f /usr/include/fastdds/dds/domain/DomainParticipant.hpp ] || missing+=(libfastrtps-dev)
 fi
 if [ "${1:-}" = suites ] || [ "${1:-}" = harness ]; then
   need_program npm npm
@@ -47,7 +50,7 @@ apt-get update -qq
 for package in "${missing[@]}"; do
   # libosmesa6 has left the newest distributions; EGL alone is enough there. Older ones have no libllvm19.
   apt-get install -y -qq --no-install-recommends "$package" >/dev/null || {
-    case "$package" in libosmesa6 | bubblewrap | libllvm19 | chromium) ;; *) exit 1 ;; esac
+    case "$package" in libosmesa6 | bubblewrap | libllvm19 | chromium | g++ | libfastrtps-dev) ;; *) exit 1 ;; esac
     echo "$package is not available here; going on without it"
   }
 done

@@ -33,9 +33,22 @@ BY_PATH = {"roles", "measure"}
 STARTED = {ROOT / "servers/worldwright/lint" / name for name in ("compiled", "observed/inside")}
 """Folders of programs that run in the sandbox by their file, each with its neighbours on its path."""
 PARTS = {
-    "servers": ("semantic", "view", "film", "matter", "hulls", "scenes", "cluster", "gym", "mcap", "robots", "judge"),
+    "servers": (
+        "semantic",
+        "view",
+        "film",
+        "matter",
+        "hulls",
+        "scenes",
+        "cluster",
+        "gym",
+        "mcap",
+        "ros",
+        "robots",
+        "judge",
+    ),
     "catalog/make": ("hulls",),
-    "tests": ("dev", "film", "gym", "hulls", "mcap", "scenes", "semantic", "view"),
+    "tests": ("dev", "film", "gym", "hulls", "mcap", "ros", "scenes", "semantic", "view"),
 }
 """What each part of the tree may import besides the core: the extras that `make` installs where it runs."""
 

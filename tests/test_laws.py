@@ -151,7 +151,7 @@ def test_tools_import_nothing_heavy(server):
     assert done.stdout.strip() == "[]"
 
 
-TREE_BYTES = 25_000_000
+TREE_BYTES = 28_000_000
 WORLD_BYTES = 1_500_000
 POSTER_BYTES = 60_000
 KEPT = {

@@ -1,4 +1,4 @@
-"""`worldwright export RUN --format gltf|usd|mcap`: the recorded motion for other programs, drawn or as messages, and for the report."""
+"""`worldwright export RUN --format gltf|usd|mcap|rosbag2`: the recorded motion for other programs and for the report."""
 
 import json
 from pathlib import Path
@@ -13,7 +13,9 @@ from .model.errors import GateError, NotFoundError
 from .model.evidence.reports import EvidenceKey
 from .model.evidence.run import Run
 
-FORMATS = {"gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap"}
+FORMATS = {"gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap", "rosbag2": "recording.bag"}
+MESSAGES = ("mcap", "rosbag2")
+"""Of these formats, which tell rows."""
 RATE_HZ = 25.0
 
 
@@ -22,17 +24,18 @@ def write(
 ) -> Path:
     """Write a run's scene, or its recording as messages, beside its report unless a `path` is given; returns where.
 
-    `rate_hz` (`RATE_HZ` without it) and `camera`, whose film is told, too, are for `mcap` alone; see `ends.mcap_file`.
+    `rate_hz` (`RATE_HZ` without it) and `camera`, whose film is told, too, are for messages alone; see `ends.ros_rows`.
 
     Raises:
         GateError: nothing is recorded of this program and plan, or what was filmed is of another.
         JobError: the engine could not write it.
-        NotFoundError: the extra `mcap` is not installed, no such camera was filmed, or the format has none of what is asked.
+        NotFoundError: the extra (`mcap`, `ros`) is not installed, no such camera was filmed, or the format has none of what is asked.
     """
-    if kind != "mcap" and (rate_hz is not None or camera):
+    if kind not in MESSAGES and (rate_hz is not None or camera):
         asked = "--pictures" if camera else "--rate"
         raise NotFoundError(
-            f"{asked} does nothing to {kind}", next_move=f"leave it out, or take --format mcap: {asked} is its own"
+            f"{asked} does nothing to {kind}",
+            next_move="leave it out, or take --format mcap or rosbag2, which tell rows",
         )
     from .model.evidence import environment
     from .stage.one_frame import given_words, recorded
@@ -42,16 +45,15 @@ def write(
     physics = recorded(run, key)
     name = FORMATS[kind]
     target = path or run.folder / name
-    if kind == "mcap":
+    if kind in MESSAGES:
         from worldengine.recording import stored
 
-        from .ends import mcap_file
+        from .ends import mcap_file, rosbag_file
 
+        writer = mcap_file if kind == "mcap" else rosbag_file
         film = _film(run, key, camera) if camera else None
         rate = RATE_HZ if rate_hz is None else rate_hz
-        mcap_file.write(
-            stored.open(physics / "trajectory"), target, rate_hz=rate, plan=run.source.read_bytes(), film=film
-        )
+        writer.write(stored.open(physics / "trajectory"), target, rate_hz=rate, plan=run.source.read_bytes(), film=film)
         return target
     recording_sha256 = _sha256(physics / "trajectory")
     words = ["scene", *given_words(physics), "--format", kind]
@@ -140,11 +142,11 @@ def scene(run: Run, accepted_sha256: str = "") -> tuple[bytes | None, str]:
 @click.option(
     "--rate",
     type=click.FloatRange(min=0),
-    help=f"Of mcap: rows a simulated second, {RATE_HZ:g} without it; 0: all.",
+    help=f"Of messages: rows a simulated second, {RATE_HZ:g} without it; 0: all.",
 )
-@click.option("--pictures", default="", metavar="CAMERA", help="Of mcap: the film of this camera of the plan, too.")
+@click.option("--pictures", default="", metavar="CAMERA", help="Of messages: the film of this camera of the plan, too.")
 def command(run: str, kind: str, out: Path | None, rate: float | None, pictures: str) -> None:
-    """Write the recorded motion: the drawn world as glTF or USD, or as MCAP in ROS 2's messages (the extra `mcap`).
+    """Write the recorded motion: the drawn world as glTF or USD, or in ROS 2's messages, as MCAP or a bag (extras `mcap`, `ros`).
 
     A skin over several bodies is carried out as one rigid piece for each of them.
     """

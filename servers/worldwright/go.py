@@ -97,6 +97,9 @@ def go(run: Run, options: Options, say: Say) -> bool:
             approve(str(run.folder), by="command line", auto=options.auto and not options.approve)
         return "approved at the command line"
 
+    from .stage.warm import kept_warm
+
+    kept_warm.keep()
     walk = Accepting if options.accept else Going
     allowed = grant if options.approve or options.auto else None
     try:

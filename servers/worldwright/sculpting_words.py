@@ -26,8 +26,8 @@ PARTS = (
     ("Where things go", "along skin share_along"),
     ("Into the world", "Part add assemble from_file dress made leaf"),
 )
-SOLIDS = "box lathe slab loft sweep ring curve"
-MASKS = "gradient over plain step within stripes spots net mottled noise label"
+SOLIDS = "box ball cylinder pipe torus lathe turned slab loft sweep wire ring curve together around"
+MASKS = "gradient over plain step within stripes spots net mottled noise label dial"
 
 
 def page() -> str:

@@ -6,6 +6,9 @@ import click
 
 from . import expose
 
+STARTING = ("stage", "scan", "stamp")
+"""Servers that start passes, one after the other."""
+
 
 @click.command("serve")
 @click.argument("name", type=click.Choice(list(expose.SERVERS)))
@@ -19,4 +22,8 @@ def command(name: str, transport: str, host: str, port: int) -> None:
 
         ranker.LASTING.set()
         threading.Thread(target=ranker.warm, daemon=True).start()
+    if name in STARTING:
+        from .stage.warm import kept_warm
+
+        kept_warm.keep()
     expose.serve(name, transport, host, port)

@@ -4,7 +4,8 @@ The loop is the confined engine's own, of a car with nobody at the wheel, which 
 and records; the bare one steps the same model by `mj_step`, with the same pedals as often, and does nothing else. Both are measured in
 processor time of their one thread, alternating, and the ratio is that of the medians: what else runs on the machine counts as
 little as can be. At the pace of the wall clock the loop sleeps and wakes 250 times a second besides; that is told as a share of a
-processor. Pictures are told as the share of a processor that fifteen of them a second take, drawn and encoded.
+processor. Pictures are told as the share of a processor that fifteen of them a second take, drawn and encoded; the end that speaks
+ROS 2 as the share that all its topics take 25 times a second, with the lidar's ring and without a listener.
 
     python tests/bench/live_drive.py [--seconds 20] [--repeats 5]
 """
@@ -18,6 +19,7 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 from figures import Figure, report
 
@@ -36,12 +38,14 @@ from worldkit.vehicles.found_cars import find_cars
 from worldwright.ends import chase_pictures
 from worldwright.ends.live_source import LiveSource
 from worldwright.ends.live_world import LiveWorld
+from worldwright.ends.ros_live import RATE_HZ, RosAsked, RosEnd
+from worldwright.ends.seats import Seats
 from worldwright.model.evidence.run import Run
 from worldwright.model.plan.plan_text import read_plan
 from worldwright.stage import tools as stage
 
 PLAN = Path(__file__).parents[1] / "worldwright/world/driven_car_plan.md"
-LOOP, LIGHT, REAL_TIME, PICTURES = 1.15, 1.3, 0.1, 0.5
+LOOP, LIGHT, REAL_TIME, PICTURES, NETWORK = 1.15, 1.3, 0.1, 0.5, 0.25
 """A car alone on a plane is stepped in 12 us, so light that asking for its pedals and recording ten rows a second show."""
 BOXES = 25
 EVERY = 10
@@ -126,6 +130,23 @@ def pictures(source: LiveSource, look: str, count: int = 15) -> float:
     return spent
 
 
+def network(source: LiveSource, rounds: int = 100) -> float:
+    """Processor time a second of the end that speaks ROS 2, s: of a car that moves, in a domain where nobody is."""
+    model = source.model
+    data, state = mujoco.MjData(model), np.zeros(mujoco.mj_stateSize(model, signature()))
+    world = SimpleNamespace(source=source, commands=(), newest=({}, None))
+    end = RosEnd(world, Seats([], print, print, lambda: 0.0), RosAsked(domain=231, lidar=True), "car")
+    told, began, topics = end.told, _computed(), len(end._publishers)
+    while end.told < told + rounds * topics:
+        data.time, data.qpos[0] = data.time + 0.02, 0.3 * data.time
+        mujoco.mj_getState(model, data, state, signature())
+        world.newest = ({}, state.copy())
+        time.sleep(0.02)
+    spent = (_computed() - began) / ((end.told - told) / topics)
+    end.close()
+    return spent * RATE_HZ
+
+
 def _computed() -> float:
     used = resource.getrusage(resource.RUSAGE_SELF)
     return used.ru_utime + used.ru_stime
@@ -145,6 +166,7 @@ def main() -> int:
         slow = live(source, 4.0, 1.0)
         quick = pictures(source, chase_pictures.QUICK)
         film = pictures(source, chase_pictures.FILM)
+        ros = network(source)
     print(
         f"bare {1e6 * step_s:.1f} us a step; a picture {1000 * quick / 15:.1f} ms, as a film {1000 * film / 15:.1f} ms"
     )
@@ -153,6 +175,7 @@ def main() -> int:
         Figure("live loop over a bare one, a car alone", alone, LIGHT),
         Figure("processors of a car driven in real time", slow["cpu_s"] / slow["simulated_s"], REAL_TIME, "core"),
         Figure("processors of 15 pictures a second", quick, PICTURES, "core"),
+        Figure("processors of a ROS 2 network, 25 times a second", ros, NETWORK, "core"),
         Figure("the film's look over the quick one", film / quick, 3.0, at_least=True),
     )
 

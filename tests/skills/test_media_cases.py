@@ -1,4 +1,4 @@
-"""The worked cases of the skill `media`: each plan stands, its draft is whole and builds, and its film can be told."""
+"""The worked cases of the skills `media` and `breakable-things`: each plan stands, its draft is whole and builds, and its film can be told."""
 
 import runpy
 import shutil
@@ -16,18 +16,20 @@ from worldwright.model.plan.layout import Scene
 from worldwright.model.plan.plan_text import read_plan
 from worldwright.place import tools as place
 
-CASES = Path(__file__).parents[2] / "skills/media/references"
-NAMES = sorted(path.parent.name for path in CASES.glob("*/plan.md"))
+SKILLS = Path(__file__).parents[2] / "skills"
+CASES = sorted(
+    path.parent for skill in ("media", "breakable-things") for path in SKILLS.glob(f"{skill}/references/*/plan.md")
+)
 
 
-def test_the_skill_names_each() -> None:
-    page = (CASES.parent / "SKILL.md").read_text(encoding="utf-8")
-    assert NAMES and all(f"references/{name}/" in page for name in NAMES)
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_its_skill_names_it(case: Path) -> None:
+    assert f"references/{case.name}/" in (case.parents[1] / "SKILL.md").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_case_is_drafted_whole_and_builds(name: str, tmp_path: Path) -> None:
-    case = shutil.copytree(CASES / name, tmp_path / name)
+@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+def test_a_case_is_drafted_whole_and_builds(case: Path, tmp_path: Path) -> None:
+    case = shutil.copytree(case, tmp_path / case.name)
     found = (*lint.check_plan(case / "plan.md").findings, *place.check(case / "plan.md").findings)
     assert [one for one in found if one.severity == "error"] == []
     plan = read_plan(case / "plan.md").plan
@@ -36,7 +38,7 @@ def test_a_case_is_drafted_whole_and_builds(name: str, tmp_path: Path) -> None:
     (case / "simulation.py").write_text(made.source, encoding="utf-8")
     subprocess.run([sys.executable, "simulation.py", "--pass", "build", "--out", "world"], cwd=case, check=True)
     assert (case / "world/world.mjz").is_file()
-    moves = {mover: np.zeros((30, 3)) for mover in plan.movers()} or {"nothing": np.zeros((30, 3))}
+    moves = {name: np.zeros((30, 3)) for name in (*plan.movers(), *(row.name for row in plan.scene_objects))}
     film = Film(Recorded.rehearsal(moves, duration=float(plan.simulation_parameters.simulation_duration)))
     runpy.run_path(str(case / "film.py"))["film"](film)
     assert film.description()[0]["shots"]

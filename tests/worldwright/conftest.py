@@ -10,6 +10,10 @@ import pytest
 
 os.environ.setdefault("MUJOCO_GL", "egl")
 
+from worldwright.stage.warm import kept_warm
+
+kept_warm.keep()
+
 PLAN = (Path(__file__).parent / "world" / "dropped-ball.md").read_text(encoding="utf-8")
 RUN = "dropped-ball"
 

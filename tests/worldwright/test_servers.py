@@ -45,6 +45,7 @@ def calls(server: str, world: Path, copy: Path) -> dict[str, dict]:
             "breaking_changes": {"name": "composite"},
             "find_asset": {"query": "mug"},
             "add_asset": {"file": str(copy / "block.obj"), "height": 0.2, "material": "wood"},
+            "keep_sculpt": {"run": str(copy.parent / "sculpted"), "name": "bowl", "key": "turned_bowl"},
             "begin": {"sentence": "a ball falls beside a block", "run": f"{copy}-begun"},
             "status": {},
         },
@@ -104,6 +105,8 @@ BLOCK = "".join(f"v {x} {y} {z}\n" for x in (0, 1) for y in (0, 1) for z in (0, 
     f"f {row}\n" for row in ("1 2 4 3", "5 7 8 6", "1 5 6 2", "3 4 8 7", "1 3 7 5", "2 6 8 4")
 )
 """A cube as a mesh file."""
+POT = "from worldkit.sculpt import crisp\n\nPOT = crisp.pipe(0.2, 0.18, 0.09) | crisp.cylinder(0.19, 0.01)\n"
+"""What a run sculpts."""
 SWEEP = """\
 plan: plan.md
 hands: processes
@@ -142,7 +145,10 @@ async def talk(server: str, table: dict[str, dict]) -> dict:
 
 
 @pytest.mark.parametrize("server", expose.SERVERS)
-def test_every_tool_answers(server, world, tmp_path, monkeypatch):
+def test_every_tool_answers(server, world, tmp_path, monkeypatch, sculpted_plan):
+    (tmp_path / "sculpted/sculpt").mkdir(parents=True)
+    (tmp_path / "sculpted/plan.md").write_text(sculpted_plan, encoding="utf-8")
+    (tmp_path / "sculpted/sculpt/bowl.py").write_text(POT, encoding="utf-8")
     monkeypatch.setenv("WORLDWRIGHT_ASSETS", str(tmp_path / "own"))
     copy = tmp_path / "copy"
     shutil.copytree(world, copy, symlinks=True)

@@ -211,8 +211,9 @@ MAIN_TOOLS = (
 """The tools of the main thread: it orchestrates, looks, answers, approves in the person's name, stamps."""
 ON_REQUEST = (
     "stage.campaign_start", "stage.campaign_wait", "stage.campaign_status", "stage.campaign_cancel", "stage.campaign_results",
+    "retrieve.keep_sculpt",
 )  # fmt: skip
-"""Tools for whoever runs many worlds; no role needs them for one, so they cost no role a word."""
+"""Tools for whoever runs many worlds, or keeps what one has made; no role needs them for one, so they cost no role a word."""
 SKILLS_ON_REQUEST = ("campaign",)
 """The skills that say how; the main thread may read them beside what a person types."""
 RESERVED = ("stamp.describe", "stamp.review", "stage.draft", "place.resolve", "place.settle", "retrieve.begin",

@@ -115,10 +115,24 @@ def matter() -> Diagnosis:
     return Diagnosis("matter", compiled, f"numba {found}, {told}", " ".join(kept_kernels.CALL), essential=False)
 
 
+def ros() -> Diagnosis:
+    """Check that what speaks ROS 2 is here, and that its own library loads."""
+    from importlib import import_module
+    from importlib.metadata import PackageNotFoundError, version
+
+    try:
+        found = ", ".join(f"{name} {version(name)}" for name in ("cyclonedds", "rosbags"))
+        import_module("cyclonedds.domain")
+    except (PackageNotFoundError, ImportError) as cause:
+        fix = f"{sys.executable} -m pip install 'worldwright[ros]'"
+        return Diagnosis("ros", False, f"no ROS 2 network, no rosbag2: {cause}", fix, essential=False)
+    return Diagnosis("ros", True, found)
+
+
 def disk() -> Diagnosis:
     """Check that there is room for recordings and films."""
     free_gb = shutil.disk_usage(Path.cwd()).free / 1e9
     return Diagnosis("disk", free_gb > 2, f"{free_gb:.0f} GB free here", "free some space: a run needs up to 2 GB")
 
 
-CHECKS = (python, simulator, wheels, opengl, sandbox, catalog, matter, disk)
+CHECKS = (python, simulator, wheels, opengl, sandbox, catalog, matter, ros, disk)

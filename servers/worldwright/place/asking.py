@@ -13,7 +13,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from ..model import call_time, processor_time
+from ..model import call_time, own_time, processor_time
 from ..model.errors import JobError
 from ..model.plan.committed import AssetRow, Plan, SceneObject
 from ..model.plan.formed import arguments
@@ -147,22 +147,23 @@ def simulate(
 
 
 def _follow(process: "subprocess.Popen[bytes]", progress: Path) -> None:
-    """Wait for a process as long as what it writes there changes.
+    """Wait for a process as long as what it writes there changes; what other work takes of the processor meanwhile does not count.
 
     Raises:
         JobError: nothing has for so long.
         CallOverError: the client's call ended first.
     """
-    said, advanced = b"", time.monotonic()
+    said, advanced, own = b"", 0.0, own_time.OwnTime(time.monotonic())
     try:
         while not _ended(process, os.WNOHANG):
             time.sleep(TICK_S)
             if call_time.left_s() <= 0:
                 raise call_time.over()
+            now = own.after(time.monotonic(), *own_time.of_process(process.pid))
             with suppress(OSError):
-                if (now := progress.read_bytes()) != said:
-                    said, advanced = now, time.monotonic()
-            if time.monotonic() - advanced > STILL_S:
+                if (says := progress.read_bytes()) != said:
+                    said, advanced = says, now
+            if now - advanced > STILL_S:
                 raise JobError(
                     f"the pre-roll was ended: nothing advanced for {STILL_S:g} s ({said.decode(errors='replace') or 'at its start'})",
                     code="timed_out",

@@ -183,6 +183,8 @@ class AssetList(Frozen):
     """Every key, when nothing fits."""
     looks: tuple[LookHit, ...] = ()
     """Looks whose words fit."""
+    next_move: str = ""
+    """How to come by the thing, when nothing fits."""
 
     @property
     def ok(self) -> bool:
@@ -194,7 +196,7 @@ class AssetList(Frozen):
         lines = [asset.text() for asset in self.assets]
         if not lines:
             known = ", ".join(self.known) or "(none)"
-            lines = [f"no asset fits '{self.query}': build it of primitives (known: {known})"]
+            lines = [f"no asset fits '{self.query}' (known: {known})", f"  next: {self.next_move}"]
         if self.looks:
             lines.append("looks: " + "; ".join(f"{look.name} ({look.description})" for look in self.looks))
         return "\n".join(lines)

@@ -63,7 +63,18 @@ def find(query: str, limit: int, height_m: float | None = None) -> AssetList:
     order = sorted(scores, key=lambda number: (-scores[number], known.rows[number].key))[:limit]
     hits = tuple(known.rows[number].model_copy(update={"score": round(scores[number], 4)}) for number in order)
     everything = () if hits else tuple(sorted(row.key for row in known.rows if row.taken_in))[:MOST_KNOWN]
-    return AssetList(query=query, assets=hits, known=everything, looks=_looks(asked))
+    way = "" if hits else _otherwise()
+    return AssetList(query=query, assets=hits, known=everything, looks=_looks(asked), next_move=way)
+
+
+def _otherwise() -> str:
+    """How to come by a thing that is in no source: of a picture where a server is named, else by code; the plan says which."""
+    from ..intake import minters
+
+    ready = [name for name in minters.SEAM.names() if minters.SEAM.find(name).TERMS.ready()]
+    minted = f"ask the person to type `worldwright asset mint PICTURE HEIGHT --server {ready[0]}`; or " if ready else ""
+    alone = "" if ready else " (no server that makes meshes is named here)"
+    return f"{minted}sculpt it (skill sculpting) or build it of primitives{alone}, and list under `inferred` what stands for it"
 
 
 def count() -> int:
@@ -158,7 +169,10 @@ class _Known:
         order = near.argsort()[::-1][:MOST_KNOWN]
         found = [(int(number), float(near[number])) for number in order if near[number] >= MEANT]
         if not found and not named and near[order[0]] >= LIKELY:
-            second = float(near[order[1]]) if len(order) > 1 else 0.0
+            rivals = (
+                float(near[number]) for number in order[1:] if self.rows[number].taken_in
+            )  # what is only offered is none
+            second = next(rivals, 0.0)
             found = [(int(order[0]), float(near[order[0]]))] if near[order[0]] - second >= AHEAD else []
         return found
 

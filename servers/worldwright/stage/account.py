@@ -27,6 +27,8 @@ MOST = 6
 """So many rows of one kind are told, and the number of the others."""
 UNITS = {"force": "N", "torque": "N·m", "control": "N or N·m", "velocity": "m/s or rad/s"}
 """Units of the kinds that are told with their size; the other kinds mix units."""
+RUNNING = ("force", "parameter", "control", "solver")
+"""Kinds by which a plan declares a surface that runs or sticks (`WM160`)."""
 
 
 def with_account(run: Run, status: JobStatus) -> JobStatus:
@@ -120,7 +122,18 @@ def _undeclared_first(line: str) -> bool:
 
 
 def _acts_unseen(trajectory: Trajectory, row: Intervention) -> bool:
-    """Whether a declared actuator pushes by itself, or a declared wind blows: the ledger shows neither."""
+    """Whether a declared actuator pushes by itself, a declared wind blows, or a belt runs or something sticks all the time."""
+    geoms = trajectory.meta.get("geoms") or ()
+    if (
+        row.kind in RUNNING
+        and always(row.trigger)
+        and any(
+            (geom.get("surfacevel") or geom.get("adhesion"))
+            and {str(geom["name"]), str(geom.get("body"))} & set(row.bodies)
+            for geom in geoms
+        )
+    ):
+        return True
     if "wind" in row.bodies and always(row.trigger) and np.any((trajectory.meta.get("option") or {}).get("wind", 0)):
         return True
     loads, actuators = trajectory.loads, trajectory.meta.get("actuators") or ()

@@ -15,6 +15,7 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from ..model import call_time, processor_time
+from ..model.own_time import OwnTime
 from . import family, plain, sandbox
 from .sandbox.confinement import Confinement, environment
 from .sandbox.enter import enter
@@ -26,8 +27,6 @@ TICK_S = 0.2
 PROGRESS = "progress.json"
 ENDLESS_CPU_S = 30 * 86_400
 """The kernel wants a number; a run that counts its progress is ended when it stands still."""
-STARVED = 20.0
-"""A run that gets less than this part of its time is ended all the same."""
 MB = 1 << 20
 LOG_BYTES = 20_000
 CALL_OVER = "call_over"
@@ -135,26 +134,6 @@ def _places(sculpts: "Given | None") -> tuple[Path, ...]:
     return tuple(path for path in sculpts.places if path.is_dir()) if sculpts else ()
 
 
-class OwnTime:
-    """The seconds that a run had for itself: all in which it slept, and of the others those that it computed."""
-
-    def __init__(self, now_s: float) -> None:
-        self.spent_s, self._now, self._cpu, self._began = 0.0, now_s, 0.0, now_s
-
-    def after(self, now_s: float, cpu_s: float, wanting: bool) -> float:
-        """The seconds until now.
-
-        Args:
-            now_s: of a clock that never goes back.
-            cpu_s: processor time of all its processes so far.
-            wanting: whether one of them computes or would like to; several at once count as one.
-        """
-        passed, computed = now_s - self._now, max(cpu_s - self._cpu, 0.0)
-        self.spent_s += min(passed, computed) if wanting else passed
-        self._now, self._cpu = now_s, cpu_s
-        return max(self.spent_s, (now_s - self._began) / STARVED)
-
-
 def _done(out: Path) -> float:
     """How much a run says is done; 0 where it says nothing that makes sense."""
     said = plain.read_json(out / PROGRESS).get("done")
@@ -180,7 +159,7 @@ def _watched(
     own, computed, done, since = OwnTime(time.monotonic()), [0.0], 0.0, 0.0
     try:
         while not family.ends_within(process, TICK_S, computed.append):
-            seen = family.census(process.pid)
+            seen = family.census(*entered.roots)
             computed.append(seen.cpu_s)
             spent = own.after(time.monotonic(), seen.cpu_s, seen.wanting)
             if advances and (now := _done(confinement.out)) > done:
@@ -198,6 +177,6 @@ def _watched(
                 status = "cancelled"
                 break
     finally:
-        processor_time.add(max(computed))
         family.end(process.pid, confinement.token)
+        processor_time.add(entered.spent_s(max(computed)))
     return status, process.wait()

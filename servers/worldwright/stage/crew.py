@@ -15,13 +15,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..model.own_time import OwnTime
 from . import compiled_shaders, family, sandbox
-from .confined import OwnTime
 from .job import Job
 from .kept_sculpts import Given
 from .limits import Guard
 from .sandbox.confinement import Confinement, environment
-from .sandbox.enter import enter
+from .sandbox.enter import Entered, enter
 
 LOG_BYTES = 1_000_000
 TICK_S, REAPED_S = 0.1, 2.0
@@ -43,6 +43,8 @@ class Member:
     """The one folder that it may write."""
     reader: threading.Thread
     """The thread that copies its output into the log."""
+    entered: Entered
+    """How it was started; held here, since a forked engine ends when the socket to its keeper is dropped."""
 
 
 class Crew:
@@ -91,7 +93,7 @@ class Crew:
         self.facts = entered.facts
         reader = threading.Thread(target=self._keep_log, args=(entered.process.stdout,), daemon=True)
         reader.start()
-        member = Member(entered.process, out, reader)
+        member = Member(entered.process, out, reader, entered)
         self.members.append(member)
         if sculpts is not None:
             self._sculpts.append((sculpts, scratch))
@@ -105,7 +107,7 @@ class Crew:
         """Wait until a process ends; returns why the job was stopped, if a limit or a person stopped it.
 
         `tick` takes the job's time so far, s, and returns whether the job has advanced since the last call. How long it stands still is
-        told by its own time (`confined.OwnTime`): what other work beside it takes of the processor does not count.
+        told by its own time (`model.own_time`): what other work beside it takes of the processor does not count.
         """
         own, advanced = OwnTime(time.monotonic()), 0.0
         while not family.ends_within(member.process, TICK_S):

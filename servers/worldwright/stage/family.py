@@ -33,20 +33,27 @@ class Census:
     """Whether some process computes, or waits for the processor or a disk; else all of them sleep."""
 
 
-def census(root: int, *, itself: bool = True) -> Census:
-    """The process and all its living descendants, found through /proc."""
+UNCOUNTED: set[int] = set()
+"""Processes of ours in a family that only have others started (`warm`): neither they nor their children count, but theirs."""
+
+
+def census(root: int, *more: int, itself: bool = True) -> Census:
+    """The process and all its living descendants, found through /proc; with `more`, those of other processes, too."""
     started = _children if os.path.exists(f"/proc/{root}/task/{root}/children") else _by_parent()  # noqa: PTH110 - many a second
     facts: dict[int, tuple[int, float, int, bool]] = {}
-    queue = [root]
+    queue, seen = [(0, one) for one in (root, *more)], set[int]()
     while queue:
-        pid = queue.pop()
-        if pid in facts:
+        parent, pid = queue.pop()
+        if pid in seen:
+            continue
+        seen.add(pid)
+        queue += [(pid, child) for child in started(pid)]
+        if pid in UNCOUNTED or parent in UNCOUNTED:
             continue
         if words := _stat(pid):
             spent = sum(int(word) for word in words[11:15]) / TICKS
             zombie = words[0] == b"Z"
             facts[pid] = (0 if zombie else int(words[17]), spent, int(words[21]) * PAGE, words[0] in (b"R", b"D"))
-        queue += started(pid)
     living = [p for p in facts if facts[p][0] and (itself or p != root)]
     return Census(
         processes=tuple(living),

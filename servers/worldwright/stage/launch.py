@@ -22,6 +22,7 @@ from ..model.evidence.reports import EvidenceKey, PassName
 from ..model.evidence.run import Run
 from . import bare_models, family, gates, plain, refined
 from .job import Job, JobStatus, Spec
+from .warm import kept_warm
 
 STILL_S = 180.0
 MEMORY_MB, FILE_MB, DISK_MB, OUTPUT_MB = 4096, 2048, 8192, 16
@@ -196,6 +197,12 @@ def _detach(job: Job) -> None:
     """Start the supervisor in a session of its own, holding the job's lock already."""
     with (job.folder / "supervisor.log").open("wb") as errors, (job.folder / "lock").open("wb") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
+        environment = {
+            **os.environ,
+            "PYDANTIC_DISABLE_PLUGINS": "__all__",
+        }  # else it asks every installed package for some
+        if kept_warm.supervisor(job.folder, errors.fileno(), lock.fileno(), environment):
+            return
         subprocess.Popen(
             [sys.executable, "-P", "-m", "worldwright.stage.supervisor", str(job.folder), str(lock.fileno())],
             stdin=subprocess.DEVNULL,
@@ -203,7 +210,7 @@ def _detach(job: Job) -> None:
             stderr=errors,
             start_new_session=True,
             pass_fds=(lock.fileno(),),
-            env={**os.environ, "PYDANTIC_DISABLE_PLUGINS": "__all__"},  # else it asks every installed package for some
+            env=environment,
         )
 
 

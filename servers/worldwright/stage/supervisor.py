@@ -27,6 +27,7 @@ from .gates import folder_name, require
 from .job import Job, JobStatus, Spec
 from .pace import Pace
 from .processes import Acting, Ended
+from .warm import kept_warm
 
 QUEUE_TICK_S = 0.2
 LEFTOVERS = ("progress.json", "MUJOCO_LOG.TXT", "result.json")
@@ -247,6 +248,8 @@ class Supervision:
 
 def _cpu_s() -> float:
     """Processor time of this process and of all that it has started and that has ended, s."""
+    if (nursery := kept_warm.use(None)) is not None:
+        nursery.close()
     reap_all()
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return round(sum(one.ru_utime + one.ru_stime for one in used), 2)

@@ -39,6 +39,11 @@ CELLS = (32, 18)
 """The mosaic that two pictures are compared in: fine detail differs between drivers and by the film's compression."""
 APART = 40.0
 """Of 255: how far one cell may differ. Honest pictures stay below 10 (33 at 160 pixels); a body painted in or out exceeds it."""
+STROKES = 0.02
+"""Of a still, which no film's compression blurs: the share of a cell that may be darker or lighter by `APART` than all that lies
+beside it in the other picture. Edges that another driver smooths otherwise lie between what is beside them; a thin stroke does not."""
+STROKE_PX, READABLE_PX = 12, 480
+"""So many pixels of a cell at least, in a still at least so wide: on a smaller one nobody reads a thin caption."""
 
 
 @dataclass(frozen=True)
@@ -54,11 +59,15 @@ class Shown:
     """Pixels."""
     at_s: float
     camera: str
+    still: Path | None = None
+    """The file, of which every stroke is looked at."""
 
     @classmethod
-    def of(cls, picture: "np.ndarray", name: str, what: str, at_s: float, camera: str) -> "Shown":
+    def of(
+        cls, picture: "np.ndarray", name: str, what: str, at_s: float, camera: str, still: Path | None = None
+    ) -> "Shown":
         """A picture as it was read, uint8 (height, width, 3)."""
-        return cls(name, what, _mosaic(picture), (picture.shape[1], picture.shape[0]), at_s, camera)
+        return cls(name, what, _mosaic(picture), (picture.shape[1], picture.shape[0]), at_s, camera, still)
 
     def against(self, drawn: bytes) -> str:
         """How the picture drawn again, an encoded one, contradicts it; empty where it does not."""
@@ -67,9 +76,21 @@ class Shown:
 
         now = cv2.imdecode(np.frombuffer(drawn, np.uint8), cv2.IMREAD_COLOR)
         apart = 255.0 if now is None else np.abs(self.cells - _mosaic(now)).max()
-        if apart <= APART:
-            return ""
+        if now is not None and apart <= APART:
+            return self._strokes(now)
         return f"{self.what} does not show this world: a part of it differs by {apart:.0f} of 255 from the picture drawn again"
+
+    def _strokes(self, now: "np.ndarray") -> str:
+        """Whether something too thin for the mosaic is painted in or out of a still, which is read once more."""
+        import cv2
+
+        mine = None if self.still is None else cv2.imread(str(self.still))
+        if mine is None or mine.shape != now.shape or mine.shape[1] < READABLE_PX:
+            return ""
+        share = max(_beyond(mine, now), _beyond(now, mine))
+        if share <= max(STROKES, STROKE_PX * CELLS[0] * CELLS[1] / (mine.shape[0] * mine.shape[1])):
+            return ""
+        return f"{self.what} does not show this world: strokes over {share:.0%} of a part of it are not in the picture drawn again"
 
 
 def differ(folder: Path, statement: Statement, proved: Proved) -> Iterator[str]:
@@ -145,17 +166,24 @@ def _poster(path: Path, folder: Path, statement: Statement, proved: Proved) -> "
 def _picture(path: Path, at_s: float, camera: str) -> "Iterator[Shown | str]":
     import cv2
 
+    still = path if path.suffix == ".png" else None
     picture = cv2.imread(str(path))
-    yield f"{path.name} is no picture" if picture is None else Shown.of(picture, path.name, path.name, at_s, camera)
+    yield (
+        f"{path.name} is no picture"
+        if picture is None
+        else Shown.of(picture, path.name, path.name, at_s, camera, still)
+    )
 
 
 def _film(path: Path, proved: Proved, frames: int = FRAMES) -> "Iterator[Shown | str]":
     """Frames by chance; refuse a film whose frames are not, one after the other, as many as it says and should be."""
     import av
+    from av.codec.context import ThreadType
 
     try:
         with mp4_file.opened(path) as film:
             stream = film.streams.video[0]
+            stream.codec_context.thread_type = ThreadType.AUTO  # every frame is decoded, on all processors
             fps, said = float(stream.average_rate or 0), stream.frames
             if odd := _paced(path, proved, fps, said):
                 yield f"{path.name} is not as it was drawn: {odd}"
@@ -233,3 +261,14 @@ def _mosaic(picture: "np.ndarray") -> "np.ndarray":
     import numpy as np
 
     return cv2.resize(picture, CELLS, interpolation=cv2.INTER_AREA).astype(np.float64)
+
+
+def _beyond(one: "np.ndarray", other: "np.ndarray") -> float:
+    """The largest share of a cell of one picture that is beyond all that lies beside it in the other one."""
+    import cv2
+    import numpy as np
+
+    beside = np.ones((2 * max(1, round(one.shape[1] / 400)) + 1,) * 2, np.uint8)
+    low, high = cv2.erode(other, beside).astype(np.int16), cv2.dilate(other, beside).astype(np.int16)
+    out = np.asarray(((one < low - APART) | (one > high + APART)).any(axis=2), np.float32)
+    return float(cv2.resize(out, CELLS, interpolation=cv2.INTER_AREA).max())

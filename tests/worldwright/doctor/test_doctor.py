@@ -52,6 +52,14 @@ def test_the_doctor_asks_the_installed_engine_and_no_module_of_the_folder_it_is_
     assert found.ok and "liar" not in found.found and not (tmp_path / "ran").exists()
 
 
+def test_the_doctor_says_whether_a_ros_network_can_be_spoken(monkeypatch):
+    found = machine.ros()
+    assert found.ok and "cyclonedds 11" in found.found and "rosbags 0" in found.found
+    monkeypatch.setitem(sys.modules, "cyclonedds.domain", None)
+    found = machine.ros()
+    assert not (found.ok or found.essential) and found.fix.endswith("-m pip install 'worldwright[ros]'")
+
+
 def test_the_doctor_says_whether_numba_is_here_and_has_compiled_and_what_compiles_it(monkeypatch):
     monkeypatch.setattr(kept_kernels, "compiled", lambda: True)
     found = machine.matter()

@@ -64,9 +64,10 @@ def test_one_that_stands_still_is_no_fault_of_the_plan(monkeypatch, tmp_path, sm
         place.settle(tmp_path / "plan.md")
 
 
-@pytest.mark.parametrize("advances", [True, False])
-def test_it_is_waited_for_as_long_as_it_advances(monkeypatch, tmp_path, advances):
+@pytest.mark.parametrize(("advances", "starved"), [(True, False), (False, True), (False, False)])
+def test_it_is_waited_for_as_long_as_it_advances_or_has_no_processor(monkeypatch, tmp_path, advances, starved):
     progress, clock, needs_s = tmp_path / "answer.progress", [0.0], 10 * asking.STILL_S
+    monkeypatch.setattr(asking.own_time, "of_process", lambda _: (clock[0] / 15 if starved else clock[0], True))
 
     def sleep(_: float) -> None:
         clock[0] += asking.STILL_S / 2
@@ -74,9 +75,11 @@ def test_it_is_waited_for_as_long_as_it_advances(monkeypatch, tmp_path, advances
 
     monkeypatch.setattr(asking, "time", SimpleNamespace(monotonic=lambda: clock[0], sleep=sleep))
     monkeypatch.setattr(asking, "_ended", lambda *_: clock[0] >= needs_s)
-    with nullcontext() if advances else pytest.raises(JobError, match=r"nothing advanced for 180 s \(built\)"):
-        asking._follow(SimpleNamespace(returncode=0), progress)
-    assert (clock[0] >= needs_s) == advances
+    with (
+        nullcontext() if advances or starved else pytest.raises(JobError, match=r"nothing advanced for 180 s \(built\)")
+    ):
+        asking._follow(SimpleNamespace(returncode=0, pid=0), progress)
+    assert (clock[0] >= needs_s) == (advances or starved)
 
 
 @pytest.mark.usefixtures("unkept")

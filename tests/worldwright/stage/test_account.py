@@ -116,6 +116,15 @@ def test_a_gust_with_a_moment_of_its_own_is_no_wind_that_blows_anyway(plan):
     assert "declared, but never acted: force on wind (trigger: at 0.5 s)" in told
 
 
+def test_a_declared_belt_runs_though_the_ledger_has_nothing_of_it(plan):
+    moved = replace(analytic.falling(), interventions=analytic.pushed(count=0))
+    belt = {"name": "lane", "body": "world", "surfacevel": True}
+    running = replace(moved, meta={**moved.meta, "geoms": [belt]})
+    for still, name, idle in ((running, "lane", False), (moved, "lane", True), (running, "other", True)):
+        told = list(account(still, declaring(plan, row("force", name)), {}))
+        assert any("never acted" in line for line in told) == idle
+
+
 def test_a_mover_that_stays_and_many_warnings_are_told_shortly(plan):
     warned = tuple((0.1 * n, f"warning_{n % (MOST + 2)}", 1) for n in range(2 * (MOST + 2)))
     lines = list(account(replace(analytic.resting(), warnings=warned), plan, {"duration_s": 2.0, "wall_s": 0.5}))

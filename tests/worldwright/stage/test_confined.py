@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 
 from worldwright.model import call_time
 from worldwright.model.errors import CallOverError
+from worldwright.model.own_time import STARVED, OwnTime
 from worldwright.stage import family, sandbox
-from worldwright.stage.confined import STARVED, OwnTime, run
+from worldwright.stage.confined import run
 
 pytestmark = pytest.mark.skipif(sandbox.level() not in sandbox.CONFINING, reason="no level confines here")
 

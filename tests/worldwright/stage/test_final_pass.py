@@ -144,7 +144,7 @@ class Scripted:
         outcome = self.outcomes.pop(0)
         write_json(out / ("error.json" if outcome else "result.json"), {"code": outcome} if outcome else {"ok": True})
         stopped = outcome if outcome in ("timed_out", "out_of_memory") else ""
-        member = Member(SimpleNamespace(returncode=int(bool(outcome)), pid=0), out, None)
+        member = Member(SimpleNamespace(returncode=int(bool(outcome)), pid=0), out, None, None)
         self.stopped = {"code": stopped, "message": stopped} if stopped else None
         return member
 

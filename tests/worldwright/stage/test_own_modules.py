@@ -32,6 +32,7 @@ def called(monkeypatch: pytest.MonkeyPatch) -> list[tuple[list[str], dict[str, s
     """Calls that would have been detached."""
     found: list[tuple[list[str], dict[str, str] | None]] = []
     popen = lambda call, **more: found.append((call, more.get("env")))  # noqa: E731
+    monkeypatch.setenv("WORLDWRIGHT_WARM", "0")
     monkeypatch.setattr(launch, "subprocess", SimpleNamespace(Popen=popen, DEVNULL=subprocess.DEVNULL))
     monkeypatch.setattr(unasked_audit, "subprocess", SimpleNamespace(Popen=popen, DEVNULL=subprocess.DEVNULL))
     return found

@@ -15,8 +15,8 @@ from worldwright.stage.job import Job
 from worldwright.stamp import going
 from worldwright.stamp import tools as stamp
 
-ASKED_ONCE = ("--version", "probe.py")
-"""What is asked of a machine once, whichever run asks first: its sandbox's version, and whether it confines."""
+ASKED_ONCE = ("--version", "probe.py", "warm.nursery")
+"""What a machine or a process is asked once, whichever run asks first: its sandbox's version, whether it confines, to be forked from."""
 
 
 def kind(words) -> str:

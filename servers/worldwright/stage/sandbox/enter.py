@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from .. import family
+from ..warm import joining
 from . import seccomp
 from .births import Births
 from .confinement import Confinement
@@ -26,6 +27,17 @@ class Entered:
     """Decides on new processes and threads; None where the kernel cannot ask."""
     facts: dict[str, str]
     """The means that enforce the limits, for the evidence."""
+    joined: joining.Joined | None = None
+    """The engine, where it was forked into the sandbox that `process` made."""
+
+    @property
+    def roots(self) -> tuple[int, ...]:
+        """The processes whose descendants are the program's."""
+        return (self.process.pid, *((self.joined.engine,) if self.joined else ()))
+
+    def spent_s(self, seen_s: float) -> float:
+        """Its processor time once it has ended, s, of which `seen_s` was told by the kernel."""
+        return max(seen_s, self.joined.spent_s()) if self.joined else seen_s
 
 
 def enter(
@@ -48,15 +60,19 @@ def enter(
         descriptors: descriptors that it inherits besides its output.
         popen: further arguments of `Popen`, such as how its output is read.
     """
+    others = 0 if os.geteuid() == 0 else _processes_of_this_user()
+    if joining.fits(level, call, popen):
+        words, most, output = call[len(joining.ENGINE) :], others + confinement.processes, popen["stdout"]
+        if joined := joining.join(words, confinement, most, descriptors, output):
+            return joined_as(joined, confinement, root, level.facts())
     ours, theirs = socket.socketpair()
     read, write = os.pipe()
     os.write(write, seccomp.denial())  # smaller than a pipe's buffer
     os.close(write)
     confine = level.before_exec(confinement)
-    others = 0 if os.geteuid() == 0 else _processes_of_this_user()
 
     def before() -> None:
-        _limit_births(theirs, others + confinement.processes)
+        limit_births(theirs, others + confinement.processes)
         confine()
 
     with ours, theirs:
@@ -85,7 +101,16 @@ def enter(
     return Entered(process, births, {"births": word.decode(), **level.facts()})
 
 
-def _limit_births(told: socket.socket, user_limit: int) -> None:
+def joined_as(joined: joining.Joined, confinement: Confinement, root: int, facts: dict[str, str]) -> Entered:
+    """What is to be known of an engine that was forked into its sandbox; see `enter`."""
+    births = None
+    if joined.listener is not None:
+        counted = _counter(*((root,) if root else (joined.process.pid, joined.engine)), itself=not root)
+        births = Births(joined.listener, counted, confinement.processes, confinement.threads)
+    return Entered(joined.process, births, {"births": joined.told.decode(), **facts}, joined)
+
+
+def limit_births(told: socket.socket, user_limit: int) -> None:
     """Limit births in the child: ask the supervisor, or count the user's processes, or leave it to the watch."""
     try:
         listener = seccomp.install(seccomp.births(), listen=True)
@@ -102,9 +127,9 @@ def _limit_births(told: socket.socket, user_limit: int) -> None:
     os.close(listener)
 
 
-def _counter(root: int, *, itself: bool) -> Callable[[], tuple[int, int]]:
+def _counter(*roots: int, itself: bool) -> Callable[[], tuple[int, int]]:
     def count() -> tuple[int, int]:
-        now = family.census(root, itself=itself)
+        now = family.census(*roots, itself=itself)
         return len(now.processes), now.threads
 
     return count

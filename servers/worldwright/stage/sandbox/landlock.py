@@ -58,7 +58,7 @@ def before_exec(confinement: Confinement) -> Callable[[], None]:
 
     def confine() -> None:
         limits()
-        _drop_capabilities()
+        drop_capabilities()
         restrict(rules)
         seccomp.install(seccomp.denial(landlock_abi=abi(), own_pid=os.getpid()))
 
@@ -123,7 +123,7 @@ def restrict(rules: list[tuple[Path, int]]) -> None:
     os.close(ruleset)
 
 
-def _drop_capabilities() -> None:
+def drop_capabilities() -> None:
     """Give up every capability, also those that running a program as root would bring back."""
     libc = ctypes.CDLL(None, use_errno=True)
     with contextlib.suppress(OSError, ValueError):

@@ -2,7 +2,7 @@
 
 A value needs no mark when the prompt states it or when it names its source. This covers what changes the outcome: the
 time step, the duration, masses, starting motion, non-standard gravity,
-what drivers of vehicles do and the way they take, where robots walk, and material constants. That each mark names a
+what drivers of vehicles do and the way they take, where robots walk, reach and fly, and material constants. That each mark names a
 value that exists is `WP124`.
 
 Why: in auto mode nobody reads the plan before the code is written, so what was assumed must be readable afterwards.
@@ -10,9 +10,11 @@ Why: in auto mode nobody reads the plan before the code is written, so what was 
 
 import re
 from collections.abc import Iterator
+from typing import Any
 
 from ...model.plan.breakage import stated_masses
 from ...model.plan.committed import Plan
+from ...model.plan.flight_rows import Gusting
 from ...model.plan.vehicle_rows import rolling
 from ..refusal import Refusal
 from ..state import State
@@ -62,7 +64,7 @@ def _chosen(plan: Plan) -> Iterator[tuple[str, list[float]]]:
         if any(numbers):
             yield f"initial_motion.{name}", [abs(v) for v in numbers if v]
     yield from _driven(plan)
-    yield from _walked(plan)
+    yield from _robots(plan)
     for name, material in parameters.materials.items():
         if not material.source:
             yield f"materials.{name}", [float("nan")]
@@ -88,14 +90,28 @@ def _driven(plan: Plan) -> Iterator[tuple[str, list[float]]]:
                     yield f"{way}.inputs.{index}.{name}", [abs(value)]
 
 
-def _walked(plan: Plan) -> Iterator[tuple[str, list[float]]]:
-    """Where robots are told to walk; defaults were not chosen."""
+def _robots(plan: Plan) -> Iterator[tuple[str, list[float]]]:
+    """Where robots are told to walk, reach or fly; defaults were not chosen."""
+    chosen = {
+        "walks": ("speed_m_s", "until_s", "y_m", "heading_deg"),
+        "picks": ("board", "from_s", "speed_m_s"),
+        "flies": ("through", "speed_m_s", "hover_s", "gusts"),
+    }
     for row in plan.assets:
-        if row.walks is None:
-            continue
-        for name in ("speed_m_s", "until_s", "y_m", "heading_deg"):
-            if (value := getattr(row.walks, name)) != type(row.walks).model_fields[name].default:
-                yield f"{VEHICLES}{row.name}.walks.{name}", [abs(value)]
+        for does, names in chosen.items():
+            told = getattr(row, does)
+            for name in names if told is not None else ():
+                if (value := getattr(told, name)) != type(told).model_fields[name].default:
+                    yield f"{VEHICLES}{row.name}.{does}.{name}", _sizes(value)
+
+
+def _sizes(value: Any) -> list[float]:
+    """The numbers in what was chosen, without their signs."""
+    if isinstance(value, int | float):
+        return [abs(value)]
+    if isinstance(value, Gusting):
+        return _sizes((value.mean_m_s, value.strength_m_s))
+    return [size for part in value for size in _sizes(part)]
 
 
 def _numbers(state: State) -> set[float]:
