@@ -269,6 +269,8 @@ class Begun(Frozen):
     skills: tuple[SkillToRead, ...] = ()
     to_change: tuple[int, ...] = ()
     """Lines of the plan on which `TO_CHANGE` stands."""
+    film: str = ""
+    """Where that world's `film.py` lies, as an example of shots at this scale; empty if it has none."""
     next_move: str = ""
 
     def text(self) -> str:
@@ -276,4 +278,5 @@ class Begun(Frozen):
         lines = [f"{self.plan}: begun from {self.like}, {len(self.to_change)} places marked TO_CHANGE"]
         lines += ["near:"] + [f"  {near.slug}: {near.why} ({near.score:.2f})" for near in self.nearest]
         lines += ["look up when a field asks:"] + [f"  skills/{one.name}: {one.why}" for one in self.skills]
+        lines += [f"how it was filmed, for whoever writes film.py: {self.film}"] if self.film else []
         return "\n".join([*lines, f"next: {self.next_move}"])

@@ -58,6 +58,7 @@ def begin(sentence: str, like: str | None, run: str | None) -> Begun:
         nearest=tuple(_shown(near, mechanisms.of_sentence(sentence)) for near in ranked[:SHOWN]),
         skills=_skills(sentence, chosen),
         to_change=tuple(line for line in parse_plan(text).plan.copied if isinstance(line, int)),
+        film=str(filmed) if (filmed := chosen.folder / "film.py").is_file() else "",
         next_move=f"change what {folder / 'plan.md'} marks TO_CHANGE and remove the marks, then `worldwright go {folder}`",
     )
 

@@ -147,6 +147,13 @@ def test_the_laws_of_a_world_come_with_its_plan(here):
     assert (here / begun.run / "laws/rubber.py").read_text() == "class Rubber: ...\n"
 
 
+def test_the_film_of_a_worked_case_is_named_and_stays_there(here):
+    begun = tools.begin("A stone falls into a pond", like="stone-in-a-pond", run="new")
+    assert Path(begun.film) == REPO / "skills/media/references/stone-in-a-pond/film.py" and begun.film in begun.text()
+    assert not (here / begun.run / "film.py").exists()
+    assert tools.begin("A marble rolls", like="rolling-marble", run="other").film == ""
+
+
 def test_the_command_says_the_same(here):
     done = CliRunner().invoke(main, ["plan", "new", "A marble rolls", "--like", "rolling-marble", "--run", "one"])
     assert done.exit_code == 0 and "runs/one/plan.md: begun from rolling-marble" in done.output
