@@ -4,6 +4,7 @@ import os
 import queue
 import threading
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Any
@@ -17,7 +18,8 @@ QUALITY = "19"
 """Constant rate factor, visually lossless at the sizes that we film."""
 PRESET = "veryfast"
 
-OPTIONS = {"crf": QUALITY, "preset": PRESET}
+STEADY = {"x264-params": "asm=AVX2"}
+"""x264's routines for AVX-512 give other bits now and then for the same pictures, in one film of three where memory is not fresh."""
 CUT = "cut"
 Packet = tuple[int, bool, bytes]
 """In the order of decoding: the frame of its part at which it is shown, whether it begins anew, and what it holds."""
@@ -27,6 +29,14 @@ part of one or two, and times of decoding may not run back from part to part."""
 
 PNG_LEVEL, PASSING = 5, 1
 """How hard a still is packed, of 9, and one that is read once and thrown away."""
+
+
+@cache
+def options() -> dict[str, str]:
+    """The encoder's, by which the same pictures have the same bits on this machine."""
+    from worldkit.lock import cpu_features
+
+    return {"crf": QUALITY, "preset": PRESET} | (STEADY if "avx512f" in cpu_features().split() else {})
 
 
 def write_png(path: Path, image: "np.ndarray", level: int = PNG_LEVEL) -> None:
@@ -57,7 +67,7 @@ class Video:
         self._path, self._size, self._fps = Path(path), (width, height), fps
         self._partial = self._path.with_name(f".{self._path.name}.part")
         self._container = av.open(str(self._partial), "w", format="mp4", options={"movflags": "+faststart"})
-        self._stream = self._container.add_stream("libx264", rate=fps, options=OPTIONS)
+        self._stream = self._container.add_stream("libx264", rate=fps, options=dict(options()))
         self._described(self._stream.codec_context)
         self._frames: queue.Queue[np.ndarray | list[Packet] | str | None] = queue.Queue(maxsize=4)
         self._failure: BaseException | None = None
@@ -138,7 +148,7 @@ class Video:
         from av.codec.context import Flags
 
         codec = av.CodecContext.create("libx264", "w")
-        codec.options = dict(OPTIONS)
+        codec.options = dict(options())
         codec.framerate, codec.time_base = Fraction(self._fps), Fraction(1, self._fps)
         codec.flags |= Flags.global_header
         self._described(codec)
