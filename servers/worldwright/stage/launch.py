@@ -25,6 +25,8 @@ from .job import Job, JobStatus, Spec
 from .warm import kept_warm
 
 STILL_S = 180.0
+LIBRARIES, OPENCVS = "LD_LIBRARY_PATH", "cv2/../../lib64"
+"""The variable of the folders in which libraries are looked for, and the end of the one that OpenCV puts first when it is imported."""
 MEMORY_MB, FILE_MB, DISK_MB, OUTPUT_MB = 4096, 2048, 8192, 16
 
 
@@ -197,10 +199,7 @@ def _detach(job: Job) -> None:
     """Start the supervisor in a session of its own, holding the job's lock already."""
     with (job.folder / "supervisor.log").open("wb") as errors, (job.folder / "lock").open("wb") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
-        environment = {
-            **os.environ,
-            "PYDANTIC_DISABLE_PLUGINS": "__all__",
-        }  # else it asks every installed package for some
+        environment = _environment()
         if kept_warm.supervisor(job.folder, errors.fileno(), lock.fileno(), environment):
             return
         subprocess.Popen(
@@ -212,6 +211,15 @@ def _detach(job: Job) -> None:
             pass_fds=(lock.fileno(),),
             env=environment,
         )
+
+
+def _environment() -> dict[str, str]:
+    """A supervisor's: this process's, less the folder of libraries that OpenCV adds, and with an empty entry the one a process stands in."""
+    environment = {**os.environ, "PYDANTIC_DISABLE_PLUGINS": "__all__"}  # else it asks every installed package for some
+    first, _, others = environment.get(LIBRARIES, "").partition(":")
+    if first.endswith(OPENCVS):
+        del environment[LIBRARIES]
+    return environment | ({LIBRARIES: others} if first.endswith(OPENCVS) and others else {})
 
 
 @contextmanager

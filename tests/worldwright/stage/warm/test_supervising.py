@@ -14,7 +14,7 @@ import pytest
 
 from worldwright.lint import tools as lint
 from worldwright.model.evidence.run import Run
-from worldwright.stage import family, sandbox, tools
+from worldwright.stage import family, launch, sandbox, tools
 from worldwright.stage.job import Job
 from worldwright.stage.warm import kept_warm, letters
 from worldwright.stamp import tools as stamp
@@ -92,6 +92,16 @@ def test_what_it_proves_is_the_same_bit_for_bit(approved, tmp_path, monkeypatch)
     assert forked == [True, True]
     if sandbox.level() == "bubblewrap":
         assert any(b"worldwright.stage.warm.nursery" in words for words in seen.engines)
+
+
+@pytest.mark.parametrize("before", ["", "/opt/lib:/usr/local/lib"])
+def test_what_opencv_adds_when_it_is_imported_keeps_nobody_from_a_warm_start(before):
+    code = "import cv2, json; from worldwright.stage import launch; print(json.dumps(launch._environment()))"
+    theirs = {**kept_warm.ITS_ENVIRONMENT} | ({launch.LIBRARIES: before} if before else {})
+    done = subprocess.run([sys.executable, "-c", code], env=theirs, capture_output=True, text=True, check=True)
+    environment = json.loads(done.stdout)
+    assert environment.get(launch.LIBRARIES, "") == before
+    assert kept_warm.starts_alike(environment) == (not before)
 
 
 def test_a_nursery_that_dies_costs_nothing_but_its_warmth(approved, tmp_path):
