@@ -20,7 +20,6 @@ from ..sandbox.confinement import Confinement
 from . import letters, newborn
 
 PR_SET_DUMPABLE = 4
-WITHOUT_PICTURES = ("bundle", "physics", "live")
 
 
 def begin(asked: socket.socket) -> int:
@@ -130,7 +129,7 @@ def _run(request: dict[str, Any]) -> int:
     lock.verify()
     words = request["words"]
     sys.argv = [str(engine.__file__), *words]
-    if words[:1] and words[0] in WITHOUT_PICTURES:
+    if set(words[:1]) & engine.WITHOUT_PICTURES:
         os.environ["MUJOCO_GL"] = "disable"
     else:
         _draw()

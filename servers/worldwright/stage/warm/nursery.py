@@ -62,6 +62,19 @@ class Loaded:
             return True
 
 
+def writable(program: str) -> bool:
+    """Whether a file that runs could be written now, as a few kernels let one (Linux 6.11).
+
+    Of an engine that joins a sandbox the kernel shows this interpreter, at `/proc/self/exe`, not as the sandbox does, read-only, but as
+    it lies outside; that nobody writes what runs is what protects it there.
+    """
+    try:
+        os.close(os.open(program, os.O_WRONLY))
+    except OSError:
+        return False
+    return True
+
+
 def main() -> int:
     """Load what is to be loaded, say so, and fork; returns the exit status."""
     control = socket.socket(fileno=int(sys.argv[1]))
@@ -69,6 +82,8 @@ def main() -> int:
         importlib.import_module(name)
     loaded = Loaded(float(sys.argv[2]))
     if len(os.listdir("/proc/self/task")) > 1:  # noqa: PTH208 - what a fork would leave behind in it may hold a lock
+        return 1
+    if writable("/proc/self/exe"):
         return 1
     control.send(letters.READY)
     serve(control, loaded)
