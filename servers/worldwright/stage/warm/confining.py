@@ -124,6 +124,7 @@ def _run(request: dict[str, Any]) -> int:
         runpy.run_path(request["run"], run_name="__main__")
         return 0
     import worldengine.__main__ as engine
+    from worldengine.film import graphics_library
     from worldkit import lock
 
     lock.verify()
@@ -132,19 +133,5 @@ def _run(request: dict[str, Any]) -> int:
     if set(words[:1]) & engine.WITHOUT_PICTURES:
         os.environ["MUJOCO_GL"] = "disable"
     else:
-        _draw()
+        graphics_library.load_chosen()
     return engine.main()
-
-
-def _draw() -> None:
-    """Give the simulator's package the graphics library that this process's environment names."""
-    import importlib
-
-    import mujoco
-    import mujoco.gl_context
-    import mujoco.rendering.classic.gl_context as classic
-    import mujoco.rendering.classic.renderer as renderer
-
-    for module in (classic, mujoco.gl_context, renderer):
-        importlib.reload(module)
-    mujoco.GLContext, mujoco.Renderer = classic.GLContext, renderer.Renderer
