@@ -71,7 +71,8 @@ def join(
     if found is None:
         return None
     nursery, asked = found
-    made, listeners = None, []
+    made: Made | None = None
+    listeners: list[int] = []
     with suppress(OSError, ValueError, subprocess.SubprocessError):
         request = {
             "words": words,
@@ -124,9 +125,11 @@ class Made:
         """Written to, the shell ends with that number."""
         self._told, says = self._pipe()
         self._facts, info = self._pipe()
-        self._printed, self.output = (
-            self._pipe() if output == subprocess.PIPE else (None, self._kept(os.dup(output.fileno())))
-        )
+        self._printed: int | None = None
+        if output == subprocess.PIPE:
+            self._printed, self.output = self._pipe()
+        else:
+            self.output = self._kept(os.dup(output.fileno()))
         words = bubblewrap.command(HOLD, confinement, denial)
         self.process = subprocess.Popen(
             [words[0], "--info-fd", str(info), *words[1:]],
