@@ -30,6 +30,7 @@ PASSES = (
     "sheet",
     "view",
 )
+WITHOUT_PICTURES = {"bundle", "physics", "live"}
 
 
 def main(argv: Sequence[str] | None = None) -> int:
@@ -187,11 +188,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
 
 if __name__ == "__main__":
     assert worldkit
-    if sys.argv[1:2] in (
-        ["bundle"],
-        ["physics"],
-        ["live"],
-    ):  # the simulator's package would bring in the graphics library it names
+    if set(sys.argv[1:2]) & WITHOUT_PICTURES:  # the simulator's package would bring in the graphics library it names
         os.environ["MUJOCO_GL"] = "disable"
     status = main()
     if sys.argv[1:2] == ["view"]:

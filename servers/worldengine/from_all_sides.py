@@ -34,9 +34,10 @@ def run(given: "Given", options: argparse.Namespace) -> None:
 
     from .film.chosen_frames import FREE, free
     from .film.drawn_frames import Frames
-    from .film.passes import choose_cameras, headless_gl
+    from .film.graphics_library import choose_headless
+    from .film.passes import choose_cameras
 
-    headless_gl()
+    choose_headless()
     started = time.perf_counter()
     model = given.model(FREE if options.eye else "")
     width, height = options.size or SIZE

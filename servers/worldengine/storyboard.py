@@ -29,13 +29,14 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     from worldkit.reporting import Progress
 
     from .film.drawn_frames import Frames
+    from .film.graphics_library import choose_headless
     from .film.light_meter import reading
-    from .film.passes import choose_cameras, headless_gl
+    from .film.passes import choose_cameras
     from .film.picture_grid import labelled, laid_out
     from .recording import stored
     from .recording.replay import Replay
 
-    headless_gl()
+    choose_headless()
     started = time.perf_counter()
     recording, model = stored.open(options.recording), given.model()
     moments = sorted((float(at), word) for at, _, word in (text.partition(":") for text in options.moments)) or [

@@ -200,6 +200,14 @@ def test_a_look_of_ours_may_cover_it(meshes: Path) -> None:
     assert model.mat_rgba[model.geom_matid[drawn], 2] > model.mat_rgba[model.geom_matid[drawn], 0]
 
 
+def test_what_is_called_just_so_is_found_before_its_rivals(meshes: Path) -> None:
+    from worldwright.retrieve.tools import find_asset
+
+    for key in ("tin_box", "tin_can"):  # "can" is a word that a question has in passing
+        octahedron(meshes, key)
+    assert [hit.key for hit in find_asset("tin can").assets[:2]] == ["tin_can", "tin_box"]
+
+
 def test_it_is_found_placed_and_drawn_like_any_other(meshes: Path) -> None:
     from worldwright.place.drawing.silhouettes import asset_clouds
     from worldwright.retrieve.tools import find_asset

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import ProgramError
 from worldkit.files import write_json
-from worldkit.program import has_display
 
 from ..recording.replay import Replay, frame_rows
+from . import graphics_library
 from .chosen_frames import FILM, FREE
 from .encode import Video, write_png
 from .renderers.preview.soft_shapes import FLEX
@@ -38,7 +38,7 @@ def run(given: "Given", options: argparse.Namespace) -> None:
     Raises:
         WorldkitError: the recording is of another world, or cannot be read; there is no such camera.
     """
-    headless_gl()
+    graphics_library.choose_headless()
     from worldkit import lights
     from worldkit.reporting import Progress
 
@@ -120,20 +120,6 @@ def beside_a_film(size: tuple[int, int], fps: int) -> tuple[tuple[int, int], int
     They are looked at as witnesses then: half as large and half as often costs about a sixth.
     """
     return (size[0] // 4 * 2, size[1] // 4 * 2), max(1, round(fps / 2))
-
-
-def headless_gl() -> None:
-    """Without a display, let MuJoCo draw through EGL, even if it was imported before anyone could choose."""
-    if sys.platform != "linux" or "MUJOCO_GL" in os.environ or has_display():
-        return
-    os.environ["MUJOCO_GL"] = "egl"
-    import importlib
-
-    import mujoco.gl_context
-    import mujoco.rendering.classic.gl_context as classic
-
-    importlib.reload(classic)
-    importlib.reload(mujoco.gl_context)
 
 
 def stills(

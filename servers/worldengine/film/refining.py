@@ -205,10 +205,10 @@ def run(given: "Given", options: argparse.Namespace) -> None:
 
     from ..recording import stored
     from . import described
+    from .graphics_library import choose_headless
     from .known_pictures import drawn
-    from .passes import headless_gl
 
-    headless_gl()
+    choose_headless()
     started = time.perf_counter()
     recording, model, out = stored.open(options.recording), given.model(), options.out
     film = described.read(options.film, recording, lights.of(model))

@@ -14,7 +14,7 @@ MOST_TREES, TRIANGLES, FULL = 100, 600_000, 24_000
 """Of one call; of all its trees together; of one tree at most, however few they are."""
 STILL = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
 TITLES = ("leaves, deep in the crown", "leaves", "leaves, where light falls")
-Meshes = list[tuple[np.ndarray, np.ndarray]]
+Meshes = list[trees.Mesh]
 
 
 def planted(
@@ -110,9 +110,7 @@ def _of_species(
 
 
 def _thing(title: str, look: str | Surface, parts: Meshes, sways: list[np.ndarray]) -> Thing:
-    starts = np.cumsum([0, *(len(points) for points, _ in parts)])
-    faces = np.concatenate([f + s for (_, f), s in zip(parts, starts, strict=False)])
-    points = np.concatenate([points for points, _ in parts])
+    points, faces = trees.joined(parts)
     return Thing(
         title, "mesh", (1, 1, 1), matt(look), *STILL, vertices=points, faces=faces, sways=np.concatenate(sways)
     )

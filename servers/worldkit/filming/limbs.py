@@ -14,14 +14,13 @@ from . import skin_fit
 from .drawn_only import Surface
 from .dressing import Dressing
 from .plain_refusals import whole
-from .trees import limb
+from .trees import Mesh, joined, limb
 
 SIDES = 14
 SHARES = (0.0, 0.08, 0.36, 0.64, 0.92)
 """Where along each body the tube has a ring; the first past a joint still belongs to the body before it, and so back."""
 TURN = 2.399963
 """Twigs follow each other around the wood by the golden angle, radians."""
-Mesh = tuple[np.ndarray, np.ndarray]
 
 
 class Limbs(Dressing):
@@ -92,7 +91,7 @@ class Limbs(Dressing):
                 ("leaves", [m for g in grown for m in g[1]], leaves),
             ):
                 if meshes:
-                    vertices, faces = _joined(meshes)
+                    vertices, faces = joined(meshes)
                     self.mesh(
                         f"{name} {number + 1} {part}", self.recorded.into(body, vertices), faces, to=body, look=given
                     )
@@ -147,11 +146,3 @@ def _twig(
         frame = np.stack([forward, across, np.cross(forward, across)])
         found.append((place + random.uniform(0.75, 1.1) * (vertices - [stalk, 0.0, 0.0]) @ frame, faces))
     return wood, found
-
-
-def _joined(meshes: Sequence[Mesh]) -> Mesh:
-    """Several meshes as one."""
-    starts = np.cumsum([0, *(len(points) for points, _ in meshes)])
-    return np.concatenate([points for points, _ in meshes]), np.concatenate(
-        [faces + start for (_, faces), start in zip(meshes, starts, strict=False)]
-    )

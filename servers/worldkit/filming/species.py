@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .trees import TURN, limb
+from .trees import TURN, joined, limb
 
 SEASONS = ("spring", "summer", "autumn", "winter")
 Points = np.ndarray
@@ -153,7 +153,7 @@ def _tree(one: Species, height: float, leafy: float, random: np.random.Generator
     left = triangles - sum(len(part) for _, part in tubes) if rich or not leafy else 0
     most = int(np.clip(left // (6 * (fine.shape[1] - 1)), 0, len(fine)))
     drawn = _sticks(fine[np.linspace(0, len(fine) - 1, most).astype(int)], 0.0011 * height)
-    wood, faces = _joined([*tubes, drawn])
+    wood, faces = joined([*tubes, drawn])
     count = int(max((triangles - len(faces)) // 2, 200) * leafy)
     return Grown(wood, faces, _leaves(one, height, ways, count, leafy, random))
 
@@ -302,7 +302,7 @@ def _palm(height: float, random: np.random.Generator, triangles: int) -> Grown:
         middle = feet + 0.4 * size * tips + 0.05 * size * np.array([0, 0, 1.0])
         cards.append(np.stack([feet, middle - half, feet + size * tips, middle + half], axis=1))
         age.append(np.full(len(feet), old) + 0.15 * random.normal(size=len(feet)))
-    wood, faces = _joined(tubes)
+    wood, faces = joined(tubes)
     every, ages = np.concatenate(cards), np.concatenate(age)
     return Grown(wood, faces, (every[ages > 0.66], every[(ages > 0.3) & (ages <= 0.66)], every[ages <= 0.3]))
 
@@ -331,9 +331,3 @@ def _hedge(height: float, random: np.random.Generator, triangles: int) -> Grown:
     light = -depth + 0.25 * out[:, 2] + 0.3 * random.normal(size=count)
     low, high = np.quantile(light, (0.3, 0.75))
     return Grown(corners, faces, (cards[light < low], cards[(light >= low) & (light < high)], cards[light >= high]))
-
-
-def _joined(parts: list[tuple[Points, np.ndarray]]) -> tuple[Points, np.ndarray]:
-    starts = np.cumsum([0, *(len(points) for points, _ in parts)])
-    faces = np.concatenate([part + start for (_, part), start in zip(parts, starts, strict=False)])
-    return np.concatenate([points for points, _ in parts]), faces

@@ -1,8 +1,12 @@
 """Trees of a film: a trunk, branches by one rule, and leaves or needles on cards; drawn only, the same for the same seed."""
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
+
+Mesh = tuple[np.ndarray, np.ndarray]
+"""Vertices (V, 3), m, and faces (F, 3)."""
 
 KINDS = ("conifer", "broadleaf")
 SIDES = 5
@@ -133,10 +137,15 @@ def limb(way: np.ndarray, radii: list[float], sides: int = SIDES) -> tuple[np.nd
     return points, np.array(faces)
 
 
-def _whole(wood: list[tuple[np.ndarray, np.ndarray]], cards: list[np.ndarray]) -> Tree:
-    starts = np.cumsum([0, *(len(points) for points, _ in wood)])
-    faces = np.concatenate([part + start for (_, part), start in zip(wood, starts, strict=False)])
+def joined(meshes: Iterable[Mesh]) -> Mesh:
+    """Several meshes as one."""
+    points, faces = zip(*meshes, strict=True)
+    starts = np.cumsum([0, *map(len, points)])
+    return np.concatenate(points), np.concatenate([part + start for part, start in zip(faces, starts, strict=False)])
+
+
+def _whole(wood: list[Mesh], cards: list[np.ndarray]) -> Tree:
     leaves = np.concatenate(cards)
     k = 4 * np.arange(len(cards))[:, None]
     leaf_faces = np.concatenate([k + np.array(one) for one in ((0, 1, 2), (0, 2, 3))])
-    return Tree(np.concatenate([points for points, _ in wood]), faces, leaves, leaf_faces)
+    return Tree(*joined(wood), leaves, leaf_faces)

@@ -2,15 +2,19 @@
 
 import sys
 import traceback
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from .. import contacts
 from ..errors import IntakeError, ProgramError
 from ..sculpt import from_files
+from ..sculpt.figure import Part
 from . import of_figure
 
 HEADER = "Kept by `worldwright asset keep`; what is measured here is of the files beside it."
+UNSTATED = 0.5
+"""Sliding friction of what nobody says."""
 ON = "give its lowest part a flat base, or more of one, and keep it again"
 
 
@@ -31,7 +35,9 @@ def taken(root: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[str
         surface = contacts.surface(**asked["surface"]) if asked.get("surface") else None
         with from_files.sculpted(file, of) as held:
             parts = from_files.as_planned(list(held), asked.get("mass"), surface, asked.get("look"))
-            made, facts = of_figure.files(asked["key"], parts, asked["said"])
+            made, facts = of_figure.files(
+                asked["key"], parts, asked["said"] if surface else rubbing(parts, asked["said"])
+            )
     except (IntakeError, MemoryError):
         raise
     except ProgramError as error:
@@ -40,6 +46,17 @@ def taken(root: Path, asked: dict[str, Any]) -> tuple[dict[str, bytes], dict[str
         raise IntakeError(*_told(error, file)) from error
     facts["measured"]["collides_as"] = f"{(count := len(facts['collision']))} hull{'s' if count > 1 else ''}"
     return made, facts
+
+
+def rubbing(parts: Sequence[Part], said: dict[str, Any]) -> dict[str, Any]:
+    """What is said of a thing whose plan names no material, with how it rubs: as its parts do by themselves, where all of them tell."""
+    own = [part.surface["friction"] for part in parts if part.surface and "friction" in part.surface]
+    if len(own) < len(parts):
+        unsaid = f"how it rubs is not stated: its friction is taken as {UNSTATED:g}; name a material in the plan's row"
+        return {**said, "friction": UNSTATED, "assumed": [*said["assumed"], unsaid]}
+    worst = map(max, zip(*own, strict=True))  # of two surfaces the larger acts
+    told = dict(zip(("friction", "torsional", "rolling"), map(float, worst), strict=True))
+    return {**said, **told, "contact_source": "its parts' own surfaces, the largest of each number"}
 
 
 def _told(error: Exception, file: str) -> tuple[str, str, str, str]:

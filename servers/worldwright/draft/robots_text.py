@@ -4,7 +4,7 @@ from math import radians
 from typing import Any
 
 from ..model.plan.committed import Plan
-from ..model.plan.robots_declared import does
+from ..model.plan.robots_declared import controlled, does
 from ..model.plan.scene_objects import AssetRow
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
@@ -42,10 +42,9 @@ def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
     """The lines of `control` that tell the robots of each row what to do, by what is declared to act on them."""
     found = {}
     for row in plan.assets:
-        if (told := does(row)) is None:
+        if does(row) is None:
             continue
-        controlled = tuple(actuator for name in row.instances for actuator in told.driven(name))
-        found[controlled] = f"    {_constant(row)}(model, data)"
+        found[controlled(row)] = f"    {_constant(row)}(model, data)"
         if (walks := row.walks) is None:
             continue
         speed = literal(walks.speed_m_s)
@@ -55,7 +54,7 @@ def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
         line |= {"y": walks.y_m} if walks.y_m is not None else {}
         line |= {"heading": round(radians(walks.heading_deg), 9)} if walks.heading_deg else {}
         along = call("robots.along", Raw("data"), Raw("name"), indent=0, **line)
-        found[controlled] = (
+        found[controlled(row)] = (
             f"    told = [{along} for name in {_constant(row)}.names]\n    {_constant(row)}(model, data, told)"
         )
     return found

@@ -50,11 +50,11 @@ class LiveView:
         import mujoco
 
         from worldengine.film.drawn_frames import Frames
-        from worldengine.film.passes import headless_gl
+        from worldengine.film.graphics_library import choose_headless
         from worldkit import cameras, portable
         from worldkit.naming import names
 
-        headless_gl()
+        choose_headless()
         spec = portable.spec(source.world)
         self.chase = CHASE
         while spec.camera(self.chase) is not None:

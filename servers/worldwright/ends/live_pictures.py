@@ -27,11 +27,11 @@ class LivePictures:
         import mujoco
 
         from worldengine.film.drawn_frames import Frames
-        from worldengine.film.passes import headless_gl
+        from worldengine.film.graphics_library import choose_headless
         from worldkit import cameras
         from worldkit.naming import names
 
-        headless_gl()
+        choose_headless()
         self._model = copy.copy(world.model)
         known = names(self._model, "camera", self._model.ncam)
         if not known or camera not in (None, *known):

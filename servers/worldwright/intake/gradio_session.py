@@ -37,7 +37,10 @@ class Session:
 
     @property
     def _prefix(self) -> str:
-        return str(self._config.get("api_prefix") or "").rstrip("/")
+        found = self._config.get("api_prefix") or "/"
+        if not isinstance(found, str) or not found.startswith("/"):  # else it would be another port, or another host
+            raise self.server.garbage(found, "place of its functions")
+        return found.rstrip("/")
 
     def functions(self) -> dict[str, dict[str, Any]]:
         """What the app can do, by name."""
@@ -83,7 +86,9 @@ class Session:
         """The file of an answer whose end comes first among these."""
         there = [str(found["path"]) for found in _files(values)]
         for path in (path for end in suffixes for path in there if path.lower().endswith(end)):
-            return self.server.download(f"{self.server.address.rstrip('/')}{self._prefix}/file={quote(path, safe='/')}")
+            return self.server.download(
+                f"{self.server.address.rstrip('/')}{self._prefix}/file={quote(path, safe='/', errors='replace')}"
+            )
         raise self.server.garbage(values)
 
     def _values(self, row: dict[str, Any], told: dict[str, Any]) -> list[Any]:

@@ -18,6 +18,7 @@ from ..model.evidence.run import Run
 from ..model.picture import Illustrated
 from ..model.plan import imported
 from ..model.plan.committed import Plan
+from ..model.plan.pairings import said
 from ..model.plan.plan_text import read_plan
 from ..model.plan.scene_objects import AssetRow
 from ..model.progress import Progress, silent
@@ -27,6 +28,8 @@ from . import registering
 from .refusing import IntakeFailedError
 from .taking_in import KEY, Destination, added_of, confined_files, drawn
 
+SURFACE = {"torsional_friction": "torsional", "rolling_friction": "rolling"}
+"""What a plan says of a surface, as an asset calls it; the other words are the same."""
 SOURCE = "source"
 """The folder of an asset with the files that sculpt it, as they lay in the run."""
 
@@ -128,16 +131,13 @@ def _request(run: Run, plan: Plan, row: AssetRow, key: str, asked: dict[str, Any
     parameters = plan.simulation_parameters
     file, of = row.sculpted
     touch = parameters.materials.get(row.material or "")
-    surface = {} if touch is None else {
-        word: value for word in ("friction", "restitution", "density") if (value := getattr(touch, word)) is not None
-    }  # fmt: skip
+    stated = () if touch is None else ("friction", "restitution", "density", *said(touch))
+    surface = {SURFACE.get(word, word): value for word in stated if (value := getattr(touch, word)) is not None}
     masses = (parameters.masses.get(one) for one in (row.name, *row.instances))
     mass = next((value for value in masses if value is not None), None)
     told = row.material and f"{row.material}, as the run's plan says it"
     assumed = [] if asked.get("licence") else ["its licence is not stated: give it as --licence"]
-    if not told:
-        assumed.append("it rubs as the engine's own default: name a material in the plan's row")
-    said = {
+    facts = {
         "category": asked.get("category") or "thing",
         "description": asked.get("description") or re.sub(r"[_\d]+", " ", row.name).strip() or row.name,
         "source": f"sculpted by the run {run.name} ({state}), {row.filename}",
@@ -145,10 +145,9 @@ def _request(run: Run, plan: Plan, row: AssetRow, key: str, asked: dict[str, Any
         "creator": asked.get("creator") or "",
         "metric_height_source": "the run's plan",
         "mass_source": "stated by the run's plan" if mass is not None else "density times volume of its parts",
-        "friction": surface.get("friction", 0.5),
-        "restitution": surface.get("restitution"),
+        **{word: value for word, value in surface.items() if word != "density"},
         "contact_source": told or "not stated",
         "assumed": assumed,
     }
     rest = {"mass": mass, "surface": surface, "look": row.look}
-    return {"key": key, "file": file, "of": of, "said": said, **{word: value for word, value in rest.items() if value}}
+    return {"key": key, "file": file, "of": of, "said": facts, **{word: value for word, value in rest.items() if value}}

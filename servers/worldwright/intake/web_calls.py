@@ -78,7 +78,7 @@ class Server:
             MintError: besides what any call raises, `expired`: it is no longer there.
         """
         own = _origin(url) == _origin(self.address)
-        if not own and urlsplit(url).scheme != "https" and urlsplit(self.address).scheme == "https":
+        if not own and _origin(url)[0] != "https" and _origin(self.address)[0] == "https":
             raise MintError(
                 "it says that its file lies where nothing is encrypted", code="garbage", place=named(url), next_move=OR_SCULPT,
             )  # fmt: skip
@@ -177,7 +177,7 @@ class Server:
 
     def clean(self, said: object) -> str:
         """Of what a server says so much as a message may repeat: some words, and never the key."""
-        text = " ".join(str(said).split())
+        text = _shown(" ".join(str(said).split()))
         return (text.replace(self.key, "[key]") if self.key else text)[:200]
 
     def _too_large(self, most: int) -> MintError:
@@ -267,9 +267,14 @@ def named(url: str) -> str:
     scheme, host, port = _origin(url)
     path = url.partition("://")[2].partition("/")[2].partition("?")[0]
     if not scheme or not host:
-        return url.partition("?")[0].rpartition("@")[2][:80]
-    shown = f":{port}" if port not in (None, 80, 443) else ""
-    return f"{scheme}://{host}{shown}{f'/{path[:80]}' if path else ''}"
+        return _shown(url.partition("?")[0].rpartition("@")[2][:80])
+    at = f":{port}" if port not in (None, 80, 443) else ""
+    return _shown(f"{scheme}://{host}{at}{f'/{path[:80]}' if path else ''}")
+
+
+def _shown(text: str) -> str:
+    """Text without what a terminal obeys, or cannot be written at all (JSON may hold half of a pair of code units)."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
 
 
 def _told(error: urllib.error.HTTPError) -> str:

@@ -44,7 +44,7 @@ MOST_KNOWN = 200
 
 
 def find(query: str, limit: int, height_m: float | None = None) -> AssetList:
-    """The assets that fit, best first; every key when none does.
+    """The assets that fit, best first, before all the one that is called so; every key when none does.
 
     Args:
         query: what the thing is, in words.
@@ -54,13 +54,16 @@ def find(query: str, limit: int, height_m: float | None = None) -> AssetList:
     known = _known()
     asked = _stems(" ".join(words.terms(query)))
     scores = known.by_words(asked)
+    exact = known.named(query)
+    for number in exact:
+        scores[number] = max(scores.get(number, 0.0), 1.0)
     for number, near in known.by_meaning(query, bool(scores)):
         scores.setdefault(number, LEAST_OF_MEANING * near)
     if height_m:
         for number in scores:
             apart = abs(log10(known.rows[number].height_m / height_m))
             scores[number] = scores[number] / (1 + apart)
-    order = sorted(scores, key=lambda number: (-scores[number], known.rows[number].key))[:limit]
+    order = sorted(scores, key=lambda number: (number not in exact, -scores[number], known.rows[number].key))[:limit]
     hits = tuple(known.rows[number].model_copy(update={"score": round(scores[number], 4)}) for number in order)
     everything = () if hits else tuple(sorted(row.key for row in known.rows if row.taken_in))[:MOST_KNOWN]
     way = "" if hits else _otherwise()
@@ -148,6 +151,11 @@ class _Known:
             if (score := round(total - 0.1 * (spare + later), 3)) > 0:
                 found[number] = score
         return found
+
+    def named(self, query: str) -> set[int]:
+        """The assets that are called just so, in however common words."""
+        wanted = tuple(_stems(query))
+        return {number for number, name in enumerate(self._names) if name == wanted}
 
     def _nearly(self, term: str) -> tuple[tuple[str, float], ...]:
         """Words of names that a term is, or is but for a typing error, each with the likeness."""

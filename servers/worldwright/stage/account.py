@@ -15,7 +15,7 @@ from ..model.errors import WorldwrightError
 from ..model.evidence import rounding
 from ..model.evidence.run import Run
 from ..model.plan.committed import Intervention, Plan
-from ..model.plan.declaration import covering, declaration
+from ..model.plan.declaration import DRIVES, covering, declaration
 from ..model.plan.plan_text import read_plan
 from ..model.plan.trigger import always
 from ..model.recording.trajectory import Trajectory
@@ -27,8 +27,6 @@ MOST = 6
 """So many rows of one kind are told, and the number of the others."""
 UNITS = {"force": "N", "torque": "N·m", "control": "N or N·m", "velocity": "m/s or rad/s"}
 """Units of the kinds that are told with their size; the other kinds mix units."""
-RUNNING = ("force", "parameter", "control", "solver")
-"""Kinds by which a plan declares a surface that runs or sticks (`WM160`)."""
 
 
 def with_account(run: Run, status: JobStatus) -> JobStatus:
@@ -125,7 +123,7 @@ def _acts_unseen(trajectory: Trajectory, row: Intervention) -> bool:
     """Whether a declared actuator pushes by itself, a declared wind blows, or a belt runs or something sticks all the time."""
     geoms = trajectory.meta.get("geoms") or ()
     if (
-        row.kind in RUNNING
+        row.kind in DRIVES
         and always(row.trigger)
         and any(
             (geom.get("surfacevel") or geom.get("adhesion"))

@@ -40,7 +40,9 @@ def run_of(folder: Path, plan: str, source: str = BOX) -> Path:
 
 @pytest.fixture(scope="module")
 def plan() -> str:
-    return (Path(__file__).parents[1] / "world/sculpted_plan.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parents[1] / "world/sculpted_plan.md").read_text(encoding="utf-8")
+    said = "{friction: 0.4, torsional_friction: 0.02, rolling_friction: 0.003,"
+    return text.replace("clay: {friction: 0.5,", f"clay: {said}")
 
 
 @pytest.fixture(scope="module")
@@ -77,7 +79,13 @@ def test_it_has_its_source_its_joints_its_weight_and_its_maker(kept):
     assert "asset keep" in text.splitlines()[0] and told.collides_as == "6 hulls"
     facts = yaml.safe_load(text)
     assert facts["measured"]["stands"] and facts["measured"]["moving_stands"]
-    assert facts["friction"] == 0.5 and facts["restitution"] == 0.2 and "clay" in facts["contact_source"]
+    assert assets.find("lidded_box").contact == {
+        "friction": 0.4,
+        "torsional": 0.02,
+        "rolling": 0.003,
+        "restitution": 0.2,
+    }
+    assert "clay" in facts["contact_source"]
     assert facts["source"] == "sculpted by the run bowls (not accepted), sculpt/bowl.py:POT"
 
 

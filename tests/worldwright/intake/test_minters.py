@@ -41,6 +41,7 @@ def failing(code: str, action) -> MintError:
     with pytest.raises(MintError) as told:
         action()
     assert told.value.code == code and told.value.next_move and KEY not in str(told.value)
+    assert all(text.isprintable() for text in (told.value.cause, told.value.place, told.value.next_move))
     return told.value
 
 
@@ -119,6 +120,17 @@ def test_triposr_answers_a_mesh_and_its_failures_are_said(there, order) -> None:
     failing("refused", lambda: triposr.mint(PNG, Server(there.address, "start it"), order))
     there.replies["/config"] = [(200, b"<html>", {})]
     failing("garbage", lambda: triposr.mint(PNG, Server(there.address, "start it"), order))
+
+
+@pytest.mark.parametrize("prefix", ["80/x", "@elsewhere.invalid", 7], ids=["a port", "a host", "no text"])
+def test_an_app_whose_functions_lie_at_no_path_is_refused(there, order, prefix) -> None:
+    gradio(there, {"preprocess": done(GLB), "generate": done(GLB)}, {}, prefix)
+    failing("garbage", lambda: triposr.mint(PNG, Server(there.address, "start it"), order))
+
+
+def test_a_file_whose_name_is_no_text_is_asked_for_and_not_found(there, order) -> None:
+    gradio(there, {"preprocess": done(GLB), "generate": done({"path": "/tmp/\ud800.glb"})}, {})
+    failing("expired", lambda: triposr.mint(PNG, Server(there.address, "start it"), order))
 
 
 # -- Services that are paid --------------------------------------------------------------------------------------------
@@ -252,6 +264,15 @@ def test_what_paints_nothing_is_said(there, reply, code) -> None:
     there.replies |= {"/v1/images/generations": [reply], "/v1beta/models/m:generateContent": [reply]}
     failing(code or "garbage", lambda: openai_images.paint("a mug", "m", keyed(there)))
     failing(code or "refused", lambda: google_images.paint("a mug", "m", keyed(there)))
+
+
+def test_what_a_server_says_moves_no_terminal_and_can_be_written(there) -> None:
+    there.replies["/v1/images/generations"] = [said({"error": {"message": "no \ud800 luck \x1b[2J"}}, 400)]
+    assert "luck" in failing("refused", lambda: openai_images.paint("a mug", "m", keyed(there))).cause
+    for url in ("http://[", "http://a\ud800\x1b/x"):
+        there.replies["/v1/images/generations"] = [said({"data": [{"url": url}]})]
+        failing("unreachable", lambda: openai_images.paint("a mug", "m", keyed(there)))
+    failing("garbage", lambda: Server("https://example.invalid", "start it", KEY).download("http://["))
 
 
 # -- What holds for all ------------------------------------------------------------------------------------------------

@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..drawn_only import Surface
+from ..trees import Mesh, joined
 from . import Place
-from .pieces import Mesh, block, joined, placed, turned
+from .pieces import block, placed, turned
 
 if TYPE_CHECKING:
     from ..dressing import Dressing

@@ -7,6 +7,7 @@ import numpy as np
 from ...forms.lattice import lattice
 from .. import far_woods, sward
 from ..drawn_only import Surface, matt, rgb
+from ..trees import Mesh, joined
 from . import Place, pieces
 
 if TYPE_CHECKING:
@@ -70,7 +71,7 @@ def flowers(
 ) -> None:
     """Small blossoms on stems among the grass, of several colours, in clumps."""
     x, y = place.middle
-    stems: list[pieces.Mesh] = []
+    stems: list[Mesh] = []
     for colour in colours:
         foot = sward.scattered((x - reach, y - reach, x + reach, y + reach), count, (float(x), float(y)), place.random)
         for at_x, at_y, radius in place.clear(0.1):
@@ -96,7 +97,7 @@ def flowers(
         stem = np.stack([low - half, low + half, heart - (0, 0, 0.001)], axis=1)
         stems.append((stem.reshape(-1, 3), np.arange(3 * len(foot)).reshape(-1, 3)))
     if stems:
-        points, faces = pieces.joined(stems)
+        points, faces = joined(stems)
         sways = np.where(np.arange(len(points)) % 3 == 2, 0.35 * (points[:, 2] - place.floor), 0.0)
         film.mesh("stems", points, faces, look=matt("#5d7a38"), sways=sways)
 
@@ -105,13 +106,13 @@ def stones(
     film: "Dressing", place: Place, at: np.ndarray, sizes: tuple[float, float], look: str = "rock", name: str = "stones"
 ) -> None:
     """Stones lying about, half sunk in, each another."""
-    found: list[pieces.Mesh] = []
+    found: list[Mesh] = []
     for x, y in at:
         size = float(np.exp(place.random.uniform(*np.log(sizes))))
         stone = pieces.rock(size, place.random)
         found.append(pieces.placed(stone, (x, y, place.floor + 0.12 * size), place.random.uniform(0, 360)))
     if found:
-        film.mesh(name, *pieces.joined(found), look=look)
+        film.mesh(name, *joined(found), look=look)
 
 
 def range_of_hills(

@@ -6,19 +6,7 @@ import numpy as np
 
 from ... import forms
 from ..drawn_only import Surface
-
-Mesh = tuple[np.ndarray, np.ndarray]
-"""Vertices (V, 3), m, and faces (F, 3)."""
-
-
-def joined(pieces: Iterable[Mesh]) -> Mesh:
-    """Many meshes as one."""
-    points, faces, start = [], [], 0
-    for vertices, triangles in pieces:
-        points.append(vertices)
-        faces.append(triangles + start)
-        start += len(vertices)
-    return np.concatenate(points), np.concatenate(faces)
+from ..trees import Mesh
 
 
 def placed(mesh: Mesh, at: tuple[float, float, float], yaw_deg: float = 0.0, scale: float = 1.0) -> Mesh:

@@ -7,7 +7,10 @@ from worldengine.inputs.openings import opens, owner
 
 from .committed import Intervention
 
-__all__ = ["covering", "declaration", "owner"]
+__all__ = ["DRIVES", "covering", "declaration", "owner"]
+
+DRIVES = ("force", "parameter", "control", "solver")
+"""Kinds by which a plan declares that something pushes, or that a surface runs or sticks."""
 
 
 def declaration(kind: str, target: str, declared: Iterable[Intervention]) -> Intervention | None:

@@ -14,6 +14,11 @@ def does(row: Written) -> Any:
     return row.walks or row.picks or row.flies
 
 
+def controlled(row: Written) -> tuple[str, ...]:
+    """The actuators of all robots of a row."""
+    return tuple(actuator for name in row.instances for actuator in does(row).driven(name))
+
+
 def check(plan: Written) -> None:
     """Refuse what an arm is to pick or put it on, where that is no single thing, or one that no hand moves.
 
@@ -61,9 +66,8 @@ def interventions(plan: Written) -> tuple[Intervention, ...]:
 
 def _declared(row: Written) -> list[Intervention]:
     told = does(row)
-    controlled = tuple(actuator for name in row.instances for actuator in told.driven(name))
     acting = [
-        Intervention(kind="control", bodies=controlled, law=told.law, source=f"assets: {row.name}, {told.source}")
+        Intervention(kind="control", bodies=controlled(row), law=told.law, source=f"assets: {row.name}, {told.source}")
     ]
     if row.flies is not None and row.flies.gusts is not None:
         acting.append(

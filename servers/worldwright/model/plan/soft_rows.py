@@ -1,13 +1,10 @@
 """What a plan says of an object that is soft: cloth that hangs and stretches, jelly that is squashed; `worldkit.softs` makes them."""
 
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 from pydantic import Field, model_validator
 
 from ..frozen import Frozen
-
-if TYPE_CHECKING:
-    from worldkit.softs import Cloth, Jelly
 
 Side = Literal["-x", "+x", "-y", "+y", "-z", "+z", "corners"]
 SHAPES = {"cloth": ("box",), "jelly": ("box", "sphere", "ellipsoid", "cylinder")}
@@ -45,12 +42,6 @@ class Soft(Frozen):
         return {key: value for key, value in told.items() if value is not None} | (
             {"held": self.held} if self.held else {}
         )
-
-    def made(self, modulus_pa: float) -> "Cloth | Jelly":
-        """It, of `worldkit.softs`."""
-        from worldkit import softs
-
-        return getattr(softs, self.kind.capitalize())(modulus_pa, **self.numbers())
 
 
 def fits(row: Any) -> None:

@@ -11,13 +11,10 @@ from typing import Any
 import numpy as np
 
 from ...model.evidence.audits import Standing
-from ...model.plan.declaration import declaration
+from ...model.plan.declaration import DRIVES, declaration
 from ...model.recording.trajectory import Trajectory
 from ..anomalies.sign import Context
 from ..anomalies.wholes import head_names
-
-KINDS = ("force", "parameter", "control", "solver")
-"""Kinds of rows by which a plan declares them (`WS315`)."""
 
 
 def standing(trajectory: Trajectory, context: Context) -> Iterator[Standing]:
@@ -50,7 +47,7 @@ def _row(
     context: Context, names: tuple[str, ...], said: dict[str, Any], kind: str, target: str, peak: float, unit: str
 ) -> Standing:
     if not said:
-        rows = (declaration(one, name, context.interventions) for name in names for one in KINDS)
+        rows = (declaration(one, name, context.interventions) for name in names for one in DRIVES)
         row = next(filter(None, rows), None)
         said = {} if row is None else {"declared": True, "law": row.law, "source": row.source}
     return Standing(kind=kind, target=target, peak=peak, unit=unit, **said)

@@ -47,6 +47,8 @@ _FORBIDDEN = """
 FORBIDDEN = tuple(_FORBIDDEN.split())
 """These calls fail with EPERM. The last two lines change owners, modes and times, which no Landlock right covers."""
 SCHEDULING = ("sched_setaffinity", "sched_setscheduler", "sched_setparam", "sched_setattr")
+BIRTHS = ("clone", "fork", "vfork")
+"""With `clone3`, which no job has, all calls that start a process or a thread."""
 SIGNALS = ("kill", "tkill", "tgkill", "rt_sigqueueinfo", "rt_tgsigqueueinfo", "pidfd_send_signal")
 
 
@@ -80,14 +82,15 @@ def unavailable() -> str:
     return ""
 
 
-def denial(*, landlock_abi: int = 99, own_pid: int | None = None) -> bytes:
+def denial(*, landlock_abi: int = 99, own_pid: int | None = None, births: bool = True) -> bytes:
     """The filter of the confined program.
 
     Args:
         landlock_abi: what Landlock here does not cover yet is refused here instead; 99 when namespaces cover it.
         own_pid: the program's process number, the only one it may signal before Landlock scopes signals (ABI 6).
+        births: whether it may ever start a process or a thread.
     """
-    rules: list[tuple[str, int] | When] = [(call, refuse()) for call in FORBIDDEN]
+    rules: list[tuple[str, int] | When] = [(call, refuse()) for call in (*FORBIDDEN, *(() if births else BIRTHS))]
     rules += [(call, refuse(errno.ENOSYS)) for call in ("clone3", "openat2")]
     rules += [
         When("socketpair", 0, 0xFFFFFFFF, AF_UNIX, differs=True),
@@ -114,7 +117,7 @@ def denial(*, landlock_abi: int = 99, own_pid: int | None = None) -> bytes:
 
 def births() -> bytes:
     """The filter that asks the supervisor before a process or a thread is born."""
-    rules: list[tuple[str, int] | When] = [(call, NOTIFY) for call in ("clone", "fork", "vfork")]
+    rules: list[tuple[str, int] | When] = [(call, NOTIFY) for call in BIRTHS]
     return assemble([("clone3", refuse(errno.ENOSYS)), *rules])
 
 

@@ -20,7 +20,6 @@ from ..sandbox.confinement import Confinement
 from . import letters, newborn
 
 PR_SET_DUMPABLE = 4
-WITHOUT_PICTURES = ("bundle", "physics", "live")
 
 
 def begin(asked: socket.socket) -> int:
@@ -125,27 +124,14 @@ def _run(request: dict[str, Any]) -> int:
         runpy.run_path(request["run"], run_name="__main__")
         return 0
     import worldengine.__main__ as engine
+    from worldengine.film import graphics_library
     from worldkit import lock
 
     lock.verify()
     words = request["words"]
     sys.argv = [str(engine.__file__), *words]
-    if words[:1] and words[0] in WITHOUT_PICTURES:
+    if set(words[:1]) & engine.WITHOUT_PICTURES:
         os.environ["MUJOCO_GL"] = "disable"
     else:
-        _draw()
+        graphics_library.load_chosen()
     return engine.main()
-
-
-def _draw() -> None:
-    """Give the simulator's package the graphics library that this process's environment names."""
-    import importlib
-
-    import mujoco
-    import mujoco.gl_context
-    import mujoco.rendering.classic.gl_context as classic
-    import mujoco.rendering.classic.renderer as renderer
-
-    for module in (classic, mujoco.gl_context, renderer):
-        importlib.reload(module)
-    mujoco.GLContext, mujoco.Renderer = classic.GLContext, renderer.Renderer

@@ -67,53 +67,69 @@ def join(
         output: what it prints to: a file, or `subprocess.PIPE`.
         run: a Python file that is run in the engine's place (tests of the sandbox).
     """
-    asked = kept_warm.ask(letters.ENGINE) if kept_warm.starts_alike(confinement.environment) else None
-    if asked is None:
+    found = kept_warm.ask(letters.ENGINE) if kept_warm.starts_alike(confinement.environment) else None
+    if found is None:
         return None
-    made = Made(confinement, output)
-    request = {
-        "words": words,
-        "run": run,
-        "births": births,
-        "umask": kept_warm.umask(),
-        "descriptors": list(descriptors),
-        "limits": {name: getattr(confinement, name) for name in ("cpu_s", "file_bytes", "memory_bytes", "token")},
-        "out": str(confinement.out),
-        "scratch": str(confinement.scratch),
-        "environment": confinement.environment,
-    }
-    ours, theirs = socket.socketpair()
-    with ours, theirs, suppress(OSError, ValueError):
-        given = (made.inside(), made.status, made.output, theirs.fileno(), *descriptors)
-        letters.send(asked, request, given)
-        theirs.close()
-        if kept_warm.taken(asked):
-            engine = int(asked.recv(100))
-            told, listeners, _, _ = socket.recv_fds(ours, 64, 1)
-            asked.send(letters.GO)
-            asked.settimeout(None)
-            made.hand_over()
-            return Joined(made.process, engine, told, listeners[0] if listeners else None, asked)
+    nursery, asked = found
+    made: Made | None = None
+    listeners: list[int] = []
+    with suppress(OSError, ValueError, subprocess.SubprocessError):
+        request = {
+            "words": words,
+            "run": run,
+            "births": births,
+            "umask": kept_warm.umask(),
+            "descriptors": list(descriptors),
+            "limits": {name: getattr(confinement, name) for name in ("cpu_s", "file_bytes", "memory_bytes", "token")},
+            "out": str(confinement.out),
+            "scratch": str(confinement.scratch),
+            "environment": confinement.environment,
+        }
+        made = Made(confinement, output)
+        ours, theirs = socket.socketpair()
+        with ours, theirs:
+            letters.send(asked, request, (made.inside(), made.status, made.output, theirs.fileno(), *descriptors))
+            theirs.close()
+            if kept_warm.taken(asked):
+                engine = int(asked.recv(100))
+                told, listeners, _, _ = socket.recv_fds(ours, 64, 1)
+                asked.send(letters.GO)
+                asked.settimeout(None)
+                made.hand_over()
+                return Joined(made.process, engine, told, listeners[0] if listeners else None, asked)
     asked.close()
-    made.end()
-    kept_warm.give_up()
+    for number in listeners:
+        os.close(number)
+    if made is not None:
+        made.end()
+    kept_warm.give_up(nursery)
     return None
 
 
 class Made:
-    """A sandbox in which nothing runs but a shell that waits."""
+    """A sandbox in which nothing runs but a shell that waits, and can start nothing."""
 
     def __init__(self, confinement: Confinement, output: Any) -> None:
-        denial, write = os.pipe()
-        os.write(write, seccomp.denial())  # smaller than a pipe's buffer
-        os.close(write)
-        waits, self.status = os.pipe()
+        self._open: set[int] = set()
+        try:
+            self._make(confinement, output)
+        except BaseException:
+            self._close()
+            raise
+
+    def _make(self, confinement: Confinement, output: Any) -> None:
+        denial, write = self._pipe()
+        os.write(write, seccomp.denial(births=False))  # smaller than a pipe's buffer
+        self._close_one(write)
+        waits, self.status = self._pipe()
         """Written to, the shell ends with that number."""
-        self._told, says = os.pipe()
-        self._facts, info = os.pipe()
-        piped: tuple[int | None, int] = os.pipe() if output == subprocess.PIPE else (None, os.dup(output.fileno()))
-        self._printed, self.output = piped
-        self._inside: int | None = None
+        self._told, says = self._pipe()
+        self._facts, info = self._pipe()
+        self._printed: int | None = None
+        if output == subprocess.PIPE:
+            self._printed, self.output = self._pipe()
+        else:
+            self.output = self._kept(os.dup(output.fileno()))
         words = bubblewrap.command(HOLD, confinement, denial)
         self.process = subprocess.Popen(
             [words[0], "--info-fd", str(info), *words[1:]],
@@ -127,7 +143,7 @@ class Made:
             pass_fds=(denial, info),
         )
         for number in (denial, waits, says, info):
-            os.close(number)
+            self._close_one(number)
 
     def inside(self) -> int:
         """A descriptor of the process that holds the namespaces, once all of them are made.
@@ -137,25 +153,36 @@ class Made:
         """
         if os.read(self._told, 1) != b"\n":
             raise OSError("bubblewrap has made no sandbox")
-        holder = json.loads(os.read(self._facts, 4096))["child-pid"]
-        self._inside = os.pidfd_open(holder)
+        holder = self._kept(os.pidfd_open(json.loads(os.read(self._facts, 4096))["child-pid"]))
         if self.process.poll() is not None:  # its number may be another's by now
             raise OSError("the sandbox has ended")
-        return self._inside
+        return holder
 
     def hand_over(self) -> None:
         """Close what only the engine and its parent need, and read what it prints as of any child."""
-        self._close(self.status, self.output, self._told, self._facts, self._inside)
         if self._printed is not None:
+            self._open.remove(self._printed)
             self.process.stdout = os.fdopen(self._printed, "rb")
+        self._close()
 
     def end(self) -> None:
         """Take it down."""
         self.process.kill()
         self.process.wait()
-        self._close(self.status, self.output, self._told, self._facts, self._inside, self._printed)
+        self._close()
 
-    def _close(self, *numbers: int | None) -> None:
-        for number in numbers:
-            if number is not None:
-                os.close(number)
+    def _pipe(self) -> tuple[int, int]:
+        read, write = os.pipe()
+        return self._kept(read), self._kept(write)
+
+    def _kept(self, number: int) -> int:
+        self._open.add(number)
+        return number
+
+    def _close_one(self, number: int) -> None:
+        self._open.remove(number)
+        os.close(number)
+
+    def _close(self) -> None:
+        while self._open:
+            os.close(self._open.pop())

@@ -8,7 +8,7 @@ import sys
 import threading
 import time
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from . import letters
@@ -70,10 +70,16 @@ class Nursery:
         return self.process is None or self.process.poll() is None
 
     def ask(self, kind: bytes) -> socket.socket | None:
-        """The socket to a new process, which waits for its request; None while none can be had."""
+        """The socket to a new process, which waits for its request; None while none can be had.
+
+        Raises:
+            OSError, ValueError: it has ended, or another thread has closed it.
+        """
         with self.lock:
             if not self.ready:
-                if not select.select([self.control], [], [], 0)[0] or self.control.recv(1) != letters.READY:
+                said = select.poll()  # `select` refuses the high numbers that a long-lived server comes to
+                said.register(self.control, select.POLLIN)
+                if not said.poll(0) or self.control.recv(1) != letters.READY:
                     return None
                 self.ready = True
             ours, theirs = socket.socketpair()
@@ -83,8 +89,9 @@ class Nursery:
         return ours
 
     def close(self) -> None:
-        """Let it end."""
-        self.control.close()
+        """Let it end, once no other thread is asking."""
+        with self.lock:
+            self.control.close()
 
 
 @dataclass
@@ -94,6 +101,8 @@ class Kept:
     nursery: Nursery | None = None
     wanted: bool = False
     given_up: int = 0
+    lock: threading.Lock = field(default_factory=threading.Lock)
+    """Two threads that ask at first start one nursery, and give up only the one that each of them asked."""
 
 
 _kept = Kept()
@@ -106,30 +115,37 @@ def keep() -> None:
 
 def use(nursery: Nursery | None) -> Nursery | None:
     """Have this nursery, or none; returns the one before."""
-    before, _kept.nursery = _kept.nursery, nursery
+    with _kept.lock:
+        before, _kept.nursery = _kept.nursery, nursery
     return before
 
 
-def ask(kind: bytes) -> socket.socket | None:
-    """The socket to a new process of a kind, which waits for its request; None: start it cold."""
+def ask(kind: bytes) -> tuple[Nursery, socket.socket] | None:
+    """A nursery, and the socket to its new process of a kind, which waits for its request; None: start it cold."""
     if os.environ.get(SWITCH) != "1" or sys.platform != "linux":
         return None
-    if _kept.nursery is None or _kept.nursery.owner != os.getpid():
-        if _kept.wanted and _kept.given_up < MOST_GIVEN_UP:
-            _kept.nursery = Nursery.start()
-        return None
-    with suppress(OSError):
-        if _kept.nursery.alive():
-            return _kept.nursery.ask(kind)
-    give_up()
+    with _kept.lock:
+        nursery = _kept.nursery
+        if nursery is None or nursery.owner != os.getpid():
+            if _kept.wanted and _kept.given_up < MOST_GIVEN_UP:
+                with suppress(OSError):  # no room for one more process: what is started cold may still find some
+                    _kept.nursery = Nursery.start()
+            return None
+    with suppress(OSError, ValueError):
+        if nursery.alive():
+            asked = nursery.ask(kind)
+            return (nursery, asked) if asked else None
+    give_up(nursery)
     return None
 
 
-def give_up() -> None:
-    """Do without the present nursery, whose files have changed or which has died; whoever keeps one has another later."""
-    if (nursery := use(None)) is not None:
-        nursery.close()
-    _kept.given_up += 1
+def give_up(nursery: Nursery) -> None:
+    """Do without a nursery whose files have changed or which has died; whoever keeps one has another later."""
+    with _kept.lock:
+        if _kept.nursery is nursery:  # else another thread has given it up, and there may be a new one
+            _kept.nursery = None
+            _kept.given_up += 1
+    nursery.close()
 
 
 def taken(asked: socket.socket) -> bool:
@@ -149,22 +165,29 @@ def supervisor(job: Path, errors: int, lock: int, environment: dict[str, str]) -
         lock: descriptor of the job's lock, which is held.
         environment: the process's.
     """
-    if not starts_alike(environment) or (asked := ask(letters.SUPERVISOR)) is None:
+    if not starts_alike(environment) or (found := ask(letters.SUPERVISOR)) is None:
         return False
-    request = {"job": str(job), "environment": environment, "folder": str(Path.cwd()), "umask": umask()}
-    with asked, suppress(OSError):
+    nursery, asked = found
+    with asked, suppress(OSError):  # one is that the folder in which this process stands is gone
+        request = {"job": str(job), "environment": environment, "folder": str(Path.cwd()), "umask": umask()}
         letters.send(asked, request, (errors, lock))
         if taken(asked):
             asked.send(letters.GO)
             return True
-    give_up()
+    give_up(nursery)
     return False
 
 
 def umask() -> int:
-    """This process's, read without setting it, which another thread would notice."""
+    """This process's, read without setting it, which another thread would notice.
+
+    Raises:
+        OSError: the kernel does not tell.
+    """
     status = Path("/proc/self/status").read_text(encoding="utf-8", errors="replace")
-    return int(status.partition("Umask:")[2].split(maxsplit=1)[0], 8)
+    if not (words := status.partition("Umask:")[2].split(maxsplit=1)):
+        raise OSError("/proc/self/status names no Umask")
+    return int(words[0], 8)
 
 
 def starts_alike(environment: dict[str, str]) -> bool:

@@ -1,6 +1,7 @@
 """How a request to a nursery looks on its socket: a length, the descriptors that go with it, and one JSON object."""
 
 import json
+import os
 import socket
 import struct
 from collections.abc import Sequence
@@ -27,6 +28,8 @@ def receive(asked: socket.socket) -> tuple[dict[str, Any], list[int]]:
         EOFError: who asked has gone.
     """
     head, descriptors, _, _ = socket.recv_fds(asked, LENGTH.size, MOST_DESCRIPTORS)
+    for number in descriptors:
+        os.set_inheritable(number, False)  # as they come they are handed on
     data = bytearray()
     while len(head) == LENGTH.size and len(data) < LENGTH.unpack(head)[0]:
         part = asked.recv(LENGTH.unpack(head)[0] - len(data))

@@ -49,17 +49,45 @@ class Loaded:
     """The files that this process has loaded, and since when."""
 
     def __init__(self, since_s: float) -> None:
-        self.since_s = since_s
         modules = {str(getattr(module, "__file__", None) or "") for module in tuple(sys.modules.values())}
         mapped = {line.split(maxsplit=5)[-1].strip() for line in Path("/proc/self/maps").read_text().splitlines()}
-        self.files = sorted(name for name in modules | mapped if name.startswith("/"))
+        self.files: dict[str, tuple[int, ...]] = {}
+        self.late = False
+        """Whether one of them was changed while it was loaded."""
+        for name in sorted(name for name in modules | mapped if name.startswith("/")):
+            try:
+                found = os.stat(name)  # noqa: PTH116 - of hundreds
+            except OSError:
+                self.late = True
+                return
+            self.files[name] = _identity(found)
+            self.late |= found.st_ctime > since_s - SLACK_S
 
     def changed(self) -> bool:
         """Whether one of them is another than the one that was loaded, or gone."""
         try:
-            return any(os.stat(name).st_ctime > self.since_s - SLACK_S for name in self.files)  # noqa: PTH116 - of hundreds
+            return self.late or any(_identity(os.stat(name)) != known for name, known in self.files.items())  # noqa: PTH116
         except OSError:
             return True
+
+
+def _identity(found: os.stat_result) -> tuple[int, ...]:
+    """What another file, or another content, has otherwise; the change time would tell of each hard link, too, of which an
+    installer makes one for every environment."""
+    return found.st_dev, found.st_ino, found.st_size, found.st_mtime_ns
+
+
+def writable(program: str) -> bool:
+    """Whether a file that runs could be written now, as a few kernels let one (Linux 6.11).
+
+    Of an engine that joins a sandbox the kernel shows this interpreter, at `/proc/self/exe`, not as the sandbox does, read-only, but as
+    it lies outside; that nobody writes what runs is what protects it there.
+    """
+    try:
+        os.close(os.open(program, os.O_WRONLY))
+    except OSError:
+        return False
+    return True
 
 
 def main() -> int:
@@ -69,6 +97,8 @@ def main() -> int:
         importlib.import_module(name)
     loaded = Loaded(float(sys.argv[2]))
     if len(os.listdir("/proc/self/task")) > 1:  # noqa: PTH208 - what a fork would leave behind in it may hold a lock
+        return 1
+    if writable("/proc/self/exe"):
         return 1
     control.send(letters.READY)
     serve(control, loaded)

@@ -146,7 +146,7 @@ def test_a_request_arrives_whole_with_its_descriptors(tmp_path):
         sent.join()
         assert got == request and len(descriptors) == 2
         for number in descriptors:
-            assert os.fstat(number).st_ino == os.fstat(file.fileno()).st_ino
+            assert os.fstat(number).st_ino == os.fstat(file.fileno()).st_ino and not os.get_inheritable(number)
             os.close(number)
         ours.close()
         with pytest.raises(EOFError):

@@ -16,6 +16,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from ....model.plan.committed import Intervention
+from ....model.plan.declaration import DRIVES
 from ....model.recording.trajectory import Trajectory
 from ...known import analytic
 from ..sign import Case, Context, Sign
@@ -27,7 +28,6 @@ NEEDS = ("meta",)
 RUNS = "has a moving surface"
 GROUND = {"ground", "floor"}
 """As a cause they explain no drive: every world has one."""
-KINDS = ("force", "parameter", "control", "solver")
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -50,7 +50,7 @@ def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
     causes -= GROUND
     for body, message, names in drives:
         runs = message.endswith(RUNS)
-        if (causes.intersection(names) and not runs) or any(context.acts_on(name, KINDS) for name in names):
+        if (causes.intersection(names) and not runs) or any(context.acts_on(name, DRIVES) for name in names):
             continue
         severity = "blocking" if context.planned else "info"
         window = (trajectory.t[0], trajectory.t[-1])

@@ -24,6 +24,7 @@ from worldkit.contacts import restitution_of
 from worldkit.sliding import GRIP
 
 from .....model.plan import law_words
+from .....model.plan.declaration import DRIVES
 from ....compiled.touching import Touch, Touching
 from ....compiled.view import ModelView
 from ....harm import Measured, after
@@ -148,8 +149,6 @@ SHARE, LEAST = 0.01, 1e-3
 SPIN_M, ROLL_M = 0.005, 1e-4
 """Torsional and rolling friction, m, of a plan that states none: a program may leave these out."""
 SOFTEST_S = 0.02
-DRIVES = ("force", "parameter", "control", "solver")
-"""Kinds of interventions that can say that a surface runs, and how fast."""
 MOST = 12
 """So many pairs of one body are shown: more would say the same."""
 
