@@ -23,6 +23,8 @@ from worldwright.stage import family
 from worldwright.stage.job import Job
 from worldwright.stage.tools import start, wait
 
+from .lock_holders import supervisors
+
 KILLS = int(os.environ.get("WORLDWRIGHT_KILLS", "4"))
 VICTIMS = ("server", "supervisor", "program", "everything")
 SERVER = """
@@ -60,18 +62,6 @@ def proven(run: Run) -> dict[str, str]:
             for name, sha256 in result["files"].items():
                 assert sha256_file(folder / name) == sha256, f"{folder / name} is not what its result says"
             found[str(folder)] = sha256_file(folder / "result.json")
-    return found
-
-
-def supervisors(run: Run) -> list[int]:
-    found = []
-    for entry in Path("/proc").glob("[0-9]*/cmdline"):
-        try:
-            words = entry.read_bytes().split(b"\0")
-        except OSError:
-            continue
-        if b"worldwright.stage.supervisor" in words and any(str(run.jobs).encode() in word for word in words):
-            found.append(int(entry.parent.name))
     return found
 
 

@@ -15,6 +15,8 @@ from worldwright.stage import family, sandbox
 from worldwright.stage.job import Job
 from worldwright.stage.tools import cancel, log, start, status, wait
 
+from .lock_holders import supervisors
+
 GOOD = """
 import mujoco
 from worldkit import program
@@ -227,9 +229,8 @@ def test_a_killed_supervisor_leaves_a_lost_job_and_no_evidence(make, evidence):
     deadline = time.monotonic() + 60
     while status(str(run.folder)).jobs[0].state != "running" and time.monotonic() < deadline:
         time.sleep(0.05)
-    listed = subprocess.run(["pgrep", "-f", f"supervisor .*{job.job}"], capture_output=True, text=True, check=True)
-    for process in listed.stdout.split():
-        os.kill(int(process), signal.SIGKILL)
+    (supervisor,) = supervisors(run, job.job)
+    os.kill(supervisor, signal.SIGKILL)
     lost = wait(str(run.folder), job=job.job, timeout_s=40)
     assert (lost.state, lost.code) == ("lost", "killed")
     assert not (evidence(run) / "physics").exists()
@@ -246,9 +247,8 @@ def test_what_a_killed_supervisor_leaves_behind_is_ended_by_the_next_start(level
     while len(family.bearing(spec.token)) < 2 and time.monotonic() < deadline:
         time.sleep(0.05)
     assert len(family.bearing(spec.token)) >= 2
-    supervisor = subprocess.run(["pgrep", "-f", f"supervisor .*{job.job}"], capture_output=True, text=True, check=True)
-    for process in supervisor.stdout.split():
-        os.kill(int(process), signal.SIGKILL)
+    (supervisor,) = supervisors(run, job.job)
+    os.kill(supervisor, signal.SIGKILL)
     assert wait(str(run.folder), job=job.job, timeout_s=40).state == "lost"
     again = start(str(run.folder))
     assert not family.bearing(spec.token)

@@ -13,5 +13,5 @@ that starts many of them (`kept_warm.keep`) has one child, the nursery, that loa
 An author's program always starts cold: processes of one nursery share the layout of their memory, and a program whose result
 depends on it would seem repeatable. Nothing is answered warm that would differ: where a loaded file has changed, the
 environment asks for another interpreter, or anything fails, the process is started as ever. So it is everywhere but on Linux,
-an engine at the sandbox's lower levels, and everything unless `WORLDWRIGHT_WARM=1` asks for it.
+an engine at the sandbox's lower levels, and everything where `WORLDWRIGHT_WARM=0` asks for it.
 """
