@@ -44,7 +44,7 @@ class Way(NamedTuple):
 def ways(model: "mujoco.MjModel", data: "mujoco.MjData", ports: "Ports") -> list[Way]:
     """The ways that these ports open, in the order in which the ledger tells them."""
     made = (_controls, _wrenches, _joints)
-    return [way for make in made for way in make(model, _Where(Mirror(model, data)), ports.entries)]
+    return [way for make in made for way in make(model, _Where(Mirror(model, data, sends=False)), ports.entries)]
 
 
 class _Where:

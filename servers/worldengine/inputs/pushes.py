@@ -40,7 +40,7 @@ class Pushes:
         import numpy as np
 
         self._data, self._emit = data, emit
-        numbers, _ = Mirror(model, data).numbers({}, ())
+        numbers, _ = Mirror(model, data, sends=False).numbers({}, ())
         found = ways(model, data, ports)
         row = 8 * (1 + sum(len(way.inputs) + len(way.speeds) + len(way.forces) for way in found))
         self._capacity = max(16, min(ROWS, MOST_BYTES // row))
