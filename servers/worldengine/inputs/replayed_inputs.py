@@ -190,7 +190,8 @@ class Replayed(Drive):
         if self._recorded.speaks(step):
             self.answers.replay(*self._recorded.answer(step))
             self._apply(step)
-        self._tell(step, self._recorded.told(step))
+        if self.ports.media is not None:
+            self._tell(step, self._recorded.told(step))
         if row is not None:
             row()
         self._ledger.pushes.note()
