@@ -1,26 +1,33 @@
 """Note what pushes during a step: forces and torques on bodies and joints, controls of actuators (`push_works`).
 
 A step's inputs and the velocities at its two ends are noted while it happens, one copy of a few numbers each, and only while
-there are inputs other than zero: a world may declare many that rest. Everything is worked out later for many steps at once.
+there are inputs other than zero: a world may declare many that rest. The work is worked out for many steps at once: as many as
+stay in the processor's memory, since reading them again from further away costs more than what is done with them. Blocks of the
+ledger are many of these, and are written beside the steps.
 """
 
 import queue
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from worldkit.mirror import Mirror, address, differ
+from worldkit.mirror import Mirror, address, differ, memory
 
+from ..recording.push_blocks import Block
+from .even_copies import reader
 from .push_works import Way, ways
 
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
 
-    from ..recording.push_blocks import Block
     from .ports import Ports
 
 ROWS = 1024
-MOST_BYTES = 8 << 20
+MOST_BYTES = 16 << 20
+"""Blocks of one time are at most as large, and have at most so many rows."""
+NEAR_BYTES = 1 << 19
+"""Notes of so many bytes are worked out at once, and of at least `FEWEST` steps."""
+FEWEST = 16
 
 
 class Pushes:
@@ -42,13 +49,17 @@ class Pushes:
         self._data, self._emit = data, emit
         numbers, _ = Mirror(model, data, sends=False).numbers({}, ())
         found = ways(model, data, ports)
-        row = 8 * (1 + sum(len(way.inputs) + len(way.speeds) + len(way.forces) for way in found))
-        self._capacity = max(16, min(ROWS, MOST_BYTES // row))
-        self._time = np.zeros(self._capacity + 1)
-        self._notes = [_Notes(way, data, numbers, self._capacity) for way in found]
+        noted = sum(len(way.inputs) + len(way.speeds) + len(way.forces) for way in found)
+        told = sum(len(way.targets) * (way.width + 1) for way in found)
+        self._near = max(FEWEST, min(ROWS, NEAR_BYTES // (8 * noted + 8)))
+        self._capacity = max(self._near, min(ROWS, MOST_BYTES // (8 * told + 8)))
+        self._time = np.zeros(self._near + 1)
+        self._times = np.zeros(self._capacity)
+        self._notes = [_Notes(way, data, numbers, self._near, self._capacity) for way in found]
         self._forced = [notes for notes in self._notes if notes.forced]
         self._acting = [notes for notes in self._notes if notes.acting]
-        self._count = 0
+        self._count = self._done = 0
+        """Steps that are noted, and before them steps that are worked out."""
 
     def measure(self) -> None:
         """Note the velocities, which are computed now."""
@@ -72,67 +83,97 @@ class Pushes:
         for notes in self._forced:
             notes.reacted(self._count)
         self._count += 1
-        if self._count == self._capacity:
-            self.flush()
+        if self._count == self._near:
+            self._work_out(self._near - 1)
+            if self._done + self._near > self._capacity:
+                self._hand_over()
 
     def flush(self) -> None:
         """Hand over all steps whose end is known, which are all but the last."""
         if self._count > 1:
-            self._hand_over(self._count - 1)
+            self._work_out(self._count - 1)
+        self._hand_over()
 
     def finish(self) -> None:
         """Hand over the rest, once the velocities at the end are measured."""
         if self._count:
-            self._hand_over(self._count)
+            self._work_out(self._count)
+        self._hand_over()
 
-    def _hand_over(self, steps: int) -> None:
-        time, last = self._time.copy(), self._count + 1
-        made = [pair for notes in self._notes if (pair := notes.hand_over(time[: steps + 1], steps, last))]
+    def _work_out(self, steps: int) -> None:
+        """Work out the first so many of the noted steps, whose ends are known."""
+        time, last, done = self._time, self._count + 1, self._done
+        for notes in self._notes:
+            notes.work_out(time[: steps + 1], steps, last)
+        self._times[done : done + steps] = time[:steps]
+        time[: last - steps] = time[steps:last].copy()
+        self._count, self._done = self._count - steps, done + steps
+
+    def _hand_over(self) -> None:
+        """Hand over what is worked out."""
+        if not self._done:
+            return
+        time, rest = self._times[: self._done].copy(), self._count + 1
+        made = [pair for notes in self._notes if (pair := notes.hand_over(time, rest))]
         if made:
             self._emit(lambda: _each(made))
-        self._time[: last - steps] = time[steps:last]
-        self._count -= steps
+        self._done = 0
 
 
-def _each(made: "list[tuple[Callable[[], Block], Callable[[], object]]]") -> "Iterator[Block]":
+def _each(made: "list[tuple[Block, Callable[[], object]]]") -> "Iterator[Block]":
     """Each block; once it is used, the memory of its notes is, too."""
     for block, give_back in made:
-        yield block()
+        yield block
         give_back()
 
 
 class _Notes:
-    """Notes of one way to push: row n of each array is of the step n."""
+    """Notes of one way to push: row n of each array is of the step n, and rows of the block come before them."""
 
-    def __init__(self, way: Way, data: "mujoco.MjData", numbers: "np.ndarray", capacity: int) -> None:
+    def __init__(self, way: Way, data: "mujoco.MjData", numbers: "np.ndarray", near: int, capacity: int) -> None:
         import numpy as np
 
-        self._way, self._take, self._rows = way, numbers.take, capacity + 1
+        self._way, self._near, self._capacity = way, near, capacity
         looked = getattr(data, way.array) if way.array else np.zeros(0)
         self._looked, self._at, self._rest = looked, address(looked), looked.nbytes - looked.itemsize
+        self._first = memory(address(numbers) + 8 * int(way.inputs[0]), 8).cast("d")
+        """The first of the inputs: while that pushes, nobody looks for others."""
         self.acting, self.forced = not way.array, len(way.forces) > 0
         self._before = numbers.take(way.inputs)
-        self._free: queue.SimpleQueue[list[np.ndarray]] = queue.SimpleQueue()
+        (pushes, self._push), (speeds, self._move), (forces, self._force) = (
+            reader(numbers, index) for index in (way.inputs, way.speeds, way.forces)
+        )
+        self._shape = pushes
+        self._acts = np.zeros(near + 1)
+        self._speed, self._exerted = np.zeros((near + 1, *speeds)), np.zeros((near + 1, *forces))
+        self._own = None if way.plain else np.zeros((near + 1, *pushes))
         self._ends: dict[int, np.ndarray] = {}
         """Velocities at the end of those steps after which the state was written."""
+        self._free: queue.SimpleQueue[list[np.ndarray]] = queue.SimpleQueue()
         self._begin()
 
     def _begin(self) -> None:
-        """Begin new notes, in memory that was given back if there is any: fresh pages cost as much as what is done with them."""
+        """Begin a new block, in memory that was given back if there is any: fresh pages cost as much as what is done with them."""
         import numpy as np
 
-        way = self._way
-        widths = ((), (len(way.inputs),), (len(way.speeds),), (len(way.forces),))
+        targets = len(self._way.targets)
         try:
-            self._all = self._free.get_nowait()
+            self._block = self._free.get_nowait()
         except queue.Empty:
-            self._all = [np.zeros((self._rows, *width)) for width in widths]
-        self._acts, self._pushed, self._speed, self._exerted = self._all
-        self._acts[:] = 0.0
+            rows = self._capacity + 1
+            widths = ((self._way.width, targets), (targets,))
+            self._block = [np.zeros((rows, targets), bool), *(np.zeros((rows, *width)) for width in widths)]
+        self._done, self._told = 0, False
+        self._place()
+
+    def _place(self) -> None:
+        """Let the next steps' inputs be noted behind what is worked out, where the block tells them as they are."""
+        plain = self._block[1].reshape(-1, *self._shape)[self._done :] if self._own is None else self._own
+        self._pushed = plain
 
     def measure(self, n: int) -> None:
         """Note the velocities, at the end of a step in which this pushed and at the beginning of the next."""
-        self._take(self._way.speeds, out=self._speed[n], mode="clip")
+        self._move(self._speed[n])
 
     def interfered(self, n: int) -> None:
         """Note them anew for this step."""
@@ -143,44 +184,63 @@ class _Notes:
     def note(self, n: int, known: bool) -> bool:
         """Note the inputs, and the velocities if they are not known; returns whether there are inputs."""
         if len(self._looked):  # zero are all numbers if one is, and each is as the next
-            self.acting = differ(self._at, self._at + 8, self._rest) != 0 or self._looked.flat[0] != 0
+            self.acting = (
+                self._first[0] != 0 or differ(self._at, self._at + 8, self._rest) != 0 or self._looked.flat[0] != 0
+            )
         if self.acting:
             self._acts[n] = 1.0
-            self._take(self._way.inputs, out=self._pushed[n], mode="clip")
+            self._push(self._pushed[n])
             if not known:
                 self.measure(n)
         return self.acting
 
     def reacted(self, n: int) -> None:
         """Note the forces."""
-        self._take(self._way.forces, out=self._exerted[n], mode="clip")
+        self._force(self._exerted[n])
 
-    def hand_over(
-        self, time: "np.ndarray", steps: int, last: int
-    ) -> "tuple[Callable[[], Block], Callable[[], object]] | None":
-        """Begin new notes after so many steps, with what is noted until the row `last`.
-
-        Returns what makes a block of the old ones, and what must be called once it is used; None where nothing pushed in them.
-        """
-        old, ends, before = self._all, self._ends, self._before
-        acts, pushed, speed, exerted = (rows[:steps] for rows in old)
-        self._begin()
+    def work_out(self, time: "np.ndarray", steps: int, last: int) -> None:
+        """Work out so many steps, of (steps + 1,) times, into the block; what is noted behind them, until the row `last`, is kept."""
+        acts, ends, rows = self._acts[:steps], self._ends, slice(self._done, self._done + steps)
+        found = [part[rows] for part in self._block]
+        if acts.any():
+            pushed = self._pushed[:steps]
+            if not acts.all():
+                pushed[acts == 0] = 0.0
+            end = self._speed[1 : steps + 1]
+            if ends:
+                end = end.copy()
+                for step, kept in ends.items():
+                    if step < steps:
+                        end[step] = kept
+            speed, exerted = self._speed[:steps].reshape(steps, -1), self._exerted[:steps].reshape(steps, -1)
+            flat = pushed.reshape(steps, -1)
+            self._way.told(time, flat, speed, end.reshape(steps, -1), exerted, self._before, *found)
+            self._before, self._told = flat[-1].copy(), True
+        else:
+            found[0][:] = False
         self._ends = {step - steps: kept for step, kept in ends.items() if step >= steps}
-        for new, rows in zip(self._all, old, strict=True):
-            new[: last - steps] = rows[steps:last]
+        self._done += steps
+        for part in (self._acts, self._speed, self._exerted, *(() if self._own is None else (self._own,))):
+            part[: last - steps] = part[steps:last].copy()
+        self._acts[last - steps :] = 0.0
+        self._place()
+
+    def hand_over(self, time: "np.ndarray", rest: int) -> "tuple[Block, Callable[[], object]] | None":
+        """Begin a new block, with so many rows that are noted and not worked out.
+
+        Returns the old one, and what must be called once it is used; None where nothing pushed in it.
+        """
+        old, told, done, way = self._block, self._told, self._done, self._way
+        noted = self._pushed[:rest]
+        self._begin()
+        if self._own is None:
+            self._pushed[:rest] = noted
         give_back = lambda: self._free.put(old)  # noqa: E731
-        if not acts.any():
+        if not told:
             give_back()
             return None
-        pushed[acts == 0] = 0.0
-        self._before = pushed[-1].copy()
-        end = old[2][1 : steps + 1]
-        if ends:
-            end = end.copy()
-            for step, kept in ends.items():
-                if step < steps:
-                    end[step] = kept
-        return lambda: self._way.told(time, pushed, speed, end, exerted, before), give_back
+        acts, numbers, works = (part[:done] for part in old)
+        return Block(way.kind, time, way.targets, acts, numbers, works), give_back
 
 
 def twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndarray":
