@@ -183,10 +183,16 @@ def _told(width: int, moves: Callable[..., Any], seen: Callable[..., Any] | None
     """What tells of targets pushed by `width` numbers each, moving as `moves` says, as they are `seen`."""
     import numpy as np
 
+    kept = np.zeros((0, 0, 0))  # what is made anew every time is fresh pages every time
+
     def told(
         time: Any, pushed: Any, begin: Any, end: Any, _exerted: Any, _before: Any, acts: Any, numbers: Any, works: Any
     ) -> None:
-        force, shares = pushed.reshape(len(pushed), width, -1), moves(begin) + moves(end)
+        nonlocal kept
+        force = pushed.reshape(len(pushed), width, -1)
+        if len(kept) < len(force):
+            kept = np.empty(force.shape)
+        shares = np.add(moves(begin), moves(end), out=kept[: len(force)])
         shares *= force
         works[:] = shares[:, 0]
         for n in range(1, width):
