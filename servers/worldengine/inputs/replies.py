@@ -44,7 +44,7 @@ class Answers:
         self._switches = np.array(ports.entries.get(SWITCHES[0], ()), np.intp)
         first, second = len(self._held), len(self._held) + len(self._state)
         self._raw = np.zeros(8 * (1 + second + len(self._switches)), np.uint8)
-        self._own, self._latest = memoryview(self._raw), b""
+        self._own, self._latest = self._raw.data, b""
         """Memory of the latest answer, and that answer as it came."""
         self._sent: dict[int, memoryview] = {}
         """The memory that answers come in, by address."""

@@ -67,7 +67,7 @@ class Recorded:
         ends = np.arange(steps + 1)
         found = [np.searchsorted(rows, ends) for rows in (self._step, self._edits[0])]
         # Read at every step, where a number of an array takes longer than one of a memory.
-        self._ends, self._edit_ends = map(memoryview, found)
+        self._ends, self._edit_ends = (rows.data for rows in found)
         self._spoken = np.logical_or(*(np.diff(rows) > 0 for rows in found)).tobytes()
         self._check_inputs(Rows(recording.folder / "inputs.arrows", self._step), steps, every)
         self._check_edits(Rows(recording.folder / "edits.arrows", self._edits[0]), model, ports, steps, every)
