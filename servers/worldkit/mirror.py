@@ -25,6 +25,8 @@ LINE = 64
 """Parts of a slot begin at multiples of this many bytes."""
 MOST_ARENA = 8 << 20
 """Contacts and constraints beyond this size are not sent: the receiver sees none."""
+COUNTS = (("ncon", "nJ"), ("nY", "nisland"))
+"""Neighbours in the struct, first and last, that count what lies in the arena."""
 NOWHERE = 0xFFFF_FFFF_FFFF_FFFF
 """Stands in place of an offset when the array is not there."""
 
@@ -49,11 +51,15 @@ class Slot(NamedTuple):
 class Mirror:
     """Copies an `MjData` to and from slots of `size` bytes.
 
+    Args:
+        model, data: what is copied.
+        sends: whether it is ever sent. Only then what is free of its arena is blanked, which takes milliseconds.
+
     A slot holds, in this order: the length of the used arena, the struct's numbers, where the arena's arrays begin, the
     buffer, the used part of the arena.
     """
 
-    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> None:
+    def __init__(self, model: "mujoco.MjModel", data: "mujoco.MjData", sends: bool = True) -> None:
         import numpy as np
 
         self._kept = (model, data)  # their memory must not be given back
@@ -68,7 +74,8 @@ class Mirror:
         self.buffer, self.buffer_bytes = int(live.buffer), int(live.nbuffer)
         self._arena, self._room = int(live.arena), min(MOST_ARENA, int(live.narena))
         # What lies between contacts and constraints there is never written: it must not tell what was in memory before.
-        ctypes.memset(self._arena + int(live.parena), 0, max(0, self._room - int(live.parena)))
+        if sends:
+            ctypes.memset(self._arena + int(live.parena), 0, max(0, self._room - int(live.parena)))
         self._at_numbers = LINE
         self._at_pointers = _round(self._at_numbers + self._numbers_bytes)
         self._at_buffer = _round(self._at_pointers + self._pointers_bytes)
@@ -78,15 +85,22 @@ class Mirror:
         # The last values on one side of the translation, and what became of them on the other.
         self._seen, self._told = np.zeros(count, np.uint64), np.zeros(count, np.uint64)
         self._seen_at = address(self._seen)
-        self._own_numbers = _bytes(self._numbers_at, self._numbers_bytes)
-        self._own_pointers = _bytes(self._pointers, self._pointers_bytes)
-        self._own_buffer, self._own_arena = _bytes(self.buffer, self.buffer_bytes), _bytes(self._arena, self._room)
-        self._saw, self._said = _bytes(self._seen_at, 8 * count), _bytes(address(self._told), 8 * count)
+        self._own_numbers = memory(self._numbers_at, self._numbers_bytes)
+        self._own_pointers = memory(self._pointers, self._pointers_bytes)
+        self._own_buffer, self._own_arena = memory(self.buffer, self.buffer_bytes), memory(self._arena, self._room)
+        # Fields of the struct are read and written as memory too: an attribute of ctypes takes three times as long.
+        self._used = memory(base + layout.parena.offset, 8).cast("Q")
+        self._counts = []
+        for first_count, last_count in COUNTS:
+            begin, end = getattr(layout, first_count), getattr(layout, last_count)
+            size = end.offset + end.size - begin.offset
+            self._counts.append((memory(base + begin.offset, size), bytes(size)))
+        self._saw, self._said = memory(self._seen_at, 8 * count), memory(address(self._told), 8 * count)
         self._slots: dict[int, Slot] = {}
 
     def send(self, slot: int) -> None:
         """Copy the data into the slot at this address."""
-        used = int(self._live.parena)
+        used = self._used[0]
         if used > self._room:
             used = 0
         there = self._slots.get(slot) or self._parts(slot)
@@ -104,7 +118,7 @@ class Mirror:
     def receive(self, slot: int) -> None:
         """Make the data what the slot at this address holds."""
         there = self._slots.get(slot) or self._parts(slot)
-        used = int(there.used[0])
+        used = there.used[0]
         self._own_numbers[:] = there.numbers
         self._own_buffer[:] = there.buffer
         if 0 < used <= self._room:
@@ -115,18 +129,18 @@ class Mirror:
             self._own_pointers[:] = self._said
             self._own_arena[:used] = there.arena[:used]
         else:
-            self._live.ncon = self._live.nefc = self._live.ne = self._live.nf = self._live.nl = 0
-            self._live.nJ = self._live.nisland = self._live.nA = self._live.nY = 0
-        self._live.parena = used
+            for counts, none in self._counts:
+                counts[:] = none
+        self._used[0] = used
 
     def _parts(self, slot: int) -> Slot:
         """The parts of the slot at this address, which is one of a few."""
         self._slots[slot] = parts = Slot(
-            _bytes(slot, 8).cast("Q"),
-            _bytes(slot + self._at_numbers, self._numbers_bytes),
-            _bytes(slot + self._at_pointers, self._pointers_bytes),
-            _bytes(slot + self._at_buffer, self.buffer_bytes),
-            _bytes(slot + self._at_arena, self._room),
+            memory(slot, 8).cast("Q"),
+            memory(slot + self._at_numbers, self._numbers_bytes),
+            memory(slot + self._at_pointers, self._pointers_bytes),
+            memory(slot + self._at_buffer, self.buffer_bytes),
+            memory(slot + self._at_arena, self._room),
         )
         return parts
 
@@ -213,7 +227,7 @@ def words(at: int, count: int) -> "np.ndarray":
     return np.ctypeslib.as_array((ctypes.c_double * count).from_address(at))
 
 
-def _bytes(at: int, count: int) -> memoryview:
+def memory(at: int, count: int) -> memoryview:
     """So many bytes at an address, as memory that can be written."""
     return memoryview((ctypes.c_uint8 * count).from_address(at)).cast("B")
 

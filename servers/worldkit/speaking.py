@@ -73,7 +73,7 @@ class Speaker:
 
         media = ports.get("media") or {}
         self._model, self._data, self._control = model, data, None if media.get("alone") else control
-        self.mirror = Mirror(model, data)
+        self.mirror = Mirror(model, data, sends=False)
         numbers, self._index = self.mirror.numbers(ports, (*HELD, *STATE))
         self._numbers = numbers
         self._switches = np.array(ports.get("eq_active", ()), np.intp)

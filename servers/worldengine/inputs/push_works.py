@@ -14,7 +14,6 @@ from worldkit.mirror import Mirror
 from worldkit.naming import names
 
 from ..recording.describing import actuator_columns, pulled_bodies
-from ..recording.push_blocks import Block
 from .force_outputs import outputs
 
 if TYPE_CHECKING:
@@ -36,15 +35,21 @@ class Way(NamedTuple):
     inputs: Any
     speeds: Any
     forces: Any
-    told: Callable[..., Block]
-    """Makes a block of S steps: given (S + 1,) times, (S, …) inputs, velocities at the beginning and at the end of the steps,
-    and forces, and the inputs of the step before the first."""
+    kind: str
+    targets: Sequence[str]
+    width: int
+    """So many numbers of each target are told (`push_blocks`)."""
+    plain: bool
+    """Whether these are the inputs, as they are."""
+    told: Callable[..., object]
+    """Tells S steps: given (S + 1,) times, (S, …) inputs, velocities at the beginning and at the end of the steps, and forces, and
+    the inputs of the step before the first, it fills (S, B) what is told, (S, width, B) numbers that are not plain, (S, B) works."""
 
 
 def ways(model: "mujoco.MjModel", data: "mujoco.MjData", ports: "Ports") -> list[Way]:
     """The ways that these ports open, in the order in which the ledger tells them."""
     made = (_controls, _wrenches, _joints)
-    return [way for make in made for way in make(model, _Where(Mirror(model, data)), ports.entries)]
+    return [way for make in made for way in make(model, _Where(Mirror(model, data, sends=False)), ports.entries)]
 
 
 class _Where:
@@ -73,14 +78,19 @@ def _controls(model: "mujoco.MjModel", where: _Where, entries: dict[str, list[in
         f"{pulled[output[c]][0]}/{columns[c]}" if len(pulled[output[c]]) == 1 else columns[c] for c in controls.tolist()
     ]
 
-    def told(time: Any, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any) -> Block:
+    def told(
+        time: Any, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any, acts: Any, numbers: Any, works: Any
+    ) -> None:
         former = np.concatenate([before[None], pushed[:-1]])
-        acts = (pushed != 0) | (pushed != former)
-        numbers = np.stack([pushed, exerted], axis=1)
-        return Block("control", time[:-1], called, acts, numbers, exerted * (begin + end) * _half(time))
+        acts[:] = (pushed != 0) | (pushed != former)
+        numbers[:, 0], numbers[:, 1] = pushed, exerted
+        works[:] = exerted * (begin + end) * _half(time)
 
     driven = output[controls]
-    yield Way("", where("ctrl", controls), where("actuator_velocity", driven), where("actuator_force", driven), told)
+    yield Way(
+        "", where("ctrl", controls), where("actuator_velocity", driven), where("actuator_force", driven),
+        "control", called, 2, False, told,
+    )  # fmt: skip
 
 
 def _wrenches(model: "mujoco.MjModel", where: _Where, entries: dict[str, list[int]]) -> Iterator[Way]:
@@ -114,8 +124,8 @@ def _wrenches(model: "mujoco.MjModel", where: _Where, entries: dict[str, list[in
             return found
 
         yield Way(
-            "xfrc_applied", where("xfrc_applied", pushed, 6, wanted), np.concatenate(parts), (),
-            _told(kind, [called[body] for body in pushed], 3, moves),
+            "xfrc_applied", where("xfrc_applied", pushed, 6, wanted), np.concatenate(parts), np.zeros(0, np.intp),
+            kind, [called[body] for body in pushed], 3, True, _told(3, moves),
         )  # fmt: skip
 
 
@@ -159,28 +169,42 @@ def _joints(model: "mujoco.MjModel", where: _Where, entries: dict[str, list[int]
             frame = begin[:, count:]
             if width == 1:
                 return frame.reshape(len(force), 3, -1) * force
-            if frame.shape[1]:
-                return np.einsum("sklj,slj->skj", frame.reshape(len(force), 3, 3, -1), force)
-            return force
+            return np.einsum("sklj,slj->skj", frame.reshape(len(force), 3, 3, -1), force)
 
         inputs = where("qfrc_applied", first, 1, numbers)
-        yield Way("qfrc_applied", inputs, np.concatenate(parts), (), _told(word, called, width, moves, seen))
+        plain = len(parts) == 1
+        yield Way(
+            "qfrc_applied", inputs, np.concatenate(parts), np.zeros(0, np.intp),
+            word, called, 3, plain, _told(width, moves, None if plain else seen),
+        )  # fmt: skip
 
 
-def _told(
-    kind: str, called: list[str], width: int, moves: Callable[..., Any], seen: Callable[..., Any] | None = None
-) -> Callable[..., Block]:
-    """What makes blocks of targets pushed by `width` numbers each, moving as `moves` says, and told as they are `seen`."""
+def _told(width: int, moves: Callable[..., Any], seen: Callable[..., Any] | None = None) -> Callable[..., object]:
+    """What tells of targets pushed by `width` numbers each, moving as `moves` says, as they are `seen`."""
+    import numpy as np
 
-    def told(time: Any, pushed: Any, begin: Any, end: Any, exerted: Any, before: Any) -> Block:  # noqa: ARG001
-        force, speed = pushed.reshape(len(pushed), width, -1), moves(begin) + moves(end)
-        works = force[:, 0] * speed[:, 0]
+    kept = np.zeros((0, 0, 0))  # what is made anew every time is fresh pages every time
+
+    def told(
+        time: Any, pushed: Any, begin: Any, end: Any, _exerted: Any, _before: Any, acts: Any, numbers: Any, works: Any
+    ) -> None:
+        nonlocal kept
+        force = pushed.reshape(len(pushed), width, -1)
+        if len(kept) < len(force):
+            kept = np.empty(force.shape)
+        shares = np.add(moves(begin), moves(end), out=kept[: len(force)])
+        shares *= force
+        works[:] = shares[:, 0]
         for n in range(1, width):
-            works += force[:, n] * speed[:, n]
+            works += shares[:, n]
         works *= _half(time)
-        vector = force if seen is None else seen(force, begin)
-        acts = (vector[:, 0] != 0) | (vector[:, 1] != 0) | (vector[:, 2] != 0)
-        return Block(kind, time[:-1], called, acts, vector, works)
+        if seen is not None:
+            numbers[:] = seen(force, begin)
+        acts[:] = everyone = numbers[:, 0].all()
+        if not everyone:
+            np.not_equal(numbers[:, 0], 0, out=acts)
+            for n in (1, 2):
+                acts |= numbers[:, n] != 0
 
     return told
 

@@ -1,26 +1,30 @@
 """Note what pushes during a step: forces and torques on bodies and joints, controls of actuators (`push_works`).
 
 A step's inputs and the velocities at its two ends are noted while it happens, one copy of a few numbers each, and only while
-there are inputs other than zero: a world may declare many that rest. Everything is worked out later for many steps at once.
+there are inputs other than zero: a world may declare many that rest. Everything is worked out later, beside the steps, for as many at once
+as stay near the processor: reading them again from further away costs more than what is done with them.
 """
 
 import queue
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from worldkit.mirror import Mirror, address, differ
+from worldkit.mirror import Mirror, address, differ, memory
 
+from ..recording.push_blocks import Block
+from .even_copies import reader
 from .push_works import Way, ways
 
 if TYPE_CHECKING:
     import mujoco
     import numpy as np
 
-    from ..recording.push_blocks import Block
     from .ports import Ports
 
 ROWS = 1024
-MOST_BYTES = 8 << 20
+MOST_BYTES = 16 << 20
+NEAR_BYTES = 1 << 19
+"""Notes of about so many bytes are worked out at once."""
 
 
 class Pushes:
@@ -40,7 +44,7 @@ class Pushes:
         import numpy as np
 
         self._data, self._emit = data, emit
-        numbers, _ = Mirror(model, data).numbers({}, ())
+        numbers, _ = Mirror(model, data, sends=False).numbers({}, ())
         found = ways(model, data, ports)
         row = 8 * (1 + sum(len(way.inputs) + len(way.speeds) + len(way.forces) for way in found))
         self._capacity = max(16, min(ROWS, MOST_BYTES // row))
@@ -107,7 +111,16 @@ class _Notes:
     def __init__(self, way: Way, data: "mujoco.MjData", numbers: "np.ndarray", capacity: int) -> None:
         import numpy as np
 
-        self._way, self._take, self._rows = way, numbers.take, capacity + 1
+        self._way, self._rows = way, capacity + 1
+        (pushes, self._push), (speeds, self._move), (forces, self._force) = (
+            reader(numbers, index) for index in (way.inputs, way.speeds, way.forces)
+        )
+        targets = len(way.targets)
+        told = () if way.plain else (way.width, targets)
+        self._shapes = ((), pushes, speeds, forces, told, (targets,))
+        self._near = max(1, NEAR_BYTES // (8 * (len(way.inputs) + 2 * len(way.speeds) + len(way.forces))))
+        self._first = memory(address(numbers) + 8 * int(way.inputs[0]), 8).cast("d")
+        """The first of the inputs: while that pushes, nobody looks for others."""
         looked = getattr(data, way.array) if way.array else np.zeros(0)
         self._looked, self._at, self._rest = looked, address(looked), looked.nbytes - looked.itemsize
         self.acting, self.forced = not way.array, len(way.forces) > 0
@@ -121,18 +134,16 @@ class _Notes:
         """Begin new notes, in memory that was given back if there is any: fresh pages cost as much as what is done with them."""
         import numpy as np
 
-        way = self._way
-        widths = ((), (len(way.inputs),), (len(way.speeds),), (len(way.forces),))
         try:
             self._all = self._free.get_nowait()
         except queue.Empty:
-            self._all = [np.zeros((self._rows, *width)) for width in widths]
-        self._acts, self._pushed, self._speed, self._exerted = self._all
+            self._all = [np.zeros((self._rows, *shape)) for shape in self._shapes]
+        self._acts, self._pushed, self._speed, self._exerted = self._all[:4]
         self._acts[:] = 0.0
 
     def measure(self, n: int) -> None:
         """Note the velocities, at the end of a step in which this pushed and at the beginning of the next."""
-        self._take(self._way.speeds, out=self._speed[n], mode="clip")
+        self._move(self._speed[n])
 
     def interfered(self, n: int) -> None:
         """Note them anew for this step."""
@@ -143,17 +154,19 @@ class _Notes:
     def note(self, n: int, known: bool) -> bool:
         """Note the inputs, and the velocities if they are not known; returns whether there are inputs."""
         if len(self._looked):  # zero are all numbers if one is, and each is as the next
-            self.acting = differ(self._at, self._at + 8, self._rest) != 0 or self._looked.flat[0] != 0
+            self.acting = (
+                self._first[0] != 0 or differ(self._at, self._at + 8, self._rest) != 0 or self._looked.flat[0] != 0
+            )
         if self.acting:
             self._acts[n] = 1.0
-            self._take(self._way.inputs, out=self._pushed[n], mode="clip")
+            self._push(self._pushed[n])
             if not known:
                 self.measure(n)
         return self.acting
 
     def reacted(self, n: int) -> None:
         """Note the forces."""
-        self._take(self._way.forces, out=self._exerted[n], mode="clip")
+        self._force(self._exerted[n])
 
     def hand_over(
         self, time: "np.ndarray", steps: int, last: int
@@ -163,24 +176,48 @@ class _Notes:
         Returns what makes a block of the old ones, and what must be called once it is used; None where nothing pushed in them.
         """
         old, ends, before = self._all, self._ends, self._before
-        acts, pushed, speed, exerted = (rows[:steps] for rows in old)
+        acts, pushed, speed, exerted, told, works = (rows[:steps] for rows in old)
         self._begin()
         self._ends = {step - steps: kept for step, kept in ends.items() if step >= steps}
-        for new, rows in zip(self._all, old, strict=True):
+        for new, rows in zip(self._all[:4], old[:4], strict=True):
             new[: last - steps] = rows[steps:last]
         give_back = lambda: self._free.put(old)  # noqa: E731
         if not acts.any():
             give_back()
             return None
-        pushed[acts == 0] = 0.0
-        self._before = pushed[-1].copy()
+        if not acts.all():
+            pushed[acts == 0] = 0.0
+        self._before = pushed[-1].reshape(-1).copy()
         end = old[2][1 : steps + 1]
         if ends:
             end = end.copy()
             for step, kept in ends.items():
                 if step < steps:
                     end[step] = kept
-        return lambda: self._way.told(time, pushed, speed, end, exerted, before), give_back
+        noted = [rows.reshape(steps, -1) for rows in (pushed, speed, end, exerted)]
+        numbers = noted[0].reshape(steps, self._way.width, -1) if self._way.plain else told
+        return lambda: self._work_out(time, noted, before, numbers, works), give_back
+
+    def _work_out(
+        self,
+        time: "np.ndarray",
+        noted: "list[np.ndarray]",
+        before: "np.ndarray",
+        numbers: "np.ndarray",
+        works: "np.ndarray",
+    ) -> Block:
+        """Tell steps of (S + 1,) times, some at once."""
+        import numpy as np
+
+        way, acts = self._way, np.empty(works.shape, bool)
+        for first in range(0, len(works), self._near):
+            near = slice(first, first + self._near)
+            former = noted[0][first - 1] if first else before
+            way.told(
+                time[first : first + self._near + 1], *(rows[near] for rows in noted), former,
+                acts[near], numbers[near], works[near],
+            )  # fmt: skip
+        return Block(way.kind, time[:-1], way.targets, acts, numbers, works)
 
 
 def twist(model: "mujoco.MjModel", data: "mujoco.MjData", body: int) -> "np.ndarray":

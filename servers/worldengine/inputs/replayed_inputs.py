@@ -52,6 +52,9 @@ class Drive:
             ledger.messages.step = step
             return False
         self._keep(step)
+        if not answers.acts_once:
+            answers.push()
+            return False
         changes = answers.changes
         if changes:
             ledger.about_to_change()
@@ -116,41 +119,33 @@ class Asked(Drive):
     ) -> None:
         super().__init__(model, data, ports, shares)
         self._voice, self._every, self._latency = voice, every, latency
-        self._waiting = False
+        self._waiting, self._media = False, ports.media
 
     def act(self, step: int, row: Callable[[], object] | None) -> None:
         """Ask, make the row meanwhile, and apply the answer."""
-        ledger, answers = self._ledger, self.answers
-        asks = step % self._every == 0
-        heard = False
-        if asks and self._latency and self._waiting:
-            heard = self._hear()
+        pushes, answers, voice = self._ledger.pushes, self.answers, self._voice
+        asks, latency = step % self._every == 0, self._latency
+        heard = asks and (not latency or self._waiting)
         if asks:
-            answers.shown(self._voice.ask())
-            self._voice.go()
+            if latency and heard:
+                voice.hear()
+                answers.read(voice.message)
+            answers.shown(voice.ask())
+            voice.go()
             self._waiting = True
-        ledger.pushes.measure()
+        pushes.measure()
         if row is not None:
             row()
-        if asks and not self._latency:
-            heard = self._hear()
-            self._told(step)
-        if heard and self._apply(step) and row is not None:
-            row()
-        elif heard and row is not None:
-            self._recorder.inputs_again()
-        ledger.pushes.note()
-
-    def _hear(self) -> bool:
-        self._voice.hear()
-        self.answers.read(self._voice.message)
-        return True
-
-    def _told(self, step: int) -> None:
-        """Take what the laws tell beside an answer, at the questions at which they do."""
-        media = self.ports.media
-        if media is not None and media.due(step // self._every):
-            self._tell(step, media.read(self._voice.media))
+        if heard:
+            if not latency:
+                voice.hear()
+                answers.read(voice.message)
+                if self._media is not None and self._media.due(step // self._every):
+                    self._tell(step, self._media.read(voice.media))
+            changed = self._apply(step)
+            if row is not None:
+                row() if changed else self._recorder.inputs_again()
+        pushes.note()
 
     def _last(self, steps: int) -> "np.ndarray | None":  # noqa: ARG002 (the protocol's)
         """Ask once more, for the sums alone."""
@@ -195,7 +190,8 @@ class Replayed(Drive):
         if self._recorded.speaks(step):
             self.answers.replay(*self._recorded.answer(step))
             self._apply(step)
-        self._tell(step, self._recorded.told(step))
+        if self.ports.media is not None:
+            self._tell(step, self._recorded.told(step))
         if row is not None:
             row()
         self._ledger.pushes.note()

@@ -10,7 +10,7 @@ import math
 from typing import TYPE_CHECKING
 
 from worldkit.channel import PeerError
-from worldkit.mirror import Mirror, address, differ, move
+from worldkit.mirror import Mirror, memory
 from worldkit.model_arrays import LOOKS, Edit
 from worldkit.speaking import EDIT, HELD, MOST_EDITS, STATE, SWITCHES
 
@@ -38,13 +38,16 @@ class Answers:
         import numpy as np
 
         self._model, self._data, self.shares = model, data, shares
-        mirror = Mirror(model, data)
+        mirror = Mirror(model, data, sends=False)
         self._numbers, self._held = mirror.numbers(ports.entries, HELD)
         _, self._state = mirror.numbers(ports.entries, STATE)
         self._switches = np.array(ports.entries.get(SWITCHES[0], ()), np.intp)
         first, second = len(self._held), len(self._held) + len(self._state)
         self._raw = np.zeros(8 * (1 + second + len(self._switches)), np.uint8)
-        self._raw_at, self._size = address(self._raw), self._raw.nbytes
+        self._own, self._latest = self._raw.data, b""
+        """Memory of the latest answer, and that answer as it came."""
+        self._sent: dict[int, memoryview] = {}
+        """The memory that answers come in, by address."""
         self.vector = self._raw[8:].view(float)
         """(width,) the latest answer."""
         self._ones = np.ones(len(self.vector))
@@ -56,9 +59,10 @@ class Answers:
         self._shown_state = self._numbers[self._state]
         self._shown_switches = np.array(data.eq_active[self._switches], float)
         self._ports = [(name, None if index is None else np.array(index)) for name, index in ports.parameters]
-        # Where all that can be written holds until it is written again, an answer like the last one changes nothing.
-        self._lasts = not (len(self.changing) or self._ports or shares is not None)
-        self._heard = False
+        self.acts_once = bool(len(self.changing) or self._ports)
+        """Whether an answer can do more than set what holds until it is written again."""
+        # Where it cannot, an answer like the last one changes nothing.
+        self._lasts = not (self.acts_once or shares is not None)
         self.edits: list[Edit] = []
         """Parameters that the latest answer changes."""
         self._slot_first = mirror.buffer_in(0)
@@ -88,16 +92,19 @@ class Answers:
         """
         import numpy as np
 
-        raw = self._raw_at
-        if self._lasts and self._heard and not differ(raw, message, self._size):
+        sent = self._sent.get(message)
+        if sent is None:
+            sent = self._sent[message] = memory(message, len(self._own))
+        answer = sent.tobytes()  # once: the author could write on
+        if self._lasts and answer == self._latest:
             self.news = False
             return
-        move(raw, message, self._size)
+        self._own[:] = answer
         self.news = True
         # The sum of finite numbers may overflow; then each of them is looked at.
         if not math.isfinite(self.vector.dot(self._ones)) and not np.isfinite(self.vector).all():
             raise PeerError("the author's process answers with a number that is not finite", "control", "send numbers")
-        self._heard = True
+        self._latest = answer
         if len(self._moves):
             self._moves[self._moves == self._shown_state] = np.nan
         if len(self._flips):

@@ -65,7 +65,10 @@ class Recorded:
         self._step, self._entry, self._value = (np.asarray(inputs[name]) for name in ("step", "entry", "value"))
         self._edits = [np.asarray(edits[name]) for name in ("step", "array", "index", "value")]
         ends = np.arange(steps + 1)
-        self._ends, self._edit_ends = (np.searchsorted(rows, ends) for rows in (self._step, self._edits[0]))
+        found = [np.searchsorted(rows, ends) for rows in (self._step, self._edits[0])]
+        # Read at every step, where a number of an array takes longer than one of a memory.
+        self._ends, self._edit_ends = (rows.data for rows in found)
+        self._spoken = np.logical_or(*(np.diff(rows) > 0 for rows in found)).tobytes()
         self._check_inputs(Rows(recording.folder / "inputs.arrows", self._step), steps, every)
         self._check_edits(Rows(recording.folder / "edits.arrows", self._edits[0]), model, ports, steps, every)
         self._media = ports.media
@@ -113,23 +116,29 @@ class Recorded:
 
     def speaks(self, step: int) -> bool:
         """Whether an answer acts from this step on."""
-        return any(ends[step] < ends[step + 1] for ends in (self._ends, self._edit_ends))
+        return self._spoken[step] > 0
 
     def answer(self, step: int) -> "tuple[np.ndarray, list[Edit]]":
         """The vector and the edits that act from this step on; steps must come in their order."""
         import numpy as np
 
-        self.vector[self._lasting :] = np.nan
-        mine = slice(*self._ends[step : step + 2])
-        self.vector[self._entry[mine]] = self._value[mine]
+        vector, begin, end = self.vector, self._ends[step], self._ends[step + 1]
+        if end - begin == len(vector):  # each entry is there once, in their order
+            vector[:] = self._value[begin:end]
+        else:
+            vector[self._lasting :] = np.nan
+            vector[self._entry[begin:end]] = self._value[begin:end]
         edits: list[Edit] = []
+        begin, end = self._edit_ends[step], self._edit_ends[step + 1]
+        if begin == end:
+            return vector, edits
         _, arrays, indices, values = self._edits
-        mine = slice(*self._edit_ends[step : step + 2])
+        mine = slice(begin, end)
         for name in dict.fromkeys(arrays[mine].tolist()):
             these = arrays[mine] == name
             looks = any(part in name for part in LOOKS)
             edits.append(Edit(str(name), indices[mine][these].astype(np.intp), values[mine][these], looks_only=looks))
-        return self.vector, edits
+        return vector, edits
 
 
 class Rows:
