@@ -22,6 +22,7 @@ from .joints import Joint
 from .joints import attach as attach_joint
 from .model_looks import dress
 from .model_references import outside
+from .shared_meshes import share
 
 if TYPE_CHECKING:
     import mujoco
@@ -100,6 +101,7 @@ def attach(
         if own.type == mujoco.mjtJoint.mjJNT_FREE:
             own.name = name
     _rename(spec, f"{name}_{before}", body, name)
+    share(spec, f"{name}_")
     for part in (body, *_below(body)):
         _seen_once(part)
         for number, geom in enumerate(part.geoms):
