@@ -34,4 +34,9 @@ def _told(mesh: "mujoco.MjsMesh") -> tuple[Any, ...]:
     import numpy as np
 
     arrays = b"/".join(np.ascontiguousarray(getattr(mesh, name), dtype=float).tobytes() for name in NUMBERS)
-    return (*(str(getattr(mesh, name)) for name in WORDS), mesh.plugin.active, mesh.material, hashlib.sha256(arrays).digest())
+    return (
+        *(str(getattr(mesh, name)) for name in WORDS),
+        mesh.plugin.active,
+        mesh.material,
+        hashlib.sha256(arrays).digest(),
+    )

@@ -58,7 +58,9 @@ def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
         if (walks := row.walks) is None:
             continue
         if walks.plays is not None:
-            found[controlled] = f"    {_constant(row)}(model, data)" if row is matches(plan)[walks.plays.ball][0] else ""
+            found[controlled] = (
+                f"    {_constant(row)}(model, data)" if row is matches(plan)[walks.plays.ball][0] else ""
+            )
             continue
         speed = literal(walks.speed_m_s)
         if walks.until_s is not None:

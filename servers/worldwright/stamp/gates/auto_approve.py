@@ -15,8 +15,8 @@ from typing import Any
 from ...model.plan.breakage import stated_masses
 from ...model.plan.committed import Plan
 from ...model.plan.flight_rows import Gusting
-from ...model.plan.walking_rows import Plays
 from ...model.plan.vehicle_rows import rolling
+from ...model.plan.walking_rows import Plays
 from ..refusal import Refusal
 from ..state import State
 
