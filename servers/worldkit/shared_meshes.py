@@ -20,8 +20,8 @@ WORDS = ("file", "content_type", "inertia", "smoothnormal", "needsdf", "maxhullv
 def share(spec: "mujoco.MjSpec", prefix: str) -> None:
     """Have the geoms of what is called `prefix` and more show meshes that the world had before, where it has the same."""
     own = [mesh for mesh in spec.meshes if mesh.name.startswith(prefix)]
-    known = {_told(mesh): mesh.name for mesh in spec.meshes if not mesh.name.startswith(prefix)} if own else {}
-    instead = {mesh.name: known[told] for mesh in own if (told := _told(mesh)) in known}
+    known = {told(mesh): mesh.name for mesh in spec.meshes if not mesh.name.startswith(prefix)} if own else {}
+    instead = {mesh.name: known[made] for mesh in own if (made := told(mesh)) in known}
     for geom in spec.geoms if instead else ():
         geom.meshname = instead.get(geom.meshname, geom.meshname)
     for mesh in own:
@@ -29,7 +29,7 @@ def share(spec: "mujoco.MjSpec", prefix: str) -> None:
             spec.delete(mesh)
 
 
-def _told(mesh: "mujoco.MjsMesh") -> tuple[Any, ...]:
+def told(mesh: "mujoco.MjsMesh") -> tuple[Any, ...]:
     """All that a mesh is made of, but its name and what it looks like."""
     import numpy as np
 
