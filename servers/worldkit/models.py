@@ -12,20 +12,19 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from collections.abc import Collection, Sequence
 from contextlib import nullcontext, suppress
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from . import beside_program, model_files
+from . import beside_program, model_box, model_files
 from .bodies import pose_below
 from .joints import Joint
 from .joints import attach as attach_joint
 from .model_looks import dress
 from .model_references import outside
+from .shared_meshes import share
 
 if TYPE_CHECKING:
     import mujoco
-    import numpy as np
 
 Vec3 = tuple[float, float, float]
 MOST_BYTES = 2_000_000
@@ -79,10 +78,10 @@ def attach(
     """
     import mujoco
 
-    rest = _rest(parsed(text, name, folder, files), name)
     child = parsed(text, name, folder, files)
-    root = _root(child, name)
-    _adopt(child, spec)
+    rest = model_box.of(text, child, lambda: parsed(text, name, folder, files), name)
+    root = model_box.root(child, name)
+    model_box.adopt(child, spec)
     _strip(child, root, fixed or parent is not None or joint is not None)
     for actuator in [] if actuators is None else [a for a in child.actuators if a.name not in actuators]:
         child.delete(actuator)
@@ -91,7 +90,7 @@ def attach(
     before = root.name
     owner, pose, quat = pose_below(spec, name, pos, yaw_deg, parent)
     body = owner.add_frame().attach_body(root, f"{name}_", "")
-    _put(body, rest, pose, quat)
+    model_box.put(body, rest, pose, quat)
     if joint is not None:
         attach_joint(body, joint)
     elif not fixed and parent is None and not body.joints:
@@ -100,6 +99,7 @@ def attach(
         if own.type == mujoco.mjtJoint.mjJNT_FREE:
             own.name = name
     _rename(spec, f"{name}_{before}", body, name)
+    share(spec, f"{name}_")
     for part in (body, *_below(body)):
         _seen_once(part)
         for number, geom in enumerate(part.geoms):
@@ -128,10 +128,11 @@ def _facts(text: str, name: str, folder: str | None, files: Sequence[str]) -> di
     spec = mujoco.MjSpec()
     body = attach(spec, text, name=name, pos=(0, 0, 0), folder=folder, files=files)
     model = spec.compile()
+    rest = model_box.of(text, parsed(text, name, folder, files), lambda: parsed(text, name, folder, files), name)
     kinds = {mujoco.mjtJoint(k): word for k, word in enumerate(("free", "ball", "slide", "hinge"))}
     joints = {model.joint(j).name: kinds[mujoco.mjtJoint(model.jnt_type[j])] for j in range(model.njnt)}
     return {
-        "extents": [round(float(v), 6) for v in _rest(parsed(text, name, folder, files), name).extents],
+        "extents": [round(float(v), 6) for v in rest.extents],
         "mass": float(model.body_subtreemass[model.body(body.name).id]),
         "bodies": [model.body(b).name for b in range(1, model.nbody)],
         "geoms": [model.geom(g).name for g in range(model.ngeom)],
@@ -228,15 +229,6 @@ def _found(file: str, child: "mujoco.MjSpec", name: str, folder: str) -> Path:
     raise ValueError(f"model {name}: its file {file!r} is not in the catalog's folder {folder!r}")
 
 
-def _root(child: "mujoco.MjSpec", name: str) -> "mujoco.MjsBody":
-    roots = list(child.worldbody.bodies)
-    if len(roots) != 1:
-        named = ", ".join(body.name or "(without a name)" for body in roots) or "none"
-        raise ValueError(f"model {name}: it must have exactly one root body, it has {len(roots)}: {named}")
-    roots[0].name = roots[0].name or "root"
-    return roots[0]
-
-
 def _below(body: "mujoco.MjsBody") -> "list[mujoco.MjsBody]":
     return [found for part in body.bodies for found in (part, *_below(part))]
 
@@ -247,13 +239,6 @@ def _seen_once(part: "mujoco.MjsBody") -> None:
         for geom in part.geoms:
             if geom.group == 0 and (geom.contype or geom.conaffinity):
                 geom.group = 3
-
-
-def _adopt(child: "mujoco.MjSpec", spec: "mujoco.MjSpec") -> None:
-    """Give the model the world's time step, gravity and solver; the engine would warn about each that differs."""
-    for key in dir(spec.option):
-        if not key.startswith("_"):
-            setattr(child.option, key, getattr(spec.option, key))
 
 
 def _strip(child: "mujoco.MjSpec", root: "mujoco.MjsBody", fixed: bool) -> None:
@@ -282,89 +267,6 @@ def _rename(spec: "mujoco.MjSpec", before: str, body: "mujoco.MjsBody", after: s
         for key in keys:
             if getattr(item, key) == before:
                 setattr(item, key, after)
-
-
-@dataclass(frozen=True)
-class _Rest:
-    """A model as it stands in its own file: the box around what is drawn or touched (planes aside), and its root's pose."""
-
-    low: "np.ndarray"
-    high: "np.ndarray"
-    pos: "np.ndarray"
-    quat: "np.ndarray"
-
-    @property
-    def extents(self) -> "np.ndarray":
-        return self.high - self.low
-
-
-def _put(body: "mujoco.MjsBody", rest: _Rest, pos: "np.ndarray", quat: "np.ndarray") -> None:
-    """Pose the root so that the centre of the box is at `pos`, its parent's frame, turned by `quat`."""
-    import mujoco
-    import numpy as np
-
-    away, turned = np.zeros(3), np.zeros(4)
-    mujoco.mju_rotVecQuat(away, rest.pos - (rest.low + rest.high) / 2, quat)
-    mujoco.mju_mulQuat(turned, quat, rest.quat)
-    body.alt.type = mujoco.mjtOrientation.mjORIENTATION_QUAT
-    body.pos, body.quat = pos + away, turned
-
-
-def _rest(child: "mujoco.MjSpec", name: str) -> _Rest:
-    """The root of a model with all that hangs on it, compiled alone."""
-    import mujoco
-    import numpy as np
-
-    root = _root(child, name)
-    spec = mujoco.MjSpec()
-    _adopt(child, spec)
-    before = root.name
-    spec.worldbody.add_frame().attach_body(root, "model_", "")
-    try:
-        model = spec.compile()
-    except ValueError as error:
-        raise ValueError(f"model {name}: {' '.join(str(error).split())}") from error
-    data = mujoco.MjData(model)
-    mujoco.mj_kinematics(model, data)
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for g in range(model.ngeom):
-        kind = mujoco.mjtGeom(model.geom_type[g])
-        if kind == mujoco.mjtGeom.mjGEOM_PLANE:
-            continue
-        turn = data.geom_xmat[g].reshape(3, 3)
-        if kind == mujoco.mjtGeom.mjGEOM_MESH:
-            first = model.mesh_vertadr[model.geom_dataid[g]]
-            cloud = (
-                model.mesh_vert[first : first + model.mesh_vertnum[model.geom_dataid[g]]] @ turn.T + data.geom_xpos[g]
-            )
-            low, high = np.minimum(low, cloud.min(axis=0)), np.maximum(high, cloud.max(axis=0))
-            continue
-        # The box of a height field does not have its middle where its frame is.
-        reach = _reach(kind, model.geom_size[g], turn, model.geom_aabb[g])
-        middle = data.geom_xpos[g] + turn @ model.geom_aabb[g, :3]
-        low, high = np.minimum(low, middle - reach), np.maximum(high, middle + reach)
-    if not np.isfinite(low).all():
-        raise ValueError(f"model {name}: it has no geoms, so that nobody could see or touch it")
-    top = model.body(f"model_{before}").id
-    return _Rest(low, high, model.body_pos[top].copy(), model.body_quat[top].copy())
-
-
-def _reach(kind: Any, size: "np.ndarray", turn: "np.ndarray", aabb: "np.ndarray") -> "np.ndarray":
-    """Half extents (3,) of the box around a primitive along the world's axes, m."""
-    import mujoco
-    import numpy as np
-
-    x, y, z = size
-    along = np.abs(turn[:, 2])
-    if kind == mujoco.mjtGeom.mjGEOM_SPHERE:
-        return np.full(3, x)
-    if kind == mujoco.mjtGeom.mjGEOM_CAPSULE:
-        return y * along + x
-    if kind == mujoco.mjtGeom.mjGEOM_CYLINDER:
-        return y * along + x * np.sqrt(np.clip(1 - along**2, 0, 1))
-    if kind == mujoco.mjtGeom.mjGEOM_ELLIPSOID:
-        return np.sqrt(turn**2 @ np.array((x, y, z)) ** 2)
-    return np.abs(turn) @ aabb[3:]
 
 
 def _limit_memory() -> None:

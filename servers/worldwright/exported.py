@@ -1,4 +1,4 @@
-"""`worldwright export RUN --format gltf|usd|mcap|rosbag2`: the recorded motion for other programs and for the report."""
+"""`worldwright export RUN --format gltf|usd|mcap|rosbag2|csv`: the recorded motion for other programs and for the report."""
 
 import json
 from pathlib import Path
@@ -13,9 +13,13 @@ from .model.errors import GateError, NotFoundError
 from .model.evidence.reports import EvidenceKey
 from .model.evidence.run import Run
 
-FORMATS = {"gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap", "rosbag2": "recording.bag"}
-MESSAGES = ("mcap", "rosbag2")
+FORMATS = {
+    "gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap", "rosbag2": "recording.bag", "csv": "recording.zip",
+}  # fmt: skip
+MESSAGES = ("mcap", "rosbag2", "csv")
 """Of these formats, which tell rows."""
+PICTURED = ("mcap", "rosbag2")
+"""And which can tell a film, too."""
 RATE_HZ = 25.0
 
 
@@ -31,11 +35,11 @@ def write(
         JobError: the engine could not write it.
         NotFoundError: the extra (`mcap`, `ros`) is not installed, no such camera was filmed, or the format has none of what is asked.
     """
-    if kind not in MESSAGES and (rate_hz is not None or camera):
+    if (kind not in MESSAGES and rate_hz is not None) or (kind not in PICTURED and camera):
         asked = "--pictures" if camera else "--rate"
         raise NotFoundError(
             f"{asked} does nothing to {kind}",
-            next_move="leave it out, or take --format mcap or rosbag2, which tell rows",
+            next_move="leave it out, or take --format mcap or rosbag2, which tell rows and pictures (csv tells rows)",
         )
     from .model.evidence import environment
     from .stage.one_frame import given_words, recorded
@@ -48,9 +52,9 @@ def write(
     if kind in MESSAGES:
         from worldengine.recording import stored
 
-        from .ends import mcap_file, rosbag_file
+        from .ends import mcap_file, rosbag_file, tables
 
-        writer = mcap_file if kind == "mcap" else rosbag_file
+        writer = {"mcap": mcap_file, "rosbag2": rosbag_file, "csv": tables}[kind]
         film = _film(run, key, camera) if camera else None
         rate = RATE_HZ if rate_hz is None else rate_hz
         writer.write(stored.open(physics / "trajectory"), target, rate_hz=rate, plan=run.source.read_bytes(), film=film)
@@ -142,11 +146,12 @@ def scene(run: Run, accepted_sha256: str = "") -> tuple[bytes | None, str]:
 @click.option(
     "--rate",
     type=click.FloatRange(min=0),
-    help=f"Of messages: rows a simulated second, {RATE_HZ:g} without it; 0: all.",
+    help=f"Of messages and tables: rows a simulated second, {RATE_HZ:g} without it; 0: all.",
 )
 @click.option("--pictures", default="", metavar="CAMERA", help="Of messages: the film of this camera of the plan, too.")
 def command(run: str, kind: str, out: Path | None, rate: float | None, pictures: str) -> None:
-    """Write the recorded motion: the drawn world as glTF or USD, or in ROS 2's messages, as MCAP or a bag (extras `mcap`, `ros`).
+    """Write the recorded motion: the drawn world as glTF or USD, in ROS 2's messages, as MCAP or a bag (extras `mcap`, `ros`),
+    or as a zip of tables (csv), one for each loose body with its joints and controls: one a robot.
 
     A skin over several bodies is carried out as one rigid piece for each of them.
     """

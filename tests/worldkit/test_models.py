@@ -2,7 +2,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from worldkit import contacts, models
+from worldkit import beside_program, contacts, models
 
 ARM = """<robot name="arm">
   <link name="base">
@@ -156,3 +156,30 @@ def test_meshes_come_from_the_catalog_alone(tmp_path, monkeypatch):
     ):
         with pytest.raises(ValueError, match=says):
             models.facts(MESH.format(file=file), "it", "wedge")
+
+
+def test_copies_share_their_meshes_and_others_keep_their_own(tmp_path):
+    for name, size in (("wedge", 0.4), ("other", 0.6)):
+        (tmp_path / f"{name}.obj").write_text(
+            f"v 0 0 0\nv {size} 0 0\nv 0 .2 0\nv 0 0 .22\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+        )
+    told = """<mujoco><asset><mesh name="shell" file="{file}" scale="{scale}"/></asset>
+      <worldbody><body name="thing"><freejoint/><geom type="mesh" mesh="shell" mass="1"/></body></worldbody></mujoco>"""
+    spec = mujoco.MjSpec()
+    with beside_program.below(tmp_path):
+        for number, (file, scale) in enumerate(
+            (("wedge", "1 1 1"), ("wedge", "1 1 1"), ("wedge", "2 2 2"), ("other", "1 1 1"))
+        ):
+            text = told.format(file=f"{file}.obj", scale=scale)
+            models.attach(spec, text, name=f"thing_{number}", pos=(number, 0, 1), files=(f"{file}.obj",))
+    model = spec.compile()
+    assert model.nmesh == 3 and model.geom_dataid.tolist() == [0, 0, 1, 2]
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    for number, width in enumerate((0.4, 0.4, 0.8, 0.6)):  # each box, the middle of which was asked for
+        mesh = model.geom_dataid[number]
+        first = model.mesh_vertadr[mesh]
+        cloud = model.mesh_vert[first : first + model.mesh_vertnum[mesh]] @ data.geom_xmat[number].reshape(3, 3).T
+        cloud = cloud + data.geom_xpos[number]
+        assert np.ptp(cloud[:, 0]) == pytest.approx(width, abs=1e-6)
+        assert (cloud.min(axis=0) + cloud.max(axis=0)) / 2 == pytest.approx((number, 0, 1), abs=1e-6)

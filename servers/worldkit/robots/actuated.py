@@ -13,6 +13,8 @@ from .gaits import GAITS, Gait
 
 PLAIN = frozenset(("fromto", "euler", "axisangle", "xyaxes", "zaxis"))
 """What a geom may not say of its pose, for it to be carried to another body."""
+TEAM = "team"
+"""The material of what wears a team's colour: without it, it has the look of the plan's row."""
 TURNS = ("euler", "axisangle", "xyaxes", "zaxis")
 
 
@@ -61,6 +63,8 @@ def _standing(tree: ElementTree.Element, gait: Gait) -> None:
     if missing := sorted(set(joints) - seen):
         raise ValueError(f"it has no joint {missing[0]}")
     for geom in tree.iter("geom"):
+        if geom.get("material") == TEAM:
+            del geom.attrib["material"]
         geom.attrib.pop("solimp", None)  # so soft in some that a foot sinks in by more than its radius
     servos = _emptied(tree)
     for name, (_, servo) in joints.items():

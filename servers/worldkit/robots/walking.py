@@ -37,13 +37,24 @@ class Walkers:
         self._time = float("inf")
         self._next = 0.0
 
-    def __call__(self, model: "mujoco.MjModel", data: "mujoco.MjData", commands: "Sequence[Sequence[float]]") -> None:
+    def due(self, model: "mujoco.MjModel", data: "mujoco.MjData") -> bool:
+        """Whether the policy is asked at this state: what is costly to find out for it can wait until then."""
+        return bool(data.time < self._time or data.time >= self._next - 0.5 * model.opt.timestep)
+
+    def __call__(
+        self,
+        model: "mujoco.MjModel",
+        data: "mujoco.MjData",
+        commands: "Sequence[Sequence[float]] | np.ndarray",
+        held: "np.ndarray | None" = None,
+    ) -> None:
         """Set the servos, at a tick anew.
 
         Args:
             model: the world's.
             data: its state, up to date.
             commands: one for each robot: (forward m/s, left m/s, turning left rad/s).
+            held: (N, J) rad, what servos hold whatever the policy says; not a number where it decides.
 
         Raises:
             PolicyError: what the robots show is no number any more.
@@ -51,14 +62,18 @@ class Walkers:
         """
         import numpy as np
 
+        due = self.due(model, data)
         if data.time < self._time:
             self._start(model, float(data.time))
         self._time = float(data.time)
-        if data.time >= self._next - 0.5 * model.opt.timestep:
+        if due:
             late = self._time - self._next >= self.gait.tick  # time leapt: ticks that were missed are not made up for
             self._next = (self._time if late else self._next) + self.gait.tick
             self._last = self.policy(self._shown(model, data, np.array(commands, dtype=float)))
             self._targets = np.asarray(self.gait.home) + np.asarray(self.gait.scale) * self._last
+            if held is not None:
+                self._targets = np.where(np.isnan(held), self._targets, held)
+                self._last = np.where(np.isnan(held), self._last, 0.0)  # it is shown nothing that it did not do
         data.ctrl[self._actuators] = self._targets
 
     def _start(self, model: "mujoco.MjModel", time: float) -> None:

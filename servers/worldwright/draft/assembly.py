@@ -312,6 +312,8 @@ class _Writer:
             keywords["visual_only"] = self.crowds.listed(drawn)
         if (laws := self.laws.handed()) is not None:
             keywords["laws"] = laws
+        if control and (every := robots_text.asked_every(self.plan)) > 1:
+            keywords["control_every"] = every
         handed = (Raw("build"), Raw("control")) if control else (Raw("build"),)
         return '\nif __name__ == "__main__":\n' + call("program.main", *handed, **keywords) + "\n"
 

@@ -52,7 +52,7 @@ def control(plan: Plan, needs: Needs) -> str:
     bonded = {name for whole in plan.broken for name in plan.families[whole]}
     lines = ["\ndef control(model: mujoco.MjModel, data: mujoco.MjData) -> None:"]
     lines.append('    """What the plan declares to act on the state besides the engine."""')
-    lines += drivers.values()
+    lines += filter(None, drivers.values())
     for name, row in driven.items():
         value = constant_name(row.control) if isinstance(row.control, str) else literal(row.control)
         lines.append(f"    data.actuator({literal(name)}).ctrl[0] = {value}")

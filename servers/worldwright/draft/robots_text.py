@@ -3,8 +3,10 @@
 from math import radians
 from typing import Any
 
+from worldkit.robots.gaits import GAITS
+
 from ..model.plan.committed import Plan
-from ..model.plan.robots_declared import controlled, does
+from ..model.plan.robots_declared import controlled, does, matches
 from ..model.plan.scene_objects import AssetRow
 from .python_text import Raw, call, comment, constant_name, literal
 from .requirements import Needs
@@ -25,6 +27,13 @@ def made(plan: Plan, needs: Needs) -> str:
             parts += [comment(f"{walks.policy}: {said}", 0)] if said else []
             known = {"sha256": walks.sha256} if walks.sha256 else {}
             make, given = "walkers", (row.instances, walks.gait, walks.policy)
+            if walks.plays is not None:
+                teams = matches(plan)[walks.plays.ball]
+                if row is not teams[0]:
+                    continue  # both teams are one match, and are asked together
+                goals = {name: team.walks.plays.goal for team in teams for name in team.instances}
+                known |= {"ball": walks.plays.ball, "speed": walks.speed_m_s}
+                make, given = "match", (goals, walks.gait, walks.policy)
         elif (picks := row.picks) is not None:
             make, given = "picker", (row.name, picks.arm, picks.thing, picks.places_on)
             known = _changed(picks, board="board", from_s="from_s", speed_m_s="speed")
@@ -47,6 +56,10 @@ def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
         found[controlled(row)] = f"    {_constant(row)}(model, data)"
         if (walks := row.walks) is None:
             continue
+        if walks.plays is not None:
+            once = row is matches(plan)[walks.plays.ball][0]
+            found[controlled(row)] = f"    {_constant(row)}(model, data)" if once else ""
+            continue
         speed = literal(walks.speed_m_s)
         if walks.until_s is not None:
             speed += f" if data.time < {literal(walks.until_s)} else 0.0"
@@ -58,6 +71,16 @@ def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
             f"    told = [{along} for name in {_constant(row)}.names]\n    {_constant(row)}(model, data, told)"
         )
     return found
+
+
+def asked_every(plan: Plan) -> int:
+    """Steps from one question to `control` to the next: a match's tick, where nothing else acts that would have to be asked."""
+    acting = [row for row in plan.assets if row.vehicle is not None or does(row) is not None]
+    plain = len(plan.simulation_parameters.interventions) == len(acting) and not plan.broken
+    if not (acting and plain and all(row.walks is not None and row.walks.plays is not None for row in acting)):
+        return 1
+    steps = GAITS[acting[0].walks.gait].tick / plan.simulation_parameters.time_step
+    return round(steps) if abs(steps - round(steps)) < 1e-9 else 1
 
 
 def blown(plan: Plan) -> frozenset[str]:
@@ -74,5 +97,7 @@ def _changed(told: Any, **names: str) -> dict[str, Any]:
 
 
 def _constant(row: AssetRow) -> str:
+    if row.walks is not None and row.walks.plays is not None:
+        return f"{constant_name(row.walks.plays.ball)}_MATCH"
     made = "WALKERS" if row.walks is not None else "PICKER" if row.picks is not None else "FLIER"
     return f"{constant_name(row.name)}_{made}"

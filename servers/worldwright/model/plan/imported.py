@@ -183,26 +183,30 @@ def load(row: AssetRow, folder: Path | None, instance: str | None = None) -> Imp
             f"asset `{row.name}`: {row.filename} is not of type {row.type}", next_move=f"write `type: {other}`"
         )
     text = _OPTION.sub("", text)
-    name = instance or row.instances[0]
+    first = row.instances[0]
     root = folder.absolute() if folder and files else Path()
     try:
         stats = tuple((status.st_mtime_ns, status.st_size) for file in files for status in ((root / file).stat(),))
-        known = _facts(text, name, home, files, str(root) if files else "", stats)
+        known = _facts(text, first, home, files, str(root) if files else "", stats)
     except ValueError as error:
         raise PlanError(
             f"asset `{row.name}`: {row.filename} does not load: {error}",
             next_move=f"correct {row.filename} (skill importing-models); `worldwright stage start RUN --model FILE` shows a file as it is",
         ) from error
     x, y, z = known["extents"]
+
+    def called(own: str) -> str:  # the copies of a row are alike but for their name, with which all in them begins
+        return f"{instance or first}{own.removeprefix(first)}"
+
     return Imported(
         text=text,
         folder=home,
         files=files,
         extents=(x, y, z),
         mass_kg=known["mass"],
-        bodies=tuple(known["bodies"]),
-        joints=known["joints"],
-        actuators=tuple(known["actuators"]),
+        bodies=tuple(map(called, known["bodies"])),
+        joints={called(name): kind for name, kind in known["joints"].items()},
+        actuators=tuple(map(called, known["actuators"])),
     )
 
 

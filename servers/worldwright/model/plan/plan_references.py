@@ -209,6 +209,8 @@ def _uses(data: dict[str, Any]) -> Iterator[tuple[str, Any, Path]]:
             for key in ("thing", "places_on"):
                 if isinstance(picks := row.get("picks"), dict):
                     yield from _one("object", picks, (*path, "picks"), key)
+            if plays := _dict(_dict(row.get("walks")).get("plays")):
+                yield from _one("object", plays, (*path, "walks", "plays"), "ball")
     for key in _dict(data.get("asset_dimensions")):
         yield "asset row", key, ("asset_dimensions", key)
     for key in _at(data, "topology", "body_positions"):

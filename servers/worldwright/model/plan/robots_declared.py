@@ -20,7 +20,7 @@ def controlled(row: Written) -> tuple[str, ...]:
 
 
 def check(plan: Written) -> None:
-    """Refuse what an arm is to pick or put it on, where that is no single thing, or one that no hand moves.
+    """Refuse what an arm is to pick or put it on, where that is no single thing, or one that no hand moves; and half a match.
 
     Raises:
         ValueError: the message names it.
@@ -39,6 +39,24 @@ def check(plan: Written) -> None:
                 raise ValueError(f"{said}, which is soft: an arm picks hard things and puts them on hard ones")
             if key == "thing" and other.fixed:
                 raise ValueError(f"{said}, which is `fixed`: remove that, or name what is free to move")
+    for ball, teams in matches(plan).items():
+        said, other = f"`plays.ball` of `{teams[0].name}` is `{ball}`", rows.get(ball)
+        if other is not None and (other.fixed or other.instances != (ball,)):
+            raise ValueError(f"{said}, which is no single thing that is free to move")
+        alike = {(row.walks.policy, row.walks.gait, row.walks.sha256, row.walks.speed_m_s) for row in teams}
+        if len(teams) != 2 or len(alike) != 1 or teams[0].walks.plays.goal == teams[1].walks.plays.goal:
+            raise ValueError(
+                f"{said}: a match is two rows with one policy, gait and speed, and a goal each; here are {len(teams)} rows"
+            )
+
+
+def matches(plan: Written) -> dict[str, tuple[Written, ...]]:
+    """The rows of the teams that play each ball."""
+    found: dict[str, tuple[Written, ...]] = {}
+    for row in plan.assets:
+        if row.walks is not None and row.walks.plays is not None:
+            found[row.walks.plays.ball] = (*found.get(row.walks.plays.ball, ()), row)
+    return found
 
 
 def actuators(plan: Written) -> tuple[Actuator, ...]:

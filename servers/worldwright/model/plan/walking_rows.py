@@ -19,8 +19,17 @@ Written = Any
 """A row of a plan, whose module imports this one."""
 
 
+class Plays(Frozen):
+    """The ball that a team plays, and the goal that it shoots at; the row of the other team names the same ball."""
+
+    ball: str
+    """An object that is free to move."""
+    goal: tuple[float, float]
+    """The middle of its line, m; each player's place in the team's order is where it starts."""
+
+
 class Walks(Frozen):
-    """A policy, and the line that the robot keeps to."""
+    """A policy, and the line that the robot keeps to, or the ball that it plays."""
 
     policy: str = Field(pattern=r"\.onnx$")
     """An ONNX file beside the plan, relative to it: observations of `gait` in, one action a joint out."""
@@ -40,6 +49,9 @@ class Walks(Frozen):
     heading_deg: float = Field(0.0, ge=-360, le=360)
     """Of its line, from +X to the left."""
 
+    plays: Plays | None = None
+    """In place of a line: the robots of two rows are two teams (`worldkit.robots.teams`)."""
+
     @field_validator("gait")
     @classmethod
     def _known(cls, gait: str) -> str:
@@ -52,6 +64,8 @@ class Walks(Frozen):
         path = PurePosixPath(self.policy)
         if path.is_absolute() or ".." in path.parts:
             raise ValueError(f"`{self.policy}` lies elsewhere: put the file beside the plan and name it from there")
+        if self.plays is not None and not {"until_s", "y_m", "heading_deg"}.isdisjoint(self.model_fields_set):
+            raise ValueError("who `plays` a ball keeps to no line: remove `until_s`, `y_m` and `heading_deg`")
         return self
 
     def driven(self, name: str) -> dict[str, str]:
@@ -63,10 +77,14 @@ class Walks(Frozen):
     def law(self) -> str:
         """What acts."""
         gait = GAITS[self.gait]
+        way = f"along {self.heading_deg:g} degrees"
+        if (plays := self.plays) is not None:
+            goal = " ".join(f"{part:g}" for part in plays.goal)
+            way = f"at most, after the ball {plays.ball} towards the goal at ({goal}) or to a place in the team's order"
         return (
             f"position servos, at most {max(servo.limit for servo in gait.servos):g} N·m, whose targets the policy {self.policy} sets every "
             f"{gait.tick:g} s: the home pose plus {', '.join(f'{scale:g}' for scale in sorted({*gait.scale}))} rad times its action, for "
-            f"{self.speed_m_s:g} m/s along {self.heading_deg:g} degrees"
+            f"{self.speed_m_s:g} m/s {way}"
         )
 
     @property

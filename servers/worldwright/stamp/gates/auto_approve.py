@@ -16,6 +16,7 @@ from ...model.plan.breakage import stated_masses
 from ...model.plan.committed import Plan
 from ...model.plan.flight_rows import Gusting
 from ...model.plan.vehicle_rows import rolling
+from ...model.plan.walking_rows import Plays
 from ..refusal import Refusal
 from ..state import State
 
@@ -93,7 +94,7 @@ def _driven(plan: Plan) -> Iterator[tuple[str, list[float]]]:
 def _robots(plan: Plan) -> Iterator[tuple[str, list[float]]]:
     """Where robots are told to walk, reach or fly; defaults were not chosen."""
     chosen = {
-        "walks": ("speed_m_s", "until_s", "y_m", "heading_deg"),
+        "walks": ("speed_m_s", "until_s", "y_m", "heading_deg", "plays"),
         "picks": ("board", "from_s", "speed_m_s"),
         "flies": ("through", "speed_m_s", "hover_s", "gusts"),
     }
@@ -109,6 +110,8 @@ def _sizes(value: Any) -> list[float]:
     """The numbers in what was chosen, without their signs."""
     if isinstance(value, int | float):
         return [abs(value)]
+    if isinstance(value, Plays):
+        return _sizes(value.goal)
     if isinstance(value, Gusting):
         return _sizes((value.mean_m_s, value.strength_m_s))
     return [size for part in value for size in _sizes(part)]
