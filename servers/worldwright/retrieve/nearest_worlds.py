@@ -103,7 +103,8 @@ def nearest(sentence: str, known: list[World]) -> list[Near]:
         length = max(SHORT, (world.folder / "plan.md").stat().st_size / 1000)
         common = SHARED_WEIGHT * len(shared) / max(1, len(asked))
         found.append(Near(world, float(score) + common - LONG_WEIGHT * length, shared))
-    return sorted(found, key=lambda near: (-near.score, near.world.slug))
+    # Of worlds that are as near as each other, the one about the fewest other things is the easier to change.
+    return sorted(found, key=lambda near: (-round(near.score, 2), len(near.world.mechanisms), near.world.slug))
 
 
 def _spoken(sentence: str, known: list[World]) -> "np.ndarray":

@@ -133,7 +133,7 @@ def test_a_loaded_file_is_changed_by_another_content_not_by_another_link(tmp_pat
     monkeypatch.syspath_prepend(str(tmp_path))
     module = tmp_path / "loaded_here.py"
     module.write_text("A = 1\n")
-    importlib.import_module("loaded_here")
+    importlib.import_module(module.stem)
     time.sleep(2 * its_process.SLACK_S)
     loaded = its_process.Loaded(time.time())
     loaded.files = {
