@@ -5,14 +5,14 @@ MATCH = robots.match({"red_1": (10, 0), "red_2": (10, 0), "blue_1": (-10, 0)}, "
 def control(model, data):
     MATCH(model, data)  # every 0.02 s is enough: program.main(..., control_every=10) at 2 ms
 
-Who falls is counted, holds its home pose and takes no part any more: the others close up (`teams`, `falls`).
+Who falls is counted, holds its home pose and takes no part any more: the others close up (`teams`, `fallen`).
 """
 
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from . import teams
-from .falls import Falls
+from .fallen import Falls
 from .walking import Walkers, walkers
 
 if TYPE_CHECKING:

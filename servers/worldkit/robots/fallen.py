@@ -1,6 +1,6 @@
 """Who has fallen, and what its servos hold from then on: its home pose, in place of a policy that was never shown such a state.
 
-FALLS = falls.Falls(("t1_1", "t1_2"), GAITS["t1"])
+FALLS = fallen.Falls(("t1_1", "t1_2"), GAITS["t1"])
 able, held = FALLS(data)  # (N,), (N, J): not a number where the policy acts
 """
 

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 
 from worldkit.robots import GAITS
-from worldkit.robots.falls import Falls
+from worldkit.robots.fallen import Falls
 
 TWO = """<mujoco><worldbody>
   <body name="a" pos="0 0 1"><freejoint/><geom size="0.1"/></body><body name="b" pos="1 0 1"><freejoint/><geom size="0.1"/></body>
