@@ -76,10 +76,11 @@ def commanded(plan: Plan) -> dict[tuple[str, ...], str]:
 def asked_every(plan: Plan) -> int:
     """Steps from one question to `control` to the next: a match's tick, where nothing else acts that would have to be asked."""
     acting = [row for row in plan.assets if row.vehicle is not None or does(row) is not None]
-    plain = len(plan.simulation_parameters.interventions) == len(acting) and not plan.broken
-    if not (acting and plain and all(row.walks is not None and row.walks.plays is not None for row in acting)):
+    playing = [row.walks for row in acting if row.walks is not None and row.walks.plays is not None]
+    parameters = plan.simulation_parameters
+    if not playing or len(playing) != len(acting) or len(parameters.interventions) != len(acting) or plan.broken:
         return 1
-    steps = GAITS[acting[0].walks.gait].tick / plan.simulation_parameters.time_step
+    steps = GAITS[playing[0].gait].tick / float(parameters.time_step)
     return round(steps) if abs(steps - round(steps)) < 1e-9 else 1
 
 
