@@ -96,10 +96,13 @@ def paint_cucumber(points, normals):
     return brushes.over(rgb, "#8fae57", brushes.step(points[:, 0], 0.125, 0.02)), 0.35 + 0 * turn
 
 
+BAR = sculpt.box((0.29, 0.036, 0.0445)).translate(0, 0.002, 0.0225)
+"""What it collides as: on the many corners of its rough skin it would rock for seconds."""
+
 CUCUMBER = Part(
     "cucumber",
     sculpt.rough(sculpt.tube([(-0.145, 0, 0.022), (-0.06, 0.004, 0.022), (0.06, 0.004, 0.022), (0.145, 0, 0.022)], [0.026, 0.044, 0.044, 0.026]), height=0.0008, grain=0.008, seed=2),
-    paint=paint_cucumber, density=980, make={**CELLS, "cells": 80},
+    paint=paint_cucumber, density=980, make={**CELLS, "cells": 80, "hulls": [BAR]},
 )  # fmt: skip
 
 
