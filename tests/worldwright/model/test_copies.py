@@ -184,3 +184,30 @@ def test_what_cannot_be_spread_or_paired_is_refused_with_the_reason():
     ):
         with pytest.raises(ValidationError, match=said):
             Spread.model_validate(wrong)
+
+
+def test_copies_of_an_asset_are_named_as_those_of_an_object():
+    made = plan([{"name": "stand", "size": [0.6, 0.6, 0.1]}], [])
+    said = made.model_dump(mode="json", exclude_none=True, exclude_defaults=True)
+    said["assets"] = [{"name": "apple", "filename": "apple", "count": 4}]
+    said["asset_dimensions"] = {"apple": 0.079}
+    said["simulation_parameters"]["masses"] = {"apple": 0.2}
+    step = said["implementation_steps"][0]
+    step |= {"assets": ["apple"], "motion_expectations": ["apple"]}
+    step["cameras"][0]["subjects"] = ["stand", "apple"]
+    said["topology"] = {
+        "scene_predicates": [
+            {"subject": "stand", "predicate": "PLACE-ON-BASE", "params": {"x": 0, "y": 0}},
+            {"subject": "apple", "predicate": "PLACE-ON", "object": "stand", "params": {"offset": [0, 0], "gap": 0.02},
+             "spread": {"pattern": "ring", "radius": 0.1}},
+        ]
+    }  # fmt: skip
+    read = Plan.model_validate(said)
+    four = tuple(f"apple_{k}" for k in range(1, 5))
+    assert read.implementation_steps[0].motion_expectations == four
+    assert read.implementation_steps[0].cameras[0].subjects == ("stand", *four)
+    model, data = built(read)
+    for k, name in enumerate(four):
+        around = 0.1 * np.array([math.cos(math.radians(90 * k)), math.sin(math.radians(90 * k))])
+        assert np.allclose(data.body(name).xpos[:2], around, atol=1e-3)
+        assert model.body(name).mass[0] == pytest.approx(0.2)

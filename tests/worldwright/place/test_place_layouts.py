@@ -1,4 +1,4 @@
-"""The five reference layouts resolve, check without a finding, settle, and explain every number."""
+"""The six reference layouts resolve, check without a finding, settle, and explain every number."""
 
 import re
 from pathlib import Path
@@ -18,16 +18,19 @@ PLANS = sorted(LAYOUTS.glob("*/plan.md"))
 each = pytest.mark.parametrize("plan", PLANS, ids=lambda p: p.parent.name)
 
 
-def test_the_five_are_there():
+def test_the_six_are_there():
     names = {p.parent.name for p in PLANS}
-    assert names == {"dining-room", "street-grid", "bookshelf-wall", "workshop-bench", "stacks-and-bridges"}
+    assert names == {
+        "dining-room", "dining-room-of-assets", "street-grid", "bookshelf-wall", "workshop-bench", "stacks-and-bridges"
+    }  # fmt: skip
     assert all((p.parent / "layout.png").stat().st_size < 100_000 for p in PLANS)
 
 
 @each
 def test_it_resolves_and_checks_without_a_finding(plan):
     report = tools.check(plan)
-    assert not report.findings, "\n".join(map(str, report.findings))
+    wrong = [finding for finding in report.findings if finding.severity != "info"]  # such as what is meant to fall
+    assert not wrong, "\n".join(map(str, wrong))
     assert report.views, "its cameras were tried"
 
 
@@ -83,6 +86,9 @@ def test_they_are_as_large_as_they_must_be():
     assert bodies >= 58
     assert kinds >= 33
     assert counted("street-grid")[0] >= 130
+    bodies, kinds = counted("dining-room-of-assets")
+    assert bodies >= 100
+    assert kinds >= 45
 
 
 def test_a_crowd_is_named_by_family():

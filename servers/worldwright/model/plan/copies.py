@@ -1,4 +1,4 @@
-"""Objects with a `count`: in a plan that is read, `name_1` … `name_N` stand in the place of `name`.
+"""Objects and assets with a `count`: in a plan that is read, `name_1` … `name_N` stand in the place of `name`.
 
 What is said of `name` is said of each copy: its mass, its launch, where it stands, that it moves, the joint it hangs on, the
 rope that holds it. A copy of a joint or tendon has the number of its body.
@@ -19,8 +19,9 @@ Families = Mapping[str, tuple[str, ...]]
 
 
 def families(plan: Written) -> dict[str, tuple[str, ...]]:
-    """Of the scene objects of a plan as it is written."""
-    return {row.name: row.instances for row in plan.scene_objects if row.count > 1 or row.breaks is not None}
+    """Of the scene objects and assets of a plan as it is written."""
+    made = [row for row in plan.scene_objects if row.count > 1 or row.breaks is not None]
+    return {row.name: row.instances for row in (*made, *(row for row in plan.assets if row.count > 1))}
 
 
 def changes(plan: Written, copied: Families) -> dict[str, Any]:
@@ -46,12 +47,13 @@ def changes(plan: Written, copied: Families) -> dict[str, Any]:
     }
     tendons = [made for row in plan.topology.tendons for made in _tendon(row, copied)]
     overlaps = _between(plan.topology.overlaps, copied)
+    weighed = {name: names for name, names in copied.items() if name not in {row.name for row in plan.assets}}
     changed = {"joints": tuple(joints), "tendons": tuple(tendons), "overlaps": overlaps}
     topology = plan.topology.model_copy(update=changed)
     return {
         "scene_objects": tuple(objects),
         "topology": topology,
-        "simulation_parameters": _parameters(plan.simulation_parameters, {**copied, **hung}, pieces),
+        "simulation_parameters": _parameters(plan.simulation_parameters, {**copied, **hung}, weighed, pieces),
         "implementation_steps": tuple(_step(step, copied) for step in plan.implementation_steps),
         "source_rows": tuple(sources),
     }
@@ -68,9 +70,10 @@ def _spelled(values: Mapping[str, Any], copied: Families) -> dict[str, Any]:
     return whole | {name: value for name, value in values.items() if name not in copied}
 
 
-def _parameters(row: Written, copied: Families, pieces: dict[str, float]) -> Written:
+def _parameters(row: Written, copied: Families, weighed: Families, pieces: dict[str, float]) -> Written:
+    """A mass of an asset is its row's, which counts for each of its copies: it keeps the row's name."""
     acting = tuple(i.model_copy(update={"bodies": named(i.bodies, copied)}) for i in row.interventions)
-    masses, starts = _spelled(row.masses, copied), _spelled(row.initial_motion, copied)
+    masses, starts = _spelled(row.masses, weighed), _spelled(row.initial_motion, copied)
     pairs = _between(row.pairs, copied)
     changed = {"masses": masses | pieces, "initial_motion": starts, "interventions": acting, "pairs": pairs}
     return row.model_copy(update=changed)

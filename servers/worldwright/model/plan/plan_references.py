@@ -119,7 +119,7 @@ def _declared(data: dict[str, Any]) -> Iterator[Problem]:
 def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem]:
     """Problems of the names where they are used."""
     objects = [name for name, _ in (*_objects(data), *_instances(data))]
-    whole = [*objects, *_families(data)]
+    whole = [*objects, *_families(data), *_families(data, "assets")]
     rows = [name for name, _ in _named(data, "assets")]
     joints = [name for name, _ in _named(data, "topology", "joints")]
     moved = [name for kind in ("joints", "tendons", "actuators") for name, _ in _named(data, "topology", kind)]
@@ -285,10 +285,10 @@ def _objects(data: dict[str, Any]) -> Iterator[tuple[str, Path]]:
     return _instances(data, "scene_objects")
 
 
-def _families(data: dict[str, Any]) -> list[str]:
-    """Names of scene objects with a `count`: what is said of one is said of each of its copies."""
-    own = {name for name, _ in _objects(data)}
-    return [name for name, _ in _named(data, "scene_objects") if name not in own]
+def _families(data: dict[str, Any], section: str = "scene_objects") -> list[str]:
+    """Names of objects with a `count`: what is said of one is said of each of its copies."""
+    own = {name for name, _ in _instances(data, section)}
+    return [name for name, _ in _named(data, section) if name not in own]
 
 
 def _parts(row: dict[str, Any], path: Path) -> Iterator[tuple[dict[str, Any], Path]]:
