@@ -45,16 +45,21 @@ SLACK_S = 0.1
 """The clock that files are dated by is coarser than the other, s."""
 
 
-class Loaded:
-    """The files that this process has loaded, and since when."""
+def files() -> set[str]:
+    """Those that this process has loaded."""
+    modules = {str(getattr(module, "__file__", None) or "") for module in tuple(sys.modules.values())}
+    mapped = {line.split(maxsplit=5)[-1].strip() for line in Path("/proc/self/maps").read_text().splitlines()}
+    return {name for name in modules | mapped if name.startswith("/")}
 
-    def __init__(self, since_s: float) -> None:
-        modules = {str(getattr(module, "__file__", None) or "") for module in tuple(sys.modules.values())}
-        mapped = {line.split(maxsplit=5)[-1].strip() for line in Path("/proc/self/maps").read_text().splitlines()}
+
+class Loaded:
+    """Files that have been loaded, and since when."""
+
+    def __init__(self, since_s: float, names: set[str]) -> None:
         self.files: dict[str, tuple[int, ...]] = {}
         self.late = False
         """Whether one of them was changed while it was loaded."""
-        for name in sorted(name for name in modules | mapped if name.startswith("/")):
+        for name in sorted(names):
             try:
                 found = os.stat(name)  # noqa: PTH116 - of hundreds
             except OSError:
@@ -95,7 +100,7 @@ def main() -> int:
     control = socket.socket(fileno=int(sys.argv[1]))
     for name in LOADED:
         importlib.import_module(name)
-    loaded = Loaded(float(sys.argv[2]))
+    loaded = Loaded(float(sys.argv[2]), files())
     if len(os.listdir("/proc/self/task")) > 1:  # noqa: PTH208 - what a fork would leave behind in it may hold a lock
         return 1
     if writable("/proc/self/exe"):
