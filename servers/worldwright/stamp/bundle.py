@@ -29,7 +29,7 @@ LEFT_OUT = ("evidence/", "stills/", "video/", *OF_WORLD, "trajectory.npz", *hand
 """What the small form of an accepted world may leave out: a build makes it again, but for a handed-in film, which proves nothing."""
 BESIDE = (
     "journal.jsonl", "accepted", "earlier", "evidence", "jobs", "proof", "report.html", "recording.rrd", "overlays.json",
-    "scene.glb", "scene.usda", "recording.mcap", "recording.bag", "out", "drives",
+    "scene.glb", "scene.usda", "recording.mcap", "recording.bag", "recording.zip", "out", "drives",
 )  # fmt: skip
 """What may lie beside the stamp of a small form without being listed in it: the journal, and what a build leaves there."""
 
