@@ -355,7 +355,7 @@ class Going:
         from ..stage.tools import latest, start
 
         with suppress(WorldwrightError):  # the pass says so itself when its turn comes
-            for stage in ("video",) if self.film_due() else self.pictures():
+            for stage in self.pictures():  # the author's film, too, is drawn behind the stills, which it needs
                 job = latest(self.run, stage)
                 if job is None or job.state == "lost":
                     self.ended[stage] = start(self.name, stage=stage).account

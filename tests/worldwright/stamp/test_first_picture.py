@@ -144,3 +144,17 @@ def test_an_authors_film_is_drawn_before_any_other_picture(tmp_path):
     assert walked(tmp_path, 1) == ("film begins",)
     assert walked(tmp_path, 0) == ("film begins", "video", "stills", "video", "storyboard")
     assert walked(tmp_path, 0, until="expect") == ("storyboard",)
+
+
+@pytest.mark.gl
+@pytest.mark.slow
+def test_a_run_with_a_film_comes_as_far_as_its_description(tmp_path, small_plan):
+    folder = tmp_path / "ball"
+    folder.mkdir()
+    (folder / "plan.md").write_text(small_plan, encoding="utf-8")
+    stamp.go(str(folder))
+    stamp.approve(str(folder), by="tester")
+    (folder / "film.py").write_text("".join(line for line in FILM.splitlines(keepends=True) if "particles" not in line))
+    while (gone := stamp.go(str(folder), timeout_s=30)).state == "running":
+        pass
+    assert not gone.wrong and {"stills", "video"} <= set(gone.held) and "describe" in gone.next_move, gone.text()
