@@ -54,7 +54,10 @@ def test_momentum_is_kept_with_a_lid_and_a_source_and_each_time_the_bits_are_the
     for _ in range(2):
         pour = Source(mass=0.02, at=(0.02, 0.02, 0.15), starts=0.01, ends=0.06, radius=0.015)
         law = Pressed(
-            Liquid(1000.0, 0.5), 0.008, begins=[block((-0.038, -0.038, 0.002), (0.038, 0.038, 0.05))], poured=[pour]
+            Liquid(1000.0, 0.5, sticks=True),
+            0.008,
+            begins=[block((-0.038, -0.038, 0.002), (0.038, 0.038, 0.05))],
+            poured=[pour],
         )
         model, data = at_rest(world)
         law.start(model, data)
@@ -212,6 +215,73 @@ def test_what_a_world_does_not_hold_is_refused_before_it_runs(world: str, law: d
     with pytest.raises(ProgramError, match=says) as caught:
         Stood(**{"stuff": Liquid(), "spacing": 0.01, "begins": [filled]} | law).start(model, data)
     assert caught.value.next_move
+
+
+def test_what_would_stick_in_a_shallow_bowl_unasked_is_refused() -> None:
+    def begun(world: str, high: float, **told: bool) -> None:
+        law = Stood(
+            Liquid(1400.0, 10.0, sound=6.0, **told), 0.008, begins=[block((-0.03, -0.03, 0), (0.03, 0.03, high))]
+        )
+        law.start(*at_rest(world))
+
+    bowl = tub(0.064, 0.08, 0.004)
+    with pytest.raises(ProgramError, match=r"stood lies 2.0 cells deep in a bowl and sticks to it") as caught:
+        begun(bowl, 0.032)
+    assert "0.004 m" in caught.value.next_move
+    begun(bowl, 0.066)  # deep enough
+    begun(bowl, 0.032, sticks=True)
+    begun(bowl, 0.032, sticks=False)
+    begun(FLOOR, 0.032)  # no bowl
+
+
+def test_a_floor_of_tiles_is_one_wall_and_a_corner_is_two() -> None:
+    half, tiles = 0.02, range(-4, 5)
+    floor = "".join(
+        f'<geom type="box" size="{half} {half} 0.01" pos="{2 * half * i} {2 * half * j} -0.01"/>'
+        for i in tiles
+        for j in tiles
+    )
+    places = np.random.default_rng(0).uniform((-0.1, -0.1, 0.001), (0.1, 0.1, 0.02), (50, 3))
+    for world, walls in ((floor, 1), (floor + '<geom type="box" size="0.2 0.01 0.2" pos="0 0.11 0.2"/>', 2)):
+        law = Stood(Snow(), 0.01, begins=[block((0, 0, 0.01), (0.05, 0.05, 0.05))])
+        law.start(*at_rest(world))
+        law._geoms.sort(places.min(axis=0), places.max(axis=0), 0.06)
+        near = np.zeros(50, np.int64)
+        planes, walls_of = np.zeros((50, 6, 4)), np.zeros((50, 6), np.int64)
+        law._geoms.near(places, 50, 0.03, planes, walls_of, near, np.full((50, 3), np.inf))
+        assert near.max() == walls and near.min() == 1
+
+
+def test_snow_lies_on_a_board_of_many_boxes_as_on_one() -> None:
+    def lies(count: int) -> np.ndarray:
+        half = 0.1 / count
+        middles = [half * (2 * i + 1) - 0.1 for i in range(count)]
+        world = "".join(
+            f'<geom type="box" size="{half} {half} 0.01" pos="{x} {y} -0.01"/>' for x in middles for y in middles
+        )
+        law = Stood(Snow(), 0.01, begins=[block((-0.05, -0.05, 0.002), (0.05, 0.05, 0.042))])
+        advanced(law, world, 0.05)
+        return law.points
+
+    assert np.abs(lies(12) - lies(1)).max() < 1e-9
+
+
+def test_a_bowl_of_pieces_that_moves_is_sorted_again_and_one_that_stands_is_not() -> None:
+    model, data = at_rest(tub(0.08, 0.08, 0.004).replace('name="tub">', 'name="tub" mocap="true">'))
+    geoms = touched_geoms.Geoms(model, ["tub"], 0.02)
+    geoms.place(data)
+    room = np.array((-0.05, -0.05, 0.0)), np.array((0.05, 0.05, 0.1))
+    geoms.sort(*room, 0.03)
+    first = geoms._listed
+    geoms.sort(room[0] + 0.01, room[1] + 0.01, 0.03)
+    assert geoms._listed is first
+    data.mocap_pos[0, 0] = 0.03
+    mujoco.mj_forward(model, data)
+    geoms.place(data)
+    geoms.sort(*room, 0.03)
+    assert geoms._listed is not first
+    gap, _ = geoms.gaps(np.array([(0.06, 0.0, 0.04)]))
+    assert gap[0] == pytest.approx(0.01, abs=1e-9)  # m, to the wall at 0.04 + 0.03
 
 
 def test_points_that_fly_apart_are_a_typed_error() -> None:

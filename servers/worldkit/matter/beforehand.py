@@ -19,6 +19,8 @@ MOST_NODES = 6_000_000
 """Of the grid: 190 MB."""
 MOST_WORK = 3e8
 """Points times steps in a simulated second: about three minutes of processor time."""
+SHALLOW = 4.0
+"""Cells: what sticks to a bowl less deep stays in it, for the grid holds the layers at its walls."""
 
 
 def check_positive(what: str, **values: float | None) -> None:
@@ -133,6 +135,30 @@ def check_container(matter: Any, data: "mujoco.MjData", geoms: "Geoms", begun: A
         raise ProgramError(
             cause, matter.name, "close it there, or fill it less high; gaps under one spacing are closed"
         )
+
+
+def check_bowl(matter: Any, geoms: "Geoms", begun: Array) -> None:
+    """Refuse what would stick, unasked, in a bowl of less than `SHALLOW` cells: it hardly leaves one, whatever its viscosity.
+
+    Raises:
+        ProgramError: with the spacing that would do.
+    """
+    places, cell = matter._leaves[begun], matter.cell
+    _, column = np.unique(np.floor(places[:, :2] / cell).astype(np.int64), axis=0, return_inverse=True)
+    column = column.reshape(-1)
+    low, high = np.full(column.max() + 1, np.inf), np.full(column.max() + 1, -np.inf)
+    np.minimum.at(low, column, places[:, 2])
+    np.maximum.at(high, column, places[:, 2])
+    depth = float((high - low).max()) + matter.spacing
+    if depth >= SHALLOW * cell:
+        return
+    bottom = places[places[:, 2] <= (places[:, 2].min() + places[:, 2].max()) / 2]
+    middle = (places.min(axis=0) + places.max(axis=0)) / 2
+    reach = float(np.ptp(places, axis=0).max()) / 2 + 2 * cell
+    if leak(geoms, bottom, matter.spacing, middle, reach) is None:
+        cause = f"{matter.name} lies {depth / cell:.1f} cells deep in a bowl and sticks to it: of less than {SHALLOW:g} cells hardly any runs out"
+        move = f"make the spacing {depth / SHALLOW / 2:.2g} m, or tell its Liquid `sticks=False` (it slides) or `sticks=True` (it may stay)"
+        raise ProgramError(cause, matter.name, move)
 
 
 def leak(geoms: "Geoms", places: Array, spacing: float, middle: Array, reach: float) -> Array | None:

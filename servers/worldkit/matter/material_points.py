@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NoReturn, Protocol
 import numpy as np
 
 from ..errors import ProgramError
-from .beforehand import MOST_NODES, check_container, check_points, check_positive, check_sources, check_work
+from .beforehand import MOST_NODES, check_bowl, check_container, check_points, check_positive, check_sources, check_work
 from .first_places import Region, Source
 from .touched_geoms import Geoms
 from .transfer import MOST_PLANES, SLOTS, gather, scatter, turn
@@ -137,7 +137,7 @@ class Matter:
         self._planes, self._walls = np.zeros((count, MOST_PLANES, 4)), np.zeros((count, MOST_PLANES), np.int64)
         self._near, self.time, self.loose = np.zeros(count, np.int64), 0.0, 0
         """Of the points, those that have left their mouths."""
-        self._grid = np.zeros((0, 4))
+        self._grid, self._seen = np.zeros((0, 4)), np.full((count, 3), np.inf)
 
     @property
     def radius(self) -> float:
@@ -170,6 +170,8 @@ class Matter:
         if self._air and "world" not in self.bodies:
             raise ProgramError(f"the air that carries {self.name} is missing", self.name, 'let "world" be in `bodies`')
         self._sticks = self.stuff.holds(self.cell)
+        if self._sticks and begun.any() and getattr(self.stuff, "sticks", True) is None:
+            check_bowl(self, self._geoms, begun)
         self._own = [self._of(body) for body in self._geoms.bodies]
         self._felt = np.zeros((len(self.bodies), 6))
 
@@ -269,7 +271,7 @@ class Matter:
         if len(self._grid) < nodes:
             self._grid, self._touched = np.zeros((nodes, 4)), np.zeros(nodes, np.int64)
             self._held, self._holds = np.full(nodes, -1), np.zeros((min(nodes, 27 * len(self.points)), SLOTS, 4))
-        self._geoms.sort(low, low + shape * self.cell, 3 * self.cell)
+        self._geoms.sort(low, low + shape * self.cell, 2.61 * self.cell)
         return low, shape
 
     def _apart(self) -> NoReturn:
@@ -290,7 +292,8 @@ class Matter:
         if look:
             if gone:
                 self._geoms.move(bodies, LOOK_AGAIN * dt)
-            self._geoms.near(self.points, count, 1.5 * self.cell, self._planes, self._walls, self._near)
+            reach = 1.5 * self.cell
+            self._geoms.near(self.points, count, reach, self._planes, self._walls, self._near, self._seen)
         mass, stuff = self.mass, self.stuff
         stuff.advance(self._law, self._state, self._slope, self._crowd, self._tau, count, dt)
         low, shape = room
@@ -324,7 +327,7 @@ class Matter:
         late = np.clip(self.time + dt - self._when[new], 0.0, dt)[:, None]
         self.points[new] = self._leaves[new] + late * self._speeds[new]
         self.velocities[new] = self._speeds[new]
-        self._near[new] = 0
+        self._near[new], self._seen[new] = 0, np.inf
         self._crowd[new] = self.stuff.density
         feels -= (self.mass[new, None] * self._speeds[new]).sum(axis=0)
         self.loose = upto

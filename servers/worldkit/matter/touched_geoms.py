@@ -8,7 +8,8 @@ import numpy as np
 from ..errors import ProgramError
 from ..naming import names
 from .transfer import MOST_PLANES
-from .wall_distance import HFIELD, MESH, PLANE, look
+from .wall_cells import ON_ITS_WAY, SLACK, moved, sorted_in
+from .wall_distance import HFIELD, MESH, look
 
 if TYPE_CHECKING:
     import mujoco
@@ -17,7 +18,9 @@ Array = np.ndarray
 MOST_FACES = 400
 """Of one hull; finer ones are thinned by leaving out faces that turn by less than `FLAT`."""
 FLAT = 0.999
-MOST_CELLS = 4000
+STILL = 0.07
+"""Of the reach: a point that has moved less among geoms that have not keeps its walls."""
+MOST_CELLS = 32_000
 """In which geoms are looked up."""
 
 
@@ -40,7 +43,9 @@ class Geoms:
             raise ProgramError(cause, "worldkit.matter", f"name some of: {', '.join(known)}")
         self.bodies = np.array([known.index(body) for body in bodies])
         self._model, self._least, self.ids, owners = model, cell, [], []
-        self._cell = cell
+        self._cell, self.poses = cell, np.zeros((0, 12))
+        self._sorted: tuple[tuple[Array, Array], float, Array] | None = None
+        """The room, the margin and the poses of which the lists are."""
         for row, body in enumerate(self.bodies):
             for geom in range(model.ngeom):
                 owner = int(model.geom_bodyid[geom])
@@ -49,6 +54,9 @@ class Geoms:
                     self.ids.append(geom)
                     owners.append(row)
         self.owners = np.array(owners, np.int64)
+        self._moves = np.array([model.body_weldid[model.geom_bodyid[geom]] != 0 for geom in self.ids], float)
+        self.still = False
+        """Whether all are where they were when they were placed before."""
         self.kinds = np.array([model.geom_type[geom] for geom in self.ids], np.int64)
         self.sizes = np.array([self._size(geom) for geom in self.ids]).reshape(-1, 3)
         count = len(self.ids)
@@ -94,14 +102,15 @@ class Geoms:
     def place(self, data: "mujoco.MjData") -> None:
         """Take the geoms' poses from the world's state."""
         at = np.array(self.ids, int)
-        self.poses = np.concatenate([data.geom_xpos[at], data.geom_xmat[at]], axis=1).reshape(-1, 12).copy()
+        now = np.concatenate([data.geom_xpos[at], data.geom_xmat[at]], axis=1).reshape(-1, 12)
+        self.still, self.poses = bool(np.array_equal(now, self.poses)), now
 
     def move(self, bodies: Array, seconds: float) -> None:
         """Carry the geoms on with their bodies (k, 9): middle at the start of the move, velocity and spin, for some seconds."""
         for row, body in enumerate(bodies):
             if not body[3:].any():
                 continue
-            spin, mine = body[6:] * seconds, self.owners == row
+            spin, mine, self.still = body[6:] * seconds, self.owners == row, False
             angle = float(np.linalg.norm(spin))
             axis = spin / angle if angle > 1e-12 else np.zeros(3)
             k = np.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
@@ -110,31 +119,34 @@ class Geoms:
             self.poses[mine, 3:] = (turn @ self.poses[mine, 3:].reshape(-1, 3, 3)).reshape(-1, 9)
 
     def sort(self, low: Array, high: Array, margin: float) -> None:
-        """List, for each cell of the room from `low` to `high`, the geoms that come within `margin` of it."""
-        self._low = np.asarray(low, float)
-        self._cell = max(self._least, float(np.cbrt(np.prod(np.asarray(high) - low) / MOST_CELLS)))
-        self._cells = np.maximum(np.ceil((np.asarray(high) - self._low) / self._cell).astype(np.int64), 1)
-        seen: list[list[int]] = [[] for _ in range(int(self._cells.prod()))]
-        lists = np.arange(len(seen)).reshape(self._cells)
-        for at, kind in enumerate(self.kinds):
-            first, last = np.zeros(3, np.int64), self._cells
-            if kind != PLANE:
-                turn = self.poses[at, 3:].reshape(3, 3)
-                middle = self.poses[at, :3] + turn @ self._boxes[at, :3]
-                half = np.abs(turn) @ self._boxes[at, 3:] + margin
-                first = np.clip(((middle - half - self._low) // self._cell).astype(np.int64), 0, self._cells - 1)
-                last = np.clip(((middle + half - self._low) // self._cell).astype(np.int64), 0, self._cells - 1) + 1
-            for cell in lists[tuple(slice(a, b) for a, b in zip(first, last, strict=True))].ravel().tolist():
-                seen[cell].append(at)
-        self._starts = np.concatenate([[0], np.cumsum([len(one) for one in seen])]).astype(np.int64)
-        self._listed = np.array([at for one in seen for at in one], np.int64)
+        """List, for each cell of the room from `low` to `high`, the geoms that come within `margin` of it, unless lists still stand."""
+        low, high = np.asarray(low, float), np.asarray(high, float)
+        slack, way = SLACK * self._least / 2, ON_ITS_WAY * self._least / 2
+        if self._sorted is not None:
+            at, had, poses = self._sorted
+            fits = (low >= at[0]).all() and (high <= at[1]).all() and had == margin
+            if fits and moved(poses, self.poses, self._boxes) <= slack:
+                return
+        self._low, high = low - self._least, high + self._least
+        self._cell = max(self._least / 2, float(np.cbrt(np.prod(high - self._low) / MOST_CELLS)))
+        self._cells = np.maximum(np.ceil((high - self._low) / self._cell).astype(np.int64), 1)
+        count = int(self._cells.prod())
+        self._starts = np.zeros(count + 1, np.int64)
+        self._listed = sorted_in(
+            self.kinds, self.sizes, self.poses, self._boxes, self._firsts, self._counts, self._faces, self._heights,
+            self._rows, self._columns, self._low, self._cell, self._cells, margin + self._moves * (slack + way), self._starts,
+            np.zeros(count, np.int64),
+        )  # fmt: skip
+        self._sorted = ((self._low, high), margin, self.poses.copy())
 
-    def near(self, points: Array, count: int, reach: float, planes: Array, walls: Array, near: Array) -> None:
-        """Write the walls of the first `count` points, as `look`."""
+    def near(
+        self, points: Array, count: int, reach: float, planes: Array, walls: Array, near: Array, seen: Array
+    ) -> None:
+        """Write the walls of the first `count` points, as `look`; where the geoms are still, those of points that have moved."""
         look(
             points, count, reach, self.kinds, self.sizes, self.poses, self._firsts, self._counts, self.owners,
             self._faces, self._heights, self._rows, self._columns, self._low, self._cell, self._cells, self._starts,
-            self._listed, planes, walls, near,
+            self._listed, planes, walls, near, seen, STILL * reach if self.still else 0.0,
         )  # fmt: skip
 
     def gaps(self, points: Array) -> tuple[Array, Array]:
@@ -144,6 +156,6 @@ class Geoms:
         near = np.zeros(many, np.int64)
         margin = 2 * self._least
         self.sort(points.min(axis=0) - margin, points.max(axis=0) + margin, margin)
-        self.near(np.ascontiguousarray(points), many, margin, planes, walls, near)
+        self.near(np.ascontiguousarray(points), many, margin, planes, walls, near, np.full((many, 3), np.inf))
         gap = np.einsum("ij,ij->i", planes[:, 0, :3], points) - planes[:, 0, 3]
         return np.where(near > 0, gap, np.inf), walls[:, 0]

@@ -31,7 +31,7 @@ def scatter(
     """
     inv, used, kept = 1.0 / dx, 0, 0
     wx, wy, wz = np.empty(3), np.empty(3), np.empty(3)
-    a = np.empty((3, 3))
+    a, holding = np.empty((3, 3)), np.empty(MOST_PLANES, np.int64)
     for p in range(count):
         gx, gy, gz = (x[p, 0] - origin[0]) * inv, (x[p, 1] - origin[1]) * inv, (x[p, 2] - origin[2]) * inv
         if not (1.0 < gx < shape[0] - 2 and 1.0 < gy < shape[1] - 2 and 1.0 < gz < shape[2] - 2):
@@ -51,7 +51,15 @@ def scatter(
             for j in range(3):
                 a[i, j] += mass * c[p, i, j]
         mx, my, mz = mass * v[p, 0], mass * v[p, 1], mass * v[p, 2]
-        walled = near[p]
+        walled = 0
+        for h in range(near[p]):  # those that hold any of its nodes
+            n = planes[p, h]
+            nodes = n[0] * x[p, 0] + n[1] * x[p, 1] + n[2] * x[p, 2] - n[3]
+            nodes += dx * (min(-n[0] * fx, n[0] * (2 - fx)) + min(-n[1] * fy, n[1] * (2 - fy)))
+            nodes += dx * min(-n[2] * fz, n[2] * (2 - fz))
+            if nodes < (LIFT + 1e-9) * dx:
+                holding[walled] = h
+                walled += 1
         for i in range(3):
             ox = (i - fx) * dx
             for j in range(3):
@@ -67,7 +75,8 @@ def scatter(
                     grid[node, 1] += w * (my + a[1, 0] * ox + a[1, 1] * oy + a[1, 2] * oz)
                     grid[node, 2] += w * (mz + a[2, 0] * ox + a[2, 1] * oy + a[2, 2] * oz)
                     grid[node, 3] += w * mass + 1e-300
-                    for h in range(walled):
+                    for which in range(walled):
+                        h = holding[which]
                         n = planes[p, h]
                         if n[0] * (x[p, 0] + ox) + n[1] * (x[p, 1] + oy) + n[2] * (x[p, 2] + oz) >= n[3] + LIFT * dx:
                             continue

@@ -10,11 +10,15 @@ from .kernels import kernel
 
 PLANE, HFIELD, SPHERE, CAPSULE, ELLIPSOID, CYLINDER, BOX, MESH = range(8)
 """mjtGeom."""
+SEEN = 16
+"""Nearest walls of a point that are looked at."""
+EVEN = 0.05
+"""Of the reach: a wall that stands out no farther from the plane of a nearer one is of it."""
 
 
 @kernel
-def distance(kind, size, x, y, z, faces, first, count, heights, rows, columns, n):
-    """m, negative within, of a point in the geom's frame; n (3,) becomes the way out.
+def distance(kind, size, x, y, z, faces, first, count, heights, rows, columns, n, limit):
+    """m, negative within, of a point in the geom's frame; n (3,) becomes the way out. Beyond `limit`, m, some number above it will do.
 
     faces (f, 4): normals and offsets of hulls, of which this geom has `count` from `first`; heights (r, c) m of a height field.
     """
@@ -51,6 +55,8 @@ def distance(kind, size, x, y, z, faces, first, count, heights, rows, columns, n
             if d > best:
                 best = d
                 n[0], n[1], n[2] = faces[f, 0], faces[f, 1], faces[f, 2]
+                if best > limit:  # it only grows: most of a lathe's thousand pieces are told far by their first faces
+                    break
         return best
     gx = (x / size[0] + 1.0) * 0.5 * (columns - 1)
     gy = (y / size[1] + 1.0) * 0.5 * (rows - 1)
@@ -95,16 +101,23 @@ def corner(ox, oy, oz, sx, sy, sz, n):
 @kernel
 def look(
     x, count, reach, kinds, sizes, poses, firsts, counts, owners, faces, heights, rows, columns,
-    low, cell, cells, starts, listed, planes, walls, near,
+    low, cell, cells, starts, listed, planes, walls, near, seen, still,
 ):  # fmt: skip
     """Find the walls that points x (n, 3) are near: nearest first, into planes (n, 6, 4), walls (n, 6), near (n,).
 
+    A wall of the same body whose nearest place lies on or behind the plane of a nearer one is left out, for that one holds what it
+    would: tiles of a floor are one floor, at one floor's cost.
+
+    seen (n, 3): where each point was when it looked last; one that has moved less than `still`, m, since then keeps what it found.
     poses (g, 12): middle and turn of each geom; `listed` from `starts` on: geoms that a cell of the room (`cells` of the side
     `cell`, from `low`) may see.
     """
-    n, gaps = np.empty(3), np.empty(planes.shape[1])
+    n, gaps, ways, whose = np.empty(3), np.empty(SEEN), np.empty((SEEN, 3)), np.empty(SEEN, np.int64)
     most = planes.shape[1]
     for p in range(count):
+        if (x[p, 0] - seen[p, 0]) ** 2 + (x[p, 1] - seen[p, 1]) ** 2 + (x[p, 2] - seen[p, 2]) ** 2 < still * still:
+            continue
+        seen[p, 0], seen[p, 1], seen[p, 2] = x[p, 0], x[p, 1], x[p, 2]
         found = 0
         i = min(max(int((x[p, 0] - low[0]) / cell), 0), cells[0] - 1)
         j = min(max(int((x[p, 1] - low[1]) / cell), 0), cells[1] - 1)
@@ -117,27 +130,43 @@ def look(
             lx = m[3] * rx + m[6] * ry + m[9] * rz
             ly = m[4] * rx + m[7] * ry + m[10] * rz
             lz = m[5] * rx + m[8] * ry + m[11] * rz
+            limit = 1.74 * reach if found < SEEN else min(1.74 * reach, gaps[SEEN - 1])
             d = distance(
-                kinds[g], sizes[g], lx, ly, lz, faces, firsts[g], counts[g], heights, rows[g], columns[g], n
+                kinds[g], sizes[g], lx, ly, lz, faces, firsts[g], counts[g], heights, rows[g], columns[g], n, limit
             )  # fmt: skip
-            if d > 2.7 * reach:
+            if d > limit:
                 continue
             nx = m[3] * n[0] + m[4] * n[1] + m[5] * n[2]
             ny = m[6] * n[0] + m[7] * n[1] + m[8] * n[2]
             nz = m[9] * n[0] + m[10] * n[1] + m[11] * n[2]
             if d > reach * (abs(nx) + abs(ny) + abs(nz)):
                 continue
-            slot = min(found, most - 1)
-            if found == most and gaps[most - 1] <= d:
+            slot = min(found, SEEN - 1)
+            if found == SEEN and gaps[SEEN - 1] <= d:
                 continue
             while slot > 0 and gaps[slot - 1] > d:
-                gaps[slot] = gaps[slot - 1]
-                planes[p, slot, :] = planes[p, slot - 1, :]
-                walls[p, slot] = walls[p, slot - 1]
+                gaps[slot], ways[slot], whose[slot] = gaps[slot - 1], ways[slot - 1], whose[slot - 1]
                 slot -= 1
-            gaps[slot] = d
-            planes[p, slot, 0], planes[p, slot, 1], planes[p, slot, 2] = nx, ny, nz
-            planes[p, slot, 3] = nx * x[p, 0] + ny * x[p, 1] + nz * x[p, 2] - d
-            walls[p, slot] = owners[g]
-            found = min(found + 1, most)
-        near[p] = found
+            gaps[slot], whose[slot] = d, owners[g]
+            ways[slot, 0], ways[slot, 1], ways[slot, 2] = nx, ny, nz
+            found = min(found + 1, SEEN)
+        kept = 0
+        for s in range(found):
+            d, w = gaps[s], ways[s]
+            hidden = False
+            for h in range(kept):
+                before = planes[p, h]
+                along = before[0] * w[0] + before[1] * w[1] + before[2] * w[2]
+                from_before = before[0] * x[p, 0] + before[1] * x[p, 1] + before[2] * x[p, 2] - before[3]
+                if d > 0.0 and walls[p, h] == whose[s] and from_before - d * along <= EVEN * reach:
+                    hidden = True
+                    break
+            if hidden:
+                continue
+            planes[p, kept, 0], planes[p, kept, 1], planes[p, kept, 2] = w[0], w[1], w[2]
+            planes[p, kept, 3] = w[0] * x[p, 0] + w[1] * x[p, 1] + w[2] * x[p, 2] - d
+            walls[p, kept] = whose[s]
+            kept += 1
+            if kept == most:
+                break
+        near[p] = kept
