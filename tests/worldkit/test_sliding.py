@@ -1,10 +1,12 @@
 """Sliding bodies stay down, stop where Coulomb says, and mix their surfaces as MuJoCo mixes them."""
 
+import tracemalloc
+
 import mujoco
 import numpy as np
 import pytest
 
-from worldkit import bodies, contacts, motion, parts, scene, sliding, world
+from worldkit import bodies, contacts, motion, moved_shapes, parts, scene, sliding, world
 
 STEP = 0.001
 
@@ -164,3 +166,32 @@ def test_a_ball_that_turns_slowly_and_then_slides_is_not_thrown_up(spin: float):
         mujoco.mj_step(model, data)
         highest = max(highest, float(data.qpos[2]))
     assert highest - 0.1 < 0.001
+
+
+def test_grains_that_are_only_drawn_cost_no_memory_of_their_pairs_and_a_crowd_none_at_all(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    def build() -> mujoco.MjSpec:
+        spec = crate()
+        moved_shapes.grains(spec, "snow", np.random.default_rng(0).uniform(1, 2, (6000, 3)), 0.01)
+        return spec
+
+    model = build().compile()
+    tracemalloc.start()
+    pairs = sliding._pairs(model)
+    _, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert len(pairs) == 1 and peak < 20e6  # bytes; all pairs of 6,000 are 288 MB
+
+    def row(count: int) -> mujoco.MjModel:
+        spec = crate()
+        for i in range(count):
+            own = contacts.surface(friction=0.4, restitution=0.1, time_constant=4 * STEP)
+            bodies.box(spec, f"b{i}", size=(0.1, 0.1, 0.1), pos=(i, 2, 0.05), mass=1, surface=own)
+        return spec.compile()
+
+    few = row(9)
+    whole = sliding._pairs(few)
+    monkeypatch.setattr(sliding, "MOST_AT_ONCE", 7)
+    assert len(whole) == 55 and np.array_equal(whole, sliding._pairs(few))
+    assert len(sliding._pairs(row(56))) == 0  # 1,653 are more than MOST
