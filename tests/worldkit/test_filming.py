@@ -46,6 +46,38 @@ def described(film):
     return facts, arrays
 
 
+def test_the_focus_is_a_point_a_distance_or_a_body(film):
+    eye = (0.0, -2.0, 0.5)
+    for focus in ((0.0, 1.0, 0.5), 1.5, "post", np.array([0.0, 0.0, 0.5])):
+        film.shot(still(eye, (0, 0, 0.5), focus=focus), until=film.reached + 0.5)
+    at = described(film)[1]["focus_m"].reshape(4, 12)[:, 5]
+    assert at == pytest.approx([3.0, 1.5, np.linalg.norm([2.0, 3.0, 0.5]), 2.0])
+
+
+@pytest.mark.parametrize(
+    "lens",
+    [
+        {"focus": (1.0, 2.0)}, {"focus": ["ball"]}, {"focus": -1.0}, {"focus": float("nan")}, {"aperture": "wide"},
+        {"lens_mm": "50"}, {"lens_mm": (24, 35, 50)}, {"shake": (1, 2)}, {"roll_deg": "left"}, {"focus": (1, 2, "z")},
+    ],
+)  # fmt: skip
+def test_a_lens_that_is_none_is_refused_by_its_word(lens):
+    with pytest.raises(ProgramError) as refused:
+        follow("ball", **lens)
+    assert next(iter(lens)) in refused.value.cause and refused.value.next_move
+
+
+def test_a_name_that_a_set_owns_is_said_to_be_the_sets(film):
+    film.set("snow_field")
+    with pytest.raises(ProgramError, match="the set 'snow_field' gives") as refused:
+        film.tree("spruces", "pine", at=[(9.0, 9.0)])
+    assert "'drift 1' to 'drift 14', 'spruces', 'spruces (leaves)', 'hills'" in refused.value.next_move
+    other = Film(rehearsal())
+    other.draw("spruces", "box", 1.0, pos=(9.0, 9.0, 0.5))
+    with pytest.raises(ProgramError, match="'spruces', which the set 'snow_field' gives"):
+        other.set("snow_field")
+
+
 def test_shots_follow_each_other_at_their_speed(film):
     film.shot(follow("ball"), until=1.0)
     film.shot(follow("ball"), until=2.0, speed=0.25)
@@ -240,9 +272,13 @@ REFUSED = {
     "fog needs a visibility": lambda f: f.fog(visibility_m=0),
     "lens_mm must lie": lambda f: f.shot(wide(lens_mm=2), until=1.0),
     "stands where it looks": lambda f: f.shot(still((1, 1, 1), (1, 1, 1)), until=1.0) or f.description(),
-    "the roll_deg of shot 1 is no number": lambda f: f.shot(wide(roll_deg=np.nan), until=1.0) or f.description(),
-    "the focus of shot 1 is no number": lambda f: f.shot(wide(focus=np.inf), until=1.0) or f.description(),
-    "the shake of shot 1 is no number": lambda f: f.shot(wide(shake=np.nan), until=1.0) or f.description(),
+    "roll_deg is a number or a pair of numbers, not": lambda f: (
+        f.shot(wide(roll_deg=np.nan), until=1.0) or f.description()
+    ),
+    "focus is a body's name or a distance above 0 m or a point": lambda f: (
+        f.shot(wide(focus=np.inf), until=1.0) or f.description()
+    ),
+    "shake is a number, not nan": lambda f: f.shot(wide(shake=np.nan), until=1.0) or f.description(),
     "numbers, none below 0": lambda f: (
         f.particles("p", lambda t: (np.zeros((len(t), 1, 3)), np.full((len(t), 1), np.inf))) or f.description()
     ),

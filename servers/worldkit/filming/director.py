@@ -146,7 +146,11 @@ class Film(Labelled, Limbs):
             ProgramError: there is no such set or hour, what happens is too large for it, or it has no such wall.
         """
         stated = str(self.recorded.light.get("sky", ""))
-        sets.build(self, name, facing_deg, seed, colour, hour or (stated if stated in sets.hours.HOURS else ""))
+        self._names.building = name
+        try:
+            sets.build(self, name, facing_deg, seed, colour, hour or (stated if stated in sets.hours.HOURS else ""))
+        finally:
+            self._names.building = ""
         self.as_planned()
 
     # -- the description -----------------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from . import groves, sward, swaying_weights
 from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
 from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
 from .ground import Height
+from .own_names import OwnNames
 from .plain_refusals import line, whole
 from .recorded import Recorded
 from .smoke import Smoke
@@ -21,6 +22,7 @@ class Dressing(Smoke):
 
     def __init__(self, recorded: Recorded) -> None:
         super().__init__(recorded)
+        self._names = OwnNames()
         self._things: list[Thing] = []
         self._grown: list[tuple[Thing, Callable[[np.ndarray], Any], int]] = []
         self._surfaces: list[dict[str, Any]] = []
@@ -365,10 +367,7 @@ class Dressing(Smoke):
 
     def _named(self, name: str) -> None:
         """Refuse a name that something else has, or none."""
-        taken = {other.name for other in (*self._things, *(grown for grown, *_ in self._grown))}
-        taken |= {one["name"] for one in (*self._surfaces, *self._lamps, *self._panels)}
-        if not isinstance(name, str) or not 0 < len(name) <= 60 or name in taken:
-            raise ProgramError(f"what is drawn needs a name of its own, not {name!r}", "film.py", "name it anew")
+        self._names.take(name)
 
 
 def _yaw(yaw_deg: float) -> tuple[float, float, float, float]:

@@ -43,10 +43,13 @@ def sampled(shot: dict[str, Any], recorded: Recorded, number: int) -> dict[str, 
             for k in range(12)
         )
         target = target + camera.shake * 0.012 * away[:, None] * waves
-    if isinstance(camera.focus, str):
-        focus = np.linalg.norm(recorded.position(camera.focus, times) - eye, axis=1)
+    point = recorded.position(camera.focus, times) if isinstance(camera.focus, str) else camera.focus
+    if point is None:
+        focus = away
+    elif np.ndim(point):
+        focus = np.linalg.norm(np.asarray(point, dtype=float) - eye, axis=1)
     else:
-        focus = away if camera.focus is None else np.full(n, float(camera.focus))
+        focus = np.full(n, float(point))  # type: ignore[arg-type]
     fovy_deg = viewpoints.fovy_deg(viewpoints.between(camera.lens_mm, share))
     still = all(np.ptp(part, axis=0).max() == 0 for part in (eye, target, fovy_deg))
     if isinstance(camera.focus, str) and still and focus.min() > 0:

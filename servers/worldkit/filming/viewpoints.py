@@ -1,7 +1,7 @@
 """Where the camera is and what it looks at, over one shot.
 
 Each maker returns a `Viewpoint`. All take the lens: `lens_mm`, the focal length as on a full-frame camera (24 wide, 50 as the
-eye sees, 85 narrow), a number or a pair that it goes through; `focus`, a body's name or a distance in metres, and
+eye sees, 85 narrow), a number or a pair that it goes through; `focus`, a body's name, a point (x, y, z) or a distance in metres, and
 `aperture`, the f-number (1.4 blurs much, 16 nearly nothing), without which everything is sharp; `shake`, how unsteady the
 hand is (0 to 1); `roll_deg`.
 """
@@ -38,6 +38,11 @@ FRAME_MM = 20.25
 """Height of the picture on a full-frame camera that films in 16:9."""
 
 
+SHAPES = {"lens_mm": ((), (2,)), "roll_deg": ((), (2,)), "focus": ((), (3,)), "aperture": ((),), "shake": ((),)}
+"""The shapes of what a lens is told."""
+KINDS = {(): "a number", (2,): "a pair of numbers", (3,): "a point (x, y, z) in metres"}
+
+
 @dataclass(frozen=True)
 class Viewpoint:
     """One camera over one shot."""
@@ -46,13 +51,17 @@ class Viewpoint:
     target: Path | None
     lens_mm: Range = 35.0
     roll_deg: Range = 0.0
-    focus: str | float | None = None
+    focus: str | float | Vec3 | None = None
     aperture: float | None = None
     shake: float = 0.0
     planned: str = ""
     """The plan's camera that is meant instead of all the above."""
 
     def __post_init__(self) -> None:
+        for name, shapes in SHAPES.items():
+            told = getattr(self, name)
+            if told is not None and not isinstance(told, str if name == "focus" else ()):
+                _require_numbers(name, told, shapes)
         lenses = np.atleast_1d(self.lens_mm)
         if len(lenses) > 2 or not ((lenses >= 6) & (lenses <= 600)).all():
             raise ProgramError(
@@ -60,6 +69,19 @@ class Viewpoint:
             )
         if self.aperture is not None and not 0.5 <= self.aperture <= 64:
             raise ProgramError(f"aperture must lie between 0.5 and 64, got {self.aperture}", "film.py", "try 2.8")
+
+
+def _require_numbers(name: str, told: Any, shapes: tuple[tuple[int, ...], ...]) -> None:
+    """Refuse what is no number of one of these shapes; a distance lies above 0."""
+    try:
+        numbers = np.asarray(told)
+        good = numbers.shape in shapes and numbers.dtype.kind in "iuf" and bool(np.isfinite(numbers).all())
+    except ValueError:
+        good = False
+    if not good or (name == "focus" and not np.ndim(told) and not told > 0):
+        kinds = [KINDS[shape] for shape in shapes]
+        kinds = ["a body's name", "a distance above 0 m", *kinds[1:]] if name == "focus" else kinds
+        raise ProgramError(f"{name} is {' or '.join(kinds)}, not {told!r}", "film.py", f"follow('ball', {name}=…)")
 
 
 def eased(share: np.ndarray) -> np.ndarray:
