@@ -18,7 +18,7 @@ from .model.errors import GateError
 from .model.evidence import came
 from .model.evidence.build_steps import StepName
 from .model.evidence.run import Run, sha256_file
-from .model.plan import imported
+from .model.plan import taken_along
 from .model.progress import Progress
 from .stamp.going import FOR_EVER_S, GROUPS, Going, Say, WrongError
 
@@ -217,7 +217,7 @@ def started_from(source: Run, folder: Path) -> Run:
     for path in (source.prompt, source.plan):
         if path.is_file():
             write_atomic(target.folder / path.name, path.read_bytes())
-    for name, content in imported.beside(source.folder).items():
+    for name, content in taken_along.of(source.folder).items():
         write_atomic(target.folder / name, content)
     target.log("build", "plan", origin_sha256=origin)
     return target

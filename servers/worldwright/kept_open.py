@@ -20,7 +20,7 @@ from .model import companions
 from .model.errors import GateError, WorldwrightError
 from .model.evidence.run import Run
 from .model.picture import Illustrated
-from .model.plan import imported
+from .model.plan import taken_along
 
 FILES = ("plan.md", "simulation.py", "film.py")
 TICK_S, STILL_S = 0.2, 0.3
@@ -105,7 +105,7 @@ def state(run: Run) -> Stamp:
         for author in (run.program, run.folder / "film.py"):
             if author.is_file():
                 paths |= {run.folder / name for name in companions.of(author)}
-    paths |= {run.folder / name for name in imported.beside(run.folder)}
+    paths |= {run.folder / name for name in taken_along.of(run.folder)}
     found = []
     for path in sorted(paths):
         with contextlib.suppress(OSError):

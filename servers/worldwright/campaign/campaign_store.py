@@ -34,7 +34,7 @@ from ..model.evidence import pictures_of
 from ..model.evidence.came import Came
 from ..model.evidence.run import Run, sha256_file
 from ..model.frozen import Frozen
-from ..model.plan import imported
+from ..model.plan import taken_along
 from ..model.storage import writing
 from .campaign_file import Campaign, CampaignError, Given
 from .world_row import Row
@@ -343,7 +343,7 @@ def _content(path: Path, given: Given) -> dict[str, bytes]:
         found["prompt.md"] = prompt.encode()
     if plan.name != "plan.md":
         return found
-    found |= imported.beside(run.folder)
+    found |= taken_along.of(run.folder)
     if run.program.is_file() and not _drafted(run):
         found |= {**companions.of(run.program), **pictures_of.files(run), "simulation.py": run.program.read_bytes()}
     return found

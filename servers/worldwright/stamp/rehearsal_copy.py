@@ -15,7 +15,7 @@ from ..model import companions
 from ..model.errors import GateError
 from ..model.evidence import rehearsed
 from ..model.evidence.run import Run, sha256_file
-from ..model.plan import imported
+from ..model.plan import taken_along
 from ..model.storage import writing
 
 
@@ -86,7 +86,7 @@ def require_place(run: Run) -> None:
 def _files(run: Run) -> dict[str, bytes]:
     """What is rehearsed, by path relative to the run folder: the plan, what it names, and a program that is an author's."""
     found = {path.name: path.read_bytes() for path in (run.prompt, run.plan) if path.is_file()}
-    found |= {posixpath.normpath(name): content for name, content in imported.beside(run.folder).items()}
+    found |= {posixpath.normpath(name): content for name, content in taken_along.of(run.folder).items()}
     if run.program.is_file():
         present = sha256_file(run.program)
         if not any(e.get("action") == "draft" and e.get("program_sha256") == present for e in run.entries()):

@@ -17,7 +17,7 @@ from worldwright.model.evidence import rehearsed
 from worldwright.model.evidence.run import Run
 from worldwright.model.storage import StorageError
 from worldwright.stage import tools as stage
-from worldwright.stamp import rehearsal
+from worldwright.stamp import rehearsal, rehearsal_copy
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.going import WrongError
 
@@ -388,3 +388,18 @@ def test_a_call_has_its_end_from_its_beginning(fresh, monkeypatch):
 def test_git_takes_no_rehearsal_of_an_example():
     ignored = (Path(__file__).parents[3] / ".gitignore").read_text(encoding="utf-8").splitlines()
     assert f"examples/*/{rehearsed.FOLDER}/" in ignored
+
+
+def test_the_laws_that_a_plan_names_come_along(tmp_path):
+    plan = Path(__file__).parents[1] / "world/rubber-cord.md"
+    run = Run(tmp_path / "cord")
+    (run.folder / "laws").mkdir(parents=True)
+    shutil.copy(plan, run.plan)
+    (run.folder / "laws/rubber.py").write_text("import near\n\n\nclass Rubber: ...\n", encoding="utf-8")
+    (run.folder / "near.py").write_text("LONG = 0.4\n", encoding="utf-8")
+    (run.folder / "laws/other.py").write_text("UNNAMED = 1\n", encoding="utf-8")
+    copy = rehearsal.lay_out(run)
+    laid = {path.relative_to(copy.folder).as_posix() for path in copy.folder.rglob("*.py")}
+    assert laid == {"laws/rubber.py", "near.py"}
+    (run.folder / "laws/rubber.py").write_text("class Rubber: LONG = 1\n", encoding="utf-8")
+    assert not rehearsal_copy.stands(run, copy), "another law is another rehearsal"
