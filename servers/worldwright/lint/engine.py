@@ -393,7 +393,8 @@ def check_program_file(
         price = fetch.world(path, wall_s=max(LEAST_WALL_S, began + wall_s - time.monotonic())).pass_s
         said += "" if price is not None else "; its laws were not asked in time, so its price is not known"
     if price is not None:
-        said += f"; by its first steps{' and its laws' * beside} the physics takes about {max(price, 1):.2g} s here"
+        apart = " without its laws" * bool(rehearsed and bundle)  # a bundle holds none
+        said += f"; by its first steps{' and its laws' * beside} the physics{apart} takes about {max(price, 1):.2g} s"
     if rehearsed is not None:
         return in_order([*found, *rehearsed.findings]), f"{said}\n{path.name}: {rehearsed.said}"
     return in_order(found), said

@@ -69,6 +69,20 @@ def check(plan: PlanPath) -> CheckReport:
     return checks.check(document.plan, _resolve(document), file=document.file, locate=document.line_of, built=built)
 
 
+def stale_poses(plan: Path) -> list[Finding]:
+    """The poses written in a plan that its rows no longer give, as errors. For other servers, no tool.
+
+    Raises:
+        PlanError: it cannot be read.
+    """
+    document = _read(plan)
+    only = (checks.stale.check,)
+    report = checks.check(
+        document.plan, _resolve(document), file=document.file, locate=document.line_of, exact=False, only=only
+    )
+    return [found for found in report.findings if found.code == "WP305" and found.severity == "error"]
+
+
 def settle(
     plan: PlanPath,
     duration_s: Annotated[float, Field(gt=0, le=10, description="Simulated seconds to let go for.")] = 1.5,

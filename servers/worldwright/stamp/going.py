@@ -17,7 +17,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
-from . import audited, gates, next_repair, picture_claims, scope
+from . import at_work, audited, gates, next_repair, picture_claims, scope
 from .gone import Gone, Wrong
 from .smallest_seen import smallest_seen
 from .state import State
@@ -178,8 +178,7 @@ class Going:
         from ..lint.tools import check_plan
 
         report = check_plan(self.run.plan)
-        errors = [f for f in report.findings if f.severity == "error"]
-        if errors:
+        if errors := [f for f in report.findings if f.severity == "error"]:
             raise WrongError(*((str(f), f"edit {self.run.plan}") for f in errors))
         return f"{report.rules} rules" + (f", {len(report.findings)} remarks" if report.findings else "")
 
@@ -192,7 +191,8 @@ class Going:
         found = self.of_layout = (checked or placed).findings
         if checked is None or not checked.ok:
             errors = [f for f in found if f.severity == "error"] or found
-            raise WrongError(*((str(f), f"edit {self.run.plan}") for f in errors))
+            moves = {"WP305": f"worldwright place resolve {self.run.plan}, then approve it again"}
+            raise WrongError(*((str(f), moves.get(f.code, f"edit {self.run.plan}")) for f in errors))
         smallest = f"; smallest in the pictures: {checked.smallest}" if checked.smallest else ""
         small = [f"{f.message}; {f.fix}" for f in found if f.code == "WP328"]
         return "\n".join([f"{len(placed.objects)} objects{smallest}", *small])
@@ -241,22 +241,21 @@ class Going:
         with suppress(WrongError, WorldwrightError):  # what went wrong lint tells together with all the rest
             self.passed("bundle")
         report = check_program([self.run.program], plan=self.run.plan)
-        errors = [f for f in report.findings if f.severity == "error"]
-        if errors:
+        if errors := [f for f in report.findings if f.severity == "error"]:
             raise WrongError(*((str(f), f"edit {f.file or self.run.program}") for f in errors))
         remarks = [str(f) for f in report.findings][:MOST_REMARKS]
         return "\n".join([f"{report.rules} rules", *report.worlds, *remarks, *self.film()])
 
     def film(self) -> list[str]:
-        """What is said of `film.py`, tried on the start of the world before its motion is paid for; afterwards its pass says it."""
+        """What is said of `film.py`, tried before motion is paid for, and later by its pass: a faulty one holds up only the film."""
         from ..lint.tools import check_program
 
         path = self.run.folder / pictures_of.FILM
         if not path.is_file() or self.step("physics").holds:
             return []
         report = check_program([path])
-        if errors := [f for f in report.findings if f.severity == "error"]:
-            raise WrongError(*((str(f), f"edit {path}") for f in errors))
+        if errors := [str(f) for f in report.findings if f.severity == "error"]:
+            return [f"{path.name} FAILS, which keeps only the film waiting, not the physics: edit {path}", *errors]
         return [*report.worlds]
 
     # -- what the recording says ---------------------------------------------------------------------------------------
@@ -274,11 +273,12 @@ class Going:
         if job is None or told is None or job.state not in ("failed", "cancelled") or told.exists():
             job = start(self.name, stage=stage)
             told, self.ended[stage] = self.run.jobs / job.job / "told", () if job.cached else job.account
+        waiting = at_work.Waiting(self.say, State(self.run))
         while not job.ended:
             left = self.deadline - time.monotonic()
             if left <= 0:
-                raise RunningError(job.text().splitlines()[0])
-            job = wait(self.name, job=job.job, timeout_s=min(left, 30), progress=self.progress)
+                raise RunningError(at_work.line(job, waiting.state))
+            job = wait(self.name, job=job.job, timeout_s=waiting.within_s(job, left), progress=self.progress)
         if job.state != "succeeded":
             told.touch()
             where = f"{job.place}: " if job.place else ""

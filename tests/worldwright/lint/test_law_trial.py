@@ -7,6 +7,7 @@ import pytest
 
 from worldwright.lint.compiled import law_trial
 from worldwright.model.errors import CallOverError
+from worldwright.model.plan import law_costs
 
 PROGRAM = """\
 import mujoco
@@ -83,6 +84,19 @@ def test_one_that_fails_is_told_with_its_line(tmp_path: Path, raises: str) -> No
 def test_sums_that_are_no_numbers_are_told(tmp_path: Path) -> None:
     (finding,) = tried(tmp_path, raises="return float('nan')").findings
     assert "not finite" in finding.message or "nan" in finding.message, finding
+
+
+def test_the_cheaper_choice_is_named_where_the_whole_is_long() -> None:
+    short, long = (law_costs.told(7144, 0.2, wall_s, 1.0, 8.0) for wall_s in (1.0, 11.0))
+    assert "7,144 points" in long and "8 s about 440 s" in long and "fewer points" in long
+    assert "about 40 s" in short and "fewer points" not in short
+    waits = law_costs.told(7144, 0.2, 1.2, 4643.6, 8.0)
+    assert "not known" in waits and "e+05" not in waits, "what starts later says nothing of the whole"
+
+
+def test_without_time_for_it_the_trial_says_so(tmp_path: Path) -> None:
+    found = law_trial.tried(tmp_path / "simulation.py", 2.0, wall_s=1.0)
+    assert found is not None and "not known" in found.said and not found.findings
 
 
 def test_a_call_that_ends_meanwhile_takes_no_finding_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,6 +3,7 @@
 import shutil
 import time
 from collections import Counter
+from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
@@ -12,14 +13,15 @@ from worldwright import cli
 from worldwright.draft.writing import write_program
 from worldwright.lint.compiled import fetch
 from worldwright.model import call_time
-from worldwright.model.errors import WorldwrightError
+from worldwright.model.errors import GateError, WorldwrightError
 from worldwright.model.evidence import environment
 from worldwright.model.evidence.reports import LintReport
 from worldwright.model.evidence.run import Run
+from worldwright.model.plan.plan_text import read_plan
 from worldwright.scan import tools as scan
 from worldwright.stage import tools as stage
 from worldwright.stage.job import Job
-from worldwright.stamp import going, smallest_seen
+from worldwright.stamp import at_work, going, smallest_seen
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.state import State
 
@@ -71,6 +73,52 @@ def test_what_is_wrong_with_a_plan_is_told_together(fresh):
     assert gone.state == "stopped" and not gone.ok
     assert [wrong.step for wrong in gone.wrong] == ["check", "place"], gone.text()
     assert "bail" in gone.wrong[0].what and gone.next_move == gone.wrong[0].next_move
+
+
+def test_a_plan_whose_written_poses_are_older_than_its_rows_is_neither_approved_nor_run(fresh):
+    stamp.go(str(fresh))
+    plan_of(fresh, ("params: {bottom: 0.45}", "params: {bottom: 0.55}"))
+    with pytest.raises(GateError) as refused:
+        stamp.approve(str(fresh), by="tester")
+    assert "0.1 m" in str(refused.value) and "place resolve" in str(refused.value), refused.value
+    assert stamp.go(str(fresh)).state == "waiting", "before approval a walk writes them itself"
+    stamp.approve(str(fresh), by="tester")
+
+
+def test_an_approved_plan_with_old_poses_says_so_before_its_program_is_built(fresh, monkeypatch):
+    stamp.go(str(fresh))
+    plan_of(fresh, ("params: {bottom: 0.45}", "params: {bottom: 0.55}"))
+    monkeypatch.setattr(going.Going, "approved", lambda self: True)
+    gone = stamp.go(str(fresh))
+    assert {wrong.step for wrong in gone.wrong} == {"place"} and "place resolve" in gone.next_move, gone.text()
+
+
+class Long:
+    """A physics that has as long to go as it is told."""
+
+    stage, eta_s = "physics", 400.0
+
+    def text(self):
+        return "physics running, about 400 s left\n"
+
+
+def test_a_long_wait_is_told_now_and_then_with_the_cheaper_choice_of_a_law(monkeypatch):
+    clock, said = [0.0], []
+    monkeypatch.setattr(at_work.time, "monotonic", lambda: clock[0])
+    plan = read_plan(Path(__file__).parents[1] / "world/rubber-cord.md").plan
+    waiting = at_work.Waiting(
+        lambda *told: said.append((clock[0], *told)), SimpleNamespace(plan=plan, place="runs/cord")
+    )
+    for clock[0] in (0.0, 29.0, 30.0, 45.0, 61.0, 90.0, 125.0):
+        assert 0 < waiting.within_s(Long(), 1e9) <= 30
+    assert [at for at, *_ in said] == [30.0, 61.0, 125.0]
+    assert (
+        said[0][1:3] == ("physics", "waiting")
+        and "fewer points" in said[0][3]
+        and "stage cancel runs/cord" in said[0][3]
+    )
+    plain = SimpleNamespace(plan=None, place="runs/cord")
+    assert at_work.line(Long(), plain) == "physics running, about 400 s left"
 
 
 @pytest.mark.gl

@@ -14,11 +14,13 @@ from typing import TYPE_CHECKING, Any
 from ...model import companions, json_object
 from ...model.errors import CallOverError
 from ...model.finding import Finding
+from ...model.plan import law_costs
 
 if TYPE_CHECKING:
     from ...model.plan.committed import Plan
     from .fetch import Outcome
 
+UNTRIED = "what its laws cost is not known: this call's time went into building the world; ask again"
 TRIED_S, WALL_S, LEAST_WALL_S, MEMORY_MB = 0.2, 20.0, 3.0, 2048
 
 
@@ -45,7 +47,7 @@ def of(program: Path, plan: "Plan | None", outcome: "Outcome", found: list[Findi
 
 
 def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | None:
-    """Step the laws of a program; None where nothing confines it, where there is no time for it, or it does not come to a step.
+    """Step the laws of a program; None where nothing confines it or nothing came of it.
 
     Args:
         program: `simulation.py`, its laws beside it.
@@ -56,7 +58,7 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
     from ...stage.tools import run_confined
 
     if wall_s < LEAST_WALL_S:
-        return None
+        return Tried(UNTRIED)
     here = Path(__file__).parent
     reads = [*(here / f"{name}.py" for name in ("step_laws", "compile_world", "measure", "rehearse")), program]
     with contextlib.suppress(companions.CompanionError, OSError):  # refused in words where evidence is kept
@@ -66,13 +68,14 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
     wanted, wall_s = ("outcome.json", "sums.npz"), min(wall_s, WALL_S)
     done = run_confined(call, program=program, reads=reads, wanted=wanted, wall_s=wall_s, memory_mb=MEMORY_MB)
     told = json_object.told(done.files.get("outcome.json", b"")) or {}
-    known = [v if isinstance(v := told.get(n), int | float) else 0.0 for n in ("reached_s", "wall_s", "grows")]
-    reached, wall, grows = known
-    whole = f"the whole {lasting_s:g} s about {wall * max(grows, 1) * lasting_s / reached:.2g} s" if reached > 0 else ""
+    names = ("points", "reached_s", "wall_s", "grows")
+    points, reached, wall, grows = (v if isinstance(v := told.get(n), int | float) else 0.0 for n in names)
+    cost = law_costs.told(int(points), reached, wall, grows, lasting_s) if reached > 0 else ""
     if "failure" in told:
         return Tried("its laws fail in their first steps", (_failed(told, program),))
-    if done.status == "timed_out" and reached > 0:
-        return Tried(f"its laws: {reached:.3g} s take {wall:.1f} s, {whole}: make a step cheaper (skill media)")
+    if done.status == "timed_out":
+        many = f" of {points:,} points" if points else ""
+        return Tried(cost or f"its laws{many} did not come to a step within {wall_s:.0f} s; {law_costs.CHEAPER}")
     if odd := _not_finite(told, data := done.files.get("sums.npz", b"")):
         message = f"the law {odd} blows up: its sums are not finite"
         return Tried("its laws blow up in their first steps", (_unbalanced(message, reached, program),))
@@ -80,7 +83,6 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
     if not balances:
         return None
     found = tuple(_unbalanced(message, reached, program) for message in unbalanced(balances))
-    cost = f"its laws: the first {reached:.2g} s take {wall:.1f} s, {whole}"
     return Tried(cost if found else f"{cost}; their sums balance", found)
 
 

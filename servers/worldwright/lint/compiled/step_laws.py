@@ -18,6 +18,9 @@ from typing import Any
 
 from compile_world import Capture, Enough  # beside this script, which takes its folder from the path
 
+KEPT_S = 0.2
+"""How far it came is written down so often, s."""
+
 
 def main(path: Path, out: Path, seconds: float, whole: float) -> None:
     """Write the outcome; the process's exit code says nothing."""
@@ -58,6 +61,7 @@ def _step(path: Path, out: Path, seconds: float, whole: float, told: dict[str, A
     for row, medium in zip(rows, media, strict=True):
         row["points"] = Place(model, medium).count
     ask = every * float(model.opt.timestep)
+    told["points"] = sum(row["points"] for row in rows)
     asks = max(3, round(seconds / ask))
     numbers = np.zeros(sum(laws.TOTALS + laws.EACH * row["points"] for row in rows))
     stepped = laws.Stepped(own, model, {"rows": rows, "seconds": ask, "every": 1, "end": asks}, numbers.ctypes.data)
@@ -67,7 +71,7 @@ def _step(path: Path, out: Path, seconds: float, whole: float, told: dict[str, A
     pushed = np.zeros(len(own))
     starts = np.cumsum([0, *(laws.TOTALS + laws.EACH * row["points"] for row in rows)])[:-1]
     given, work = np.zeros((len(own), 3)), np.zeros(len(own))
-    began = time.perf_counter()
+    began, written = time.perf_counter(), 0.0
     for question in range(asks + 1):
         mujoco.mj_step1(model, data)
         stepped.step(model, data)
@@ -78,8 +82,9 @@ def _step(path: Path, out: Path, seconds: float, whole: float, told: dict[str, A
         told |= {"reached_s": max(float(data.time) - ask, 0.0), "wall_s": time.perf_counter() - began}
         grows = [law.grows(told["reached_s"], whole) for law in own if told["reached_s"] and hasattr(law, "grows")]
         told["grows"] = max([1.0, *map(float, grows)])
-        if question % 8 == 0:  # what is slow is ended from outside
+        if time.perf_counter() - written > KEPT_S:  # what is slow is ended from outside
             (out / "outcome.json").write_text(json.dumps(told), encoding="utf-8")
+            written = time.perf_counter()
         if question == asks:
             break
         stepped.push(data)

@@ -7,6 +7,9 @@ from ..anchors import shown, wrap
 from ..settling import MOST_DEG, MOST_M
 from .checked_layout import CheckedLayout
 
+PLACED_M, PLACED_DEG = 5e-3, 1.0
+"""A program that stands farther from the written pose is not the planned world (`WM152`): such a plan is neither approved nor run."""
+
 
 def check(layout: CheckedLayout) -> None:
     """Report WP305 for a written pose that is older than its rows."""
@@ -35,7 +38,7 @@ def check(layout: CheckedLayout) -> None:
                 "stale_pose",
                 f"the pose written for `{row.subject}` is {shown(away)} m and {shown(turned)} deg from what "
                 "its rows give",
-                "run `worldwright place resolve` again: rows own poses, the numbers are written from them",
+                f"`worldwright place resolve {layout.problems.file}`: rows own poses, the numbers are written from them",
                 ("topology", "scene_predicates", index, "position"),
-                severity="warning",
+                severity="error" if away > PLACED_M or turned > PLACED_DEG else "warning",
             )
