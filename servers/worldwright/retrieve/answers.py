@@ -258,6 +258,13 @@ class SkillToRead(Frozen):
     why: str
 
 
+class PageToRead(Frozen):
+    """A page, or a case with plan and film, about the very matter of a sentence."""
+
+    path: str
+    title: str
+
+
 class Begun(Frozen):
     """A plan that was begun from an accepted world."""
 
@@ -266,6 +273,8 @@ class Begun(Frozen):
     like: str
     """The world it was begun from."""
     nearest: tuple[NearWorld, ...] = ()
+    pages: tuple[PageToRead, ...] = ()
+    """About the sentence's very matter: read before the plan's numbers are decided."""
     skills: tuple[SkillToRead, ...] = ()
     to_change: tuple[int, ...] = ()
     """Lines of the plan on which `TO_CHANGE` stands."""
@@ -277,6 +286,8 @@ class Begun(Frozen):
         """The folder, the nearest worlds, what to read, and the next command."""
         lines = [f"{self.plan}: begun from {self.like}, {len(self.to_change)} places marked TO_CHANGE"]
         lines += ["near:"] + [f"  {near.slug}: {near.why} ({near.score:.2f})" for near in self.nearest]
+        lines += ["about this very matter, read first:"] if self.pages else []
+        lines += [f"  {one.path}: {one.title}" for one in self.pages]
         lines += ["look up when a field asks:"] + [f"  skills/{one.name}: {one.why}" for one in self.skills]
-        lines += [f"how it was filmed, for whoever writes film.py: {self.film}"] if self.film else []
+        lines += [f"its film, to learn from: {self.film}"] if self.film else []
         return "\n".join([*lines, f"next: {self.next_move}"])

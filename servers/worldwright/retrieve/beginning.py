@@ -7,12 +7,12 @@ from worldkit.files import write_atomic
 
 from ..model.errors import GateError, NotFoundError
 from ..model.evidence.run import Run
-from ..model.plan import imported
+from ..model.plan import taken_along
 from ..model.plan.begun import begun
 from ..model.plan.plan_text import parse_plan
 from ..model.storage import writing
-from . import mechanisms, words
-from .answers import Begun, NearWorld, SkillToRead
+from . import matter_pages, mechanisms, words
+from .answers import Begun, NearWorld, PageToRead, SkillToRead
 from .nearest_worlds import Near, World, nearest, worlds
 
 SHOWN, MOST_SKILLS, LEAST_SKILLS = 3, 4, 2
@@ -47,19 +47,22 @@ def begin(sentence: str, like: str | None, run: str | None) -> Begun:
         target.folder.mkdir(parents=True, exist_ok=True)
         if not target.prompt.exists():
             write_atomic(target.prompt, f"{sentence}\n")
-        for name, content in {**imported.beside(chosen.folder), **_laws(chosen)}.items():
+        for name, content in taken_along.of(chosen.folder).items():
             write_atomic(target.folder / name, content)
         write_atomic(target.plan, text)
     target.log("retrieve", "plan", like=chosen.slug)
+    asked = mechanisms.of_sentence(sentence)
+    pages = matter_pages.about(sentence, mechanisms.skills(asked), known)
     return Begun(
         run=str(folder),
         plan=str(folder / "plan.md"),
         like=chosen.slug,
-        nearest=tuple(_shown(near, mechanisms.of_sentence(sentence)) for near in ranked[:SHOWN]),
+        nearest=tuple(_shown(near, asked) for near in ranked[:SHOWN]),
+        pages=tuple(PageToRead(path=page.path, title=page.title) for page in pages),
         skills=_skills(sentence, chosen),
         to_change=tuple(line for line in parse_plan(text).plan.copied if isinstance(line, int)),
         film=str(filmed) if (filmed := chosen.folder / "film.py").is_file() else "",
-        next_move=f"change what {folder / 'plan.md'} marks TO_CHANGE and remove the marks, then `worldwright go {folder}`",
+        next_move=f"change what the plan marks TO_CHANGE, remove the marks, then `worldwright go {folder}`",
     )
 
 
@@ -71,14 +74,6 @@ def slug(sentence: str) -> str:
     """
     spoken = [word for word in re.findall(r"[a-z0-9]+(?:-[a-z0-9]+)*", sentence.lower()) if word not in words.STOP]
     return "-".join(spoken[:4])[:60].strip("-")
-
-
-def _laws(world: World) -> dict[str, bytes]:
-    """The laws of its author's that a world's plan names, by their paths relative to it."""
-    rows = world.plan.simulation_parameters.interventions
-    named = {row.solver.file for row in rows if row.solver and row.solver.file}
-    inside = [name for name in sorted(named) if not Path(name).is_absolute() and ".." not in Path(name).parts]
-    return {name: (world.folder / name).read_bytes() for name in inside if (world.folder / name).is_file()}
 
 
 def _folder(sentence: str, run: str | None) -> Path:

@@ -11,7 +11,7 @@ from worldwright.model.errors import GateError, NotFoundError
 from worldwright.model.evidence.run import Run
 from worldwright.model.plan.pairings import Medium
 from worldwright.model.plan.plan_text import read_plan
-from worldwright.retrieve import mechanisms, nearest_worlds, tools
+from worldwright.retrieve import matter_pages, mechanisms, nearest_worlds, tools
 from worldwright.scan.objectives.claims import EXPECTATIONS
 
 REPO = Path(__file__).parents[3]
@@ -21,7 +21,8 @@ NEAREST = {
     "a steady wind turns a windmill": {"pendulum-dies-out", "tetherball-swings", "lit-set"},
     "A grandfather clock's pendulum swings": {"pendulum-dies-out", "lit-set"},
     "A row of dominoes falls": {"camera-move"},
-    "Thick honey is poured into a jar": {"poured-drops", "two-paints"},
+    "Thick honey is poured into a jar": {"honey-from-a-spoon"},
+    "honey runs from a spoon into a glass jar": {"honey-from-a-spoon"},
     "A football breaks a window": {"window-pane"},
     "Red and white paints blend on a board": {"two-paints"},
     "A mug slides across the table and stops": {"box-slides-to-rest"},
@@ -110,6 +111,41 @@ def test_a_breeze_and_a_branch_are_heard_and_a_medium_is_seen():
     flooded = plan.simulation_parameters.model_copy(update={"medium": current})
     has = mechanisms.of_plan(plan.model_copy(update={"simulation_parameters": flooded}))
     assert "water" in has and "air" not in has
+
+
+MATTER = {
+    "honey runs from a spoon into a glass jar": "media/references/honey-from-a-spoon",
+    "snow falls and settles on a park bench": "media/references/snow.md",
+    "Sand runs through an hourglass": "media/references/honey.md",
+    "A red balloon is blown up and let go": "media/references/skin.md",
+    "A rubber band is stretched between two pegs and let go": "media/references/rubber-band",
+    "A stone falls into a pond": "media/references/stone-in-a-pond",
+    "A twig snaps": "breakable-things/references/snapping-twig.md",
+    "A flag flutters": "fluid-drag-and-wind/references/flags.md",
+}
+"""Sentences whose very matter a page or a case of a skill is about."""
+
+
+def test_the_page_about_the_very_matter_is_named():
+    known = list(nearest_worlds.worlds())
+    first = {}
+    for sentence in MATTER:
+        skills = mechanisms.skills(mechanisms.of_sentence(sentence))
+        first[sentence] = [page.path for page in matter_pages.about(sentence, skills, known)][:1]
+    assert first == {sentence: [f"skills/{path}"] for sentence, path in MATTER.items()}
+    for common in ("A paint can falls beside a bottle of ink", "A rubber ball bounces"):
+        skills = mechanisms.skills(mechanisms.of_sentence(common))
+        assert matter_pages.about(common, skills, known) == ()
+
+
+def test_a_plan_begins_with_the_page_to_read(here):
+    begun = tools.begin("honey runs from a spoon into a glass jar")
+    assert [page.path.removeprefix("skills/media/references/") for page in begun.pages] == [
+        "honey-from-a-spoon",
+        "honey.md",
+    ]
+    assert "spoon" in begun.pages[0].title
+    assert begun.text().index("honey.md") < begun.text().index("look up when")
 
 
 def test_a_plan_is_never_overwritten(here):
