@@ -125,10 +125,10 @@ class Root(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """List the known commands when an unknown one is typed; agents' `stage.frames` means `stage frames`."""
-        server, dot, tool = args[0].partition(".") if args else ("", "", "")
-        if dot and server in expose.SERVERS:
-            args = [server, tool.replace("_", "-"), *args[1:]]
+        """List the known commands when an unknown one is typed; `stage.take_one`, as agents say, is `stage take-one`."""
+        args = [*args[0].split(".", 1), *args[1:]] if args and args[0].split(".")[0] in expose.SERVERS else args
+        if len(args) > 1 and args[0] in expose.SERVERS:
+            args = [args[0], args[1].replace("_", "-"), *args[2:]]
         if args and args[0] not in self.list_commands(ctx) and not args[0].startswith("-"):
             ctx.fail(f"there is no command '{args[0]}'; known: {', '.join(self.list_commands(ctx))}")
         return super().resolve_command(ctx, args)
@@ -155,9 +155,10 @@ def verb(function: Callable[..., Any]) -> click.Command:
     batch = getattr(function, "batch", None)
     if batch:
         next(p for p in parameters if p.name == batch[0]).required = False
-        kind = click.Path(path_type=Path, allow_dash=True)
         text = f"A file with one {batch[0]} a line (- is standard input); prints one JSON line each."
-        parameters.append(click.Option(["--batch", "_batch"], type=kind, help=text))
+        parameters.append(
+            click.Option(["--batch", "_batch"], type=click.Path(path_type=Path, allow_dash=True), help=text)
+        )
     many = getattr(function, "several", None)
     if many:
         parameters = [

@@ -52,3 +52,14 @@ def test_a_name_too_long_for_a_file_is_named_on_the_command_line_too():
     done = CliRunner().invoke(main, ["stamp", "status", LONG])
     assert done.exit_code == 2
     assert "too long for a file's name" in done.output
+
+
+@pytest.mark.parametrize("words", [["retrieve", "find_asset"], ["retrieve.find_asset"], ["retrieve", "find-asset"]])
+def test_a_verb_is_called_as_its_tool_is(words):
+    done = CliRunner().invoke(main, [*words, "--help"])
+    assert done.exit_code == 0 and "Usage" in done.output and "QUERY" in done.output.upper()
+
+
+def test_a_verb_that_there_is_not_is_refused():
+    done = CliRunner().invoke(main, ["retrieve", "find_nothing"])
+    assert done.exit_code == 2 and "find-nothing" in done.output

@@ -47,7 +47,10 @@ PLAN = Role(
         "the path of an image, if the person gave one",
         "a reviewer's repair of target `plan`",
     ),
-    outputs=("runs/<slug>/prompt.md", "runs/<slug>/plan.md, checked and resolved"),
+    outputs=(
+        "runs/<slug>/prompt.md",
+        "runs/<slug>/plan.md, checked and resolved",
+    ),
     tools=(
         "retrieve.search",
         "retrieve.read",
@@ -68,22 +71,21 @@ PLAN = Role(
         "stage.sheet",
         "stamp.go",
     ),
-    writes=("plan.md", "prompt.md", "sculpt/"),
+    writes=("plan.md", "prompt.md", "sculpt/", "laws/"),
     reads_files=True,
     instructions="""
 First call `retrieve.begin` with the person's words and `run`: it writes `prompt.md` and a whole `plan.md`, and names the
-mechanism's skills. Read the skill `prompt-to-plan`, which holds every decision, and that plan, then write it anew in one go; look
-up another skill only when a field asks for it. With an image, look first, let `place.resolve` keep it (`image`), and write down
+mechanism's skills. Read the skill `prompt-to-plan`, which holds every decision, and that plan, then write it anew at once; look
+up another only when a field asks for it. With an image, look first, let `place.resolve` keep it (`image`), and write down
 what is seen as `topology.image_observation` (skill `layouts`), which `place.check` compares.
 Objectives first, and the `cause` of every effect that could be staged.
-Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan. Then
+Let the engine cause every effect: a timer, a helper force or a hidden weld is a refuted plan. `laws/` that it names are yours, too. Then
 `stage.rehearse` tells, unapproved, what holds, by what margin: look at its pictures, mend, until `stamp.go` waits for approval.
 What you cannot know you infer, named in `inferred`. What changes the design (who moves, what counts as success, how long,
-seen from where) you ask: at most five questions, each with two or three answers and the one you would take;
+seen from where) you ask: at most five questions, each with answers and the one you would take;
 never what a source or the catalog answers. In auto mode ask nothing: take that answer and mark it.
-To revise a plan, edit only the lines the change belongs to, then check as above.
-Answer with: the slug, one paragraph on what will happen, the inferred values, the questions (none if nothing changes the
-design), and for a revision the lines you changed.""",
+To revise, edit only the lines that change, then check as above.
+Answer with: the slug, one paragraph on what will happen, the inferred values, the questions, and for a revision the lines you changed.""",
     refuses=(
         "writing simulation.py",
         "numbers without an owner",
@@ -129,7 +131,7 @@ your memory. Never edit the plan; if it cannot be built as it stands, say which 
 than 0.2 mm you may write exactly, with a comment. Then `stamp.go` until it waits for the description: it lints, simulates, measures and films, and tells all that is wrong
 together. Mend what it names first, where the program and not the plan is wrong; after three patches that did not help,
 leave it. Once the claims hold (`until`), write `film.py` (skill `film`): one composed shot, light, a set, dressing; look at all by `stage.frames` (`show: shots`).
-Modules and data may lie beside the program (`*.py`, `sculpt/`, `laws/`, `data/`): what it imports or names by its path belongs to it. A file that the plan names was approved with
+Modules and data may lie beside the program (`*.py`, `sculpt/`, `laws/`, `data/`): what it imports or names by its path belongs to it. A file that the plan names (`sculpt/`, `laws/`) came with
 it: change it only if told to. When a repair was ordered, make that one change and nothing else: patch, never
 rewrite. Nothing but the engine's step may move bodies, unless the plan declares it as an intervention.
 Answer with: what you wrote or changed, and what `stamp.go` says last.""",

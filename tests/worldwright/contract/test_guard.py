@@ -101,6 +101,7 @@ def test_no_role_writes_the_file_of_another(project, agent, path):
         ("world-code", "runs/ball/data/track.csv", True),
         ("world-code", "runs/ball/helper.py", True),
         ("world-plan", "runs/ball/sculpt/boy.py", True),
+        ("world-plan", "runs/ball/laws/sand.py", True),
         ("world-plan", "runs/ball/helper.py", False),
         ("world-code", "runs/ball/helper.sh", False),
         ("world-code", "runs/ball/sculpt", False),

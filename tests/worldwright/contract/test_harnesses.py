@@ -53,7 +53,7 @@ def test_who_reports_and_who_decides_are_apart():
     assert decisive <= set(MAIN_TOOLS) and not any(decisive & own for own in tools.values())
     assert {"stamp.describe", "stamp.review"} <= set(RESERVED) <= TOOLS and not set(RESERVED) & set(MAIN_TOOLS)
     assert [role.writes for role in ROLES] == [
-        ("plan.md", "prompt.md", "sculpt/"),
+        ("plan.md", "prompt.md", "sculpt/", "laws/"),
         ("simulation.py", "film.py", "*.py", "sculpt/", "laws/", "data/"),
         (),
         (),

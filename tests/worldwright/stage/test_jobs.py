@@ -198,6 +198,20 @@ def test_cancel_ends_the_whole_family(make):
     assert not any(b"time.sleep(60.25)" in command for command in commands)
 
 
+def test_cancel_without_a_job_takes_what_runs_and_not_the_latest(make, finish):
+    run = make("import time; time.sleep(60)")
+    running = start(str(run.folder))
+    behind = start(str(run.folder), stage="stills")
+    (run.jobs / behind.job / "cancel").write_text("")
+    assert wait(str(run.folder), job=behind.job, timeout_s=20).state == "cancelled"
+    told = cancel(str(run.folder))
+    assert (told.job, told.state) == (running.job, "cancelled")
+    more = [start(str(run.folder)), start(str(run.folder), stage="stills")]
+    assert f"ended with it: {more[1].job}" in cancel(str(run.folder)).account
+    assert {wait(str(run.folder), job=job.job, timeout_s=5).state for job in more} == {"cancelled"}
+    assert cancel(str(run.folder)).job == more[1].job, "nothing runs: the latest pass, as it ended"
+
+
 def test_a_new_pass_ends_one_that_is_at_work_for_other_files(make):
     """What started it may have been killed: the job is detached and goes on beside the new one."""
     run = make("import time; time.sleep(60)")
