@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from functools import cache
 from typing import NamedTuple
 
+from ..model.plan import robots_declared
 from ..model.plan.committed import Plan
 
 _TABLE = """
@@ -15,7 +16,7 @@ _TABLE = """
     swinging ; swing, pendul*, sway, cradle, wrecking, metronome ; has_period, rings_down, oscillates, keeps_amplitude ; joints-and-actuators
     turning  ; turn, rotat*, wheel, mill, windmill, door, hinge, pivot*, see-saw, seesaw, lever, crank, axle, propell*, clock, carousel, spin, orbit, circl* ; orbits, circles, turns, reaches_spin, spins_at_constant_rate, precesses ; joints-and-actuators
     spring   ; spring, catapult*, slingshot, bow, arrow, jack-in-the-box, trampolin*, compress*, elastic*, bungee ; spring_becomes_kinetic ; tendons-and-ropes
-    motor    ; motor*, drive, driven, robot*, servo, engine, machine, conveyor, pump ; ; joints-and-actuators
+    motor    ; motor*, drive, driven, servo, engine, machine, conveyor, pump ; ; joints-and-actuators
     rolling  ; roll, marble, slope, ramp, hill, downhill ; rolls_without_slipping ; contacts-and-friction
     sliding  ; slid*, push, drag, skid, sled, sledge, puck, curling ; slides, slides_and_stops, sticks ; contacts-and-friction
     flight   ; throw, thrown, hurl, shoot, shot, kick, toss, jump, leap, fly, flies, flight, trajector*, cannon*, launch ; follows_parabola ; cameras
@@ -35,7 +36,8 @@ _TABLE = """
     force    ; attract*, repel*, planet*, thrust, rocket ; ; custom-forces
     field    ; magnet*, electr*, eddy, charge, charged, copper tube, copper pipe ; has_reading ; fields
     heat     ; melt*, heat*, warms, cools, temperature, red-hot ; has_reading ; fields
-    model    ; urdf, mjcf, humanoid, quadruped ; ; importing-models
+    robot    ; robot*, humanoid, quadruped, drone, quadcopter*, gripper ; ; robots
+    model    ; urdf, mjcf ; ; importing-models
 """
 
 
@@ -114,6 +116,10 @@ def _built(plan: Plan) -> Iterator[str]:
         yield "turning"
     if topology.actuators:
         yield "motor"
+    if any(robots_declared.does(row) is not None for row in plan.assets):
+        yield "robot"
+    if any(row.vehicle is not None for row in plan.assets):
+        yield "vehicle"
     if parameters.medium is not None and parameters.medium.density > LIQUID:
         yield "water"  # its wind is a current
     elif parameters.medium is not None or any(WIND & {*i.bodies, *i.law.split()} for i in parameters.interventions):

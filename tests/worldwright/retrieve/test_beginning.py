@@ -214,6 +214,8 @@ def test_every_word_of_the_table_means_something_that_there_is():
         ("Paint flows down a pane of glass", ("flowing",)),
         ("Glue drips and lava oozes", ("flowing",)),
         ("A paint can falls beside a bottle of ink", ()),
+        ("A drone hovers in gusts", ("air", "robot")),
+        ("A robot arm picks up a mug", ("robot",)),
         ("Nothing of the kind", ()),
     ],
 )
