@@ -12,6 +12,7 @@ from .cli import report_errors
 from .model.errors import GateError, NotFoundError
 from .model.evidence.reports import EvidenceKey
 from .model.evidence.run import Run
+from .model.storage import writing
 
 FORMATS = {
     "gltf": "scene.glb", "usd": "scene.usda", "mcap": "recording.mcap", "rosbag2": "recording.bag", "csv": "recording.zip",
@@ -33,6 +34,7 @@ def write(
     Raises:
         GateError: nothing is recorded of this program and plan, or what was filmed is of another.
         JobError: the engine could not write it.
+        StorageError: it cannot be written there.
         NotFoundError: the extra (`mcap`, `ros`) is not installed, no such camera was filmed, or the format has none of what is asked.
     """
     if (kind not in MESSAGES and rate_hz is not None) or (kind not in PICTURED and camera):
@@ -57,12 +59,15 @@ def write(
         writer = {"mcap": mcap_file, "rosbag2": rosbag_file, "csv": tables}[kind]
         film = _film(run, key, camera) if camera else None
         rate = RATE_HZ if rate_hz is None else rate_hz
-        writer.write(stored.open(physics / "trajectory"), target, rate_hz=rate, plan=run.source.read_bytes(), film=film)
+        told = stored.open(physics / "trajectory")
+        with writing("what is exported", target):
+            writer.write(told, target, rate_hz=rate, plan=run.source.read_bytes(), film=film)
         return target
     recording_sha256 = _sha256(physics / "trajectory")
     words = ["scene", *given_words(physics), "--format", kind]
     found = engine(words, (physics,), (name,), again=f"worldwright export RUN --format {kind}")
-    write_atomic(target, found[name])
+    with writing("what is exported", target):
+        write_atomic(target, found[name])
     if target == run.folder / FORMATS["gltf"]:
         made_scenes.note(run.folder, found[name], recording_sha256)
     return target
@@ -151,7 +156,7 @@ def scene(run: Run, accepted_sha256: str = "") -> tuple[bytes | None, str]:
 @click.option("--pictures", default="", metavar="CAMERA", help="Of messages: the film of this camera of the plan, too.")
 def command(run: str, kind: str, out: Path | None, rate: float | None, pictures: str) -> None:
     """Write the recorded motion: the drawn world as glTF or USD, in ROS 2's messages, as MCAP or a bag (extras `mcap`, `ros`),
-    or as a zip of tables (csv), one for each loose body with its joints and controls: one a robot.
+    or as a zip of tables (csv), one for each body that moves, with its joints and controls: one a robot.
 
     A skin over several bodies is carried out as one rigid piece for each of them.
     """

@@ -1,4 +1,6 @@
-"""A recording as tables: a zip of CSV files, one for each loose body and all that hangs on it, so one for each robot.
+"""A recording as tables: a zip of CSV files, one for each body that moves and all that hangs on it, so one for each robot.
+
+A loose body has one, and what is fixed to the world and has joints: an arm on its stand, a door.
 
     t_s, x_m, y_m, z_m, qw, qx, qy, qz, vx_m_s, vy_m_s, vz_m_s, wx_rad_s, wy_rad_s, wz_rad_s,
     then of each hinge or slide its position and its rate (rad or m; NAME, NAME_rate), of each actuator its control (NAME_control)
@@ -57,9 +59,9 @@ def write(
     del film
     rows, room = chosen_rows(recording, rate_hz), io.BytesIO()
     root = _roots(recording)
-    loose = sorted(set(root.values()))
+    tops = sorted(set(root.values()))
     with zipfile.ZipFile(room, "w") as file:
-        for body in loose:
+        for body in tops:
             name = recording.names[body]
             heads, columns = _table(recording, rows, body, {own for own, top in root.items() if top == body})
             text = io.StringIO()
@@ -70,19 +72,18 @@ def write(
         if plan:
             file.writestr(zipfile.ZipInfo("plan.md"), plan)
     write_atomic(path, room.getvalue())
-    return len(loose)
+    return len(tops)
 
 
 def _roots(recording: "Recording") -> dict[int, int]:
-    """Each body's loose body, which carries it or is it; those on the world have none. Parents come before what they carry."""
+    """Each moving body's topmost one beneath the world, which carries it or is it. Parents come before what they carry."""
     number = {name: index for index, name in enumerate(recording.names)}
     found: dict[int, int] = {}
     for index, row in enumerate(recording.meta["bodies"]):
-        if row["joints"] == ["free"]:
-            found[index] = index
-        elif (parent := number.get(row["parent"])) in found:
-            found[index] = found[parent]
-    return found
+        parent = number.get(row["parent"])
+        found[index] = index if parent is None else found[parent]
+    moving = {found[index] for index, row in enumerate(recording.meta["bodies"]) if row["joints"]}
+    return {index: top for index, top in found.items() if top in moving}
 
 
 def _table(recording: "Recording", rows: list[int], body: int, own: set[int]) -> "tuple[list[str], np.ndarray]":

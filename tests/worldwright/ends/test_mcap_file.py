@@ -8,6 +8,7 @@ import pytest
 from small_worlds import ball, empty, floor, record
 from worldwright.ends import mcap_file, ros_messages, ros_rows
 from worldwright.model.errors import GateError, NotFoundError
+from worldwright.model.storage import StorageError
 
 pytest.importorskip("mcap", reason="the extra `mcap` is not installed")
 pytest.importorskip("mcap_ros2", reason="the extra `mcap` is not installed")
@@ -189,6 +190,8 @@ def test_a_run_is_exported_with_its_plan(recording, tmp_path, monkeypatch):
     assert path == tmp_path / "recording.mcap" and len([1 for name, *_ in messages(path) if name == "/clock"]) == 6
     with path.open("rb") as stream:
         assert [bytes(one.data) for one in make_reader(stream).iter_attachments()] == [b"# The plan of a door"]
+    with pytest.raises(StorageError):  # a folder stands where the file is to lie
+        exported.write(Run(tmp_path), "mcap", tmp_path)
     bag = exported.write(Run(tmp_path), "rosbag2", rate_hz=10)
     assert bag == tmp_path / "recording.bag" and (bag / "plan.md").read_text() == "# The plan of a door"
     video, filmed = {"summary": {"cameras": ["side"], "film": {}}}, {}

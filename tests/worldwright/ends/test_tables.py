@@ -1,4 +1,4 @@
-"""A recording as one table for each loose body, read back as whoever gets the zip would."""
+"""A recording as one table for each body that moves, read back as whoever gets the zip would."""
 
 import csv
 import io
@@ -43,16 +43,18 @@ def read(path, name):
     return heads, np.array(rows, dtype=float)
 
 
-def test_each_loose_body_has_a_table_with_its_joints_and_controls(recording, tmp_path):
+def test_each_body_that_moves_has_a_table_with_its_joints_and_controls(recording, tmp_path):
     path = tmp_path / "recording.zip"
-    assert tables.write(recording, path, rate_hz=0, plan=b"# A plan") == 2
+    assert tables.write(recording, path, rate_hz=0, plan=b"# A plan") == 3
     with zipfile.ZipFile(path) as file:
-        assert sorted(file.namelist()) == ["ball.csv", "cart.csv", "plan.md"]
+        assert sorted(file.namelist()) == ["ball.csv", "cart.csv", "door.csv", "plan.md"]
     heads, rows = read(path, "cart.csv")
     assert heads == [*tables.OF_BODY, "elbow", "elbow_rate", "motor_control"]
     joint = next(row for row in recording.meta["joints"] if row["name"] == "cart_elbow")
     assert np.allclose(rows[:, heads.index("elbow")], recording.qpos[:, joint["qpos_address"]], rtol=1e-8, atol=0)
     assert np.ptp(rows[:, heads.index("elbow")]) > 0 and np.allclose(rows[1:, -1], 0.5 * rows[:-1, 0], atol=2e-3)
+    heads, rows = read(path, "door.csv")  # which hangs on the world
+    assert heads == [*tables.OF_BODY, "hinge", "hinge_rate"]
     heads, rows = read(path, "ball.csv")
     fallen = 2 - 9.81 * rows[:, 0] ** 2 / 2
     assert heads == tables.OF_BODY and np.allclose(rows[:, 3], fallen, atol=0.01)
