@@ -111,7 +111,8 @@ class Flier:
         self._mixing = np.linalg.inv(np.array(rows).T)
         self._time = self._since = float(data.time)
         self._lasting = np.zeros(3)
-        points = [data.xpos[self._body].copy(), *(np.array(point, dtype=float) for point in self.through)]
+        here = data.xpos[self._body].copy()
+        points = [here, *(np.array(point, dtype=float) for point in self.through or (here,))]
         self._legs = [
             (a, b, max(QUICKEST_S, 1.875 * float(np.linalg.norm(b - a)) / self.speed)) for a, b in pairwise(points)
         ]
@@ -126,7 +127,7 @@ def flier(
     Args:
         name: its root body.
         drone: its key in `drones.DRONES`.
-        through: points (3,), m, one after the other; it hovers at the last.
+        through: points (3,), m, one after the other; it hovers at the last, and where it starts if there is none.
         speed: the most on its way, m/s.
         hover_s: how long it waits at each, s.
         gusts: the wind that drags at it; None: the air is still, and does not drag.

@@ -54,9 +54,9 @@ def order(
     target = homes + ALONG * (ball - goals.mean(axis=0))
     on_ball = np.zeros(len(at), dtype=bool)
     away = np.where(able, np.linalg.norm(at - ball, axis=1), np.inf)
-    chasers = [int(np.argmin(np.where(side == own, away, np.inf))) for own in (0, 1)]
-    first = chasers[int(away[chasers[1]] < away[chasers[0]])]
-    for own, row in enumerate(chasers):
+    chasers = {own: int(np.argmin(np.where(side == own, away, np.inf))) for own in (0, 1) if able[side == own].any()}
+    first = min(chasers.values(), key=lambda row: float(away[row]), default=-1)
+    for own, row in chasers.items():
         if row == first:
             target[row], on_ball[row] = _shooting(at[row], ball, goals[own]), True
         else:

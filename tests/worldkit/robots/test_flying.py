@@ -74,3 +74,8 @@ def test_gusts_have_their_mean_and_strength_and_repeat():
     )
     assert (Gusts((1.0, 0.0, -0.5), 2.0, seed=3).wind(7.0) == gusts.wind(7.0)).all()
     assert not np.allclose(Gusts((1.0, 0.0, -0.5), 2.0, seed=4).wind(7.0), gusts.wind(7.0))
+
+
+def test_without_points_it_hovers_where_it_starts():
+    rows, _, _ = _flown([], 1.0)
+    assert np.linalg.norm(rows - (0, 0, 1), axis=1).max() < 0.02

@@ -37,6 +37,13 @@ def test_who_lies_is_given_no_part_and_wants_nothing():
     assert not made.velocity[0].any() and made.on_ball.tolist() == [False, True, False, False]
 
 
+def test_a_match_goes_on_where_a_whole_team_lies():
+    made = wanted(at=[(-1.0, 0), (-6, 2), (3.0, 0), (6, -2)], able=(True, True, False, False))
+    assert made.on_ball.tolist() == [True, False, False, False]
+    assert np.allclose(made.velocity[0], (0.6, 0)), "at the goal that its own team shoots at"
+    assert not wanted(able=(False,) * 4).velocity.any() and not wanted(able=(False,) * 4).on_ball.any()
+
+
 def test_two_that_are_near_part():
     made = wanted(at=[(-1.0, 0), (-6, 2), (8.0, 3.0), (8.0, 3.5)], ball=(-5.0, 3.0))
     assert made.velocity[2, 1] < made.velocity[3, 1]
