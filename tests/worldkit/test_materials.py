@@ -50,3 +50,18 @@ def test_every_look_compiles_into_a_model():
     assert model.nmat == len(LOOKS) and model.ntex == len(FLAT) + len(AROUND)
     names = [model.mat(int(m)).name for m in model.geom_matid]
     assert names == list(LOOKS)
+
+
+def test_something_clear_has_its_colour_at_its_depth_and_is_paler_where_it_is_thin():
+    def seen(entry, depth_m):
+        light = np.exp(-np.array(entry.absorbs) * depth_m)
+        return np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
+
+    syrup, deep = look("clear #b5651d"), look("clear #b5651d 30mm")
+    told = np.array((0xB5, 0x65, 0x1D)) / 255
+    assert np.allclose(seen(syrup, 0.01), told, atol=1e-6) and np.allclose(seen(deep, 0.03), told, atol=1e-6)
+    assert (seen(syrup, 0.001) > told + 0.1).all() and (seen(syrup, 0.04) < 0.8 * told).all()
+    assert syrup.clear > 0 and min(look("clear #000000").absorbs) > 0 and max(look("clear #ffffff").absorbs) == 0
+    for wrong in ("clear", "clear amber", "clear #b5651d 0mm", "clear #b5651d 3 m"):
+        with pytest.raises(ValueError, match="no look is called"):
+            look(wrong)

@@ -10,6 +10,7 @@ import re
 from functools import cache
 from typing import TYPE_CHECKING
 
+from . import clear_liquids
 from .catalogue import LIBRARY
 from .look import Look
 
@@ -19,7 +20,8 @@ if TYPE_CHECKING:
 __all__ = ["LOOKS", "Look", "add", "look"]
 
 LOOKS: dict[str, str] = {name: entry.description for name, entry in LIBRARY.items()}
-"""Every look by name, with a short description. Any ``#rrggbb`` is a look too (satin plastic of that colour)."""
+"""Every look by name, with a short description. Any ``#rrggbb`` is a look too (satin plastic of that colour), and any
+``clear #rrggbb 10mm`` (`clear_liquids`)."""
 
 TILE_PIXELS = 256
 """Size of the flat textures stored in the model for MuJoCo's own viewers; `worldengine.film.renderers` paints finer ones."""
@@ -37,13 +39,16 @@ def look(name: str) -> Look:
     if re.fullmatch(r"#[0-9a-fA-F]{6}", name):
         red, green, blue = (int(name[i : i + 2], 16) / 255.0 for i in (1, 3, 5))
         return Look(f"Satin plastic, {name}", rgba=(red, green, blue, 1.0), roughness=0.36, coat=0.08, mark=True)
+    if (clear := clear_liquids.of(name)) is not None:
+        return clear
     words = [
         known for known in LIBRARY if any(word in known for word in re.split(r"[_\W]+", name.lower()) if len(word) > 2)
     ]
     near = list(dict.fromkeys(difflib.get_close_matches(name, LIBRARY, n=4, cutoff=0.55) + words))[:6]
     hint = f"Nearest: {', '.join(near)}. " if near else ""
     raise ValueError(
-        f"no look is called {name!r}. {hint}Use one of: {', '.join(sorted(LIBRARY))}; or a colour such as '#3a7bd5'."
+        f"no look is called {name!r}. {hint}Use one of: {', '.join(sorted(LIBRARY))}; or a colour such as '#3a7bd5', "
+        "or something clear that has a colour at a depth, such as 'clear #b5651d 10mm'."
     )
 
 

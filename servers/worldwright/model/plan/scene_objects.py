@@ -103,7 +103,7 @@ class SceneObject(Frozen):
     material: str | None = None
     """Key into `simulation_parameters.materials`."""
     look: str | None = None
-    """Name of a worldkit look, e.g. `wood_oak`; or `#rrggbb`."""
+    """Name of a worldkit look, e.g. `wood_oak`; `#rrggbb`; or `clear #rrggbb 10mm`, clear and of that colour so deep."""
     visual_only: str | None = None
     """Why the object is drawn without being simulated, when it is."""
     built: bool = False

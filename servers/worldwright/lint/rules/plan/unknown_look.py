@@ -1,14 +1,13 @@
 """A look does not exist.
 
 What it does: compares `look` of objects, of their parts, of assets and of ropes, and the `floor`, with worldkit's
-library and the form `#rrggbb`.
+library and the forms `#rrggbb` and `clear #rrggbb 10mm`.
 
 Why is this bad: building the world fails at that object.
 
-Use instead: a look of the library, or a colour.
+Use instead: a look of the library, a colour, or something clear that has a colour at a depth.
 """
 
-import re
 from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 from typing import Any
@@ -26,6 +25,7 @@ BAD: Changes = (
     {"visualization": {"floor": "wood_plank"}},
     {"topology": {"tendons": [{"name": "leash", "ends": [{"body": "crate"}, {"body": "ramp"}], "look": "bogus"}]}},
     {"assets": [{"name": "mug", "filename": "mug", "look": "#2f6"}]},
+    {"assets": [{"name": "mug", "filename": "mug", "look": "clear amber"}]},
     {
         "scene_objects": [
             {"name": "ramp", "primitive": "box", "size": [2.0, 1.0, 0.2], "fixed": True, "dynamic": False},
@@ -72,14 +72,25 @@ def check(view: PlanView) -> Iterator[Problem]:
         (("visualization", "floor"), view.plan.visualization.floor),
     ]
     for place, look in used:
-        if look is not None and look not in LOOKS and not re.fullmatch(r"#[0-9a-fA-F]{6}", look):
+        if look is not None and not _there(look):
             near = _similar_looks(look, LOOKS) or get_close_matches(look, list(LOOKS), n=3, cutoff=0.55)
             fix = (
                 "did you mean " + ", ".join(near) + "?"
                 if near
-                else f"or #rrggbb; kinds: {_kinds(LOOKS)} (all: worldwright retrieve read worldkit/materials/catalogue.py)"
+                else f"or #rrggbb, or `clear #rrggbb 10mm`; kinds: {_kinds(LOOKS)} (all: worldwright retrieve read worldkit/materials/catalogue.py)"
             )
             yield view.at(place, f"there is no look `{look}`", fix)
+
+
+def _there(look: str) -> bool:
+    """Whether worldkit makes it."""
+    from worldkit import materials
+
+    try:
+        materials.look(look)
+    except ValueError:
+        return False
+    return True
 
 
 def _similar_looks(look: str, looks: Iterable[str]) -> list[str]:
