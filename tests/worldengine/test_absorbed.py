@@ -306,11 +306,13 @@ def middle(model, renderer: str, quality) -> np.ndarray:
 
 @pytest.mark.gl
 @pytest.mark.parametrize(("renderer", "quality"), [("preview", "video"), ("traced", 8)])
-def test_tea_is_red_brown_water_is_clear_and_thin_tea_is_paler(renderer, quality) -> None:
+def test_tea_is_red_brown_water_is_clear_thin_tea_is_paler_and_any_colour_can_be_told(renderer, quality) -> None:
     tea, water = (middle(poured(look), renderer, quality) for look in ("tea", "water_clear"))
     thin = middle(poured("tea", 0.02), renderer, quality)
     assert tea[0] > 1.3 * tea[1] > 1.3 * 1.2 * tea[2] and np.ptp(water) < 40
     assert thin[1] > 1.15 * tea[1] and water[1] > thin[1]
+    green = middle(poured("clear #3c9a3c 60mm"), renderer, quality)
+    assert green[1] > 1.3 * green[0] and green[1] > 1.3 * green[2], "one that the film names by its colour"
 
 
 def test_two_liquids_of_one_shape_keep_their_own_colours() -> None:
