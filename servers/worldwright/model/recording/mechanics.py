@@ -67,6 +67,8 @@ class Mechanics:
     """(G, 4) wxyz, in its body's frame."""
     geom_collides: Array | None = None
     """(G,) bool: its masks let it touch something."""
+    geom_drawn: Array | None = None
+    """(G,) bool: pictures show it."""
     geom_friction: Array | None = None
     """(G,) sliding friction; 0 where contacts are frictionless (condim 1)."""
     joints: tuple[Joint, ...] = ()
@@ -194,6 +196,8 @@ class _Geoms:
             "geom_quat": quat,
             "geom_collides": np.array([row.get("collides", own) for row, own in zip(self.rows, collides, strict=True)]),
         }
+        if all("visible" in row for row in self.rows):
+            found["geom_drawn"] = np.array([bool(row["visible"]) for row in self.rows])
         if all(row.get("friction") is not None for row in self.rows):
             slide = [float(np.ravel(row["friction"])[0]) for row in self.rows]
             found["geom_friction"] = np.where([row.get("condim", 3) == 1 for row in self.rows], 0.0, slide)

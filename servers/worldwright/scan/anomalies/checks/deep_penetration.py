@@ -4,7 +4,8 @@ What it means: the contact is too soft for the load or the speed, the bodies wer
 is too long for how fast they meet. It looks like clipping, and overlaps at the start burst apart.
 
 Formula: depth / t, with t the half-thickness of the thinner geom that moves (half the smallest extent): of that part
-alone, whatever it is welded to, since it is the part that is seen inside the other.
+alone, whatever it is welded to, since it is the part that is seen inside the other. A small ball on a body that only touches and is
+not drawn, as on a robot's finger tip, counts as its body does.
 Threshold: a tenth for 0.1 s or 0.3 at any moment warns; 0.3 for 0.1 s, or 1 at any moment (half of the body is
 inside), blocks. What the plan lets overlap (`topology.overlaps`) is looked at only where it is deeper.
 Source: the manual on soft contacts and `solref`, `solimp`; the reference paper's checks on clipping.
@@ -30,6 +31,8 @@ SUSTAINED_S = 0.1
 LASTING_S = 0.25
 FEW = 3
 EVERYDAY_M = 0.03
+NUB = 0.25
+"""Of its body's half-thickness: a ball that is not drawn and smaller than that only helps its body to touch."""
 
 
 def check(trajectory: Trajectory, context: Context) -> Iterator[Sign]:
@@ -145,10 +148,23 @@ def _half_thickness(trajectory: Trajectory, scenery: float = 2.0, unknown: float
         own = np.where(inside, thin[body], np.inf)
         if geom is not None and facts.geom_half_extents is not None:
             own = np.where(inside, facts.geom_half_extents[geom].min(axis=1), np.inf)
+            own = np.where(_nubs(trajectory)[geom] & inside, thin[body], own)
         still = inside & ~np.where(inside, trajectory.moves_freely[body], False)
         own = np.where(still, scenery * own, own)
         best = np.fmin(best, np.where(np.isnan(own), unknown, own))
     return best
+
+
+def _nubs(trajectory: Trajectory) -> np.ndarray:
+    """(G,) which geoms are small balls that are not drawn on a body that is larger."""
+    facts = trajectory.mechanics
+    half, of, thin = facts.geom_half_extents, facts.geom_body, facts.half_thickness()
+    assert half is not None and thin is not None
+    if of is None or facts.geom_drawn is None:
+        return np.zeros(len(half), dtype=bool)
+    balls = np.array([kind == "sphere" for kind in facts.geom_type])
+    small = half.max(axis=1) < NUB * np.where(of >= 0, thin[of], 0.0)
+    return np.asarray(balls & small & ~facts.geom_drawn)
 
 
 def _lasting_level(values: np.ndarray, rows: int) -> float:
@@ -171,13 +187,29 @@ def _with_depth(depth: float) -> Case:
     return Case("only the deepest is told", replace(still, contacts=None, max_penetration=told), severity="blocking")
 
 
+def _on_a_ball(drawn: bool) -> Trajectory:
+    """A body of 5 cm that lies on a ball of 4 mm, 3 mm deep for a moment."""
+    lying = _overlapping(0.003, 0.01)
+    assert lying.contacts is not None
+    rows = len(lying.contacts.row)
+    contacts = replace(lying.contacts, geom1=np.zeros(rows, dtype=int), geom2=np.ones(rows, dtype=int))
+    mechanics = replace(
+        lying.mechanics,
+        geom_names=("ground", "ball"), geom_body=np.array([-1, 0]), geom_type=("plane", "sphere"),
+        geom_half_extents=np.array([[np.inf, np.inf, 0.0], [0.002, 0.002, 0.002]]), geom_drawn=np.array([True, drawn]),
+    )  # fmt: skip
+    return replace(lying, contacts=contacts, mechanics=mechanics)
+
+
 GOOD = (
     lambda: Case("a body at rest", analytic.resting()),
     lambda: Case("a soft landing, 1 cm for 10 ms", _overlapping(0.01, 0.01)),
+    lambda: Case("a ball that is not drawn helps it to touch", _on_a_ball(False)),
 )
 BAD = (
     lambda: _with_depth(0.06),
     lambda: Case("2 cm of 5 for half a second", _overlapping(0.02, 0.5), severity="blocking"),
     lambda: Case("1 cm of 5 for half a second", _overlapping(0.01, 0.5), severity="warn"),
+    lambda: Case("a small ball is seen to sink", _on_a_ball(True), severity="blocking"),
     lambda: Case("more than half way in, once", _overlapping(0.06, 0.004), severity="blocking"),
 )
