@@ -19,19 +19,19 @@ from worldwright.model.plan.scene_objects import AssetRow
 from worldwright.place.engine import resolve
 from worldwright.stamp.gates.auto_approve import _chosen
 
-PLANS = Path(__file__).parents[1] / "world"
+CASES = Path(__file__).parents[3] / "skills/robots/references"
 
 
-def _written(folder, monkeypatch, key, model, plan):
+def _written(folder, monkeypatch, key, model, case):
     packaged_dogs.install(folder / "site", monkeypatch, key, model)
     packaged.lay(key, folder / "run" / key)
     path = folder / "run/plan.md"
-    path.write_text((PLANS / plan).read_text(encoding="utf-8"), encoding="utf-8")
+    path.write_text((CASES / case / "plan.md").read_text(encoding="utf-8"), encoding="utf-8")
     return path
 
 
 def test_an_arm_declares_its_motors_and_is_drafted_whole(tmp_path, monkeypatch):
-    path = _written(tmp_path, monkeypatch, "yam", packaged_machines.ARM, "picking_arm_plan.md")
+    path = _written(tmp_path, monkeypatch, "yam", packaged_machines.ARM, "mug-on-a-shelf")
     assert not [f.message for f in check_plan(path).findings if f.severity == "error"]
     plan = read_plan(path).plan
     (control,) = plan.simulation_parameters.interventions
@@ -45,7 +45,7 @@ def test_an_arm_declares_its_motors_and_is_drafted_whole(tmp_path, monkeypatch):
 
 
 def test_a_drone_declares_its_rotors_and_its_gusts(tmp_path, monkeypatch):
-    path = _written(tmp_path, monkeypatch, "cf21b", packaged_machines.DRONE, "flying_drone_plan.md")
+    path = _written(tmp_path, monkeypatch, "cf21b", packaged_machines.DRONE, "drone-in-gusts")
     assert not [f.message for f in check_plan(path).findings if f.severity == "error"]
     plan = read_plan(path).plan
     control, gusts = plan.simulation_parameters.interventions
