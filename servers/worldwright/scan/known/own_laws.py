@@ -1,5 +1,7 @@
 """An author's own law of which all is known: the sums of a mass on a spring, the points of a paint that comes to cover a plate."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from worldkit.turning import matrices
@@ -83,6 +85,21 @@ def pouring(
     pos = np.tile(middle, (len(t), 1))
     media = ShownPoints({"paint": Lay(t, places.reshape(-1, 3))})
     return motion(t, pos, 0 * pos, quat=turned, free=False, meta={"geoms": [plate]}, media=media)
+
+
+def strewn(per_s: float = 20.0, seconds: float = 2.0, kilograms: float = 0.4) -> Trajectory:
+    """`snow`, points of one mass that come down at 1 m/s one after the other, told every 40 ms, and pass z = 0 at (k + 1/2) / per_s;
+    what shows them lies still far above.
+    """
+    t = clock(seconds)
+    told = t[::20]
+    moments = (np.arange(int(per_s * seconds)) + 0.5) / per_s
+    places = np.zeros((len(told), len(moments), 3))
+    places[:, :, 2] = moments - told[:, None]
+    laws = replace(spring(), name="snowfall", mass=np.full(201, kilograms))
+    pos = np.tile((0.0, 0.0, 5.0), (len(t), 1))
+    media = ShownPoints({"snow": Lay(told, places.reshape(-1, 3))})
+    return motion(t, pos, 0 * pos, names=("snow",), free=False, media=media, balances=(laws,))
 
 
 def two_paints(share: float = 1.0) -> Trajectory:

@@ -1,4 +1,4 @@
-"""A stream of bodies passes a plane at a rate: grains of an hourglass, balls of a conveyor, drops of a tap.
+"""A stream of bodies, or of a law's points, passes a plane at a rate: grains of an hourglass, balls of a conveyor, drops of a tap.
 
 Measures how many of them, or how much mass, first pass the plane within the window, per second of it. Source: the
 definition of a flow; conservation of mass.
@@ -10,8 +10,9 @@ from pydantic import Field, model_validator
 
 from .....model.recording.trajectory import Trajectory
 from ....known.flow import stream
-from ....measuring.crossings import OfStream, passed
-from ....measuring.measured import Measured, between, masses, window
+from ....known.own_laws import strewn
+from ....measuring.crossings import OfStream, passed, weights
+from ....measuring.measured import Measured, between, window
 
 CODE = "WE268"
 
@@ -35,20 +36,25 @@ def measure(trajectory: Trajectory, given: Given) -> Measured:
     rows = window(trajectory, given.window_s, 2)
     _, who = passed(trajectory, given, rows)
     seconds = float(trajectory.t[rows.stop - 1] - trajectory.t[rows.start])
-    amount = float(masses(trajectory)[who].sum()) if given.of == "mass" else float(len(who))
+    amount = float(weights(trajectory, given)[who].sum()) if given.of == "mass" else float(len(who))
     unit = "kg/s" if given.of == "mass" else "1/s"
     message = f"{len(who)} of {given.told()} pass {given.axis} = {given.at_m:g} m in {seconds:.3f} s"
     return between(amount / seconds, given.min_rate, given.max_rate, unit, message)
 
 
+SNOW = {"parts": "snow", "axis": "z", "at_m": 0.0, "window_s": [0.2, 1.8]}
 DROPS = {"parts": "drop_*", "axis": "z", "at_m": 0.0}
 GOOD = (
     (stream, {**DROPS, "min_rate": 19.9, "max_rate": 20.1}),
     (stream, {**DROPS, "of": "mass", "min_rate": 0.199, "max_rate": 0.201}),
     (lambda: stream(pause_s=(1.0, 2.0)), {**DROPS, "min_rate": 19.9, "window_s": [0.0, 1.0]}),
+    (strewn, {**SNOW, "min_rate": 19.3, "max_rate": 20.7}),
+    (strewn, {**SNOW, "of": "mass", "min_rate": 0.193, "max_rate": 0.207}),
 )
 BAD = (
     (stream, {**DROPS, "min_rate": 21}),
     (stream, {**DROPS, "max_rate": 19}),
+    (strewn, {**SNOW, "max_rate": 19}),
+    (strewn, {**SNOW, "of": "mass", "min_rate": 0.21}),
     (lambda: stream(pause_s=(1.0, 2.0)), {**DROPS, "min_rate": 19}),
 )
