@@ -1,8 +1,8 @@
 """Choose the moments of a world that are worth a look: setup, event, aftermath and one on the way, by motion energy.
 
 The event is where the bodies' velocities change most, weighed by their masses: a blow, a break, a release. (Energy would
-not do, as an elastic collision keeps it.) The aftermath is where the kinetic energy has calmed down for good (or the end,
-if it never does). A recording tells this exactly; where only a film is left (a fresh clone keeps no recording), the change
+not do, as an elastic collision keeps it.) The aftermath is where the kinetic energy, that of a law's points too, has
+calmed down for good (or the end, if it never does). A recording tells this exactly; where only a film is left (a fresh clone keeps no recording), the change
 of its pictures stands in.
 """
 
@@ -16,6 +16,8 @@ from ..model import mp4_file
 
 if TYPE_CHECKING:
     import numpy as np
+
+    from worldengine.recording.stored import Recording
 
 CALM = 0.05
 """A world has calmed down when its kinetic energy stays below this share of the highest."""
@@ -82,7 +84,19 @@ def of_recording(folder: Path) -> Moments:
     raster = _raster(t)
     rows = np.searchsorted(t, raster - 1e-9).clip(max=len(t) - 1)
     blow = np.linalg.norm(np.diff(recording.comvel[rows], axis=0), axis=2) @ mass
-    return _choose(raster, recording.energy[rows, 1], blow, "recording")
+    return _choose(raster, recording.energy[rows, 1] + _of_media(recording, raster), blow, "recording")
+
+
+def _of_media(recording: "Recording", times: "np.ndarray") -> "np.ndarray":
+    """(T,) J: the energy of motion of what laws move; a honey that still runs has not calmed down, however still its jar stands."""
+    import numpy as np
+
+    sums, found = recording.balances, np.zeros(len(times))
+    for medium in np.unique(sums.medium) if len(sums) else ():
+        mine = np.asarray(sums.medium) == medium
+        moves = np.asarray(sums.energy - sums.weight - sums.stored)[mine]
+        found += np.interp(times, np.asarray(sums.step)[mine] * recording.time_step, np.maximum(moves, 0.0))
+    return found
 
 
 def of_film(film: Path) -> Moments:

@@ -1,6 +1,7 @@
 """Storyboards: what they show, that it is there, and that it is of the recording."""
 
 import shutil
+from types import SimpleNamespace
 
 import cv2
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 from worldwright.model.errors import GateError, NotFoundError
 from worldwright.model.evidence.run import Run
 from worldwright.scan.tools import moments as claimed
-from worldwright.stage.moments import Moments, storyboard
+from worldwright.stage.moments import Moments, of_recording, storyboard
 from worldwright.stage.tools import frames, start, start_storyboard, wait
 
 FOUND = Moments(setup=0.0, event=1.0, aftermath=3.0, end=4.0, source="recording")
@@ -80,3 +81,29 @@ def test_there_is_none_before_the_physics(planned):
         start(str(planned), stage="storyboard")
     with pytest.raises(NotFoundError, match="run the storyboard pass"):
         frames(str(planned), show="storyboard")
+
+
+class Sums(SimpleNamespace):
+    """The sums of a law, every tenth of a second."""
+
+    def __len__(self):
+        return len(self.step)
+
+
+@pytest.mark.parametrize("runs", [True, False])
+def test_what_still_flows_has_not_calmed_down(runs, monkeypatch, tmp_path):
+    """A spoon is turned for 0.2 s and stands soon; from 0.5 s on the honey of a law runs, and at 1.5 s it lies."""
+    from worldengine.recording import stored
+
+    t = np.linspace(0.0, 3.0, 301)
+    turning = np.exp(-20 * np.maximum(t - 0.2, 0.0))
+    step = np.arange(0, 301, 10)
+    motion = np.where((step > 50) & (step < 150), 5.0 * runs, 0.0)
+    sums = Sums(step=step, medium=0 * step, energy=7.0 + motion, weight=6.0 + 0.0 * step, stored=1.0 + 0.0 * step)
+    recording = SimpleNamespace(
+        time=t, time_step=0.01, meta={"bodies": [{"mass": 1.0}]}, comvel=turning[:, None, None] * [[[1.0, 0.0, 0.0]]],
+        energy=np.stack([0 * t, turning], axis=1), balances=sums,
+    )  # fmt: skip
+    monkeypatch.setattr(stored, "open", lambda folder: recording)
+    found = of_recording(tmp_path)
+    assert found.event < 0.3 and found.aftermath == pytest.approx(1.5 if runs else 0.35, abs=0.15)
