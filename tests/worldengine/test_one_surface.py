@@ -53,6 +53,26 @@ def test_it_tells_how_thick_it_is_at_each_corner():
     assert np.median(alone) == pytest.approx(0.02, rel=0.15), "through a drop"
 
 
+def test_a_smooth_one_is_even_where_points_are_not_and_as_large():
+    level = np.stack(np.meshgrid(*[np.arange(-0.1, 0.1, 0.014)] * 2, np.arange(0, 0.05, 0.014)), -1).reshape(-1, 3)
+    heap = level + np.random.default_rng(1).uniform(-0.006, 0.006, level.shape)
+    drop = np.array([[0.5, 0.0, 0.0]])
+    found = {}
+    for smooth in (1.0, 2.0):
+        vertices, *_ = one_surface.around(
+            np.vstack([heap, drop]), np.full(len(heap) + 1, 0.0105), 90_000, 90_000, 0.0, smooth
+        )
+        own = vertices[vertices[:, 0] < 0.3]
+        top = own[(own[:, 2] > 0.03) & (np.abs(own[:, :2]).max(axis=1) < 0.07), 2]
+        found[smooth] = top.std(), np.ptp(own[:, 0]), np.ptp(vertices[vertices[:, 0] > 0.3, 0])
+    (rough, wide, drop_m), (even, as_wide, same_drop_m) = found[1.0], found[2.0]
+    assert (
+        even < 0.5 * rough
+        and as_wide == pytest.approx(wide, rel=0.04)
+        and same_drop_m == pytest.approx(drop_m, rel=0.25)
+    )
+
+
 def test_what_falls_alone_is_narrower_and_what_lies_together_is_not():
     points = np.concatenate([grid(4, 0.015), [[0.2, 0, 0], [0, 0.3, 0]]])
     radii = one_surface.narrowed(points, np.full(66, 0.01), 0.5)

@@ -464,3 +464,12 @@ def test_a_limb_is_one_tapered_skin_over_a_chain_each_piece_fixed_to_its_body():
     film.recorded.sized = True  # of bodies whose sizes are known, it is told where film.py draws it
     with pytest.raises(ProgramError, match=r"'bad 1' is \[.*\] times the size of 'branch_1'"):
         film.limb("bad", list(ways), (0.02, 0.008))
+
+
+@pytest.mark.parametrize("smooth", [0.5, 3.5, "very", float("nan")])
+def test_a_surface_is_once_to_three_times_as_smooth(smooth):
+    film = Film(Recorded.rehearsal({"drop_1": [[0.0, 0, 0], [0.0, 0, 0]]}, duration=1.0))
+    with pytest.raises(ProgramError, match="smooth"):
+        film.surface("honey", of="drop_1", look="honey", smooth=smooth)
+    film.surface("honey", of="drop_1", look="honey", smooth=2)
+    assert film._surfaces[0]["smooth"] == 2.0

@@ -96,11 +96,10 @@ class Described:
         lit = {thing["name"] for thing in self.things}
         said += [f"{lamp['name']} (a lamp)" for lamp in self.lamps if lamp["name"] not in lit]
         said += [f"{panel['name']} (a panel of light)" for panel in self.panels]
-        if gobo := self.treatments.at(0.0).light_gobo:
+        if gobo := (treated := self.treatments.at(0.0)).light_gobo:
             said.append(f"shadow of {gobo.kind} (a pattern before the light)")
         if otherwise := self.treatments.departs():
             said.append(f"light otherwise than the world states: {', '.join(otherwise)}")
-        treated = self.treatments.at(0.0)
         if self.breeze is not None and any(thing.get("sways") for thing in self.things):
             said.append("breeze (moves what is drawn only)")
         said += ["sky"] if treated.sky_zenith is not None else []
@@ -109,9 +108,8 @@ class Described:
     def told(self, fps: float) -> dict[str, Any]:
         """The film's entry in the statement: what is only drawn, its own looks, its shots and time map, its author's words."""
         looks = {name: look if isinstance(look, str) else "a surface of its own" for name, look in self.looks.items()}
-        looks |= {
-            name: f"{look}, nearly clear" for name, look in looks.items() if opacity(self.looks[name]) < bounds.SEEN
-        }
+        faint = [name for name in looks if opacity(self.looks[name]) < bounds.SEEN]
+        looks |= {name: f"{looks[name]}, nearly clear" for name in faint}
         return {
             "drawn_only": self.drawn_only(),
             "looks": looks,
@@ -211,7 +209,10 @@ def _surface(told: dict[str, Any], arrays: "dict[str, np.ndarray]", known: set[s
     name, of = str(told["name"]), [str(one) for one in told["of"]]
     if not 0 < len(name) <= 60 or not of or not set(of) <= known:
         raise _refuse(f"the surface {name!r} is of what is no body and no particles", "name some that there are")
-    return {"name": name, "of": of, "look": _look(told["look"], arrays), "blended": told.get("blended") is True}
+    if not 1.0 <= (smooth := float(told.get("smooth", 1.0))) <= bounds.SMOOTHEST:
+        raise _refuse(f"the surface {name!r} is {smooth:g} smooth, not 1 to {bounds.SMOOTHEST:g}")
+    look, blended = _look(told["look"], arrays), told.get("blended") is True
+    return {"name": name, "of": of, "look": look, "blended": blended, "smooth": smooth}
 
 
 def _lamp(told: dict[str, Any], bodies: set[str]) -> dict[str, Any]:
@@ -306,15 +307,15 @@ def _look(told: Any, arrays: "dict[str, np.ndarray]") -> Any:
         except ValueError as unknown:
             raise _refuse(str(unknown), "name one of them, '#rrggbb', or make a Surface") from None
         return told
-    found = {name: float(told[name]) for name in ("roughness", "metallic", "glow", "opacity", "tile_m")}
-    found["rgb"] = tuple(float(v) for v in told["rgb"])  # type: ignore[assignment]
-    if len(found["rgb"]) != 3 or not found["tile_m"] > 0 or not 0 <= found["glow"] <= 50:  # type: ignore[arg-type]
+    found: dict[str, Any] = {name: float(told[name]) for name in ("roughness", "metallic", "glow", "opacity", "tile_m")}
+    found["rgb"] = tuple(float(v) for v in told["rgb"])
+    if len(found["rgb"]) != 3 or not found["tile_m"] > 0 or not 0 <= found["glow"] <= 50:
         raise _refuse("a surface has a colour of three numbers, a tile above 0 m, and a glow of at most 50")
     if "picture" in told:
         pixels = arrays[str(told["picture"])]
         if pixels.dtype != np.uint8 or pixels.ndim != 3 or pixels.shape[2] != 3 or max(pixels.shape) > 4096:
             raise _refuse("a painted picture is uint8 (height, width, 3), at most 4096 a side")
-        found["picture"] = str(told["picture"])  # type: ignore[assignment]
+        found["picture"] = str(told["picture"])
     return found
 
 

@@ -200,7 +200,7 @@ def surfaces(model: "mujoco.MjModel", film: Described) -> list[one_surface.Surfa
             and (name.startswith(particles) or (model.geom_bodyid[geom] in bodies and not name.startswith("drawn.")))
         ]
         skin, alone = model.skin(f"drawn.{one['name']}").id, one_surface.FLAKE if one["look"] == "snow" else 1.0
-        found.append(one_surface.Surface(model, skin, np.array(mine, dtype=int), one["blended"], alone))
+        found.append(one_surface.Surface(model, skin, np.array(mine, dtype=int), one["blended"], alone, one["smooth"]))
     return found
 
 

@@ -16,6 +16,8 @@ REACH = 2.4
 CELLS_A_RADIUS, LEAST_CELLS = 3.0, 1.5
 MOST_CELLS = 3_000_000
 SMOOTH_CELLS = 0.7
+SUNK = 0.8
+"""Radii that a level surface would lie too deep for each time that the mean reaches as far again: measured on heaps of points."""
 MOST_TRIANGLES, LEAST_TRIANGLES, TRIANGLES_EACH = 150_000, 4_000, 240
 """A surface has room for so many: at most, at least, and for each particle."""
 SAMPLES = 5
@@ -40,12 +42,19 @@ class Surface:
         geoms: numbers of the geoms that it stands for.
         blended: it has their colours, mixed where they meet, in place of its look's; colours that a law tells it has always.
         alone: what has next to nothing near it is drawn this share as wide.
+        smooth: how many times as far as else places are evened out.
     """
 
     def __init__(
-        self, model: "mujoco.MjModel", skin: int, geoms: "np.ndarray", blended: bool = False, alone: float = 1.0
+        self,
+        model: "mujoco.MjModel",
+        skin: int,
+        geoms: "np.ndarray",
+        blended: bool = False,
+        alone: float = 1.0,
+        smooth: float = 1.0,
     ) -> None:
-        self._model, self._geoms, self._alone = model, geoms, alone
+        self._model, self._geoms, self._alone, self._smooth = model, geoms, alone, smooth
         first, count = int(model.skin_vertadr[skin]), int(model.skin_vertnum[skin])
         self._vertices = model.skin_vert[first : first + count]
         first, count = int(model.skin_faceadr[skin]), int(model.skin_facenum[skin])
@@ -62,7 +71,7 @@ class Surface:
         radii, finest = narrowed(points, radii, self._alone), 0.0
         if eye is not None and len(points):
             finest = pixel * max(float((np.linalg.norm(points - eye, axis=1) - radii).min()), 0.0)
-        vertices, faces, thick = around(points, radii, len(self._faces), len(self._vertices), finest)
+        vertices, faces, thick = around(points, radii, len(self._faces), len(self._vertices), finest, self._smooth)
         self._vertices[:] = NOWHERE
         self._faces[:] = len(self._vertices) - 1
         self._vertices[: len(vertices)], self._faces[: len(faces)] = vertices, faces
@@ -153,33 +162,39 @@ def balls(
 
 
 def around(
-    points: "np.ndarray", radii: "np.ndarray", most_faces: int, most_vertices: int, finest: float = 0.0
+    points: "np.ndarray",
+    radii: "np.ndarray",
+    most_faces: int,
+    most_vertices: int,
+    finest: float = 0.0,
+    smooth: float = 1.0,
 ) -> "tuple[np.ndarray, np.ndarray, np.ndarray]":
     """Vertices (V, 3), m, faces (F, 3), outward, of a smooth surface around balls, and how thick (V,), m, it is straight in from
     each vertex; all empty where there is none.
 
     After Zhu and Bridson, "Animating Sand as a Fluid" (2005): the distance to the weighted mean of what is near, less its
-    radius, which is flat over what lies level, and smoothed a little. `finest`, m: what is smaller is not seen.
+    radius, which is flat over what lies level, and smoothed a little. `finest`, m: what is smaller is not seen. `smooth`: the mean
+    reaches so many times as far.
     """
     if not len(points):
         return np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0)
     radius = float(np.median(radii))
-    cell = min(max(radius / CELLS_A_RADIUS, finest), radius / LEAST_CELLS)
+    cell = min(max(smooth * radius / CELLS_A_RADIUS, finest), smooth * radius / LEAST_CELLS)
     while True:
-        vertices, faces, thick, cell = _meshed(points, radii, cell)
+        vertices, faces, thick, cell = _meshed(points, radii, cell, smooth)
         if len(faces) <= most_faces and len(vertices) < most_vertices:
             return vertices, faces, thick
         cell *= 1.25
 
 
 def _meshed(
-    points: "np.ndarray", radii: "np.ndarray", cell: float
+    points: "np.ndarray", radii: "np.ndarray", cell: float, smooth: float = 1.0
 ) -> "tuple[np.ndarray, np.ndarray, np.ndarray, float]":
     from scipy.ndimage import gaussian_filter
     from scipy.sparse import csr_array
     from skimage.measure import marching_cubes
 
-    margin = REACH * float(radii.max()) + 2 * cell
+    margin = REACH * smooth * float(radii.max()) + 2 * cell
     low, span = points.min(axis=0) - margin, np.ptp(points, axis=0) + 2 * margin
     cell = max(cell, float(np.prod(span) / MOST_CELLS) ** (1 / 3))
     low, span = low - 2 * cell, span + 4 * cell  # all that a ball reaches is in the grid
@@ -188,7 +203,7 @@ def _meshed(
     sums = np.zeros((total, 5))  # of the weights, and of them with places and radii
     for radius in np.unique(np.round(radii, 9)):  # balls of one size reach over equally many cells
         mine = points[np.abs(radii - radius) < 1e-8]
-        reach = REACH * radius
+        reach = REACH * smooth * radius
         n = int(np.ceil(reach / cell))
         around_it = np.stack(np.meshgrid(*[np.arange(-n, n + 1)] * 3, indexing="ij"), -1).reshape(-1, 3)
         around_it = around_it[np.linalg.norm(around_it, axis=1) <= reach / cell + 0.9]
@@ -207,6 +222,9 @@ def _meshed(
     places = np.stack(np.unravel_index(np.flatnonzero(near), shape), -1) * cell + low
     level = np.full(total, 2.0 * cell)
     distance = np.linalg.norm(places - mean[near] / weight[near, None], axis=1) - mean_radius[near] / weight[near]
+    if smooth > 1.0:  # the mean of what lies beneath is deeper, the farther it reaches; that of a lone drop is not
+        among = np.median(weight[np.rint((points - low) / cell).astype(int) @ strides])
+        distance -= SUNK * (smooth - 1.0) * np.median(radii) * np.minimum(2.0 * weight[near] / among, 1.0)
     level[near] = np.clip(distance, -3.0 * cell, 3.0 * cell)
     field: Any = gaussian_filter(level.reshape(shape), SMOOTH_CELLS)
     if not field.min() < 0.0 < field.max():

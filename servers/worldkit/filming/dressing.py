@@ -9,7 +9,7 @@ import numpy as np
 from ..errors import ProgramError
 from . import groves, sward, swaying_weights
 from .drawn_only import SHAPES, Surface, Thing, Vec3, known, matt, opaque, rgb
-from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, STORM_M_S
+from .film_bounds import FAR_M, MOST_LAMPS, MOST_PANELS, PANEL_M, SMOOTHEST, STORM_M_S
 from .ground import Height
 from .own_names import OwnNames
 from .plain_refusals import line, whole
@@ -228,17 +228,27 @@ class Dressing(Smoke):
         self._grown.append((self._things.pop(), at, line()))
 
     def surface(
-        self, name: str, *, of: str | Sequence[str], look: str | Surface = "wax", blended: bool = False
+        self,
+        name: str,
+        *,
+        of: str | Sequence[str],
+        look: str | Surface = "wax",
+        blended: bool = False,
+        smooth: float = 1.0,
     ) -> None:
         """Bodies or particles of one substance as one smooth surface, made for each picture from where they are then.
 
         `of` names bodies, or particles that were drawn before, `*` standing for any letters: `film.surface("honey",
         of="drop_*", look="honey")`. Their own shapes are left out. `blended`: their colours, mixed where they meet; those of a law too.
+        `smooth`, 1 to 3: over how much more than its near neighbours' places a particle's place is evened out: 2 for what lies smooth,
+        such as snow, cream, or a mound of honey; fine threads and splashes grow thinner with it.
 
         Raises:
             ProgramError: it names nothing, or what is another surface's already.
         """
         known(look)
+        if not isinstance(smooth, (int, float)) or not 1.0 <= smooth <= SMOOTHEST:
+            raise ProgramError(f"a surface is 1 to {SMOOTHEST:g} smooth, not {smooth!r}", "film.py", "try smooth=2")
         wanted = [of] if isinstance(of, str) else list(of)
         names = [*self.recorded.bodies, *(thing.name for thing, *_ in self._grown if thing.shape == "sphere")]
         found = [each for each in names if any(fnmatchcase(each, pattern) for pattern in wanted)]
@@ -250,7 +260,8 @@ class Dressing(Smoke):
                 f"name some of: {', '.join(names[:6]) or '(none)'}",
             )
         self._named(name)
-        self._surfaces.append({"name": name, "of": found, "look": look, "blended": blended})
+        more = {} if smooth == 1.0 else {"smooth": float(smooth)}
+        self._surfaces.append({"name": name, "of": found, "look": look, "blended": blended, **more})
 
     def lamp(
         self,

@@ -10,6 +10,8 @@ PLACES = ("bottom", "top", "title", "left")
 """Where words stand in the picture."""
 SEEN = 0.2
 """What is less opaque than this is hardly seen; clear glass, which is drawn with its mirror images, is 0.22 and more."""
+SMOOTHEST = 3.0
+"""The most that the surface of a crowd is evened out."""
 STORM_M_S = 40.0
 """The strongest wind that is drawn, m/s."""
 PANEL_M = (0.005, 100.0)
