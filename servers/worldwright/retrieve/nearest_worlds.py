@@ -34,6 +34,10 @@ LONG_WEIGHT = 0.015
 SHORT = 4.0
 """Thousand bytes: a plan that is shorter than that is not nearer for it."""
 
+APART = ("robot",)
+"""Mechanisms that come with things of their own (a wheel's files): a world of one is no model for a sentence that names none."""
+APART_WEIGHT = 1.0
+
 
 @dataclass(frozen=True)
 class World:
@@ -102,7 +106,8 @@ def nearest(sentence: str, known: list[World]) -> list[Near]:
         shared = tuple(name for name in asked if name in world.mechanisms)
         length = max(SHORT, (world.folder / "plan.md").stat().st_size / 1000)
         common = SHARED_WEIGHT * len(shared) / max(1, len(asked))
-        found.append(Near(world, float(score) + common - LONG_WEIGHT * length, shared))
+        apart = sum(name in world.mechanisms for name in APART if name not in asked)
+        found.append(Near(world, float(score) + common - LONG_WEIGHT * length - APART_WEIGHT * apart, shared))
     # Of worlds that are as near as each other, the one about the fewest other things is the easier to change.
     return sorted(found, key=lambda near: (-round(near.score, 2), len(near.world.mechanisms), near.world.slug))
 

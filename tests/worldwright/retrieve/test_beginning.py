@@ -21,6 +21,9 @@ NEAREST = {
     "a steady wind turns a windmill": {"pendulum-dies-out", "tetherball-swings", "lit-set"},
     "A grandfather clock's pendulum swings": {"pendulum-dies-out", "lit-set"},
     "A row of dominoes falls": {"camera-move"},
+    "Snow falls and accumulates on a bench": {"snow-on-a-bench"},
+    "A robot arm lifts a bottle": {"mug-on-a-shelf"},
+    "A quadcopter hovers in a storm": {"drone-in-gusts"},
     "Thick honey is poured into a jar": {"honey-from-a-spoon"},
     "honey runs from a spoon into a glass jar": {"honey-from-a-spoon"},
     "A football breaks a window": {"window-pane"},
@@ -115,7 +118,7 @@ def test_a_breeze_and_a_branch_are_heard_and_a_medium_is_seen():
 
 MATTER = {
     "honey runs from a spoon into a glass jar": "media/references/honey-from-a-spoon",
-    "snow falls and settles on a park bench": "media/references/snow.md",
+    "snow falls and settles on a park bench": "media/references/snow-on-a-bench",
     "Sand runs through an hourglass": "media/references/honey.md",
     "A red balloon is blown up and let go": "media/references/skin.md",
     "A rubber band is stretched between two pegs and let go": "media/references/rubber-band",
