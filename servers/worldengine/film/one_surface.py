@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 REACH = 2.4
 """A particle draws the surface towards itself within so many of its radii."""
-CELLS_A_RADIUS, LEAST_CELLS = 3.0, 1.5
+CELLS_A_RADIUS, LONE_CELLS, LEAST_CELLS = 3.0, 2.4, 1.5
 MOST_CELLS = 3_000_000
 SMOOTH_CELLS = 0.7
 SUNK = 0.8
@@ -116,12 +116,17 @@ def mixed(vertices: "np.ndarray", points: "np.ndarray", radii: "np.ndarray", col
 
 def narrowed(points: "np.ndarray", radii: "np.ndarray", alone: float) -> "np.ndarray":
     """(P,) m: the radii of balls (P), of which those with fewer than `COMPANY` others within reach are `alone` times as wide."""
+    return radii if alone >= 1.0 else np.where(_lone(points, radii), alone * radii, radii)
+
+
+def _lone(points: "np.ndarray", radii: "np.ndarray") -> "np.ndarray":
+    """(P,) which balls have fewer than `COMPANY` others within reach; none where there are no more in all."""
     from scipy.spatial import cKDTree
 
-    if alone >= 1.0 or len(points) <= COMPANY:
-        return radii
+    if len(points) <= COMPANY:
+        return np.zeros(len(points), dtype=bool)
     away, _ = cKDTree(points).query(points, k=COMPANY + 1)
-    return np.where(away[:, -1] > REACH * radii, alone * radii, radii)
+    return np.asarray(away[:, -1] > REACH * radii)
 
 
 def room(particles: int) -> int:
@@ -178,31 +183,36 @@ def around(
     """
     if not len(points):
         return np.zeros((0, 3)), np.zeros((0, 3), np.int32), np.zeros(0)
-    radius = float(np.median(radii))
+    radius, even = float(np.median(radii)), np.full(len(points), smooth)
     cell = min(max(smooth * radius / CELLS_A_RADIUS, finest), smooth * radius / LEAST_CELLS)
+    if smooth > 1.0 and (lone := _lone(points, radii)).any():  # what flies apart keeps its own shape
+        even[lone] = 1.0
+        cell = min(cell, max(float(radii[lone].min()) / LONE_CELLS, finest))
     while True:
-        vertices, faces, thick, cell = _meshed(points, radii, cell, smooth)
+        vertices, faces, thick, cell = _meshed(points, radii, cell, even)
         if len(faces) <= most_faces and len(vertices) < most_vertices:
             return vertices, faces, thick
         cell *= 1.25
 
 
 def _meshed(
-    points: "np.ndarray", radii: "np.ndarray", cell: float, smooth: float = 1.0
+    points: "np.ndarray", radii: "np.ndarray", cell: float, even: "np.ndarray"
 ) -> "tuple[np.ndarray, np.ndarray, np.ndarray, float]":
     from scipy.ndimage import gaussian_filter
     from scipy.sparse import csr_array
     from skimage.measure import marching_cubes
 
-    margin = REACH * smooth * float(radii.max()) + 2 * cell
+    margin = REACH * float((even * radii).max()) + 2 * cell
     low, span = points.min(axis=0) - margin, np.ptp(points, axis=0) + 2 * margin
     cell = max(cell, float(np.prod(span) / MOST_CELLS) ** (1 / 3))
     low, span = low - 2 * cell, span + 4 * cell  # all that a ball reaches is in the grid
     shape = tuple(int(n) for n in np.ceil(span / cell) + 1)
     total, strides = int(np.prod(shape)), np.array([shape[1] * shape[2], shape[2], 1])
     sums = np.zeros((total, 5))  # of the weights, and of them with places and radii
-    for radius in np.unique(np.round(radii, 9)):  # balls of one size reach over equally many cells
-        mine = points[np.abs(radii - radius) < 1e-8]
+    for radius, smooth in np.unique(
+        np.round(np.column_stack([radii, even]), 9), axis=0
+    ):  # they reach over equally many cells
+        mine = points[(np.abs(radii - radius) < 1e-8) & (np.abs(even - smooth) < 1e-8)]
         reach = REACH * smooth * radius
         n = int(np.ceil(reach / cell))
         around_it = np.stack(np.meshgrid(*[np.arange(-n, n + 1)] * 3, indexing="ij"), -1).reshape(-1, 3)
@@ -222,7 +232,9 @@ def _meshed(
     places = np.stack(np.unravel_index(np.flatnonzero(near), shape), -1) * cell + low
     level = np.full(total, 2.0 * cell)
     distance = np.linalg.norm(places - mean[near] / weight[near, None], axis=1) - mean_radius[near] / weight[near]
-    if smooth > 1.0:  # the mean of what lies beneath is deeper, the farther it reaches; that of a lone drop is not
+    if (
+        smooth := float(even.max())
+    ) > 1.0:  # the mean of what lies beneath is deeper, the farther it reaches; that of a lone drop is not
         among = np.median(weight[np.rint((points - low) / cell).astype(int) @ strides])
         distance -= SUNK * (smooth - 1.0) * np.median(radii) * np.minimum(2.0 * weight[near] / among, 1.0)
     level[near] = np.clip(distance, -3.0 * cell, 3.0 * cell)
