@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pyarrow as pa
@@ -272,6 +273,7 @@ def test_a_recording_without_points_tells_of_its_laws_all_the_same(tmp_path: Pat
     (tmp_path / "out" / "media.arrows").unlink()
     told = law_channels.read(stored.open(tmp_path / "out"))
     assert list(told["law_names"]) == ["springs"] and told["law0_points"].shape == (0, 0, 3)
+    assert not len(told["law_grains"]), "what shows it is no crowd of balls"
 
 
 def test_a_law_is_summed_at_the_end_too_and_asked_often_enough(tmp_path: Path) -> None:
@@ -347,3 +349,17 @@ def test_laws_that_cannot_be_stepped_are_refused(tmp_path: Path, laws, settings,
     words = ["--pass", "build", "--out", str(tmp_path)]
     assert program.main(lambda: world(), duration=0.05, laws=laws, argv=words, **settings) == 1
     assert says in json.loads((tmp_path / "error.json").read_text())["message"]
+
+
+def test_what_is_a_crowd_of_balls_is_told_to_films() -> None:
+    rows = {
+        "honey": ["sphere"] * 3,
+        "cord": ["mesh"],
+        "bead": ["sphere"],
+        "mixed": ["sphere", "box"],
+        "other": ["sphere"] * 2,
+    }
+    recording = SimpleNamespace(
+        meta={"geoms": [{"body": body, "type": kind} for body, kinds in rows.items() for kind in kinds]}
+    )
+    assert law_channels._grains(recording, {"honey", "cord", "bead", "mixed", "gone"}) == ["honey"]

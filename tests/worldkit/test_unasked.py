@@ -165,3 +165,17 @@ def test_a_crowd_is_held_whole() -> None:
     assert np.ptp(arrays["target"][:20], axis=0).max() < 1e-6  # nothing is followed
     away = np.linalg.norm(arrays["eye"] - arrays["target"], axis=1) * np.tan(np.radians(arrays["fovy_deg"]) / 2)
     assert found.radius("bead1") / away[0] < hero.LEAST
+
+
+def test_a_liquid_and_snow_are_one_thing_and_beads_are_beads():
+    found = told(
+        {"thing": rolling(1.0), "honey": rolling(0.1), "snow": rolling(0.1), "beads": rolling(0.1)}, words="a thing"
+    )
+    found._laws.grains = ("beads", "honey", "snow")
+    found.looks = {"honey": "clear #b86a10 6mm", "snow": "snow", "beads": "plastic_red"}
+    film = Film(found)
+    unasked.film(film)
+    assert [(one["of"], one["look"], one.get("smooth", 1.0)) for one in film._surfaces] == [
+        (["honey"], "clear #b86a10 6mm", 1.0),
+        (["snow"], "snow", 2.0),
+    ]

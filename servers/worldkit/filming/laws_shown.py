@@ -14,6 +14,8 @@ class Laws:
 
     def __init__(self, arrays: Mapping[str, np.ndarray]) -> None:
         self.names: tuple[str, ...] = tuple(str(name) for name in arrays.get("law_names", ()))
+        self.grains: tuple[str, ...] = tuple(str(name) for name in arrays.get("law_grains", ()))
+        """Bodies of many balls that show the points of one."""
         self._arrays = arrays
 
     def points(self, law: str, at: "float | np.ndarray") -> np.ndarray:

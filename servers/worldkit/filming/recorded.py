@@ -235,6 +235,11 @@ class Recorded:
         """The author's laws, and other media that move points."""
         return self._laws.names
 
+    @property
+    def grains(self) -> tuple[str, ...]:
+        """The bodies of many balls that show the points of a law."""
+        return self._laws.grains
+
     def points(self, law: str, at: float | np.ndarray) -> np.ndarray:
         """Where the points of a law are at some recorded times: (P, 3), or (N, P, 3), m; in the order of `law.points`.
 
