@@ -8,6 +8,7 @@ when it is used, so that listing them all costs nothing.
 import importlib
 import importlib.util
 import pkgutil
+import sys
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -73,6 +74,11 @@ class Seam(Generic[P]):
         }
 
     def _module(self, name: str) -> str:
+        own = f"{self.package}.{name}"
+        if (
+            own in sys.modules and name.isidentifier() and not name.startswith("_")
+        ):  # the folder need not be listed anew
+            return own
         known = self._modules()
         if name not in known:
             raise SeamError(
