@@ -14,6 +14,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar, cast
 
+from . import listings
 from .errors import SeamError
 
 P = TypeVar("P")
@@ -62,8 +63,7 @@ class Seam(Generic[P]):
         path = Path(spec.origin)
         if path.name != "__init__.py":
             return (path,)
-        found = (p for p in path.parent.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
-        return tuple(sorted(found))
+        return tuple(sorted(map(Path, listings.files(str(path.parent)))))
 
     def _modules(self) -> dict[str, str]:
         """The dotted name of each entry's module; an entry of the folder cannot be replaced from outside."""
