@@ -31,6 +31,11 @@ def filmed(run: Run) -> stored.Recording:
         while not job.ended:
             job = stage.wait(str(run.folder), job=job.job, timeout_s=30)
         assert job.state == "succeeded", job.text()
+    return recorded(run)
+
+
+def recorded(run: Run) -> stored.Recording:
+    """The recording of what the run holds now."""
     return stored.open(run.evidence(run.evidence_key(environment.current().sha256())) / "physics" / "trajectory")
 
 

@@ -8,11 +8,13 @@ when it is used, so that listing them all costs nothing.
 import importlib
 import importlib.util
 import pkgutil
+import sys
 from functools import cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar, cast
 
+from . import listings
 from .errors import SeamError
 
 P = TypeVar("P")
@@ -61,8 +63,7 @@ class Seam(Generic[P]):
         path = Path(spec.origin)
         if path.name != "__init__.py":
             return (path,)
-        found = (p for p in path.parent.rglob("*") if p.is_file() and "__pycache__" not in p.parts)
-        return tuple(sorted(found))
+        return tuple(sorted(map(Path, listings.files(str(path.parent)))))
 
     def _modules(self) -> dict[str, str]:
         """The dotted name of each entry's module; an entry of the folder cannot be replaced from outside."""
@@ -73,6 +74,11 @@ class Seam(Generic[P]):
         }
 
     def _module(self, name: str) -> str:
+        own = f"{self.package}.{name}"
+        if (
+            own in sys.modules and name.isidentifier() and not name.startswith("_")
+        ):  # the folder need not be listed anew
+            return own
         known = self._modules()
         if name not in known:
             raise SeamError(

@@ -8,11 +8,11 @@ import worldkit
 from worldengine.film import identity
 
 NOT_SEEN = {
-    "alike.py", "channel.py", "errors.py", "files.py", "film_files.py", "lock.py", "naming.py", "portable.py", "program.py",
-    "reporting.py", "scene.py", "seams.py", "wheels.py", "world.py", "__init__.py",
+    "alike.py", "channel.py", "errors.py", "files.py", "film_files.py", "listings.py", "lock.py", "naming.py", "portable.py",
+    "program.py", "reporting.py", "scene.py", "seams.py", "wheels.py", "world.py", "__init__.py",
 }  # fmt: skip
 """What films import of it that changes no picture: how files, errors, names and progress are told, which versions and
-what processor are there, and how a world, which is recorded as it is, is read."""
+what processor are there, which files lie in a folder, and how a world, which is recorded as it is, is read."""
 
 
 def imported(path: Path) -> set[str]:

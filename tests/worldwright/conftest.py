@@ -41,6 +41,12 @@ def _once(factory: pytest.TempPathFactory, name: str, make: Callable[[Path], obj
     return Path(shutil.copytree(kept / RUN, factory.mktemp(name) / RUN))
 
 
+@pytest.fixture(scope="session")
+def once(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], object]], Path]:
+    """This worker's copy of the run that the first who asks for a name makes for all workers."""
+    return lambda name, make: _once(tmp_path_factory, name, make)
+
+
 @pytest.fixture
 def fresh(tmp_path: Path, small_plan: str) -> Path:
     """A run that is a plan and nothing else."""

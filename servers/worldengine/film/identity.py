@@ -5,10 +5,10 @@ import json
 import os
 from dataclasses import dataclass
 from functools import lru_cache
-from glob import escape, glob
 from pathlib import Path
 
 import worldkit
+from worldkit import listings
 
 from . import renderers
 
@@ -17,7 +17,7 @@ PACKAGES = ("av", "opencv-python-headless")
 
 DRAWN_FROM = (
     "cameras/**/*.py", "filming/**/*.py", "materials/**/*.py", "settings.py", "lights.py", "model_text.py", "turning.py", "forms/lattice.py",
-    "laws.py", "moved_shapes.py",
+    "laws.py", "moved_shapes.py", "in_pieces.py",
 )  # fmt: skip
 """What of `worldkit` decides how a recorded world looks when it is drawn, and from where."""
 REPLAYED_BY = (
@@ -77,8 +77,10 @@ def _code(name: str) -> str:
     it draws on, and which may take over from it."""
     film, kit = Path(__file__).parent, Path(worldkit.__file__ or "").parent
     # Plain texts: each step of a run asks this of some hundred files.
-    patterns = [f"{escape(str(film))}/*.py", *(f"{escape(str(kit))}/{pattern}" for pattern in DRAWN_FROM)]
-    own = [path for pattern in patterns for path in glob(pattern, recursive=True)]  # noqa: PTH207
+    own = listings.files(str(film), ("*.py",), deep=False)
+    for drawn_from in DRAWN_FROM:
+        folder, everything, _ = drawn_from.partition("/**/")
+        own += listings.files(str(kit / folder), ("*.py",)) if everything else [str(kit / folder)]
     own += [renderers.__file__ or "", *(str(film.parent / name) for name in REPLAYED_BY)]
     drawn: list[str] = []
     while name:

@@ -63,7 +63,7 @@ def find(key: str) -> Asset:
         hint = f"did you mean {' or '.join(near)}? " if near else ""
         raise UnknownAssetError(f"no asset {key!r} in {catalog_root()}; {hint}known: {', '.join(known)}")
     take(key)
-    stats = tuple((path, s.st_mtime_ns, s.st_size) for path in files(key) for s in (path.stat(),))
+    stats = tuple((path, s.st_mtime_ns, s.st_size) for path in SEAM.find(known[key]).files(key) for s in (path.stat(),))
     return _read(known[key], key, stats)
 
 

@@ -4,6 +4,8 @@ import os
 import time
 from pathlib import Path
 
+from .. import listings
+
 SETTLED_NS = 100_000_000
 """A folder that changed less long ago may change again within the same tick of its clock, so it is listed anew."""
 
@@ -32,5 +34,5 @@ def keys(root: Path) -> tuple[str, ...]:
 
 def files(root: Path, key: str) -> tuple[Path, ...]:
     """All files below an asset's folder, sorted, except the thumbnail, which decides nothing."""
-    found = (root / key).rglob("*")
-    return tuple(sorted(path for path in found if path.is_file() and path.name != "thumbnail.png"))
+    found = map(Path, listings.files(str(root / key)))
+    return tuple(sorted(path for path in found if path.name != "thumbnail.png"))

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from .. import quick_yaml
 from .entry import Asset, Piece, Support
 
 REQUIRED = ("category", "description", "source", "licence", "native_extents", "metric_height", "friction", "visual")
@@ -58,7 +59,7 @@ def read_asset(folder: Path) -> Asset:
 
     path = folder / "asset.yaml"
     try:
-        data = yaml.safe_load(path.read_text(encoding="utf-8"))
+        data = quick_yaml.read(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise AssetError(f"{path}: cannot be read ({error.strerror})") from error
     except (yaml.YAMLError, UnicodeDecodeError) as error:

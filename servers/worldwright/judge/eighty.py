@@ -3,7 +3,7 @@
 from functools import cache
 from importlib.resources import files
 
-import yaml
+from worldkit import quick_yaml
 
 from ..model.frozen import Frozen
 
@@ -22,5 +22,5 @@ class Prompt(Frozen):
 @cache
 def prompts() -> tuple[Prompt, ...]:
     """All of them, in the order of the set."""
-    rows = yaml.safe_load(files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
+    rows = quick_yaml.read(files(__package__).joinpath(FILE).read_text(encoding="utf-8"))
     return tuple(Prompt(**row) for row in rows)

@@ -1,6 +1,7 @@
 """A rubber cord by a law of the author's, as the skill writes it: from plan and files to an accepted world that is proved again."""
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -40,10 +41,21 @@ def written(run: Run) -> None:
     run.program.write_text(text, encoding="utf-8")
 
 
-def test_a_law_of_ones_own_stretches_a_cord_to_acceptance(tmp_path: Path) -> None:
-    run = whole_runs.approved(PLAN, tmp_path / "cord")
-    written(run)
-    recording = whole_runs.filmed(run)
+@pytest.fixture(scope="module")
+def filmed(once: Callable[[str, Callable[[Path], object]], Path]) -> Run:
+    """The cord, from its plan to its film."""
+
+    def make(folder: Path) -> None:
+        run = whole_runs.approved(PLAN, folder)
+        written(run)
+        whole_runs.filmed(run)
+
+    return Run(once("cord", make))
+
+
+def test_a_law_of_ones_own_stretches_a_cord(filmed: Run) -> None:
+    run = filmed
+    recording = whole_runs.recorded(run)
     alone = stage.run_variant(run, "without-control", ("--without", "control"))
     assert alone.state == "succeeded", alone.text()
     without = stored.open(stage.variant_folder(run, "without-control") / "trajectory")
@@ -52,6 +64,10 @@ def test_a_law_of_ones_own_stretches_a_cord_to_acceptance(tmp_path: Path) -> Non
     length = np.linalg.norm(np.diff(rings, axis=1), axis=2).sum(axis=1)
     assert 1.55 < length.max() / length[0] < 1.75, "stretched by more than half"
     assert length[-1] < 0.9 * length.max(), "and sprung back"
+
+
+def test_such_a_run_is_accepted_and_proved_again(filmed: Run) -> None:
+    run = filmed
     scanned = scan.scan(str(run.folder))
     assert scanned.ok, scanned.text()
     assert all("declared: a neo-Hookean cord" in acted for acted in scanned.acting) and len(scanned.acting) == 2

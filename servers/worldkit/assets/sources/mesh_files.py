@@ -17,6 +17,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
+from ... import quick_yaml
 from ...data_folders import catalog_root
 from ..entry import Asset, Piece
 from ..reading import CONTACT, AssetError
@@ -95,7 +96,7 @@ def _facts(path: Path) -> dict[str, Any]:
     import yaml
 
     try:
-        facts = yaml.safe_load(path.read_text(encoding="utf-8"))
+        facts = quick_yaml.read(path.read_text(encoding="utf-8"))
     except (OSError, yaml.YAMLError, UnicodeDecodeError) as error:
         raise AssetError(f"{path}: cannot be read as YAML: {error}") from error
     if not isinstance(facts, dict):

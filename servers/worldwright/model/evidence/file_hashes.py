@@ -1,7 +1,6 @@
 """One hash over many files, remembered as long as no file's size or time changes, so that asking costs milliseconds."""
 
 import contextlib
-import fnmatch
 import hashlib
 import json
 import os
@@ -9,6 +8,7 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 
+from worldkit import listings
 from worldkit.files import write_json
 
 Named = tuple[tuple[str | Path, str], ...]
@@ -25,15 +25,10 @@ def cache_folder() -> Path:
 
 def below(root: Path, patterns: Iterable[str] = ("*",)) -> Named:
     """Matching files below a folder with their relative names, in a fixed order; thumbnails decide nothing."""
-    # Plain texts, and one walk whatever the patterns: nearly every call of a tool asks this of some hundred files.
-    wanted, start = tuple(patterns), str(root)
-    found: list[str] = []
-    for folder, folders, names in os.walk(start):
-        if "__pycache__" in folders:
-            folders.remove("__pycache__")
-        fitting = {name for pattern in wanted for name in fnmatch.filter(names, pattern)} - {"thumbnail.png"}
-        found += [f"{folder}{os.sep}{name}" for name in fitting]
-    plain = sorted(filter(os.path.isfile, found), key=lambda path: path.replace(os.sep, "\0"))
+    # Plain texts: nearly every call of a tool asks this of some hundred files.
+    start = str(root)
+    found = (path for path in listings.files(start, tuple(patterns)) if not path.endswith(f"{os.sep}thumbnail.png"))
+    plain = sorted(found, key=lambda path: path.replace(os.sep, "\0"))
     return tuple((path, path[len(start) + 1 :].replace(os.sep, "/")) for path in plain)
 
 

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from worldkit.in_pieces import pieces
+
 if TYPE_CHECKING:
     import mujoco
 
@@ -28,8 +30,6 @@ class ClosedFlex:
     """
 
     def __init__(self, model: mujoco.MjModel, flex: int, points: np.ndarray) -> None:
-        from scipy.sparse import csr_matrix
-
         first, count = int(model.flex_vertadr[flex]), int(model.flex_vertnum[flex])
         self._rows = slice(first, first + count)
         self._triangles = _triangles(model, flex)
@@ -38,17 +38,21 @@ class ClosedFlex:
         corner = self._triangles.ravel()
         order = np.argsort(corner, kind="stable")
         ends = np.searchsorted(corner[order], np.arange(count + 1))
-        rows, columns = [], []
-        for a, b in pairwise(ends):
-            mine = order[a:b]
-            faces = mine // 3
-            near = unit[faces] @ unit[faces].T > EDGE
-            i, j = np.nonzero(near)
-            rows.append(mine[i])
-            columns.append(faces[j])
-        row, column = np.concatenate(rows), np.concatenate(columns)
+        faces, meeting = [], []
+        self._sets = 0
+        self._meeting = np.zeros(len(corner), np.int64)
+        """(3 F,) of each corner, which faces meet smoothly there: most corners of a point share one such set."""
+        for one, other in pairwise(ends):
+            mine = order[one:other]
+            near = unit[mine // 3] @ unit[mine // 3].T > EDGE
+            sets = near[:1] if near.all() else near
+            i, j = np.nonzero(sets)
+            self._meeting[mine] = self._sets + (0 if len(sets) == 1 else np.arange(len(mine)))
+            meeting.append(self._sets + i)
+            faces.append(mine[j] // 3)
+            self._sets += len(sets)
+        self._faces, self._of_set = np.concatenate(faces), np.concatenate(meeting)
         beads = _beads(self._triangles, count)
-        self._smooth = csr_matrix((np.ones(len(row)), (row, column)), shape=(len(corner), len(self._triangles)))
         self._parts = [~beads, beads] if beads.any() else [~beads]
         self.corners = [self._triangles[part].ravel() for part in self._parts]
         """Of each piece that `read` gives (3 F,) which of the flex's points its corners are."""
@@ -59,8 +63,10 @@ class ClosedFlex:
     def read(self, data: mujoco.MjData) -> list[tuple[np.ndarray, np.ndarray]]:
         """(3 F, 3) m and (3 F, 3): the corners and their normals in a state, of its largest piece, and of its beads where it has some."""
         points = data.flexvert_xpos[self._rows][self._triangles]
-        normals = self._smooth @ _areas(points)
-        normals = (normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)).reshape(-1, 3, 3)
+        areas = _areas(points)[self._faces]
+        normals = np.stack([np.bincount(self._of_set, areas[:, k], self._sets) for k in range(3)], axis=1)
+        normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+        normals = normals[self._meeting].reshape(-1, 3, 3)
         return [(points[part].reshape(-1, 3), normals[part].reshape(-1, 3)) for part in self._parts]
 
 
@@ -82,11 +88,7 @@ def _triangles(model: mujoco.MjModel, flex: int) -> np.ndarray:
 
 def _beads(triangles: np.ndarray, count: int) -> np.ndarray:
     """(F,) whether a triangle belongs to another piece than the largest one."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    pairs = np.concatenate([triangles[:, :2], triangles[:, 1:]])
-    _, part = connected_components(coo_matrix((np.ones(len(pairs)), pairs.T), shape=(count, count)), directed=False)
+    part = pieces(np.concatenate([triangles[:, :2], triangles[:, 1:]]), count)
     return np.asarray(part != np.bincount(part).argmax())[triangles[:, 0]]
 
 

@@ -11,6 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from worldkit.in_pieces import pieces
+
 from .rounded import Mesh
 
 SHARE, LEAST_M, MOST_M = 2e-4, 2e-5, 2e-4
@@ -81,9 +83,6 @@ def _wound_both_ways(faces: np.ndarray) -> np.ndarray:
 
 def _open(faces: np.ndarray, but: np.ndarray) -> np.ndarray:
     """Which triangles (F,) belong to a piece that has an edge of its own; those of `but` (F,) count for nothing."""
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
     found = np.zeros(len(faces), bool)
     mine = faces[~but]
     # A triangle that has shrunk to a line has no edges, and covers nothing.
@@ -95,8 +94,7 @@ def _open(faces: np.ndarray, but: np.ndarray) -> np.ndarray:
     size = int(faces.max()) + 1
     key, count = np.unique(edges[:, 0].astype(np.int64) * size + edges[:, 1], return_counts=True)
     unique = np.stack([key // size, key % size], axis=1)
-    ones = np.ones(len(unique), dtype=np.int8)
-    _, piece = connected_components(coo_array((ones, (unique[:, 0], unique[:, 1])), shape=(size, size)), directed=False)
+    piece = pieces(unique, size)
     open_pieces = np.unique(piece[unique[count == 1, 0]])
     found[np.flatnonzero(~but)[whole]] = np.isin(piece[mine[:, 0]], open_pieces)
     return found
