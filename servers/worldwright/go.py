@@ -41,6 +41,8 @@ class Options:
     """End after the group of this step."""
     timeout_s: float = FOR_EVER_S
     """Return after about this long, s."""
+    memory_mb: int = 4096
+    """Resident memory limit of each pass that is started, MiB."""
 
 
 class Accepting(Going):
@@ -112,6 +114,7 @@ def go(run: Run, options: Options, say: Say) -> bool:
                 approve=allowed,
                 say=say,
                 progress=progress,
+                memory_mb=options.memory_mb,
             ).go()
         for running in gone.under_way:
             say("running", "waiting", running)
@@ -166,6 +169,13 @@ def _listener() -> Iterator[Progress]:
     show_default="none",
     help="Return after about so many seconds; the work goes on, call again.",
 )
+@click.option(
+    "--memory-mb",
+    type=click.IntRange(min=64),
+    default=4096,
+    show_default=True,
+    help="Resident memory limit of each pass.",
+)
 def command(
     run: Path,
     folder: Path | None,
@@ -175,6 +185,7 @@ def command(
     refine: bool,
     until: StepName | None,
     timeout_s: float,
+    memory_mb: int,
 ) -> None:
     """Advance a run (its folder, or a plan.md) as far as it goes without a decision; tell all that is wrong together."""
     from rich.console import Console
@@ -195,7 +206,7 @@ def command(
         found = Run.find(run)
         if folder is not None and folder.resolve() != found.folder:
             found = started_from(found, folder)
-        return go(found, Options(approve, auto, accept, refine, until, timeout_s), say)
+        return go(found, Options(approve, auto, accept, refine, until, timeout_s, memory_mb), say)
 
     sys.exit(0 if report_errors(work) else 1)
 

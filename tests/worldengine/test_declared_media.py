@@ -49,7 +49,7 @@ def test_points_are_recorded_a_hundred_times_a_second_and_drawn_in_between(recor
     shown = Replay(world().compile(), recorded)
     assert shown.show(25).flexvert_xpos == pytest.approx((place[2] + place[3]) / 2, abs=1e-6)
     assert shown.show(STEPS).flexvert_xpos == pytest.approx(place[-1])
-    assert between(np.array([0.0]), place[:1], 3.0) == pytest.approx(place[0])
+    assert between(np.array([0.0]), place[:1].__getitem__, 3.0) == pytest.approx(place[0])
 
 
 def test_geoms_of_a_body_can_show_it(tmp_path: Path) -> None:

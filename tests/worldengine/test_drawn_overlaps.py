@@ -1,6 +1,9 @@
 """Visible geoms that pass through each other without a collision are found; honest neighbours are not."""
 
+import tracemalloc
+
 import mujoco
+import numpy as np
 import pytest
 
 from small_worlds import ball, empty, floor, record
@@ -86,3 +89,30 @@ def test_a_link_may_overlap_the_fixed_base_it_turns_on(joint, left_out, tmp_path
     link.add_geom(name="link", type=mujoco.mjtGeom.mjGEOM_CYLINDER, size=(0.05, 0.1, 0))
     spec.add_exclude(bodyname1="base", bodyname2="link")
     assert (found(spec, tmp_path / "t", 10) == []) == left_out
+
+
+def test_the_grains_of_a_law_are_not_held_against_one_another():
+    """17,361 of them are 150 million pairs: that was 5.3 GB, and the end of a recording that was whole."""
+    spec = empty()
+    floor(spec)
+    shown = spec.worldbody.add_body(name="snow")
+    for n in range(4000):
+        shown.add_geom(size=[0.01, 0, 0], pos=(0, 0, 0.02 * n), contype=0, conaffinity=0)
+    ball(spec, "ball", (0, 0, 1))
+    model = spec.compile()
+    tracemalloc.start()
+    pairs = drawn_overlaps._candidates(model)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert len(pairs) == 4000 and most < 20e6
+
+
+@pytest.mark.parametrize("at_once", [3, 1 << 18])
+def test_pairs_of_trees_come_in_order_however_many_at_once(at_once, monkeypatch):
+    monkeypatch.setattr(drawn_overlaps, "AT_ONCE", at_once)
+    tree = np.array([-1, 0, -1, 1, 1, -1, 0])
+    found = [
+        pair for one, other in drawn_overlaps._apart(tree) for pair in zip(one.tolist(), other.tolist(), strict=True)
+    ]
+    assert found == [(i, j) for i in range(7) for j in range(i + 1, 7) if tree[i] != tree[j]]
+    assert list(drawn_overlaps._apart(np.full(4, -1))) == []

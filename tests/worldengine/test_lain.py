@@ -122,9 +122,9 @@ def test_points_that_are_neither_the_laws_nor_the_waters_are_refused(tmp_path: P
 
 def test_a_colour_is_not_mixed_with_none() -> None:
     times, numbers = np.array([0.0, 1.0]), np.array([[0xFF0000, 0xFF0000, -1], [0x0000FF, -1, 0x0000FF]])
-    halfway = lain.mixed(times, numbers, 0.5)
+    halfway = lain.mixed(times, numbers.__getitem__, 0.5)
     assert halfway == pytest.approx(np.array([(0.5, 0, 0.5), (1, 0, 0), (-1, -1, -1)]))
-    assert lain.mixed(times, numbers, 1.0) == pytest.approx(point_colours.shares(numbers[1]))
+    assert lain.mixed(times, numbers.__getitem__, 1.0) == pytest.approx(point_colours.shares(numbers[1]))
 
 
 @pytest.mark.parametrize("shown", [[{"bodies": []}], 7, [{"law": "water"}], [None]])

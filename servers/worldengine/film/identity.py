@@ -24,6 +24,7 @@ REPLAYED_BY = (
     "recording/seen.py",
     "recording/replay.py",
     "recording/lain.py",
+    "recording/long_table.py",
     "recording/point_colours.py",
     "inputs/declared_media.py",
 )

@@ -9,7 +9,7 @@ that touch in that row through other geoms, and a mesh whose body collides by hu
 its shape).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +26,10 @@ ROWS = 24
 """So many evenly spaced rows are looked at."""
 MOST_PAIRS = 4000
 """At most so many pairs are measured in a row, the nearest ones by their bounding spheres first."""
+AT_ONCE = 1 << 18
+"""About so many pairs are looked at in one go: the grains of an author's law are thousands of geoms, and their pairs would be more
+than there is memory for.
+"""
 SHALLOW_M, SHALLOW_SHARE = 2e-3, 0.05
 """An overlap counts when it is deeper than both this many metres and this share of the smaller geom's radius."""
 
@@ -122,21 +126,47 @@ def _candidates(model: "mujoco.MjModel") -> "np.ndarray":
     hull_of_its_own = ~mask & mesh & collides[body]
     bad = model.geom_type == mujoco.mjtGeom.mjGEOM_SDF
     shown = shown[~(hull_of_its_own | bad)[shown]]
-    one, other = (shown[i] for i in np.triu_indices(len(shown), 1))
-    apart = tree[body[one]] != tree[body[other]]
-    one, other = one[apart], other[apart]
     off = bool(model.opt.disableflags & (mujoco.mjtDisableBit.mjDSBL_CONTACT | mujoco.mjtDisableBit.mjDSBL_CONSTRAINT))
-    masks = (model.geom_contype[one] & model.geom_conaffinity[other]) | (
-        model.geom_contype[other] & model.geom_conaffinity[one]
-    )
-    signature = _signature(model, one, other)
-    excluded = np.isin(signature, model.exclude_signature)
-    low, high = np.minimum(one, other).astype(np.int64), np.maximum(one, other)
     listed = np.sort(np.stack([model.pair_geom1, model.pair_geom2], axis=1), axis=1).astype(np.int64)
-    named = np.isin(low * model.ngeom + high, listed[:, 0] * model.ngeom + listed[:, 1])
-    can = named | ((masks != 0) & ~excluded)
-    free = ~np.isin(signature, [*_ties(model), *_hinged(model)]) & (~can | off)
-    return np.stack([one[free], other[free]], axis=1)
+    named_pairs = listed[:, 0] * model.ngeom + listed[:, 1]
+    joined = [*_ties(model), *_hinged(model)]
+    found = [np.empty((0, 2), np.int32)]
+    for one, other in _apart(tree[body[shown]]):
+        one, other = shown[one], shown[other]
+        masks = (model.geom_contype[one] & model.geom_conaffinity[other]) | (
+            model.geom_contype[other] & model.geom_conaffinity[one]
+        )
+        signature = _signature(model, one, other)
+        excluded = np.isin(signature, model.exclude_signature)
+        low, high = np.minimum(one, other).astype(np.int64), np.maximum(one, other)
+        can = np.isin(low * model.ngeom + high, named_pairs) | ((masks != 0) & ~excluded)
+        free = ~np.isin(signature, joined) & (~can | off)
+        found.append(np.stack([one[free], other[free]], axis=1).astype(np.int32))
+    return np.concatenate(found)
+
+
+def _apart(tree: "np.ndarray") -> "Iterator[tuple[np.ndarray, np.ndarray]]":
+    """All pairs of two trees (n,), -1 for what stands fast, as places in it, the earlier first and in order; some `AT_ONCE`.
+
+    What stands fast has no pair with what else stands fast, and is never held against it.
+    """
+    import numpy as np
+
+    moving = np.flatnonzero(tree >= 0)
+    ones: list[np.ndarray] = []
+    others: list[np.ndarray] = []
+    held = 0
+    for place, own in enumerate(tree):
+        behind = np.arange(place + 1, len(tree)) if own >= 0 else moving[np.searchsorted(moving, place) :]
+        behind = behind[tree[behind] != own]
+        ones.append(np.full(len(behind), place))
+        others.append(behind)
+        held += len(behind)
+        if held >= AT_ONCE:
+            yield np.concatenate(ones), np.concatenate(others)
+            ones, others, held = [], [], 0
+    if held:
+        yield np.concatenate(ones), np.concatenate(others)
 
 
 def _signature(model: "mujoco.MjModel", one: "np.ndarray", other: "np.ndarray") -> "np.ndarray":
@@ -182,11 +212,17 @@ def _near(model: "mujoco.MjModel", data: "mujoco.MjData", pairs: "np.ndarray") -
     """The pairs whose bounding spheres overlap; a plane has no sphere and is near everything in front of it."""
     import numpy as np
 
-    one, other = pairs[:, 0], pairs[:, 1]
     radius = np.where(model.geom_rbound > 0, model.geom_rbound, np.inf)
-    gap = np.sqrt(((data.geom_xpos[one] - data.geom_xpos[other]) ** 2).sum(axis=1)) - radius[one] - radius[other]
-    order = np.argsort(gap, kind="stable")[:MOST_PAIRS]
-    return [(int(a), int(b)) for a, b in pairs[order[gap[order] < 0]]]
+    near, gaps = [np.empty((0, 2), np.int32)], [np.empty(0)]
+    for first in range(0, len(pairs), AT_ONCE):
+        some = pairs[first : first + AT_ONCE]
+        one, other = some[:, 0], some[:, 1]
+        apart = np.sqrt(((data.geom_xpos[one] - data.geom_xpos[other]) ** 2).sum(axis=1))
+        gap = apart - radius[one] - radius[other]
+        near.append(some[gap < 0])
+        gaps.append(gap[gap < 0])
+    order = np.argsort(np.concatenate(gaps), kind="stable")[:MOST_PAIRS]
+    return [(int(a), int(b)) for a, b in np.concatenate(near)[order]]
 
 
 def _distance(model: "mujoco.MjModel", data: "mujoco.MjData", one: int, other: int) -> float:

@@ -3,10 +3,14 @@
 from typing import TYPE_CHECKING
 
 from worldkit.errors import ProgramError, RecordingError
+from worldkit.laws import PLAIN
 
 from . import point_colours
+from .long_table import OneMedium
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     import mujoco
     import numpy as np
 
@@ -25,58 +29,50 @@ class Lain:
     """
 
     def __init__(self, model: "mujoco.MjModel", recording: "Recording") -> None:
-        import numpy as np
-
         from ..inputs.declared_media import Place
         from ..inputs.told_laws import moved
 
-        rows, media = moved(recording.meta, str(recording.folder)), recording.media
+        rows = moved(recording.meta, str(recording.folder))
         try:
             self._places = [Place(model, row) for row in rows]
         except ProgramError as error:
             raise RecordingError(error.cause, str(recording.folder), "draw it with the world that it is of") from error
-        step, medium = np.asarray(media.step), np.asarray(media.medium)
         self.times: list[np.ndarray] = []
         """Of each medium (F,) s: when its points lay there; what a solver moves has instants of its own."""
-        self.points: list[np.ndarray] = []
-        """Of each medium (F, n, 3) m."""
-        self.colours: list[np.ndarray | None] = []
-        """Of each medium (F, n), each as one number; None where it has none."""
+        self.media: list[OneMedium] = []
+        """Where they lay then; what is not shown stays packed in its file."""
         for number, (row, place) in enumerate(zip(rows, self._places, strict=True)):
-            mine, steps = np.asarray(media.place)[medium == number], np.unique(step[medium == number])
-            whole = len(mine) // max(1, place.count)  # a torn recording ends within an instant
-            if not whole or (len(mine) != place.count * len(steps) and recording.complete):
-                cause = f"the recording has {len(mine)} places of the law {row.name}, {place.count} points at {len(steps)} instants"
+            lay = OneMedium(recording.folder / "media.arrows", number, place.count)
+            steps = lay.steps  # a torn recording ends within an instant
+            if not len(lay) or (lay.rows != place.count * len(steps) and recording.complete):
+                cause = f"the recording has {lay.rows} places of the law {row.name}, {place.count} points at {len(steps)} instants"
                 raise RecordingError(cause, str(recording.folder), "run the physics pass again")
-            self.times.append(steps[:whole] * recording.time_step)
-            self.points.append(mine[: whole * place.count].reshape(whole, place.count, 3))
-            told = np.asarray(media.colour)[medium == number] if "colour" in media.columns else np.empty(0)
-            own = told[: whole * place.count]
-            self.colours.append(own.reshape(whole, -1) if len(own) and own.max() >= 0 else None)
-            if len(own):
-                place.colour(point_colours.shares(own[: place.count]))  # who draws it asks first whether there are some
+            self.times.append(steps[: len(lay)] * recording.time_step)
+            self.media.append(lay)
+            # Who draws it asks first whether there are some.
+            place.colour(point_colours.shares(lay.colours(0)) if lay.coloured else PLAIN)
 
     def show(self, data: "mujoco.MjData") -> None:
         """Lay them as they were at the data's time."""
         at = float(data.time)
-        for place, times, points, colours in zip(self._places, self.times, self.points, self.colours, strict=True):
-            place.show(data, between(times, points, at), None if colours is None else mixed(times, colours, at))
+        for place, times, lay in zip(self._places, self.times, self.media, strict=True):
+            place.show(data, between(times, lay.places, at), mixed(times, lay.colours, at) if lay.coloured else None)
 
 
-def between(times: "np.ndarray", points: "np.ndarray", at: float) -> "np.ndarray":
-    """(n, 3) m: the points at an instant, s, from those (F, n, 3) at the times (F,); the first before, the last after."""
+def between(times: "np.ndarray", points: "Callable[[int], np.ndarray]", at: float) -> "np.ndarray":
+    """(n, 3) m: the points at an instant, s, from those (n, 3) at each of the times (F,); the first before, the last after."""
     import numpy as np
 
     before, after, share = _around(times, at)
-    return np.asarray(points[before] * (1.0 - share) + points[after] * share)
+    return np.asarray(points(before) * (1.0 - share) + points(after) * share)
 
 
-def mixed(times: "np.ndarray", colours: "np.ndarray", at: float) -> "np.ndarray":
-    """(n, 3) sRGB at an instant, s, from the numbers (F, n) at the times (F,): where one of the two around it is none, the earlier."""
+def mixed(times: "np.ndarray", colours: "Callable[[int], np.ndarray]", at: float) -> "np.ndarray":
+    """(n, 3) sRGB at an instant, s, from the numbers (n,) at each of the times (F,): where one of the two around it is none, the earlier."""
     import numpy as np
 
     before, after, share = _around(times, at)
-    first, second = (point_colours.shares(colours[n]) for n in (before, after))
+    first, second = (point_colours.shares(colours(n)) for n in (before, after))
     whole = (first >= 0) & (second >= 0)
     return np.where(whole, first * (1.0 - share) + second * share, second if share == 1.0 else first)
 

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING, Any
 
 from worldkit.errors import RecordingError
 
-from . import push_blocks, stream_files
+from . import long_table, push_blocks, stream_files
 from .columns import CAMERAS_FILE, LATER, OF_MEDIA, OVERLAPS_FILE, SCHEMA_VERSION, TABLES, Column, from_meta
 from .foretold import BYTES, WEIGHTS, Forecast, weights_of
 from .record import HASHED, combine
@@ -277,13 +277,15 @@ class Recording:
         """
         said = {name: rows for name in ("laws", "solvers", "shown") if (rows := self.meta.get(name))}
         told = {name: self._state[name] for name in self._state.columns if "." in name}
-        for name, table in (("edits", self.edits), ("media", self.media)):
-            told |= {f"{name} {n}": table[n] for n in table.columns if n != "time" and len(table)}
-        if not said and not told:
+        told |= {f"edits {n}": self.edits[n] for n in self.edits.columns if n != "time" and len(self.edits)}
+        media, points = self._table("media").columns, long_table.rows(self.folder / "media.arrows")
+        if not said and not told and not points:
             return self.sha256
         shown = hashlib.sha256(f"{self.sha256}\n{json.dumps(said, sort_keys=True)}".encode())
         for name, values in told.items():
             shown.update(f"\n{name} {len(values)} ".encode() + _content(values))
+        for name in media if points else ():
+            long_table.hashed(shown, self.folder / "media.arrows", f"media {name}", points)
         return shown.hexdigest()
 
     @property
@@ -323,15 +325,19 @@ class Replayable:
 def inputs_digest(folder: Path) -> str:
     """SHA-256 of what was sent to a world, the rows of `inputs`, `edits` and of its laws; empty when nothing was sent."""
     found, digest = Replayable(folder), hashlib.sha256()
-    of_laws = by_laws(found.media, int(found.balances.medium.max(initial=-1)) + 1)
-    media = [("media", found.media)] if of_laws.any() else []
+    path, laws = found.folder / "media.arrows", int(found.balances.medium.max(initial=-1)) + 1
+    points = long_table.rows(path, laws)
+    kept = (schema.names if (schema := stream_files.schema(path)) else []) if points else []
     balances = [("balances", found.balances)] if len(found.balances) else []
-    for name, table in [("inputs", found.inputs), ("edits", found.edits), *media, *balances]:
+    for name, table in [("inputs", found.inputs), ("edits", found.edits), ("media", None), *balances]:
         for column in (c for c in TABLES[name] if c.name not in ("time", "row")):
-            if (name, column.name) not in LATER or table.holds(column.name):
-                values = table[column.name][of_laws] if name == "media" else table[column.name]
+            if table is None:
+                if points and ((name, column.name) not in LATER or column.name in kept):
+                    long_table.hashed(digest, path, f"media.{column.name}", points, laws)
+            elif (name, column.name) not in LATER or table.holds(column.name):
+                values = table[column.name]
                 digest.update(f"\n{name}.{column.name} {len(values)} ".encode() + _content(values))
-    return digest.hexdigest() if media or balances or len(found.inputs) or len(found.edits) else ""
+    return digest.hexdigest() if points or balances or len(found.inputs) or len(found.edits) else ""
 
 
 def by_laws(media: Table, laws: int) -> "np.ndarray":

@@ -9,7 +9,7 @@ The words are flatbuffers (format: Arrow's `Message.fbs`): a table's field n is 
 """
 
 import struct
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -27,11 +27,17 @@ REMEDIES = {"media": OF_POINTS, "balances": OF_POINTS}
 """By table, where `LESS` does not help: points and sums are due by the simulated time."""
 SCHEMA, BATCH = 1, 3
 """MessageHeader: the kinds that our files have. Others (dictionaries) would be unpacked, too."""
-Batches = list[tuple["pa.RecordBatch", Mapping[bytes, bytes]]]
+Said = tuple["pa.RecordBatch", Mapping[bytes, bytes]]
+Batches = list[Said]
 
 
 def batches(path: Path, *, torn: bool = False, most: int = MOST_BYTES, rows: int | None = None) -> Batches:
-    """The record batches of a file, and what is said about each; none where there is no file.
+    """All record batches of a file, arguments and errors as of `each`."""
+    return list(each(path, torn=torn, most=most, rows=rows))
+
+
+def each(path: Path, *, torn: bool = False, most: int = MOST_BYTES, rows: int | None = None) -> Iterator[Said]:
+    """The record batches of a file, one after another, and what is said about each; none where there is no file.
 
     Args:
         path: the file.
@@ -44,23 +50,25 @@ def batches(path: Path, *, torn: bool = False, most: int = MOST_BYTES, rows: int
     """
     import pyarrow as pa
 
-    found: Batches = []
     if not path.exists() or (torn and not path.stat().st_size):
-        return found
-    try:
-        _bounded(path, most, rows, torn=torn)
-        reader = pa.ipc.open_stream(pa.memory_map(str(path)))
-        while True:
+        return
+    reader = None
+    while True:
+        try:
+            if reader is None:
+                _bounded(path, most, rows, torn=torn)
+                reader = pa.ipc.open_stream(pa.memory_map(str(path)))
             batch, said = reader.read_next_batch_with_custom_metadata()
             batch.validate(full=True)
             _ = batch.schema.names  # which may be no text
-            found.append((batch, said or {}))
-    except StopIteration:
-        pass
-    except (pa.ArrowException, OSError, ValueError, MemoryError) as cause:
-        if not torn:
-            raise damaged(path, cause) from cause
-    return found
+        except StopIteration:
+            return
+        except (pa.ArrowException, OSError, ValueError, MemoryError) as cause:
+            if not torn:
+                raise damaged(path, cause) from cause
+            return
+        yield batch, said or {}
+        del batch  # else it is held while the next one is unpacked
 
 
 def schema(path: Path) -> "pa.Schema | None":

@@ -69,6 +69,7 @@ class Going:
         approve: gives the approval that is missing; None: the walk waits for it.
         say: told each step as it is done.
         progress: told how far a long step is.
+        memory_mb: resident memory limit of each pass that it starts, MiB.
     """
 
     groups = GROUPS
@@ -83,9 +84,10 @@ class Going:
         approve: Callable[[], str] | None = None,
         say: Say = lambda *_: None,
         progress: Progress = silent,
+        memory_mb: int = 4096,
     ) -> None:
         self.run, self.name, self.refine, self.until = run, str(run.folder), refine, until
-        self.grant, self.say, self.progress = approve, say, progress
+        self.grant, self.say, self.progress, self.memory_mb = approve, say, progress, memory_mb
         self.deadline = time.monotonic() + timeout_s
         self.held: dict[StepName, str] = {}
         self.wrong: list[Wrong] = []
@@ -138,15 +140,9 @@ class Going:
             if state == "waiting" and self.until == "expect" and self.step("video").status == "missing":
                 turn = next_repair.film_first(State(self.run))
         return Gone(
-            run=self.run.name,
-            state=state,
-            held=self.held,
-            wrong=tuple(self.wrong),
-            under_way=tuple(self.under_way),
-            storyboard=self.storyboard,
-            robust=self.robust,
-            next_move=turn,
-        )
+            run=self.run.name, state=state, held=self.held, wrong=tuple(self.wrong), under_way=tuple(self.under_way),
+            storyboard=self.storyboard, robust=self.robust, next_move=turn,
+        )  # fmt: skip
 
     def actions(self) -> Iterator[tuple[StepName, Callable[[], str]]]:
         """The steps in order, as far as nothing of an earlier group is wrong or under way."""
@@ -271,7 +267,7 @@ class Going:
         job = latest(self.run, stage)
         told = self.run.jobs / job.job / "told" if job else None
         if job is None or told is None or job.state not in ("failed", "cancelled") or told.exists():
-            job = start(self.name, stage=stage)
+            job = start(self.name, stage=stage, memory_mb=self.memory_mb)
             told, self.ended[stage] = self.run.jobs / job.job / "told", () if job.cached else job.account
         waiting = at_work.Waiting(self.say, State(self.run))
         while not job.ended:
@@ -358,7 +354,7 @@ class Going:
             for stage in self.pictures():  # the author's film, too, is drawn behind the stills, which it needs
                 job = latest(self.run, stage)
                 if job is None or job.state == "lost":
-                    self.ended[stage] = start(self.name, stage=stage).account
+                    self.ended[stage] = start(self.name, stage=stage, memory_mb=self.memory_mb).account
 
     def pictures(self) -> tuple[PassName, ...]:
         """The passes that the plan asks for."""

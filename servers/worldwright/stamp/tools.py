@@ -58,6 +58,7 @@ def go(
         StepName | None, Field(description="End after this step's group: `expect` draws no film yet")
     ] = None,
     timeout_s: Timeout = 40.0,
+    memory_mb: Annotated[int, Field(description="Resident memory limit of each pass", ge=64)] = 4096,
     progress: Progress = silent,
 ) -> Gone:
     """Advance a run as far as it goes without a decision: check, place, draft, lint, physics, scan, expect, audits, film.
@@ -67,8 +68,9 @@ def go(
     from .going import Going
 
     return Going(
-        State.find(run).run, timeout_s=call_time.waiting_s(timeout_s), refine=refine, until=until, progress=progress
-    ).go()
+        State.find(run).run, timeout_s=call_time.waiting_s(timeout_s), refine=refine, until=until, progress=progress,
+        memory_mb=memory_mb,
+    ).go()  # fmt: skip
 
 
 def approve(

@@ -94,6 +94,24 @@ def test_the_cheaper_choice_is_named_where_the_whole_is_long() -> None:
     assert "not known" in waits and "e+05" not in waits, "what starts later says nothing of the whole"
 
 
+@pytest.mark.parametrize(
+    ("status", "outcome", "said"),
+    [
+        ("out_of_memory", b"", "more than 2048 MB"),
+        ("timed_out", b'{"reached_s": 0.1, "wall_s": 1.0, "memory_mb": 1700.4}', "1700 MB"),
+        ("timed_out", b'{"reached_s": 0.1, "wall_s": 1.0, "memory_mb": 450}', ""),
+    ],
+)
+def test_a_law_that_leaves_little_memory_is_told_before_its_physics(
+    status: str, outcome: bytes, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done = SimpleNamespace(status=status, files={"outcome.json": outcome})
+    monkeypatch.setattr("worldwright.stage.tools.run_confined", lambda *_, **__: done)
+    found = law_trial.tried(tmp_path / "simulation.py", 2.0)
+    assert found is not None and not found.findings
+    assert ("--memory-mb" in found.said) == bool(said) and said in found.said
+
+
 def test_without_time_for_it_the_trial_says_so(tmp_path: Path) -> None:
     found = law_trial.tried(tmp_path / "simulation.py", 2.0, wall_s=1.0)
     assert found is not None and "not known" in found.said and not found.findings

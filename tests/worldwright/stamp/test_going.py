@@ -262,3 +262,21 @@ def test_an_interrupted_walk_says_what_goes_on_and_how_to_end_it(fresh, monkeypa
     said = CliRunner().invoke(cli.main, ["go", str(fresh)])
     assert said.exit_code == 130 and f"worldwright stage cancel {fresh} --job video-2" in said.output
     assert "physics-1" not in said.output
+
+
+def test_a_memory_limit_reaches_every_pass_by_tool_and_by_command(fresh, monkeypatch):
+    asked = []
+
+    def start(_, stage, memory_mb):
+        asked.append((stage, memory_mb))
+        raise GateError("enough", next_move="-")
+
+    monkeypatch.setattr(stage, "start", start)
+    monkeypatch.setattr(stage, "latest", lambda *_: None)
+    monkeypatch.setattr(going.Going, "go", going.Going.physics)
+    monkeypatch.setattr("worldwright.report.write", lambda run: run.folder)
+    for call in (lambda: stamp.go(str(fresh), memory_mb=6000), lambda: stamp.go(str(fresh))):
+        with pytest.raises(GateError):
+            call()
+    CliRunner().invoke(cli.main, ["go", str(fresh), "--memory-mb", "7000"])
+    assert asked == [("physics", 6000), ("physics", 4096), ("physics", 7000)]

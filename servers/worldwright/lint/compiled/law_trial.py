@@ -73,6 +73,11 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
     cost = law_costs.told(int(points), reached, wall, grows, lasting_s) if reached > 0 else ""
     if "failure" in told:
         return Tried("its laws fail in their first steps", (_failed(told, program),))
+    if done.status == "out_of_memory":
+        return Tried(law_costs.heavy(MEMORY_MB, ended=True))
+    held = told.get("memory_mb")
+    if held and isinstance(held, int | float) and (heavy := law_costs.heavy(held)):
+        cost = f"{cost}; {heavy}" if cost else heavy
     if done.status == "timed_out":
         many = f" of {points:,} points" if points else ""
         return Tried(cost or f"its laws{many} did not come to a step within {wall_s:.0f} s; {law_costs.CHEAPER}")

@@ -4,11 +4,12 @@
 
 The program is run up to the moment it hands its world to worldkit; then its laws are asked as its process is, by the engine's own
 steps, without its control. `sums.npz` holds what `model.recording.law_balances` is told of each law, `outcome.json` how far it came, and how
-many times as much one of WHOLE seconds costs, by a law's own `grows`.
+many times as much one of WHOLE seconds costs, by a law's own `grows`, and what the process held, MiB.
 """
 
 import json
 import os
+import resource
 import runpy
 import sys
 import time
@@ -82,6 +83,7 @@ def _step(path: Path, out: Path, seconds: float, whole: float, told: dict[str, A
         told |= {"reached_s": max(float(data.time) - ask, 0.0), "wall_s": time.perf_counter() - began}
         grows = [law.grows(told["reached_s"], whole) for law in own if told["reached_s"] and hasattr(law, "grows")]
         told["grows"] = max([1.0, *map(float, grows)])
+        told["memory_mb"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
         if time.perf_counter() - written > KEPT_S:  # what is slow is ended from outside
             (out / "outcome.json").write_text(json.dumps(told), encoding="utf-8")
             written = time.perf_counter()

@@ -7,6 +7,23 @@ KNOWN = 30.0
 CHEAPER = "cheaper: fewer points (half of them, half the time), a shorter duration"
 
 
+PASS_MB, HEAVY_MB = 4096, 1500
+"""What a physics pass may hold where nobody gives it more, all of its processes together, and a law that leaves little of it, MiB: the
+engine takes some 300, and a law of `worldkit.matter` of 20,000 points some 450.
+"""
+
+
+def heavy(memory_mb: float, *, ended: bool = False) -> str:
+    """What is said of a law whose process holds so much, MiB, in its first steps, or is `ended` at that; empty below `HEAVY_MB`."""
+    if memory_mb < HEAVY_MB and not ended:
+        return ""
+    what = f"more than {memory_mb:.0f} MB, and were ended there" if ended else f"{memory_mb:.0f} MB"
+    return (
+        f"its laws hold {what}, in their first steps: a physics pass ends at {PASS_MB} MB; hold less (fewer points, no history of "
+        "steps), or give it more: `worldwright go --memory-mb`"
+    )
+
+
 def told(points: int, reached_s: float, wall_s: float, grows: float, lasting_s: float) -> str:
     """The cost of the first steps and of the whole, with the cheaper choice where it is long.
 
