@@ -61,6 +61,7 @@ class Scanned(ScanReport):
     skipped: tuple[CheckRun, ...] = ()
     """The checks that this recording could not answer, each with its reason."""
     anomalies: tuple[Anomaly, ...] = Field(default=(), exclude=True)
+    code_sha256: str = Field(default="", exclude=True)
 
     acting: tuple[str, ...] = ()
     """What acted on the state besides the engine, one line each; `interventions.json` has all of it."""
@@ -103,6 +104,8 @@ class Scanned(ScanReport):
 
 class Expected(ExpectReport):
     """An expectation report with a readable text."""
+
+    code_sha256: str = Field(default="", exclude=True)
 
     def text(self) -> str:
         """The report, one paragraph per objective, with what was measured."""
@@ -164,8 +167,10 @@ def scan(
                 "a lone recording has no program to repeat", place=run, next_move="name a run folder instead"
             )
         return _scanned(run, report)
+    from ..model.evidence import environment
     from .audits import running
 
+    report = report.model_copy(update={"code_sha256": environment.checks()})
     folder.keep(key, "scan", report)
     acted = running.interventions(folder, key, plan, trajectory, report)
     folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
@@ -205,7 +210,9 @@ def expect(
         raise NotFoundError(
             "a run is measured against its own plan", place=plan, next_move="leave `plan` out, or name the recording"
         )
-    report = expecting.expect(trajectory, own)
+    from ..model.evidence import environment
+
+    report = expecting.expect(trajectory, own).model_copy(update={"code_sha256": environment.checks()})
     folder.keep(key, "expect", report)
     folder.log("scan", "expect", key=key.key, ok=report.ok)
     return Expected.model_validate(report.model_dump())
