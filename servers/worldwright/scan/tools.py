@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field
 
-from ..expose import reads, several
+from ..expose import reads, several, waits
 from ..model.errors import NotFoundError
+from ..model.evidence import environment
 from ..model.evidence.audits import CausesReport, RefineReport, RobustReport
 from ..model.evidence.reports import CheckRun, EvidenceKey, ExpectReport, ScanReport
 from ..model.evidence.run import Run
@@ -94,7 +95,7 @@ class Scanned(ScanReport):
             lines += [str(anomaly) for anomaly in self.causes.anomalies]
             lines += [f"{c.outcome}: objective {c.objective}: {c.message}" for c in self.causes.causes]
             lines += [f"{t.outcome}: {t.message}" for t in self.causes.triggers]
-            lines += [h.message for h in self.causes.helpers]
+            lines += dict.fromkeys(h.message for h in self.causes.helpers)  # one repetition speaks of many rows
         if self.robust is not None:
             lines.append(self.robust.text())
         if self.pending:
@@ -141,6 +142,7 @@ class PlotFacts(Frozen):
 
 
 @several("run")
+@waits("timeout_s")
 def scan(
     run: RunName,
     refine: Annotated[bool, Field(description="Also repeat the physics at half the time step.")] = False,
@@ -167,7 +169,6 @@ def scan(
                 "a lone recording has no program to repeat", place=run, next_move="name a run folder instead"
             )
         return _scanned(run, report)
-    from ..model.evidence import environment
     from .audits import running
 
     report = report.model_copy(update={"code_sha256": environment.checks()})
@@ -210,8 +211,6 @@ def expect(
         raise NotFoundError(
             "a run is measured against its own plan", place=plan, next_move="leave `plan` out, or name the recording"
         )
-    from ..model.evidence import environment
-
     report = expecting.expect(trajectory, own).model_copy(update={"code_sha256": environment.checks()})
     folder.keep(key, "expect", report)
     folder.log("scan", "expect", key=key.key, ok=report.ok)
@@ -369,7 +368,7 @@ def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Tr
     path = Path(run)
     if path.suffix == ".npz" or (path / "meta.json").is_file():
         return None, None, None, read_trajectory(path)
-    from ..model.evidence import drawn_stills, environment
+    from ..model.evidence import drawn_stills
     from ..model.plan.plan_text import read_plan
 
     folder = Run.find(run)
