@@ -144,6 +144,8 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
     parser.add_argument("--speed", type=float, default=1.0, help="simulated seconds in a second (live)")
     parser.add_argument("--seconds", type=float, default=3600.0, help="simulated seconds at most (live)")
     parser.add_argument("--source", type=Path, help="text of the program, never run: tells whether a motion is known")
+    parser.add_argument("--module", action="append", default=[], help="a module beside it, below its folder (physics)")
+    parser.add_argument("--beside", help="hash of all else beside it: with --module that is all it runs with (physics)")
     parser.add_argument("--film", type=Path, help="folder with a film's description (still, video, final, frame)")
     parser.add_argument("--minutes", type=float, default=5.0, help="time for drawing (final)")
     parser.add_argument("--at", type=float, action="append", help="seconds of the film, or of the recording (frame)")

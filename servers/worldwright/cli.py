@@ -152,6 +152,9 @@ def verb(function: Callable[..., Any]) -> click.Command:
         for parameter in inspect.signature(function).parameters.values()
         if parameter.name != listener
     ]
+    limit = getattr(function, "waits", None)
+    for own in (p for p in parameters if p.name == limit and isinstance(p, click.Option)):
+        own.default, own.show_default = None, "when all is done"
     batch = getattr(function, "batch", None)
     if batch:
         next(p for p in parameters if p.name == batch[0]).required = False
@@ -175,7 +178,8 @@ def verb(function: Callable[..., Any]) -> click.Command:
 
     def run(_format: str, _batch: Path | None = None, _save: Path | None = None, **values: Any) -> None:
         as_png = values.pop("_png", False)
-        arguments = {name: _value(annotations[name], value) for name, value in values.items() if value is not None}
+        arguments = {limit: float("inf")} if limit else {}
+        arguments |= {name: _value(annotations[name], value) for name, value in values.items() if value is not None}
         if _batch is not None:
             sys.exit(report_errors(lambda: _each(function, _batch, arguments), _format))
         if many:
@@ -227,14 +231,10 @@ def _pictures(result: Any, folder: Path | None, style: str, as_png: bool) -> Non
 
 def _call(function: Callable[..., Any], arguments: dict[str, Any], listens: bool) -> Any:
     from .contract import harnesses
+    from .report.bar import shown
 
-    with came.entered(came.by_command(harnesses.around())):
-        if not (listens and sys.stderr.isatty()):
-            return expose.call(function, arguments)
-        from .report.bar import bar
-
-        with bar() as progress:
-            return expose.call(function, arguments, progress)
+    with came.entered(came.by_command(harnesses.around())), shown(listens, hasattr(function, "waits")) as progress:
+        return expose.call(function, arguments, progress)
 
 
 def _one_by_one(

@@ -164,6 +164,20 @@ def several(parameter: str) -> Callable[..., Any]:
     return mark
 
 
+def waits(parameter: str) -> Callable[..., Any]:
+    """Let a tool's command wait until all is done, and tell how far it is: a client of MCP has no patience, a shell has.
+
+    Args:
+        parameter: the tool's limit in seconds, which counts on the command line only where it is given.
+    """
+
+    def mark(function: Callable[..., Any]) -> Callable[..., Any]:
+        function.waits = parameter  # type: ignore[attr-defined]
+        return function
+
+    return mark
+
+
 def description(function: Callable[..., Any]) -> str:
     """The text that an agent reads about a tool: its docstring, unwrapped."""
     return inspect.cleandoc(function.__doc__ or "").strip()

@@ -4,7 +4,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from worldengine.recording.drive_source import drive_source
+from worldengine.recording.drive_source import Beside, drive_source, same_source
 from worldengine.recording.motion_key import decides, motion_key
 
 WORLD = """
@@ -188,3 +188,59 @@ def test_control_of_unknown_source_is_never_promised_anything() -> None:
     assert drive_source(None, "control") == ""
     assert driven("import socket\n" + DRIVEN) == ""
     assert driven(DRIVEN.replace("def control", "control = None\ndef helper") + "\ncontrol = lambda m, d: None") == ""
+
+
+LAWFUL = DRIVEN.replace("import mujoco\n", "import mujoco\nfrom laws.snow import Snow\n").replace(
+    "control, ", "laws=[Snow(PUSH)], "
+)
+SNOW = '''
+"""Flakes."""
+from .grains import SIZE
+from worldkit.matter import Matter
+
+class Snow(Matter):
+    def __init__(self, push):
+        super().__init__(SIZE, push)
+'''
+GRAINS = "SIZE = 0.01  # m\n"
+
+
+def stepped(source: str = LAWFUL, snow: str = SNOW, grains: str = GRAINS, data: str = "", world: str = "w", **changes):
+    model = mujoco.MjModel.from_xml_string(WORLD.format(**{**PLAIN, **changes}))
+    beside = Beside({"laws/snow.py": snow, "laws/grains.py": grains}, data)
+    return motion_key(model, FACTS, "", source, laws=True, beside=beside, world=world)
+
+
+@pytest.mark.parametrize(
+    "old_new", [("(0, -2, 1)", "(1, -2, 1)"), ('"""A world."""', '"""Other claims."""'), ("# N", "# newton")]
+)
+def test_a_world_with_a_law_moves_alike_where_only_texts_and_cameras_differ(old_new: tuple[str, str]) -> None:
+    assert stepped() == stepped(LAWFUL.replace(*old_new), fovy="20", world="another") != ""
+    assert stepped() == stepped(snow=SNOW.replace("Flakes", "Snow"), grains="SIZE = 0.01\n")
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        {"source": LAWFUL.replace("PUSH = 2.0", "PUSH = 2.5")}, {"snow": SNOW.replace("push)", "2 * push)")},
+        {"grains": "SIZE = 0.02"}, {"data": "a table"}, {"distance": "-2", "sensors": ""},
+    ],
+)  # fmt: skip
+def test_what_a_law_may_read_counts(changed: dict[str, str]) -> None:
+    assert "" != stepped(**changed) != stepped()
+
+
+def test_a_law_that_could_see_moves_alike_only_in_the_same_world() -> None:
+    seeing = SNOW + "    def start(self, model, data):\n        self.x = model.cam_pos[0]\n"
+    assert stepped(snow=seeing) == stepped(LAWFUL.replace("A world", "Other claims"), snow=seeing) != ""
+    assert stepped(snow=seeing, world="another") != stepped(snow=seeing)
+    assert stepped(snow=seeing, world="") == ""
+
+
+def test_a_law_is_promised_nothing_where_not_all_is_known_that_it_reads() -> None:
+    model = mujoco.MjModel.from_xml_string(WORLD.format(**PLAIN))
+    assert motion_key(model, FACTS, "", LAWFUL, laws=True, world="w") == ""
+    assert stepped(snow=SNOW + "    text = open('plan.md').read()\n") == ""
+    own = SNOW + "    text = open(__file__).read()\n"
+    assert same_source(own, Beside()) != same_source(own + "# more\n", Beside()) != ""
+    assert drive_source(DRIVEN.replace("import mujoco", "from . import other\nimport mujoco"), "control") == ""

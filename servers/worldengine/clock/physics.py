@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from ..inputs.declared_media import Media
     from ..inputs.replayed_inputs import Drive
+    from ..recording.drive_source import Beside
 
 TRAJECTORY = "trajectory"
 
@@ -190,20 +191,34 @@ def _motion_key(
 ) -> str:
     from ..recording.motion_key import motion_key
 
+    world = _sha256(given.world)
     decided = {"steps": steps, "record_every": every, "seed": given.seed, "variant": variant.as_meta()}
     if given.solvers:
         decided["solvers"] = [row.written() for row in given.solvers]
     if not asked:
-        return motion_key(model, decided)
-    if given.laws:  # what decides the motion is code of any module, which no source that is read here holds
-        return ""
+        return motion_key(model, decided, world=world)
     rows = None if given.inputs is None else [[kind, sorted(names)] for kind, names in given.inputs]
     decided["control"] = [given.control_every, given.latency, rows]
+    if given.laws:
+        decided["laws"] = [row.written() for row in given.laws]
+    source, beside = _code(options)
+    return motion_key(model, decided, given.control, source, laws=bool(given.laws), beside=beside, world=world)
+
+
+def _code(options: argparse.Namespace) -> "tuple[str | None, Beside | None]":
+    """The text of the program, and of what lies beside it if all of that is known; None where it is not there."""
+    from ..recording.drive_source import Beside
+
     try:
-        source = options.source.read_text(encoding="utf-8") if options.source else None
+        if options.source is None:
+            return None, None
+        text = options.source.read_text(encoding="utf-8")
+        if options.beside is None:
+            return text, None
+        named = {name: options.source.parent / name for name in options.module}
+        return text, Beside({n: path.read_text(encoding="utf-8") for n, path in named.items()}, options.beside)
     except (OSError, ValueError):
-        source = None
-    return motion_key(model, decided, given.control, source)
+        return None, None
 
 
 def _sha256(path: Path) -> str:

@@ -6,11 +6,12 @@ seen pays for no physics. What goes in:
 - every array, size and option of the compiled model (names of physical things included), except what `LOOKS` lists:
   cameras, lights, materials, textures, colours, skins, texts, and the tables that count or name them;
 - the number of steps, which of them are recorded, the seed, and the variant;
-- when the program controls the simulation: its source, less what only places a camera (`drive_source`).
+- when the program controls the simulation, or laws of its author are stepped: its source and what lies beside it, less what
+  only places a camera (`drive_source`).
 
-There is no hash (an empty text, and the physics is run) where a look may decide the motion: a sensor that sees (rays
-stop at what is drawn, camera sensors), or control code that might read cameras or colours; nor where the author's laws are
-stepped, whose code may lie in any module (`clock.physics`). What a
+Where a look may decide the motion, the bytes of the whole world go in too, so that only texts may differ: a sensor that sees
+(rays stop at what is drawn, camera sensors), code that might read cameras or colours. There is no hash (an empty text, and
+the physics is run) where not all is known that the code could read. What a
 hash claims is checked once more at acceptance, which always simulates anew and compares the trajectories.
 """
 
@@ -22,30 +23,47 @@ from worldkit.alike import decides, kind_names
 if TYPE_CHECKING:
     import mujoco
 
+    from .drive_source import Beside
+
 CAMERAS = "worldkit.camera"
 """The names under which a world keeps the intent of its cameras begin so."""
 
 
-def motion_key(model: "mujoco.MjModel", facts: dict[str, Any], control: str = "", source: str | None = None) -> str:
-    """The hash (SHA-256, hexadecimal), or an empty text where looks may decide the motion.
+def motion_key(
+    model: "mujoco.MjModel",
+    facts: dict[str, Any],
+    control: str = "",
+    source: str | None = None,
+    *,
+    laws: bool = False,
+    beside: "Beside | None" = None,
+    world: str = "",
+) -> str:
+    """The hash (SHA-256, hexadecimal), or an empty text where something else may decide the motion.
 
     Args:
         model: as it will be simulated, before anything has run.
         facts: what else decides: steps, rows, seed, variant, declared inputs; must be JSON.
         control: name of the function that gives inputs; empty when there is none.
-        source: text of the program's file; needed only with `control`.
+        source: text of the program's file; needed only with `control` or `laws`.
+        laws: whether laws of the author's are stepped. Which ones, only the code tells, so `beside` must be known.
+        beside: what the program runs with besides its file; None: unknown.
+        world: hash of the world's file; empty: unknown, and nothing is promised where a look may decide.
     """
     import json
 
-    from .drive_source import drive_source
+    from .drive_source import drive_source, same_source
 
-    if _sees(model):
-        return ""
-    drive = ""
-    if control:
-        drive = drive_source(source, control)
+    drive, looks = "", _sees(model)
+    if control or laws:
+        drive = drive_source(source, control, beside) if beside is not None or not laws else ""
+        if not drive:
+            drive, looks = same_source(source, beside), True
         if not drive:
             return ""
+    if looks and not world:
+        return ""
+    facts = {**facts, "world": world} if looks else facts
     digest = hashlib.sha256()
     digest.update(json.dumps([facts, drive, kind_names(model), _numerics(model)], sort_keys=True).encode())
     for name, value in _fields(model):

@@ -1,10 +1,36 @@
-"""A progress bar for long work at the command line."""
+"""Progress of long work at the command line: a bar, or lines where there is no terminal."""
 
+import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..model.progress import Progress
+from ..model import printable
+from ..model.progress import Progress, silent
+
+
+@contextmanager
+def shown(listens: bool, lines: bool) -> Iterator[Progress]:
+    """A bar on a terminal; elsewhere silence, or with `lines` a line on standard error for each new message.
+
+    Args:
+        listens: whether the work tells its progress at all.
+        lines: whether whoever waits is to hear of it without a terminal, too.
+    """
+    if listens and sys.stderr.isatty():
+        with bar() as drawn:
+            yield drawn
+        return
+    said = ""
+
+    def tell(done: float, total: float, message: str = "") -> None:  # noqa: ARG001
+        nonlocal said
+        if message and message != said:
+            said = message
+            sys.stderr.write(f"{printable.words(message)}\n")
+            sys.stderr.flush()
+
+    yield tell if listens and lines else silent
 
 
 @contextmanager

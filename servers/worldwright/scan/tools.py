@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 from pydantic import Field
 
-from ..expose import reads, several
+from ..expose import reads, several, waits
 from ..model.errors import NotFoundError
+from ..model.evidence import environment
 from ..model.evidence.audits import CausesReport, RefineReport, RobustReport
 from ..model.evidence.reports import CheckRun, EvidenceKey, ExpectReport, ScanReport
 from ..model.evidence.run import Run
@@ -61,6 +62,7 @@ class Scanned(ScanReport):
     skipped: tuple[CheckRun, ...] = ()
     """The checks that this recording could not answer, each with its reason."""
     anomalies: tuple[Anomaly, ...] = Field(default=(), exclude=True)
+    code_sha256: str = Field(default="", exclude=True)
 
     acting: tuple[str, ...] = ()
     """What acted on the state besides the engine, one line each; `interventions.json` has all of it."""
@@ -93,7 +95,7 @@ class Scanned(ScanReport):
             lines += [str(anomaly) for anomaly in self.causes.anomalies]
             lines += [f"{c.outcome}: objective {c.objective}: {c.message}" for c in self.causes.causes]
             lines += [f"{t.outcome}: {t.message}" for t in self.causes.triggers]
-            lines += [h.message for h in self.causes.helpers]
+            lines += dict.fromkeys(h.message for h in self.causes.helpers)  # one repetition speaks of many rows
         if self.robust is not None:
             lines.append(self.robust.text())
         if self.pending:
@@ -103,6 +105,8 @@ class Scanned(ScanReport):
 
 class Expected(ExpectReport):
     """An expectation report with a readable text."""
+
+    code_sha256: str = Field(default="", exclude=True)
 
     def text(self) -> str:
         """The report, one paragraph per objective, with what was measured."""
@@ -138,6 +142,7 @@ class PlotFacts(Frozen):
 
 
 @several("run")
+@waits("timeout_s")
 def scan(
     run: RunName,
     refine: Annotated[bool, Field(description="Also repeat the physics at half the time step.")] = False,
@@ -166,6 +171,7 @@ def scan(
         return _scanned(run, report)
     from .audits import running
 
+    report = report.model_copy(update={"code_sha256": environment.checks()})
     folder.keep(key, "scan", report)
     acted = running.interventions(folder, key, plan, trajectory, report)
     folder.log("scan", "scan", key=key.key, ok=report.ok, anomalies=len(report.anomalies))
@@ -205,7 +211,7 @@ def expect(
         raise NotFoundError(
             "a run is measured against its own plan", place=plan, next_move="leave `plan` out, or name the recording"
         )
-    report = expecting.expect(trajectory, own)
+    report = expecting.expect(trajectory, own).model_copy(update={"code_sha256": environment.checks()})
     folder.keep(key, "expect", report)
     folder.log("scan", "expect", key=key.key, ok=report.ok)
     return Expected.model_validate(report.model_dump())
@@ -362,7 +368,7 @@ def _subject(run: str) -> "tuple[Run | None, EvidenceKey | None, Plan | None, Tr
     path = Path(run)
     if path.suffix == ".npz" or (path / "meta.json").is_file():
         return None, None, None, read_trajectory(path)
-    from ..model.evidence import drawn_stills, environment
+    from ..model.evidence import drawn_stills
     from ..model.plan.plan_text import read_plan
 
     folder = Run.find(run)

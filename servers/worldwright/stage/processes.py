@@ -254,9 +254,9 @@ class Acting:
         source = self.job.inputs / "simulation.py"
         reuse = tuple(map(Path, self.spec.reuse))
         more = [*self.spec.arguments, *(word for path in reuse for word in ("--reuse", str(path)))]
-        if not self.spec.key.companions_sha256:  # the text of a law does not tell what it reads from other files
-            more += ["--source", str(source)]
-        reads = (source, *reuse)
+        code, modules = self.code(source)
+        more += code
+        reads = (source, *modules, *reuse)
         author: Member | None = None
         silent = tuple(self.spec.arguments) == ("--without", "control") and not self.laws()
         if self.spec.given:
@@ -291,6 +291,14 @@ class Acting:
             summary["not_asked"] = True
         names = (WORLD, FACTS, INPUTS) if not self.spec.variant else ()
         return Ended(failure, summary, tuple(self.job.inputs / name for name in names))
+
+    def code(self, source: Path) -> tuple[list[str], list[Path]]:
+        """The engine's options that name all code which may decide the motion, and the modules that it reads for it."""
+        found = companions.of(source)
+        modules = [name for name in found if name.endswith(".py")]
+        data = companions.digest_of({name: content for name, content in found.items() if name not in modules})
+        words = ["--source", str(source), "--beside", data, *(word for name in modules for word in ("--module", name))]
+        return words, [source.parent / name for name in modules]
 
     def asks(self) -> bool:
         """Whether the program has a control and the plan declares anything that it may control."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Literal
 
-from ..model.evidence import approval, came, handed_in, pictures_of
+from ..model.evidence import approval, came, environment, handed_in, pictures_of
 from ..model.evidence.build_steps import STEPS, StepName
 from ..model.frozen import Frozen
 from . import audited, descriptions, next_repair, signing
@@ -162,6 +162,8 @@ def _scan(state: State) -> Answer:
         return _absent(state, state.scan.problem, "scan.json", command)
     if report.trajectory_sha256 != state.trajectory_sha256:
         return "missing", "the scan is of another recording", command
+    if report.code_sha256 != environment.checks():
+        return "missing", "the scan is by another version of the checks", command
     blocking = [a for a in report.anomalies if a.severity == "blocking"]
     if blocking:
         return (
@@ -180,6 +182,8 @@ def _expect(state: State) -> Answer:
         return _absent(state, state.expect.problem, "expect.json", command)
     if report.trajectory_sha256 != state.trajectory_sha256:
         return "missing", "the expectations are of another recording", command
+    if report.code_sha256 != environment.checks():
+        return "missing", "the expectations are by another version of the checks", command
     count = len(report.objectives)
     proved = sum(o.status == "proved" for o in report.objectives)
     if report.waits and all(o.waits or o.status in ("proved", "visual_only") for o in report.objectives):

@@ -142,3 +142,81 @@ def test_another_environment_is_never_answered_from(ran: Path) -> None:
     physics(ran)
     assert "reused_from" not in result(run)["summary"]
     shutil.rmtree(run.jobs)
+
+
+LAW = '''
+import numpy as np
+
+from .shares import SHARE
+
+
+class Breeze:
+    """One grain that hangs still, and a push on the ball."""
+
+    name, bodies, shown_by = "breeze", ("ball",), "grain"
+
+    def start(self, model, data):
+        self.points, self.velocities = np.array([[0.0, 0.0, 2.0]]), np.zeros((1, 3))
+        self.mass = np.ones(1)
+
+    def step(self, model, data, seconds):
+        return np.array([[SHARE, 0.0, 0.0]])
+
+    def energy(self):
+        return 0.0
+'''
+ROW = """
+interventions:
+  - kind: solver
+    bodies: [ball]
+    law: "0.1 N along x"
+    source: constants.breeze
+    solver: {name: breeze, file: laws/breeze.py, shown_by: grain}
+constants:
+  breeze: {value: 0.1, unit: N, source: "felt as a breath of air"}
+inferred:"""
+GRAIN = '    moved_shapes.grains(spec, "grain", np.array([[0.0, 0.0, 2.0]]), 0.01, look="sand")\n    lights.add(spec, sky="overcast")\n    return spec'
+
+
+@pytest.fixture
+def pushed(planned: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A ball that a law of the author's pushes, run once; lint, which changes no motion, is not asked."""
+    from worldwright.stage import gates
+
+    folder = copy(planned)
+    plan = folder / "plan.md"
+    text = plan.read_text(encoding="utf-8")
+    plan.write_text(text.replace("duration: 0.5", "duration: 0.02").replace("\ninferred:", ROW, 1), encoding="utf-8")
+    (folder / "laws").mkdir()
+    (folder / "laws" / "shares.py").write_text("SHARE = 0.1  # N\n", encoding="utf-8")
+    (folder / "laws" / "breeze.py").write_text(LAW, encoding="utf-8")
+    patch(
+        folder,
+        "import mujoco\n",
+        "import mujoco\nimport numpy as np\n\nfrom laws.breeze import Breeze\nfrom worldkit import lights, moved_shapes\n",
+    )
+    patch(folder, "    return spec", GRAIN)
+    patch(folder, "DURATION = 0.5", "DURATION = 0.02")
+    patch(folder, "program.main(build, ", "program.main(build, laws=[Breeze()], ")
+    monkeypatch.setattr(gates, "require", lambda *_: None)
+    simulated(folder)
+    return folder
+
+
+def simulated(folder: Path) -> dict:
+    job = stage.start(str(folder))
+    while not job.ended:
+        job = stage.wait(str(folder), job=job.job, timeout_s=30)
+    assert job.state == "succeeded", job.text()
+    return result(Run(folder))["summary"]
+
+
+def test_the_motion_of_a_law_is_taken_over_where_only_claims_and_texts_differ(pushed: Path) -> None:
+    before = result(Run(pushed))["summary"]
+    assert before["motion_key"] and "reused_from" not in before
+    plan, program = pushed / "plan.md", pushed / "simulation.py"
+    plan.write_text(plan.read_text(encoding="utf-8").replace("claim: ", "claim: Above all, ", 1), encoding="utf-8")
+    text = program.read_text(encoding="utf-8").replace('"""', '"""Told otherwise. ', 1)
+    program.write_text(text.replace('sky="overcast"', 'sky="clear"'), encoding="utf-8")
+    now = simulated(pushed)
+    assert now["reused_from"] and now["inputs_sha256"] == before["inputs_sha256"]

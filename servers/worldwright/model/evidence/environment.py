@@ -10,7 +10,7 @@ server can name an evidence key without loading the simulator.
 """
 
 import platform
-from functools import lru_cache
+from functools import cache, lru_cache
 from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
@@ -63,6 +63,16 @@ def film(renderer: str = "") -> Film:
     except SeamError as cause:
         raise NotFoundError(cause.cause, place=cause.place, next_move=cause.next_move) from cause
     return Film(renderer=found.renderer, version=found.version, packages=found.packages, sha256=found.sha256)
+
+
+@cache
+def checks() -> str:
+    """The hash of the code that measures a recording, asked once a process, as that code is loaded once.
+
+    It is no part of the environment's own hash: the code of a check may change, and every recording stands. What was found
+    in one is found anew (`scan.json`, `expect.json`).
+    """
+    return sha256_of("checks", below(SERVERS / "worldwright" / "scan"))
 
 
 @lru_cache

@@ -133,6 +133,8 @@ class ScanReport(Frozen):
     """What the anomaly scan found in one recording (`scan.json`)."""
 
     trajectory_sha256: str
+    code_sha256: str = ""
+    """The code of the checks that made it (`environment.checks`); empty in reports of before the field."""
     checks: tuple[CheckRun, ...] = ()
     anomalies: tuple[Anomaly, ...] = ()
 
@@ -185,6 +187,8 @@ class ExpectReport(Frozen):
     """The plan's objectives against one recording (`expect.json`)."""
 
     trajectory_sha256: str
+    code_sha256: str = ""
+    """The code of the checks that made it (`environment.checks`); empty in reports of before the field."""
     objectives: tuple[ObjectiveResult, ...] = ()
 
     @property

@@ -19,22 +19,12 @@ from ...model.recording.trajectory import Trajectory
 from ..anomalies.declared import mentioned
 from ..objectives import expecting
 from . import moment, triggers
+from .switches import TOGETHER, Switches
 from .trials import Trials, label_of
 
 WEAKER = (0.8, 0.5)
-TOGETHER = "+"
-"""It joins names that only together are one cause, such as the four lines of a tent."""
-MOST_HELPERS = 8
 RESPONDS = 1e-3
 """Relative change of a measured value that counts as a response."""
-
-
-def _without(cause: str) -> tuple[str, ...]:
-    return tuple(word for part in cause.split(TOGETHER) for word in ("--without", part.strip()))
-
-
-def _weaker(cause: str, factor: float) -> tuple[str, ...]:
-    return tuple(word for part in cause.split(TOGETHER) for word in ("--weaken", f"{part.strip()}={factor:g}"))
 
 
 @dataclass
@@ -45,9 +35,13 @@ class Causes:
     plan: Plan
     acting: tuple[Acting, ...]
     trials: Trials
+    singly: bool = False
+    """As a report of before `switches` has it."""
+    switches: Switches = field(init=False)
     expected: ExpectReport = field(init=False)
 
     def __post_init__(self) -> None:
+        self.switches = Switches(self.trajectory, self.plan, self.acting, self.singly)
         self.expected = expecting.expect(self.trajectory, self.plan)
 
     def plan_trials(self) -> None:
@@ -60,21 +54,14 @@ class Causes:
             for factor in triggers.SLOWER:
                 if words := triggers.slower(self.plan, self.trajectory, factor):
                     self.trials.ask(*words)
-        for row in self.helpers():
-            self.ask_without(row)
+        for words, _ in self.switches.groups():
+            self.trials.ask(*words)
 
     def ask(self, cause: str) -> None:
         """Ask for the repetitions that one cause needs."""
-        for words in (_without(cause), *(_weaker(cause, factor) for factor in WEAKER)):
+        weaker = (self.switches.weaker(cause, factor) for factor in WEAKER)
+        for words in (self.switches.without(cause), *weaker):
             self.trials.ask(*words)
-
-    def ask_without(self, row: Acting) -> None:
-        """Ask for the repetition without one intervention."""
-        self.trials.ask("--without", self._switch(row))
-
-    def helpers(self) -> list[Acting]:
-        """The declared interventions that are switched off."""
-        return [row for row in self.acting if row.declared][:MOST_HELPERS]
 
     def report(self) -> CausesReport:
         """The judgement; every repetition must have been made or have failed."""
@@ -88,7 +75,7 @@ class Causes:
             trials=self.trials.told(),
             causes=causes,
             triggers=found,
-            helpers=tuple(self.helper(row) for row in self.helpers()),
+            helpers=tuple(h for words, rows in self.switches.groups() for h in self.helpers(words, rows)),
             anomalies=tuple(anomalies),
         )
 
@@ -105,7 +92,7 @@ class Causes:
             "effect": objective.effect or ", ".join(e.name for e in effects),
             "as_planned": tuple(self._respond("as planned", self.trajectory, e) for e in effects),
         }
-        gone = label_of(_without(cause))
+        gone = label_of(self.switches.without(cause))
         if not effects or any(e.status != "holds" for e in known.expectations):
             why = "no expectation measures the effect" if not effects else "the effect does not hold as planned"
             return CauseResult(**facts, outcome="unclear", message=f"{why}, so its cause cannot be tested")
@@ -118,7 +105,7 @@ class Causes:
         if len(survivors) == len(effects):
             message = f"without {cause}, {', '.join(survivors)} still holds: {cause} is not its cause"
             return CauseResult(**facts, outcome="survives", message=message)
-        asked = [label_of(_weaker(cause, factor)) for factor in WEAKER]
+        asked = [label_of(self.switches.weaker(cause, factor)) for factor in WEAKER]
         made = [label for label in asked if label in self.trials.made]
         # A cause that never moves and has no motor cannot be weakened: the repetition is then the same motion, bit for bit.
         labels = [label for label in made if self.trials.made[label].sha256 != self.trajectory.sha256]
@@ -210,17 +197,11 @@ class Causes:
 
     # -- one declared intervention -----------------------------------------------------------------------------------
 
-    def _switch(self, row: Acting) -> str:
-        """The option that leaves an intervention out; it switches a motor off even if no control asks for it."""
-        if row.kind == "control":
-            known = [str(a["name"]) for a in self.trajectory.meta.get("actuators") or ()]
-            name = next((n for n in known if row.target in (n, f"{row.body}/{n}")), row.target)
-            return f"actuator:{name.partition('[')[0]}"
-        return f"{row.kind}:{row.target}"
+    def helpers(self, words: tuple[str, ...], rows: tuple[Acting, ...]) -> tuple[HelperResult, ...]:
+        """Which claims need what these options switch off, for each row; their repetition must have been made or have failed."""
+        return tuple(self._helper(label_of(words), row, rows) for row in rows)
 
-    def helper(self, row: Acting) -> HelperResult:
-        """Which claims need it; its repetition must have been made or have failed."""
-        label = f"without {self._switch(row)}"
+    def _helper(self, label: str, row: Acting, rows: tuple[Acting, ...]) -> HelperResult:
         facts = {"kind": row.kind, "target": row.target, "law": row.law}
         if label not in self.trials.made:
             why = self.trials.failed.get(label, "")
@@ -229,4 +210,5 @@ class Causes:
         pairs = zip(self.expected.objectives, after.objectives, strict=True)
         needed = tuple(one.index for one, other in pairs if one.status == "proved" != other.status and not other.waits)
         said = f"objectives {', '.join(map(str, needed))} fail" if needed else "every objective holds all the same"
-        return HelperResult(**facts, needed_by=needed, message=f"without the {row.kind} on {row.target}, {said}")
+        gone = ", ".join(f"the {one.kind} on {one.target}" for one in rows)
+        return HelperResult(**facts, needed_by=needed, message=f"without {gone}, {said}")

@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ...model.evidence.audits import Acting, CausesReport, RefineReport, RobustReport, Trial
+from ...model.evidence.audits import Acting, CausesReport, HelperResult, RefineReport, RobustReport, Trial
 from ...model.evidence.run import Run
 from ...model.frozen import Frozen
 from ...model.plan.committed import Plan
@@ -22,6 +22,7 @@ from . import acting, robustness
 from .causes import Causes
 from .refine import refine
 from .reproduced import FINER, Report, apart
+from .switches import Switches
 from .trials import LIMITS, Trials, label_of
 
 Rows = tuple[Any, Any]
@@ -113,18 +114,25 @@ def _of_causes(run: Run, plan: Plan, trajectory: Trajectory, report: CausesRepor
     acted = acting.report(trajectory, Context.of(plan), ()).acting
     for index, objective in enumerate(plan.objectives):
         for cause in objective.cause:
-            causal = _fresh(run, plan, trajectory, acted)
+            causal = _fresh(run, plan, trajectory, acted, report)
             causal.ask(cause)
             said = next((c for c in report.causes if (c.objective, c.cause) == (index, cause)), None)
             rows = partial(_compared, said, partial(causal.cause, index, cause))
             yield Part(f"causes: {cause} of objective {index}", causal.trials, report.trials, rows, ("outcome",))
-    for row in _fresh(run, plan, trajectory, acted).helpers():
-        causal = _fresh(run, plan, trajectory, acted)
-        causal.ask_without(row)
-        told = next((h for h in report.helpers if (h.kind, h.target) == (row.kind, row.target)), None)
-        rows = partial(_compared, told, partial(causal.helper, row))
-        name = f"causes: without the {row.kind} on {row.target}"
-        yield Part(name, causal.trials, report.trials, rows, ("needed_by",))
+    for words, acts in _fresh(run, plan, trajectory, acted, report).switches.groups():
+        causal = _fresh(run, plan, trajectory, acted, report)
+        causal.trials.ask(*words)
+        named = [(row.kind, row.target) for row in acts]
+        told = [h for h in report.helpers if (h.kind, h.target) in named]
+        helped = partial(_helped, told, partial(causal.helpers, words, acts))
+        name = f"causes: without {', '.join(f'the {kind} on {target}' for kind, target in named)}"
+        yield Part(name, causal.trials, report.trials, helped, ("needed_by",))
+
+
+def _helped(said: list[HelperResult], show: Callable[[], tuple[HelperResult, ...]]) -> Rows:
+    """The rows that one repetition speaks of, and which claims need each."""
+    found = [{"rows": [_json(h) for h in rows], "needed_by": [h.needed_by for h in rows]} for rows in (said, show())]
+    return found[0], found[1]
 
 
 def _compared(said: Frozen | None, show: Callable[[], Frozen]) -> Rows:
@@ -132,7 +140,7 @@ def _compared(said: Frozen | None, show: Callable[[], Frozen]) -> Rows:
 
 
 def _all_causes(run: Run, plan: Plan, trajectory: Trajectory, report: CausesReport) -> Part:
-    causal = _fresh(run, plan, trajectory, acting.report(trajectory, Context.of(plan), ()).acting)
+    causal = _fresh(run, plan, trajectory, acting.report(trajectory, Context.of(plan), ()).acting, report)
     if label_of(FINER) in {row.label for row in report.trials}:  # asked for in the same call, and listed with them
         causal.trials.ask(*FINER)
     causal.plan_trials()
@@ -147,8 +155,9 @@ def _all_causes(run: Run, plan: Plan, trajectory: Trajectory, report: CausesRepo
     return Part("causes", causal.trials, report.trials, rows, ("outcomes",))
 
 
-def _fresh(run: Run, plan: Plan, trajectory: Trajectory, acted: tuple[Acting, ...]) -> Causes:
-    return Causes(trajectory, plan, acted, Trials(run))
+def _fresh(run: Run, plan: Plan, trajectory: Trajectory, acted: tuple[Acting, ...], report: CausesReport) -> Causes:
+    singly = Switches(trajectory, plan, acted).made_singly(row.label for row in report.trials)
+    return Causes(trajectory, plan, acted, Trials(run), singly)
 
 
 def _of_robust(run: Run, plan: Plan, trajectory: Trajectory, report: RobustReport) -> Iterator[Part]:

@@ -19,6 +19,7 @@ from ..anomalies.sign import Context
 from . import acting, robustness
 from .causes import Causes
 from .refine import FACTOR, refine
+from .switches import Switches
 from .trials import LIMITS, Trials, label_of, variant_name
 
 FINER = ("--time-step-factor", f"{FACTOR:g}")
@@ -51,7 +52,9 @@ def _why(run: Run, plan: Plan, trajectory: Trajectory, report: Report) -> str:
         return _fill(trials, report.worlds) or _apart(report, robustness.report(trajectory, plan, trials))
     if label_of(FINER) in {row.label for row in report.trials}:  # asked for in the same call, and listed with them
         trials.ask(*FINER)
-    causal = Causes(trajectory, plan, acting.report(trajectory, Context.of(plan), ()).acting, trials)
+    acted = acting.report(trajectory, Context.of(plan), ()).acting
+    singly = Switches(trajectory, plan, acted).made_singly(row.label for row in report.trials)
+    causal = Causes(trajectory, plan, acted, trials, singly)
     causal.plan_trials()
     return _fill(trials, report.trials) or _apart(report, causal.report())
 
