@@ -14,6 +14,7 @@ from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
 from .disk import Disk, used
 from .for_servers import (
+    compile_laws,
     declared_inputs,
     draw_moments,
     free_earlier,
@@ -36,6 +37,7 @@ from .job import Job, JobStatus
 
 __all__ = [
     "TOOLS",
+    "compile_laws",
     "declared_inputs",
     "draw_moments",
     "free_earlier",
