@@ -193,6 +193,7 @@ def _physics(asked: Asked, options: argparse.Namespace, out: Path, program: str,
 
 def _control(asked: Asked, options: argparse.Namespace, out: Path, program: str, line: int) -> int:
     """Answer an engine that is there already."""
+    from . import law_work
     from .channel import AUTHOR, Channel, descriptors
     from .files import write_json
     from .speaking import serve
@@ -200,6 +201,7 @@ def _control(asked: Asked, options: argparse.Namespace, out: Path, program: str,
     end = Channel(descriptors(options.channel), AUTHOR)
     try:
         asked.make()  # `control` may use what `build` has stored in the program's own names
+        law_work.write(out, asked.laws, asked.duration)
         serve(asked.controller(), end, asked.stray, asked.laws)
     finally:
         end.close()

@@ -10,7 +10,6 @@ import functools
 import inspect
 import json
 import os
-import re
 import sys
 import types
 import typing
@@ -20,7 +19,7 @@ from typing import Any
 
 import click
 
-from . import expose
+from . import expose, picture_files
 from .model import printable
 from .model.errors import WorldwrightError
 from .model.evidence import came
@@ -167,8 +166,8 @@ def verb(function: Callable[..., Any]) -> click.Command:
         parameters = [
             click.Argument([many], type=p.type, nargs=-1, required=True) if p.name == many else p for p in parameters
         ]
-    if _illustrated(annotations.get("return")) and "out" not in annotations:
-        text = "A folder to write the pictures into; without it they are only named."
+    if picture_files.illustrated(annotations.get("return")) and "out" not in annotations:
+        text = "A folder to write the pictures into; without it, `out` of the run."
         parameters.append(
             click.Option(["--save", "_save"], type=click.Path(path_type=Path, file_okay=False), help=text)
         )
@@ -189,7 +188,8 @@ def verb(function: Callable[..., Any]) -> click.Command:
         result = report_errors(lambda: _call(function, arguments, listener is not None), _format)
         show(result, _format)
         if "out" not in annotations:
-            _pictures(result, _save, _format, as_png)
+            aside = functools.partial(picture_files.beside, function.__name__, arguments)
+            picture_files.write(result, _save, _format, as_png, aside)
         sys.exit(expose.exit_code(result))
 
     return click.Command(
@@ -198,35 +198,6 @@ def verb(function: Callable[..., Any]) -> click.Command:
         params=parameters,
         help=expose.description(function),
     )
-
-
-def _illustrated(annotation: Any) -> bool:
-    from .model.picture import Illustrated
-
-    kind = typing.get_origin(annotation) or annotation
-    return inspect.isclass(kind) and issubclass(kind, Illustrated)
-
-
-def _pictures(result: Any, folder: Path | None, style: str, as_png: bool) -> None:
-    """Write the pictures of a result into a folder, or tell on standard error how to get them."""
-    from .model.picture import Illustrated, png
-
-    if not isinstance(result, Illustrated) or not result.pictures:
-        return
-    if folder is None:
-        count = len(result.pictures)
-        click.echo(
-            f"{count} picture{'s' if count > 1 else ''}: --save FOLDER writes {'them' if count > 1 else 'it'}", err=True
-        )
-        return
-    from worldkit.files import write_atomic
-
-    for number, picture in enumerate(map(png, result.pictures) if as_png else result.pictures, 1):
-        words = re.sub(r"[^a-z0-9]+", "-", picture.caption.split(" (")[0].split(", row")[0].lower()).strip("-")
-        path = folder / f"{number:02}-{words[:40]}.{'jpg' if picture.format == 'jpeg' else picture.format}"
-        folder.mkdir(parents=True, exist_ok=True)
-        write_atomic(path, picture.data)
-        click.echo(str(path), err=style != "text")
 
 
 def _call(function: Callable[..., Any], arguments: dict[str, Any], listens: bool) -> Any:

@@ -20,7 +20,8 @@ from .model.evidence.build_steps import StepName
 from .model.evidence.run import Run, sha256_file
 from .model.plan import taken_along
 from .model.progress import Progress
-from .stamp.going import FOR_EVER_S, GROUPS, Going, Say, WrongError
+from .stamp.going import FOR_EVER_S, GROUPS, Going, Say
+from .stamp.halts import WrongError
 
 STEPS = [name for group in GROUPS for name in group]
 

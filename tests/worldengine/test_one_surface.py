@@ -226,3 +226,33 @@ def test_bodies_of_several_colours_are_one_skin_that_has_them_all(poured, render
         assert len(screening._surfaces) == 1
     assert ((image[..., 2] - image[..., 0]) > 40).sum() > 60, "blue as its bodies are"
     assert ((image[..., 0] - image[..., 2]) > 40).sum() == 0, "and nowhere red as its look"
+
+
+@pytest.mark.gl
+def test_a_picture_lays_its_surface_once_however_often_it_is_set_up(poured, monkeypatch):
+    """How far things move is asked at three moments, and what a smeared picture shows, once more: none of these draws it."""
+    laid, around = [], one_surface.around
+    monkeypatch.setattr(one_surface, "around", lambda *told: laid.append(1) or around(*told))
+    film = poured.film()
+    with Screening(poured.folder / "world.mjz", poured.plain, poured.recording, film, SIZE, 24) as screening:
+        assert film.shutter > 0 and film.samples == 1
+        first = screening.picture(2)
+        assert len(laid) == 1
+        screening.picture(4)
+        assert len(laid) == 2
+        assert (screening.picture(2) == first).all() and len(laid) == 3, "what has moved is laid anew"
+
+
+def test_balls_are_read_together_as_one_by_one():
+    spec = empty()
+    for number in range(4):
+        ball(spec, f"drop_{number}", (0.2 * number, 0, 0.3))
+    model = spec.compile()
+    model.geom_size[1, 0] = 1e-9
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    geoms = np.arange(model.ngeom)
+    together = one_surface.balls(model, data, geoms)
+    single = [one_surface.balls(model, data, geoms[n : n + 1]) for n in range(model.ngeom)]
+    assert all((a == np.concatenate(b)).all() for a, b in zip(together, zip(*single, strict=True), strict=True))
+    assert together[2].tolist() == [0, 2, 3] and together[0][1] == pytest.approx((0.4, 0, 0.3))

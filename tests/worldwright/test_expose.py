@@ -198,3 +198,17 @@ def test_an_unknown_command_lists_the_known_ones():
     done = CliRunner().invoke(main, ["simulate"])
     assert done.exit_code == 2
     assert "retrieve" in done.output
+
+
+def test_pictures_that_nobody_said_where_to_save_lie_in_the_runs_out(tmp_path):
+    drawn = cv2.imencode(".jpg", np.full((8, 8, 3), 200, np.uint8))[1].tobytes()
+
+    def shot(run: str) -> Illustrated:
+        """Show a JPEG of a run."""
+        return Illustrated(Answer(words=["look"]), (Picture(drawn, "grey", "jpeg"),))
+
+    (tmp_path / "runs" / "fall").mkdir(parents=True)
+    (tmp_path / "runs" / "fall" / "plan.md").write_text("")
+    done = CliRunner().invoke(verb(shot), [str(tmp_path / "runs" / "fall")])
+    (written,) = (tmp_path / "runs" / "fall" / "out").rglob("*.jpg")
+    assert done.exit_code == 0 and str(written) in done.output and written.read_bytes() == drawn, done.output

@@ -133,7 +133,8 @@ class Screening:
             gone = self._seconds(after) - self._seconds(float(frame))
             row = min(max(self._row(after), begun + (gone > 0)), len(self._time) - 1)
             lasts = float(self._time[row] - self._time[begun])
-            poses, view = self._looking().placed(self._moment(after, row, treated=False), self._camera)
+            after_it = self._moment(after, row, treated=False, laid=False)
+            poses, view = self._looking().placed(after_it, self._camera)
             now = self.surfaces(frame)  # and what was drawn last is this frame again
             return streaks.streaked(picture, now, poses, view, gone / lasts if lasts > 0 else 1.0)
         except Exception as error:  # drivers fail in ways of their own, and a sharp picture is better than none
@@ -170,7 +171,7 @@ class Screening:
 
     def placed(self, frame: int) -> "tuple[np.ndarray, View]":
         """Where each thing of `surfaces` is (N, 3, 4), and the view, without drawing anything."""
-        return self._looking().placed(self._moment(frame + self._middle), self._camera)
+        return self._looking().placed(self._moment(frame + self._middle, laid=False), self._camera)
 
     @property
     def _middle(self) -> float:
@@ -202,7 +203,7 @@ class Screening:
 
         views, shown = [], []
         for share in smear.LOOKS:
-            data = self._moment(frame + self.film.shutter * share, treated=not self._reckons)
+            data = self._moment(frame + self.film.shutter * share, treated=not self._reckons, laid=False)
             views.append(of_camera(self.model, data, self._camera, self.frames.width, self.frames.height))
             there = smear.drawn(self.model, data)
             swaying = self._swaying.some(data, self._blown)
@@ -232,7 +233,7 @@ class Screening:
         standing = self.standing(frame, quality)
         if not standing:
             return 0.0
-        self._moment(frame)  # whether any stands depends on how it is treated
+        self._moment(frame, laid=False)  # whether any stands depends on how it is treated
         most, dearer = self.frames.beside(self._moments(quality, frame), quality)
         return dearer * len(standing[:most]) - (frame in standing[:most])
 
@@ -255,10 +256,11 @@ class Screening:
 
         return int(np.abs(self._time - self._seconds(at)).argmin())
 
-    def _moment(self, at: float, row: int = -1, treated: bool = True) -> "mujoco.MjData":
+    def _moment(self, at: float, row: int = -1, treated: bool = True, laid: bool = True) -> "mujoco.MjData":
         """Set up what is shown between two frames of one shot, by another recorded row than its own if one is given.
 
-        With `treated` False the drawing keeps the light of what was set up before: that is not going to be drawn.
+        With `treated` False the drawing keeps the light of what was set up before: that is not going to be drawn. With `laid`
+        False surfaces stay as they were: it is asked only where things are, and to lay one takes longer than to draw it.
         """
         import numpy as np
 
@@ -284,7 +286,7 @@ class Screening:
             data.geom_xpos[copies] = place + turned @ self.model.mesh_pos[mesh]
             data.geom_xmat[copies] = (turned @ turning.matrices(self.model.mesh_quat[mesh])).reshape(-1, 9)
         self._look(data, shot, row, told)
-        if self._surfaces:
+        if self._surfaces and laid:
             pixel = np.radians(self.model.cam_fovy[self._camera]) / self.frames.height
             for surface in self._surfaces:
                 surface.place(data, data.cam_xpos[self._camera], float(pixel))

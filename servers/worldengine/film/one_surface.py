@@ -29,6 +29,8 @@ FLAKE = 0.7
 """What falls alone of a snow is drawn so much as wide as what lies together: it is flakes, not lumps."""
 COMPANY = 6
 """With so many others near, a ball lies among them: on a layer it has more, in the air less."""
+LEAST_M = 1e-6
+"""A ball with a smaller radius is not drawn."""
 DEEPEST_CELLS = 96
 """What is thicker than so many cells of the grid counts as so thick."""
 
@@ -63,6 +65,7 @@ class Surface:
         mine = slice(first, first + int(model.skin_vertnum[skin]))
         self._told, self._own, self._thick = colours.geom, colours.skin[mine], colours.thick[mine]
         self._blended = blended
+        self._laid: tuple[np.ndarray, ...] | None = None
         self._colour(self._own[:0], np.zeros(0, int), np.zeros((0, 3)), np.zeros(0))
 
     def place(self, data: "mujoco.MjData", eye: "np.ndarray | None" = None, pixel: float = 0.0) -> None:
@@ -71,12 +74,21 @@ class Surface:
         radii, finest = narrowed(points, radii, self._alone), 0.0
         if eye is not None and len(points):
             finest = pixel * max(float((np.linalg.norm(points - eye, axis=1) - radii).min()), 0.0)
+        here = self._decides(points, radii, finest)
+        if self._laid is not None and all(map(np.array_equal, self._laid, here)):
+            return  # a frame is set up for its picture and again for how it moves: it is laid once
+        self._laid = here
         vertices, faces, thick = around(points, radii, len(self._faces), len(self._vertices), finest, self._smooth)
         self._vertices[:] = NOWHERE
         self._faces[:] = len(self._vertices) - 1
         self._vertices[: len(vertices)], self._faces[: len(faces)] = vertices, faces
         self._thick[: len(vertices)], self._thick[len(vertices) :] = thick, 0.0
         self._colour(vertices, owners, points, radii)
+
+    def _decides(self, points: "np.ndarray", radii: "np.ndarray", finest: float) -> "tuple[np.ndarray, ...]":
+        """All by which the surface is laid and coloured, as it is now."""
+        own = self._model.geom_rgba[self._geoms] if self._blended else np.zeros(0)
+        return points, radii, np.array(finest), self._told[self._geoms], np.array(own)
 
     def _colour(self, vertices: "np.ndarray", owners: "np.ndarray", points: "np.ndarray", radii: "np.ndarray") -> None:
         """Mix the colours of the particles around each corner, as paints: by what each takes from light."""
@@ -141,6 +153,11 @@ def balls(
     import mujoco
 
     kinds = mujoco.mjtGeom
+    geoms = np.asarray(geoms, dtype=int)
+    if (model.geom_type[geoms] == kinds.mjGEOM_SPHERE).all():  # thousands of particles, one by one, take half a second
+        sizes = np.array(model.geom_size[geoms, 0])
+        drawn = sizes >= LEAST_M
+        return np.array(data.geom_xpos[geoms[drawn]]), sizes[drawn], geoms[drawn]
     points, radii, owners = [], [], []
     for geom in geoms:
         size, kind = model.geom_size[geom], model.geom_type[geom]
@@ -151,7 +168,7 @@ def balls(
         else:
             half = np.array(model.geom_aabb[geom, 3:])
         radius = float(np.sort(half)[0] + np.sort(half)[1]) / 2
-        if radius < 1e-6:  # not drawn
+        if radius < LEAST_M:  # not drawn
             continue
         axis = int(half.argmax())
         row = np.linspace(-1, 1, SAMPLES) * (half[axis] - radius) if half[axis] > 1.2 * radius else np.zeros(1)

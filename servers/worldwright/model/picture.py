@@ -3,7 +3,9 @@
 Engines and tools return `Illustrated`; only `expose` knows how a transport carries pictures.
 """
 
+import re
 from dataclasses import dataclass
+from pathlib import Path
 
 from .frozen import Frozen
 
@@ -23,6 +25,14 @@ class Illustrated:
 
     data: Frozen
     pictures: tuple[Picture, ...] = ()
+    folder: Path | None = None
+    """Where the pictures lie already, by their `file_name`."""
+
+
+def file_name(number: int, picture: Picture) -> str:
+    """What a picture is called as a file, the first having number 1: by the first words of its caption."""
+    words = re.sub(r"[^a-z0-9]+", "-", picture.caption.split(" (")[0].split(", row")[0].lower()).strip("-")
+    return f"{number:02}-{words[:40]}.{'jpg' if picture.format == 'jpeg' else picture.format}"
 
 
 def png(picture: Picture) -> Picture:

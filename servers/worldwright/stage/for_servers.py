@@ -123,6 +123,18 @@ def run_confined(call: Sequence[str], *, program: Path | None = None, **limits: 
     return confined.run(call, sculpts=sculpts, **limits)
 
 
+def compile_laws(folder: Path) -> None:
+    """For other servers (no tool): have compiled what the laws of a program in `folder` need, once on this machine.
+
+    A confined process may not keep what it compiles, and its short time would go into that.
+    """
+    from ..model import call_time
+    from . import compiled_laws
+
+    if (folder / "laws").is_dir() and compiled_laws.lacking(folder / "laws"):
+        compiled_laws.compile_ahead(lambda: call_time.left_s() <= 0)
+
+
 def may_run_strangers() -> bool:
     """For other servers (no tool): whether a program that nobody has read may be run here; see `confined.allowed`."""
     from . import confined, sandbox

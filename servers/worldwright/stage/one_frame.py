@@ -1,4 +1,4 @@
-"""Draw moments of a run at once, of its author's film or through any camera, or three of every shot; no picture is kept."""
+"""Draw moments of a run at once, of its author's film or through any camera, or three of every shot; `drawn_once` keeps them."""
 
 import math
 import tempfile

@@ -1,9 +1,12 @@
 """Follow how fast a pass advances: whether it did since the last look, and how long the rest will take."""
 
 from collections import deque
+from collections.abc import Sequence
+from itertools import pairwise
 
 WINDOW_S = 10.0
 """The pace is that of the last seconds: a world that falls into a heap steps slower than at its beginning."""
+MOST_SHARES = 1000
 
 
 class Pace:
@@ -16,6 +19,26 @@ class Pace:
     def __init__(self) -> None:
         self._said: deque[tuple[float, float]] = deque()
         self._last: float | None = None
+        self._shares: tuple[float, ...] = (0.0, 1.0)
+
+    def spread(self, shares: object) -> None:
+        """Take over how the work is spread: shares of it that are done after each of equal parts, from 0 to 1, rising.
+
+        A program's own process tells it, so what is none counts for nothing.
+        """
+        if not isinstance(shares, Sequence) or isinstance(shares, str) or not 2 <= len(shares) <= MOST_SHARES:
+            return
+        if not all(isinstance(share, int | float) and 0 <= share <= 1 for share in shares):
+            return
+        if shares[0] == 0 and shares[-1] == 1 and all(a <= b for a, b in pairwise(shares)):
+            self._shares = tuple(map(float, shares))
+
+    def _work(self, done: float, total: float) -> float:
+        """The share of the work of `total` with which `done` is done."""
+        parts = len(self._shares) - 1
+        place = min(max(done / total, 0.0), 1.0) * parts
+        low = min(int(place), parts - 1)
+        return self._shares[low] + (place - low) * (self._shares[low + 1] - self._shares[low])
 
     def advanced(self, now_s: float, done: float) -> bool:
         """Note how much is done; returns whether that has changed."""
@@ -33,4 +56,7 @@ class Pace:
         if len(self._said) < 2:
             return None
         (began, before), (now, done) = self._said[0], self._said[-1]
-        return (total - done) * (now - began) / (done - before) if total > done > before else None
+        if not total > done > before:
+            return None
+        worked = self._work(done, total) - self._work(before, total)
+        return (1.0 - self._work(done, total)) * (now - began) / worked if worked > 0 else None

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from worldkit.files import write_atomic, write_json
+from worldkit.law_work import GROWING
 
 from ..model.errors import GateError, JobError
 from ..model.evidence.reports import PassResult
@@ -47,7 +48,7 @@ class Supervision:
         self.published = 0.0
         self.last: dict[str, Any] = {}
         """The engine's last report of its progress."""
-        self.pace = Pace()
+        self.pace, self.weighed = Pace(), False
 
     def state(self, name: Any, **more: Any) -> None:
         """Publish the job's state."""
@@ -103,6 +104,9 @@ class Supervision:
             return False
         self.published = elapsed
         said = self.progress()
+        if said and said["done"] and not self.weighed:
+            self.weighed = True  # the laws have told it before the first step
+            self.pace.spread(plain.read_json(self.job.author / "control" / GROWING).get("shares"))
         advanced = bool(said) and self.pace.advanced(elapsed, said["done"])
         if said:
             left = self.pace.left_s(said["total"])

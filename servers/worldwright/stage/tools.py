@@ -14,6 +14,7 @@ from ..model.picture import Illustrated
 from ..model.progress import Progress, silent
 from .disk import Disk, used
 from .for_servers import (
+    compile_laws,
     declared_inputs,
     draw_moments,
     free_earlier,
@@ -36,6 +37,7 @@ from .job import Job, JobStatus
 
 __all__ = [
     "TOOLS",
+    "compile_laws",
     "declared_inputs",
     "draw_moments",
     "free_earlier",
@@ -270,13 +272,16 @@ def frames(
     folder = Run.find(run)
     key = folder.evidence_key(environment.current().sha256())
     if at is not None and at != []:
-        from .one_frame import draw
+        from . import drawn_once
+        from .one_frame import SIZE, draw
 
-        return draw(folder, key, at, camera)
+        asked = {"at": at, "camera": camera, "size": SIZE}
+        return drawn_once.drawn(folder, key, "moments", asked, lambda: draw(folder, key, at, camera))
     if show == "shots":
-        from .one_frame import shots
+        from . import drawn_once
+        from .one_frame import SHOT_WIDTH, shots
 
-        return shots(folder, key)
+        return drawn_once.drawn(folder, key, "shots", {"width": SHOT_WIDTH}, lambda: shots(folder, key))
     evidence = folder.evidence(key)
     if show == "storyboard":
         return storyboards.shown(evidence, camera)

@@ -19,6 +19,7 @@ from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
 from . import at_work, audited, gates, next_repair, picture_claims, scope
 from .gone import Gone, Wrong
+from .halts import RunningError, TurnError, WrongError
 from .smallest_seen import smallest_seen
 from .state import State
 from .steps import Step, one
@@ -36,26 +37,6 @@ GROUPS: tuple[tuple[StepName, ...], ...] = (
 )
 """What of one group is wrong is told together."""
 FOR_EVER_S, MOST_REMARKS = 1e9, 5
-
-
-class WrongError(Exception):
-    """A step says no; carries all that it found."""
-
-    def __init__(self, *found: tuple[str, str]) -> None:
-        super().__init__(found[0][0])
-        self.found = found  # what, and the next move
-
-
-class TurnError(Exception):
-    """Somebody has to decide or to write something before the run goes on."""
-
-    def __init__(self, what: str, next_move: str) -> None:
-        super().__init__(what)
-        self.next_move = next_move
-
-
-class RunningError(Exception):
-    """Something goes on by itself when this call's time is over."""
 
 
 class Going:
@@ -329,8 +310,10 @@ class Going:
         try:
             if job is None or job.state == "lost":
                 job = start_storyboard(self.run, moments(self.run))
-            while not job.ended and time.monotonic() < self.deadline:
-                job = wait(self.name, job=job.job, timeout_s=5, progress=self.progress)
+            waiting = at_work.Waiting(self.say, State(self.run))
+            while not job.ended and (left := self.deadline - time.monotonic()) > 0:
+                within = waiting.within_s(job, left)
+                job = wait(self.name, job=job.job, timeout_s=min(5.0, within), progress=self.progress)
         except WorldwrightError as refused:
             self.say("storyboard", "stopped", str(refused))
             return
@@ -367,9 +350,11 @@ class Going:
         state = State(self.run)
         needed = bool(audited.why_causes(state)) and not self.step("causes").done
         finer = self.refine and audited.standing(state, state.refine) not in ("holds", "fails")
+        waiting, heard = at_work.Waiting(self.say, state, silent_s=0.0), at_work.Heard(self.progress)
         while needed or finer:
+            waiting.tell("causes", lambda: at_work.beside(self.run, heard.said, self.pictures()))
             left = max(0.0, self.deadline - time.monotonic())
-            done = scan(self.name, refine=finer, causes=needed, timeout_s=min(left, 40), progress=self.progress)
+            done = scan(self.name, refine=finer, causes=needed, timeout_s=min(left, at_work.MOST_S), progress=heard)
             if not (pending := done.pending):
                 break
             if left <= 0:

@@ -19,8 +19,9 @@ from ..model.evidence.build_steps import STEPS, StepName
 from ..model.evidence.run import Run, sha256_file
 from ..model.progress import Progress
 from ..model.storage import writing
-from .going import Going, WrongError
+from .going import Going
 from .gone import Wrong
+from .halts import WrongError
 from .rehearsal_copy import lay_out, names, require_place, stands
 from .rehearsed_answer import Mend, Rehearsed, Whose
 from .state import State

@@ -1,5 +1,6 @@
 """An author's law is stepped for a fifth of a second before its physics is paid for."""
 
+import json
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -124,5 +125,32 @@ def test_a_call_that_ends_meanwhile_takes_no_finding_away(tmp_path: Path, monkey
     monkeypatch.setattr(law_trial, "tried", over)
     (tmp_path / "simulation.py").write_text(PROGRAM)
     row = SimpleNamespace(solver=SimpleNamespace(file="laws/spring.py"))
-    plan = SimpleNamespace(simulation_parameters=SimpleNamespace(interventions=(row,)))
-    assert law_trial.of(tmp_path / "simulation.py", plan, SimpleNamespace(status="compiled"), [], 20.0) is None
+    plan = SimpleNamespace(simulation_parameters=SimpleNamespace(interventions=(row,), simulation_duration=2.0))
+    said = law_trial.of(tmp_path / "simulation.py", plan, SimpleNamespace(status="compiled"), [], 20.0)
+    assert said == law_trial.Tried(law_trial.UNTRIED), "and it is not silent about the price"
+
+
+def test_a_law_is_asked_however_long_its_world_took_to_build(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a busy machine the clock on the wall went by while the world was built, and physics began without a price."""
+    given: list[float] = []
+    monkeypatch.setattr(law_trial, "tried", lambda program, lasting, wall_s: given.append(wall_s))
+    (tmp_path / "simulation.py").write_text(PROGRAM.replace("duration=2.0", "duration=float('2')"))
+    row = SimpleNamespace(solver=SimpleNamespace(file="laws/spring.py"))
+    plan = SimpleNamespace(simulation_parameters=SimpleNamespace(interventions=(row,), simulation_duration=2.0))
+    for left_s in (-43.0, 18.0):
+        law_trial.of(tmp_path / "simulation.py", plan, SimpleNamespace(status="compiled"), [], left_s)
+    assert given == [law_trial.OWN_S, 18.0]
+
+
+@pytest.mark.parametrize("status", ["out_of_memory", "timed_out"])
+def test_a_trial_that_is_ended_tells_what_it_came_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, status: str
+) -> None:
+    from worldwright.stage import tools
+
+    told = {"points": 8200, "reached_s": 0.1, "wall_s": 0.5, "grows": 20.0}
+    files = {"outcome.json": json.dumps(told).encode()}
+    monkeypatch.setattr(tools, "run_confined", lambda *_, **__: SimpleNamespace(status=status, files=files))
+    found = law_trial.tried(tmp_path / "simulation.py", 5.0)
+    assert found is not None and "the whole 5 s about 500 s" in found.said and "fewer points" in found.said
+    assert ("out of memory (4 GB)" in found.said) == (status == "out_of_memory")

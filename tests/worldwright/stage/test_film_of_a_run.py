@@ -14,7 +14,7 @@ from worldwright.model.errors import JobError
 from worldwright.model.evidence import environment, pictures_of
 from worldwright.model.evidence.run import Run, sha256_file
 from worldwright.report import facts, material
-from worldwright.stage import gates, kept_sculpts
+from worldwright.stage import gates, kept_sculpts, one_frame
 from worldwright.stage import tools as stage
 from worldwright.stamp import by_measurement
 from worldwright.stamp import tools as stamp
@@ -54,8 +54,11 @@ def write(run: Run, text: str) -> None:
     (run.folder / "film.py").write_text(text, encoding="utf-8")
 
 
-def test_a_film_is_seen_at_moments_and_shot_by_shot_before_its_video(reviewed: Path, copy: Copy) -> None:
+def test_a_film_is_seen_at_moments_and_shot_by_shot_before_its_video(
+    reviewed: Path, copy: Copy, monkeypatch: pytest.MonkeyPatch
+) -> None:
     run = Run(copy(reviewed))
+    key = run.evidence_key(environment.current().sha256())
     write(run, FILM)
     shown = stage.frames(str(run.folder), at=0.35)
     assert "film at" in shown.data.text()
@@ -64,6 +67,12 @@ def test_a_film_is_seen_at_moments_and_shot_by_shot_before_its_video(reviewed: P
     several = stage.frames(str(run.folder), at=[0.35, 0.0])
     assert [picture.caption[:14] for picture in several.pictures] == ["film at 0.33 s", "film at 0.00 s"]
     sheet = stage.frames(str(run.folder), show="shots")
+    held = run.evidence_key(environment.current().sha256())
+    with monkeypatch.context() as undrawn:
+        undrawn.setattr(one_frame, "draw_frame", lambda *_, **__: pytest.fail("what was drawn is drawn again"))
+        again = stage.frames(str(run.folder), show="shots")
+    assert again == sheet and min(p.name for p in again.folder.iterdir()).startswith("01-shots-sheet-1")
+    assert str(again.folder) in again.data.text() and held == key
     assert [line[:6] for line in sheet.data.captions[:3]] == ["shot 1", "shot 2", "all 6 "]
     assert "ball 0, " not in sheet.data.captions[0] and "speed 0.5" in sheet.data.captions[1]
     (page,) = [cv2.imdecode(np.frombuffer(p.data, np.uint8), cv2.IMREAD_COLOR) for p in sheet.pictures]

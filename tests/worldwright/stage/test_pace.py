@@ -1,7 +1,10 @@
 """Limits count progress, not the clock on the wall; what is left is told by the last steps."""
 
+from types import SimpleNamespace
+
 import pytest
 
+from worldkit import law_work
 from worldwright.stage.pace import WINDOW_S, Pace
 from worldwright.stage.tools import start, status, wait
 
@@ -121,3 +124,37 @@ def test_an_audit_is_never_what_is_waited_for_unasked(make, finish):
     assert [one.job for one in shown.jobs] == [job.job]
     assert wait(str(run.folder), job=beside.job, timeout_s=40).state == "succeeded"
     assert status(str(run.folder)).audits == ()
+
+
+def test_what_is_left_of_a_law_that_pours_is_told_by_what_is_still_to_come():
+    """1,400 steps whose cost grows with the number of points: of the first 114 the pace alone promised a twentieth."""
+    law = SimpleNamespace(mass=range(100), grows=lambda first, whole: whole / first)
+    told, pace, plain = law_work.shares([law], 7.0), Pace(), Pace()
+    pace.spread(told)
+    whole = 550.0
+    for done in range(0, 115, 6):
+        for one in (pace, plain):
+            one.advanced(whole * (done / 1400) ** 2, done)
+    left = whole * (1 - (114 / 1400) ** 2)
+    assert pace.left_s(1400) == pytest.approx(left, rel=0.25)
+    assert plain.left_s(1400) < left / 8
+
+
+@pytest.mark.parametrize("odd", [None, "0101", [0, 2, 1], [0.0, float("nan"), 1.0], [0.5, 1.0], [1.0], {"a": 1}])
+def test_a_spread_of_work_that_is_none_counts_for_nothing(odd):
+    pace, plain = Pace(), Pace()
+    pace.spread(odd)
+    for one in (pace, plain):
+        one.advanced(0, 1)
+        one.advanced(1, 3)
+    assert pace.left_s(10) == plain.left_s(10) == pytest.approx(3.5)
+
+
+def test_laws_that_tell_nothing_of_it_or_fail_are_spread_evenly():
+    def fails(first, whole):
+        raise ValueError
+
+    assert law_work.shares([SimpleNamespace(mass=[1.0])], 2.0) == []
+    assert law_work.shares([SimpleNamespace(mass=[1.0], grows=fails)], 2.0) == []
+    even = law_work.shares([SimpleNamespace(mass=[1.0], grows=lambda first, whole: 1.0)], 2.0)
+    assert even == pytest.approx([n / law_work.PARTS for n in range(law_work.PARTS + 1)])

@@ -12,7 +12,7 @@ import pytest
 
 from worldwright.model.evidence.run import Run
 from worldwright.stage.job import Job
-from worldwright.stamp import going
+from worldwright.stamp import going, halts
 from worldwright.stamp import tools as stamp
 
 ASKED_ONCE = ("--version", "probe.py", "warm.nursery")
@@ -115,7 +115,7 @@ class Walk(going.Going):
 
     def passed(self, stage):
         if stage == "video" and self.calls:
-            raise going.RunningError("video: under way")
+            raise halts.RunningError("video: under way")
         self.drawn.append(stage)
         return ""
 

@@ -280,3 +280,34 @@ def test_a_memory_limit_reaches_every_pass_by_tool_and_by_command(fresh, monkeyp
             call()
     CliRunner().invoke(cli.main, ["go", str(fresh), "--memory-mb", "7000"])
     assert asked == [("physics", 6000), ("physics", 4096), ("physics", 7000)]
+
+
+class Film:
+    """A film that is drawn behind the audits."""
+
+    stage, eta_s, ended = "video", 250.0, False
+
+    def text(self):
+        return "video running · job video-11 · 93.0 s · 12/65 frames, about 250 s left\n"
+
+
+def test_audits_before_the_film_say_at_once_what_runs_and_how_far_and_again(fresh, monkeypatch):
+    """After `expect` nothing was told while the audits repeated the physics and the film was drawn behind them."""
+    clock, said, asked = [0.0], [], []
+
+    def audit(name, *, timeout_s, progress, **_):
+        asked.append(timeout_s)
+        clock[0] += timeout_s
+        progress(len(asked), 6, f"{len(asked)} of 6 repetitions")
+        return SimpleNamespace(pending=("without-servo",) if len(asked) < 6 else ())
+
+    monkeypatch.setattr(at_work.time, "monotonic", lambda: clock[0])
+    monkeypatch.setattr(scan, "scan", audit)
+    monkeypatch.setattr(going.audited, "why_causes", lambda state: "forces")
+    monkeypatch.setattr(stage, "latest", lambda run, name: Film() if name == "video" else None)
+    walk = going.Going(Run(fresh), say=lambda *told: said.append((clock[0], *told)))
+    assert "not" in walk.causes() and len(asked) == 6
+    assert [at for at, *_ in said] == [0.0, 30.0, 60.0, 120.0]
+    assert {told[:2] for _, *told in said for told in [tuple(told)]} == {("causes", "waiting")}
+    assert "beside them: video running" in said[0][3] and "about 250 s left" in said[0][3]
+    assert "audits running · 2 of 6 repetitions" in said[2][3]

@@ -19,7 +19,7 @@ from worldwright.model.storage import StorageError
 from worldwright.stage import tools as stage
 from worldwright.stamp import rehearsal, rehearsal_copy
 from worldwright.stamp import tools as stamp
-from worldwright.stamp.going import WrongError
+from worldwright.stamp.halts import WrongError
 
 
 def to_the_end(folder):

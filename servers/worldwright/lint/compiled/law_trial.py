@@ -21,7 +21,8 @@ if TYPE_CHECKING:
     from .fetch import Outcome
 
 UNTRIED = "what its laws cost is not known: this call's time went into building the world; ask again"
-TRIED_S, WALL_S, LEAST_WALL_S, MEMORY_MB = 0.2, 20.0, 3.0, 2048
+TRIED_S, WALL_S, LEAST_WALL_S, OWN_S, MEMORY_MB = 0.2, 20.0, 3.0, 12.0, 4096
+"""A law is given `OWN_S` of its own however long its world took to build, and the memory of a physics pass."""
 
 
 @dataclass(frozen=True)
@@ -33,17 +34,23 @@ class Tried:
 
 
 def of(program: Path, plan: "Plan | None", outcome: "Outcome", found: list[Finding], wall_s: float) -> Tried | None:
-    """What the author's laws of a program do in their first steps; None without any. A world that is wrong is not stepped."""
+    """What the author's laws of a program do in their first steps; None without any. A world that is wrong is not stepped.
+
+    `wall_s` is what is left of the time in which the world was built.
+    """
     from .. import main_call
 
     rows = plan.simulation_parameters.interventions if plan is not None else ()
     wrong = any(finding.severity == "error" for finding in found)
     if wrong or outcome.status != "compiled" or not any(row.solver and row.solver.file for row in rows):
         return None
-    lasting = main_call.facts(program).get("duration")
-    with contextlib.suppress(CallOverError):  # what is found already stands
-        return tried(program, float(lasting), wall_s) if isinstance(lasting, int | float) else None
-    return None
+    lasting = main_call.facts(program).get("duration", plan and plan.simulation_parameters.simulation_duration)
+    if not isinstance(lasting, int | float):
+        return Tried("what its laws cost is not known: the duration of `program.main` is no plain number")
+    try:
+        return tried(program, float(lasting), max(wall_s, OWN_S))
+    except CallOverError:  # what is found already stands
+        return Tried(UNTRIED)
 
 
 def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | None:
@@ -55,10 +62,11 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
         wall_s: the attempt ends after so many seconds of its own.
     """
     from ...scan.tools import unbalanced
-    from ...stage.tools import run_confined
+    from ...stage.tools import compile_laws, run_confined
 
     if wall_s < LEAST_WALL_S:
         return Tried(UNTRIED)
+    compile_laws(program.parent)
     here = Path(__file__).parent
     reads = [*(here / f"{name}.py" for name in ("step_laws", "compile_world", "measure", "rehearse")), program]
     with contextlib.suppress(companions.CompanionError, OSError):  # refused in words where evidence is kept
@@ -81,6 +89,12 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
     if done.status == "timed_out":
         many = f" of {points:,} points" if points else ""
         return Tried(cost or f"its laws{many} did not come to a step within {wall_s:.0f} s; {law_costs.CHEAPER}")
+    if done.status == "refused":
+        return None
+    if done.status != "ended":  # it says what it costs as far as it came
+        many = f" of {points:,} points" if points else ""
+        word = f"its laws{many} end in the first steps: {done.status.replace('_', ' ')} ({MEMORY_MB / 1024:g} GB)"
+        return Tried(f"{word}; {cost}" if cost else f"{word}; {law_costs.CHEAPER}")
     if odd := _not_finite(told, data := done.files.get("sums.npz", b"")):
         message = f"the law {odd} blows up: its sums are not finite"
         return Tried("its laws blow up in their first steps", (_unbalanced(message, reached, program),))

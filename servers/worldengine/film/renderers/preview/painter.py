@@ -11,7 +11,7 @@ from OpenGL import GL
 
 from worldkit.materials.look import NOTHING
 
-from . import gl
+from . import gl, swarms
 from .eye import View
 from .far_first import far_first
 from .finish import linear
@@ -24,15 +24,12 @@ from .things import FLOATS, Batch, Things
 if TYPE_CHECKING:
     import mujoco
 
-ROUND = ("sphere", "capsule", "cylinder")
-CLOSED = (*ROUND, "box")
+CLOSED = (*swarms.ROUND, "box")
 """Shapes whose far sides are never seen from outside."""
 SHEETS = ("plane", "disc", "hfield")
 """Shapes without a thickness, which keep their tint whatever their look absorbs."""
 NESTED = 16
 """Of so many see-through things each is seen through the others."""
-UNSEEN_PX = 40.0
-"""The radius assumed where no eye looks, as in the shadow map."""
 
 
 def spans(batch: Batch, wanted: np.ndarray, barred: np.ndarray) -> Iterator[tuple[int, int]]:
@@ -119,19 +116,37 @@ class Painter:
             if clear is None or through == clear:
                 yield shape, Batch(kind, finish, through, first=start + first), count
 
+    def _fitted(
+        self, view: View | None, height: int, clear: bool | None = False
+    ) -> Iterator[tuple[gl.Shape, Batch, int]]:
+        """As `_soft`, each with a shape, as fine as it is seen."""
+        for shape, batch, count in self._soft(clear):
+            if shape is None:
+                yield from self._stretches(batch, view, height, count)
+            else:
+                yield shape, batch, count
+
     def clear(self) -> bool:
         """Whether anything is see-through."""
         return any(batch.clear for batch in self.things.batches) or any(True for _ in self._soft(clear=True))
 
-    def _shape(self, batch: Batch, view: View | None, height: int, count: int = -1) -> gl.Shape:
-        """The shape of a batch, as fine as a picture of `height` pixels needs it."""
+    def _shape(self, batch: Batch, radius_px: float, many: int = 1) -> gl.Shape:
+        """The shape of a batch, as fine as a thing of this radius in the picture, one of so many, needs it."""
+        return self.supplies.shape(*batch.shape, radius_px, swarms.least_sectors(many))
+
+    def _stretches(
+        self, batch: Batch, view: View | None, height: int, count: int = -1
+    ) -> Iterator[tuple[gl.Shape, Batch, int]]:
+        """Shape, a batch with the first place, and number of each stretch of things that are drawn alike, as finely as `view` sees
+        them in a picture of `height` pixels: all of a batch, but where it holds very many."""
         count = len(batch.rows) if count < 0 else count
-        radius_px = UNSEEN_PX
-        if view is not None and count and batch.shape[0] in ROUND:
-            rows = self._rows[batch.first : batch.first + count]
-            depth = np.maximum((rows[:, [3, 7, 11]] - view.eye) @ view.forward, 0.05)
-            radius_px = float((rows[:, 12:14].max(axis=1) / depth).max() * height / (2.0 * view.tangents[1]))
-        return self.supplies.shape(*batch.shape, radius_px)
+        if view is None or not count or batch.shape[0] not in swarms.ROUND:
+            unseen = swarms.UNSEEN_SWARM_PX if count >= swarms.MANY else swarms.UNSEEN_PX
+            yield self._shape(batch, unseen, count), batch, count
+            return
+        pixels = swarms.seen_px(self._rows[batch.first : batch.first + count], view, height)
+        for first, number, radius_px in swarms.stretches(pixels):
+            yield self._shape(batch, radius_px, count), replace(batch, first=batch.first + first), number
 
     def draw(
         self,
@@ -153,13 +168,18 @@ class Painter:
         with gl.FarSides(flipped) as far_sides:
             for batch in self.batches(clear=clear, ground=ground, walls=walls):
                 far_sides.hide(batch.shape[0] in CLOSED)
-                for first, count in [(batch.first, len(batch.rows))] if only is None else spans(batch, *only):
+                if only is None:
+                    for shape, part, count in self._stretches(batch, view, height):
+                        program.set(first=part.first)
+                        shape.draw(count)
+                    continue
+                for first, count in spans(batch, *only):  # by the light, which needs no finer ones near the eye
                     program.set(first=first)
-                    self._shape(batch, view, height).draw(count)
+                    next(self._stretches(batch, None, height))[0].draw(count)
             far_sides.hide(False)
-            for shape, batch, count in self._soft(clear):
-                program.set(first=batch.first)
-                (shape or self._shape(batch, view, height, count)).draw(count)
+            for shape, part, number in self._fitted(view, height, clear):
+                program.set(first=part.first)
+                shape.draw(number)
 
     def prepare(self, uniforms: dict[str, object], textures: dict[str, tuple[int, int]], shadow: ShadowMap) -> None:
         """Set what materials are drawn with from now on: uniforms, textures (unit, handle) by name, and the shadow map."""
@@ -201,11 +221,11 @@ class Painter:
         with gl.FarSides(mirrored) as far_sides:
             for batch in self.batches(ground=not mirrored):
                 far_sides.hide(batch.shape[0] in CLOSED)
-                shape = self._shape(batch, view, height)
-                self._shade(batch, shape, len(batch.rows), simple=mirrored or glossy(batch))
+                for shape, part, count in self._stretches(batch, view, height):
+                    self._shade(part, shape, count, simple=mirrored or glossy(batch))
             far_sides.hide(False)
-            for shape, batch, count in self._soft():
-                self._shade(batch, shape or self._shape(batch, view, height, count), count, simple=mirrored)
+            for shape, part, count in self._fitted(view, height):
+                self._shade(part, shape, count, simple=mirrored)
 
     def mirrors(self) -> list[Batch]:
         """Batches so glossy that neighbours show in them."""
@@ -216,7 +236,8 @@ class Painter:
         with gl.FarSides(False) as far_sides:
             for batch in self.mirrors():
                 far_sides.hide(batch.shape[0] in CLOSED)
-                self._shade(batch, self._shape(batch, view, height), len(batch.rows), mirror=True)
+                for shape, part, count in self._stretches(batch, view, height):
+                    self._shade(part, shape, count, mirror=True)
 
     def shade_glass(self, view: View, height: int, copy: Callable[[], None]) -> None:
         """Draw see-through things over the picture so far, the farthest first, and what is inside of another before it.
@@ -232,13 +253,13 @@ class Painter:
         owners = [owners[number] for number in order]
         with gl.FarSides(False) as far_sides:
             far_sides.hide(True)
-            for shape, batch, count in self._soft(clear=True):
-                self._shade(batch, shape or self._shape(batch, view, height, count), count)
+            for shape, part, count in self._fitted(view, height, clear=True):
+                self._shade(part, shape, count)
             if owners and any(True for _ in self._soft(clear=True)):
                 copy()
             for number, (row, batch) in enumerate(owners):
                 if 0 < number < NESTED and len(owners) <= NESTED:
                     copy()
-                single = replace(batch, first=row)
-                self._shade(single, self._shape(single, view, height, 1), 1)
+                for shape, single, count in self._stretches(replace(batch, first=row), view, height, 1):
+                    self._shade(single, shape, count)
         GL.glDisable(GL.GL_BLEND)

@@ -23,13 +23,14 @@ SMALL = 400
 NO_PAINT, SIDES, AROUND, BY_COORDINATES = range(4)
 
 
-def sectors(pixels: float) -> int:
+def sectors(pixels: float, least: int = 16) -> int:
     """The number of sectors with which a round thing of this radius on screen looks smooth: its outline errs by 1/6 pixel.
 
-    N sectors miss the circle by R (1 - cos(pi / N)), so N = 5.4 sqrt(R); few sizes, so that shapes are shared.
+    N sectors miss the circle by R (1 - cos(pi / N)), so N = 5.4 sqrt(R); few sizes, so that shapes are shared. It has at `least`
+    so many.
     """
     needed = 5.4 * pixels**0.5
-    return next((size for size in (16, 24, 32, 44, 60, 84) if size >= needed), 120)
+    return next((size for size in (8, 12, 16, 24, 32, 44, 60, 84) if size >= max(needed, least)), 120)
 
 
 class Supplies:
@@ -42,11 +43,11 @@ class Supplies:
         self._pictures: dict[object, int] = {}
         self.black = gl.texture(GL.GL_RGBA8, 1, 1)
 
-    def shape(self, kind: str, index: int, pixels: float = 40.0) -> gl.Shape:
-        """A unit shape that is fine enough for a thing of this radius on screen, or a mesh or height field of the model."""
+    def shape(self, kind: str, index: int, pixels: float = 40.0, least: int = 16) -> gl.Shape:
+        """A unit shape that is fine enough for a thing of this radius on screen, of at `least` so many sectors, or a mesh or height field of the model."""
         round_kinds = {"sphere": unit_shapes.sphere, "capsule": unit_shapes.capsule, "cylinder": unit_shapes.cylinder}
         if kind in round_kinds:
-            index = sectors(pixels)
+            index = sectors(pixels, least)
         key = (kind, index)
         if key not in self._shapes:
             if kind in round_kinds:
