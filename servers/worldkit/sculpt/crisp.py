@@ -115,7 +115,7 @@ def vessel(profile: Outline, wall: float, smooth: bool = False) -> Solid:
     import manifold3d
 
     points = np.asarray(profile, dtype=float)
-    outside = lathe(points, smooth)
+    outside = lathe(profile, smooth)
     points = np.maximum(curve(points), (0.0, -np.inf)) if smooth else points
     way = points[-1] - points[-2]
     if not way[1] > 0 or points[-1, 1] < points[:, 1].max():
