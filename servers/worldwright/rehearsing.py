@@ -16,16 +16,18 @@ from .stamp.rehearsed_answer import Rehearsed
 def rehearse(
     run: Annotated[str, Field(description="The run folder, or its name.")],
     timeout_s: Annotated[float, Field(description="Return after so long; call again.", gt=0)] = 40,
+    go_on: Annotated[bool, Field(description="Simulate also what check or lint found wrong in plan or model.")] = False,
     progress: Progress = silent,
 ) -> Rehearsed:
     """Before approval: check, place, draft, lint, simulate, scan, measure, storyboard, and nothing of it is evidence.
 
     Answers in one call which objectives would hold and by which margin, all there is to mend, the pictures' paths and the
-    cost. It works on a copy, `rehearsal/`: change plan.md and call again. `running`: call again.
+    cost. What is wrong in plan or model is mended before it is simulated. It works on a copy, `rehearsal/`: change plan.md and
+    call again. `running`: call again.
     """
     from .stamp.rehearsal import rehearse as walk
 
-    return walk(Run.find(run), call_time.waiting_s(timeout_s), progress)
+    return walk(Run.find(run), call_time.waiting_s(timeout_s), progress, go_on)
 
 
 TOOLS = (rehearse,)

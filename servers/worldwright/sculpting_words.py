@@ -26,7 +26,7 @@ PARTS = (
     ("Where things go", "along skin share_along"),
     ("Into the world", "Part add assemble from_file dress made leaf"),
 )
-SOLIDS = "box ball cylinder pipe torus lathe turned slab loft sweep wire ring curve together around"
+SOLIDS = "box ball cylinder pipe torus lathe vessel turned slab loft hull sweep wire ring curve together around"
 MASKS = "gradient over plain step within stripes spots net mottled noise label dial"
 
 

@@ -8,7 +8,7 @@ import pytest
 from worldkit.errors import ProgramError
 from worldkit.filming import Film, Recorded, sets
 
-NAMES = [name for name in sets.SETS.names() if name not in sets.NO_SETS]
+NAMES = sets.names()
 MOST = 3_000_000
 
 

@@ -1,6 +1,6 @@
 """Exact solids with crisp edges, by manifold3d: lathe, loft, sweep, bevelled slabs, booleans. Metres, z up.
 
-    cup = crisp.lathe([(0.0, 0.0), (0.035, 0.0), (0.04, 0.09)]) - crisp.lathe([(0.0, 0.005), (0.032, 0.005), (0.036, 0.1)])
+    cup = crisp.vessel([(0.035, 0.0), (0.04, 0.09)], wall=0.003)
     frame = crisp.slab([(-0.2, -0.15), (0.2, -0.15), (0.2, 0.15), (-0.2, 0.15)], 0.02, bevel=0.003)
 
 Every knife-sharp edge looks false: give visible ones a `bevel` of 1 to 3 mm. Where shapes flow into each other, use the
@@ -64,6 +64,13 @@ class Solid:
         """With its mirror image in the plane where that coordinate is 0."""
         return Solid(self.manifold + self.manifold.mirror(tuple(np.eye(3)[AXES[axis]])))
 
+    def cut(self, normal: Vec3, offset: float = 0.0) -> "Solid":
+        """Cut off flat by a plane so far from the origin, m; points with `normal` . p < offset stay: a rim, a foot, a half."""
+        way = np.asarray(normal, dtype=float)
+        if not (length := float(np.linalg.norm(way))) > 0:
+            raise ValueError("cut: the normal has no direction")
+        return Solid(self.manifold.trim_by_plane(tuple(-way / length), -offset))
+
     @cached_property
     def recipe(self) -> str:
         """Tells this solid from others."""
@@ -98,6 +105,36 @@ def lathe(profile: Outline, smooth: bool = False) -> Solid:
         points = np.maximum(curve(points), (0.0, -np.inf))
     closed = np.concatenate([points[:1] * (0.0, 1.0), points, points[-1:] * (0.0, 1.0)])
     return Solid(_section(closed).revolve(SEGMENTS))
+
+
+def vessel(profile: Outline, wall: float, smooth: bool = False) -> Solid:
+    """A vessel turned about z, open at the top: its outside (radius, height) from bottom to rim, its wall inside that, m.
+
+    Everywhere, in the bottom too, it is as thick; the rim is flat.
+    """
+    import manifold3d
+
+    points = np.asarray(profile, dtype=float)
+    outside = lathe(profile, smooth)
+    points = np.maximum(curve(points), (0.0, -np.inf)) if smooth else points
+    way = points[-1] - points[-2]
+    if not way[1] > 0 or points[-1, 1] < points[:, 1].max():
+        raise ValueError("vessel: the profile rises to its rim, which is its last point")
+    beyond = points[-1] + way * (3 * wall / way[1])  # so that the rim is open, and its wall as thick as below
+    beyond = np.maximum(beyond, (0.0, -np.inf))
+    half = np.concatenate([points[:1] * (0.0, 1.0), points, [beyond], [beyond * (0.0, 1.0)]])
+    closed = np.concatenate([half, half[::-1] * (-1.0, 1.0)])  # its mirror image, so that the axis is no edge of it
+    room = _section(closed).offset(-wall, manifold3d.JoinType.Round, circular_segments=SEGMENTS)
+    if not wall > 0 or room.is_empty() or not room.bounds()[1] < points[-1, 1] < room.bounds()[3]:
+        raise ValueError(f"vessel: a wall of {wall} m leaves no room in it")
+    return outside - Solid(room.revolve(SEGMENTS))
+
+
+def hull(*solids: Solid) -> Solid:
+    """What a skin drawn tight over solids encloses, without hollows: an egg over two balls, a spoon's bowl over bowl and lip."""
+    import manifold3d
+
+    return Solid(manifold3d.Manifold.batch_hull([one.manifold for one in solids]))
 
 
 def slab(outline: Outline, height: float, bevel: float = 0.0, smooth: bool = False, twist_deg: float = 0.0) -> Solid:

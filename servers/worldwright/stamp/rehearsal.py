@@ -1,8 +1,9 @@
 """A rehearsal: the walk of `go` in a copy of a run whose plan nobody has approved, as far as a storyboard, and no further.
 
 The copy (`model.evidence.rehearsed`) holds the plan, what it names and an author's program; where there is none, or only the
-draft of an earlier plan, the walk drafts one there. Unlike `go` it stops for nothing that can be passed: what a rule of the plan
-or of lint says is told beside what was measured, and a place left to the program's author is a remark.
+draft of an earlier plan, the walk drafts one there. Unlike `go` it tells check, place and lint together, and a place left to the
+program's author is a remark. What they find wrong in plan or model is mended before anybody pays for the physics of it, unless the
+caller asks to go on: then it is told beside what was measured.
 """
 
 import difflib
@@ -30,14 +31,16 @@ MOST_REMARKS = 12
 """So many remarks of one step are told, and the number of the others."""
 OF_PLAN = re.compile(r"error WP\d+ .*", re.DOTALL)
 """How a fault of the plan itself reads, which lint repeats."""
+OF_WORLD = re.compile(r"error (WP\d+|WM(?!101\b)\d+) ")
+"""How a fault of plan or model reads, which makes another world of it; without `NO_WORLD`, which the machine can cause."""
 NO_WORLD = "WM101"
 """Lint's word for a program of which no world came."""
 OWN_LOG = "stage log"
 """A next move that reads a log speaks of the rehearsal's own folder."""
 
 
-def rehearse(run: Run, timeout_s: float, progress: Progress) -> Rehearsed:
-    """Rehearse a run as it stands; while another call does, that is what is answered.
+def rehearse(run: Run, timeout_s: float, progress: Progress, go_on: bool = False) -> Rehearsed:
+    """Rehearse a run as it stands; while another call does, that is what is answered. With `go_on` also what lint refuses.
 
     Raises:
         GateError: its plan is approved, so that `go` may do all this; or it is a rehearsal itself; or what lies where its
@@ -65,7 +68,7 @@ def rehearse(run: Run, timeout_s: float, progress: Progress) -> Rehearsed:
     with _alone(run, deadline) as nobody_else:
         if nobody_else:
             copy, left_s = lay_out(run), max(deadline - time.monotonic(), 0.0)
-            return Rehearsal(run, copy, timeout_s=left_s, progress=progress).rehearsed()
+            return Rehearsal(run, copy, timeout_s=left_s, progress=progress, go_on=go_on).rehearsed()
     return Rehearsed(
         run=run.name,
         state="running",
@@ -91,11 +94,12 @@ class Rehearsal(Going):
         copy: its rehearsal.
         timeout_s: return after about this long, s; what is under way goes on by itself.
         progress: told how far a long step is.
+        go_on: simulate also what check or lint found wrong.
     """
 
-    def __init__(self, original: Run, copy: Run, *, timeout_s: float, progress: Progress) -> None:
+    def __init__(self, original: Run, copy: Run, *, timeout_s: float, progress: Progress, go_on: bool = False) -> None:
         super().__init__(copy, timeout_s=timeout_s, progress=progress)
-        self.original = original
+        self.original, self.go_on = original, go_on
         self.remarks: list[Mend] = []
         self.began_s = processor_time.spent_s()
 
@@ -110,6 +114,10 @@ class Rehearsal(Going):
             return
         yield "lint", self.lint
         if self.under_way:
+            return
+        if not self.go_on and any(OF_WORLD.search(w.what) for w in self.wrong):
+            told = "not simulated: plan or model is wrong as told; to measure it all the same: "
+            self.remark("physics", [f"{told}worldwright stage rehearse {State(self.original).place} --go-on"])
             return
         yield "physics", self.physics
         if self.under_way:
@@ -208,7 +216,7 @@ class Rehearsal(Going):
 
     def anew(self) -> str:
         """The command that rehearses the run again."""
-        return f"worldwright stage rehearse {State(self.original).place}"
+        return f"worldwright stage rehearse {State(self.original).place}{' --go-on' * self.go_on}"
 
     # -- what is told --------------------------------------------------------------------------------------------------
 

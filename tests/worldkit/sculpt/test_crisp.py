@@ -87,3 +87,28 @@ def test_a_bevelled_cylinder_keeps_its_size_and_one_too_large_is_refused():
     assert low == pytest.approx((-0.05, -0.05, 0), abs=1e-6) and high == pytest.approx((0.05, 0.05, 0.2), abs=1e-6)
     with pytest.raises(ValueError, match="does not fit"):
         crisp.cylinder(0.1, 0.02, 0.01)
+
+
+def test_a_vessel_has_one_wall_and_a_flat_rim():
+    cup = closed(crisp.vessel([(0.04, 0.0), (0.04, 0.1)], wall=0.004))
+    assert cup.volume == pytest.approx(math.pi * (0.0016 * 0.1 - 0.036**2 * 0.096), rel=2e-3)
+    flares = crisp.vessel([(0.02, 0.0), (0.05, 0.06)], wall=0.003).skin().vertices
+    rim = flares[flares[:, 2] > 0.06 - 1e-3]
+    assert np.allclose(rim[:, 2], 0.06), "nothing of it stands up or is missing"
+    across = 0.003 / math.sin(math.atan2(0.06, 0.03))  # the same wall, cut level
+    assert np.ptp(np.hypot(rim[:, 0], rim[:, 1])) == pytest.approx(across, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    "profile", [[(0.03, 0), (0.03, -0.05)], [(0.03, 0), (0.002, 0.05)], [(0.003, 0), (0.003, 0.05)]]
+)
+def test_a_vessel_that_does_not_rise_or_has_no_room_is_refused(profile):
+    with pytest.raises(ValueError, match="vessel: "):
+        crisp.vessel(profile, wall=0.004)
+
+
+def test_two_balls_in_a_skin_are_an_egg_and_a_cut_leaves_a_flat_half():
+    egg = crisp.hull(crisp.ball(0.05), crisp.ball(0.03).translate(y=-0.03))
+    half = closed(egg.cut((0, 0, 2.0), 0.01))
+    assert half.bounds[:, 2] == pytest.approx((-0.025, 0.01), abs=1e-6)
+    assert half.bounds[:, 1] == pytest.approx((-0.045, 0.025), abs=1e-4)

@@ -1,14 +1,19 @@
 """An author's law is stepped for a fifth of a second before its physics is paid for."""
 
+import io
 import json
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
 from worldwright.lint.compiled import law_trial
 from worldwright.model.errors import CallOverError
 from worldwright.model.plan import law_costs
+from worldwright.scan.known import own_laws
+from worldwright.scan.tools import unbalanced
+from worldwright.stage import tools as stage
 
 PROGRAM = """\
 import mujoco
@@ -154,3 +159,36 @@ def test_a_trial_that_is_ended_tells_what_it_came_to(
     found = law_trial.tried(tmp_path / "simulation.py", 5.0)
     assert found is not None and "the whole 5 s about 500 s" in found.said and "fewer points" in found.said
     assert ("out of memory (4 GB)" in found.said) == (status == "out_of_memory")
+
+
+def lying(made_j: float, cell: float) -> own_laws.LawBalance:
+    """27 g of honey that lies in a spoon for 0.2 s, hardly stores anything, and gains some energy."""
+    t = np.linspace(0.0, 0.2, 51)
+    mass, stored = np.full(51, 0.027), 8e-5 * t / t[-1]
+    held = np.outer(t, mass[0] * np.array([0.0, 0.0, -9.81]))
+    return own_laws.LawBalance(
+        "honey", ("spoon",), t, mass=mass, momentum=0 * held, energy=stored + (made_j - 8e-5) * t / t[-1], weight=0 * t,
+        stored=stored, volume=0 * t, given=0 * held, held=held, work=0 * t, pushed=0.0, gravity=np.array([0.0, 0.0, -9.81]), cell=cell,
+    )  # fmt: skip
+
+
+def test_noise_of_what_lies_still_on_a_grid_is_none_and_a_gain_that_lifts_it_is_told() -> None:
+    assert unbalanced((lying(3.26e-5, cell=0.0),)), "as it was told of honey at rest"
+    assert unbalanced((lying(3.26e-5, cell=0.0052),)) == []
+    (told,) = unbalanced((lying(3.26e-4, cell=0.0052),))
+    assert "24% of what it stores" in told
+
+
+@pytest.mark.parametrize("suites", [True, False])
+def test_the_remedy_is_the_authors_or_that_of_the_suites_own_law(tmp_path: Path, monkeypatch, suites: bool) -> None:
+    law = {"name": "spring", "bodies": ["ball"], "suites": suites, "cell": 0.005}
+    outcome = {"laws": [law], "points": 1, "reached_s": 0.2, "wall_s": 0.1, "grows": 1.0}
+    sums, times = np.zeros((1, 11, 15)), np.linspace(0.0, 0.2, 11)
+    sums[0, :, 0], sums[0, :, 1] = 1.0, times
+    kept = io.BytesIO()
+    np.savez(kept, t=times, sums=sums, pushed=np.zeros(1), gravity=np.zeros(3))
+    files = {"outcome.json": json.dumps(outcome).encode(), "sums.npz": kept.getvalue()}
+    monkeypatch.setattr(stage, "run_confined", lambda *_, **__: SimpleNamespace(files=files, status="ended"))
+    (tmp_path / "simulation.py").write_text(PROGRAM)
+    (finding,) = law_trial.tried(tmp_path / "simulation.py", 2.0).findings
+    assert ("smaller `spacing`" in finding.fix) == suites and ("energy()" in finding.fix) != suites

@@ -18,7 +18,7 @@ from worldwright.lint.compiled.view import ModelView
 from worldwright.lint.harm import outcome_of
 from worldwright.lint.plan_view import PlanView
 from worldwright.lint.program_view import Program
-from worldwright.lint.rules.plan import unknown_cause
+from worldwright.lint.rules.plan import unknown_cause, unknown_inferred
 from worldwright.model.errors import PlanError
 
 HEADINGS = ("What it does:", "Why is this bad:", "Use instead:")
@@ -200,3 +200,27 @@ def test_of_a_law_that_a_file_beside_makes_only_its_class_says_where_it_stands(t
     found = rule.check(Program(source.read(path), plan_with(rule.GOOD[0].plan)))
     for problem, said in zip(found, says, strict=True):
         assert said in problem.message
+
+
+def test_the_size_that_would_be_right_is_told_and_of_what_shows_a_law_that_alone():
+    rule = engine.find("WM151")
+    law = {"simulation_parameters": {"interventions": [{**unknown_inferred.LAW, "bodies": ["ramp"]}]}}
+    (crate,), (mug,), (points,) = (
+        world_problems(rule, *case) for case in ((rule.BAD[0], {}), (rule.BAD[1], {}), (rule.BAD[0], law))
+    )
+    assert crate.fix == "build it in the plan's size, or write `size: [0.8, 0.6, 0.4]` in the plan"
+    assert mug.fix.endswith("or write `asset_dimensions.mug: 0.2` in the plan")
+    assert (
+        points.fix.startswith("its size is that of its law's points") and "write `size: [0.8, 0.6, 0.4]`" in points.fix
+    )
+
+
+def test_what_is_inferred_in_the_file_of_a_law_is_a_name_that_stands_there(tmp_path):
+    rule = engine.find("WP124")
+    names = ["laws/snow.py", "laws/snow.py.spacing", "laws/snow.py.spacings"]
+    told = plan_with({"simulation_parameters": {"interventions": [unknown_inferred.LAW], "inferred": names}})
+    told.__dict__["folder"] = tmp_path
+    (tmp_path / "laws").mkdir()
+    (tmp_path / "laws/snow.py").write_text("def __init__(self, spacing=0.014): ...\n", encoding="utf-8")
+    (problem,) = rule.check(PlanView(told))
+    assert "`laws/snow.py.spacings` leads to nothing" in problem.message

@@ -212,3 +212,25 @@ def test_a_line_end_that_no_editor_shows_is_refused(small_plan: str, mark: str) 
     """YAML ends a line at some of them, so that a comment would hold a value."""
     with pytest.raises(PlanError, match="control character"):
         parse_plan(small_plan.replace("## ", f"<!-- a remark{mark}gravity: -4.7 -->\n\n## ", 1))
+
+
+@pytest.mark.parametrize(
+    "of_step", [("[box, ball]", "[box, ball, lamp]"), ("[box, ball]", "[ball]\n  assets: [lamp, box]")]
+)
+def test_a_name_in_the_other_list_of_a_step_is_sent_there(of_step):
+    lamp = "## assets\n\n```yaml\n- {name: lamp, type: mesh, filename: lamp.glb}\n```\n"
+    with pytest.raises(PlanError) as refusal:
+        parse_plan(GOOD.replace(*of_step, 1).replace("## assets\n", lamp, 1))
+    (fix,) = [found.fix for found in refusal.value.findings if found.code == "WP013"]
+    wanted = "`assets: [lamp]`" if "[box, ball, lamp]" in of_step[1] else "`scene_objects: [box]`"
+    assert f"name it in this step's {wanted}" in fix and "add it" not in fix
+
+
+@pytest.mark.parametrize(("word", "setting"), [("park", "outdoor"), ("still_life", "room")])
+def test_a_set_of_a_film_is_no_setting_and_the_remedy_says_where_it_belongs(word, setting):
+    with pytest.raises(PlanError) as refusal:
+        parse_plan(GOOD.replace("headless", f"```yaml\nsetting: {word}\n```"))
+    (found,) = refusal.value.findings
+    assert found.code == "WP010" and "did you mean" not in found.fix
+    for said in ("settings are studio, room, outdoor, dark", f'film.set("{word}")', f"setting: {setting}"):
+        assert said in found.fix

@@ -22,10 +22,10 @@ from worldwright.stamp import tools as stamp
 from worldwright.stamp.halts import WrongError
 
 
-def to_the_end(folder):
+def to_the_end(folder, go_on=False):
     """Call as an agent does, until it is no longer running."""
     for _ in range(40):
-        told = rehearsing.rehearse(str(folder), timeout_s=30)
+        told = rehearsing.rehearse(str(folder), timeout_s=30, go_on=go_on)
         if told.state != "running":
             return told
     raise AssertionError(told.text())
@@ -107,7 +107,7 @@ def test_all_that_is_wrong_is_told_in_one_call_what_to_mend_first_in_front(fresh
         ("- falls: {body: ball, min_m: 0.3}", "- falls: {body: ball, min_m: 3.0}"),
         ("masses.ball]", "masses.bail]"),
     )
-    told = to_the_end(fresh)
+    told = to_the_end(fresh, go_on=True)
     steps = [found.step for found in told.findings if found.blocks]
     assert told.state == "stopped" and steps[0] == "check" and steps[-1] == "expect", told.text()
     assert len(set(steps)) > 1, "one call goes on after the first"
@@ -131,6 +131,34 @@ def test_a_changed_mass_is_rehearsed_again_and_the_earlier_recording_goes(fresh)
     assert len(recorded) == 2, "one that may be taken over, and the present one"
 
 
+@pytest.mark.parametrize(
+    ("found", "go_on", "simulated"),
+    [
+        ("simulation.py:9: error WM151 planned_size_differs: ball measures 0.2 m", False, False),
+        ("plan.md:9: error WP124 unknown_inferred: it leads to nothing", False, False),
+        ("simulation.py:9: error WM151 planned_size_differs: ball measures 0.2 m", True, True),
+        ("simulation.py:9: error WL104 number: it is of nobody", False, True),
+        ("simulation.py:9: error WM101 no_world: the time was up", False, True),
+    ],
+)
+def test_what_lint_finds_wrong_in_plan_or_model_is_not_simulated_unless_asked(
+    fresh, monkeypatch, found, go_on, simulated
+):
+    def lint(self):
+        raise WrongError((found, self.patch()))
+
+    def physics(self):
+        ran.append(self)
+        raise WrongError(("nothing here runs", "run it elsewhere"))
+
+    ran = []
+    monkeypatch.setattr(rehearsal.Rehearsal, "lint", lint)
+    monkeypatch.setattr(rehearsal.Rehearsal, "physics", physics)
+    told = rehearsing.rehearse(str(fresh), go_on=go_on)
+    assert bool(ran) == simulated and told.state == "stopped" and any(found == one.what for one in told.findings)
+    assert (f"worldwright stage rehearse {fresh} --go-on" in told.text()) != simulated
+
+
 PROGRAM = """
 from near import DROP
 from worldkit import program, scene
@@ -151,7 +179,7 @@ def test_an_authors_program_is_rehearsed_as_it_stands_with_what_lies_beside_it(f
     (fresh / "simulation.py").write_text(PROGRAM, encoding="utf-8")
     (fresh / "near.py").write_text("DROP = 1.0\n", encoding="utf-8")
     before = own_files(fresh)
-    told = to_the_end(fresh)
+    told = to_the_end(fresh, go_on=True)
     assert told.program == "its author's" and own_files(fresh) == before
     assert (fresh / "rehearsal/simulation.py").read_text(encoding="utf-8") == PROGRAM
     lint = [found for found in told.findings if found.step == "lint" and found.blocks]
@@ -364,7 +392,7 @@ def test_only_what_the_author_wrote_is_told_under_the_run(fresh):
 def test_a_call_has_its_end_from_its_beginning(fresh, monkeypatch):
     given = []
     with monkeypatch.context() as patched, call_time.limited(call_time.SPARE_S + 5):
-        patched.setattr(rehearsal, "rehearse", lambda run, timeout_s, progress: given.append(timeout_s))
+        patched.setattr(rehearsal, "rehearse", lambda run, timeout_s, *_: given.append(timeout_s))
         rehearsing.rehearse(str(fresh), timeout_s=1e6)
     assert 0 < given[0] <= 5
 

@@ -40,6 +40,11 @@ NO_SETS = ("pieces", "land", "furniture", "hours", "town")
 """Modules of this folder that the sets are made with."""
 
 
+def names() -> tuple[str, ...]:
+    """The sets there are, sorted."""
+    return tuple(known for known in SETS.names() if known not in NO_SETS)
+
+
 LAND_M = 2.0
 """What is at least twice so wide is ground, not furniture, m."""
 
@@ -136,21 +141,21 @@ def build(film: "Dressing", name: str, facing_deg: float, seed: int, colour: str
     Raises:
         ProgramError: there is no such set or hour, what happens is too large for it, or it has no wall of a colour of choice.
     """
-    names = [known for known in SETS.names() if known not in NO_SETS]
-    if name not in names:
-        raise ProgramError(f"there is no set {name!r}", "film.py", f"use one of: {', '.join(names)}")
+    there = names()
+    if name not in there:
+        raise ProgramError(f"there is no set {name!r}", "film.py", f"use one of: {', '.join(there)}")
     if hour not in ("", *hours.HOURS):
         raise ProgramError(f"no set has the hour {hour!r}", "film.py", f"use one of: {', '.join(hours.HOURS)}")
     place, found = Place.of(film.recorded, facing_deg, seed), SETS.find(name)
     if place.radius > found.WIDEST:
-        larger = [known for known in names if place.radius <= SETS.find(known).WIDEST]
+        larger = [known for known in there if place.radius <= SETS.find(known).WIDEST]
         raise ProgramError(
             f"what happens is {2 * place.radius:.1f} m across, and the set {name!r} holds {2 * found.WIDEST:.0f} m",
             "film.py",
             f"use a wider one: {', '.join(larger) or 'none is wider'}",
         )
     if colour and not hasattr(found, "COLOUR"):
-        choice = ", ".join(known for known in names if hasattr(SETS.find(known), "COLOUR"))
+        choice = ", ".join(known for known in there if hasattr(SETS.find(known), "COLOUR"))
         raise ProgramError(f"the set {name!r} has no wall whose colour is chosen", "film.py", f"use {choice}")
     place = replace(place, colour=colour, hour=hour)
     found.build(film, replace(place, radius=place.standing) if name in ROOMS else place)

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from .fetch import Outcome
 
 UNTRIED = "what its laws cost is not known: this call's time went into building the world; ask again"
+MEND = "return to each body what pushes back, and tell in energy() the store whose slope the forces are"
+MEND_SUITES = "its forces are the suite's, so resolve it more finely: a shorter `step`, then a smaller `spacing`"
 TRIED_S, WALL_S, LEAST_WALL_S, OWN_S, MEMORY_MB = 0.2, 20.0, 3.0, 12.0, 4096
 """A law is given `OWN_S` of its own however long its world took to build, and the memory of a physics pass."""
 
@@ -97,11 +99,16 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
         return Tried(f"{word}; {cost}" if cost else f"{word}; {law_costs.CHEAPER}")
     if odd := _not_finite(told, data := done.files.get("sums.npz", b"")):
         message = f"the law {odd} blows up: its sums are not finite"
-        return Tried("its laws blow up in their first steps", (_unbalanced(message, reached, program),))
+        return Tried("its laws blow up in their first steps", (_unbalanced(message, reached, program, MEND),))
     balances = _balances(told, data)
     if not balances:
         return None
-    found = tuple(_unbalanced(message, reached, program) for message in unbalanced(balances))
+    rows = zip(told["laws"], balances, strict=True)
+    found = tuple(
+        _unbalanced(message, reached, program, MEND_SUITES if row.get("suites") else MEND)
+        for row, law in rows
+        for message in unbalanced((law,))
+    )
     return Tried(cost if found else f"{cost}; their sums balance", found)
 
 
@@ -132,7 +139,7 @@ def _balances(told: dict[str, Any], data: bytes) -> tuple[Any, ...]:
             LawBalance(
                 str(row["name"]), tuple(map(str, row["bodies"])), t, mass=s[:, 0], momentum=s[:, 1:4], energy=s[:, 4],
                 weight=s[:, 5], stored=s[:, 6], volume=s[:, 7], held=s[:, 8:11], given=s[:, 11:14], work=s[:, 14],
-                pushed=float(push), gravity=gravity,
+                pushed=float(push), gravity=gravity, cell=float(row.get("cell", 0.0)),
             )
             for row, s, push in zip(told["laws"], sums, pushed, strict=True)
         )  # fmt: skip
@@ -140,8 +147,7 @@ def _balances(told: dict[str, Any], data: bytes) -> tuple[Any, ...]:
         return ()
 
 
-def _unbalanced(message: str, seconds: float, program: Path) -> Finding:
-    move = "return to each body what pushes back, and tell in energy() the store whose slope the forces are"
+def _unbalanced(message: str, seconds: float, program: Path, move: str) -> Finding:
     return Finding(
         code="WS318",
         name="unbalanced_law",

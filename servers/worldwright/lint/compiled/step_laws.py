@@ -61,6 +61,9 @@ def _step(path: Path, out: Path, seconds: float, whole: float, told: dict[str, A
     media = [Medium.read({"bodies": row["bodies"], "law": row}) for row in rows]
     for row, medium in zip(rows, media, strict=True):
         row["points"] = Place(model, medium).count
+    for row, law in zip(rows, own, strict=True):
+        row["suites"] = any(base.__module__.startswith("worldkit.") for base in type(law).__mro__)
+        row["cell"] = float(getattr(law, "cell", 0.0)) if row["suites"] else 0.0
     ask = every * float(model.opt.timestep)
     told["points"] = sum(row["points"] for row in rows)
     asks = max(3, round(seconds / ask))

@@ -158,6 +158,8 @@ def _remedy(path: Path, value: Any) -> str:
         if kind.startswith("true or false"):
             return "write true or false"
         choices = _choices(annotation_at(path))
+        if path == ("visualization", "setting") and (told := _of_a_film(value, choices)):
+            return told
         near = get_close_matches(value, choices, n=1, cutoff=0.5)
         if near:
             return f"did you mean `{near[0]}`?"
@@ -170,6 +172,17 @@ def _remedy(path: Path, value: Any) -> str:
     if value is None:
         return "give it a value, or remove the line"
     return f"write {kind}"
+
+
+def _of_a_film(name: str, settings: list[str]) -> str:
+    """What to do with a set of a film that stands where the plan's setting belongs; empty for any other word."""
+    from worldkit.filming import sets
+
+    if name not in sets.names():
+        return ""
+    setting = "room" if name in (*sets.ROOMS, *sets.ON_TOPS) else "outdoor"
+    film = f'`{name}` is a set of film.py: write `film.set("{name}")` there, and `setting: {setting}` here'
+    return f"settings are {', '.join(settings)}; {film}"
 
 
 def dotted(path: Path) -> str:

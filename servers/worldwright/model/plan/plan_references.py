@@ -4,7 +4,7 @@ It works on the plain data of the sections, so that dangling names are reported 
 """
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from difflib import get_close_matches
 from typing import Any
 
@@ -166,10 +166,20 @@ def _dangling(data: dict[str, Any], unread: Collection[str]) -> Iterator[Problem
                 "unknown_reference",
                 path,
                 f"`{dotted(path)}` names the {word} `{name}`, which the plan does not have",
-                (f"did you mean `{near[0]}`? " if near else f"add it under {owner}, or name one of the known: ")
+                _other_list(kind, name, sets)
+                or (f"did you mean `{near[0]}`? " if near else f"add it under {owner}, or name one of the known: ")
                 + ("known: " if near else "")
                 + _shortened(list(dict.fromkeys(known))),
             )
+
+
+def _other_list(kind: str, name: str, sets: Mapping[str, Collection[str]]) -> str:
+    """What to do with a name of a step that stands in the wrong one of its two lists; empty for any other."""
+    lists = {"scene object": ("asset", "assets"), "asset": ("scene object", "scene_objects")}
+    other, key = lists.get(kind, ("", ""))
+    if name not in sets.get(other, ()):
+        return ""
+    return f"`{name}` is one of the plan's {key}: name it in this step's `{key}: [{name}]`, and not here"
 
 
 def _shortened(names: list[str]) -> str:

@@ -52,6 +52,8 @@ class LawBalance:
     """N s: all impulses that bodies were given, as magnitudes."""
     gravity: Array
     """(3,) m/s^2."""
+    cell: float = 0.0
+    """m: of its grid, where it is known to be a law of the suite's with one; else 0."""
 
     @cached_property
     def from_nowhere(self) -> float:
@@ -97,6 +99,11 @@ class LawBalance:
     def scale_j(self) -> float:
         """How far its energy without that by weight, and its work, reach, J: ballast that is let down makes nothing small."""
         return float(max(np.ptp(self.energy - self.weight), np.ptp(self.work), 1e-12))
+
+    @property
+    def cell_j(self) -> float:
+        """What lifts all of its mass by one cell of its grid, J: so exactly does a grid know where what lies on it lies."""
+        return float(np.abs(self.mass).max() * np.linalg.norm(self.gravity) * self.cell)
 
     @property
     def drawn_j(self) -> float:
