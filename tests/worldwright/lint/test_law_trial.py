@@ -103,7 +103,7 @@ def test_the_cheaper_choice_is_named_where_the_whole_is_long() -> None:
 @pytest.mark.parametrize(
     ("status", "outcome", "said"),
     [
-        ("out_of_memory", b"", "more than 2048 MB"),
+        ("out_of_memory", b"", "more than 4096 MB"),
         ("timed_out", b'{"reached_s": 0.1, "wall_s": 1.0, "memory_mb": 1700.4}', "1700 MB"),
         ("timed_out", b'{"reached_s": 0.1, "wall_s": 1.0, "memory_mb": 450}', ""),
     ],
@@ -158,7 +158,7 @@ def test_a_trial_that_is_ended_tells_what_it_came_to(
     monkeypatch.setattr(tools, "run_confined", lambda *_, **__: SimpleNamespace(status=status, files=files))
     found = law_trial.tried(tmp_path / "simulation.py", 5.0)
     assert found is not None and "the whole 5 s about 500 s" in found.said and "fewer points" in found.said
-    assert ("out of memory (4 GB)" in found.said) == (status == "out_of_memory")
+    assert ("more than 4096 MB" in found.said) == (status == "out_of_memory")
 
 
 def lying(made_j: float, cell: float) -> own_laws.LawBalance:

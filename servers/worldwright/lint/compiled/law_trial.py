@@ -84,7 +84,8 @@ def tried(program: Path, lasting_s: float, wall_s: float = WALL_S) -> Tried | No
     if "failure" in told:
         return Tried("its laws fail in their first steps", (_failed(told, program),))
     if done.status == "out_of_memory":
-        return Tried(law_costs.heavy(MEMORY_MB, ended=True))
+        heavy = law_costs.heavy(MEMORY_MB, ended=True)
+        return Tried(f"{heavy}; {cost}" if cost else heavy)
     held = told.get("memory_mb")
     if held and isinstance(held, int | float) and (heavy := law_costs.heavy(held)):
         cost = f"{cost}; {heavy}" if cost else heavy
