@@ -118,9 +118,11 @@ def _point(text: str) -> tuple[float, float, float]:
     return x, y, z
 
 
-def _seen(text: str) -> tuple[tuple[int, int], float, str]:
-    size, at_s, camera = text.split(":", 2)
-    return _size(size), float(at_s), camera
+def _seen(text: str) -> tuple[str, tuple[int, int], float, str]:
+    quality, size, at_s, camera = text.split(":", 3)
+    if quality not in ("still", "video"):
+        raise ValueError(quality)
+    return quality, _size(size), float(at_s), camera
 
 
 def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
@@ -155,7 +157,7 @@ def _parse(argv: Sequence[str] | None) -> argparse.Namespace:
         action="append",
         default=[],
         type=_seen,
-        help="one of several pictures: WIDTHxHEIGHT:SECONDS:CAMERA, the camera `film` for the film's own (frame)",
+        help="one of several pictures: still|video:WIDTHxHEIGHT:SECONDS:CAMERA, the camera `film` for the film's own (frame)",
     )
     parser.add_argument(
         "--within", type=float, default=math.inf, help="no further picture is begun after so many s (--seen)"

@@ -136,13 +136,14 @@ def test_pictures_of_several_cameras_and_sizes_come_from_one_process_as_from_the
         fps=24,
         movers=("first", "second"),
     )
-    seen = [((64, 36), 0.1, "side"), (SIZE, 0.3, "film"), ((32, 18), 0.0, "side"), ((64, 36), 0.4, "side")]
+    asked = [((64, 36), 0.1, "side"), (SIZE, 0.3, "film"), ((32, 18), 0.0, "side"), ((64, 36), 0.4, "side")]
+    seen = [("video", *one) for one in asked]
     told = chosen_frames.each(
         made.plain, made.recording, film, given, Namespace(out=tmp_path, seen=seen, within=math.inf)
     )
     assert told["drawn"] == [0, 3, 1, 2] and told["cameras"] == ["side", "film"]
     drawn = [cv2.imread(str(tmp_path / chosen_frames.picture_name(place))) for place in range(len(seen))]
-    assert [picture.shape[1::-1] for picture in drawn] == [size for size, *_ in seen]
+    assert [picture.shape[1::-1] for picture in drawn] == [size for size, *_ in asked]
     assert np.abs(drawn[0].astype(int) - drawn[3]).max() > 40, "the balls fell on"
 
     alone = tmp_path / "alone"

@@ -118,13 +118,13 @@ def each(
     given: "Given",
     options: argparse.Namespace,
 ) -> dict[str, Any]:
-    """Draw the pictures `options.seen`, of one size, moment and camera each; none is begun after `options.within` s but the first.
+    """Draw the pictures `options.seen`, of one quality, size, moment and camera each; none is begun after `options.within` s but the first.
 
     The stage is set once for all of a size, that of the film apart. `drawn` has the places of those that were drawn, from 0.
     """
     until, drawn = time.perf_counter() + options.within, list[int]()
     stages: dict[tuple[bool, tuple[int, int]], list[int]] = {}
-    for place, (size, _, camera) in enumerate(options.seen):
+    for place, (_, size, _, camera) in enumerate(options.seen):
         stages.setdefault((camera == FILM, size), []).append(place)
     for (filmed, size), places in stages.items():
         if drawn:
@@ -140,10 +140,10 @@ def each(
             for place in places:
                 if drawn and time.perf_counter() > until:
                     break
-                _, at_s, camera = options.seen[place]
-                write_png(options.out / picture_name(place), draw(at_s, camera), PASSING)
+                quality, _, at_s, camera = options.seen[place]
+                write_png(options.out / picture_name(place), draw(at_s, camera, quality), PASSING)
                 drawn.append(place)
-    return {"cameras": list(dict.fromkeys(options.seen[place][2] for place in drawn)), "drawn": drawn}
+    return {"cameras": list(dict.fromkeys(options.seen[place][3] for place in drawn)), "drawn": drawn}
 
 
 def _screened(
@@ -153,18 +153,18 @@ def _screened(
     film: "Described",
     given: "Given",
     size: tuple[int, int],
-) -> "Callable[[float, str], np.ndarray]":
+) -> "Callable[[float, str, Quality], np.ndarray]":
     """What draws the film's frame at a moment of it, s."""
     from .directed import Screening
 
     screening = stack.enter_context(Screening(given.world, model, recording, film, size, given.fps))
     screening.alone = True
-    return lambda at_s, _: screening.picture(_frame(at_s, film, given.fps))
+    return lambda at_s, _, quality: screening.picture(_frame(at_s, film, given.fps), quality)
 
 
 def _seen(
     stack: ExitStack, model: "mujoco.MjModel", recording: "Recording", size: tuple[int, int]
-) -> "Callable[[float, str], np.ndarray]":
+) -> "Callable[[float, str, Quality], np.ndarray]":
     """What draws a recorded moment, s, through a camera of the plan."""
     from worldkit import cameras
 
@@ -174,10 +174,10 @@ def _seen(
     cameras.aim(model, recording.pos, orientations=recording.quat, aspect=size[0] / size[1])
     frames = stack.enter_context(Frames(model, *size))
 
-    def draw(at_s: float, camera: str) -> "np.ndarray":
+    def draw(at_s: float, camera: str, quality: Quality) -> "np.ndarray":
         data = replay.show(_row(recording, at_s))
         cameras.track(model, data)
-        return frames.image(data, camera, "video")
+        return frames.image(data, camera, quality)
 
     return draw
 

@@ -158,7 +158,7 @@ def draw_moment(run: Run, at_s: float, camera: str | None, size: tuple[int, int]
 
 
 def draw_moments(
-    run: Run, wanted: "Sequence[tuple[float, str, tuple[int, int]]]", within_s: float
+    run: Run, wanted: "Sequence[tuple[str, float, str, tuple[int, int]]]", within_s: float
 ) -> "list[bytes | None]":
     """For other servers (no tool): moments through cameras as PNG, in one process; see `stage.one_frame.each`."""
     from ..model.evidence import environment

@@ -69,14 +69,14 @@ def draw(
 
 
 def each(
-    run: Run, key: EvidenceKey, wanted: Sequence[tuple[float, str, tuple[int, int]]], within_s: float = math.inf
+    run: Run, key: EvidenceKey, wanted: Sequence[tuple[str, float, str, tuple[int, int]]], within_s: float = math.inf
 ) -> list[bytes | None]:
     """Draw pictures of many cameras in one process: PNG of each, None of those that would have begun after `within_s` seconds.
 
     Args:
         run: the run with its program and plan, and its film if it has one.
         key: the hashes of the recording.
-        wanted: of each its moment, s (of the film for its own camera, `film`, else of the recording), its camera and its size, pixels.
+        wanted: of each whether it is drawn as a `still` or as a frame of a `video`, its moment, s (of the film for its own camera, `film`, else of the recording), its camera and its size, pixels.
         within_s: the first one is drawn all the same.
 
     Raises:
@@ -87,9 +87,9 @@ def each(
     if not 0 < len(wanted) <= MOST_MOMENTS:
         raise NotFoundError(f"{len(wanted)} pictures cannot be drawn at once", next_move=f"name 1 to {MOST_MOMENTS}")
     words = [] if within_s == math.inf else ["--within", str(within_s)]
-    for at_s, camera, (width, height) in wanted:
-        words += ["--seen", f"{width}x{height}:{float(at_s)}:{camera}"]
-    filmed = any(camera == FILM for _, camera, _ in wanted)
+    for quality, at_s, camera, (width, height) in wanted:
+        words += ["--seen", f"{quality}:{width}x{height}:{float(at_s)}:{camera}"]
+    filmed = any(camera == FILM for _, _, camera, _ in wanted)
     named = (FRAME[:-4] + "*.png",)
     found = draw_frame(run, recorded(run, key), (), SIZE, filmed, words, words, named, wall_s=WALL_S * len(wanted))
     names = [FRAME, *(f"frame-{number}.png" for number in range(2, len(wanted) + 1))]

@@ -245,7 +245,8 @@ def _apart(shown: "Sequence[Shown]", run: Run, until: float, at_once: int = AT_O
             break
         some = shown[first : first + at_once]
         try:
-            drawn = stage.draw_moments(run, [(one.at_s, one.camera, one.size) for one in some], max(left_s, 0.0))
+            wanted = [("still" if one.still else "video", one.at_s, one.camera, one.size) for one in some]
+            drawn = stage.draw_moments(run, wanted, max(left_s, 0.0))
         except CallOverError:
             raise  # it tells nothing of the pictures
         except WorldwrightError as error:

@@ -10,6 +10,7 @@ import pytest
 from worldwright.model.errors import GateError
 from worldwright.model.evidence.run import Run
 from worldwright.stage import one_frame
+from worldwright.stage import tools as stage
 from worldwright.stamp import acceptance, redrawn
 from worldwright.stamp import tools as stamp
 from worldwright.stamp.proof import Proved
@@ -48,6 +49,19 @@ def test_honest_pictures_of_a_stranger_look_as_when_drawn_again(accepted: Path, 
     assert told.ok, told.text()
     assert "look as when drawn again" in told.text()
     assert [words.count("--seen") for words, *_ in started] == [7], "a poster, two stills, two frames of each film"
+    assert sum(word.startswith("still:") for word in started[0][0]) == 2
+
+
+def test_a_still_is_drawn_again_as_finely_as_it_was(accepted: Path, copy) -> None:
+    """A film's frame has other edges on what is thin: an honest still of slats, seen nearly along them, was refused for it."""
+    run = Run(copy(accepted))
+    mine = cv2.imread(str(run.accepted / "stills" / "side.png")).astype(int)
+    wanted = [(quality, 0.0, "side", (mine.shape[1], mine.shape[0])) for quality in ("still", "video")]
+    still, frame = (
+        np.abs(cv2.imdecode(np.frombuffer(data or b"", np.uint8), cv2.IMREAD_COLOR) - mine)
+        for data in stage.draw_moments(run, wanted, math.inf)
+    )
+    assert still.max() <= 2 < frame.max()
 
 
 FORGED = {"poster.webp": painted, "stills/overview.png": painted, "video/side.mp4": another_film}
