@@ -178,3 +178,16 @@ def test_the_sky_that_a_plan_states_lights_the_lamps_and_an_unknown_hour_lists_t
     with pytest.raises(ProgramError, match="hour 'evening'") as refused:
         Film(recorded(1.0)).set("park", hour="evening")
     assert "dusk" in refused.value.next_move
+
+
+@pytest.mark.parametrize(("floor", "grass"), [("snow", False), ("soil", True), ("", True)])
+def test_the_ground_that_a_plan_states_stays_and_no_grass_grows_on_snow(floor, grass):
+    known = recorded(1.0)
+    known.floor = floor
+    film = Film(known)
+    film.set("park")
+    facts = film.description()[0]
+    assert facts["ground"] == (floor or "grass")
+    assert any("grass" in thing["name"] for thing in facts["things"]) is grass
+    film.ground("asphalt")
+    assert film.description()[0]["ground"] == "asphalt"

@@ -139,8 +139,8 @@ class Film(Labelled, Limbs):
         `facing_deg` is the side from which the camera looks (an azimuth; `wide()` looks from -57) and which is kept free;
         another `seed` makes another of the same kind, and `colour` (`#rrggbb`) is that of the wall of a `still_life`. `hour` is
         `noon`, `golden_hour`, `overcast`, `misty_morning`, `dusk` or `night`, when street, park and room have their lamps lit;
-        without it a set has its own, or that of the sky which the plan states. Light and sky that the plan states stay as
-        they are; what is said afterwards (light, mood, grade) changes it.
+        without it a set has its own, or that of the sky which the plan states. Light, sky and ground that the plan states
+        stay as they are, and no grass grows on snow or sand; what is said afterwards (light, mood, ground) changes it.
 
         Raises:
             ProgramError: there is no such set or hour, what happens is too large for it, or it has no such wall.
@@ -152,6 +152,8 @@ class Film(Labelled, Limbs):
         finally:
             self._names.building = ""
         self.as_planned()
+        if self.recorded.floor:
+            self.ground(self.recorded.floor)
 
     # -- the description -----------------------------------------------------------------------------------------------
 

@@ -12,8 +12,6 @@ def film(film: Film) -> None:
         whereabouts.countryside(film, azimuth)
     elif name := whereabouts.choose(recorded):
         film.set(name, facing_deg=azimuth, hour=whereabouts.hour(recorded))
-        if recorded.floor:  # the plan says what the ground is
-            film.ground(recorded.floor)
     if any(recorded.wind[:2]):
         film.breeze()
     for body in recorded.grains:  # a liquid or snow is one thing to the eye, whatever points it is reckoned with

@@ -24,6 +24,13 @@ HUES = (
 LOW_M = 0.024
 """Where something passes, the turf is no higher than this, and than `LOW_SHARE` of what passes."""
 LOW_SHARE = 0.12
+BARE = ("snow", "ice", "sand", "asphalt", "concrete", "cobble", "brick", "tile")
+"""Where the plan says that the ground is one of these, no grass grows."""
+
+
+def grows(film: "Dressing") -> bool:
+    """Whether grass grows on the ground that the plan states, or it states none."""
+    return not any(stem in film.recorded.floor for stem in BARE)
 
 
 def turf(
@@ -37,6 +44,8 @@ def turf(
     count: int = 45_000,
 ) -> None:
     """Grass of several hues around the action, densest there and short where anything passes; `reach` m it is in its fullness."""
+    if not grows(film):
+        return
     reach = 2.5 * (reach or 2.2 * place.radius + 3.0)
     (x, y), colour = place.middle, np.array(rgb(look))
     for ending, bright, towards, share in HUES:
@@ -52,7 +61,7 @@ def short_turf(film: "Dressing", place: Place, *, look: str, count: int = 12_000
     """What grows where something passes, too, so that no carpet is seen there: low, trodden, some of it dry."""
     thin = float(place.ways[:, 2].min()) / 1.3 if len(place.ways) else place.radius
     height, reach = min(LOW_M, LOW_SHARE * thin), min(place.radius + 1.2, 4.0)
-    if height < 0.004:
+    if height < 0.004 or not grows(film):
         return
     (x, y), colour = place.middle, np.array(rgb(look))
     for ending, tint, share in (("", 0.8 * colour, 0.7), (" (dry)", 0.5 * (colour + np.array(rgb("#b7a468"))), 0.3)):
