@@ -42,7 +42,7 @@ from . import (
 )
 from .accepted import Accepted
 from .judged import Judged
-from .proof import FACTS, WORLD, Proved, driven_by, lay_out, prove
+from .proof import WORLD, Proved, driven_by, prove
 from .state import State
 from .statement import (
     Acceptance,
@@ -87,7 +87,7 @@ def accept(state: State, timeout_s: float, progress: Progress = silent, key: Pat
         stripped = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py")
         program, plan = stripped.source.encode(), state.plan_bytes or b""
         work = private.proofs(state.run, state.key.key if state.key else "")
-        kept = _kept(state, work / "kept")
+        kept = repeats.laid_out(state, work / "kept")
         if kept:
             _factual(state, stripped, kept)
         proved = prove(
@@ -139,14 +139,6 @@ def _signed_anew(state: State, signer: "Ed25519PrivateKey") -> None:
         signing.sign(copy.stamped, bundle.STAMP, signer)
         for name in (signing.PUBLIC, signing.ENVELOPE):
             write_atomic(state.run.stamped / name, (copy.stamped / name).read_bytes())
-
-
-def _kept(state: State, folder: Path) -> Path | None:
-    """The world of the run's physics pass, which is what is accepted, laid out for the proof; None in older evidence."""
-    physics = state.folder / "physics"
-    if not all((physics / name).is_file() for name in (WORLD, *FACTS)):
-        return None
-    return lay_out(folder, physics / WORLD, physics)
 
 
 def _as_planned(state: State, proved: Proved) -> None:

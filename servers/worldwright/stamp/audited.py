@@ -16,6 +16,8 @@ from .kept import Kept
 from .refusal import Refusal
 from .state import State
 
+LONG_S = 60.0
+"""What took longer is not repeated seven times unasked, s."""
 Standing = Literal["absent", "damaged", "stale", "fails", "holds"]
 Audit = InterventionReport | CausesReport | RefineReport
 
@@ -84,9 +86,16 @@ def unshown(state: State) -> Iterator[Refusal]:
 
 
 def robust_beside(run: Run) -> str:
-    """Have the claims measured in worlds a little otherwise, which nothing waits for; says in a line how it stands."""
+    """Have the claims measured in worlds a little otherwise, which nothing waits for; says in a line how it stands.
+
+    Of a long physics they are not asked for by themselves: they would take the processor from its proof.
+    """
     from ..scan.tools import begin_robust
 
+    state = State(run)
+    physics = state.passes["physics"].value
+    if physics is not None and physics.wall_s > LONG_S and not (state.folder / "robust.json").is_file():
+        return f"seven more passes of about {physics.wall_s:.0f} s; `worldwright scan scan {state.place} --robust` makes them"
     with suppress(WorldwrightError):  # a remark, which blocks nothing
         return begin_robust(run).removeprefix("robust: ")
     return ""

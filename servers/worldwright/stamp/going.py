@@ -17,7 +17,7 @@ from ..model.evidence.reports import PassName
 from ..model.evidence.run import Run, sha256_file
 from ..model.finding import Finding, by_kind
 from ..model.progress import Progress, silent
-from . import at_work, audited, gates, next_repair, picture_claims, scope
+from . import at_work, audited, gates, next_repair, picture_claims, proof_ahead, scope
 from .gone import Gone, Wrong
 from .halts import RunningError, TurnError, WrongError
 from .smallest_seen import smallest_seen
@@ -73,7 +73,7 @@ class Going:
         self.held: dict[StepName, str] = {}
         self.wrong: list[Wrong] = []
         self.under_way: list[str] = []
-        self.storyboard = self.robust = ""
+        self.storyboard = self.robust = self.proof = ""
         self.of_layout: tuple[Finding, ...] = ()
         self.ended: dict[PassName, tuple[str, ...]] = {}
 
@@ -101,6 +101,9 @@ class Going:
                 self.under_way += [str(still)] if str(still) not in self.under_way else []
             else:
                 self.say(name, "done", self.held[name])
+        if "expect" in self.held and not self.wrong and (ahead := proof_ahead.begin(self.run)):
+            self.say("proof", "done", ahead)
+            self.proof = ahead
         if {"causes", "stills", "video"} <= self.held.keys() and (robust := audited.robust_beside(self.run)):
             self.say("robust", "done", robust)
             self.robust = robust
@@ -122,7 +125,7 @@ class Going:
                 turn = next_repair.film_first(State(self.run))
         return Gone(
             run=self.run.name, state=state, held=self.held, wrong=tuple(self.wrong), under_way=tuple(self.under_way),
-            storyboard=self.storyboard, robust=self.robust, next_move=turn,
+            storyboard=self.storyboard, proof=self.proof, robust=self.robust, next_move=turn,
         )  # fmt: skip
 
     def actions(self) -> Iterator[tuple[StepName, Callable[[], str]]]:

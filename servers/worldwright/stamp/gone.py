@@ -28,6 +28,8 @@ class Gone(Frozen):
     under_way: tuple[str, ...] = ()
     storyboard: str = ""
     """Folder of the sheets that show it, one a camera: to be looked at first."""
+    proof: str = ""
+    """That the proof run of a long physics is made beside, where it is."""
     robust: str = ""
     """In how many worlds a little otherwise the claims hold, or that it is being found out beside, which nothing waits for."""
     next_move: str = ""
@@ -44,6 +46,7 @@ class Gone(Frozen):
         lines += [f"  {MARKS['fails']} {wrong.step:<8}{_indented(wrong.what)}" for wrong in self.wrong]
         lines += [f"  … {said}" for said in self.under_way]
         lines += [f"  look: stage.frames, show: storyboard ({self.storyboard})"] if self.storyboard else []
+        lines += [f"  · proof   {self.proof}"] if self.proof else []
         lines += [f"  · robust  {self.robust}"] if self.robust else []
         return "\n".join(lines + ([f"  next: {self.next_move}"] if self.next_move else []))
 

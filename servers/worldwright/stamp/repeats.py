@@ -13,13 +13,21 @@ from ..model.evidence.reports import PassResult
 from ..model.progress import Progress, silent
 from . import agreement, digest
 from .kept import Kept
-from .proof import WORLD, Proved, lay_out, measure, replay
+from .proof import FACTS, WORLD, Proved, lay_out, measure, replay
 from .state import State
 from .strip import Stripped
 
 SHARE = 0.02
 """Share of the planned time by which the simulated time may differ."""
 REMEDY = "instrumentation must only watch; seed every random draw and read no clock, then run again"
+
+
+def laid_out(state: State, folder: Path) -> Path | None:
+    """The world of the run's physics pass, which is what is accepted, laid out for the proof; None in older evidence."""
+    physics = state.folder / "physics"
+    if not all((physics / name).is_file() for name in (WORLD, *FACTS)):
+        return None
+    return lay_out(folder, physics / WORLD, physics)
 
 
 def same(state: State, stripped: Stripped, proved: Proved) -> None:

@@ -1,0 +1,95 @@
+"""The proof run of a long physics, begun once its claims hold, while the film is made and looked at: acceptance then finds it.
+
+A process of its own makes it, behind all other work. It proves what was there when it began: once the program, the plan or what
+they use is changed, it ends its jobs and itself. Nothing is decided by it; acceptance asks all its questions when it is called.
+"""
+
+import os
+import subprocess
+import sys
+from contextlib import suppress
+
+from ..model import try_lock
+from ..model.errors import WorldwrightError
+from ..model.evidence.run import Run
+from . import private, repeats
+from .proof import Proved, prove
+from .state import State
+from .strip import strip
+from .taken import take
+
+MODULE = "worldwright.proof_beside"
+"""What the process runs."""
+LONG_S = 20.0
+"""A physics pass that took less is proved while acceptance is waited for."""
+BEHIND, LOOK_S = 10, 5.0
+"""Its priority, and how often it looks whether what it proves is still there, s."""
+SWITCH, OFF = "WORLDWRIGHT_BESIDE", "0"
+"""The variable that keeps a machine from doing anything unasked, and how."""
+
+
+def long(state: State) -> float:
+    """How long the physics pass took, s, if that is long; else 0."""
+    physics = state.passes["physics"].value
+    return physics.wall_s if physics is not None and physics.ok and physics.wall_s >= LONG_S else 0.0
+
+
+def begin(run: Run) -> str:
+    """Begin the proof run of a long physics, unless it is done or under way; what there is to say of it, one line, else empty."""
+    state = State(run)
+    if os.environ.get(SWITCH) == OFF or not long(state) or state.key is None:
+        return ""
+    with suppress(WorldwrightError, OSError):  # it only saves time: acceptance proves in any case
+        work = private.proofs(run, state.key.key)
+        handle = os.open(work, os.O_RDONLY | os.O_DIRECTORY | os.O_CLOEXEC)
+        try:
+            if try_lock.taken(handle):
+                subprocess.Popen(
+                    [sys.executable, "-P", "-m", MODULE, str(run.folder), str(handle)],
+                    stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                    start_new_session=True, pass_fds=(handle,),
+                )  # fmt: skip
+        finally:  # the process holds the lock by its own copy, and as long as it lives
+            os.close(handle)
+        return f"the proof run, about {long(state):.0f} s, is made beside what comes next; `accept` finds it"
+    return ""
+
+
+def finish(run: Run) -> bool:
+    """Make it to its end; False when what it proves was changed meanwhile. Lowers the priority of the calling process for good.
+
+    Raises:
+        WorldwrightError: why it is no proof; acceptance will tell the same.
+    """
+    state = State(run)
+    if state.key is None:
+        return False
+    with suppress(OSError):
+        os.nice(BEHIND)
+    near, work = take(run).near, private.proofs(run, state.key.key)
+    program = strip((state.program_bytes or b"").decode(), f"{state.place}/simulation.py").source.encode()
+    plan, kept = state.plan_bytes or b"", repeats.laid_out(state, work / "kept")
+    proved: Proved | None = None
+    while proved is None:
+        proved = prove(
+            work / "proof", program, plan, reason=f"copied from {run.name}", timeout_s=LOOK_S, near=near, kept=kept
+        )
+        if _changed(run, state):
+            return False
+    while repeats.driven_again(work / "again", program, plan, proved, timeout_s=LOOK_S) is None:
+        if _changed(run, state):
+            return False
+    return True
+
+
+def _changed(run: Run, state: State) -> bool:
+    """Whether another world than that of `state` is there now; then what is under way for it is ended."""
+    if State(run).key == state.key:
+        return False
+    from ..stage.tools import cancel
+
+    work = private.proofs(run, state.key.key if state.key else "")
+    for folder in (work / "proof", work / "again" / "replay"):
+        with suppress(WorldwrightError):  # nothing runs there
+            cancel(str(folder))
+    return True
