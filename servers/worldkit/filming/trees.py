@@ -1,9 +1,13 @@
 """Trees of a film: a trunk, branches by one rule, and leaves or needles on cards; drawn only, the same for the same seed."""
 
 from collections.abc import Iterable
+from functools import cache
+from math import sqrt
 from typing import NamedTuple
 
 import numpy as np
+
+from ..turning import cross
 
 Mesh = tuple[np.ndarray, np.ndarray]
 """Vertices (V, 3), m, and faces (F, 3)."""
@@ -11,6 +15,7 @@ Mesh = tuple[np.ndarray, np.ndarray]
 KINDS = ("conifer", "broadleaf")
 SIDES = 5
 """Of a trunk or branch."""
+UP = np.array([0.0, 0.0, 1.0])
 TURN = np.pi * (3 - 5**0.5)
 """From one branch to the next around the trunk: the golden angle, as plants have it."""
 
@@ -61,8 +66,8 @@ def _twigs(way: np.ndarray, yaw: float, long: float, random: np.random.Generator
             ahead = np.array([np.cos(turn), np.sin(turn), random.uniform(-0.35, 0.0)])
             size = long * (0.46 - 0.16 * at) * random.uniform(0.85, 1.2)
             roll = random.uniform(0.3, 1.0) * random.choice((-1, 1))  # a spray is seen from the side, too
-            level = np.cross(ahead, [0, 0, 1.0])
-            across = (np.cos(roll) * level + np.sin(roll) * np.array([0, 0, 1.0])) * 0.24 * size
+            level = cross(ahead, UP)
+            across = (np.cos(roll) * level + np.sin(roll) * UP) * 0.24 * size
             middle = foot + 0.45 * size * ahead
             found.append(np.array([foot, middle - across, foot + size * ahead, middle + across]))
     return found
@@ -87,12 +92,12 @@ def _broadleaf(height: float, random: np.random.Generator) -> Tree:
         start = random.uniform(0, 2 * np.pi)
         for number in range(5 if level == 0 else 4):
             yaw, lean = start + TURN * number, random.uniform(0.45, 0.95) + (0.1 if level else 0.0)
-            across = np.cross(ahead, [np.cos(yaw), np.sin(yaw), 0.2])
-            across /= np.linalg.norm(across)
+            across = cross(ahead, np.array([np.cos(yaw), np.sin(yaw), 0.2]))
+            across /= _norm(across)
             new = np.cos(lean) * ahead + np.sin(lean) * across + [0, 0, 0.12]
             grow(
                 foot + (0.7 + 0.3 * random.random()) * (end - foot),
-                new / np.linalg.norm(new),
+                new / _norm(new),
                 0.66 * long,
                 0.5 * thick,
                 level + 1,
@@ -106,10 +111,10 @@ def _broadleaf(height: float, random: np.random.Generator) -> Tree:
             foot = end + random.normal(0, 0.05 * height, 3)
             ahead, side = random.normal(size=3), random.normal(size=3)
             ahead[2] -= 0.4  # leaves hang a little
-            ahead /= np.linalg.norm(ahead)
-            side = np.cross(ahead, side)
+            ahead /= _norm(ahead)
+            side = cross(ahead, side)
             size = 0.034 * height * random.uniform(0.7, 1.3)
-            side *= 0.3 * size / np.linalg.norm(side)
+            side *= 0.3 * size / _norm(side)
             cards.append(
                 np.array(
                     [foot, foot + 0.5 * size * ahead - side, foot + size * ahead, foot + 0.5 * size * ahead + side]
@@ -123,18 +128,31 @@ def _broadleaf(height: float, random: np.random.Generator) -> Tree:
 def limb(way: np.ndarray, radii: list[float], sides: int = SIDES) -> tuple[np.ndarray, np.ndarray]:
     """A tube through some points (N, 3), with a radius at each, m; open at its ends."""
     ahead = way[-1] - way[0]
-    one = np.cross(ahead, [0.3, 0.9, 0.1] if abs(ahead[0]) > abs(ahead[1]) else [0.9, 0.3, 0.1])
-    one /= np.linalg.norm(one)
-    other = np.cross(ahead / np.linalg.norm(ahead), one)
+    one = cross(ahead, np.array([0.3, 0.9, 0.1] if abs(ahead[0]) > abs(ahead[1]) else [0.9, 0.3, 0.1]))
+    one /= _norm(one)
+    other = cross(ahead / _norm(ahead), one)
     turn = 2 * np.pi * np.arange(sides) / sides
     ring = np.cos(turn)[:, None] * one + np.sin(turn)[:, None] * other
     points = np.concatenate([point + radius * ring for point, radius in zip(way, radii, strict=True)])
+    return points, _tube(len(way), sides)
+
+
+@cache
+def _tube(rings: int, sides: int) -> np.ndarray:
+    """The faces between rings of points, for all tubes of as many."""
     faces = []
-    for k in range(len(way) - 1):
+    for k in range(rings - 1):
         for i in range(sides):
             a, b = k * sides + i, k * sides + (i + 1) % sides
             faces += [(a, b, b + sides), (a, b + sides, a + sides)]
-    return points, np.array(faces)
+    found = np.array(faces)
+    found.flags.writeable = False
+    return found
+
+
+def _norm(vector: np.ndarray) -> float:
+    """Its length, as numpy's own gives it, without its questions: a tree asks it thousands of times."""
+    return sqrt(vector.dot(vector))
 
 
 def joined(meshes: Iterable[Mesh]) -> Mesh:
