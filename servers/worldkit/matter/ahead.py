@@ -9,17 +9,20 @@ import mujoco
 
 from ..files import write_atomic
 from ..kept_kernels import BESIDE, MARK, compiled, state
+from ..sculpt import box
 from ..skins import Gas, Wall, ball
 from .first_places import block
 from .liquids import Liquid
 from .material_points import Matter
 from .membranes import Membrane
+from .moulded import Moulded
 from .sands import Sand
 from .snows import Snow
+from .solids import clay, foam
 
 
 def compile_all() -> None:
-    """Step a few points of each kind on a floor, and a small skin."""
+    """Step a few points of each kind on a floor, small soft cubes, and a small skin."""
     model = mujoco.MjModel.from_xml_string('<mujoco><worldbody><geom type="plane" size="1 1 1"/></worldbody></mujoco>')
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -27,6 +30,10 @@ def compile_all() -> None:
         law = Matter(stuff, 0.01, begins=[block((0, 0, 0.001), (0.02, 0.02, 0.02))])
         law.start(model, data)
         law.step(model, data, 0.001)
+    for solid in (foam(), clay()):
+        soft = Moulded(solid, box((0.03, 0.03, 0.03)), (0, 0, 0.015), 0.015)
+        soft.start(model, data)
+        soft.step(model, data, 0.001)
     skin = Membrane(ball(0.05, (0, 0, 0.05), finer=1), Wall(1e6, 2.5e-4, 950.0, stretched=2.0), Gas(hole=0.005))
     skin.start(model, data)
     skin.step(model, data, 0.001)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import ProgramError
 from .beforehand import MOST_NODES, check_bowl, check_container, check_points, check_positive, check_sources, check_work
+from .body_motion import BodyMotion
 from .first_places import Region, Source
 from .touched_geoms import Geoms
 from .transfer import MOST_PLANES, SLOTS, gather, scatter, turn
@@ -172,8 +173,7 @@ class Matter:
         self._sticks = self.stuff.holds(self.cell)
         if self._sticks and begun.any() and getattr(self.stuff, "sticks", True) is None:
             check_bowl(self, self._geoms, begun)
-        self._own = [self._of(body) for body in self._geoms.bodies]
-        self._felt = np.zeros((len(self.bodies), 6))
+        self._motion = BodyMotion(model, self._geoms.bodies)
 
     def step(self, model: "mujoco.MjModel", data: "mujoco.MjData", seconds: float) -> Array:  # noqa: ARG002
         """Advance it by `seconds`; (k, 6) N, N m, on its bodies.
@@ -182,7 +182,7 @@ class Matter:
             ProgramError: the points fly apart.
         """
         self._geoms.place(data)
-        bodies = self._bodies(data)
+        bodies = self._motion.now(data, seconds)
         push = np.zeros((len(self.bodies), 6))
         fastest = float(np.linalg.norm(self.velocities[: self.loose], axis=1).max(initial=0.0))
         fastest = max(fastest, self._fastest()) + float(np.linalg.norm(self._pull)) * seconds
@@ -194,9 +194,9 @@ class Matter:
         before, feels = bodies[:, 3:].copy(), np.zeros(3)
         for part in range(parts):
             self._advance(seconds / parts, room, bodies, push, part % LOOK_AGAIN == 0, part * seconds / parts, feels)
-            self._carry(bodies, before, push, seconds * (part + 1) / parts)
-        self._felt = push[:, :6] / seconds
-        felt = self._felt.copy()
+            self._motion.carry(bodies, before, push, seconds * (part + 1) / parts)
+        self._motion.felt = push / seconds
+        felt = self._motion.felt.copy()
         if "world" in self.bodies:
             felt[list(self.bodies).index("world"), :3] += feels / seconds
         return felt
@@ -226,36 +226,6 @@ class Matter:
 
     def _fastest(self) -> float:
         return float(np.linalg.norm(self._speeds[self.loose : self.loose + 1], axis=1).max(initial=0.0))
-
-    def _bodies(self, data: "mujoco.MjData") -> Array:
-        """(k, 9): middle, velocity there and spin of each body, world frame."""
-        import mujoco
-
-        found, six = np.zeros((len(self.bodies), 9)), np.zeros(6)
-        for row, body in enumerate(self._geoms.bodies):
-            found[row, :3] = data.xipos[body]
-            if body and self._model.body_weldid[body]:
-                mujoco.mj_objectVelocity(self._model, data, mujoco.mjtObj.mjOBJ_XBODY, int(body), six, 0)
-                found[row, 6:] = six[:3]
-                found[row, 3:6] = six[3:] + np.cross(six[:3], data.xipos[body] - data.xpos[body])
-        return found
-
-    def _of(self, body: int) -> "tuple[float, float] | None":
-        """Mass, and largest moment of inertia, of a body that is free to move as it is pushed."""
-        import mujoco
-
-        joint = self._model.body_jntadr[body]
-        if joint < 0 or self._model.jnt_type[joint] != mujoco.mjtJoint.mjJNT_FREE or not body:
-            return None
-        return float(self._model.body_subtreemass[body]), float(self._model.body_inertia[body].max())
-
-    def _carry(self, bodies: Array, before: Array, push: Array, seconds: float) -> None:
-        """Let free bodies move on: as they last did, but for what matter gave them then and gives them now."""
-        for row, own in enumerate(self._own):
-            if own is not None:
-                extra = push[row] - self._felt[row] * seconds
-                bodies[row, 3:6] = before[row, :3] + extra[:3] / own[0]
-                bodies[row, 6:] = before[row, 3:] + extra[3:] / own[1]
 
     def _laid(self, margin: float) -> tuple[Array, Array]:
         """Where the grid begins, (3,) m, and its nodes, (3,), for the points that are loose or come soon."""
