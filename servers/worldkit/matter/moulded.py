@@ -35,7 +35,9 @@ WALL, WALL_YIELDING = 5.0, 600.0
 as nothing presses much harder on what yields."""
 COURANT = 0.35
 STILL = 1e-3
-"""m/s: slower than this it rests."""
+"""m/s: a body that goes slower than this wakes nothing."""
+SLOWEST, FADES = 2e-4, 0.1
+"""Of the speed of sound in it: slower than this it lies still; and how much a question's forces count for their mean."""
 LOOK_AGAIN = 8
 """Steps after which a node looks for its walls again."""
 
@@ -104,6 +106,8 @@ class Moulded:
         lattice = self._lattice
         self._pull, self._geoms = np.array(model.opt.gravity), Geoms(model, self.bodies, 2 * lattice.cell)
         self._motion = BodyMotion(model, self._geoms.bodies)
+        lam, mu = self.stuff.lame
+        self._sound, self._mean = float(np.sqrt((lam + 2 * mu) / self.stuff.density)), np.zeros((len(self.bodies), 6))
         hard = min(WALL * self.stuff.hardest, WALL_YIELDING * (self.stuff.yields or np.inf))
         self._stiff = hard / lattice.cell
         lightest = float((self._mass[lattice.outer] / lattice.area).min())
@@ -132,20 +136,21 @@ class Moulded:
         self._geoms.place(data)
         bodies, push = self._motion.now(data, seconds), np.zeros((len(self.bodies), 6))
         if self._rests(bodies, seconds):
-            return self._motion.felt.copy()
+            return self._lies()
         before, parts = bodies[:, 3:].copy(), max(1, int(np.ceil(seconds / self.longest - 1e-9)))
         h, eta = seconds / parts, stuff.damping * stuff.young
+        left = float(np.exp(-h / stuff.creeps)) if stuff.creeps else 1.0
         for part in range(parts):
             if part % LOOK_AGAIN == 0:
                 if part:
                     self._geoms.move(bodies, LOOK_AGAIN * h)
                 self._look()
             self._stored = pulled(
-                self._x, self._v, lattice.cells, lattice.slopes, lattice.room, self._kept, lam, mu, stuff.yields or 0.0, eta,
-                self._force,
+                self._x, self._v, lattice.cells, lattice.slopes, lattice.room, self._kept, lam, mu, stuff.yields or 0.0, left,
+                eta, self._force,
             )  # fmt: skip
             self._stored += touched(
-                self._x, lattice.outer, lattice.area, self._planes, self._walls, self._near, self._held, bodies, self._stiff,
+                self._x, self._v, self._mass, lattice.outer, lattice.area, self._planes, self._walls, self._near, self._held, bodies, self._stiff,
                 stuff.wall_friction, h, self._force, push,
             )  # fmt: skip
             moved(self._x, self._v, self._mass, self._pull, self._force, h)
@@ -156,6 +161,7 @@ class Moulded:
                 cause, self.name, "squeeze it less or more slowly, or tell its Solid a smaller `down_to`"
             )
         self._motion.felt = push / seconds
+        self._mean += FADES * (self._motion.felt - self._mean)
         self._tell()
         return self._motion.felt.copy()
 
@@ -172,7 +178,7 @@ class Moulded:
 
     def _rests(self, bodies: Array, seconds: float) -> bool:
         """Whether it lies still, and nothing that moves is near: then nothing is reckoned."""
-        if float(np.abs(self._v).max()) > STILL or not self._motion.felt.any():
+        if float(np.abs(self._v).max()) > SLOWEST * self._sound or not self._mean.any():
             return False
         low, high = self._x.min(axis=0), self._x.max(axis=0)
         for row, body in enumerate(bodies):
@@ -181,6 +187,17 @@ class Moulded:
             if speed > STILL and away < 2 * self._lattice.cell + speed * seconds:
                 return False
         return True
+
+    def _lies(self) -> Array:
+        """What it gives its bodies while it lies still: what it gave them on the mean, so corrected that it bears its weight."""
+        weight = self._mass.sum() * self._pull
+        bears = int(np.abs(self._mean[:, :3]).sum(axis=1).argmax())
+        self._motion.felt = self._mean.copy()
+        self._motion.felt[bears, :3] += weight - self._mean[:, :3].sum(axis=0)
+        if self._v.any():
+            self._v[:] = 0.0
+            self._tell()
+        return self._motion.felt.copy()
 
     def _look(self) -> None:
         """Find the walls near the outer nodes."""

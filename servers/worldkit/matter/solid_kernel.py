@@ -11,11 +11,18 @@ from .principal import principal
 
 FLATTEST = 0.02
 """No point counts as pressed to less of its volume than this."""
+RESTS = 0.15
+"""What creeps bears so much of its yield stress for ever."""
+DAMPED = 0.6
+"""Of what would just keep a node from bouncing off a wall, twice the share that acts."""
 
 
 @kernel
-def pulled(x, v, cells, slopes, room, kept, lam, mu, most, eta, force):
-    """Add to force (n, 3), N, what strain makes of it; returns J stored. kept (c, 8, 6): inverse right Cauchy-Green of what yielded."""
+def pulled(x, v, cells, slopes, room, kept, lam, mu, most, left, eta, force):
+    """Add to force (n, 3), N, what strain makes of it; returns J stored. kept (c, 8, 6): inverse right Cauchy-Green of what yielded.
+
+    Of the shear above `RESTS` times what `most`, Pa, allows, the share `left` is left after this step.
+    """
     g, inv, a, q = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
     tau, t, e = np.empty((3, 3)), np.empty((3, 3)), np.empty(3)
     stored, limit = 0.0, most / (2.0 * mu) * np.sqrt(2.0 / 3.0)
@@ -91,9 +98,12 @@ def pulled(x, v, cells, slopes, room, kept, lam, mu, most, eta, force):
                     e[i] = 0.5 * np.log(max(a[i, i], 1e-9))
                 mean = (e[0] + e[1] + e[2]) / 3.0
                 shear = np.sqrt((e[0] - mean) ** 2 + (e[1] - mean) ** 2 + (e[2] - mean) ** 2)
-                if shear > limit:
+                bears = min(shear, limit)
+                if bears > RESTS * limit:
+                    bears = RESTS * limit + left * (bears - RESTS * limit)
+                if bears < shear:
                     for i in range(3):
-                        e[i] = mean + limit / shear * (e[i] - mean)
+                        e[i] = mean + bears / shear * (e[i] - mean)
                     for i in range(3):  # what is left of the elastic part tells what has yielded: F^-1 b F^-T
                         for j in range(3):
                             a[i, j] = 0.0
@@ -134,7 +144,7 @@ def pulled(x, v, cells, slopes, room, kept, lam, mu, most, eta, force):
 
 
 @kernel
-def touched(x, outer, area, planes, walls, near, held, bodies, stiff, rub, h, force, push):
+def touched(x, v, mass, outer, area, planes, walls, near, held, bodies, stiff, rub, h, force, push):
     """Add to force what walls push back on outer nodes in them; push (k, 6) N s, N m s on the bodies is added to; returns J stored.
 
     Args: planes (m, 6, 4): normal and offset, walls (m, 6): whose, near (m,): how many; held (m, 4): where on its body, in the world's
@@ -156,7 +166,13 @@ def touched(x, outer, area, planes, walls, near, held, bodies, stiff, rub, h, fo
             if deep > 0.0:
                 spring = stiff * area[m]
                 stored += 0.5 * spring * deep * deep
-                given(n, rx, ry, rz, plane[0], plane[1], plane[2], spring * deep, h, force, push[walls[m, w]])
+                leaves = (
+                    plane[0] * (v[n, 0] - b[3] - (b[7] * rz - b[8] * ry))
+                    + plane[1] * (v[n, 1] - b[4] - (b[8] * rx - b[6] * rz))
+                    + plane[2] * (v[n, 2] - b[5] - (b[6] * ry - b[7] * rx))
+                )
+                size = max(spring * deep - DAMPED * np.sqrt(spring * mass[n]) * leaves, 0.0)  # it pulls at nothing
+                given(n, rx, ry, rz, plane[0], plane[1], plane[2], size, h, force, push[walls[m, w]])
                 if deep > deepest:
                     deepest, wall = deep, w
         if wall < 0:

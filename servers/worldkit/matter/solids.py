@@ -21,6 +21,8 @@ class Solid:
         young: Pa, of small strains.
         poisson: 1, at most 0.45: how much it widens when it is pressed; foam 0.1, rubber 0.45.
         yields: Pa, von Mises' stress above which it keeps its new shape; None: it always springs back.
+        creeps: s: how soon what is above a seventh of `yields` gives way, so that it resists a blow more than a hand that leans on it, and
+            a ball soon lies still in it; 0: never.
         damping: s: its viscous stress is so many seconds times Young's modulus times twice the rate of strain.
         wall_friction: against what it touches, Coulomb's.
         down_to: 1: to how much of its thickness it is pressed; its steps are short enough for that.
@@ -30,6 +32,7 @@ class Solid:
     young: float = 8e3
     poisson: float = 0.1
     yields: float | None = None
+    creeps: float = 0.0
     damping: float = 5e-5
     wall_friction: float = 0.6
     down_to: float = 0.35
@@ -67,4 +70,4 @@ def foam(density: float = 60.0, young: float = 8e3) -> Solid:
 
 def clay(density: float = 1800.0, young: float = 8e6, yields: float = 3e4) -> Solid:
     """Clay, dough, putty, wax: it keeps dents. A stiff one (Young's modulus 250 times what it yields at) hardly throws a ball back."""
-    return Solid(density, young, 0.4, yields, 1e-5, 0.6, 0.6)
+    return Solid(density, young, 0.4, yields, creeps=0.003, damping=1e-5, down_to=0.6)
