@@ -87,6 +87,7 @@ class _Writer:
             self.pairs(),
             driving.tendons(plan, scene, needs),
             driving.actuators(plan, needs),
+            driving.ties(plan, needs),
             self.light(),
             self.cameras(),
             self.motion(),
